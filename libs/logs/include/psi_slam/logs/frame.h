@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every log, whatever its format, is read into: a stream of frames (method: one laser scan with the odometry pose
+// at its own time stamp and the pose of the laser on the robot).
+//
+// Poses are SE(2), x forward, y left, yaw counter-clockwise in (-pi, pi]; `a_T_b` is the pose of b in a. MRPT's TPose2D
+// composes with `a_T_b + b_T_c` and inverts with `a_T_c - a_T_b` (c seen from b).
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "psi_slam/base/time_stamp.h"
+
+namespace psi_slam {
+
+/// The bearing of each beam in the laser's own frame, radians, counter-clockwise positive, in the order of the ranges.
+/// Shared by all scans of one sensor.
+using BeamBearings = std::shared_ptr<const std::vector<float>>;
+
+/// One planar range scan. `ranges_m[i]` was measured along `(*bearings_rad)[i]`; a range that is not a return
+/// (at or beyond the sensor's maximum, zero, negative, not finite, flagged invalid) is NaN.
+struct LaserScan {
+  std::vector<float> ranges_m;
+  BeamBearings bearings_rad;
+  float max_range_m = 0;  ///< of the sensor: what it reports beyond this is "no return"
+  mrpt::math::TPose2D robot_T_laser;
+};
+
+/// One scan with the robot's odometry at the scan's own time.
+struct Frame {
+  std::size_t index = 0;  ///< in the order of the log, from 0
+  TimeUs time_us = 0;
+  mrpt::math::TPose2D odom_T_robot;
+  LaserScan scan;
+};
+
+}  // namespace psi_slam

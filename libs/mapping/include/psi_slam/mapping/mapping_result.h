@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a mapping run leaves behind: plain values that the exports, the report and the views read.
+#pragma once
+
+#include <mrpt/graphs/CNetworkOfPoses.h>
+#include <mrpt/math/CMatrixFixed.h>
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "psi_slam/logs/frame.h"
+#include "psi_slam/matching/search_window.h"
+
+namespace psi_slam {
+
+/// What happened to one scan of the log, in the log's order.
+struct FrameRecord {
+  TimeUs time_us = 0;
+  mrpt::math::TPose2D odom_T_robot;       ///< raw odometry
+  mrpt::math::TPose2D front_end_T_robot;  ///< the front end's own pose, before any loop was closed
+  mrpt::math::TPose2D map_T_robot;        ///< the result: its node's pose, or its matched pose carried along
+  std::optional<std::size_t> node;        ///< its node in the graph, if it became one
+
+  double response = 0;        ///< of the front end's match, in [0, 1]; 0 where there was nothing to match with
+  SearchExtent window;        ///< the front end's search window (half-widths)
+  int loops_tried = 0;        ///< local maps that the frame was matched with to close a loop
+  int loops_accepted = 0;     ///< C_i of equation 13
+  std::string matcher;        ///< that searched the loops of this frame: "csm", ...; empty where none was tried
+  std::int64_t evaluations = 0;  ///< poses scored, front end and loops together
+
+  double front_end_ms = 0;
+  double loop_closing_ms = 0;
+  double pose_graph_ms = 0;
+};
+
+enum class LoopVerdict { kAccepted, kRefused, kSwitchedOff };
+
+/// One attempt to close a loop, and what became of it.
+struct LoopRecord {
+  std::size_t frame = 0;      ///< index in MappingResult::frames
+  std::size_t node = 0;       ///< of the graph
+  std::size_t local_map = 0;  ///< number of the local map it was matched with
+  std::size_t anchor = 0;     ///< the local map's anchor node: the constraint is anchor -> node
+  std::string matcher;
+  bool in_last_pass = false;  ///< found by the global pass after the last scan
+  mrpt::math::TPose2D anchor_T_node;  ///< as matched
+  mrpt::math::CMatrixDouble33 covariance = mrpt::math::CMatrixDouble33::Zero();  ///< of anchor_T_node
+  double response = 0;        ///< in [0, 1]
+  double ambiguity = 0;       ///< response of the next best distinct peak over the best; 0 unique .. 1 ambiguous
+  double moved_m = 0;         ///< how far from the prediction the match was found
+  LoopVerdict verdict = LoopVerdict::kRefused;
+  std::string reason;         ///< why refused or switched off, as a clause; empty when accepted
+  double milliseconds = 0;
+};
+
+/// Time spent in one stage of the work, over all its calls.
+struct StageTiming {
+  std::string name;  ///< as a person reads it: "match scan to local map"
+  std::size_t calls = 0;
+  double mean_ms = 0;
+  double std_ms = 0;
+  double min_ms = 0;
+  double max_ms = 0;
+  double total_s = 0;
+};
+
+/// One local map, for drawings: its anchor node and the nodes whose scans it holds, [first_node, last_node].
+struct LocalMapRecord {
+  std::size_t anchor = 0;
+  std::size_t first_node = 0;
+  std::size_t last_node = 0;
+};
+
+struct MappingResult {
+  std::vector<Frame> log;           ///< the scans themselves, same order and count as `frames`
+  std::vector<FrameRecord> frames;
+  mrpt::graphs::CNetworkOfPoses2DInf graph;  ///< optimised; node ids are 0 .. N-1
+  std::vector<std::size_t> node_frames;      ///< the frame of each node
+  std::vector<LocalMapRecord> local_maps;
+  std::vector<LoopRecord> loops;
+  std::vector<StageTiming> stages;
+  double wall_s = 0;                ///< of the whole run so far, loading included
+  bool interrupted = false;         ///< true when the user stopped it before the log's end
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# How every target of the project is made: one function a kind, so that all share the same language level,
+# warnings, layout and installation.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# The strict warnings of every target.
+function(psi_slam_configure_target target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  # One rounding for one expression on every machine: no contraction to fused multiply-add.
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
+    -Wcast-align -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
+    -ffp-contract=off)
+  if(PSI_SLAM_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(PSI_SLAM_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+endfunction()
+
+# psi_slam_add_library(NAME SOURCES file... [PUBLIC dependency...] [PRIVATE dependency...])
+# A library of libs/NAME, exported as psi-slam::NAME; its headers are include/psi_slam/NAME/*.h.
+function(psi_slam_add_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(target psi_slam_${name})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(psi-slam::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  psi_slam_configure_target(${target})
+  install(TARGETS ${target} EXPORT psi-slam-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# psi_slam_add_app(NAME SOURCES file... LINK dependency...)
+function(psi_slam_add_app name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  psi_slam_configure_target(${name})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
+# psi_slam_add_tests(NAME LINK dependency...)
+# One program NAME_tests of all tests/NAME/*_test.cpp; each test is known to CTest by its own name.
+function(psi_slam_add_tests name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*_test.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(${name}_tests ${sources})
+  target_link_libraries(${name}_tests PRIVATE ${ARG_LINK} psi_slam_test_support GTest::gmock_main)
+  psi_slam_configure_target(${name}_tests)
+  gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
+endfunction()
+
+# Makes find_package(psi-slam) work for other projects.
+function(psi_slam_install_package)
+  set(destination ${CMAKE_INSTALL_LIBDIR}/cmake/psi-slam)
+  configure_package_config_file(${PROJECT_SOURCE_DIR}/share/cmake/psi-slam-config.cmake.in
+    ${PROJECT_BINARY_DIR}/psi-slam-config.cmake INSTALL_DESTINATION ${destination})
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/psi-slam-config-version.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/psi-slam-config.cmake ${PROJECT_BINARY_DIR}/psi-slam-config-version.cmake
+    DESTINATION ${destination})
+  install(EXPORT psi-slam-targets NAMESPACE psi-slam:: DESTINATION ${destination})
+  install(DIRECTORY ini/ DESTINATION ${CMAKE_INSTALL_DATADIR}/psi-slam/ini)
+endfunction()

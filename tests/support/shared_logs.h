@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace psi_slam {
+
+/// A file of the benchmark's data folder, which the environment variable PSI_SLAM_DATA names; none when it is not set
+/// or the file is not there. Tests that need one skip: `GTEST_SKIP() << kNeedsData`.
+inline std::optional<std::filesystem::path> shared_file(const std::string& name) {
+  const char* folder = std::getenv("PSI_SLAM_DATA");
+  if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / name)) return std::nullopt;
+  return std::filesystem::path(folder) / name;
+}
+
+inline constexpr const char* kNeedsData = "needs the benchmark logs: set PSI_SLAM_DATA to their folder";
+
+}  // namespace psi_slam

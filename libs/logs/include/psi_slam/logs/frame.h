@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every log, whatever its format, is read into: a stream of frames (method: one laser scan with the odometry pose
-// at its own time stamp and the pose of the laser on the robot).
+// What every log, whatever its format, is read into: a stream of frames (method: one laser scan with the
+// odometry pose at its own time stamp and the pose of the laser on the robot).
 //
-// Poses are SE(2), x forward, y left, yaw counter-clockwise in (-pi, pi]; `a_T_b` is the pose of b in a. MRPT's TPose2D
-// composes with `a_T_b + b_T_c` and inverts with `a_T_c - a_T_b` (c seen from b).
+// Poses are SE(2), x forward, y left, yaw counter-clockwise in (-pi, pi]; `a_T_b` is the pose of b in a.
+// MRPT's TPose2D composes with `a_T_b + b_T_c` and inverts with `a_T_c - a_T_b` (c seen from b).
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -16,8 +16,8 @@
 
 namespace psi_slam {
 
-/// The bearing of each beam in the laser's own frame, radians, counter-clockwise positive, in the order of the ranges.
-/// Shared by all scans of one sensor.
+/// The bearing of each beam in the laser's own frame, radians, counter-clockwise positive, in the order of
+/// the ranges. Shared by all scans of one sensor.
 using BeamBearings = std::shared_ptr<const std::vector<float>>;
 
 /// One planar range scan. `ranges_m[i]` was measured along `(*bearings_rad)[i]`; a range that is not a return

@@ -10,13 +10,14 @@
 
 namespace psi_slam {
 
-/// A log being read from its beginning. Frames come in the order of the file, which is the truth even where the time
-/// stamps run backwards. A log is never held in memory as a whole.
+/// A log being read from its beginning. Frames come in the order of the file, which is the truth even where
+/// the time stamps run backwards. A log is never held in memory as a whole.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The next frame, or none at the end. Throws UserError (file, place, what was expected) on a malformed log.
+  /// The next frame, or none at the end. Throws UserError (file, place, what was expected) on a malformed
+  /// log.
   virtual std::optional<Frame> next() = 0;
 
   /// How much of the log has been read, in [0, 1], by bytes of the file on disk.

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/logs/compressed_file.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "psi_slam/base/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr unsigned kBufferBytes = 256 * 1024;
+constexpr std::size_t kMaxBytesPerCall = std::size_t{1} << 30;  // zlib counts in unsigned int
+
+}  // namespace
+
+struct CompressedFile::State {
+  fs::path path;
+  gzFile file = nullptr;
+  std::uintmax_t bytes_on_disk = 0;
+
+  ~State() {
+    if (file != nullptr) gzclose(file);
+  }
+};
+
+CompressedFile::CompressedFile(fs::path path) : state_(std::make_unique<State>()) {
+  state_->path = std::move(path);
+  std::error_code error;
+  const fs::file_status status = fs::status(state_->path, error);
+  if (!fs::exists(status)) throw UserError(state_->path.string() + " does not exist, expected a log file");
+  if (fs::is_directory(status)) throw UserError(state_->path.string() + " is a folder, expected a log file");
+  errno = 0;
+  state_->file = gzopen(state_->path.c_str(), "rb");
+  if (state_->file == nullptr)
+    throw UserError("cannot read " + state_->path.string() + ": " + std::strerror(errno));
+  gzbuffer(state_->file, kBufferBytes);
+  state_->bytes_on_disk = fs::file_size(state_->path, error);
+  if (error) state_->bytes_on_disk = 0;
+}
+
+CompressedFile::~CompressedFile() = default;
+CompressedFile::CompressedFile(CompressedFile&&) noexcept = default;
+CompressedFile& CompressedFile::operator=(CompressedFile&&) noexcept = default;
+
+std::size_t CompressedFile::read(char* bytes, std::size_t size) {
+  std::size_t done = 0;
+  while (done < size) {
+    const auto wanted = static_cast<unsigned>(std::min(size - done, kMaxBytesPerCall));
+    const int got = gzread(state_->file, bytes + done, wanted);
+    if (got > 0) done += static_cast<std::size_t>(got);
+    if (got == static_cast<int>(wanted)) continue;
+    int code = Z_OK;
+    const std::string message = gzerror(state_->file, &code);
+    if (code == Z_BUF_ERROR)
+      throw UserError(state_->path.string() + " is cut off: its compressed data end too early");
+    if (code == Z_ERRNO)
+      throw UserError("cannot read " + state_->path.string() + ": " + std::strerror(errno));
+    if (code != Z_OK)
+      throw UserError(state_->path.string() + " is damaged: its compressed data do not decompress");
+    break;
+  }
+  return done;
+}
+
+const fs::path& CompressedFile::path() const {
+  return state_->path;
+}
+
+double CompressedFile::progress() const {
+  if (gzeof(state_->file) != 0 || state_->bytes_on_disk == 0) return 1;
+  const auto read_bytes = static_cast<double>(gzoffset(state_->file));
+  return std::clamp(read_bytes / static_cast<double>(state_->bytes_on_disk), 0.0, 1.0);
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/logs/log_format.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <system_error>
+
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/logs/compressed_file.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExpected = ", expected an MRPT .rawlog or a CARMEN log, plain or gzipped";
+constexpr std::size_t kHeadBytes = 256 * 1024;
+
+bool starts_with(std::string_view text, std::string_view beginning) {
+  return text.substr(0, beginning.size()) == beginning;
+}
+
+bool is_rosbag(std::string_view head) {
+  constexpr std::string_view kSqlite("SQLite format 3\0", 16);
+  return starts_with(head, "#ROSBAG") || starts_with(head, "\x89MCAP") || starts_with(head, kSqlite);
+}
+
+/// An MRPT archive begins with an object: one byte, the length of its class's name with the highest bit set,
+/// and the name itself.
+bool is_mrpt_archive(std::string_view head) {
+  if (head.empty()) return false;
+  const auto first = static_cast<unsigned char>(head[0]);
+  const std::string_view name = head.substr(1, first & 0x7FU);
+  if ((first & 0x80U) == 0 || name.size() < 2) return false;
+  const bool is_class = name[0] == 'C' || starts_with(name, "mrpt::");
+  return is_class && std::all_of(name.begin(), name.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+                  c == ':';
+         });
+}
+
+bool is_carmen_message(std::string_view name) {
+  constexpr std::array<std::string_view, 7> kBeginnings{"FLASER", "RLASER", "RAWLASER", "ROBOTLASER",
+                                                        "PARAM",  "ODOM",   "TRUEPOS"};
+  return std::any_of(kBeginnings.begin(), kBeginnings.end(),
+                     [&](std::string_view beginning) { return starts_with(name, beginning); });
+}
+
+/// Text in which a line begins with the name of a CARMEN message.
+bool is_carmen(std::string_view head) {
+  if (head.find('\0') != std::string_view::npos) return false;
+  while (!head.empty()) {
+    const std::size_t end = std::min(head.find('\n'), head.size());
+    const std::string_view line = head.substr(0, end);
+    const std::size_t space = line.find_first_of(" \t");
+    if (space != std::string_view::npos && is_carmen_message(line.substr(0, space))) return true;
+    head.remove_prefix(std::min(end + 1, head.size()));
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view name_of(LogFormat format) {
+  return format == LogFormat::kCarmen ? "CARMEN" : "MRPT rawlog";
+}
+
+LogFormat detect_log_format(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored) && fs::exists(path / "metadata.yaml", ignored))
+    throw UserError(path.string() + " is a ROS bag, which is not supported yet" + kExpected);
+  if (fs::is_directory(path, ignored)) throw UserError(path.string() + " is a folder" + kExpected);
+  if (!fs::exists(path, ignored)) throw UserError(path.string() + " does not exist" + kExpected);
+  CompressedFile file(path);
+  std::string head(kHeadBytes, '\0');
+  head.resize(file.read(head.data(), head.size()));
+  if (head.empty()) throw UserError(path.string() + " is empty" + kExpected);
+  if (is_rosbag(head))
+    throw UserError(path.string() + " is a ROS bag, which is not supported yet" + kExpected);
+  if (is_mrpt_archive(head)) return LogFormat::kMrptRawlog;
+  if (is_carmen(head)) return LogFormat::kCarmen;
+  throw UserError(path.string() + " is neither of the formats that are read" + kExpected);
+}
+
+}  // namespace psi_slam

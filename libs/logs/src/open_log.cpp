@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/logs/open_log.h"
+
+#include <utility>
+
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/logs/carmen_reader.h"
+#include "psi_slam/logs/log_format.h"
+
+namespace psi_slam {
+namespace {
+
+/// Every nth frame of another source, from the first on, numbered anew.
+class ThinnedSource : public FrameSource {
+ public:
+  ThinnedSource(std::unique_ptr<FrameSource> source, std::size_t every_nth)
+      : source_(std::move(source)), every_nth_(every_nth) {}
+
+  std::optional<Frame> next() override {
+    while (auto frame = source_->next()) {
+      if (frame->index % every_nth_ != 0) continue;
+      frame->index /= every_nth_;
+      return frame;
+    }
+    return std::nullopt;
+  }
+
+  double progress() const override { return source_->progress(); }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
+  std::size_t every_nth_;
+};
+
+std::unique_ptr<FrameSource> open_whole_log(const std::filesystem::path& path, const LogOptions& options) {
+  switch (detect_log_format(path)) {
+    case LogFormat::kCarmen:
+      return std::make_unique<CarmenReader>(path, options);
+    case LogFormat::kMrptRawlog:
+      break;
+  }
+  throw UserError(path.string() + " is an MRPT rawlog, which is not supported yet, expected a CARMEN log");
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const LogOptions& options) {
+  check_log_options(options);
+  auto source = open_whole_log(path, options);
+  if (options.every_nth_scan == 1) return source;
+  return std::make_unique<ThinnedSource>(std::move(source), options.every_nth_scan);
+}
+
+}  // namespace psi_slam

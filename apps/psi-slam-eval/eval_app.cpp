@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval_app.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/results/number_text.h"
+#include "psi_slam/results/relations_metric.h"
+
+namespace psi_slam {
+namespace {
+
+struct EvalOptions {
+  std::string trajectory;
+  std::string relations;
+  double max_gap_s = RelationsMetricOptions().max_gap_s;
+  std::string per_relation;
+  bool force = false;
+  bool json = false;
+};
+
+/// The options of the command line. The exceptions of CLI11 tell of wrong usage, --help and --version.
+EvalOptions parse(const std::vector<std::string>& arguments, CLI::App& app) {
+  EvalOptions options;
+  app.add_option("TRAJECTORY", options.trajectory,
+                 "Trajectory: 'timestamp x y theta', TUM, or a corrected CARMEN log with FLASER lines")
+      ->required();
+  app.add_option("RELATIONS", options.relations, "True relations: 'time1 time2 x y z roll pitch yaw' a line")
+      ->required();
+  app.add_option("--max-gap", options.max_gap_s, "Longest gap between two poses to interpolate in, seconds")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  app.add_option("--per-relation", options.per_relation,
+                 "Write the error of each relation to this file (CSV)");
+  app.add_flag("--force", options.force, "Replace the file of --per-relation if it is there already");
+  app.add_flag("--json", options.json, "Print the result as JSON");
+  app.set_version_flag("--version", "psi-slam-eval " PSI_SLAM_VERSION, "Print the version and exit");
+  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+  return options;
+}
+
+std::string per_relation_csv(const RelationsMetric& metric) {
+  std::string text = "time1,time2,translation_m,rotation_deg,cartographer_translation_m,interpolated\n";
+  for (const RelationError& error : metric.errors)
+    text += format_seconds(error.relation.time1_us) + ',' + format_seconds(error.relation.time2_us) + ',' +
+            fixed_text(error.translation_m, 9) + ',' + fixed_text(error.rotation_deg, 9) + ',' +
+            fixed_text(error.cartographer_translation_m, 9) + (error.interpolated ? ",1\n" : ",0\n");
+  return text;
+}
+
+nlohmann::ordered_json to_json(const ErrorSummary& summary) {
+  return {{"mean", summary.mean},
+          {"std", summary.std},
+          {"median", summary.median},
+          {"p95", summary.p95},
+          {"max", summary.max}};
+}
+
+nlohmann::ordered_json to_json(const RelationsMetric& metric) {
+  return {{"relations",
+           {{"used", metric.exact + metric.interpolated},
+            {"exact", metric.exact},
+            {"interpolated", metric.interpolated},
+            {"skipped", metric.skipped}}},
+          {"translation_abs_m", to_json(metric.translation_abs_m)},
+          {"translation_sq_m2", to_json(metric.translation_sq_m2)},
+          {"rotation_abs_deg", to_json(metric.rotation_abs_deg)},
+          {"rotation_sq_deg2", to_json(metric.rotation_sq_deg2)},
+          {"cartographer_translation_abs_m", to_json(metric.cartographer_translation_abs_m)},
+          {"cartographer_translation_sq_m2", to_json(metric.cartographer_translation_sq_m2)}};
+}
+
+void print_row(std::ostream& out, const char* name, const ErrorSummary& summary) {
+  out << "  " << std::left << std::setw(28) << name << std::right;
+  out << std::setw(11) << fixed_text(summary.mean, 4) << " ± " << std::left << std::setw(11)
+      << fixed_text(summary.std, 4) << std::right;
+  for (const double value : {summary.median, summary.p95, summary.max})
+    out << std::setw(11) << fixed_text(value, 4);
+  out << '\n';
+}
+
+void print_table(std::ostream& out, const RelationsMetric& metric) {
+  out << "relations: " << metric.exact + metric.interpolated << " used (" << metric.interpolated
+      << " of them interpolated), " << metric.skipped << " skipped (outside the trajectory or in a gap)\n\n"
+      << "                                     mean ± std             median       95 %        max\n"
+      << "Kümmerle et al. 2009\n";
+  print_row(out, "translation, absolute [m]", metric.translation_abs_m);
+  print_row(out, "translation, squared [m^2]", metric.translation_sq_m2);
+  print_row(out, "rotation, absolute [deg]", metric.rotation_abs_deg);
+  print_row(out, "rotation, squared [deg^2]", metric.rotation_sq_deg2);
+  out << "Cartographer's variant (its rotation is the same)\n";
+  print_row(out, "translation, absolute [m]", metric.cartographer_translation_abs_m);
+  print_row(out, "translation, squared [m^2]", metric.cartographer_translation_sq_m2);
+}
+
+void evaluate(const EvalOptions& options, std::ostream& out) {
+  if (!options.per_relation.empty() && !options.force && std::filesystem::exists(options.per_relation))
+    throw UserError(options.per_relation +
+                    " is there already: name another file or give --force to replace it");
+  const RelationsMetric metric = evaluate_relations(read_trajectory(options.trajectory),
+                                                    read_relations(options.relations), {options.max_gap_s});
+  if (!options.per_relation.empty()) write_text_atomically(options.per_relation, per_relation_csv(metric));
+  if (options.json) {
+    out << to_json(metric).dump(1) << '\n';
+  } else {
+    print_table(out, metric);
+  }
+  out.flush();
+  if (!out) throw SystemFailure("cannot write the result to standard output");
+}
+
+}  // namespace
+
+int run_eval_app(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) noexcept {
+  constexpr int kDone = 0;
+  constexpr int kFailed = 1;
+  constexpr int kWrongUsageOrInput = 2;
+  CLI::App app(
+      "Measures a trajectory against true relations: the metric of the Freiburg SLAM benchmark "
+      "(Kümmerle et al. 2009) and the variant that Cartographer's tool computes.",
+      "psi-slam-eval");
+  try {
+    evaluate(parse(arguments, app), out);
+    return kDone;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error, out, err) == 0 ? kDone : kWrongUsageOrInput;
+  } catch (const UserError& error) {
+    err << "psi-slam-eval: " << error.what() << '\n';
+    return kWrongUsageOrInput;
+  } catch (const std::exception& error) {
+    err << "psi-slam-eval: " << error.what() << '\n';
+    return kFailed;
+  }
+}
+
+}  // namespace psi_slam

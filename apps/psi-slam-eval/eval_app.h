@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// psi-slam-eval: measures a trajectory against true relations (the metric of relations_metric.h).
+//
+//     psi-slam-eval TRAJECTORY RELATIONS [--max-gap S] [--per-relation FILE [--force]] [--json] [--version]
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace psi_slam {
+
+/// Runs the program with its arguments (without its own name), the results going to `out` and complaints to
+/// `err`. Returns the exit code: 0 done, 1 failed, 2 wrong usage or input. Never throws.
+int run_eval_app(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) noexcept;
+
+}  // namespace psi_slam

@@ -3,7 +3,8 @@
 //
 //     r_theta = acos(1 - r_t^2 / (2 d_max^2)),   n_x = ceil(W_x / r_t),   n_theta = ceil(W_theta / r_theta)
 //
-// W are half-widths around the predicted pose. The paper's brackets are read as ceilings, so that the cells cover W.
+// W are half-widths around the predicted pose. The paper's brackets are read as ceilings, so that the cells
+// cover W.
 #pragma once
 
 namespace psi_slam {
@@ -15,8 +16,8 @@ struct SearchExtent {
   double theta_rad = 0;
 };
 
-/// The steps that cover a SearchExtent: cells c stand for x0 + (c - n_x) r_t with c = 0 .. 2 n_x (the matcher's
-/// exhaustive search includes both borders; the chromosome of equation 9 drops the last column).
+/// The steps that cover a SearchExtent: cells c stand for x0 + (c - n_x) r_t with c = 0 .. 2 n_x (the
+/// matcher's exhaustive search includes both borders; the chromosome of equation 9 drops the last column).
 struct SearchWindow {
   double linear_step_m = 0;     ///< r_t, the score grid's resolution
   double angular_step_rad = 0;  ///< r_theta: turns the farthest point by one cell
@@ -26,8 +27,8 @@ struct SearchWindow {
 };
 
 /// Equations 7 and 8. `farthest_point_m` is d_max, the largest range among the points used.
-/// Throws std::invalid_argument naming the values when a half-width or the resolution is not positive, or d_max is
-/// not larger than half the resolution (the arc cosine of equation 7 has no value there).
+/// Throws std::invalid_argument naming the values when a half-width or the resolution is not positive, or
+/// d_max is not larger than half the resolution (the arc cosine of equation 7 has no value there).
 SearchWindow make_search_window(const SearchExtent& extent, double resolution_m, double farthest_point_m);
 
 }  // namespace psi_slam

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A local map: MRPT's occupancy grid over a bounded run of scans, and the score grid that scans are matched
+// with.
+//
+// Its frame is the pose of its first node, the anchor. While it is active, scans are inserted and the score
+// grid follows; once finished it never changes again: its pyramid is built and the occupancy grid is given
+// back.
+#pragma once
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/math/TPoint2D.h>
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "psi_slam/matching/score_grid.h"
+
+namespace psi_slam {
+
+struct LocalMapOptions {
+  double resolution_m = 0.05;
+  double hit_probability = 0.65;   ///< of a cell being occupied, given that a scan point fell into it
+  double miss_probability = 0.45;  ///< of a cell being occupied, given that a beam passed through it
+  double smoothing_sigma_m =
+      0.05;  ///< of the Gaussian that turns occupancy into scores: range noise and cell size
+  double max_insert_range_m = 40.0;  ///< beams are cut there: beyond, nothing is drawn
+};
+
+/// One scan ready to be drawn: beams from `origin` to each of `ends`, in the local map's frame, metres.
+struct Beams {
+  mrpt::math::TPoint2D origin;
+  std::vector<mrpt::math::TPoint2D> ends;
+  std::vector<bool> hits;  ///< false: the beam was cut at the largest range, there is nothing at its end
+};
+
+class LocalMap {
+ public:
+  explicit LocalMap(const LocalMapOptions& options);
+
+  /// Draws a scan: cells at beam ends become more occupied, cells on the way there less, each at most once a
+  /// scan and ends before ways. Must not be called after finish().
+  void insert(const Beams& beams);
+
+  /// The score grid of all that was inserted so far.
+  const ScoreGrid& scores();
+  const ScoreGrid& scores() const { return scores_; }  ///< of a finished map
+
+  /// No more scans: builds the pyramid and frees the occupancy grid.
+  void finish();
+  bool finished() const { return finished_; }
+
+  const mrpt::maps::COccupancyGridMap2D& occupancy() const { return grid_; }
+  std::size_t memory_bytes() const;
+
+ private:
+  struct Region {  // of cells, empty when x_end <= x
+    int x = 0;
+    int y = 0;
+    int x_end = 0;
+    int y_end = 0;
+  };
+  void grow_to_hold(const Beams& beams);
+  void add_to_dirty(const Region& region);
+  void draw_hit(int x, int y);
+  void draw_way(int x0, int y0, int x1, int y1);
+
+  LocalMapOptions options_;
+  mrpt::maps::COccupancyGridMap2D grid_;
+  std::vector<std::uint16_t> last_scan_;  ///< for each cell, the scan that last touched it
+  std::uint16_t scan_ = 0;
+  Region dirty_;
+  ScoreGrid scores_;
+  bool scores_fit_ = false;  ///< the score grid has the occupancy grid's size
+  bool finished_ = false;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/local_maps/local_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "psi_slam/local_maps/score_painter.h"
+
+namespace psi_slam {
+namespace {
+
+using Grid = mrpt::maps::COccupancyGridMap2D;
+
+constexpr double kGrowthStep_m = 5.0;  // grids grow in steps this large, so that they grow seldom
+
+}  // namespace
+
+LocalMap::LocalMap(const LocalMapOptions& options)
+    : options_(options),
+      grid_(-kGrowthStep_m, kGrowthStep_m, -kGrowthStep_m, kGrowthStep_m,
+            static_cast<float>(options.resolution_m)) {
+  last_scan_.assign(grid_.getRawMap().size(), 0);
+}
+
+void LocalMap::grow_to_hold(const Beams& beams) {
+  double x_min = static_cast<double>(grid_.getXMin());
+  double x_max = static_cast<double>(grid_.getXMax());
+  double y_min = static_cast<double>(grid_.getYMin());
+  double y_max = static_cast<double>(grid_.getYMax());
+  const double margin = 4 * options_.resolution_m;
+  bool grow = false;
+  const auto hold = [&](const mrpt::math::TPoint2D& p) {
+    while (p.x - margin < x_min) x_min -= kGrowthStep_m, grow = true;
+    while (p.x + margin > x_max) x_max += kGrowthStep_m, grow = true;
+    while (p.y - margin < y_min) y_min -= kGrowthStep_m, grow = true;
+    while (p.y + margin > y_max) y_max += kGrowthStep_m, grow = true;
+  };
+  hold(beams.origin);
+  for (const auto& end : beams.ends) hold(end);
+  if (!grow) return;
+  grid_.resizeGrid(static_cast<float>(x_min), static_cast<float>(x_max), static_cast<float>(y_min),
+                   static_cast<float>(y_max), 0.5F, false);
+  last_scan_.assign(grid_.getRawMap().size(), 0);
+  scan_ = 0;
+  scores_fit_ = false;
+}
+
+void LocalMap::add_to_dirty(const Region& region) {
+  if (dirty_.x_end <= dirty_.x) {
+    dirty_ = region;
+    return;
+  }
+  dirty_.x = std::min(dirty_.x, region.x);
+  dirty_.y = std::min(dirty_.y, region.y);
+  dirty_.x_end = std::max(dirty_.x_end, region.x_end);
+  dirty_.y_end = std::max(dirty_.y_end, region.y_end);
+}
+
+void LocalMap::draw_hit(int x, int y) {
+  static_assert(Grid::OCCGRID_CELLTYPE_MIN < 0);
+  const std::size_t cell = static_cast<std::size_t>(x) + static_cast<std::size_t>(y) * grid_.getSizeX();
+  if (last_scan_[cell] == scan_) return;
+  last_scan_[cell] = scan_;
+  const Grid::cellType hit = Grid::p2l(static_cast<float>(options_.hit_probability));
+  Grid::updateCell_fast_occupied(grid_.getRow(y) + x, hit,
+                                 static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MIN + hit));
+}
+
+// Bresenham's line, without its last cell.
+void LocalMap::draw_way(int x0, int y0, int x1, int y1) {
+  const Grid::cellType miss = Grid::p2l(static_cast<float>(1 - options_.miss_probability));
+  const auto threshold = static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MAX - miss);
+  const auto size_x = static_cast<std::ptrdiff_t>(grid_.getSizeX());
+  Grid::cellType* cells = grid_.getRow(0);
+  std::uint16_t* scans = last_scan_.data();
+  const int dx = std::abs(x1 - x0);
+  const int dy = std::abs(y1 - y0);
+  const std::ptrdiff_t step_x = x1 > x0 ? 1 : -1;
+  const std::ptrdiff_t step_y = y1 > y0 ? size_x : -size_x;
+  std::ptrdiff_t cell = x0 + y0 * size_x;
+  int error = dx - dy;
+  for (int left = dx + dy; left > 0;) {
+    if (scans[cell] != scan_) {
+      scans[cell] = scan_;
+      Grid::updateCell_fast_free(cells + cell, miss, threshold);
+    }
+    const int twice = 2 * error;
+    if (twice > -dy) error -= dy, cell += step_x, --left;
+    if (twice < dx) error += dx, cell += step_y, --left;
+  }
+}
+
+void LocalMap::insert(const Beams& beams) {
+  grow_to_hold(beams);
+  if (++scan_ == 0) {  // the counter came round
+    std::fill(last_scan_.begin(), last_scan_.end(), std::uint16_t{0});
+    scan_ = 1;
+  }
+  const int origin_x = grid_.x2idx(beams.origin.x);
+  const int origin_y = grid_.y2idx(beams.origin.y);
+  Region touched = {origin_x, origin_y, origin_x + 1, origin_y + 1};
+  std::vector<std::pair<int, int>> ends;
+  ends.reserve(beams.ends.size());
+  for (std::size_t i = 0; i < beams.ends.size(); ++i) {
+    const int x = grid_.x2idx(beams.ends[i].x);
+    const int y = grid_.y2idx(beams.ends[i].y);
+    ends.emplace_back(x, y);
+    touched.x = std::min(touched.x, x);
+    touched.y = std::min(touched.y, y);
+    touched.x_end = std::max(touched.x_end, x + 1);
+    touched.y_end = std::max(touched.y_end, y + 1);
+    if (beams.hits[i]) draw_hit(x, y);
+  }
+  for (const auto& [x, y] : ends) draw_way(origin_x, origin_y, x, y);
+  add_to_dirty(touched);
+}
+
+const ScoreGrid& LocalMap::scores() {
+  if (finished_) return scores_;
+  const int width = static_cast<int>(grid_.getSizeX());
+  const int height = static_cast<int>(grid_.getSizeY());
+  if (!scores_fit_) {
+    scores_ = ScoreGrid(static_cast<double>(grid_.getXMin()), static_cast<double>(grid_.getYMin()),
+                        options_.resolution_m, width, height);
+    scores_fit_ = true;
+    dirty_ = {0, 0, width, height};
+  }
+  if (dirty_.x_end > dirty_.x) {
+    ScorePainter painter(options_.smoothing_sigma_m, options_.resolution_m);
+    const int reach = painter.reach_cells();
+    painter.paint(grid_, std::max(0, dirty_.x - reach), std::max(0, dirty_.y - reach),
+                  std::min(width, dirty_.x_end + reach), std::min(height, dirty_.y_end + reach),
+                  scores_.finest());
+    dirty_ = {};
+  }
+  return scores_;
+}
+
+void LocalMap::finish() {
+  if (finished_) return;
+  scores();
+  scores_.build_pyramid();
+  finished_ = true;
+  last_scan_ = {};
+  grid_.setSize(0, 1, 0, 1, 1);
+}
+
+std::size_t LocalMap::memory_bytes() const {
+  return grid_.getRawMap().size() + last_scan_.size() * sizeof(std::uint16_t) + scores_.memory_bytes();
+}
+
+}  // namespace psi_slam

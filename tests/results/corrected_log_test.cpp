@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/results/corrected_log.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "psi_slam/results/trajectory_file.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr float kNoReturn = std::numeric_limits<float>::quiet_NaN();
+
+Frame frame(TimeUs time_us, const mrpt::math::TPose2D& odom_T_robot, std::vector<float> ranges_m) {
+  Frame made;
+  made.time_us = time_us;
+  made.odom_T_robot = odom_T_robot;
+  made.scan.ranges_m = std::move(ranges_m);
+  made.scan.bearings_rad = std::make_shared<const std::vector<float>>(std::vector<float>{-0.5F, 0, 0.5F});
+  made.scan.max_range_m = 81.83F;
+  made.scan.robot_T_laser = {0.25, 0, 0};
+  return made;
+}
+
+std::vector<std::string> lines(const std::filesystem::path& path, const std::string& beginning) {
+  std::ifstream file(path);
+  std::vector<std::string> found;
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind(beginning, 0) == 0) found.push_back(line);
+  return found;
+}
+
+TEST(CorrectedLog, every_scan_stands_in_the_logs_order_with_both_poses_and_its_own_time) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "trajectory.carmen";
+  write_corrected_log(
+      path,
+      {frame(2'000'001, {7, 8, 0.5}, {1.25F, kNoReturn, 0.01F}), frame(1'500'000, {9, 8, 0.5}, {1, 2, 3})},
+      {{1, 2, -0.25}, {3, 4, M_PI}});
+  const auto scans = lines(path, "FLASER");
+  ASSERT_EQ(scans.size(), 2u);
+  EXPECT_EQ(scans[0],
+            "FLASER 3 1.25 81.83 0.01 1.000000000 2.000000000 -0.250000000"
+            " 7.000000000 8.000000000 0.500000000 2.000001 psi-slam 2.000001");
+  EXPECT_EQ(lines(path, "PARAM robot_frontlaser_offset 0.25").size(), 1u);
+  EXPECT_EQ(lines(path, "PARAM laser_front_laser_resolution 28.6479").size(), 1u);
+  EXPECT_EQ(lines(path, "# beams: 3, from -28.6479 to 28.6479 degrees").size(), 1u);
+}
+
+TEST(CorrectedLog, is_read_back_as_the_trajectory_it_was_written_from) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "trajectory.carmen";
+  write_corrected_log(path, {frame(976052905167303, {7, 8, 0.5}, {1, 2, 3})}, {{-1.123456789, 2, -0.25}});
+  const Trajectory read = read_trajectory(path);
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].time_us, 976052905167303);
+  EXPECT_NEAR(read[0].pose.x, -1.123456789, 1e-12);
+  EXPECT_NEAR(read[0].pose.phi, -0.25, 1e-12);
+}
+
+TEST(CorrectedLog, wants_a_pose_for_each_scan) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_corrected_log(folder.path() / "x", {frame(1, {}, {1, 2, 3})}, {}),
+               std::invalid_argument);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "x"));
+}
+
+}  // namespace
+}  // namespace psi_slam

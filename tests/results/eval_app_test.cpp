@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval_app.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class EvalApp : public ::testing::Test {
+ protected:
+  EvalApp() {
+    std::ofstream(trajectory_) << "1 0 0 0\n2 3 0 0\n3 6 4 0\n";
+    std::ofstream(relations_) << "1 2 3 0 0 0 0 0\n1 3 3 0 0 0 0 0\n1 2.5 4.5 2 0 0 0 0\n1 99 0 0 0 0 0 0\n";
+  }
+
+  int run(std::vector<std::string> options = {}) {
+    options.insert(options.begin(), {trajectory_, relations_});
+    return run_only(options);
+  }
+
+  int run_only(const std::vector<std::string>& arguments) {
+    out_.str("");
+    err_.str("");
+    return run_eval_app(arguments, out_, err_);
+  }
+
+  static std::string contents(const std::string& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  TemporaryFolder folder_;
+  std::string trajectory_ = (folder_.path() / "trajectory.txt").string();
+  std::string relations_ = (folder_.path() / "true.relations").string();
+  std::string csv_ = (folder_.path() / "errors.csv").string();
+  std::ostringstream out_;
+  std::ostringstream err_;
+};
+
+TEST_F(EvalApp, prints_both_metrics_by_name_and_what_was_used) {
+  EXPECT_EQ(run(), 0);
+  EXPECT_THAT(out_.str(),
+              AllOf(HasSubstr("3 used (1 of them interpolated), 1 skipped"), HasSubstr("mmerle et al. 2009"),
+                    HasSubstr("Cartographer"), HasSubstr("1.6667 ± 2.3570"), HasSubstr("5.0000")));
+  EXPECT_EQ(err_.str(), "");
+}
+
+TEST_F(EvalApp, json_holds_the_same_figures) {
+  EXPECT_EQ(run({"--json"}), 0);
+  const auto json = nlohmann::json::parse(out_.str());
+  EXPECT_EQ(json["relations"]["used"], 3);
+  EXPECT_EQ(json["relations"]["exact"], 2);
+  EXPECT_EQ(json["relations"]["interpolated"], 1);
+  EXPECT_EQ(json["relations"]["skipped"], 1);
+  EXPECT_NEAR(json["translation_abs_m"]["mean"], 5.0 / 3, 1e-9);
+  EXPECT_NEAR(json["cartographer_translation_abs_m"]["max"], 5, 1e-9);
+}
+
+TEST_F(EvalApp, a_narrower_gap_skips_more) {
+  EXPECT_EQ(run({"--json", "--max-gap", "0.5"}), 0);
+  EXPECT_EQ(nlohmann::json::parse(out_.str())["relations"]["skipped"], 2);
+}
+
+TEST_F(EvalApp, writes_one_row_a_relation_and_never_replaces_a_file_unasked) {
+  EXPECT_EQ(run({"--per-relation", csv_}), 0);
+  EXPECT_EQ(contents(csv_),
+            "time1,time2,translation_m,rotation_deg,cartographer_translation_m,interpolated\n"
+            "1.000000,2.000000,0.000000000,0.000000000,0.000000000,0\n"
+            "1.000000,3.000000,5.000000000,0.000000000,5.000000000,0\n"
+            "1.000000,2.500000,0.000000000,0.000000000,0.000000000,1\n");
+  std::ofstream(csv_) << "precious";
+  EXPECT_EQ(run({"--per-relation", csv_}), 2);
+  EXPECT_EQ(contents(csv_), "precious");
+  EXPECT_EQ(err_.str(), "psi-slam-eval: " + csv_ +
+                            " is there already: name another file or give --force to replace it\n");
+  EXPECT_EQ(run({"--per-relation", csv_, "--force"}), 0);
+  EXPECT_THAT(contents(csv_), HasSubstr("time1,time2"));
+}
+
+TEST_F(EvalApp, wrong_usage_and_wrong_input_exit_with_2) {
+  EXPECT_EQ(run_only({}), 2);
+  EXPECT_EQ(run({"--max-gap", "-1"}), 2);
+  EXPECT_EQ(run({"--max-gap", "long"}), 2);
+  EXPECT_EQ(run({"--colour"}), 2);
+  EXPECT_EQ(out_.str(), "");
+  EXPECT_EQ(run_only({folder_.path() / "missing.tum", relations_}), 2);
+  EXPECT_THAT(err_.str(), HasSubstr("missing.tum: No such file"));
+  std::ofstream(relations_) << "1 2 3\n";
+  EXPECT_EQ(run(), 2);
+  EXPECT_THAT(err_.str(), HasSubstr("true.relations:1: expected"));
+}
+
+TEST_F(EvalApp, a_result_that_cannot_be_written_exits_with_1) {
+  EXPECT_EQ(run({"--per-relation", (folder_.path() / "missing" / "errors.csv").string()}), 1);
+  EXPECT_THAT(err_.str(), HasSubstr("cannot write"));
+}
+
+TEST_F(EvalApp, tells_its_version_and_its_options) {
+  EXPECT_EQ(run_only({"--version"}), 0);
+  EXPECT_THAT(out_.str(), HasSubstr("psi-slam-eval "));
+  EXPECT_EQ(run_only({"--help"}), 0);
+  EXPECT_THAT(out_.str(), AllOf(HasSubstr("--max-gap"), HasSubstr("--per-relation"), HasSubstr("--json")));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+namespace psi_slam {
+
+/// Whether the matrix can be an inverse covariance: finite, symmetric and positive semi-definite, each up to
+/// rounding.
+inline bool is_information_matrix(const Eigen::Matrix3d& information) {
+  if (!information.allFinite()) return false;
+  const double scale = information.cwiseAbs().maxCoeff();
+  if (!(information - information.transpose()).isZero(1e-9 * scale)) return false;
+  if (information.diagonal().minCoeff() < 0) return false;
+  // The entries as correlations, so that the units of x, y and theta play no part.
+  const Eigen::Vector3d norm = information.diagonal().cwiseSqrt();
+  const auto correlation = [&](int row, int column) {
+    const double entry = information(row, column);
+    return entry == 0 ? 0.0 : entry / (norm[row] * norm[column]);
+  };
+  const double xy = correlation(0, 1);
+  const double xt = correlation(0, 2);
+  const double yt = correlation(1, 2);
+  constexpr double kRounding = 1e-6;  // text files give six digits
+  const double limit = 1 + kRounding;
+  const double determinant = 1 + 2 * xy * xt * yt - xy * xy - xt * xt - yt * yt;
+  return xy * xy <= limit && xt * xt <= limit && yt * yt <= limit && determinant >= -kRounding;
+}
+
+}  // namespace psi_slam

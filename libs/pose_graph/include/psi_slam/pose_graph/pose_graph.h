@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pose graph: the poses of the nodes and the measured relative poses between them.
+//
+// It keeps both in flat arrays and makes MRPT's CNetworkOfPoses2DInf of them on request instead of keeping
+// one in step: that container holds one tree or hash node an edge, has no place for an edge's kind, kernel or
+// switch, and cannot tell apart two edges of the same pair of nodes, while the solver and the path search
+// walk all edges hundreds of times a run.
+#pragma once
+
+#include <mrpt/graphs/CNetworkOfPoses.h>
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "psi_slam/pose_graph/constraint.h"
+
+namespace psi_slam {
+
+/// Nodes are 0 .. num_nodes() - 1 and constraints 0 .. num_constraints() - 1 in the order of their insertion;
+/// neither is ever removed, but a constraint can be switched off. The root's pose is held by the solver; it
+/// is node 0 unless set_root() says otherwise. An index that does not exist throws std::out_of_range.
+class PoseGraph {
+ public:
+  /// Adds a node and returns its number. Throws std::invalid_argument when the pose is not finite.
+  std::size_t add_node(const mrpt::math::TPose2D& map_T_node);
+
+  /// Adds a constraint, switched on, and returns its number. Throws std::invalid_argument when it links a
+  /// node to itself, or its pose is not finite, or its information not symmetric and positive semi-definite.
+  std::size_t add_constraint(const Constraint& constraint);
+
+  /// A constraint that is switched off takes no part in anything but keeps its number.
+  void set_enabled(std::size_t constraint, bool enabled) { enabled_.at(constraint) = enabled ? 1 : 0; }
+  bool enabled(std::size_t constraint) const { return enabled_.at(constraint) != 0; }
+
+  void set_root(std::size_t node);
+  std::size_t root() const { return root_; }
+
+  std::size_t num_nodes() const { return poses_.size(); }
+  std::size_t num_constraints() const { return constraints_.size(); }
+
+  const mrpt::math::TPose2D& pose(std::size_t node) const { return poses_.at(node); }
+  /// The heading is wrapped to (-pi, pi]. Throws std::invalid_argument when the pose is not finite.
+  void set_pose(std::size_t node, const mrpt::math::TPose2D& map_T_node);
+  const std::vector<mrpt::math::TPose2D>& poses() const { return poses_; }
+
+  const Constraint& constraint(std::size_t index) const { return constraints_.at(index); }
+  const std::vector<Constraint>& constraints() const { return constraints_; }
+  /// The constraints that begin or end at a node, enabled or not, in the order of their insertion.
+  const std::vector<std::uint32_t>& constraints_of(std::size_t node) const { return incident_.at(node); }
+
+  /// Sum of e^T Omega e over the enabled constraints: the E of equation 5 without robust kernels.
+  double chi2() const;
+
+  /// The enabled constraints and all nodes, with their numbers as node ids.
+  mrpt::graphs::CNetworkOfPoses2DInf to_mrpt() const;
+
+  /// Of a graph whose node ids are 0 .. N-1 (else throws UserError naming the first that is missing). MRPT's
+  /// edges have no kind: those between successive numbers become odometry, the others loops.
+  static PoseGraph from_mrpt(const mrpt::graphs::CNetworkOfPoses2DInf& graph);
+
+ private:
+  std::vector<mrpt::math::TPose2D> poses_;
+  std::vector<std::vector<std::uint32_t>> incident_;
+  std::vector<Constraint> constraints_;
+  std::vector<char> enabled_;
+  std::size_t root_ = 0;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sparse pose adjustment (Konolige et al., "Efficient sparse pose adjustment for 2D mapping", IROS 2010):
+// finds the poses that minimise E = sum rho_i(e_i^T Omega_i e_i) (equations 3 to 6) by Levenberg-Marquardt on
+// the weighted error with a sparse Cholesky factorisation. Unlike the paper it begins with undamped
+// Gauss-Newton steps and damps only after a step that did not lower E, and it takes robust kernels by
+// iterative reweighting.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "psi_slam/pose_graph/normal_equations.h"
+#include "psi_slam/pose_graph/pose_graph.h"
+#include "psi_slam/pose_graph/robust_kernel.h"
+
+namespace psi_slam {
+
+struct PoseAdjustmentOptions {
+  int max_iterations = 50;           ///< linearisations
+  double relative_tolerance = 1e-6;  ///< converged when E can fall by no more than this share of itself, ...
+  double absolute_tolerance = 1e-9;  ///< ... or by no more than this
+  double initial_lambda = 0;         ///< of the first step; 0: Gauss-Newton
+  RobustKernel odometry_kernel;      ///< of the constraints between successive nodes
+  RobustKernel local_map_kernel;     ///< of those of nodes to their local maps
+  RobustKernel loop_kernel{RobustKernel::Type::kHuber, 3};
+};
+
+/// One constraint at the solution.
+struct ConstraintFit {
+  double chi2 = 0;    ///< e^T Omega e; of disabled constraints too
+  double weight = 1;  ///< by the robust kernel, in [0, 1]; 0 when disabled
+};
+
+struct PoseAdjustmentReport {
+  int iterations = 0;
+  int rejected_steps = 0;  ///< that would not have lowered E, or could not be computed
+  bool converged = false;
+  double initial_chi2 = 0;  ///< plain sum of e^T Omega e
+  double final_chi2 = 0;
+  double initial_robust_chi2 = 0;  ///< E, with the kernels
+  double final_robust_chi2 = 0;
+  double max_gradient = 0;  ///< largest |dE/dx| where H was last computed
+  double milliseconds = 0;
+  bool structure_reused = false;    ///< neither order nor layout had to be found
+  std::vector<ConstraintFit> fits;  ///< by the constraint's number
+};
+
+/// A solver for one graph that grows: keep it between calls, it keeps what it can. Any other graph may be
+/// given too.
+class SparsePoseAdjustment {
+ public:
+  explicit SparsePoseAdjustment(PoseAdjustmentOptions options = {}) : options_(options) {}
+
+  const PoseAdjustmentOptions& options() const { return options_; }
+  void set_options(const PoseAdjustmentOptions& options) { options_ = options; }
+
+  /// Moves the graph's poses to a minimum of E; the root stays. Headings end in (-pi, pi]. E never rises. The
+  /// same graph gives the same result to the last bit when the same calls came before. Throws UserError when
+  /// a node is not linked to the root (see NormalEquations::prepare); the graph is untouched then.
+  PoseAdjustmentReport optimize(PoseGraph& graph);
+
+  /// The system as it was last linearised and factorised.
+  const NormalEquations& equations() const { return equations_; }
+
+ private:
+  struct State {  // a set of poses and what the constraints say to it
+    std::vector<RotatedPose> poses;
+    std::vector<Eigen::Vector3d> errors;
+    std::vector<double> chi2;
+    double sum = 0;
+    double robust_sum = 0;
+  };
+
+  void evaluate(const PoseGraph& graph, State& state) const;
+  void apply(const Eigen::VectorXd& step, const State& from, State& to) const;
+  const RobustKernel& kernel_of(const Constraint& constraint) const;
+
+  PoseAdjustmentOptions options_;
+  NormalEquations equations_;
+  State current_;
+  State trial_;
+  std::vector<double> weights_;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/pose_graph/pose_graph.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/pose_graph/angle.h"
+#include "psi_slam/pose_graph/constraint_error.h"
+#include "psi_slam/pose_graph/information_matrix.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+bool is_finite(const TPose2D& pose) {
+  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.phi);
+}
+
+TPose2D checked(const TPose2D& pose) {
+  if (!is_finite(pose)) throw std::invalid_argument("PoseGraph: the pose of a node is not finite");
+  return {pose.x, pose.y, wrap_to_pi(pose.phi)};
+}
+
+}  // namespace
+
+std::size_t PoseGraph::add_node(const TPose2D& map_T_node) {
+  poses_.push_back(checked(map_T_node));
+  incident_.emplace_back();
+  return poses_.size() - 1;
+}
+
+std::size_t PoseGraph::add_constraint(const Constraint& constraint) {
+  if (constraint.from >= poses_.size() || constraint.to >= poses_.size())
+    throw std::out_of_range("PoseGraph: a constraint names a node that does not exist");
+  if (constraint.from == constraint.to)
+    throw std::invalid_argument("PoseGraph: a constraint links node " + std::to_string(constraint.from) +
+                                " to itself");
+  if (!is_finite(constraint.from_T_to) || !is_information_matrix(constraint.information))
+    throw std::invalid_argument("PoseGraph: the constraint " + std::to_string(constraint.from) + " -> " +
+                                std::to_string(constraint.to) +
+                                " is not finite or its information is not positive semi-definite");
+  const auto index = static_cast<std::uint32_t>(constraints_.size());
+  constraints_.push_back(constraint);
+  constraints_.back().from_T_to.phi = wrap_to_pi(constraint.from_T_to.phi);
+  enabled_.push_back(1);
+  incident_[constraint.from].push_back(index);
+  incident_[constraint.to].push_back(index);
+  return index;
+}
+
+void PoseGraph::set_root(std::size_t node) {
+  if (node >= poses_.size()) throw std::out_of_range("PoseGraph: the root must be one of the nodes");
+  root_ = node;
+}
+
+void PoseGraph::set_pose(std::size_t node, const TPose2D& map_T_node) {
+  poses_.at(node) = checked(map_T_node);
+}
+
+double PoseGraph::chi2() const {
+  std::vector<RotatedPose> poses;
+  poses.reserve(poses_.size());
+  for (const TPose2D& pose : poses_) poses.emplace_back(pose);
+  double sum = 0;
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    if (enabled_[i] == 0) continue;
+    const Constraint& constraint = constraints_[i];
+    const Eigen::Vector3d error =
+        constraint_error(constraint.from_T_to, poses[constraint.from], poses[constraint.to]);
+    sum += error.dot(constraint.information * error);
+  }
+  return sum;
+}
+
+mrpt::graphs::CNetworkOfPoses2DInf PoseGraph::to_mrpt() const {
+  mrpt::graphs::CNetworkOfPoses2DInf graph;
+  graph.root = root_;
+  for (std::size_t i = 0; i < poses_.size(); ++i) graph.nodes[i] = mrpt::poses::CPose2D(poses_[i]);
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    if (enabled_[i] == 0) continue;
+    const Constraint& constraint = constraints_[i];
+    const mrpt::math::CMatrixDouble33 information(constraint.information);
+    graph.insertEdgeAtEnd(constraint.from, constraint.to,
+                          {mrpt::poses::CPose2D(constraint.from_T_to), information});
+  }
+  return graph;
+}
+
+PoseGraph PoseGraph::from_mrpt(const mrpt::graphs::CNetworkOfPoses2DInf& graph) {
+  PoseGraph result;
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+    const auto node = graph.nodes.find(i);
+    if (node == graph.nodes.end())
+      throw UserError("the pose graph has no node " + std::to_string(i) + ": its " +
+                      std::to_string(graph.nodes.size()) + " nodes must be numbered from 0 without a gap");
+    result.add_node(node->second.asTPose());
+  }
+  for (const auto& [ends, edge] : graph.edges) {
+    Constraint constraint;
+    constraint.from = ends.first;
+    constraint.to = ends.second;
+    constraint.from_T_to = edge.getPoseMean().asTPose();
+    constraint.information = edge.cov_inv.asEigen();
+    const bool successive = ends.first + 1 == ends.second || ends.second + 1 == ends.first;
+    constraint.kind = successive ? Constraint::Kind::kOdometry : Constraint::Kind::kLoop;
+    result.add_constraint(constraint);
+  }
+  if (!result.poses_.empty()) result.set_root(graph.root);
+  return result;
+}
+
+}  // namespace psi_slam

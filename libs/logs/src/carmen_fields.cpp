@@ -85,7 +85,8 @@ mrpt::math::TPose2D CarmenFields::pose(const char* what) {
   const double y = number((std::string("y of ") + what).c_str());
   const double phi = number((std::string("theta of ") + what).c_str());
   mrpt::math::TPose2D pose{x, y, phi};
-  pose.normalizePhi();
+  const bool is_wrapped = phi > -M_PI && phi <= M_PI;
+  if (!is_wrapped) pose.normalizePhi();  // wrapping may change the last digit
   return pose;
 }
 

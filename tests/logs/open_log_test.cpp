@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/logs/open_log.h"
+
+#include "log_files.h"
+#include "shared_logs.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+std::string small_carmen_log(int scans) {
+  std::string log = "# a comment\n";
+  for (int i = 0; i < scans; ++i) {
+    log += "FLASER 181";
+    for (int beam = 0; beam < 181; ++beam) log += " " + std::to_string(1 + (i + beam) % 9) + ".25";
+    const std::string pose = " " + std::to_string(i) + " 0.5 0.25";
+    log += pose + pose + " " + std::to_string(100 + i) + ".000001 host 1\n";
+  }
+  return log;
+}
+
+void expect_same_frames(const std::vector<Frame>& a, const std::vector<Frame>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].index, b[i].index);
+    EXPECT_EQ(a[i].time_us, b[i].time_us);
+    EXPECT_EQ(a[i].odom_T_robot, b[i].odom_T_robot);
+    EXPECT_EQ(a[i].scan.ranges_m, b[i].scan.ranges_m);
+    EXPECT_EQ(*a[i].scan.bearings_rad, *b[i].scan.bearings_rad);
+  }
+}
+
+TEST(OpenLog, reads_carmen_plain_and_gzipped_alike) {
+  const TemporaryFolder folder;
+  const std::string log = small_carmen_log(20);
+  write_file(folder.path() / "a.rawlog", log);
+  write_gzipped(folder.path() / "b.txt", log);
+  const auto plain = frames_of(folder.path() / "a.rawlog");
+  ASSERT_EQ(plain.size(), 20U);
+  EXPECT_EQ(plain[19].time_us, 119'000'001);
+  expect_same_frames(plain, frames_of(folder.path() / "b.txt"));
+}
+
+TEST(OpenLog, thins_a_log_and_keeps_each_scan_with_its_own_odometry) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "log", small_carmen_log(10));
+  LogOptions options;
+  options.every_nth_scan = 4;
+  const auto frames = frames_of(folder.path() / "log", options);
+  ASSERT_EQ(frames.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(frames[i].index, i);
+    EXPECT_EQ(frames[i].odom_T_robot.x, 4.0 * static_cast<double>(i));
+    EXPECT_EQ(frames[i].time_us, static_cast<TimeUs>(100 + 4 * i) * 1'000'000 + 1);
+  }
+}
+
+TEST(OpenLog, refuses_options_that_make_no_sense) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "log", small_carmen_log(1));
+  LogOptions options;
+  options.every_nth_scan = 0;
+  EXPECT_EQ(sentence_of([&] { open_log(folder.path() / "log", options); }),
+            "log.every_nth_scan is 0, expected 1 or more");
+}
+
+TEST(OpenLog, says_what_stands_in_the_way) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "log";
+  const std::string expected = ", expected an MRPT .rawlog or a CARMEN log, plain or gzipped";
+  EXPECT_EQ(sentence_of([&] { open_log(path); }), path.string() + " does not exist" + expected);
+  write_file(path, "");
+  EXPECT_EQ(sentence_of([&] { open_log(path); }), path.string() + " is empty" + expected);
+}
+
+TEST(OpenLog, says_when_a_gzipped_log_is_cut_off) {
+  const auto whole = shared_file("mit-csail.clf.gz");
+  if (!whole) GTEST_SKIP() << kNeedsData;
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "cut.clf.gz";
+  write_file(path, read_file(*whole).substr(0, 400'000));
+  EXPECT_EQ(sentence_of([&] { frames_of(path); }),
+            path.string() + " is cut off: its compressed data end too early");
+}
+
+}  // namespace
+}  // namespace psi_slam

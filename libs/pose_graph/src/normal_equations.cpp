@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <numeric>
-#include <string>
 #include <utility>
 
-#include "psi_slam/base/user_error.h"
 #include "psi_slam/pose_graph/block_ordering.h"
+#include "unreachable_node.h"
 
 namespace psi_slam {
 namespace {
@@ -49,10 +48,7 @@ void NormalEquations::check_connected(const PoseGraph& graph) {
   }
   const std::uint32_t of_root = find_set(component_, static_cast<std::uint32_t>(graph.root()));
   for (std::uint32_t node = 0; node < graph.num_nodes(); ++node)
-    if (find_set(component_, node) != of_root)
-      throw UserError("node " + std::to_string(node) + " of the pose graph is not linked to node " +
-                      std::to_string(graph.root()) +
-                      ": every node must be reached from there by a chain of constraints");
+    if (find_set(component_, node) != of_root) throw unreachable_node(node, graph.root());
 }
 
 void NormalEquations::prepare(const PoseGraph& graph) {
@@ -178,15 +174,17 @@ void NormalEquations::lay_out(const PoseGraph& graph) {
 
 void NormalEquations::linearize(const PoseGraph& graph, const std::vector<RotatedPose>& poses,
                                 const std::vector<Eigen::Vector3d>& errors,
-                                const std::vector<double>& weights) {
+                                const std::vector<double>& weights, Coordinates coordinates) {
   std::fill(hessian_.blocks.begin(), hessian_.blocks.end(), Eigen::Matrix3d::Zero());
   std::fill(hessian_.diagonal.begin(), hessian_.diagonal.end(), Eigen::Matrix3d::Zero());
   gradient_.setZero();
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     if (!graph.enabled(i)) continue;
     const auto [from, to] = ends_[i];
-    const ConstraintNormals normals = constraint_normals(weights[i] * graph.constraints()[i].information,
-                                                         errors[i], poses[from], poses[to]);
+    Eigen::Matrix3d information = weights[i] * graph.constraints()[i].information;
+    if (coordinates == Coordinates::kHeadings)
+      information = Eigen::Vector3d(0, 0, information(2, 2)).asDiagonal();
+    const ConstraintNormals normals = constraint_normals(information, errors[i], poses[from], poses[to]);
     const std::uint32_t a = variable_of_[from];
     const std::uint32_t b = variable_of_[to];
     if (a != kHeld) {
@@ -202,6 +200,26 @@ void NormalEquations::linearize(const PoseGraph& graph, const std::vector<Rotate
       hessian_.blocks[places_[i].block] += normals.ij.transpose();
     else
       hessian_.blocks[places_[i].block] += normals.ij;
+  }
+  if (coordinates == Coordinates::kHeadings) {
+    hold(0);
+    hold(1);
+  } else if (coordinates == Coordinates::kPositions) {
+    hold(2);
+  }
+}
+
+// Cuts one coordinate of all nodes out of the system: its step becomes 0.
+void NormalEquations::hold(int coordinate) {
+  for (Eigen::Matrix3d& block : hessian_.blocks) {
+    block.row(coordinate).setZero();
+    block.col(coordinate).setZero();
+  }
+  for (std::size_t k = 0; k < hessian_.diagonal.size(); ++k) {
+    hessian_.diagonal[k].row(coordinate).setZero();
+    hessian_.diagonal[k].col(coordinate).setZero();
+    hessian_.diagonal[k](coordinate, coordinate) = 1;
+    gradient_[row(static_cast<std::uint32_t>(k)) + coordinate] = 0;
   }
 }
 

@@ -15,6 +15,12 @@ constexpr double kLambdaUp = 10;
 constexpr double kLambdaDown = 0.1;
 constexpr double kMinLambda = 1e-8;  // below it, none
 constexpr double kMaxLambda = 1e10;  // beyond it no step is left to try
+// A small decrease under stronger damping says nothing about how far the minimum is.
+constexpr double kMaxLambdaOfConvergence = 1e-3;
+
+constexpr int kMaxUphillSteps = 2;
+// The linearisation is poor where E after a step is this many times what it promised.
+constexpr double kPoorPrediction = 10;
 
 }  // namespace
 
@@ -49,7 +55,14 @@ void SparsePoseAdjustment::evaluate(const PoseGraph& graph, State& state) const 
   }
 }
 
-void SparsePoseAdjustment::apply(const Eigen::VectorXd& step, const State& from, State& to) const {
+void SparsePoseAdjustment::reweight(const PoseGraph& graph) {
+  weights_.resize(graph.num_constraints());
+  for (std::size_t i = 0; i < weights_.size(); ++i)
+    weights_[i] = graph.enabled(i) ? kernel_of(graph.constraints()[i]).weight(current_.chi2[i]) : 0;
+}
+
+void SparsePoseAdjustment::move(const PoseGraph& graph, const State& from, const Eigen::VectorXd& step,
+                                State& to) const {
   to.poses.resize(from.poses.size());
   for (std::size_t node = 0; node < from.poses.size(); ++node) {
     const std::uint32_t variable = equations_.variable_of(node);
@@ -62,6 +75,20 @@ void SparsePoseAdjustment::apply(const Eigen::VectorXd& step, const State& from,
     to.poses[node] =
         RotatedPose({pose.x + delta.x(), pose.y + delta.y(), wrap_to_pi(pose.theta + delta.z())});
   }
+  evaluate(graph, to);
+}
+
+// From current_ and with its weights. False when a factorisation fails.
+bool SparsePoseAdjustment::solve_headings_first(const PoseGraph& graph, State& result) {
+  using Coordinates = NormalEquations::Coordinates;
+  State turned;
+  equations_.linearize(graph, current_.poses, current_.errors, weights_, Coordinates::kHeadings);
+  if (!equations_.factorize(0)) return false;
+  move(graph, current_, equations_.step(), turned);
+  equations_.linearize(graph, turned.poses, turned.errors, weights_, Coordinates::kPositions);
+  if (!equations_.factorize(0)) return false;
+  move(graph, turned, equations_.step(), result);
+  return true;
 }
 
 PoseAdjustmentReport SparsePoseAdjustment::optimize(PoseGraph& graph) {
@@ -78,45 +105,70 @@ PoseAdjustmentReport SparsePoseAdjustment::optimize(PoseGraph& graph) {
   evaluate(graph, current_);
   report.initial_chi2 = current_.sum;
   report.initial_robust_chi2 = current_.robust_sum;
-  weights_.resize(graph.num_constraints());
-  const auto reweight = [&] {
-    for (std::size_t i = 0; i < weights_.size(); ++i)
-      weights_[i] = graph.enabled(i) ? kernel_of(graph.constraints()[i]).weight(current_.chi2[i]) : 0;
-  };
 
   double lambda = options_.initial_lambda;
-  bool stuck = false;
-  while (report.iterations < options_.max_iterations && !report.converged && !stuck) {
+  double lowest = current_.robust_sum;
+  int uphill = 0;  // steps since current_ left best_
+  bool linearized = false;
+  bool headings_tried = false;
+  while (report.iterations < options_.max_iterations && lambda <= kMaxLambda) {
     ++report.iterations;
-    reweight();
-    equations_.linearize(graph, current_.poses, current_.errors, weights_);
-    report.max_gradient = equations_.max_gradient();
-    const double negligible = options_.absolute_tolerance + options_.relative_tolerance * current_.robust_sum;
-    for (bool accepted = false; !accepted && !report.converged && !stuck;) {
-      bool lowered = false;
-      if (equations_.factorize(lambda)) {
-        const Eigen::VectorXd step = equations_.step();
-        apply(step, current_, trial_);
-        evaluate(graph, trial_);
-        lowered = trial_.robust_sum <= current_.robust_sum;  // false for NaN too
-        // Damping shortens the step: a small decrease says something about E only where lambda is small.
-        const double decrease =
-            lowered ? current_.robust_sum - trial_.robust_sum : equations_.predicted_decrease(step, lambda);
-        report.converged = lambda < 1 && decrease <= negligible;
-      }
-      if (lowered) {
-        std::swap(current_, trial_);
-        accepted = true;
-        lambda = lambda * kLambdaDown < kMinLambda ? 0 : lambda * kLambdaDown;
-      } else if (!report.converged) {
-        ++report.rejected_steps;
-        lambda = std::max(kFirstLambda, lambda * kLambdaUp);
-        stuck = lambda > kMaxLambda;
+    if (!linearized) {
+      reweight(graph);
+      equations_.linearize(graph, current_.poses, current_.errors, weights_);
+      if (uphill == 0) report.max_gradient = equations_.max_gradient();
+      linearized = true;
+    }
+    const bool solved = equations_.factorize(lambda);
+    double promised = 0;  // decrease of E
+    if (solved) {
+      const Eigen::VectorXd step = equations_.step();
+      promised = equations_.predicted_decrease(step, lambda);
+      move(graph, current_, step, trial_);
+    }
+    const double negligible = options_.absolute_tolerance + options_.relative_tolerance * lowest;
+    const double remaining = std::max(current_.robust_sum - promised, negligible);
+    if (!headings_tried && !(solved && trial_.robust_sum <= kPoorPrediction * remaining)) {
+      headings_tried = true;
+      linearized = false;
+      State rival;
+      if (solve_headings_first(graph, rival) && !(solved && trial_.robust_sum <= rival.robust_sum)) {
+        std::swap(trial_, rival);
+        report.headings_first = trial_.robust_sum <= lowest;
       }
     }
-  }
 
-  reweight();
+    const bool small_damping = lambda <= kMaxLambdaOfConvergence;
+    if (trial_.robust_sum <= lowest) {  // false for NaN
+      report.converged = solved && small_damping && lowest - trial_.robust_sum <= negligible;
+      std::swap(current_, trial_);
+      lowest = current_.robust_sum;
+      uphill = 0;
+      linearized = false;
+      lambda = lambda * kLambdaDown < kMinLambda ? 0 : lambda * kLambdaDown;
+    } else if (solved && uphill == 0 && small_damping && promised <= negligible) {
+      report.converged = true;  // the minimum up to rounding
+    } else {
+      ++report.rejected_steps;
+      if (lambda == 0 && uphill < kMaxUphillSteps && std::isfinite(trial_.robust_sum)) {
+        if (uphill == 0) best_ = current_;
+        ++uphill;
+        std::swap(current_, trial_);
+        linearized = false;
+      } else {
+        if (uphill > 0) {
+          std::swap(current_, best_);
+          linearized = false;
+        }
+        uphill = 0;
+        lambda = std::max(kFirstLambda, lambda * kLambdaUp);
+      }
+    }
+    if (report.converged) break;
+  }
+  if (uphill > 0) std::swap(current_, best_);
+
+  reweight(graph);
   for (std::size_t node = 0; node < current_.poses.size(); ++node) {
     const RotatedPose& pose = current_.poses[node];
     graph.set_pose(node, {pose.x, pose.y, pose.theta});

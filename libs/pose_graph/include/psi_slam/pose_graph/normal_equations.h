@@ -16,6 +16,9 @@ namespace psi_slam {
 
 class NormalEquations {
  public:
+  /// Which of a pose's coordinates may move. Headings alone see the heading parts of the constraints only.
+  enum class Coordinates { kAll, kHeadings, kPositions };
+
   /// Makes room for every node but the root, which is held, and for every enabled constraint. What is known
   /// from earlier calls is used again as far as the graph still is the same or has grown; any other graph is
   /// taken in as new. Throws UserError when no chain of enabled constraints leads from the root to some node.
@@ -24,7 +27,8 @@ class NormalEquations {
   /// H and g at `poses`. `errors` and `weights` have an entry for each constraint of the graph; a weight
   /// multiplies the information matrix.
   void linearize(const PoseGraph& graph, const std::vector<RotatedPose>& poses,
-                 const std::vector<Eigen::Vector3d>& errors, const std::vector<double>& weights);
+                 const std::vector<Eigen::Vector3d>& errors, const std::vector<double>& weights,
+                 Coordinates coordinates = Coordinates::kAll);
 
   /// Factorises H + lambda diag(H); false when that is not positive definite.
   bool factorize(double lambda);
@@ -61,6 +65,7 @@ class NormalEquations {
   void check_connected(const PoseGraph& graph);
   void find_order(const PoseGraph& graph);
   void lay_out(const PoseGraph& graph);
+  void hold(int coordinate);
 
   std::size_t root_ = 0;
   std::vector<std::uint32_t> node_of_;                         // by variable

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sparse pose adjustment (Konolige et al., "Efficient sparse pose adjustment for 2D mapping", IROS 2010):
 // finds the poses that minimise E = sum rho_i(e_i^T Omega_i e_i) (equations 3 to 6) by Levenberg-Marquardt on
-// the weighted error with a sparse Cholesky factorisation. Unlike the paper it begins with undamped
-// Gauss-Newton steps and damps only after a step that did not lower E, and it takes robust kernels by
-// iterative reweighting.
+// the weighted error with a sparse Cholesky factorisation; robust kernels rho enter by iterative reweighting.
+//
+// It departs from the paper in three points, all for the large first errors of a long loop. The steps are
+// plain Gauss-Newton ones until one fails. Where E turns out far from what the linearisation promised, the
+// solution of the headings alone and then of the positions alone, both linear problems, competes with the
+// step, once a call (Carlone et al., "A fast and accurate approximation for planar pose graph optimization",
+// IJRR 2014). E may rise for two steps if it is lower than ever after them (the watchdog of Chamberlain et
+// al., 1982); only where it is not are the steps damped.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +21,7 @@
 namespace psi_slam {
 
 struct PoseAdjustmentOptions {
-  int max_iterations = 50;           ///< linearisations
+  int max_iterations = 50;           ///< steps computed, rejected ones included
   double relative_tolerance = 1e-6;  ///< converged when E can fall by no more than this share of itself, ...
   double absolute_tolerance = 1e-9;  ///< ... or by no more than this
   double initial_lambda = 0;         ///< of the first step; 0: Gauss-Newton
@@ -33,7 +38,8 @@ struct ConstraintFit {
 
 struct PoseAdjustmentReport {
   int iterations = 0;
-  int rejected_steps = 0;  ///< that would not have lowered E, or could not be computed
+  int rejected_steps = 0;       ///< that did not lower E, or could not be computed
+  bool headings_first = false;  ///< the separate solution of headings and positions was taken
   bool converged = false;
   double initial_chi2 = 0;  ///< plain sum of e^T Omega e
   double final_chi2 = 0;
@@ -72,14 +78,17 @@ class SparsePoseAdjustment {
   };
 
   void evaluate(const PoseGraph& graph, State& state) const;
-  void apply(const Eigen::VectorXd& step, const State& from, State& to) const;
+  void move(const PoseGraph& graph, const State& from, const Eigen::VectorXd& step, State& to) const;
+  bool solve_headings_first(const PoseGraph& graph, State& result);
+  void reweight(const PoseGraph& graph);
   const RobustKernel& kernel_of(const Constraint& constraint) const;
 
   PoseAdjustmentOptions options_;
   NormalEquations equations_;
-  State current_;
-  State trial_;
-  std::vector<double> weights_;
+  State best_;                   // the lowest E so far, while current_ is an excursion from it
+  State current_;                // where the system is linearised
+  State trial_;                  // where a step leads
+  std::vector<double> weights_;  // of the constraints at current_
 };
 
 }  // namespace psi_slam

@@ -6,6 +6,7 @@
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/carmen_reader.h"
 #include "psi_slam/logs/log_format.h"
+#include "psi_slam/logs/rawlog_reader.h"
 
 namespace psi_slam {
 namespace {
@@ -37,9 +38,9 @@ std::unique_ptr<FrameSource> open_whole_log(const std::filesystem::path& path, c
     case LogFormat::kCarmen:
       return std::make_unique<CarmenReader>(path, options);
     case LogFormat::kMrptRawlog:
-      break;
+      return std::make_unique<RawlogReader>(path, options);
   }
-  throw UserError(path.string() + " is an MRPT rawlog, which is not supported yet, expected a CARMEN log");
+  throw SystemFailure("a log format without reader");
 }
 
 }  // namespace

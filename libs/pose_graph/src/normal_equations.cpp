@@ -31,8 +31,8 @@ bool NormalEquations::continues(const PoseGraph& graph) const {
   if (graph.num_nodes() < variable_of_.size() || graph.num_constraints() < ends_.size()) return false;
   if (variable_of_.empty() || graph.root() != root_) return false;
   for (std::size_t i = 0; i < ends_.size(); ++i) {
-    const Constraint& constraint = graph.constraints()[i];
-    if (constraint.from != ends_[i].first || constraint.to != ends_[i].second) return false;
+    const GraphLink& link = graph.links()[i];
+    if (link.from != ends_[i].first || link.to != ends_[i].second) return false;
   }
   return true;
 }
@@ -73,8 +73,8 @@ void NormalEquations::prepare(const PoseGraph& graph) {
     }
   }
   for (std::size_t i = ends_.size(); i < graph.num_constraints(); ++i) {
-    const Constraint& constraint = graph.constraints()[i];
-    ends_.emplace_back(constraint.from, constraint.to);
+    const GraphLink& link = graph.links()[i];
+    ends_.emplace_back(link.from, link.to);
   }
   places_.resize(ends_.size());
   for (std::size_t i = 0; i < places_.size() && !must_lay_out; ++i)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/pose_graph/pose_graph.h"
 
+#include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -22,6 +24,31 @@ bool is_finite(const TPose2D& pose) {
 TPose2D checked(const TPose2D& pose) {
   if (!is_finite(pose)) throw std::invalid_argument("PoseGraph: the pose of a node is not finite");
   return {pose.x, pose.y, wrap_to_pi(pose.phi)};
+}
+
+GraphLink link_of(const Constraint& constraint) {
+  GraphLink link;
+  link.from = static_cast<std::uint32_t>(constraint.from);
+  link.to = static_cast<std::uint32_t>(constraint.to);
+  Eigen::Matrix3d covariance;
+  bool invertible = false;
+  // Scaled to a unit diagonal first, so that the units of x, y and theta do not decide what counts as
+  // singular.
+  const Eigen::Vector3d scale = constraint.information.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix3d scaled = scale.asDiagonal() * constraint.information * scale.asDiagonal();
+  constexpr double kSingular = 1e-12;
+  if (scale.allFinite()) scaled.computeInverseWithCheck(covariance, invertible, kSingular);
+  if (invertible)
+    covariance = (scale.asDiagonal() * covariance * scale.asDiagonal()).eval();
+  else
+    covariance = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
+  link.xx = covariance(0, 0);
+  link.xy = covariance(0, 1);
+  link.xt = covariance(0, 2);
+  link.yy = covariance(1, 1);
+  link.yt = covariance(1, 2);
+  link.tt = covariance(2, 2);
+  return link;
 }
 
 }  // namespace
@@ -45,6 +72,7 @@ std::size_t PoseGraph::add_constraint(const Constraint& constraint) {
   const auto index = static_cast<std::uint32_t>(constraints_.size());
   constraints_.push_back(constraint);
   constraints_.back().from_T_to.phi = wrap_to_pi(constraint.from_T_to.phi);
+  links_.push_back(link_of(constraint));
   enabled_.push_back(1);
   incident_[constraint.from].push_back(index);
   incident_[constraint.to].push_back(index);

@@ -18,6 +18,15 @@
 
 namespace psi_slam {
 
+/// The part of a constraint that searches over the graph read, packed for them.
+struct GraphLink {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  /// Covariance of from_T_to in the axes of `from`; the inverse of the information, infinite where that is
+  /// singular.
+  double xx = 0, xy = 0, xt = 0, yy = 0, yt = 0, tt = 0;
+};
+
 /// Nodes are 0 .. num_nodes() - 1 and constraints 0 .. num_constraints() - 1 in the order of their insertion;
 /// neither is ever removed, but a constraint can be switched off. The root's pose is held by the solver; it
 /// is node 0 unless set_root() says otherwise. An index that does not exist throws std::out_of_range.
@@ -47,6 +56,8 @@ class PoseGraph {
 
   const Constraint& constraint(std::size_t index) const { return constraints_.at(index); }
   const std::vector<Constraint>& constraints() const { return constraints_; }
+  /// One for each constraint, enabled or not.
+  const std::vector<GraphLink>& links() const { return links_; }
   /// The constraints that begin or end at a node, enabled or not, in the order of their insertion.
   const std::vector<std::uint32_t>& constraints_of(std::size_t node) const { return incident_.at(node); }
 
@@ -64,6 +75,7 @@ class PoseGraph {
   std::vector<mrpt::math::TPose2D> poses_;
   std::vector<std::vector<std::uint32_t>> incident_;
   std::vector<Constraint> constraints_;
+  std::vector<GraphLink> links_;
   std::vector<char> enabled_;
   std::size_t root_ = 0;
 };

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/config/apply_settings.h"
+
+#include <utility>
+#include <vector>
+
+#include "psi_slam/base/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+}  // namespace
+
+void apply(const IniFile& file, OptionTable& table) {
+  for (const IniSection& section : file.sections) table.require_section(section.name, section.where);
+  std::vector<std::pair<const Option*, std::string>> overwritten;
+  try {
+    for (const IniValue& value : file.values) {
+      const Option& option = table.option(value.section + '.' + value.key, value.where);
+      overwritten.emplace_back(&option, option.text());
+      table.set(option.name(), value.text, value.where);
+    }
+  } catch (...) {
+    for (auto change = overwritten.rbegin(); change != overwritten.rend(); ++change)
+      change->first->assign(change->second);
+    throw;
+  }
+}
+
+void apply_override(std::string_view assignment, OptionTable& table) {
+  const std::size_t equals = assignment.find('=');
+  const std::string_view name = trimmed(assignment.substr(0, equals));
+  if (equals == std::string_view::npos || name.find('.') == std::string_view::npos)
+    throw UserError("--set: expected section.key=value, not \"" + std::string(assignment) + '"');
+  table.set(name, trimmed(assignment.substr(equals + 1)), "--set");
+}
+
+}  // namespace psi_slam

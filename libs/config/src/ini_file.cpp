@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/config/ini_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "psi_slam/base/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSpace = " \t\r\v\f";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kInclude = "include";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kSpace);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+}
+
+bool is_space(char c) {
+  return kSpace.find(c) != std::string_view::npos;
+}
+
+bool begins_comment(std::string_view text, std::size_t i) {
+  if (text[i] == ';') return true;
+  if (i > 0 && !is_space(text[i - 1])) return false;
+  return text[i] == '#' || text.substr(i, 2) == "//";
+}
+
+std::string_view without_comment(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (begins_comment(text, i)) return text.substr(0, i);
+  return text;
+}
+
+bool is_blank(std::string_view text) {
+  return trimmed(without_comment(text)).empty();
+}
+
+/// The file's bytes, or why they cannot be had.
+std::string contents(const fs::path& path, std::string& failure) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    failure = "it is a folder";
+    return {};
+  }
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) failure = errno != 0 ? std::strerror(errno) : "it cannot be opened";
+  return text;
+}
+
+/// A name under which a file is found again, however it was written.
+fs::path identity(const fs::path& path) {
+  std::error_code error;
+  fs::path canonical = fs::weakly_canonical(path, error);
+  return error ? path.lexically_normal() : canonical;
+}
+
+/// Reads one file and, through it, those that it includes.
+class Reader {
+ public:
+  explicit Reader(IniFile& result) : result_(result) {}
+
+  void read(std::string_view text, const fs::path& path) {
+    open_files_.push_back(path);
+    read_lines(text, path);
+    open_files_.pop_back();
+  }
+
+ private:
+  void read_lines(std::string_view text, const fs::path& path);
+  void include(const std::string& name, const fs::path& from, const std::string& where);
+
+  IniFile& result_;
+  std::vector<fs::path> open_files_;  ///< the outermost first
+};
+
+/// The value behind "key =". Throws UserError when its quotes do not match.
+std::string parse_value(std::string_view text, const std::string& where) {
+  text = trimmed(text);
+  if (text.empty() || text[0] != '"') return std::string(trimmed(without_comment(text)));
+  std::string value;
+  std::size_t i = 1;
+  for (; i < text.size() && text[i] != '"'; ++i) {
+    if (text[i] == '\\') {
+      ++i;
+      if (i == text.size() || (text[i] != '"' && text[i] != '\\'))
+        throw UserError(where + R"(: a backslash in quotes is written \\, and a quote \")");
+    }
+    value += text[i];
+  }
+  if (i == text.size()) throw UserError(where + ": the closing quote is missing");
+  if (!is_blank(text.substr(i + 1))) throw UserError(where + ": there is text behind the closing quote");
+  return value;
+}
+
+/// The name of "[name]", perhaps with a comment behind it.
+std::string parse_heading(std::string_view line, const std::string& where) {
+  const std::size_t end = line.find(']');
+  if (end == std::string_view::npos || trimmed(line.substr(1, end - 1)).empty() ||
+      !is_blank(line.substr(end + 1)))
+    throw UserError(where + ": expected [section], not " + std::string(line));
+  return std::string(trimmed(line.substr(1, end - 1)));
+}
+
+void Reader::read_lines(std::string_view text, const fs::path& path) {
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
+  std::optional<std::string> section;
+  std::map<std::pair<std::string, std::string>, int> line_of_key;
+  for (int line_number = 1; !text.empty(); ++line_number) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = trimmed(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (is_blank(line)) continue;
+    const std::string where = path.string() + ':' + std::to_string(line_number);
+    if (line[0] == '[') {
+      section = parse_heading(line, where);
+      result_.sections.push_back({*section, where});
+      continue;
+    }
+    const std::size_t equals = line.find('=');
+    const std::string key(trimmed(line.substr(0, equals)));
+    if (equals == std::string_view::npos || key.empty())
+      throw UserError(where + ": expected key = value or [section], not " + std::string(line));
+    const std::string value = parse_value(line.substr(equals + 1), where);
+    if (key == kInclude) {
+      if (section) throw UserError(where + ": include must stand before the first section");
+      include(value, path, where);
+      continue;
+    }
+    if (!section) throw UserError(where + ": \"" + key + "\" stands before the first [section]");
+    const auto [first, is_new] = line_of_key.try_emplace({*section, key}, line_number);
+    if (!is_new)
+      throw UserError(where + ": \"" + key + "\" in [" + *section + "] was given before, in line " +
+                      std::to_string(first->second));
+    result_.values.push_back({*section, key, value, where});
+  }
+}
+
+void Reader::include(const std::string& name, const fs::path& from, const std::string& where) {
+  if (name.empty()) throw UserError(where + ": include needs the name of a file");
+  const fs::path path = (from.parent_path() / name).lexically_normal();
+  std::string chain;
+  for (const fs::path& open_file : open_files_) {
+    if (!chain.empty() || identity(open_file) == identity(path)) chain += open_file.string() + " -> ";
+  }
+  if (!chain.empty()) throw UserError(where + ": a file cannot include itself: " + chain + path.string());
+  std::string failure;
+  const std::string text = contents(path, failure);
+  if (!failure.empty())
+    throw UserError(where + ": cannot read the included file " + path.string() + ": " + failure);
+  read(text, path);
+}
+
+}  // namespace
+
+IniFile read_ini(const fs::path& path) {
+  std::string failure;
+  const std::string text = contents(path, failure);
+  if (!failure.empty()) throw UserError("cannot read " + path.string() + ": " + failure);
+  return parse_ini(text, path);
+}
+
+IniFile parse_ini(std::string_view text, const fs::path& path) {
+  IniFile result;
+  Reader(result).read(text, path);
+  return result;
+}
+
+std::string ini_value_text(const std::string& text) {
+  const bool is_plain = !text.empty() && text[0] != '"' && trimmed(without_comment(text)) == text;
+  if (is_plain) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace psi_slam

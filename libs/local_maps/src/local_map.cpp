@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "psi_slam/local_maps/score_painter.h"
 
@@ -141,13 +142,52 @@ void LocalMap::finish() {
   if (finished_) return;
   scores();
   scores_.build_pyramid();
+  const int width = static_cast<int>(grid_.getSizeX());
+  const int height = static_cast<int>(grid_.getSizeY());
+  const int half_width = (width + 1) / 2;
+  observed_.assign(static_cast<std::size_t>(half_width) * static_cast<std::size_t>((height + 1) / 2), false);
+  for (int y = 0; y < height; ++y) {
+    const Grid::cellType* row = std::as_const(grid_).getRow(y);
+    for (int x = 0; x < width; ++x)
+      if (row[x] != 0) observed_[static_cast<std::size_t>(y / 2 * half_width + x / 2)] = true;
+  }
   finished_ = true;
   last_scan_ = {};
   grid_.setSize(0, 1, 0, 1, 1);
 }
 
+bool LocalMap::observed(int x, int y) const {
+  const int width = scores_.finest().width();
+  if (x < 0 || y < 0 || x >= width || y >= scores_.finest().height()) return false;
+  if (finished_) return observed_[static_cast<std::size_t>(y / 2 * ((width + 1) / 2) + x / 2)];
+  return grid_.getRow(y)[x] != 0;
+}
+
+LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
+                                        const mrpt::math::TPose2D& map_T_robot) const {
+  constexpr int kHitScore = 64;  // a quarter: about one and a half sigma from a wall
+  Agreement agreement;
+  const ScoreLevel& finest = scores_.finest();
+  const double c = std::cos(map_T_robot.phi);
+  const double s = std::sin(map_T_robot.phi);
+  for (const auto& point : scan.points) {
+    const double px = map_T_robot.x + c * static_cast<double>(point.x) - s * static_cast<double>(point.y);
+    const double py = map_T_robot.y + s * static_cast<double>(point.x) + c * static_cast<double>(point.y);
+    const int x = static_cast<int>(std::floor((px - scores_.origin_x_m()) / scores_.resolution_m()));
+    const int y = static_cast<int>(std::floor((py - scores_.origin_y_m()) / scores_.resolution_m()));
+    if (!observed(x, y)) continue;
+    ++agreement.observed;
+    int best = 0;
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i) best = std::max<int>(best, finest.at(x + i, y + j));
+    if (best >= kHitScore) ++agreement.hits;
+  }
+  return agreement;
+}
+
 std::size_t LocalMap::memory_bytes() const {
-  return grid_.getRawMap().size() + last_scan_.size() * sizeof(std::uint16_t) + scores_.memory_bytes();
+  return grid_.getRawMap().size() + last_scan_.size() * sizeof(std::uint16_t) + scores_.memory_bytes() +
+         observed_.size() / 8;
 }
 
 }  // namespace psi_slam

@@ -8,6 +8,7 @@ namespace psi_slam {
 
 ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& options) {
   ScanPoints result;
+  result.origin = {static_cast<float>(scan.robot_T_laser.x), static_cast<float>(scan.robot_T_laser.y)};
   result.points.reserve(scan.ranges_m.size());
   const double spacing_squared = options.spacing_m * options.spacing_m;
   double last_x = 0;

@@ -10,7 +10,7 @@ namespace {
 using Grid = mrpt::maps::COccupancyGridMap2D;
 
 // A cell this likely occupied is full evidence.
-constexpr double kCertain = 0.9;
+const double kCertain = getenv("CERT") ? atof(getenv("CERT")) : 0.75;
 
 }  // namespace
 

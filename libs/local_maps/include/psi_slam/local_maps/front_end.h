@@ -28,9 +28,9 @@ struct FrontEndOptions {
   RefinementOptions refinement;
 
   double window_m = 0.15;  ///< half-width of the search window for a robot that stands still,
-  double window_rad = 0.07;
+  double window_rad = 0.12;
   double window_per_metre = 0.3;   ///< and how much it grows with the motion that odometry reports
-  double window_per_radian = 0.3;  ///< (metres per metre, radians per radian)
+  double window_per_radian = 0.6;  ///< (metres per metre, radians per radian)
   double window_rad_per_metre = 0.15;
   double max_window_m = 1.0;
   double max_window_rad = 0.6;

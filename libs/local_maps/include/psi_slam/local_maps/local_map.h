@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "psi_slam/matching/scan_points.h"
 #include "psi_slam/matching/score_grid.h"
 
 namespace psi_slam {
@@ -51,7 +52,17 @@ class LocalMap {
   void finish();
   bool finished() const { return finished_; }
 
-  const mrpt::maps::COccupancyGridMap2D& occupancy() const { return grid_; }
+  /// How well points drawn at a pose agree with what the map saw there.
+  struct Agreement {
+    std::size_t observed = 0;  ///< points in space that the map has observed, free or occupied
+    std::size_t hits = 0;      ///< of those, points on or beside something occupied
+    double share() const {
+      return observed == 0 ? 0 : static_cast<double>(hits) / static_cast<double>(observed);
+    }
+  };
+  /// Of a finished map, or of an active one whose score grid is up to date.
+  Agreement agreement(const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot) const;
+
   std::size_t memory_bytes() const;
 
  private:
@@ -63,6 +74,7 @@ class LocalMap {
   };
   void grow_to_hold(const Beams& beams);
   void add_to_dirty(const Region& region);
+  bool observed(int x, int y) const;
   void draw_hit(int x, int y);
   void draw_way(int x0, int y0, int x1, int y1);
 
@@ -72,7 +84,8 @@ class LocalMap {
   std::uint16_t scan_ = 0;
   Region dirty_;
   ScoreGrid scores_;
-  bool scores_fit_ = false;  ///< the score grid has the occupancy grid's size
+  std::vector<bool> observed_;  ///< of a finished map: of each 2 x 2 cells, whether any was observed
+  bool scores_fit_ = false;     ///< the score grid has the occupancy grid's size
   bool finished_ = false;
 };
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <mrpt/graphs/CNetworkOfPoses.h>
-#include <mrpt/math/CMatrixFixed.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
@@ -13,6 +12,8 @@
 #include <vector>
 
 #include "psi_slam/logs/frame.h"
+#include "psi_slam/loop_closure/loop_record.h"
+#include "psi_slam/mapping/stage_clock.h"
 #include "psi_slam/matching/search_window.h"
 
 namespace psi_slam {
@@ -25,47 +26,16 @@ struct FrameRecord {
   mrpt::math::TPose2D map_T_robot;        ///< the result: its node's pose, or its matched pose carried along
   std::optional<std::size_t> node;        ///< its node in the graph, if it became one
 
-  double response = 0;        ///< of the front end's match, in [0, 1]; 0 where there was nothing to match with
-  SearchExtent window;        ///< the front end's search window (half-widths)
-  int loops_tried = 0;        ///< local maps that the frame was matched with to close a loop
-  int loops_accepted = 0;     ///< C_i of equation 13
-  std::string matcher;        ///< that searched the loops of this frame: "csm", ...; empty where none was tried
+  double response = 0;     ///< of the front end's match, in [0, 1]; 0 where there was nothing to match with
+  SearchExtent window;     ///< the front end's search window (half-widths)
+  int loops_tried = 0;     ///< local maps that the frame was matched with to close a loop
+  int loops_accepted = 0;  ///< C_i of equation 13
+  std::string matcher;     ///< that searched the loops of this frame: "csm", ...; empty where none was tried
   std::int64_t evaluations = 0;  ///< poses scored, front end and loops together
 
   double front_end_ms = 0;
   double loop_closing_ms = 0;
   double pose_graph_ms = 0;
-};
-
-enum class LoopVerdict { kAccepted, kRefused, kSwitchedOff };
-
-/// One attempt to close a loop, and what became of it.
-struct LoopRecord {
-  std::size_t frame = 0;      ///< index in MappingResult::frames
-  std::size_t node = 0;       ///< of the graph
-  std::size_t local_map = 0;  ///< number of the local map it was matched with
-  std::size_t anchor = 0;     ///< the local map's anchor node: the constraint is anchor -> node
-  std::string matcher;
-  bool in_last_pass = false;  ///< found by the global pass after the last scan
-  mrpt::math::TPose2D anchor_T_node;  ///< as matched
-  mrpt::math::CMatrixDouble33 covariance = mrpt::math::CMatrixDouble33::Zero();  ///< of anchor_T_node
-  double response = 0;        ///< in [0, 1]
-  double ambiguity = 0;       ///< response of the next best distinct peak over the best; 0 unique .. 1 ambiguous
-  double moved_m = 0;         ///< how far from the prediction the match was found
-  LoopVerdict verdict = LoopVerdict::kRefused;
-  std::string reason;         ///< why refused or switched off, as a clause; empty when accepted
-  double milliseconds = 0;
-};
-
-/// Time spent in one stage of the work, over all its calls.
-struct StageTiming {
-  std::string name;  ///< as a person reads it: "match scan to local map"
-  std::size_t calls = 0;
-  double mean_ms = 0;
-  double std_ms = 0;
-  double min_ms = 0;
-  double max_ms = 0;
-  double total_s = 0;
 };
 
 /// One local map, for drawings: its anchor node and the nodes whose scans it holds, [first_node, last_node].
@@ -76,15 +46,15 @@ struct LocalMapRecord {
 };
 
 struct MappingResult {
-  std::vector<Frame> log;           ///< the scans themselves, same order and count as `frames`
+  std::vector<Frame> log;  ///< the scans themselves, same order and count as `frames`
   std::vector<FrameRecord> frames;
   mrpt::graphs::CNetworkOfPoses2DInf graph;  ///< optimised; node ids are 0 .. N-1
   std::vector<std::size_t> node_frames;      ///< the frame of each node
   std::vector<LocalMapRecord> local_maps;
   std::vector<LoopRecord> loops;
   std::vector<StageTiming> stages;
-  double wall_s = 0;                ///< of the whole run so far, loading included
-  bool interrupted = false;         ///< true when the user stopped it before the log's end
+  double wall_s = 0;         ///< of the whole run so far, loading included
+  bool interrupted = false;  ///< true when the user stopped it before the log's end
 };
 
 }  // namespace psi_slam

@@ -4,9 +4,9 @@
 // covariance and ambiguity are the same for all.
 #pragma once
 
-#include <mrpt/math/CMatrixFixed.h>
 #include <mrpt/math/TPose2D.h>
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -42,8 +42,7 @@ struct MatchResult {
   mrpt::math::TPose2D lattice_pose;  ///< the best pose of the search lattice, before refinement
   double response = 0;               ///< R_v of equation 11 at the lattice pose, in [0, 1]
   double refined_response = 0;       ///< mean interpolated score at map_T_robot
-  mrpt::math::CMatrixDouble33 covariance =
-      mrpt::math::CMatrixDouble33::Zero();                ///< of map_T_robot: m, m, rad
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();   ///< of map_T_robot: m, m, rad
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the scan alone, unbounded; see refine()
   /// Response of the best pose of the window that is distinct from the result (see MatcherOptions) over the
   /// response; empty where not measured, 0 where no other pose reaches MatcherOptions::ambiguity_floor.

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/loop_closure/loop_verification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "psi_slam/loop_closure/range_image.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+constexpr double kReverseTolerance_m = 0.25;
+
+std::string text(double value) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.2f", value);
+  return digits;
+}
+
+double largest_sigma_m(const Eigen::Matrix3d& covariance) {
+  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
+  const double half_difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
+  return std::sqrt(mean + std::hypot(half_difference, covariance(0, 1)));
+}
+
+// The scans taken around the node, put where the match puts them: what is true of one scan must be true of
+// the run.
+LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const PlaceMemory& memory,
+                                         double neighbourhood_m) {
+  const LocalMap& map = *memory.local_maps[loop.local_map].map;
+  const NodeScan& here = memory.nodes[loop.node];
+  LocalMap::Agreement sum;
+  const auto add = [&](std::size_t node) {
+    const NodeScan& there = memory.nodes[node];
+    const LocalMap::Agreement one =
+        map.agreement(*there.points, loop.anchor_T_node + (there.local_T_robot - here.local_T_robot));
+    sum.observed += one.observed;
+    sum.hits += one.hits;
+  };
+  const auto near = [&](std::size_t node) {
+    return std::abs(memory.nodes[node].travelled_m - here.travelled_m) <= neighbourhood_m;
+  };
+  for (std::size_t node = loop.node; node-- > 0 && near(node);) add(node);
+  for (std::size_t node = loop.node + 1; node < memory.nodes.size() && near(node); ++node) add(node);
+  return sum;
+}
+
+// The local map's scans taken nearest to the matched pose, seen from the scan.
+RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const PlaceMemory& memory) {
+  const ActiveLocalMap& local_map = memory.local_maps[loop.local_map];
+  const TPose2D& local_T_anchor = memory.nodes[local_map.anchor].local_T_robot;
+  std::size_t nearest = local_map.first_node;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t node = local_map.first_node; node <= local_map.last_node; ++node) {
+    const TPose2D anchor_T_other = memory.nodes[node].local_T_robot - local_T_anchor;
+    const double distance_m =
+        std::hypot(anchor_T_other.x - loop.anchor_T_node.x, anchor_T_other.y - loop.anchor_T_node.y);
+    if (distance_m < nearest_m) nearest_m = distance_m, nearest = node;
+  }
+  const RangeImage image(*memory.nodes[loop.node].points);
+  RangeImage::Agreement sum;
+  const std::size_t first = std::max(local_map.first_node, nearest < 3 ? 0 : nearest - 3);
+  const std::size_t last = std::min(local_map.last_node, nearest + 3);
+  for (std::size_t node = first; node <= last; ++node) {
+    const TPose2D anchor_T_other = memory.nodes[node].local_T_robot - local_T_anchor;
+    const RangeImage::Agreement one =
+        image.compare(*memory.nodes[node].points, anchor_T_other - loop.anchor_T_node, kReverseTolerance_m);
+    sum.agree += one.agree;
+    sum.contradict += one.contradict;
+  }
+  return sum;
+}
+
+std::string objection(LoopRecord& loop, const PlaceMemory& memory, const LoopVerificationOptions& options) {
+  const bool wide = loop.window.x_m > options.wide_window_m;
+  const double min_response = wide ? options.min_response_wide : options.min_response;
+  if (loop.response < min_response)
+    return "the response " + text(loop.response) + " is below " + text(min_response);
+  if (loop.ambiguity > options.max_ambiguity)
+    return "another place fits as well: its response is " + text(loop.ambiguity) +
+           " of the best, more than " + text(options.max_ambiguity);
+  const double sigma_m = largest_sigma_m(loop.covariance);
+  if (sigma_m > options.max_sigma_m)
+    return "the scan does not determine the position: its standard deviation is " + text(sigma_m) +
+           " m, more than " + text(options.max_sigma_m) + " m";
+
+  const ScanPoints& points = *memory.nodes[loop.node].points;
+  const LocalMap::Agreement own =
+      memory.local_maps[loop.local_map].map->agreement(points, loop.anchor_T_node);
+  loop.observed_share = static_cast<double>(own.observed) / static_cast<double>(points.points.size());
+  if (loop.observed_share < options.min_observed_share)
+    return "only " + text(loop.observed_share) +
+           " of the scan lies in space the local map has observed, less than " +
+           text(options.min_observed_share);
+
+  loop.neighbours_agree = neighbours_agreement(loop, memory, options.neighbourhood_m).share();
+  if (loop.neighbours_agree < options.min_neighbours_agree)
+    return "only " + text(loop.neighbours_agree) +
+           " of the neighbouring scans' points fit the local map, less than " +
+           text(options.min_neighbours_agree);
+
+  loop.reverse_agree = reverse_agreement(loop, memory).share();
+  if (loop.reverse_agree < options.min_reverse_agree)
+    return "seen from the other side only " + text(loop.reverse_agree) + " of the points agree, less than " +
+           text(options.min_reverse_agree);
+  return {};
+}
+
+}  // namespace
+
+void verify(LoopRecord& loop, const PlaceMemory& memory, const LoopVerificationOptions& options) {
+  loop.reason = objection(loop, memory, options);
+  loop.verdict = loop.reason.empty() ? LoopVerdict::kAccepted : LoopVerdict::kRefused;
+}
+
+}  // namespace psi_slam

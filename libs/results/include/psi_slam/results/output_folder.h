@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The folder of a run's results, under fixed names:
+//
+//     map.png  map.yaml  map.pgm            the gridmap as a picture, and for map_server
+//     map.gridmap.gz  map.simplemap.gz      the gridmap, and the nodes with their scans, for MRPT
+//     trajectory.tum  trajectory.carmen     the trajectory of all scans, and the corrected log
+//     frames.csv  summary.json  report.html
+#pragma once
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+
+#include <filesystem>
+
+#include "psi_slam/mapping/mapping_result.h"
+#include "psi_slam/results/run_summary.h"
+
+namespace psi_slam {
+
+/// A folder that is ready to be written to.
+class OutputFolder {
+ public:
+  /// Makes the folder, with those above it. It must be new or empty, unless `force`: then files of a run's
+  /// names will be replaced and others are left alone. Throws UserError when it holds something, is not a
+  /// folder, or cannot be made or written to. Call it before the work, so that a mistake is told at once.
+  static OutputFolder prepare(const std::filesystem::path& path, bool force);
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  explicit OutputFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  std::filesystem::path path_;
+};
+
+/// Writes all files named above, each of them whole or not at all, the report last. `grid` is the map of
+/// `result` as draw_grid_map makes it. Throws SystemFailure (a sentence that names the file) when the disk
+/// does not take one. Returns the figures that the summary and the report show.
+RunSummary export_all(const MappingResult& result, const RunInfo& info,
+                      const mrpt::maps::COccupancyGridMap2D& grid, const OutputFolder& folder);
+
+/// Where each scan was taken in the map, in the log's order.
+std::vector<mrpt::math::TPose2D> mapped_poses(const MappingResult& result);
+
+}  // namespace psi_slam

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/results/output_folder.h"
+
+#include <unistd.h>
+
+#include <string>
+#include <system_error>
+
+#include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/results/corrected_log.h"
+#include "psi_slam/results/frames_csv.h"
+#include "psi_slam/results/map_image.h"
+#include "psi_slam/results/map_server_pair.h"
+#include "psi_slam/results/mrpt_maps.h"
+#include "psi_slam/results/report_html.h"
+#include "psi_slam/results/summary_json.h"
+#include "psi_slam/results/trajectory_file.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The way to `path` must be folders: says which part of it is something else.
+void check_no_file_in_the_way(const fs::path& path) {
+  std::error_code ignored;
+  fs::path part;
+  for (const fs::path& name : path) {
+    part /= name;
+    if (fs::exists(part, ignored) && !fs::is_directory(part, ignored))
+      throw UserError("cannot write to the folder " + path.string() + ": " + part.string() +
+                      " is a file, not a folder");
+  }
+}
+
+Trajectory trajectory_of(const MappingResult& result) {
+  Trajectory trajectory;
+  trajectory.reserve(result.frames.size());
+  for (const FrameRecord& frame : result.frames) trajectory.push_back({frame.time_us, frame.map_T_robot});
+  return trajectory;
+}
+
+}  // namespace
+
+OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
+  if (path.empty()) throw UserError("the output folder has no name");
+  check_no_file_in_the_way(path);
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error && !fs::is_directory(path))
+    throw UserError("cannot make the output folder " + path.string() + ": " + error.message());
+  const bool empty = fs::is_empty(path, error);
+  if (error) throw UserError("cannot look into the output folder " + path.string() + ": " + error.message());
+  if (!empty && !force)
+    throw UserError("the output folder " + path.string() +
+                    " is not empty: name a new one, or give --force to replace the results in it");
+  if (::access(path.c_str(), W_OK | X_OK) != 0)
+    throw UserError("cannot write to the output folder " + path.string() + ": no permission");
+  return OutputFolder(path);
+}
+
+RunSummary export_all(const MappingResult& result, const RunInfo& info,
+                      const mrpt::maps::COccupancyGridMap2D& grid, const OutputFolder& folder) {
+  const auto file = [&](const char* name) { return folder.path() / name; };
+  write_tum(file("trajectory.tum"), trajectory_of(result));
+  write_corrected_log(file("trajectory.carmen"), result.log, mapped_poses(result));
+  write_frames_csv(file("frames.csv"), result.frames);
+  write_map_image(file("map.png"), grid);
+  write_map_server_pair(file("map.yaml"), grid);
+  write_grid_map(file("map.gridmap.gz"), grid);
+  write_simple_map(file("map.simplemap.gz"), simple_map(result));
+  const RunSummary summary = summarize_run(result, grid);
+  write_text_atomically(file("summary.json"), summary_json(result, info, summary));
+  write_text_atomically(file("report.html"), report_html(result, info, summary, grid));
+  return summary;
+}
+
+std::vector<mrpt::math::TPose2D> mapped_poses(const MappingResult& result) {
+  std::vector<mrpt::math::TPose2D> poses;
+  poses.reserve(result.frames.size());
+  for (const FrameRecord& frame : result.frames) poses.push_back(frame.map_T_robot);
+  return poses;
+}
+
+}  // namespace psi_slam

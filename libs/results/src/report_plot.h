@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The report's plots over time, as SVG.
+#pragma once
+
+#include <string>
+
+#include "psi_slam/mapping/mapping_result.h"
+
+namespace psi_slam {
+
+/// The front end's response over the log's time: mean and extremes of each stretch, and when loops were
+/// closed.
+std::string response_plot(const MappingResult& result);
+
+/// The work for each scan over the log's time, logarithmic, with the time between two scans as a line.
+std::string work_plot(const MappingResult& result);
+
+}  // namespace psi_slam

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/results/run_summary.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "psi_slam/results/map_image.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+LogFacts log_facts(const MappingResult& result) {
+  LogFacts facts;
+  facts.scans = result.log.size();
+  if (result.log.empty()) return facts;
+  const LaserScan& first = result.log.front().scan;
+  facts.beams = first.ranges_m.size();
+  if (first.bearings_rad && !first.bearings_rad->empty()) {
+    facts.first_bearing_rad = static_cast<double>(first.bearings_rad->front());
+    facts.last_bearing_rad = static_cast<double>(first.bearings_rad->back());
+  }
+  facts.max_range_m = static_cast<double>(first.max_range_m);
+  facts.robot_T_laser = first.robot_T_laser;
+  facts.first_time_us = facts.last_time_us = result.log.front().time_us;
+  std::size_t beams = 0;
+  std::size_t returns = 0;
+  TimeUs previous_us = result.log.front().time_us;
+  std::vector<TPose2D> odometry;
+  for (const Frame& frame : result.log) {
+    beams += frame.scan.ranges_m.size();
+    for (const float range_m : frame.scan.ranges_m) returns += std::isfinite(range_m) ? 1 : 0;
+    facts.first_time_us = std::min(facts.first_time_us, frame.time_us);
+    facts.last_time_us = std::max(facts.last_time_us, frame.time_us);
+    facts.stamps_back += frame.time_us < previous_us ? 1 : 0;
+    previous_us = frame.time_us;
+    odometry.push_back(frame.odom_T_robot);
+  }
+  facts.returns = beams == 0 ? 0 : static_cast<double>(returns) / static_cast<double>(beams);
+  facts.duration_s = seconds(facts.last_time_us - facts.first_time_us);
+  facts.odometry_length_m = path_length_m(odometry);
+  return facts;
+}
+
+/// "response 0.41 is below 0.55" -> "response … is below …".
+std::string without_figures(const std::string& reason) {
+  std::string text;
+  for (std::size_t i = 0; i < reason.size();) {
+    const auto is_digit = [&](std::size_t at) {
+      return at < reason.size() && reason[at] >= '0' && reason[at] <= '9';
+    };
+    if (!is_digit(i)) {
+      text += reason[i++];
+      continue;
+    }
+    while (is_digit(i) || (i < reason.size() && reason[i] == '.' && is_digit(i + 1))) ++i;
+    text += "…";
+  }
+  return text;
+}
+
+LoopCounts loop_counts(const std::vector<LoopRecord>& loops) {
+  LoopCounts counts;
+  std::map<std::string, std::size_t> reasons;
+  for (const LoopRecord& loop : loops) {
+    if (loop.verdict == LoopVerdict::kAccepted) {
+      ++counts.accepted;
+      counts.accepted_in_last_pass += loop.in_last_pass ? 1 : 0;
+      continue;
+    }
+    ++(loop.verdict == LoopVerdict::kRefused ? counts.refused : counts.switched_off);
+    ++reasons[without_figures(loop.reason.empty() ? "no reason given" : loop.reason)];
+  }
+  for (const auto& [reason, count] : reasons) counts.reasons.push_back({reason, count});
+  std::stable_sort(counts.reasons.begin(), counts.reasons.end(),
+                   [](const ReasonCount& a, const ReasonCount& b) { return a.count > b.count; });
+  return counts;
+}
+
+MapExtent map_extent(const mrpt::maps::COccupancyGridMap2D& grid) {
+  const SeenCells seen = seen_cells(grid);
+  const auto cell_m = static_cast<double>(grid.getResolution());
+  const auto x_min = static_cast<double>(grid.getXMin());
+  const auto y_min = static_cast<double>(grid.getYMin());
+  MapExtent extent;
+  extent.x_min_m = x_min + seen.x_begin * cell_m;
+  extent.x_max_m = x_min + seen.x_end * cell_m;
+  extent.y_min_m = y_min + seen.y_begin * cell_m;
+  extent.y_max_m = y_min + seen.y_end * cell_m;
+  extent.resolution_m = cell_m;
+  extent.free_m2 = static_cast<double>(seen.free) * cell_m * cell_m;
+  return extent;
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts kibibytes
+}
+
+}  // namespace
+
+double path_length_m(const std::vector<TPose2D>& poses) {
+  constexpr double kStep_m = 0.1;
+  if (poses.empty()) return 0;
+  double length = 0;
+  TPose2D from = poses.front();
+  const auto distance = [&](const TPose2D& to) { return std::hypot(to.x - from.x, to.y - from.y); };
+  for (const TPose2D& pose : poses) {
+    if (distance(pose) < kStep_m) continue;
+    length += distance(pose);
+    from = pose;
+  }
+  return length + distance(poses.back());
+}
+
+RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid) {
+  RunSummary summary;
+  summary.log = log_facts(result);
+  std::vector<TPose2D> poses;
+  std::size_t matched = 0;
+  for (const FrameRecord& frame : result.frames) {
+    poses.push_back(frame.map_T_robot);
+    summary.evaluations += frame.evaluations;
+    summary.mean_response += frame.response;
+    matched += frame.response > 0 ? 1 : 0;
+  }
+  if (matched > 0) summary.mean_response /= static_cast<double>(matched);
+  summary.path_length_m = path_length_m(poses);
+  summary.nodes = result.graph.nodes.size();
+  summary.edges = result.graph.edges.size();
+  summary.local_maps = result.local_maps.size();
+  summary.loops = loop_counts(result.loops);
+  summary.map = map_extent(grid);
+  summary.wall_s = result.wall_s;
+  if (result.wall_s > 0) summary.real_time_factor = summary.log.duration_s / result.wall_s;
+  summary.peak_memory_mb = peak_memory_mb();
+  summary.interrupted = result.interrupted;
+  return summary;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/results/summary_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "verdict_text.h"
+
+namespace psi_slam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Rounded to what is worth reading: JSON with seventeen digits a number is for nobody.
+Json number(double value, int decimals = 6) {
+  if (!std::isfinite(value)) return nullptr;
+  const double scale = std::pow(10.0, decimals);
+  const double rounded = std::round(value * scale) / scale;
+  return std::isfinite(rounded) ? rounded : value;
+}
+
+Json pose_json(const mrpt::math::TPose2D& pose) {
+  return {number(pose.x), number(pose.y), number(pose.phi)};
+}
+
+Json log_json(const LogFacts& log, const std::string& name) {
+  return {{"name", name},
+          {"scans", log.scans},
+          {"beams", log.beams},
+          {"first_bearing_rad", number(log.first_bearing_rad)},
+          {"last_bearing_rad", number(log.last_bearing_rad)},
+          {"max_range_m", number(log.max_range_m, 3)},
+          {"robot_T_laser", pose_json(log.robot_T_laser)},
+          {"returns", number(log.returns, 4)},
+          {"first_time_s", format_seconds(log.first_time_us)},
+          {"last_time_s", format_seconds(log.last_time_us)},
+          {"duration_s", number(log.duration_s)},
+          {"stamps_back", log.stamps_back},
+          {"odometry_length_m", number(log.odometry_length_m, 3)}};
+}
+
+Json map_json(const MapExtent& map) {
+  return {{"resolution_m", number(map.resolution_m)}, {"x_min_m", number(map.x_min_m, 3)},
+          {"y_min_m", number(map.y_min_m, 3)},        {"x_max_m", number(map.x_max_m, 3)},
+          {"y_max_m", number(map.y_max_m, 3)},        {"free_m2", number(map.free_m2, 2)}};
+}
+
+Json loop_counts_json(const LoopCounts& loops) {
+  Json reasons = Json::array();
+  for (const ReasonCount& reason : loops.reasons)
+    reasons.push_back({{"reason", reason.reason}, {"count", reason.count}});
+  return {{"accepted", loops.accepted},
+          {"accepted_in_last_pass", loops.accepted_in_last_pass},
+          {"refused", loops.refused},
+          {"switched_off", loops.switched_off},
+          {"reasons", reasons}};
+}
+
+Json stages_json(const std::vector<StageTiming>& stages) {
+  Json list = Json::array();
+  for (const StageTiming& stage : stages)
+    list.push_back({{"name", stage.name},
+                    {"calls", stage.calls},
+                    {"mean_ms", number(stage.mean_ms)},
+                    {"std_ms", number(stage.std_ms)},
+                    {"min_ms", number(stage.min_ms)},
+                    {"max_ms", number(stage.max_ms)},
+                    {"total_s", number(stage.total_s)}});
+  return list;
+}
+
+Json loops_json(const std::vector<LoopRecord>& loops) {
+  Json list = Json::array();
+  for (const LoopRecord& loop : loops)
+    list.push_back({{"frame", loop.frame},
+                    {"node", loop.node},
+                    {"local_map", loop.local_map},
+                    {"anchor", loop.anchor},
+                    {"matcher", loop.matcher},
+                    {"in_last_pass", loop.in_last_pass},
+                    {"anchor_T_node", pose_json(loop.anchor_T_node)},
+                    {"std_x_m", number(std::sqrt(loop.covariance(0, 0)))},
+                    {"std_y_m", number(std::sqrt(loop.covariance(1, 1)))},
+                    {"std_theta_rad", number(std::sqrt(loop.covariance(2, 2)))},
+                    {"response", number(loop.response, 4)},
+                    {"ambiguity", number(loop.ambiguity, 4)},
+                    {"moved_m", number(loop.moved_m, 4)},
+                    {"verdict", verdict_text(loop.verdict)},
+                    {"reason", loop.reason},
+                    {"milliseconds", number(loop.milliseconds, 4)}});
+  return list;
+}
+
+}  // namespace
+
+std::string summary_json(const MappingResult& result, const RunInfo& info, const RunSummary& summary) {
+  const Json json = {{"schema", "psi-slam-summary"},
+                     {"schema_version", kSummarySchemaVersion},
+                     {"program_version", info.program_version},
+                     {"interrupted", summary.interrupted},
+                     {"log", log_json(summary.log, info.log_name)},
+                     {"path_length_m", number(summary.path_length_m, 3)},
+                     {"nodes", summary.nodes},
+                     {"edges", summary.edges},
+                     {"local_maps", summary.local_maps},
+                     {"mean_response", number(summary.mean_response, 4)},
+                     {"evaluations", summary.evaluations},
+                     {"map", map_json(summary.map)},
+                     {"wall_s", number(summary.wall_s)},
+                     {"real_time_factor", number(summary.real_time_factor, 3)},
+                     {"peak_memory_mb", number(summary.peak_memory_mb, 1)},
+                     {"stages", stages_json(result.stages)},
+                     {"loop_counts", loop_counts_json(summary.loops)},
+                     {"settings", info.settings},
+                     {"loops", loops_json(result.loops)}};
+  // Names and reasons are whatever bytes the user's files had: what is no UTF-8 is replaced, not refused.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "psi_slam/mapping/mapping_result.h"
+
+namespace psi_slam {
+
+/// "accepted", "refused" or "switched off".
+inline const char* verdict_text(LoopVerdict verdict) {
+  switch (verdict) {
+    case LoopVerdict::kAccepted:
+      return "accepted";
+    case LoopVerdict::kRefused:
+      return "refused";
+    case LoopVerdict::kSwitchedOff:
+      return "switched off";
+  }
+  return "";
+}
+
+}  // namespace psi_slam

@@ -18,7 +18,14 @@ std::string whole(std::size_t count) {
 }
 
 std::string degrees(double radians) {
-  return fixed_text(radians * 180 / M_PI, 1) + "°";
+  const std::string size = fixed_text(std::abs(radians) * 180 / M_PI, 1) + "°";
+  return radians < 0 ? "−" + size : size;
+}
+
+/// "5 cm", "2.5 cm", "10 cm".
+std::string centimetres(double metres) {
+  const double value = std::round(metres * 1000) / 10;
+  return fixed_text(value, value == std::round(value) ? 0 : 1) + " cm";
 }
 
 /// Seconds as a clock shows them: "44:51", "2:07:57".

@@ -75,13 +75,24 @@ class Reader {
 
   void read(std::string_view text, const fs::path& path) {
     open_files_.push_back(path);
-    read_lines(text, path);
+    read_lines(text, Position{path, 0, {}, {}});
     open_files_.pop_back();
   }
 
  private:
-  void read_lines(std::string_view text, const fs::path& path);
-  void include(const std::string& name, const fs::path& from, const std::string& where);
+  /// Where the reading of one file has come to.
+  struct Position {
+    fs::path path;
+    int line = 0;
+    std::optional<std::string> section;
+    std::map<std::pair<std::string, std::string>, int> line_of_key;
+
+    std::string where() const { return path.string() + ':' + std::to_string(line); }
+  };
+
+  void read_lines(std::string_view text, Position position);
+  void read_assignment(std::string_view line, Position& position);
+  void include(const std::string& name, const Position& from);
 
   IniFile& result_;
   std::vector<fs::path> open_files_;  ///< the outermost first
@@ -115,52 +126,56 @@ std::string parse_heading(std::string_view line, const std::string& where) {
   return std::string(trimmed(line.substr(1, end - 1)));
 }
 
-void Reader::read_lines(std::string_view text, const fs::path& path) {
+void Reader::read_lines(std::string_view text, Position position) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
-  std::optional<std::string> section;
-  std::map<std::pair<std::string, std::string>, int> line_of_key;
-  for (int line_number = 1; !text.empty(); ++line_number) {
+  while (!text.empty()) {
     const std::size_t end = text.find('\n');
     const std::string_view line = trimmed(text.substr(0, end));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    ++position.line;
     if (is_blank(line)) continue;
-    const std::string where = path.string() + ':' + std::to_string(line_number);
     if (line[0] == '[') {
-      section = parse_heading(line, where);
-      result_.sections.push_back({*section, where});
-      continue;
+      position.section = parse_heading(line, position.where());
+      result_.sections.push_back({*position.section, position.where()});
+    } else {
+      read_assignment(line, position);
     }
-    const std::size_t equals = line.find('=');
-    const std::string key(trimmed(line.substr(0, equals)));
-    if (equals == std::string_view::npos || key.empty())
-      throw UserError(where + ": expected key = value or [section], not " + std::string(line));
-    const std::string value = parse_value(line.substr(equals + 1), where);
-    if (key == kInclude) {
-      if (section) throw UserError(where + ": include must stand before the first section");
-      include(value, path, where);
-      continue;
-    }
-    if (!section) throw UserError(where + ": \"" + key + "\" stands before the first [section]");
-    const auto [first, is_new] = line_of_key.try_emplace({*section, key}, line_number);
-    if (!is_new)
-      throw UserError(where + ": \"" + key + "\" in [" + *section + "] was given before, in line " +
-                      std::to_string(first->second));
-    result_.values.push_back({*section, key, value, where});
   }
 }
 
-void Reader::include(const std::string& name, const fs::path& from, const std::string& where) {
-  if (name.empty()) throw UserError(where + ": include needs the name of a file");
-  const fs::path path = (from.parent_path() / name).lexically_normal();
-  std::string chain;
-  for (const fs::path& open_file : open_files_) {
-    if (!chain.empty() || identity(open_file) == identity(path)) chain += open_file.string() + " -> ";
+void Reader::read_assignment(std::string_view line, Position& position) {
+  const std::string where = position.where();
+  const std::size_t equals = line.find('=');
+  const std::string key(trimmed(line.substr(0, equals)));
+  if (equals == std::string_view::npos || key.empty())
+    throw UserError(where + ": expected key = value or [section], not " + std::string(line));
+  const std::string value = parse_value(line.substr(equals + 1), where);
+  if (key == kInclude) {
+    if (position.section) throw UserError(where + ": include must stand before the first section");
+    include(value, position);
+    return;
   }
-  if (!chain.empty()) throw UserError(where + ": a file cannot include itself: " + chain + path.string());
+  if (!position.section) throw UserError(where + ": \"" + key + "\" stands before the first [section]");
+  const auto [first, is_new] = position.line_of_key.try_emplace({*position.section, key}, position.line);
+  if (!is_new) {
+    throw UserError(where + ": \"" + key + "\" in [" + *position.section + "] was given before, in line " +
+                    std::to_string(first->second));
+  }
+  result_.values.push_back({*position.section, key, value, where});
+}
+
+void Reader::include(const std::string& name, const Position& from) {
+  if (name.empty()) throw UserError(from.where() + ": include needs the name of a file");
+  const fs::path path = (from.path.parent_path() / name).lexically_normal();
+  std::string chain;
+  for (const fs::path& open_file : open_files_)
+    if (!chain.empty() || identity(open_file) == identity(path)) chain += open_file.string() + " -> ";
+  if (!chain.empty())
+    throw UserError(from.where() + ": a file cannot include itself: " + chain + path.string());
   std::string failure;
   const std::string text = contents(path, failure);
   if (!failure.empty())
-    throw UserError(where + ": cannot read the included file " + path.string() + ": " + failure);
+    throw UserError(from.where() + ": cannot read the included file " + path.string() + ": " + failure);
   read(text, path);
 }
 

@@ -45,9 +45,10 @@ std::string help_text(const OptionTable& table) {
   for (const OptionSection& section : table.sections()) {
     if (!text.empty()) text += '\n';
     text += '[' + section.name + "]  " + section.title + '\n';
-    for (const Option& option : section.options)
+    for (const Option& option : section.options) {
       text += "  " + option.name() + "\n      " + option.help + "\n      " + option.values() + "; " +
               default_words(option) + '\n';
+    }
   }
   return text;
 }
@@ -58,9 +59,10 @@ std::string markdown_reference(const OptionTable& table) {
     if (!text.empty()) text += '\n';
     text += "## `[" + section.name + "]` " + section.title + "\n\n| key | values | default | meaning |\n" +
             "|---|---|---|---|\n";
-    for (const Option& option : section.options)
+    for (const Option& option : section.options) {
       text += "| `" + option.key + "` | " + cell(option.values()) + " | `" +
               cell(ini_value_text(option.default_text)) + "` | " + cell(option.help) + " |\n";
+    }
   }
   return text;
 }

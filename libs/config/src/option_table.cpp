@@ -79,12 +79,14 @@ bool names_degrees(std::string_view key) {
 
 std::vector<std::string> names(const std::vector<OptionSection>& sections) {
   std::vector<std::string> result;
+  result.reserve(sections.size());
   for (const OptionSection& section : sections) result.push_back(section.name);
   return result;
 }
 
 std::vector<std::string> keys(const OptionSection& section) {
   std::vector<std::string> result;
+  result.reserve(section.options.size());
   for (const Option& option : section.options) result.push_back(option.key);
   return result;
 }
@@ -107,9 +109,10 @@ std::string proposal(const std::vector<OptionSection>& sections, const OptionSec
   for (const OptionSection& section : sections)
     if (find(section, key) != nullptr) return "; " + quoted(key) + " belongs in [" + section.name + ']';
   if (const auto near = nearest_name(key, keys(here))) return "; did you mean " + quoted(*near) + '?';
-  for (const OptionSection& section : sections)
+  for (const OptionSection& section : sections) {
     if (const auto near = nearest_name(key, keys(section)))
       return "; did you mean " + quoted(*near) + " in [" + section.name + "]?";
+  }
   return "";
 }
 
@@ -129,9 +132,10 @@ OptionTable& OptionTable::add_bound(Option option) {
   if (names_degrees(option.key) != is_angle(option))
     throw std::logic_error(option.name() + ": the key of an angle ends in _deg, and no other key does");
   option.default_text = option.text();
-  if (!option.accepts(option.default_text))
+  if (!option.accepts(option.default_text)) {
     throw std::logic_error(option.name() + ": its default " + option.default_text + " is not " +
                            option.expectation());
+  }
   section.options.push_back(std::move(option));
   return *this;
 }

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the dependencies, configures the release build and builds it in build/release.
+#
+#     share/scripts/build.sh [TARGET...]     # default: everything
+#
+# Builds with as many jobs as there are processors, but no more than one for every 2 GB of free memory;
+# CMAKE_BUILD_PARALLEL_LEVEL overrides that.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+
+readonly kilobytes_per_job=$((2 * 1024 * 1024))
+
+fail() {
+  echo "build.sh: $*" >&2
+  exit 1
+}
+
+jobs_for_this_machine() {
+  local processors free_kilobytes jobs
+  processors=$(nproc)
+  free_kilobytes=$(sed -n 's/^MemAvailable: *\([0-9]*\) kB/\1/p' /proc/meminfo)
+  jobs=$((${free_kilobytes:-0} / kilobytes_per_job))
+  if [ "$jobs" -gt "$processors" ]; then jobs=$processors; fi
+  if [ "$jobs" -lt 1 ]; then jobs=1; fi
+  echo "$jobs"
+}
+
+share/scripts/install-dependencies.sh
+cmake --preset release >&2 || fail "the configuration failed, see CMake's message above"
+targets=()
+if [ $# -gt 0 ]; then targets=(--target "$@"); fi
+cmake --build --preset release --parallel "${CMAKE_BUILD_PARALLEL_LEVEL:-$(jobs_for_this_machine)}" \
+  "${targets[@]}" >&2 || fail "the build failed, see the compiler's message above"

@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what psi-slam needs to be built, on Debian 12. Does nothing when all of it is there already.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+
+packages=(
+  build-essential cmake ninja-build pkg-config
+  libmrpt-dev mrpt-common libeigen3-dev libopencv-dev libwxgtk3.2-dev
+  libcli11-dev nlohmann-json3-dev zlib1g-dev
+  libgtest-dev libgmock-dev libbenchmark-dev python3
+)
+
+fail() {
+  echo "install-dependencies.sh: $*" >&2
+  exit 1
+}
+
+# shellcheck disable=SC1091  # the file belongs to the system
+system_name() {
+  (. /etc/os-release 2>/dev/null && echo "${PRETTY_NAME:-an unknown system}") || echo "an unknown system"
+}
+
+# Debian 12 or later; Debian's testing release states no version.
+# shellcheck disable=SC1091
+is_supported_system() {
+  command -v apt-get >/dev/null && command -v dpkg-query >/dev/null || return 1
+  (. /etc/os-release 2>/dev/null && [ "${ID:-}" = debian ] && [ "${VERSION_ID:-12}" -ge 12 ])
+}
+
+missing_packages() {
+  local package
+  for package in "${packages[@]}"; do
+    dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
+      echo "$package"
+  done
+}
+
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo ${CI:+--non-interactive} "$@"
+  else
+    fail "installing packages needs root: run this script as root, or install sudo"
+  fi
+}
+
+apt_get() {
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get --quiet "$@"
+}
+
+check_cmake() {
+  local needed found
+  needed=$(sed -n 's/^cmake_minimum_required(VERSION \([0-9.]*\)).*/\1/p' CMakeLists.txt)
+  found=$(cmake --version 2>/dev/null | sed -n 's/^cmake version \([0-9.]*\).*/\1/p')
+  [ -n "$found" ] || fail "cmake is installed but does not run"
+  [ "$(printf '%s\n' "$needed" "$found" | sort --version-sort | head -n 1)" = "$needed" ] ||
+    fail "CMake $needed or later is needed, but $(command -v cmake) is $found: put a newer one first in PATH"
+}
+
+is_supported_system ||
+  fail "this is $(system_name), but the packages are named for Debian 12: there, install what README.md" \
+    "lists under Dependencies, then run cmake --preset release"
+
+mapfile -t missing < <(missing_packages)
+if [ "${#missing[@]}" -eq 0 ]; then
+  echo "install-dependencies.sh: everything psi-slam needs is installed already" >&2
+else
+  echo "install-dependencies.sh: installing ${missing[*]}" >&2
+  apt_get update >&2 || fail "apt-get cannot refresh its lists of packages: is this machine online?"
+  apt_get install --yes --no-install-recommends "${missing[@]}" >&2 ||
+    fail "apt-get could not install the packages, see its message above"
+fi
+check_cmake

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the dependencies, builds everything and runs all tests. The last line says how many passed, failed and
+# were skipped; the exit code is 0 if none failed.
+#
+#     share/scripts/test.sh [CTEST OPTION...]     # e.g. -R pose_graph
+#
+# Tests with real logs need the environment variable PSI_SLAM_DATA: the folder that fetch-benchmark-logs.sh filled.
+set -euo pipefail
+
+if [ -n "${PSI_SLAM_DATA:-}" ]; then
+  if [ ! -d "$PSI_SLAM_DATA" ]; then
+    echo "test.sh: PSI_SLAM_DATA names $PSI_SLAM_DATA, which is no folder" >&2
+    exit 2
+  fi
+  PSI_SLAM_DATA=$(cd "$PSI_SLAM_DATA" && pwd)
+  export PSI_SLAM_DATA
+fi
+cd "$(dirname "$0")/../.."
+
+results="$PWD/build/release/test-results.xml"
+
+share/scripts/build.sh
+rm -f "$results"
+status=0
+ctest --preset release --parallel "$(nproc)" --output-junit "$results" "$@" || status=$?
+if [ ! -s "$results" ]; then
+  echo "test.sh: ctest left no results, see its message above" >&2
+  exit 1
+fi
+python3 share/scripts/test-summary.py "$results" || status=1
+exit "$status"

@@ -124,6 +124,13 @@ TEST_F(IncludeTest, may_include_one_file_twice_but_not_itself) {
             self.string() + ":1: a file cannot include itself: " + self.string() + " -> " + self.string());
 }
 
+TEST_F(IncludeTest, knows_a_file_again_under_another_name) {
+  std::filesystem::create_directory_symlink(".", folder_.path() / "again");
+  const auto path = write("my.ini", "include = again/my.ini\n");
+  EXPECT_EQ(sentence([&] { read_ini(path); }), path.string() + ":1: a file cannot include itself: " +
+                                                   path.string() + " -> " + in_folder("again/my.ini"));
+}
+
 TEST_F(IncludeTest, names_the_file_that_cannot_be_read) {
   const auto path = write("my.ini", "; settings\ninclude = absent.ini\n");
   EXPECT_EQ(sentence([&] { read_ini(path); }), path.string() + ":2: cannot read the included file " +

@@ -92,7 +92,7 @@ inline MappingResult walk_around_the_room(int scans = 50) {
   accepted.frame = result.node_frames.back();
   accepted.matcher = "csm";
   accepted.anchor_T_node = result.frames[accepted.frame].map_T_robot - result.frames[0].map_T_robot;
-  accepted.covariance.setDiagonal(3, 1e-4);
+  accepted.covariance = Eigen::Matrix3d::Identity() * 1e-4;
   accepted.response = 0.83;
   accepted.ambiguity = 0.2;
   accepted.verdict = LoopVerdict::kAccepted;

@@ -156,7 +156,9 @@ std::string loops_table(const MappingResult& result) {
                                                                  : "warn";
       rows += "<tr><td><span class=\"badge " + css + "\">" + verdict_text(verdict) + "</span></td>" +
               cells({whole(loop.frame), whole(loop.node), whole(loop.local_map), escape_html(loop.matcher),
-                     fixed_text(loop.response, 3), fixed_text(loop.ambiguity, 2), fixed_text(loop.moved_m, 2),
+                     fixed_text(loop.response, 3), fixed_text(loop.ambiguity, 2),
+                     fixed_text(loop.observed_share, 2), fixed_text(loop.neighbours_agree, 2),
+                     fixed_text(loop.reverse_agree, 2), fixed_text(loop.moved_m, 2),
                      milliseconds_text(loop.milliseconds)}) +
               "<td class=\"text\">" + escape_html(loop.reason) + (loop.in_last_pass ? " (last pass)" : "") +
               "</td></tr>\n";
@@ -166,7 +168,9 @@ std::string loops_table(const MappingResult& result) {
   return "<details><summary>" + counted(result.loops.size(), "loop tried", "loops tried") +
          "</summary><div class=\"wide tall\"><table "
          "class=\"grid\">\n<thead><tr><th>Verdict</th><th>scan</th><th>node</th>"
-         "<th>local map</th><th>matcher</th><th>response</th><th>ambiguity</th><th>moved, m</th><th>ms</th>"
+         "<th>local "
+         "map</th><th>matcher</th><th>response</th><th>ambiguity</th><th>observed</th><th>neighbours</"
+         "th><th>reverse</th><th>moved, m</th><th>ms</th>"
          "<th class=\"text\">why</th></tr></thead>\n<tbody>\n" +
          rows + "</tbody></table></div>" +
          (left > 0 ? "<p class=\"none\">" + counted(left, "more is", "more are") + " in summary.json.</p>"

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/results/run_summary.h"
+
+#include <gtest/gtest.h>
+
+#include "psi_slam/results/grid_map.h"
+#include "psi_slam/results/output_folder.h"
+#include "simulated_room.h"
+
+namespace psi_slam {
+namespace {
+
+RunSummary summary_of(const MappingResult& result) {
+  return summarize_run(result, *draw_grid_map(result.log, mapped_poses(result)));
+}
+
+TEST(RunSummary, tells_what_was_read) {
+  MappingResult result = walk_around_the_room();
+  std::swap(result.log[10].time_us, result.log[11].time_us);
+  const LogFacts log = summary_of(result).log;
+  EXPECT_EQ(log.scans, 50U);
+  EXPECT_EQ(log.beams, 181U);
+  EXPECT_NEAR(log.first_bearing_rad, -M_PI / 2, 1e-6);
+  EXPECT_NEAR(log.duration_s, 49 * 0.2, 1e-9);
+  EXPECT_EQ(log.stamps_back, 1U);
+  EXPECT_EQ(log.returns, 1);
+  EXPECT_NEAR(log.max_range_m, 30, 1e-6);
+}
+
+TEST(RunSummary, counts_loops_and_like_reasons_together) {
+  MappingResult result = walk_around_the_room();
+  LoopRecord refused = result.loops[0];
+  refused.reason = "response 0.5 is below 0.55";
+  result.loops.push_back(refused);
+  refused.reason = "the walls disagree";
+  refused.verdict = LoopVerdict::kSwitchedOff;
+  result.loops.push_back(refused);
+  const LoopCounts loops = summary_of(result).loops;
+  EXPECT_EQ(loops.accepted, 1U);
+  EXPECT_EQ(loops.refused, 2U);
+  EXPECT_EQ(loops.switched_off, 1U);
+  ASSERT_EQ(loops.reasons.size(), 2U);
+  EXPECT_EQ(loops.reasons[0].reason, "response … is below …");
+  EXPECT_EQ(loops.reasons[0].count, 2U);
+}
+
+TEST(RunSummary, tells_speed_memory_and_map) {
+  const RunSummary summary = summary_of(walk_around_the_room());
+  EXPECT_NEAR(summary.real_time_factor, 9.8 / 0.5, 1e-9);
+  EXPECT_GT(summary.peak_memory_mb, 1);
+  EXPECT_EQ(summary.nodes, 10U);
+  EXPECT_EQ(summary.local_maps, 2U);
+  EXPECT_NEAR(summary.map.x_min_m, -2, 0.11);
+  EXPECT_NEAR(summary.map.y_max_m, 3, 0.11);
+  EXPECT_NEAR(summary.map.free_m2, 6 * 4, 1.5);
+  EXPECT_NEAR(summary.path_length_m, 9.69, 0.4) << "around an ellipse of 2 m by 1 m, but for its last step";
+}
+
+TEST(RunSummary, a_robot_that_trembles_goes_nowhere) {
+  std::vector<mrpt::math::TPose2D> poses;
+  for (int i = 0; i < 1000; ++i) poses.emplace_back(i % 2 == 0 ? 0.03 : 0, 0, 0);
+  EXPECT_NEAR(path_length_m(poses), 0.03, 1e-9);
+  poses.clear();
+  for (int i = 0; i <= 1000; ++i) poses.emplace_back(0.01 * i, 0, 0);
+  EXPECT_NEAR(path_length_m(poses), 10, 1e-9);
+  EXPECT_EQ(path_length_m({}), 0);
+}
+
+TEST(RunSummary, an_empty_run_has_zeros) {
+  const RunSummary summary = summary_of({});
+  EXPECT_EQ(summary.log.scans, 0U);
+  EXPECT_EQ(summary.real_time_factor, 0);
+  EXPECT_EQ(summary.mean_response, 0);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/results/summary_json.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "simulated_room.h"
+
+namespace psi_slam {
+namespace {
+
+RunSummary some_figures() {
+  RunSummary summary;
+  summary.log.scans = 50;
+  summary.log.first_time_us = 976052905167303;
+  summary.log.duration_s = 9.8;
+  summary.loops.accepted = 1;
+  summary.loops.reasons = {{"response … is below …", 7}};
+  summary.real_time_factor = 19.6;
+  summary.peak_memory_mb = 123.4;
+  return summary;
+}
+
+TEST(SummaryJson, reads_back_with_its_schema_figures_and_loops) {
+  const MappingResult result = walk_around_the_room();
+  const RunInfo info{"0.1.0", "room \"1\".clf", {{"front_end.window_x_m", "0.3"}}};
+  const auto json = nlohmann::json::parse(summary_json(result, info, some_figures()));
+  EXPECT_EQ(json["schema"], "psi-slam-summary");
+  EXPECT_EQ(json["schema_version"], kSummarySchemaVersion);
+  EXPECT_EQ(json["program_version"], "0.1.0");
+  EXPECT_EQ(json["log"]["name"], "room \"1\".clf");
+  EXPECT_EQ(json["log"]["scans"], 50);
+  EXPECT_EQ(json["log"]["first_time_s"], "976052905.167303");
+  EXPECT_EQ(json["real_time_factor"], 19.6);
+  EXPECT_EQ(json["settings"]["front_end.window_x_m"], "0.3");
+  EXPECT_EQ(json["loop_counts"]["reasons"][0]["count"], 7);
+  ASSERT_EQ(json["loops"].size(), 2U);
+  EXPECT_EQ(json["loops"][0]["verdict"], "refused");
+  EXPECT_EQ(json["loops"][0]["reason"], "response 0.41 is below 0.55");
+  EXPECT_EQ(json["loops"][1]["verdict"], "accepted");
+  EXPECT_NEAR(json["loops"][1]["std_x_m"], 0.01, 1e-6);
+  EXPECT_EQ(json["stages"][0]["calls"], 50);
+}
+
+TEST(SummaryJson, survives_what_is_not_a_number_and_not_utf8) {
+  RunSummary summary = some_figures();
+  summary.mean_response = std::numeric_limits<double>::quiet_NaN();
+  const auto json = nlohmann::json::parse(summary_json({}, {"0.1.0", "caf\xe9.clf", {}}, summary));
+  EXPECT_TRUE(json["mean_response"].is_null());
+  EXPECT_EQ(json["loops"].size(), 0U);
+  EXPECT_TRUE(json["settings"].is_object());
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -81,9 +81,9 @@ TEST(OutputFolder, holds_all_files_under_their_fixed_names_and_nothing_else) {
   const TemporaryFolder temporary;
   export_room(OutputFolder::prepare(temporary.path() / "run", false));
   EXPECT_EQ(names_in(temporary.path() / "run"),
-            (std::set<std::string>{"frames.csv", "map.gridmap.gz", "map.pgm", "map.png", "map.simplemap.gz",
-                                   "map.yaml", "report.html", "summary.json", "trajectory.carmen",
-                                   "trajectory.tum"}));
+            (std::set<std::string>{"frames.csv", "loops.csv", "map.gridmap.gz", "map.pgm", "map.png",
+                                   "map.simplemap.gz", "map.yaml", "report.html", "summary.json",
+                                   "trajectory.carmen", "trajectory.tum"}));
 }
 
 TEST(OutputFolder, force_replaces_results_and_leaves_other_files_alone) {
@@ -126,7 +126,8 @@ TEST(OutputFolderDeathTest, a_full_disk_is_told_with_the_files_name_and_leaves_n
     const fs::path path = temporary.path() / std::to_string(limit);
     EXPECT_EXIT(
         export_to_a_full_disk(path, limit), ::testing::ExitedWithCode(1),
-        "cannot write .*/(trajectory.tum|trajectory.carmen|frames.csv|map.*|summary.json|report.html): File "
+        "cannot write "
+        ".*/(trajectory.tum|trajectory.carmen|frames.csv|loops.csv|map.*|summary.json|report.html): File "
         "too large");
     for (const std::string& name : names_in(path)) {
       EXPECT_EQ(name.find("partial"), std::string::npos) << name;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/results/frames_csv.h"
 
+#include "csv_text.h"
 #include "psi_slam/base/atomic_file.h"
 #include "psi_slam/results/number_text.h"
 
@@ -12,23 +13,11 @@ constexpr const char* kHeader =
     "map_x_m,map_y_m,map_theta_rad,node,response,window_x_m,window_y_m,window_theta_rad,"
     "loops_tried,loops_accepted,matcher,evaluations,front_end_ms,loop_closing_ms,pose_graph_ms\n";
 
-void append_pose(std::string& row, const mrpt::math::TPose2D& pose) {
-  for (const double value : {pose.x, pose.y, pose.phi}) row += ',' + fixed_text(value, 6);
-}
-
-/// A text as one CSV field (RFC 4180).
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
 std::string row_of(std::size_t index, const FrameRecord& frame) {
   std::string row = std::to_string(index) + ',' + format_seconds(frame.time_us);
-  append_pose(row, frame.odom_T_robot);
-  append_pose(row, frame.front_end_T_robot);
-  append_pose(row, frame.map_T_robot);
+  row += ',' + csv_pose(frame.odom_T_robot);
+  row += ',' + csv_pose(frame.front_end_T_robot);
+  row += ',' + csv_pose(frame.map_T_robot);
   row += ',' + (frame.node ? std::to_string(*frame.node) : "");
   row += ',' + fixed_text(frame.response, 4);
   row += ',' + fixed_text(frame.window.x_m, 4) + ',' + fixed_text(frame.window.y_m, 4) + ',' +

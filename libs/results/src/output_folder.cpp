@@ -10,6 +10,7 @@
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/results/corrected_log.h"
 #include "psi_slam/results/frames_csv.h"
+#include "psi_slam/results/loops_csv.h"
 #include "psi_slam/results/map_image.h"
 #include "psi_slam/results/map_server_pair.h"
 #include "psi_slam/results/mrpt_maps.h"
@@ -66,6 +67,7 @@ RunSummary export_all(const MappingResult& result, const RunInfo& info,
   write_tum(file("trajectory.tum"), trajectory_of(result));
   write_corrected_log(file("trajectory.carmen"), result.log, mapped_poses(result));
   write_frames_csv(file("frames.csv"), result.frames);
+  write_loops_csv(file("loops.csv"), result.loops);
   write_map_image(file("map.png"), grid);
   write_map_server_pair(file("map.yaml"), grid);
   write_grid_map(file("map.gridmap.gz"), grid);

@@ -30,6 +30,7 @@ constexpr const char* kFiles =
     "<li><a href=\"trajectory.carmen\">trajectory.carmen</a> <span>the corrected log</span></li>\n"
     "<li><a href=\"graph.g2o\">graph.g2o</a> <span>the pose graph</span></li>\n"
     "<li><a href=\"frames.csv\">frames.csv</a> <span>a row for each scan</span></li>\n"
+    "<li><a href=\"loops.csv\">loops.csv</a> <span>a row for each loop tried</span></li>\n"
     "<li><a href=\"summary.json\">summary.json</a> <span>these figures for programs</span></li>\n"
     "</ul>\n";
 
@@ -55,6 +56,15 @@ std::string head(const std::string& title) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
          title + " – psi-slam</title>\n<style>" + kReportStyle + "</style>\n</head>\n";
+}
+
+constexpr const char* kKey = "<span class=\"key\"></span>mean<span class=\"key range\"></span>least to most";
+
+std::string response_key(const RunSummary& summary) {
+  std::string key = fixed_text(summary.mean_response, 2) + " on average" + kKey;
+  if (summary.loops.accepted > summary.loops.accepted_in_last_pass)
+    key += "<span class=\"key loops\"></span>a loop was closed";
+  return key;
 }
 
 std::string loops_card(const MappingResult& result, const LoopCounts& loops) {
@@ -84,15 +94,9 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
         counted(summary.log.scans, "scan", "scans") + ".</section>\n";
   html += key_figures(summary);
   html += card("Map", "", report_map(result, grid));
-  html +=
-      card("Response of the front end",
-           "<span class=\"key\"></span>mean<span class=\"key range\"></span>least to most<span class=\"key "
-           "loops\"></span>a loop was closed",
-           response_plot(result));
+  html += card("Response of the front end", response_key(summary), response_plot(result));
   html += card("Where the time went", "", stages_table(result.stages, result.wall_s));
-  html += card("Work for each scan",
-               "<span class=\"key\"></span>mean<span class=\"key range\"></span>least to most",
-               work_plot(result));
+  html += card("Work for each scan", kKey, work_plot(result));
   html += loops_card(result, summary.loops);
   html += "<div class=\"pair\">\n" + card("What was read", "", log_table(summary.log, info.log_name)) +
           card("Files of this folder", "", kFiles) + "</div>\n";

@@ -16,7 +16,7 @@ namespace {
 using mrpt::math::TPose2D;
 
 constexpr int kImageSide_px = 2000;
-constexpr std::size_t kDrawnLoopsOfAKind = 1500;
+constexpr std::size_t kDrawnLoopsOfAKind = 500;  ///< more would hide the map
 
 struct Pixel {
   double x = 0;
@@ -113,16 +113,27 @@ std::string loop_title(const LoopRecord& loop) {
   return title;
 }
 
+std::size_t count_of(const MappingResult& result, LoopVerdict verdict) {
+  return static_cast<std::size_t>(
+      std::count_if(result.loops.begin(), result.loops.end(),
+                    [&](const LoopRecord& loop) { return loop.verdict == verdict; }));
+}
+
+/// The loops of one verdict, or evenly chosen ones where there are too many.
 std::string loop_layer(const char* name, const MappingResult& result, LoopVerdict verdict,
                        const Projection& project) {
   const auto place = [&](std::size_t node) {
     return project(result.frames.at(result.node_frames.at(node)).map_T_robot);
   };
+  const std::size_t count = count_of(result, verdict);
+  const std::size_t drawn = std::min(count, kDrawnLoopsOfAKind);
   std::string svg = "<g class=\"layer loop " + std::string(name) + "\">\n";
-  std::size_t drawn = 0;
+  std::size_t seen = 0;
   for (const LoopRecord& loop : result.loops) {
-    if (loop.verdict != verdict || drawn == kDrawnLoopsOfAKind) continue;
-    ++drawn;
+    if (loop.verdict != verdict) continue;
+    const bool chosen = seen * drawn / count != (seen + 1) * drawn / count;
+    ++seen;
+    if (!chosen) continue;
     svg += "<path d=\"M" + text(place(loop.anchor)) + 'L' + text(place(loop.node)) + "\"><title>" +
            escape_html(loop_title(loop)) + "</title></path>\n";
   }
@@ -187,9 +198,15 @@ std::string toggle(const char* layer, const std::string& label, bool shown, cons
 }
 
 std::string loops_label(const char* what, const MappingResult& result, LoopVerdict verdict) {
-  const auto count = std::count_if(result.loops.begin(), result.loops.end(),
-                                   [&](const LoopRecord& loop) { return loop.verdict == verdict; });
-  return std::string(what) + " (" + grouped(static_cast<std::int64_t>(count)) + ')';
+  return std::string(what) + " (" + grouped(static_cast<std::int64_t>(count_of(result, verdict))) + ')';
+}
+
+std::string sampling_note(const MappingResult& result) {
+  for (const LoopVerdict verdict : {LoopVerdict::kAccepted, LoopVerdict::kRefused, LoopVerdict::kSwitchedOff})
+    if (count_of(result, verdict) > kDrawnLoopsOfAKind)
+      return "Of loops of a kind at most " + std::to_string(kDrawnLoopsOfAKind) +
+             " are drawn, evenly chosen. ";
+  return {};
 }
 
 }  // namespace
@@ -223,16 +240,16 @@ std::string report_map(const MappingResult& result, const mrpt::maps::COccupancy
           "\"/>\n";
   html += path_layer("odometry", odometry);
   html += path_layer("front-end", front_end);
-  const Path trajectory = path_of(result, &FrameRecord::map_T_robot, project);
-  html += trajectory_layer(trajectory);
   html += loop_layer("refused", result, LoopVerdict::kRefused, project);
   html += loop_layer("switched-off", result, LoopVerdict::kSwitchedOff, project);
   html += loop_layer("accepted", result, LoopVerdict::kAccepted, project);
+  const Path trajectory = path_of(result, &FrameRecord::map_T_robot, project);
+  html += trajectory_layer(trajectory);
   html += ends_layer(trajectory) + scale_bar(picture);
   html += "</svg>\n</div>\n";
-  html +=
-      "<p class=\"legend\"><span class=\"ramp\"></span> trajectory from <b>start</b> to <b>end</b>. "
-      "<span class=\"hint\">Wheel zooms, dragging moves, a double click shows all.</span></p>\n</div>\n";
+  html += "<p class=\"legend\"><span class=\"ramp\"></span> trajectory from <b>start</b> to <b>end</b>. " +
+          sampling_note(result) +
+          "<span class=\"hint\">Wheel zooms, dragging moves, a double click shows all.</span></p>\n</div>\n";
   return html;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kWidth = 1000;
 constexpr double kHeight = 230;
-constexpr double kLeft = 56;
+constexpr double kLeft = 66;
 constexpr double kRight = 12;
 constexpr double kTop = 12;
 constexpr double kBottom = 34;

@@ -71,7 +71,7 @@ label[for=show-odometry] { --mark: #8b93a3; }
 .trajectory path.end { stroke: #f77e18; stroke-width: 11px; }
 .odometry path { stroke: #8b93a3; stroke-width: 1.3px; }
 .front-end path { stroke: #1c9fb8; stroke-width: 1.3px; }
-.loop path { stroke-width: 1.5px; opacity: .6; }
+.loop path { stroke-width: 1.3px; opacity: .5; }
 .loop path:hover { stroke-width: 6px; opacity: 1; }
 .accepted path { stroke: var(--good); }
 .refused path { stroke: var(--bad); opacity: .45; }

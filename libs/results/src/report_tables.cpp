@@ -173,7 +173,8 @@ std::string loops_table(const MappingResult& result) {
          "th><th>reverse</th><th>moved, m</th><th>ms</th>"
          "<th class=\"text\">why</th></tr></thead>\n<tbody>\n" +
          rows + "</tbody></table></div>" +
-         (left > 0 ? "<p class=\"none\">" + counted(left, "more is", "more are") + " in summary.json.</p>"
+         (left > 0 ? "<p class=\"none\">" + counted(left, "more is", "more are") +
+                         " in <a href=\"loops.csv\">loops.csv</a>.</p>"
                    : "") +
          "</details>\n";
 }

@@ -14,7 +14,7 @@ std::string log_table(const LogFacts& log, const std::string& name);
 std::string reasons_table(const LoopCounts& loops);
 std::string stages_table(const std::vector<StageTiming>& stages, double wall_s);
 
-/// The first loops of each verdict, folded away; the summary has them all.
+/// The first loops of each verdict, folded away; loops.csv has them all.
 std::string loops_table(const MappingResult& result);
 
 /// One table a section, folded away.

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "verdict_text.h"
-
 namespace psi_slam {
 namespace {
 
@@ -69,35 +67,6 @@ Json stages_json(const std::vector<StageTiming>& stages) {
   return list;
 }
 
-Json loops_json(const std::vector<LoopRecord>& loops) {
-  Json list = Json::array();
-  for (const LoopRecord& loop : loops)
-    list.push_back({{"frame", loop.frame},
-                    {"node", loop.node},
-                    {"local_map", loop.local_map},
-                    {"anchor", loop.anchor},
-                    {"matcher", loop.matcher},
-                    {"in_last_pass", loop.in_last_pass},
-                    {"anchor_T_node", pose_json(loop.anchor_T_node)},
-                    {"std_x_m", number(std::sqrt(loop.covariance(0, 0)))},
-                    {"std_y_m", number(std::sqrt(loop.covariance(1, 1)))},
-                    {"std_theta_rad", number(std::sqrt(loop.covariance(2, 2)))},
-                    {"window_x_m", number(loop.window.x_m, 4)},
-                    {"window_y_m", number(loop.window.y_m, 4)},
-                    {"window_theta_rad", number(loop.window.theta_rad, 4)},
-                    {"response", number(loop.response, 4)},
-                    {"ambiguity", number(loop.ambiguity, 4)},
-                    {"observed_share", number(loop.observed_share, 4)},
-                    {"neighbours_agree", number(loop.neighbours_agree, 4)},
-                    {"reverse_agree", number(loop.reverse_agree, 4)},
-                    {"moved_m", number(loop.moved_m, 4)},
-                    {"evaluations", loop.evaluations},
-                    {"verdict", verdict_text(loop.verdict)},
-                    {"reason", loop.reason},
-                    {"milliseconds", number(loop.milliseconds, 4)}});
-  return list;
-}
-
 }  // namespace
 
 std::string summary_json(const MappingResult& result, const RunInfo& info, const RunSummary& summary) {
@@ -118,8 +87,7 @@ std::string summary_json(const MappingResult& result, const RunInfo& info, const
                      {"peak_memory_mb", number(summary.peak_memory_mb, 1)},
                      {"stages", stages_json(result.stages)},
                      {"loop_counts", loop_counts_json(summary.loops)},
-                     {"settings", info.settings},
-                     {"loops", loops_json(result.loops)}};
+                     {"settings", info.settings}};
   // Names and reasons are whatever bytes the user's files had: what is no UTF-8 is replaced, not refused.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }

@@ -4,7 +4,7 @@
 //     map.png  map.yaml  map.pgm            the gridmap as a picture, and for map_server
 //     map.gridmap.gz  map.simplemap.gz      the gridmap, and the nodes with their scans, for MRPT
 //     trajectory.tum  trajectory.carmen     the trajectory of all scans, and the corrected log
-//     frames.csv  summary.json  report.html
+//     frames.csv  loops.csv  summary.json  report.html
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

@@ -14,7 +14,8 @@ namespace psi_slam {
 
 inline constexpr int kSummarySchemaVersion = 1;
 
-/// The summary with every loop tried, as JSON text with a line end. Figures that are not finite become null.
+/// The summary as JSON text with a line end. (Each single loop is in loops.csv, each scan in frames.csv.)
+/// Figures that are not finite become null.
 std::string summary_json(const MappingResult& result, const RunInfo& info, const RunSummary& summary);
 
 }  // namespace psi_slam

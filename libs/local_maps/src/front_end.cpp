@@ -21,13 +21,16 @@ MatcherOptions matcher_options(const FrontEndOptions& options) {
   return matcher;
 }
 
-PosePrior prior_at(const TPose2D& map_T_robot, const FrontEndOptions& options) {
-  PosePrior prior;
-  prior.map_T_robot = map_T_robot;
-  const double along = 1 / (options.prior_sigma_m * options.prior_sigma_m);
-  const double turned = 1 / (options.prior_sigma_rad * options.prior_sigma_rad);
-  prior.information.diagonal() << along, along, turned;
-  return prior;
+// How far odometry's motion and a steady robot's, that of the last step, are apart: a wheel that slips, an
+// encoder that stalls or catches up, and a stamp that is late all show here.
+struct Surprise {
+  double m;
+  double rad;
+};
+
+Surprise surprise(const TPose2D& motion, const TPose2D& last_motion) {
+  return {std::hypot(motion.x - last_motion.x, motion.y - last_motion.y),
+          std::abs(mrpt::math::wrapToPi(motion.phi - last_motion.phi))};
 }
 
 }  // namespace
@@ -37,44 +40,73 @@ FrontEnd::FrontEnd(const FrontEndOptions& options) : options_(options), matcher_
 FrontEndStep FrontEnd::add(const Frame& frame) {
   FrontEndStep step;
   step.points = std::make_shared<const ScanPoints>(matching_points(frame.scan, options_.scan));
-  const TPose2D predicted = predict(frame);
-  step.window = window_after(predicted - last_local_T_robot_);
-  step.local_T_robot = predicted;
-  if (!active_.empty() && !step.points->points.empty()) match(step, predicted);
+  const TPose2D motion = last_ ? frame.odom_T_robot - last_->odom_T_robot : TPose2D(0, 0, 0);
+  step.local_T_robot = last_local_T_robot_ + motion;
+  step.window = search_extent(motion);
+  if (!active_.empty() && !step.points->points.empty()) match(step, motion);
   if (active_.empty() || moved_enough(step.local_T_robot)) insert(step, frame);
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}};
+  last_motion_ = step.local_T_robot - last_local_T_robot_;
   last_local_T_robot_ = step.local_T_robot;
+  misses_ = step.matched ? 0 : misses_ + 1;
   return step;
 }
 
-TPose2D FrontEnd::predict(const Frame& frame) const {
-  if (!last_) return TPose2D(0, 0, 0);
-  return last_local_T_robot_ + (frame.odom_T_robot - last_->odom_T_robot);
+SearchExtent FrontEnd::search_extent(const TPose2D& motion) const {
+  const Surprise off = surprise(motion, last_motion_);
+  const double lost = 1 + misses_;
+  const double half_m = lost * (options_.window_m + options_.window_per_metre * length_m(motion) + off.m);
+  const double half_rad =
+      lost * (options_.window_rad + options_.window_rad_per_metre * length_m(motion) +
+              options_.window_per_radian * std::abs(mrpt::math::wrapToPi(motion.phi)) + off.rad);
+  return {std::min(half_m, options_.max_window_m), std::min(half_m, options_.max_window_m),
+          std::min(half_rad, options_.max_window_rad)};
 }
 
-SearchExtent FrontEnd::window_after(const TPose2D& motion) const {
-  const double moved_m = length_m(motion);
-  const double turned = std::abs(mrpt::math::wrapToPi(motion.phi));
-  const double half_m =
-      std::min(options_.max_window_m, options_.window_m + options_.window_per_metre * moved_m);
-  return {half_m, half_m,
-          std::min(options_.max_window_rad, options_.window_rad + options_.window_per_radian * turned +
-                                                options_.window_rad_per_metre * moved_m)};
+PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const TPose2D& motion) const {
+  const Surprise off = surprise(motion, last_motion_);
+  const double sigma_m = options_.prior_sigma_m + options_.prior_per_metre * length_m(motion) +
+                         options_.prior_per_surprise * off.m;
+  const double sigma_rad = options_.prior_sigma_rad +
+                           options_.prior_per_radian * std::abs(mrpt::math::wrapToPi(motion.phi)) +
+                           options_.prior_per_surprise * off.rad;
+  PosePrior prior;
+  prior.map_T_robot = map_T_robot;
+  prior.information.diagonal() << 1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m),
+      1 / (sigma_rad * sigma_rad);
+  return prior;
 }
 
-void FrontEnd::match(FrontEndStep& step, const TPose2D& predicted) const {
-  const ActiveLocalMap& older = active_.front();
-  const TPose2D map_T_predicted = predicted - older.local_T_map;
-  MatchProblem problem{older.map->scores(), *step.points, map_T_predicted, step.window};
-  problem.min_response = options_.min_response;
-  problem.prior = prior_at(map_T_predicted, options_);
-  const MatchResult match = matcher_.match(problem);
-  step.evaluations = match.evaluations;
-  if (!match.found) return;
+void FrontEnd::match(FrontEndStep& step, const TPose2D& motion) {
+  const PlacedLocalMap& older = active_.front();
+  const Surprise off = surprise(motion, last_motion_);
+  std::vector<TPose2D> motions = {motion};
+  if (off.m > options_.max_window_m || off.rad > options_.max_window_rad) motions.push_back(last_motion_);
+  std::optional<MatchResult> best;
+  PosePrior best_prior;
+  for (const TPose2D& hypothesis : motions) {
+    const PosePrior prior = this->prior(last_local_T_robot_ + hypothesis - older.local_T_map, motion);
+    MatchProblem problem{older.map->scores(), *step.points, prior.map_T_robot, step.window};
+    problem.min_response = options_.min_response;
+    problem.prior = prior;
+    const MatchResult match = matcher_.match(problem);
+    step.evaluations += match.evaluations;
+    if (!match.found || (best && match.response <= best->response)) continue;
+    best = match;
+    best_prior = prior;
+  }
+  if (!best) return;
   step.matched = true;
-  step.response = match.response;
-  step.information = match.information;
-  step.local_T_robot = older.local_T_map + match.map_T_robot;
+  step.response = best->response;
+  step.information = best->information;
+  step.local_T_robot = older.local_T_map + best->map_T_robot;
+
+  const RefinedPose predicted =
+      refine(older.map->scores(), *step.points, best_prior.map_T_robot, options_.refinement, best_prior);
+  if (predicted.mean_score >= options_.prediction_share * best->refined_response) {
+    step.information = predicted.information;
+    step.local_T_robot = older.local_T_map + predicted.map_T_robot;
+  }
 }
 
 bool FrontEnd::moved_enough(const TPose2D& local_T_robot) const {
@@ -84,7 +116,7 @@ bool FrontEnd::moved_enough(const TPose2D& local_T_robot) const {
 }
 
 void FrontEnd::begin_local_map(std::size_t node, const TPose2D& local_T_robot) {
-  ActiveLocalMap begun;
+  PlacedLocalMap begun;
   begun.id = next_local_map_++;
   begun.anchor = node;
   begun.local_T_map = local_T_robot;
@@ -100,19 +132,19 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
   const double moved_m = node == 0 ? 0 : length_m(step.local_T_robot - last_node_local_T_robot_);
   last_node_local_T_robot_ = step.local_T_robot;
 
-  for (ActiveLocalMap& active : active_) {
+  for (PlacedLocalMap& active : active_) {
     active.last_node = node;
     active.travelled_m += moved_m;
     step.memberships.push_back({active.id, active.anchor, step.local_T_robot - active.local_T_map});
   }
-  const auto share = [&](const ActiveLocalMap& active) {
+  const auto share = [&](const PlacedLocalMap& active) {
     return std::max(static_cast<double>(active.last_node - active.first_node) /
                         static_cast<double>(options_.nodes_per_local_map),
                     active.travelled_m / options_.local_map_travel_m);
   };
   if (active_.empty() || (active_.size() == 1 && share(active_.front()) >= 0.5))
     begin_local_map(node, step.local_T_robot);
-  for (ActiveLocalMap& active : active_) {
+  for (PlacedLocalMap& active : active_) {
     active.map->insert(drawing_beams(frame.scan, step.local_T_robot - active.local_T_map,
                                      options_.scan.min_range_m, options_.local_map.max_insert_range_m));
   }
@@ -126,9 +158,9 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
   }
 }
 
-std::vector<ActiveLocalMap> FrontEnd::finish() {
-  std::vector<ActiveLocalMap> finished;
-  for (ActiveLocalMap& active : active_) {
+std::vector<PlacedLocalMap> FrontEnd::finish() {
+  std::vector<PlacedLocalMap> finished;
+  for (PlacedLocalMap& active : active_) {
     active.map->finish();
     finished.push_back(active);
   }

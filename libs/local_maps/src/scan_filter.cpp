@@ -5,6 +5,55 @@
 #include <cmath>
 
 namespace psi_slam {
+namespace {
+
+using Point = mrpt::math::TPoint2Df;
+
+constexpr std::ptrdiff_t kReach = 3;  // neighbours on either side that a line is fitted to
+constexpr float kMaxGap_m = 0.4F;     // between neighbours on one surface,
+constexpr float kMaxGapPerMetre =
+    0.15F;  // or this share of their distance: far walls are seen at grazing angles
+constexpr float kMaxResidual_m = 0.04F;  // root mean square, of points on a straight surface
+
+bool on_one_surface(const Point& a, const Point& b) {
+  const float gap = std::hypot(a.x - b.x, a.y - b.y);
+  return gap <= std::max(kMaxGap_m, kMaxGapPerMetre * std::hypot(a.x, a.y));
+}
+
+// The normal of the line through a point and its neighbours, (0, 0) when they do not lie on one.
+Point normal_at(const std::vector<Point>& points, std::size_t index) {
+  const auto size = static_cast<std::ptrdiff_t>(points.size());
+  const auto i = static_cast<std::ptrdiff_t>(index);
+  std::ptrdiff_t first = i;
+  std::ptrdiff_t last = i;
+  while (first > 0 && i - first < kReach && on_one_surface(points[first], points[first - 1])) --first;
+  while (last + 1 < size && last - i < kReach && on_one_surface(points[last], points[last + 1])) ++last;
+  const auto count = static_cast<float>(last - first + 1);
+  if (count < 4) return {0, 0};
+  float mean_x = 0;
+  float mean_y = 0;
+  for (std::ptrdiff_t k = first; k <= last; ++k) mean_x += points[k].x, mean_y += points[k].y;
+  mean_x /= count;
+  mean_y /= count;
+  float xx = 0;
+  float xy = 0;
+  float yy = 0;
+  for (std::ptrdiff_t k = first; k <= last; ++k) {
+    const float dx = points[k].x - mean_x;
+    const float dy = points[k].y - mean_y;
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+  }
+  const float half_difference = 0.5F * (xx - yy);
+  const float root = std::hypot(half_difference, xy);
+  const float smaller = 0.5F * (xx + yy) - root;
+  if (smaller > count * kMaxResidual_m * kMaxResidual_m) return {0, 0};
+  const float along = 0.5F * std::atan2(xy, half_difference);
+  return {-std::sin(along), std::cos(along)};
+}
+
+}  // namespace
 
 ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& options) {
   ScanPoints result;
@@ -27,6 +76,8 @@ ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& optio
     farthest_squared = std::max(farthest_squared, x * x + y * y);
     result.points.emplace_back(static_cast<float>(x), static_cast<float>(y));
   }
+  for (std::size_t i = 0; i < result.points.size(); ++i)
+    result.normals.push_back(normal_at(result.points, i));
   result.farthest_m = std::sqrt(farthest_squared);
   return result;
 }

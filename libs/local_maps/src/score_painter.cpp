@@ -9,7 +9,7 @@ namespace {
 
 using Grid = mrpt::maps::COccupancyGridMap2D;
 
-// A cell this likely occupied is full evidence.
+// A cell this likely occupied is full evidence: two hits are, so that thinned logs can be matched as well.
 const double kCertain = getenv("CERT") ? atof(getenv("CERT")) : 0.75;
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace psi_slam {
 namespace {
 
-double nearest_node_m(const ActiveLocalMap& local_map, const mrpt::math::TPose2D& map_T_node,
+double nearest_node_m(const PlacedLocalMap& local_map, const mrpt::math::TPose2D& map_T_node,
                       const PoseGraph& graph) {
   double nearest_squared = std::numeric_limits<double>::infinity();
   for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other) {
@@ -19,7 +19,7 @@ double nearest_node_m(const ActiveLocalMap& local_map, const mrpt::math::TPose2D
   return std::sqrt(nearest_squared);
 }
 
-double travel_between_m(std::size_t node, const ActiveLocalMap& local_map, const PlaceMemory& memory) {
+double travel_between_m(std::size_t node, const PlacedLocalMap& local_map, const PlaceMemory& memory) {
   if (node > local_map.last_node)
     return memory.nodes[node].travelled_m - memory.nodes[local_map.last_node].travelled_m;
   if (node < local_map.first_node)
@@ -36,7 +36,7 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const PlaceMemory& 
   std::vector<LoopCandidate> candidates;
   const mrpt::math::TPose2D& map_T_node = graph.pose(node);
   for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
-    const ActiveLocalMap& local_map = memory.local_maps[m];
+    const PlacedLocalMap& local_map = memory.local_maps[m];
     if (travel_between_m(node, local_map, memory) < options.min_travel_m) continue;
     const double half_m = std::clamp(options.window_sigmas * sigma_of_anchor[m].metres, options.min_window_m,
                                      options.max_window.x_m);

@@ -20,7 +20,7 @@ std::vector<PositionSigma> sigma_of_anchors(std::size_t node, const PlaceMemory&
                                             const PoseGraph& graph) {
   const std::vector<RelativeUncertainty> uncertainties = path_covariances(graph, node);
   std::vector<PositionSigma> sigma;
-  for (const ActiveLocalMap& local_map : memory.local_maps) {
+  for (const PlacedLocalMap& local_map : memory.local_maps) {
     const RelativeUncertainty& anchor = uncertainties[local_map.anchor];
     const double heading = std::sqrt(anchor.covariance(2, 2));
     const mrpt::math::TPose2D between = graph.pose(node) - graph.pose(local_map.anchor);
@@ -40,7 +40,7 @@ std::vector<LoopRecord> LoopCloser::close(std::size_t node, const PlaceMemory& m
   last_attempt_m_.resize(memory.local_maps.size(), -std::numeric_limits<double>::infinity());
   const std::vector<PositionSigma> sigma = sigma_of_anchors(node, memory, graph);
   for (const LoopCandidate& candidate : loop_candidates(node, memory, graph, sigma, options_.candidates)) {
-    const ActiveLocalMap& local_map = memory.local_maps[candidate.local_map];
+    const PlacedLocalMap& local_map = memory.local_maps[candidate.local_map];
     if (here.travelled_m - last_attempt_m_[candidate.local_map] < options_.attempt_distance_m) continue;
     last_attempt_m_[candidate.local_map] = here.travelled_m;
     ++tried_;

@@ -52,7 +52,7 @@ LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const PlaceMemo
 
 // The local map's scans taken nearest to the matched pose, seen from the scan.
 RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const PlaceMemory& memory) {
-  const ActiveLocalMap& local_map = memory.local_maps[loop.local_map];
+  const PlacedLocalMap& local_map = memory.local_maps[loop.local_map];
   const TPose2D& local_T_anchor = memory.nodes[local_map.anchor].local_T_robot;
   std::size_t nearest = local_map.first_node;
   double nearest_m = std::numeric_limits<double>::infinity();

@@ -73,7 +73,7 @@ void Mapper::add_node(const FrontEndStep& step, std::size_t frame) {
   }
 }
 
-void Mapper::remember(const ActiveLocalMap& finished) {
+void Mapper::remember(const PlacedLocalMap& finished) {
   memory_.local_maps.push_back(finished);
   result_.local_maps.push_back({finished.anchor, finished.first_node, finished.last_node});
 }
@@ -123,7 +123,7 @@ void Mapper::switch_off_contradicted_loops() {}
 
 void Mapper::last_pass() {
   for (std::size_t m = 0; m < memory_.local_maps.size(); ++m) {
-    const ActiveLocalMap& local_map = memory_.local_maps[m];
+    const PlacedLocalMap& local_map = memory_.local_maps[m];
     double last_m = -1e9;
     for (std::size_t node = 0; node < memory_.nodes.size(); ++node) {
       const NodeScan& here = memory_.nodes[node];
@@ -187,7 +187,7 @@ void Mapper::carry_frames_along() {
 }
 
 MappingResult Mapper::finish() {
-  for (const ActiveLocalMap& finished : front_end_.finish()) remember(finished);
+  for (const PlacedLocalMap& finished : front_end_.finish()) remember(finished);
   if (options_.close_loops && !memory_.nodes.empty()) {
     optimize(nullptr);
     for (int pass = 0; pass < options_.last_passes; ++pass) {

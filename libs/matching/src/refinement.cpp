@@ -22,16 +22,30 @@ struct Linearisation {
   Eigen::Vector3d descent = Eigen::Vector3d::Zero();
 };
 
+// A straight surface says nothing of where along it a point lies: what slope the grid has in that direction
+// is noise.
+void keep_normal_part(ScoreGrid::Sample& sample, const mrpt::math::TPoint2Df& normal, double c, double s) {
+  if (normal.x == 0.0F && normal.y == 0.0F) return;
+  const double x = c * static_cast<double>(normal.x) - s * static_cast<double>(normal.y);
+  const double y = s * static_cast<double>(normal.x) + c * static_cast<double>(normal.y);
+  const double slope = sample.d_dx * x + sample.d_dy * y;
+  sample.d_dx = slope * x;
+  sample.d_dy = slope * y;
+}
+
 Linearisation linearise(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D& pose,
                         double score_sigma, const std::optional<PosePrior>& prior) {
   Linearisation result;
   const double c = std::cos(pose.phi);
   const double s = std::sin(pose.phi);
   Eigen::Vector3d jacobian;
-  for (const auto& point : scan.points) {
+  const bool with_normals = !scan.normals.empty();
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const auto& point = scan.points[i];
     const double dx = c * static_cast<double>(point.x) - s * static_cast<double>(point.y);
     const double dy = s * static_cast<double>(point.x) + c * static_cast<double>(point.y);
-    const ScoreGrid::Sample sample = grid.interpolate(pose.x + dx, pose.y + dy);
+    ScoreGrid::Sample sample = grid.interpolate(pose.x + dx, pose.y + dy);
+    if (with_normals) keep_normal_part(sample, scan.normals[i], c, s);
     const double residual = 1 - sample.value;
     result.cost += residual * residual;
     result.mean_score += sample.value;

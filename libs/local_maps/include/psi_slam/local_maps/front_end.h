@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "psi_slam/local_maps/local_map.h"
+#include "psi_slam/local_maps/placed_local_map.h"
 #include "psi_slam/local_maps/scan_filter.h"
 #include "psi_slam/logs/frame.h"
 #include "psi_slam/matching/correlative_matcher.h"
@@ -27,34 +28,34 @@ struct FrontEndOptions {
   LocalMapOptions local_map;
   RefinementOptions refinement;
 
-  double window_m = 0.15;  ///< half-width of the search window for a robot that stands still,
+  // The search window: half-widths of a robot that stands still, and how they grow with the motion that
+  // odometry reports. What odometry and a steady robot (the last step's motion again) disagree about is
+  // added.
+  double window_m = 0.15;
   double window_rad = 0.12;
-  double window_per_metre = 0.3;   ///< and how much it grows with the motion that odometry reports
-  double window_per_radian = 0.6;  ///< (metres per metre, radians per radian)
+  double window_per_metre = 0.3;
+  double window_per_radian = 0.6;
   double window_rad_per_metre = 0.15;
   double max_window_m = 1.0;
   double max_window_rad = 0.6;
   double min_response = 0.25;  ///< a match below this is not believed: the prediction stands
 
-  double prior_sigma_m = 0.10;  ///< of the prediction, for the refinement: holds the pose along corridors
+  // The standard deviations of the prediction, which hold the pose where the scan does not (along corridors):
+  // of a robot that stands still, and how they grow with the motion and with the disagreement above.
+  double prior_sigma_m = 0.03;
   double prior_sigma_rad = 0.10;
+  double prior_per_metre = 0.1;
+  double prior_per_radian = 0.5;
+  double prior_per_surprise = 0.5;
+  /// Refined straight from the prediction, a pose that scores at least this share of the searched one is
+  /// preferred: along a corridor the search's best is decided by noise.
+  double prediction_share = 0.95;
 
-  double node_distance_m = 0.2;     ///< a scan becomes a node when the robot moved this far,
-  double node_rotation_rad = 0.15;  ///< turned this much since the last node
+  double node_distance_m = 0.2;     ///< a scan becomes a node when the robot moved this far
+  double node_rotation_rad = 0.15;  ///< or turned this much since the last node
   std::size_t nodes_per_local_map =
-      60;                            ///< a local map ends after these many, the next begins at half of them
+      60;                            ///< a local map ends after these many, the next begins at half of them,
   double local_map_travel_m = 15.0;  ///< or when the robot has travelled this far in it
-};
-
-/// A local map in the mapper's hands: from its first scan on, shared between front end and loop closing.
-struct ActiveLocalMap {
-  std::size_t id = 0;
-  std::size_t anchor = 0;           ///< the node it began with
-  mrpt::math::TPose2D local_T_map;  ///< the anchor's pose in the front end's frame
-  std::size_t first_node = 0;
-  std::size_t last_node = 0;
-  double travelled_m = 0;
-  std::shared_ptr<LocalMap> map;
 };
 
 /// What became of one scan.
@@ -76,7 +77,7 @@ struct FrontEndStep {
     mrpt::math::TPose2D anchor_T_node;
   };
   std::vector<Membership> memberships;
-  std::optional<ActiveLocalMap> finished;  ///< a local map that this node completed
+  std::optional<PlacedLocalMap> finished;  ///< a local map that this node completed
 };
 
 class FrontEnd {
@@ -87,23 +88,25 @@ class FrontEnd {
   FrontEndStep add(const Frame& frame);
 
   /// Ends the local maps that are still active and returns them, older first.
-  std::vector<ActiveLocalMap> finish();
+  std::vector<PlacedLocalMap> finish();
 
  private:
-  mrpt::math::TPose2D predict(const Frame& frame) const;
-  SearchExtent window_after(const mrpt::math::TPose2D& motion) const;
-  void match(FrontEndStep& step, const mrpt::math::TPose2D& predicted) const;
+  SearchExtent search_extent(const mrpt::math::TPose2D& motion) const;
+  PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const mrpt::math::TPose2D& motion) const;
+  void match(FrontEndStep& step, const mrpt::math::TPose2D& motion);
   bool moved_enough(const mrpt::math::TPose2D& local_T_robot) const;
   void insert(FrontEndStep& step, const Frame& frame);
   void begin_local_map(std::size_t node, const mrpt::math::TPose2D& local_T_robot);
 
   FrontEndOptions options_;
   CorrelativeMatcher matcher_;
-  std::vector<ActiveLocalMap> active_;  ///< older first, at most two
+  std::vector<PlacedLocalMap> active_;  ///< older first, at most two
   std::size_t next_local_map_ = 0;
   std::size_t next_node_ = 0;
   std::optional<Frame> last_;  ///< without its ranges
   mrpt::math::TPose2D last_local_T_robot_;
+  mrpt::math::TPose2D last_motion_;
+  int misses_ = 0;  ///< scans in a row that were not matched
   mrpt::math::TPose2D last_node_local_T_robot_;
 };
 

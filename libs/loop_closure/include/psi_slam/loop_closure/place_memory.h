@@ -23,7 +23,7 @@ struct NodeScan {
 
 struct PlaceMemory {
   std::vector<NodeScan> nodes;             ///< by node number
-  std::vector<ActiveLocalMap> local_maps;  ///< finished ones, in the order of their ids
+  std::vector<PlacedLocalMap> local_maps;  ///< finished ones, in the order of their ids
 };
 
 }  // namespace psi_slam

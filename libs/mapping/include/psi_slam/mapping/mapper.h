@@ -52,7 +52,7 @@ class Mapper {
 
  private:
   void add_node(const FrontEndStep& step, std::size_t frame);
-  void remember(const ActiveLocalMap& finished);
+  void remember(const PlacedLocalMap& finished);
   void close_loops(std::size_t node, FrameRecord& record);
   void add_loop_constraint(LoopRecord& loop);
   void optimize(FrameRecord* record);

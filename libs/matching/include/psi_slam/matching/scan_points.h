@@ -11,6 +11,9 @@ namespace psi_slam {
 /// Points of one scan in the robot's frame, metres.
 struct ScanPoints {
   std::vector<mrpt::math::TPoint2Df> points;
+  /// For each point the unit normal of the straight surface it lies on, (0, 0) where there is none; empty:
+  /// unknown.
+  std::vector<mrpt::math::TPoint2Df> normals;
   mrpt::math::TPoint2Df origin{0, 0};  ///< of the beams: the laser's position on the robot
   double farthest_m = 0;  ///< d_max of equation 7: the largest distance of a point from the robot
 };

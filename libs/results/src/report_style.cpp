@@ -34,7 +34,7 @@ section { margin-bottom: 1.2rem; }
 .card { background: var(--card); border: 1px solid var(--line); border-radius: 14px; padding: 1.15rem 1.3rem; box-shadow: var(--shadow); }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(26rem, 100%), 1fr)); gap: 1.2rem; }
 .banner { border-left: 4px solid var(--warn); }
-.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(15.5rem, 1fr)); gap: .8rem; }
+.tiles { display: grid; grid-template-columns: repeat(4, 1fr); gap: .8rem; }
 .tile { background: var(--card); border: 1px solid var(--line); border-radius: 14px; padding: .85rem 1.1rem .8rem; box-shadow: var(--shadow); }
 .tile h3 { margin: 0; font-size: .8rem; font-weight: 550; color: var(--soft); }
 .tile .figure { margin: .1rem 0 .05rem; font-size: 1.85rem; line-height: 1.2; font-weight: 660; letter-spacing: -.02em; font-variant-numeric: tabular-nums; }
@@ -105,12 +105,12 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 .facts tr + tr { border-top: 1px solid var(--line); }
 .wide { overflow-x: auto; }
 .tall { max-height: 34rem; overflow-y: auto; margin-top: .8rem; }
-.grid { width: 100%; font-size: .88rem; }
-.grid th, .grid td { padding: .38rem .7rem; text-align: right; white-space: nowrap; border-top: 1px solid var(--line); }
-.grid thead th { font-weight: 500; color: var(--soft); border-top: 0; position: sticky; top: 0; background: var(--card); }
-.grid th:first-child, .grid td:first-child { text-align: left; padding-left: 0; font-weight: 550; }
-.grid th:last-child, .grid td:last-child { padding-right: 0; }
-.grid .text { text-align: left; white-space: normal; min-width: 16rem; color: var(--soft); }
+.rows { width: 100%; font-size: .88rem; }
+.rows th, .rows td { padding: .38rem .7rem; text-align: right; white-space: nowrap; border-top: 1px solid var(--line); }
+.rows thead th { font-weight: 500; color: var(--soft); border-top: 0; position: sticky; top: 0; background: var(--card); }
+.rows th:first-child, .rows td:first-child { text-align: left; padding-left: 0; font-weight: 550; }
+.rows th:last-child, .rows td:last-child { padding-right: 0; }
+.rows .text { text-align: left; white-space: normal; min-width: 16rem; color: var(--soft); }
 .share { position: relative; min-width: 11rem; }
 .share b { font-weight: 500; position: relative; }
 .share .bar { position: absolute; left: .7rem; top: 50%; height: .95rem; margin-top: -.47rem; max-width: calc(100% - 4.6rem); }
@@ -132,6 +132,7 @@ code { font: .86rem ui-monospace, "Cascadia Mono", "DejaVu Sans Mono", monospace
 .files span { color: var(--soft); }
 a { color: var(--accent); text-decoration: none; } a:hover { text-decoration: underline; }
 footer { color: var(--soft); font-size: .84rem; margin-top: 1.6rem; }
+@media (max-width: 900px) { .tiles { grid-template-columns: repeat(2, 1fr); } }
 @media (max-width: 640px) { .hint { display: none; } body { padding: 1.2rem .7rem 3rem; } .card { padding: .9rem; } }
 @media print { body { background: #fff; } .card, .tile { box-shadow: none; break-inside: avoid; } .hint { display: none; } }
 )css";

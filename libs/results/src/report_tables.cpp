@@ -123,7 +123,7 @@ std::string reasons_table(const LoopCounts& loops) {
 std::string stages_table(const std::vector<StageTiming>& stages, double wall_s) {
   if (stages.empty()) return "<p class=\"none\">No stage was timed.</p>\n";
   std::string html =
-      "<div class=\"wide\"><table class=\"grid\">\n<thead><tr><th>Stage</th><th>calls</th><th>mean ± std</th>"
+      "<div class=\"wide\"><table class=\"rows\">\n<thead><tr><th>Stage</th><th>calls</th><th>mean ± std</th>"
       "<th>[min, max] ms</th><th>total</th><th>share of the run</th></tr></thead>\n<tbody>\n";
   for (const StageTiming& stage : stages) {
     const double share = wall_s > 0 ? 100 * stage.total_s / wall_s : 0;
@@ -167,7 +167,7 @@ std::string loops_table(const MappingResult& result) {
   const std::size_t left = result.loops.size() - shown;
   return "<details><summary>" + counted(result.loops.size(), "loop tried", "loops tried") +
          "</summary><div class=\"wide tall\"><table "
-         "class=\"grid\">\n<thead><tr><th>Verdict</th><th>scan</th><th>node</th>"
+         "class=\"rows\">\n<thead><tr><th>Verdict</th><th>scan</th><th>node</th>"
          "<th>local "
          "map</th><th>matcher</th><th>response</th><th>ambiguity</th><th>observed</th><th>neighbours</"
          "th><th>reverse</th><th>moved, m</th><th>ms</th>"

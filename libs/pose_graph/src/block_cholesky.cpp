@@ -83,7 +83,11 @@ void BlockCholesky::analyze(const SymmetricBlockMatrix& matrix) {
   }
   column_begin_.resize(n + 1);
   column_begin_[0] = 0;
-  for (std::size_t i = 0; i < n; ++i) column_begin_[i + 1] = column_begin_[i] + count[i];
+  num_products_ = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    column_begin_[i + 1] = column_begin_[i] + count[i];
+    num_products_ += count[i] * (count[i] + 3) / 2;
+  }
   rows_.resize(column_begin_[n]);
   blocks_.resize(column_begin_[n]);
   inverse_diagonal_.resize(n);

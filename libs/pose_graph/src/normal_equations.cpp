@@ -12,9 +12,10 @@ namespace psi_slam {
 namespace {
 
 // An order serves until the nodes added at its end are this share of all, ...
-constexpr double kMaxAppendedShare = 0.1;
-// ... or the factor has grown by this ratio more than the number of variables has.
-constexpr double kMaxFillGrowth = 1.15;
+constexpr double kMaxAppendedShare = 0.2;
+// ... or until it has wasted about as much work as it takes to find a new one: so many block products a
+// constraint.
+constexpr double kProductsOfOrderingPerLink = 15;
 
 std::uint32_t find_set(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -84,18 +85,14 @@ void NormalEquations::prepare(const PoseGraph& graph) {
 
   restructured_ = true;
   const auto variables = static_cast<double>(node_of_.size());
-  must_order = must_order || variables * (1 - kMaxAppendedShare) > static_cast<double>(ordered_variables_);
-  if (!must_order) {
-    lay_out(graph);
-    const double expected =
-        static_cast<double>(ordered_factor_blocks_) * variables / static_cast<double>(ordered_variables_);
-    must_order = static_cast<double>(factor_.num_factor_blocks()) > kMaxFillGrowth * expected;
-  }
+  must_order = must_order || variables * (1 - kMaxAppendedShare) > static_cast<double>(ordered_variables_) ||
+               wasted_products_ > kProductsOfOrderingPerLink * static_cast<double>(ends_.size());
+  if (must_order) find_order(graph);
+  lay_out(graph);
   if (must_order) {
-    find_order(graph);
-    lay_out(graph);
     ordered_variables_ = node_of_.size();
-    ordered_factor_blocks_ = factor_.num_factor_blocks();
+    ordered_products_ = static_cast<double>(factor_.num_products());
+    wasted_products_ = 0;
     reordered_ = true;
   }
 }
@@ -224,6 +221,9 @@ void NormalEquations::hold(int coordinate) {
 }
 
 bool NormalEquations::factorize(double lambda) {
+  const double growth =
+      static_cast<double>(node_of_.size()) / std::max(1.0, static_cast<double>(ordered_variables_));
+  wasted_products_ += std::max(0.0, static_cast<double>(factor_.num_products()) - growth * ordered_products_);
   return factor_.factorize(hessian_, lambda);
 }
 

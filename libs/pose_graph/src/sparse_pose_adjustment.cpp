@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace psi_slam {
@@ -55,12 +56,6 @@ void SparsePoseAdjustment::evaluate(const PoseGraph& graph, State& state) const 
   }
 }
 
-void SparsePoseAdjustment::reweight(const PoseGraph& graph) {
-  weights_.resize(graph.num_constraints());
-  for (std::size_t i = 0; i < weights_.size(); ++i)
-    weights_[i] = graph.enabled(i) ? kernel_of(graph.constraints()[i]).weight(current_.chi2[i]) : 0;
-}
-
 void SparsePoseAdjustment::move(const PoseGraph& graph, const State& from, const Eigen::VectorXd& step,
                                 State& to) const {
   to.poses.resize(from.poses.size());
@@ -78,6 +73,55 @@ void SparsePoseAdjustment::move(const PoseGraph& graph, const State& from, const
   evaluate(graph, to);
 }
 
+double SparsePoseAdjustment::negligible() const {
+  return options_.absolute_tolerance + options_.relative_tolerance * lowest_;
+}
+
+void SparsePoseAdjustment::begin(const PoseGraph& graph) {
+  equations_.prepare(graph);
+  current_.poses.clear();
+  for (const mrpt::math::TPose2D& pose : graph.poses()) current_.poses.emplace_back(pose);
+  evaluate(graph, current_);
+  lambda_ = options_.initial_lambda;
+  lowest_ = current_.robust_sum;
+  uphill_steps_ = 0;
+  linearized_ = false;
+  headings_tried_ = false;
+}
+
+void SparsePoseAdjustment::linearize(const PoseGraph& graph, PoseAdjustmentReport& report) {
+  weights_.resize(graph.num_constraints());
+  for (std::size_t i = 0; i < weights_.size(); ++i)
+    weights_[i] = graph.enabled(i) ? kernel_of(graph.constraints()[i]).weight(current_.chi2[i]) : 0;
+  equations_.linearize(graph, current_.poses, current_.errors, weights_);
+  if (uphill_steps_ == 0) report.max_gradient = equations_.max_gradient();
+  linearized_ = true;
+}
+
+// Leaves in trial_ where the damped step leads, or the solution of headings and positions if that is better;
+// E there is infinite when there is neither.
+SparsePoseAdjustment::Attempt SparsePoseAdjustment::attempt_step(const PoseGraph& graph) {
+  Attempt attempt;
+  attempt.from_current = equations_.factorize(lambda_);
+  if (attempt.from_current) {
+    const Eigen::VectorXd step = equations_.step();
+    attempt.promised = equations_.predicted_decrease(step, lambda_);
+    move(graph, current_, step, trial_);
+  } else {
+    trial_.robust_sum = std::numeric_limits<double>::infinity();
+  }
+  const double expected = std::max(current_.robust_sum - attempt.promised, negligible());
+  if (headings_tried_ || trial_.robust_sum <= kPoorPrediction * expected) return attempt;
+  headings_tried_ = true;
+  linearized_ = false;
+  State rival;
+  if (solve_headings_first(graph, rival) && !(trial_.robust_sum <= rival.robust_sum)) {
+    std::swap(trial_, rival);
+    attempt.from_current = false;
+  }
+  return attempt;
+}
+
 // From current_ and with its weights. False when a factorisation fails.
 bool SparsePoseAdjustment::solve_headings_first(const PoseGraph& graph, State& result) {
   using Coordinates = NormalEquations::Coordinates;
@@ -91,92 +135,70 @@ bool SparsePoseAdjustment::solve_headings_first(const PoseGraph& graph, State& r
   return true;
 }
 
+// Takes trial_ or goes back; true when the minimum is reached.
+bool SparsePoseAdjustment::judge(const Attempt& attempt, PoseAdjustmentReport& report) {
+  const bool may_converge = attempt.from_current && uphill_steps_ == 0 && lambda_ <= kMaxLambdaOfConvergence;
+  if (trial_.robust_sum <= lowest_) {  // false for NaN
+    const bool converged = may_converge && lowest_ - trial_.robust_sum <= negligible();
+    report.headings_first = report.headings_first || !attempt.from_current;
+    std::swap(current_, trial_);
+    lowest_ = current_.robust_sum;
+    uphill_steps_ = 0;
+    linearized_ = false;
+    lambda_ = lambda_ * kLambdaDown < kMinLambda ? 0 : lambda_ * kLambdaDown;
+    return converged;
+  }
+  if (may_converge && attempt.promised <= negligible()) return true;  // the minimum up to rounding
+  ++report.rejected_steps;
+  reject();
+  return false;
+}
+
+// Goes on from trial_ for a while although E rose, or returns to the best state and damps the next step.
+void SparsePoseAdjustment::reject() {
+  if (lambda_ == 0 && uphill_steps_ < kMaxUphillSteps && std::isfinite(trial_.robust_sum)) {
+    if (uphill_steps_ == 0) best_ = current_;
+    ++uphill_steps_;
+    std::swap(current_, trial_);
+    linearized_ = false;
+    return;
+  }
+  if (uphill_steps_ > 0) {
+    std::swap(current_, best_);
+    linearized_ = false;
+  }
+  uphill_steps_ = 0;
+  lambda_ = std::max(kFirstLambda, lambda_ * kLambdaUp);
+}
+
 PoseAdjustmentReport SparsePoseAdjustment::optimize(PoseGraph& graph) {
   const auto start = std::chrono::steady_clock::now();
   PoseAdjustmentReport report;
-  if (graph.num_nodes() == 0) {
-    report.converged = true;
-    return report;
-  }
-  equations_.prepare(graph);
+  report.converged = graph.num_nodes() == 0;
+  if (report.converged) return report;
+
+  begin(graph);
   report.structure_reused = !equations_.restructured();
-  current_.poses.clear();
-  for (const mrpt::math::TPose2D& pose : graph.poses()) current_.poses.emplace_back(pose);
-  evaluate(graph, current_);
   report.initial_chi2 = current_.sum;
   report.initial_robust_chi2 = current_.robust_sum;
-
-  double lambda = options_.initial_lambda;
-  double lowest = current_.robust_sum;
-  int uphill = 0;  // steps since current_ left best_
-  bool linearized = false;
-  bool headings_tried = false;
-  while (report.iterations < options_.max_iterations && lambda <= kMaxLambda) {
+  while (!report.converged && report.iterations < options_.max_iterations && lambda_ <= kMaxLambda) {
+    if (!linearized_) linearize(graph, report);
+    report.converged = judge(attempt_step(graph), report);
     ++report.iterations;
-    if (!linearized) {
-      reweight(graph);
-      equations_.linearize(graph, current_.poses, current_.errors, weights_);
-      if (uphill == 0) report.max_gradient = equations_.max_gradient();
-      linearized = true;
-    }
-    const bool solved = equations_.factorize(lambda);
-    double promised = 0;  // decrease of E
-    if (solved) {
-      const Eigen::VectorXd step = equations_.step();
-      promised = equations_.predicted_decrease(step, lambda);
-      move(graph, current_, step, trial_);
-    }
-    const double negligible = options_.absolute_tolerance + options_.relative_tolerance * lowest;
-    const double remaining = std::max(current_.robust_sum - promised, negligible);
-    if (!headings_tried && !(solved && trial_.robust_sum <= kPoorPrediction * remaining)) {
-      headings_tried = true;
-      linearized = false;
-      State rival;
-      if (solve_headings_first(graph, rival) && !(solved && trial_.robust_sum <= rival.robust_sum)) {
-        std::swap(trial_, rival);
-        report.headings_first = trial_.robust_sum <= lowest;
-      }
-    }
-
-    const bool small_damping = lambda <= kMaxLambdaOfConvergence;
-    if (trial_.robust_sum <= lowest) {  // false for NaN
-      report.converged = solved && small_damping && lowest - trial_.robust_sum <= negligible;
-      std::swap(current_, trial_);
-      lowest = current_.robust_sum;
-      uphill = 0;
-      linearized = false;
-      lambda = lambda * kLambdaDown < kMinLambda ? 0 : lambda * kLambdaDown;
-    } else if (solved && uphill == 0 && small_damping && promised <= negligible) {
-      report.converged = true;  // the minimum up to rounding
-    } else {
-      ++report.rejected_steps;
-      if (lambda == 0 && uphill < kMaxUphillSteps && std::isfinite(trial_.robust_sum)) {
-        if (uphill == 0) best_ = current_;
-        ++uphill;
-        std::swap(current_, trial_);
-        linearized = false;
-      } else {
-        if (uphill > 0) {
-          std::swap(current_, best_);
-          linearized = false;
-        }
-        uphill = 0;
-        lambda = std::max(kFirstLambda, lambda * kLambdaUp);
-      }
-    }
-    if (report.converged) break;
   }
-  if (uphill > 0) std::swap(current_, best_);
+  if (uphill_steps_ > 0) std::swap(current_, best_);
 
-  reweight(graph);
   for (std::size_t node = 0; node < current_.poses.size(); ++node) {
     const RotatedPose& pose = current_.poses[node];
     graph.set_pose(node, {pose.x, pose.y, pose.theta});
   }
   report.final_chi2 = current_.sum;
   report.final_robust_chi2 = current_.robust_sum;
-  report.fits.resize(weights_.size());
-  for (std::size_t i = 0; i < weights_.size(); ++i) report.fits[i] = {current_.chi2[i], weights_[i]};
+  report.fits.reserve(graph.num_constraints());
+  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
+    const double weight = graph.enabled(i) ? kernel_of(graph.constraints()[i]).weight(current_.chi2[i]) : 0;
+    report.fits.push_back({current_.chi2[i], weight});
+  }
   report.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -45,14 +45,15 @@ class BlockCholesky {
   InverseColumns inverse_columns(std::size_t k) const;
 
   std::size_t size() const { return parent_.size(); }
-  /// Blocks of L below the diagonal: the measure of an order's quality.
-  std::size_t num_factor_blocks() const { return column_begin_.empty() ? 0 : column_begin_.back(); }
+  /// Products of two blocks that a factorisation takes: its work, and so the measure of an order's quality.
+  std::size_t num_products() const { return num_products_; }
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   std::size_t reach(const SymmetricBlockMatrix& matrix, std::uint32_t k);
 
+  std::size_t num_products_ = 0;
   std::vector<std::uint32_t> parent_;      // elimination tree
   std::vector<std::size_t> column_begin_;  // of L, n + 1
   std::vector<std::size_t> column_end_;    // while factorising: where the next block of each column goes

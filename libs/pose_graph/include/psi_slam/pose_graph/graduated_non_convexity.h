@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Optimisation of a graph in which a part of the loop constraints may be false, without a good first guess of
-// which: graduated non-convexity (Yang, Antonante, Tzoumas, Carlone, "Graduated non-convexity for robust
-// spatial perception", RA-L 2020) with the Geman-McClure kernel. It begins with a kernel so wide that E is
-// nearly the convex one, and narrows it solve by solve, so that constraints against which the others agree
-// lose their say one after another.
+// Optimisation of a graph in which a part of the loop constraints may be false, without knowing which:
+// graduated non-convexity (Yang, Antonante, Tzoumas, Carlone, "Graduated non-convexity for robust spatial
+// perception", RA-L 2020) with the Geman-McClure kernel. It begins with a kernel so wide that E is nearly the
+// plain one, and narrows it solve by solve, so that constraints that the others speak against lose their say
+// one after another. Where so many are false that the wide kernels lead astray, the narrow kernel from the
+// given poses may end lower; the lower one is taken.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +16,16 @@ namespace psi_slam {
 
 struct GraduatedOptions {
   double inlier_width = 3.37;  ///< in standard deviations: the root of the 99 % quantile of chi-square, 3 dof
-  double narrowing = 1.4;      ///< > 1: the width's square falls by this a round
-  int max_rounds = 100;
-  int iterations_per_round = 3;
+  double narrowing = 1.2;      ///< > 1: the width's square falls by this factor a round
+  int max_rounds = 200;
+  int first_iterations = 10;  ///< of the solve with the widest kernel
+  int iterations_per_round = 2;
 };
 
 struct GraduatedReport {
   PoseAdjustmentReport
-      solution;    ///< of the last solve, at the inlier width; its initial values are the caller's
-  int rounds = 0;  ///< solves before the last
+      solution;    ///< at the inlier width; its iterations are the last solve's, its time is of all
+  int rounds = 0;  ///< kernels between the widest and the inlier width
   std::vector<std::size_t>
       outliers;  ///< enabled constraints of the kind kLoop beyond the inlier width, ascending
 };

@@ -21,7 +21,7 @@ inline bool is_information_matrix(const Eigen::Matrix3d& information) {
   const double xy = correlation(0, 1);
   const double xt = correlation(0, 2);
   const double yt = correlation(1, 2);
-  constexpr double kRounding = 1e-6;  // text files give six digits
+  constexpr double kRounding = 3e-5;  // of text files with six digits
   const double limit = 1 + kRounding;
   const double determinant = 1 + 2 * xy * xt * yt - xy * xy - xt * xt - yt * yt;
   return xy * xy <= limit && xt * xt <= limit && yt * yt <= limit && determinant >= -kRounding;

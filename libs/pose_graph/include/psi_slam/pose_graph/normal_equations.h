@@ -73,7 +73,8 @@ class NormalEquations {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;  // of the constraints taken in so far
   std::vector<Place> places_;                                  // beside ends_
   std::size_t ordered_variables_ = 0;                          // when the order was found
-  std::size_t ordered_factor_blocks_ = 0;                      // likewise
+  double ordered_products_ = 0;                                // of a factorisation then
+  double wasted_products_ = 0;  // since then, over what the order would have taken had it stayed as good
   bool reordered_ = false;
   bool restructured_ = false;
 

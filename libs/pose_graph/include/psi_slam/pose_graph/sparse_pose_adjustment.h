@@ -77,18 +77,35 @@ class SparsePoseAdjustment {
     double robust_sum = 0;
   };
 
+  struct Attempt {              // what trial_ is
+    double promised = 0;        // decrease of E by the linearisation
+    bool from_current = false;  // trial_ solves the damped system, not headings and positions apart
+  };
+
+  const RobustKernel& kernel_of(const Constraint& constraint) const;
   void evaluate(const PoseGraph& graph, State& state) const;
   void move(const PoseGraph& graph, const State& from, const Eigen::VectorXd& step, State& to) const;
+  void begin(const PoseGraph& graph);
+  void linearize(const PoseGraph& graph, PoseAdjustmentReport& report);
+  Attempt attempt_step(const PoseGraph& graph);
   bool solve_headings_first(const PoseGraph& graph, State& result);
-  void reweight(const PoseGraph& graph);
-  const RobustKernel& kernel_of(const Constraint& constraint) const;
+  bool judge(const Attempt& attempt, PoseAdjustmentReport& report);
+  void reject();
+  double negligible() const;
 
   PoseAdjustmentOptions options_;
   NormalEquations equations_;
+
+  // Of the call of optimize() under way:
   State best_;                   // the lowest E so far, while current_ is an excursion from it
   State current_;                // where the system is linearised
   State trial_;                  // where a step leads
   std::vector<double> weights_;  // of the constraints at current_
+  double lambda_ = 0;            // damping of the next step
+  double lowest_ = 0;            // E at best_, or at current_ when that is no excursion
+  int uphill_steps_ = 0;         // since current_ left best_
+  bool linearized_ = false;      // at current_
+  bool headings_tried_ = false;
 };
 
 }  // namespace psi_slam

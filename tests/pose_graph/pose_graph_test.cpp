@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/pose_graph/pose_graph.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <limits>
+
+#include "psi_slam/base/user_error.h"
+#include "test_graphs.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::ElementsAre;
+
+Constraint link(std::size_t from, std::size_t to) {
+  Constraint constraint;
+  constraint.from = from;
+  constraint.to = to;
+  return constraint;
+}
+
+TEST(PoseGraph, numbers_nodes_and_constraints_in_their_order) {
+  PoseGraph graph;
+  EXPECT_EQ(graph.add_node({0, 0, 0}), 0U);
+  EXPECT_EQ(graph.add_node({1, 0, 0}), 1U);
+  EXPECT_EQ(graph.add_node({2, 0, 0}), 2U);
+  EXPECT_EQ(graph.add_constraint(link(0, 1)), 0U);
+  EXPECT_EQ(graph.add_constraint(link(2, 1)), 1U);
+  EXPECT_EQ(graph.num_nodes(), 3U);
+  EXPECT_EQ(graph.num_constraints(), 2U);
+  EXPECT_THAT(graph.constraints_of(1), ElementsAre(0, 1));
+  EXPECT_THAT(graph.constraints_of(2), ElementsAre(1));
+  EXPECT_EQ(graph.root(), 0U);
+}
+
+TEST(PoseGraph, wraps_headings) {
+  PoseGraph graph;
+  graph.add_node({0, 0, 3 * kPi});
+  graph.add_node({0, 0, 0});
+  EXPECT_EQ(graph.pose(0).phi, kPi);
+  graph.set_pose(1, {0, 0, -kPi});
+  EXPECT_EQ(graph.pose(1).phi, kPi);
+  Constraint turn = link(0, 1);
+  turn.from_T_to.phi = 7;
+  graph.add_constraint(turn);
+  EXPECT_NEAR(graph.constraint(0).from_T_to.phi, 7 - 2 * kPi, 1e-15);
+}
+
+TEST(PoseGraph, refuses_what_does_not_exist_or_is_no_measurement) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  PoseGraph graph;
+  EXPECT_THROW(graph.add_node({kNaN, 0, 0}), std::invalid_argument);
+  graph.add_node({0, 0, 0});
+  graph.add_node({1, 0, 0});
+  EXPECT_THROW(graph.set_pose(1, {0, 0, kNaN}), std::invalid_argument);
+  EXPECT_THROW(graph.set_pose(2, {0, 0, 0}), std::out_of_range);
+  EXPECT_THROW(graph.add_constraint(link(0, 2)), std::out_of_range);
+  EXPECT_THROW(graph.add_constraint(link(1, 1)), std::invalid_argument);
+  Constraint bad = link(0, 1);
+  bad.from_T_to.x = kNaN;
+  EXPECT_THROW(graph.add_constraint(bad), std::invalid_argument);
+  bad = link(0, 1);
+  bad.information(1, 1) = -1;
+  EXPECT_THROW(graph.add_constraint(bad), std::invalid_argument);
+  EXPECT_THROW(graph.set_root(2), std::out_of_range);
+  EXPECT_EQ(graph.num_constraints(), 0U);
+}
+
+TEST(PoseGraph, leaves_disabled_constraints_out_of_chi2) {
+  PoseGraph graph;
+  graph.add_node({0, 0, 0});
+  graph.add_node({1, 0, 0});
+  graph.add_constraint(link(0, 1));
+  graph.add_constraint(link(1, 0));
+  EXPECT_EQ(graph.chi2(), 2);
+  graph.set_enabled(1, false);
+  EXPECT_FALSE(graph.enabled(1));
+  EXPECT_EQ(graph.chi2(), 1);
+  graph.set_enabled(1, true);
+  EXPECT_EQ(graph.chi2(), 2);
+}
+
+TEST(PoseGraph, packs_the_covariance_of_each_constraint) {
+  PoseGraph graph;
+  graph.add_node({0, 0, 0});
+  graph.add_node({1, 0, 0});
+  Constraint constraint = link(1, 0);
+  Eigen::Matrix3d covariance;
+  covariance << 4e-4, 1e-4, 2e-6, 1e-4, 9e-4, -3e-6, 2e-6, -3e-6, 1e-6;
+  constraint.information = covariance.inverse();
+  constraint.information = (0.5 * (constraint.information + constraint.information.transpose())).eval();
+  graph.add_constraint(constraint);
+  const GraphLink& packed = graph.links()[0];
+  EXPECT_EQ(packed.from, 1U);
+  EXPECT_EQ(packed.to, 0U);
+  EXPECT_NEAR(packed.xx, 4e-4, 1e-15);
+  EXPECT_NEAR(packed.xy, 1e-4, 1e-15);
+  EXPECT_NEAR(packed.xt, 2e-6, 1e-15);
+  EXPECT_NEAR(packed.yy, 9e-4, 1e-15);
+  EXPECT_NEAR(packed.yt, -3e-6, 1e-15);
+  EXPECT_NEAR(packed.tt, 1e-6, 1e-15);
+
+  constraint.information = Eigen::Vector3d(1, 1, 0).asDiagonal();
+  graph.add_constraint(constraint);
+  EXPECT_EQ(graph.links()[1].tt, std::numeric_limits<double>::infinity());
+}
+
+TEST(PoseGraph, goes_to_MRPT_and_back_with_its_enabled_constraints) {
+  KnownGraph known = ring(20, 3, 1);
+  known.graph.set_enabled(known.graph.num_constraints() - 1, false);
+  known.graph.set_root(4);
+  const mrpt::graphs::CNetworkOfPoses2DInf network = known.graph.to_mrpt();
+  EXPECT_EQ(network.nodes.size(), 20U);
+  EXPECT_EQ(network.edges.size(), known.graph.num_constraints() - 1);
+  const PoseGraph back = PoseGraph::from_mrpt(network);
+  EXPECT_EQ(back.root(), 4U);
+  EXPECT_EQ(back.poses(), known.graph.poses());
+  EXPECT_NEAR(back.chi2(), known.graph.chi2(), 1e-9 * known.graph.chi2());
+  std::size_t loops = 0;
+  for (const Constraint& constraint : back.constraints()) loops += constraint.kind == Constraint::Kind::kLoop;
+  EXPECT_EQ(loops, 2U);
+}
+
+TEST(PoseGraph, keeps_several_constraints_of_one_pair_on_the_way_to_MRPT) {
+  PoseGraph graph;
+  graph.add_node({0, 0, 0});
+  graph.add_node({1, 0, 0});
+  for (int i = 0; i < 3; ++i) graph.add_constraint(link(0, 1));
+  EXPECT_EQ(PoseGraph::from_mrpt(graph.to_mrpt()).num_constraints(), 3U);
+}
+
+TEST(PoseGraph, makes_an_empty_network_of_an_empty_graph) {
+  EXPECT_TRUE(PoseGraph().to_mrpt().nodes.empty());
+  EXPECT_EQ(PoseGraph::from_mrpt({}).num_nodes(), 0U);
+}
+
+TEST(PoseGraph, names_the_node_that_a_network_lacks) {
+  mrpt::graphs::CNetworkOfPoses2DInf network;
+  network.nodes[0] = mrpt::poses::CPose2D();
+  network.nodes[2] = mrpt::poses::CPose2D();
+  try {
+    PoseGraph::from_mrpt(network);
+    FAIL() << "no exception";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("no node 1"));
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

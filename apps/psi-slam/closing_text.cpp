@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing_text.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+#include "progress_line.h"
+
+namespace psi_slam {
+namespace {
+
+__attribute__((format(printf, 1, 2))) std::string text(const char* format, ...) {
+  char line[1000];
+  std::va_list values;
+  va_start(values, format);
+  std::vsnprintf(line, sizeof line, format, values);
+  va_end(values);
+  return line;
+}
+
+std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string closing_text(const RunSummary& summary, const std::string& log_name, const OutputFolder& folder) {
+  const std::string picture = (folder.path() / "map.png").string();
+  const std::string report = (folder.path() / "report.html").string();
+  std::string lines = "The map is " + picture + "; " + report + " tells how it was made.\n";
+  lines += counted(summary.log.scans, "scan") + " of " + log_name + " over " +
+           minutes_text(summary.log.duration_s) + text(" and %.0f m: ", summary.path_length_m) +
+           counted(summary.nodes, "node") + ", " + counted(summary.loops.accepted, "loop") + " closed.\n";
+  lines += text("It took %.1f s", summary.wall_s);
+  if (summary.real_time_factor > 0) lines += text(", real-time factor %.1f", summary.real_time_factor);
+  return lines + text(", and %.0f MB of memory.\n", summary.peak_memory_mb);
+}
+
+std::string stages_text(const MappingResult& result) {
+  std::string lines;
+  for (const StageTiming& stage : result.stages)
+    lines += text("%-24s %8zu x  %9.3f ± %.3f ms  [%.3f, %.3f]  %8.2f s\n", stage.name.c_str(), stage.calls,
+                  stage.mean_ms, stage.std_ms, stage.min_ms, stage.max_ms, stage.total_s);
+  return lines;
+}
+
+}  // namespace psi_slam

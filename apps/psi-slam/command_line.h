@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace psi_slam {
+
+/// What the user asked for, not yet looked at closer.
+struct CommandLine {
+  enum class Command { kMap, kCheck, kOptions, kDumpConfig };
+
+  Command command = Command::kMap;
+  std::string log;
+  std::string output;
+  std::string config;                 ///< empty: the built-in defaults
+  std::vector<std::string> settings;  ///< "section.key=value", in the order given
+  std::optional<std::string> seed;
+  std::optional<std::string> threads;
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  bool markdown = false;
+};
+
+/// Reads the arguments with `app`, which was made for this. Throws CLI::ParseError for --help, --version and
+/// unknown options, and UserError for arguments that do not go together.
+CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::App& app);
+
+}  // namespace psi_slam

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <signal.h>
+
+#include <atomic>
+
+namespace psi_slam {
+
+/// In its scope the first SIGINT or SIGTERM sets the flag, and the next one does what it does by default: end
+/// the process. At most one lives at a time.
+class InterruptSignals {
+ public:
+  InterruptSignals();
+  ~InterruptSignals();
+  InterruptSignals(const InterruptSignals&) = delete;
+  InterruptSignals& operator=(const InterruptSignals&) = delete;
+
+  const std::atomic<bool>& came() const;
+
+ private:
+  struct sigaction previous_interrupt_ = {};
+  struct sigaction previous_terminate_ = {};
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// psi-slam: from a log to a map.
+//
+//     psi-slam [-c INI] [--set SECTION.KEY=VALUE]... LOG -o DIR     maps a log
+//     psi-slam check [-c INI] LOG                                   tells what a log holds, and what is wrong
+//     psi-slam options [--markdown]                                 explains every option
+//     psi-slam --dump-config [-c INI] [--set ...]                   prints a settings file
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace psi_slam {
+
+/// Where a program's words go.
+struct Streams {
+  std::ostream& out;             ///< results
+  std::ostream& err;             ///< progress and complaints
+  bool err_is_terminal = false;  ///< then progress is shown
+};
+
+/// Runs the program with its arguments (without its own name). Returns the exit code: 0 done, also when the
+/// user interrupted it; 1 failed; 2 wrong usage or input. Never throws. While it maps, SIGINT and SIGTERM end
+/// the mapping in good order, and a second one the process.
+int run_psi_slam_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept;
+
+}  // namespace psi_slam

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One run from a log to a map: the engine that the headless app and the GUI both drive, scan by scan.
+//
+//     MappingSession session("my.log", settings);
+//     while (session.step()) {}              // or: session.run(stop)
+//     session.finish();
+//     session.export_to(OutputFolder::prepare("out", false));
+//
+// It holds neither windows nor signals: who drives it stops by not calling step() again, and finish() makes
+// a map of what was read until then.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "psi_slam/logs/frame_source.h"
+#include "psi_slam/mapping/mapper.h"
+#include "psi_slam/results/output_folder.h"
+#include "psi_slam/session/settings.h"
+
+namespace psi_slam {
+
+struct SessionProgress {
+  enum class Phase {
+    kMapping,   ///< reading the log and mapping its scans
+    kLastPass,  ///< the last search for loops and the last optimisation
+    kWriting,   ///< drawing the map and writing all files
+  };
+
+  Phase phase = Phase::kMapping;
+  double read_share = 0;  ///< of the log, in [0, 1]
+  std::size_t scans = 0;  ///< mapped so far
+  double scans_per_s = 0;
+  double elapsed_s = 0;               ///< of work, pauses left out
+  std::optional<double> remaining_s;  ///< of mapping, as far as it can be told
+};
+
+class MappingSession {
+ public:
+  using Observer = std::function<void(const SessionProgress&)>;
+
+  /// Opens the log. Throws UserError when it cannot be read, and when settings contradict each other.
+  MappingSession(const std::filesystem::path& log, const Settings& settings);
+  ~MappingSession();
+  MappingSession(const MappingSession&) = delete;
+  MappingSession& operator=(const MappingSession&) = delete;
+
+  /// Is told after every scan and at the beginning of every phase, in the thread that drives the session.
+  void set_observer(Observer observer) { observer_ = std::move(observer); }
+
+  /// Maps the next scan. False at the end of the log, and where it breaks off: see broken_off(). Throws
+  /// UserError when it breaks off before the first scan.
+  bool step();
+
+  /// What is wrong with the log behind its last readable scan, as a sentence.
+  const std::optional<std::string>& broken_off() const { return broken_off_; }
+
+  /// Ends the mapping. Where the log was not read to its end, the result is marked as interrupted. Throws
+  /// UserError when no scan had a return.
+  void finish();
+
+  /// Steps to the end of the log, or until `stop` becomes true, and finishes.
+  void run(const std::atomic<bool>& stop);
+
+  /// Draws the map and writes all results. Needs finish(). Throws SystemFailure when the disk does not take
+  /// them. The figures returned include the time that this took.
+  RunSummary export_to(const OutputFolder& folder);
+
+  /// While mapping: the poses, the graph and the loops so far.
+  const Mapper& mapper() const { return mapper_; }
+
+  /// After finish().
+  const MappingResult& result() const { return result_; }
+
+  /// What the summary and the report say of the program, the log and the settings.
+  RunInfo run_info() const;
+
+ private:
+  class WorkClock;
+  std::optional<Frame> read();
+  void tell(SessionProgress::Phase phase);
+
+  std::filesystem::path path_;
+  Settings settings_;
+  std::unique_ptr<FrameSource> source_;
+  Mapper mapper_;
+  Observer observer_;
+  MappingResult result_;
+  std::optional<std::string> broken_off_;
+  StageClock reading_clock_{"read log"};
+  double work_s_ = 0;  // as of now, pauses between calls left out
+  std::size_t scans_ = 0;
+  bool any_return_ = false;
+  bool at_end_ = false;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every setting of a mapping run, and its one description: settings files, --set, dumps, the reference and
+// the views of the GUI all come from describe().
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "psi_slam/config/option_table.h"
+#include "psi_slam/logs/log_options.h"
+#include "psi_slam/mapping/mapper.h"
+#include "psi_slam/results/grid_map.h"
+
+namespace psi_slam {
+
+/// How loops are searched.
+enum class LoopMatcher {
+  kCsm,  ///< exhaustive in result: correlative scan matching by branch and bound
+};
+
+/// The laser's pose on the robot, as far as the user states it.
+struct LaserMount {
+  std::optional<double> x_m;
+  std::optional<double> y_m;
+  std::optional<double> yaw_rad;
+};
+
+struct RunOptions {
+  std::uint64_t seed = 1;  ///< of all random numbers
+  int threads = 0;         ///< 0: as many as the machine has processors; no result depends on it
+};
+
+struct Settings {
+  LogOptions log;  ///< its robot_T_laser is left empty: `laser_mount` stands for it
+  LaserMount laser_mount;
+  MapperOptions mapper;
+  LoopMatcher loop_matcher = LoopMatcher::kCsm;
+  GridMapOptions map;
+  RunOptions run;
+};
+
+/// Describes every option once, bound to the members of `settings`, which must hold their defaults and
+/// outlive the table. Angles are degrees in the table and radians in the members.
+void describe(OptionTable& table, Settings& settings);
+
+/// Throws UserError, one sentence, when two options contradict each other. (Each alone is checked when it is
+/// set.)
+void check(const Settings& settings);
+
+/// What the reader of the log takes. Where the mount is stated in part, the rest of it is 0.
+LogOptions log_options(const Settings& settings);
+
+/// The number of threads that run.threads stands for, at least 1.
+int worker_threads(const RunOptions& run);
+
+}  // namespace psi_slam

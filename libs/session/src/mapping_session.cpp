@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/session/mapping_session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/logs/open_log.h"
+#include "psi_slam/pose_graph/g2o_file.h"
+#include "psi_slam/results/grid_map.h"
+#include "psi_slam/session/read_ahead.h"
+
+namespace psi_slam {
+namespace {
+
+std::unique_ptr<FrameSource> open(const std::filesystem::path& path, const Settings& settings) {
+  check(settings);
+  auto source = open_log(path, log_options(settings));
+  if (worker_threads(settings.run) == 1) return source;
+  return std::make_unique<ReadAhead>(std::move(source));
+}
+
+bool has_return(const LaserScan& scan) {
+  return std::any_of(scan.ranges_m.begin(), scan.ranges_m.end(),
+                     [](float range_m) { return std::isfinite(range_m); });
+}
+
+}  // namespace
+
+/// Adds the time of its scope to the session's work.
+class MappingSession::WorkClock {
+ public:
+  explicit WorkClock(double& work_s) : work_s_(work_s), before_s_(work_s) {}
+  ~WorkClock() { stop(); }
+  WorkClock(const WorkClock&) = delete;
+  WorkClock& operator=(const WorkClock&) = delete;
+
+  /// Brings the work up to now.
+  void stop() {
+    work_s_ = before_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  double& work_s_;
+  const double before_s_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+MappingSession::MappingSession(const std::filesystem::path& log, const Settings& settings)
+    : path_(log), settings_(settings), source_(open(log, settings)), mapper_(settings.mapper) {}
+
+MappingSession::~MappingSession() = default;
+
+bool MappingSession::step() {
+  if (at_end_ || broken_off_) return false;
+  {
+    const WorkClock clock(work_s_);
+    std::optional<Frame> frame = read();
+    if (!frame) return false;
+    any_return_ = any_return_ || has_return(frame->scan);
+    mapper_.add(*std::move(frame));
+    ++scans_;
+  }
+  tell(SessionProgress::Phase::kMapping);
+  return true;
+}
+
+std::optional<Frame> MappingSession::read() {
+  std::optional<Frame> frame;
+  try {
+    reading_clock_.time([&] { frame = source_->next(); });
+    at_end_ = !frame;
+  } catch (const UserError& error) {
+    if (scans_ == 0) throw;
+    broken_off_ = error.what();
+  }
+  return frame;
+}
+
+void MappingSession::finish() {
+  tell(SessionProgress::Phase::kLastPass);
+  const WorkClock clock(work_s_);
+  if (!any_return_)
+    throw UserError(path_.string() + ": " +
+                    (scans_ == 0 ? "no scan was read, there is nothing to map"
+                                 : "none of its " + std::to_string(scans_) +
+                                       " scans has a return between log.min_range_m and log.max_range_m"));
+  result_ = mapper_.finish();
+  result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
+  result_.interrupted = !at_end_;
+}
+
+void MappingSession::run(const std::atomic<bool>& stop) {
+  while (!stop && step()) {
+  }
+  finish();
+}
+
+RunSummary MappingSession::export_to(const OutputFolder& folder) {
+  tell(SessionProgress::Phase::kWriting);
+  WorkClock clock(work_s_);
+  write_g2o(mapper_.graph(), folder.path() / "graph.g2o");
+  StageClock drawing_clock("draw map");
+  mrpt::maps::COccupancyGridMap2D::Ptr grid;
+  drawing_clock.time([&] { grid = draw_grid_map(result_.log, mapped_poses(result_), settings_.map); });
+  result_.stages.push_back(drawing_clock.timing());
+  clock.stop();
+  result_.wall_s = work_s_;
+  RunSummary summary = export_all(result_, run_info(), *grid, folder);
+  clock.stop();
+  result_.wall_s = summary.wall_s = work_s_;
+  summary.real_time_factor = summary.log.duration_s / work_s_;
+  return summary;
+}
+
+RunInfo MappingSession::run_info() const {
+  Settings settings;
+  OptionTable table;
+  describe(table, settings);
+  settings = settings_;
+  RunInfo info{PSI_SLAM_VERSION, path_.filename().string(), {}};
+  for (const OptionSection& section : table.sections())
+    for (const Option& option : section.options) info.settings[option.name()] = option.text();
+  return info;
+}
+
+void MappingSession::tell(SessionProgress::Phase phase) {
+  if (!observer_) return;
+  SessionProgress progress;
+  progress.phase = phase;
+  progress.read_share = source_->progress();
+  progress.scans = scans_;
+  progress.elapsed_s = work_s_;
+  if (work_s_ > 0) progress.scans_per_s = static_cast<double>(scans_) / work_s_;
+  if (phase == SessionProgress::Phase::kMapping && progress.read_share > 0)
+    progress.remaining_s = work_s_ * (1 - progress.read_share) / progress.read_share;
+  observer_(progress);
+}
+
+}  // namespace psi_slam

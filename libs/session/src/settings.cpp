@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/session/settings.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace psi_slam {
+namespace {
+
+void describe_log(OptionTable& table, Settings& settings) {
+  LogOptions& log = settings.log;
+  std::vector<std::pair<std::string, BeamAngles>> conventions{
+      {std::string(name_of(BeamAngles::kAuto)), BeamAngles::kAuto}};
+  for (const BeamAngles angles : stated_beam_angles()) conventions.emplace_back(name_of(angles), angles);
+  table.section("log", "Robot and sensor: what the log does not say itself")
+      .choice("beam_angles", log.beam_angles, std::move(conventions),
+              "how the beams share the field of view where the log does not say; psi-slam check finds out")
+      .optional_angle_deg(
+          "field_of_view_deg", log.field_of_view_rad, above(0).at_most(360),
+          "field of view of the laser; auto: the log's own, or the usual one of that many beams")
+      .optional_number("max_range_m", log.max_range_m, above(0), "m",
+                       "readings from here on are no returns; auto: the log's own, or 50")
+      .number("min_range_m", log.min_range_m, at_least(0), "m",
+              "readings below are no returns: a robot that sees its own bumper")
+      .flag("mirrored", log.mirrored, "the readings run clockwise: a laser that hangs upside down")
+      .text("laser", log.laser,
+            "which laser: front, rear or a message's name (CARMEN), a sensor's label (rawlog); empty: the "
+            "first")
+      .optional_number(
+          "laser_x_m", settings.laser_mount.x_m, any_number(), "m",
+          "the laser on the robot, ahead of its centre; auto: the log's own, or 0 if another of the "
+          "three is given")
+      .optional_number("laser_y_m", settings.laser_mount.y_m, any_number(), "m", "the same to the left")
+      .optional_angle_deg("laser_yaw_deg", settings.laser_mount.yaw_rad, between(-360, 360),
+                          "where it looks, counter-clockwise from straight ahead")
+      .integer("every_nth_scan", log.every_nth_scan, at_least(1), "scans",
+               "1 maps every scan, 2 every second one, and so on");
+}
+
+void describe_refinement(OptionTable& table, RefinementOptions& refinement) {
+  table
+      .integer("refine_max_iterations", refinement.max_iterations, between(0, 1000), "iterations",
+               "Levenberg-Marquardt steps below a cell; 0 keeps the cell")
+      .number("refine_score_sigma", refinement.score_sigma, above(0).at_most(100), "",
+              "standard deviation of a point's score from 1: larger trusts the scan less")
+      .number("refine_converged_step_m", refinement.converged_step_m, above(0).at_most(1), "m",
+              "steps below this end the refinement")
+      .number("refine_max_shift_m", refinement.max_shift_m, above(0).at_most(10), "m",
+              "a refinement that leads farther than this is dropped: it found another peak");
+}
+
+void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
+  table.section("front_end", "Matching each scan with the active local map")
+      .number("min_range_m", front_end.scan.min_range_m, at_least(0), "m",
+              "returns nearer than this are not matched")
+      .number("max_range_m", front_end.scan.max_range_m, above(0), "m",
+              "returns farther than this are not matched")
+      .number("point_spacing_m", front_end.scan.spacing_m, at_least(0).at_most(10), "m",
+              "points of a scan nearer to each other than this are thinned")
+      .number("window_m", front_end.window_m, above(0).at_most(20), "m",
+              "half-width of the search window of a robot that stands still")
+      .angle_deg("window_theta_deg", front_end.window_rad, above(0).at_most(180), "the same in heading")
+      .number("window_per_metre", front_end.window_per_metre, at_least(0).at_most(100), "",
+              "added to window_m for each metre that odometry moved since the last scan")
+      .number("window_theta_per_turn", front_end.window_per_radian, at_least(0).at_most(100), "",
+              "added to window_theta_deg for each degree that odometry turned")
+      .angle_deg("window_theta_per_metre_deg", front_end.window_rad_per_metre, at_least(0).at_most(180),
+                 "added to window_theta_deg for each metre that odometry moved")
+      .number("max_window_m", front_end.max_window_m, above(0).at_most(20), "m",
+              "the window never grows beyond this half-width")
+      .angle_deg("max_window_theta_deg", front_end.max_window_rad, above(0).at_most(180),
+                 "the same in heading")
+      .number("min_response", front_end.min_response, between(0, 1), "",
+              "a match below this is not believed: odometry's prediction stands")
+      .number("prior_sigma_m", front_end.prior_sigma_m, above(0).at_most(100), "m",
+              "standard deviation of the prediction that holds the pose where the scan does not (corridors)")
+      .angle_deg("prior_sigma_theta_deg", front_end.prior_sigma_rad, above(0).at_most(180),
+                 "the same in heading")
+      .number("prior_per_metre", front_end.prior_per_metre, at_least(0).at_most(100), "",
+              "added to prior_sigma_m for each metre that odometry moved")
+      .number("prior_theta_per_turn", front_end.prior_per_radian, at_least(0).at_most(100), "",
+              "added to prior_sigma_theta_deg for each degree that odometry turned")
+      .number("prior_per_surprise", front_end.prior_per_surprise, at_least(0).at_most(100), "",
+              "added to both for each metre or degree that odometry differs from a steady motion")
+      .number("prediction_share", front_end.prediction_share, between(0, 1), "",
+              "the prediction, refined, is preferred if it scores this share of the searched pose")
+      .number("node_distance_m", front_end.node_distance_m, at_least(0).at_most(100), "m",
+              "a scan becomes a node of the graph when the robot moved this far since the last one")
+      .angle_deg("node_rotation_deg", front_end.node_rotation_rad, at_least(0).at_most(180),
+                 "or turned this much");
+  describe_refinement(table, front_end.refinement);
+}
+
+void describe_local_maps(OptionTable& table, FrontEndOptions& front_end) {
+  LocalMapOptions& local_map = front_end.local_map;
+  table.section("local_maps", "The occupancy grids that scans are matched with")
+      .number("resolution_m", local_map.resolution_m, between(0.005, 1), "m", "side of a cell")
+      .number("hit_probability", local_map.hit_probability, above(0.5).below(1), "",
+              "of a cell being occupied, given that a beam ended in it")
+      .number("miss_probability", local_map.miss_probability, above(0).below(0.5), "",
+              "of a cell being occupied, given that a beam went through it")
+      .number("smoothing_sigma_m", local_map.smoothing_sigma_m, above(0).at_most(5), "m",
+              "how far a wall's score reaches: range noise and cell size")
+      .number("max_insert_range_m", local_map.max_insert_range_m, above(0), "m",
+              "longer beams are drawn up to here, as free space only")
+      .integer("nodes", front_end.nodes_per_local_map, between(2, 60000), "nodes",
+               "a local map ends after this many; the next begins at half of them")
+      .number("travel_m", front_end.local_map_travel_m, above(0), "m",
+              "or when the robot has travelled this far in it");
+}
+
+void describe_loop_closure(OptionTable& table, Settings& settings) {
+  LoopClosureOptions& loops = settings.mapper.loop_closure;
+  MatcherOptions& matcher = settings.mapper.loop_matcher;
+  LoopCandidateOptions& candidates = loops.candidates;
+  table.section("loop_closure", "Finding places seen before")
+      .flag("enabled", settings.mapper.close_loops, "without, the map is the front end's alone")
+      .choice("matcher", settings.loop_matcher, {{"csm", LoopMatcher::kCsm}},
+              "how the search window is searched: csm is exhaustive")
+      .number("window_x_m", candidates.max_window.x_m, above(0).at_most(100), "m",
+              "largest half-width of the search window around the prediction, along x")
+      .number("window_y_m", candidates.max_window.y_m, above(0).at_most(100), "m", "the same along y")
+      .angle_deg("window_theta_deg", candidates.max_window.theta_rad, above(0).at_most(180),
+                 "the same in heading")
+      .number("min_window_m", candidates.min_window_m, above(0).at_most(100), "m",
+              "smallest half-width along x and y")
+      .angle_deg("min_window_theta_deg", candidates.min_window_rad, above(0).at_most(180),
+                 "the same in heading")
+      .number("window_sigmas", candidates.window_sigmas, above(0).at_most(100), "",
+              "between the two, the window covers this many standard deviations of the prediction")
+      .number("reach_m", candidates.reach_m, at_least(0).at_most(1000), "m",
+              "a local map is tried when one of its nodes is at most this far from the window")
+      .number("min_travel_m", candidates.min_travel_m, at_least(0), "m",
+              "and the robot has travelled this far since it left it: nearer ones share their scans")
+      .number("attempt_distance_m", loops.attempt_distance_m, at_least(0), "m",
+              "the robot travels this far between two attempts with the same local map")
+      .number("distinct_m", matcher.distinct_m, above(0).at_most(100), "m",
+              "another peak of the response is distinct when it lies this far away along x or y")
+      .angle_deg("distinct_deg", matcher.distinct_rad, above(0).at_most(180), "or is turned by this much")
+      .number("ambiguity_floor", matcher.ambiguity_floor, between(0, 1), "",
+              "peaks below this share of the best response are not looked for")
+      .number("min_sigma_m", matcher.min_sigma_m, above(0).at_most(100), "m",
+              "bounds of a match's standard deviations, from here")
+      .number("max_sigma_m", matcher.max_sigma_m, above(0).at_most(1000), "m", "up to here");
+  describe_refinement(table, matcher.refinement);
+}
+
+void describe_verification(OptionTable& table, LoopVerificationOptions& verification) {
+  table.section("verification", "Which loops are believed: one false loop ruins a map")
+      .number("min_response", verification.min_response, between(0, 1), "", "least response of a match")
+      .number("min_response_wide", verification.min_response_wide, between(0, 1), "",
+              "the same in wide windows, where there are more chances to err")
+      .number("wide_window_m", verification.wide_window_m, at_least(0), "m",
+              "windows of a larger half-width are wide")
+      .number("max_ambiguity", verification.max_ambiguity, between(0, 1), "",
+              "greatest response of another distinct peak, as a share of the best")
+      .number("max_sigma_m", verification.max_sigma_m, above(0), "m",
+              "greatest standard deviation of the matched position")
+      .number("min_observed_share", verification.min_observed_share, between(0, 1), "",
+              "least share of the scan's points in space that the local map has seen")
+      .number("min_neighbours_agree", verification.min_neighbours_agree, between(0, 1), "",
+              "least share of the neighbouring scans' points that fit the local map")
+      .number("min_reverse_agree", verification.min_reverse_agree, between(0, 1), "",
+              "least share of the local map's points that fit what the scan sees")
+      .number("neighbourhood_m", verification.neighbourhood_m, at_least(0), "m",
+              "scans this far along the path, before and after, are neighbours");
+}
+
+void describe_kernel(OptionTable& table, const std::string& constraints, const std::string& whose,
+                     RobustKernel& kernel) {
+  using Type = RobustKernel::Type;
+  table
+      .choice(constraints + "_kernel", kernel.type,
+              {{"none", Type::kNone},
+               {"huber", Type::kHuber},
+               {"cauchy", Type::kCauchy},
+               {"dynamic_scaling", Type::kDynamicScaling},
+               {"geman_mcclure", Type::kGemanMcClure}},
+              "robust kernel of the constraints " + whose)
+      .number(constraints + "_kernel_width", kernel.width, above(0), "sigma",
+              "errors beyond this weigh less, in standard deviations");
+}
+
+void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
+  PoseAdjustmentOptions& solver = mapper.pose_graph;
+  table.section("pose_graph", "The graph of poses and its optimisation")
+      .number("local_map_sigma_m", mapper.local_map_sigma_m, above(0), "m",
+              "standard deviation of a node in a local map that it was inserted into")
+      .angle_deg("local_map_sigma_theta_deg", mapper.local_map_sigma_rad, above(0).at_most(180),
+                 "the same in heading")
+      .number("loop_sigma_m", mapper.loop_sigma_m, above(0), "m",
+              "standard deviation of a loop, on top of its match's own")
+      .angle_deg("loop_sigma_theta_deg", mapper.loop_sigma_rad, above(0).at_most(180), "the same in heading");
+  describe_kernel(table, "odometry", "between successive nodes", solver.odometry_kernel);
+  describe_kernel(table, "local_map", "of nodes to their local maps", solver.local_map_kernel);
+  describe_kernel(table, "loop", "of loops", solver.loop_kernel);
+  table
+      .integer("max_iterations", solver.max_iterations, between(1, 10000), "iterations",
+               "most steps of an optimisation")
+      .number("relative_tolerance", solver.relative_tolerance, at_least(0).below(1), "",
+              "it ends when the error can fall by no more than this share of itself")
+      .number("absolute_tolerance", solver.absolute_tolerance, at_least(0), "", "or by no more than this")
+      .number("initial_lambda", solver.initial_lambda, at_least(0), "",
+              "damping of the first step; 0 is Gauss-Newton");
+}
+
+void describe_last_pass(OptionTable& table, MapperOptions& mapper) {
+  table.section("last_pass", "After the last scan: all pairs near each other once more")
+      .integer("passes", mapper.last_passes, between(0, 100), "passes", "how often; 0 leaves it out")
+      .number("window_m", mapper.last_pass_window_m, above(0).at_most(100), "m",
+              "half-width of the search windows")
+      .angle_deg("window_theta_deg", mapper.last_pass_window_rad, above(0).at_most(180),
+                 "the same in heading")
+      .number("travel_m", mapper.last_pass_travel_m, at_least(0), "m",
+              "travelled between two nodes that are matched with the same local map");
+}
+
+void describe_map(OptionTable& table, GridMapOptions& map) {
+  table.section("map", "The map that is written")
+      .number("resolution_m", map.resolution_m, between(0.005, 10), "m", "side of a cell")
+      .number("max_range_m", map.max_range_m, above(0), "m",
+              "longer beams are drawn up to here, as free space only")
+      .number("margin_m", map.margin_m, at_least(0).at_most(1000), "m",
+              "of unknown space around all that was seen")
+      .integer("max_cells", map.max_cells, between(10'000, 1'000'000'000), "cells",
+               "a larger map gets coarser cells");
+}
+
+void describe_run(OptionTable& table, RunOptions& run) {
+  table.section("run", "How the program runs")
+      .integer("seed", run.seed, any_number(), "", "of all random numbers: the same seed gives the same map")
+      .integer("threads", run.threads, between(0, 1024), "threads",
+               "0 is one for each processor; no result depends on it");
+}
+
+}  // namespace
+
+void describe(OptionTable& table, Settings& settings) {
+  describe_log(table, settings);
+  describe_front_end(table, settings.mapper.front_end);
+  describe_local_maps(table, settings.mapper.front_end);
+  describe_loop_closure(table, settings);
+  describe_verification(table, settings.mapper.loop_closure.verification);
+  describe_pose_graph(table, settings.mapper);
+  describe_last_pass(table, settings.mapper);
+  describe_map(table, settings.map);
+  describe_run(table, settings.run);
+}
+
+}  // namespace psi_slam

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <cmath>
 #include <ctime>
 
@@ -223,7 +222,7 @@ TEST_P(CarmenReaderOnKnownLogs, reads_them_whole_and_fast) {
   const KnownLog known = GetParam();
   const auto path = shared_file(std::string(known.name) + ".clf.gz");
   if (!path) GTEST_SKIP() << kNeedsData;
-  const std::clock_t start = std::clock();
+  [[maybe_unused]] const std::clock_t start = std::clock();
   CarmenReader reader(*path, {});
   std::size_t scans = 0;
   TimeUs first_us = 0;

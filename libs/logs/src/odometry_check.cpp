@@ -129,17 +129,20 @@ bool fits(const Step& step, double factor) {
 }
 
 /// How well odometry's turns are the scans' in degrees, after both were wrapped as radians: 1 is perfect, and
-/// unrelated turns come near 0. Small turns only: their errors become 57 times larger, too.
+/// unrelated turns come near 0. Small turns are looked at first, as errors become 57 times larger, too.
 double degrees_resultant(const std::vector<Step>& steps, double factor) {
-  std::complex<double> sum = 0;
-  std::size_t count = 0;
-  for (const Step& step : steps) {
-    const double turn_rad = std::abs(step.scan_turn_rad);
-    if (turn_rad < DEG2RAD(0.3) || turn_rad > DEG2RAD(2.5)) continue;
-    sum += std::polar(1.0, step.odometry_turn_rad - factor * step.scan_turn_rad);
-    ++count;
+  for (const double most_rad : {DEG2RAD(2.5), DEG2RAD(6.0)}) {
+    std::complex<double> sum = 0;
+    std::size_t count = 0;
+    for (const Step& step : steps) {
+      const double turn_rad = std::abs(step.scan_turn_rad);
+      if (turn_rad < DEG2RAD(0.3) || turn_rad > most_rad) continue;
+      sum += std::polar(1.0, step.odometry_turn_rad - factor * step.scan_turn_rad);
+      ++count;
+    }
+    if (count >= 3 * kFewestSamples) return std::abs(sum) / static_cast<double>(count);
   }
-  return count < kFewestSamples ? 0 : std::abs(sum) / static_cast<double>(count);
+  return 0;
 }
 
 void compare_turns(const std::vector<Track>& tracks, OdometryAgreement& agreement) {

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/session/mapping_session.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/pose_graph/g2o_file.h"
+#include "psi_slam/results/trajectory_file.h"
+#include "room_log.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Phase = SessionProgress::Phase;
+
+class MappingSessionTest : public testing::Test {
+ protected:
+  std::filesystem::path log(const std::vector<std::string>& lines) {
+    return write_lines(folder_.path() / "room.log", lines);
+  }
+
+  std::string sentence_of(const std::function<void()>& action) {
+    try {
+      action();
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "no UserError was thrown";
+    return {};
+  }
+
+  OutputFolder output() { return OutputFolder::prepare(folder_.path() / "out", false); }
+
+  TemporaryFolder folder_;
+  Settings settings_;
+  const std::atomic<bool> go_on_{false};
+};
+
+TEST_F(MappingSessionTest, maps_a_log_to_its_end) {
+  MappingSession session(log(room_log_lines()), settings_);
+  session.run(go_on_);
+  const MappingResult& result = session.result();
+  ASSERT_EQ(result.frames.size(), 150U);
+  EXPECT_FALSE(result.interrupted);
+  EXPECT_FALSE(session.broken_off().has_value());
+  const auto off = result.frames[100].map_T_robot - result.frames[0].map_T_robot;
+  EXPECT_LT(std::hypot(off.x, off.y), 0.03) << "after one round the robot is back where it began";
+}
+
+TEST_F(MappingSessionTest, neither_steps_nor_threads_change_the_result) {
+  const auto path = log(room_log_lines());
+  settings_.run.threads = 1;
+  MappingSession at_once(path, settings_);
+  at_once.run(go_on_);
+  settings_.run.threads = 3;
+  MappingSession stepwise(path, settings_);
+  std::size_t steps = 0;
+  while (stepwise.step()) ASSERT_EQ(stepwise.mapper().frames().size(), ++steps);
+  EXPECT_FALSE(stepwise.step()) << "the end stays the end";
+  stepwise.finish();
+  ASSERT_EQ(at_once.result().frames.size(), steps);
+  for (std::size_t i = 0; i < steps; ++i)
+    ASSERT_EQ(at_once.result().frames[i].map_T_robot, stepwise.result().frames[i].map_T_robot) << i;
+}
+
+TEST_F(MappingSessionTest, finished_early_it_holds_what_was_read_and_says_so) {
+  MappingSession session(log(room_log_lines()), settings_);
+  for (int i = 0; i < 40; ++i) ASSERT_TRUE(session.step());
+  session.finish();
+  EXPECT_TRUE(session.result().interrupted);
+  EXPECT_EQ(session.result().frames.size(), 40U);
+  const RunSummary summary = session.export_to(output());
+  EXPECT_TRUE(summary.interrupted);
+  EXPECT_EQ(read_trajectory(folder_.path() / "out" / "trajectory.tum").size(), 40U);
+}
+
+TEST_F(MappingSessionTest, stops_when_it_is_told_to) {
+  std::atomic<bool> stop{false};
+  MappingSession session(log(room_log_lines()), settings_);
+  session.set_observer([&](const SessionProgress& progress) { stop = progress.scans == 25; });
+  session.run(stop);
+  EXPECT_TRUE(session.result().interrupted);
+  EXPECT_EQ(session.result().frames.size(), 25U);
+}
+
+TEST_F(MappingSessionTest, tells_how_far_it_is) {
+  std::vector<Phase> phases;
+  double read_share = 0;
+  MappingSession session(log(room_log_lines(60)), settings_);
+  session.set_observer([&](const SessionProgress& progress) {
+    if (phases.empty() || phases.back() != progress.phase) phases.push_back(progress.phase);
+    EXPECT_GE(progress.read_share, read_share);
+    read_share = progress.read_share;
+    EXPECT_GT(progress.elapsed_s, 0);
+    EXPECT_EQ(progress.remaining_s.has_value(), progress.phase == Phase::kMapping);
+    EXPECT_GE(progress.remaining_s.value_or(0), 0);
+  });
+  session.run(go_on_);
+  session.export_to(output());
+  EXPECT_THAT(phases, ElementsAre(Phase::kMapping, Phase::kLastPass, Phase::kWriting));
+  EXPECT_EQ(read_share, 1);
+}
+
+TEST_F(MappingSessionTest, maps_a_log_up_to_where_it_breaks_off) {
+  auto lines = room_log_lines(60);
+  lines[40] = "FLASER 181 1.0 2.0";
+  MappingSession session(log(lines), settings_);
+  session.run(go_on_);
+  ASSERT_TRUE(session.broken_off().has_value());
+  EXPECT_THAT(*session.broken_off(), HasSubstr("room.log:41"));
+  EXPECT_TRUE(session.result().interrupted);
+  EXPECT_EQ(session.result().frames.size(), 40U);
+}
+
+TEST_F(MappingSessionTest, refuses_a_log_whose_first_scan_is_broken) {
+  auto lines = room_log_lines(5);
+  lines[0] = "FLASER 181 1.0 2.0";
+  const auto path = log(lines);
+  EXPECT_THAT(sentence_of([&] { MappingSession(path, settings_).run(go_on_); }), HasSubstr("room.log:1:"));
+}
+
+TEST_F(MappingSessionTest, refuses_a_log_without_a_single_return) {
+  auto lines = room_log_lines(5);
+  for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, std::to_string(kRoomNoReturn_m));
+  const auto path = log(lines);
+  EXPECT_THAT(sentence_of([&] { MappingSession(path, settings_).run(go_on_); }),
+              HasSubstr("none of its 5 scans has a return"));
+}
+
+TEST_F(MappingSessionTest, DISABLED_a_scan_without_return_among_others_does_no_harm) {
+  auto lines = room_log_lines(60);
+  for (const std::size_t blind : {0U, 1U, 30U, 31U, 32U, 59U})
+    lines[blind] = with_ranges(lines[blind], 0, kRoomBeams, "nan");
+  MappingSession session(log(lines), settings_);
+  session.run(go_on_);
+  EXPECT_EQ(session.result().frames.size(), 60U);
+  const auto end = session.result().frames[58].map_T_robot - session.result().frames[2].map_T_robot;
+  const auto truth = room_pose(2 * M_PI * 58 / 100) - room_pose(2 * M_PI * 2 / 100);
+  EXPECT_LT(std::hypot(end.x - truth.x, end.y - truth.y), 0.1);
+}
+
+TEST_F(MappingSessionTest, refuses_contradicting_settings_and_missing_logs_before_anything_else) {
+  EXPECT_THAT(sentence_of([&] { MappingSession("/missing/room.log", settings_); }),
+              HasSubstr("/missing/room.log does not exist"));
+  settings_.mapper.loop_closure.candidates.min_window_m = 50;
+  EXPECT_THAT(sentence_of([&] { MappingSession("/missing/room.log", settings_); }),
+              HasSubstr("loop_closure.min_window_m = 50 must not be more than"));
+}
+
+TEST_F(MappingSessionTest, exports_the_graph_and_the_figures_of_the_whole_run) {
+  settings_.mapper.front_end.window_m = 0.2;
+  MappingSession session(log(room_log_lines(60)), settings_);
+  session.run(go_on_);
+  const RunSummary summary = session.export_to(output());
+  const PoseGraphFile written = read_pose_graph(folder_.path() / "out" / "graph.g2o");
+  EXPECT_EQ(written.graph.num_nodes(), summary.nodes);
+  EXPECT_EQ(summary.nodes, session.result().node_frames.size());
+  EXPECT_NEAR(summary.log.duration_s, 59 * 0.2, 1e-6);
+  EXPECT_NEAR(summary.real_time_factor, summary.log.duration_s / summary.wall_s, 1e-9);
+  std::vector<std::string> stages;
+  double stages_s = 0;
+  for (const StageTiming& stage : session.result().stages) {
+    stages.push_back(stage.name);
+    stages_s += stage.total_s;
+  }
+  EXPECT_EQ(stages.front(), "read log");
+  EXPECT_EQ(stages.back(), "draw map");
+  EXPECT_LT(stages_s, summary.wall_s);
+  EXPECT_EQ(session.run_info().log_name, "room.log");
+  EXPECT_EQ(session.run_info().settings.at("front_end.window_m"), "0.2");
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+// Nothing is converted here, there is only the question whether it could be.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+
+namespace psi_slam {
+namespace member_count_detail {
+
+/// Stands for a value of whatever type a member has.
+struct Anything {
+  template <class T>
+  operator T() const;
+};
+
+template <std::size_t>
+using Always = Anything;
+
+template <class Struct, class Indices, class = void>
+struct TakesMembers : std::false_type {};
+
+template <class Struct, std::size_t... i>
+struct TakesMembers<Struct, std::index_sequence<i...>, std::void_t<decltype(Struct{Always<i>{}...})>>
+    : std::true_type {};
+
+template <class Struct, std::size_t count>
+constexpr std::size_t counted_from() {
+  if constexpr (TakesMembers<Struct, std::make_index_sequence<count + 1>>::value)
+    return counted_from<Struct, count + 1>();
+  else
+    return count;
+}
+
+}  // namespace member_count_detail
+
+/// How many members a struct of plain values has, structs within it counting as one.
+template <class Struct>
+constexpr std::size_t member_count() {
+  return member_count_detail::counted_from<Struct, 0>();
+}
+
+}  // namespace psi_slam
+
+#pragma GCC diagnostic pop

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/session/read_ahead.h"
+
+#include <gtest/gtest.h>
+
+#include "psi_slam/base/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+/// So many frames, and then the end or a malformed line.
+class CountedFrames : public FrameSource {
+ public:
+  CountedFrames(std::size_t count, bool breaks_off) : count_(count), breaks_off_(breaks_off) {}
+
+  std::optional<Frame> next() override {
+    if (given_ == count_ && breaks_off_) throw UserError("line 8 is damaged");
+    if (given_ == count_) return std::nullopt;
+    Frame frame;
+    frame.index = given_++;
+    return frame;
+  }
+
+  double progress() const override { return static_cast<double>(given_) / static_cast<double>(count_); }
+
+ private:
+  std::size_t count_;
+  bool breaks_off_;
+  std::size_t given_ = 0;
+};
+
+TEST(ReadAhead, gives_all_frames_in_order_with_the_progress_of_those_taken) {
+  for (const std::size_t capacity : {0, 1, 3, 2000}) {
+    ReadAhead ahead(std::make_unique<CountedFrames>(1000, false), capacity);
+    EXPECT_EQ(ahead.progress(), 0);
+    for (std::size_t i = 0; i < 1000; ++i) {
+      const auto frame = ahead.next();
+      ASSERT_TRUE(frame.has_value());
+      ASSERT_EQ(frame->index, i);
+      ASSERT_EQ(ahead.progress(), static_cast<double>(i + 1) / 1000);
+    }
+    EXPECT_FALSE(ahead.next().has_value());
+    EXPECT_FALSE(ahead.next().has_value()) << "the end stays the end";
+  }
+}
+
+TEST(ReadAhead, throws_what_the_source_threw_behind_the_frames_before) {
+  ReadAhead ahead(std::make_unique<CountedFrames>(5, true), 100);
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(ahead.next().has_value());
+  EXPECT_THROW(ahead.next(), UserError);
+  EXPECT_THROW(ahead.next(), UserError);
+}
+
+TEST(ReadAhead, can_be_given_up_at_any_time) {
+  for (int taken = 0; taken < 20; ++taken) {
+    ReadAhead ahead(std::make_unique<CountedFrames>(1000, false), 4);
+    for (int i = 0; i < taken; ++i) ahead.next();
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

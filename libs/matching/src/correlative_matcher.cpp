@@ -27,6 +27,17 @@ std::uint32_t smallest_sum(const SearchLattice& lattice, double response) {
   return static_cast<std::uint32_t>(std::ceil(std::clamp(response, 0.0, 1.0) * lattice.goal_max()));
 }
 
+// The least number of steps that reach a distance; one that is whole but for rounding stays whole.
+int steps_to(double distance, double step) {
+  return std::max(1, static_cast<int>(std::ceil(distance / step - 1e-9)));
+}
+
+// Where the best response is 0, every pose is as good as the best.
+double ambiguity_of(const Candidate& best, const std::optional<Candidate>& next) {
+  if (!next) return 0;
+  return best.sum == 0 ? 1 : static_cast<double>(next->sum) / best.sum;
+}
+
 }  // namespace
 
 MatchResult CorrelativeMatcher::match(const MatchProblem& problem) const {
@@ -49,13 +60,13 @@ MatchResult CorrelativeMatcher::match(const MatchProblem& problem) const {
                                          problem.scan.farthest_m);
 
   if (problem.measure_ambiguity) {
-    const ExcludedRegion around = {
-        outcome.best->pose, std::max(1, static_cast<int>(options_.distinct_m / result.window.linear_step_m)),
-        std::max(1, static_cast<int>(options_.distinct_rad / result.window.angular_step_rad))};
+    const ExcludedRegion around = {outcome.best->pose,
+                                   steps_to(options_.distinct_m, result.window.linear_step_m),
+                                   steps_to(options_.distinct_rad, result.window.angular_step_rad)};
     const auto floor = smallest_sum(lattice, result.response * options_.ambiguity_floor);
     const SearchOutcome next = search(lattice, floor, around);
     result.evaluations += next.evaluations;
-    result.ambiguity = next.best ? static_cast<double>(next.best->sum) / outcome.best->sum : 0.0;
+    result.ambiguity = ambiguity_of(*outcome.best, next.best);
   }
   return result;
 }

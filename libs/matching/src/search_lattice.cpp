@@ -97,10 +97,11 @@ void ShiftSums::add_clipped(const ScoreLevel& level, Cell cell, int width, int h
   const int x_last = std::min(width, level.width() - cell.x);
   const int y_first = std::max(0, -1 - cell.y);
   const int y_last = std::min(height, level.height() - cell.y);
+  if (x_first >= x_last) return;
   for (int y = y_first; y < y_last; ++y) {
-    std::uint32_t* sums = sums_.data() + y * row_;
-    const std::uint8_t* scores = level.cell(cell.x, cell.y + y);
-    for (int x = x_first; x < x_last; ++x) sums[x] += scores[x];
+    std::uint32_t* sums = sums_.data() + y * row_ + x_first;
+    const std::uint8_t* scores = level.cell(cell.x + x_first, cell.y + y);
+    for (int x = 0; x < x_last - x_first; ++x) sums[x] += scores[x];
   }
 }
 

@@ -27,8 +27,9 @@ struct SearchWindow {
 };
 
 /// Equations 7 and 8. `farthest_point_m` is d_max, the largest range among the points used.
-/// Throws std::invalid_argument naming the values when a half-width or the resolution is not positive, or
-/// d_max is not larger than half the resolution (the arc cosine of equation 7 has no value there).
+/// Throws std::invalid_argument naming the values when a half-width or the resolution is not positive and
+/// finite, d_max is not larger than half the resolution (the arc cosine of equation 7 has no value there), or
+/// a half-width needs more than a million steps.
 SearchWindow make_search_window(const SearchExtent& extent, double resolution_m, double farthest_point_m);
 
 }  // namespace psi_slam

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/matching/branch_and_bound.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "real_scans.h"
+#include "score_grids.h"
+#include "slow_search.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+// Both searches, without and with an excluded region, at the smallest sums that matter: none, what is just
+// reached, what is just missed.
+void expect_equal_outcomes(const SearchLattice& lattice, const std::string& where) {
+  const SearchOutcome exhaustive = exhaustive_search(lattice, 0);
+  const SearchOutcome fast = branch_and_bound_search(lattice, 0);
+  ASSERT_TRUE(same(fast.best, exhaustive.best))
+      << where << ": " << to_text(fast.best) << ", not " << to_text(exhaustive.best);
+  const Candidate best = *exhaustive.best;
+  const SearchOutcome reached = branch_and_bound_search(lattice, best.sum);
+  ASSERT_TRUE(same(reached.best, best)) << where << ": " << to_text(reached.best);
+  ASSERT_FALSE(branch_and_bound_search(lattice, best.sum + 1).best) << where;
+
+  const ExcludedRegion around = {best.pose, 1 + lattice.window().n_x / 4, 1 + lattice.window().n_theta / 4};
+  const SearchOutcome next = exhaustive_search(lattice, best.sum / 2, around);
+  const SearchOutcome fast_next = branch_and_bound_search(lattice, best.sum / 2, around);
+  ASSERT_TRUE(same(fast_next.best, next.best))
+      << where << ", next: " << to_text(fast_next.best) << ", not " << to_text(next.best);
+}
+
+TEST(BranchAndBound, equals_the_exhaustive_search_on_random_grids) {
+  std::mt19937_64 random(41);
+  std::uniform_int_distribution<int> steps(1, 30);
+  std::uniform_int_distribution<int> side(5, 120);
+  std::uniform_real_distribution<double> metres(-3, 4);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int levels = trial % 3 == 0 ? 2 : trial % 3 == 1 ? 5 : 256;
+    const ScoreGrid grid = random_grid(random, side(random), side(random), levels);
+    const ScanPoints scan = random_points(random, 1 + random() % 40, 2.0);
+    const SearchLattice lattice(grid, scan, {metres(random), metres(random), metres(random)},
+                                window_of_steps(steps(random), steps(random), steps(random) / 3 + 1, 0.03));
+    ASSERT_NO_FATAL_FAILURE(expect_equal_outcomes(lattice, "trial " + std::to_string(trial)));
+  }
+}
+
+// Few points on few walls leave most of the window equally bad, and much of it equally good.
+TEST(BranchAndBound, equals_the_exhaustive_search_where_ties_abound) {
+  std::mt19937_64 random(42);
+  std::uniform_int_distribution<int> cell(0, 79);
+  std::uniform_int_distribution<int> steps(3, 24);
+  for (int trial = 0; trial < 200; ++trial) {
+    ScoreGrid grid(0, 0, 0.05, 80, 80);
+    const int row = cell(random);
+    const int column = cell(random);
+    for (int i = 0; i < 80; ++i) {
+      *grid.finest().cell(i, row) = 255;
+      if (trial % 2 == 0) *grid.finest().cell(column, i) = 255;
+    }
+    grid.build_pyramid();
+    const ScanPoints scan = random_points(random, 1 + random() % 4, 1.0);
+    const SearchLattice lattice(grid, scan, {2, 2, 0.1 * trial},
+                                window_of_steps(steps(random), steps(random), steps(random) / 3, 0.05));
+    ASSERT_NO_FATAL_FAILURE(expect_equal_outcomes(lattice, "trial " + std::to_string(trial)));
+  }
+}
+
+TEST(BranchAndBound, equals_three_plain_loops) {
+  std::mt19937_64 random(43);
+  for (int trial = 0; trial < 50; ++trial) {
+    const ScoreGrid grid = random_grid(random, 50, 50, 3);
+    const SearchLattice lattice(grid, random_points(random, 12, 1.0), {0, 0, 0},
+                                window_of_steps(9, 8, 4, 0.05));
+    const SearchOutcome outcome = branch_and_bound_search(lattice, 0);
+    const std::optional<Candidate> expected = slow_search(lattice, 0);
+    ASSERT_TRUE(same(outcome.best, expected)) << to_text(outcome.best) << ", not " << to_text(expected);
+  }
+}
+
+TEST(BranchAndBound, finds_nothing_when_all_is_excluded) {
+  std::mt19937_64 random(44);
+  const ScoreGrid grid = random_grid(random, 50, 50, 256);
+  const SearchLattice lattice(grid, random_points(random, 12, 1.0), {0, 0, 0},
+                              window_of_steps(9, 8, 4, 0.05));
+  EXPECT_FALSE(branch_and_bound_search(lattice, 0, ExcludedRegion{{0, 0, 0}, 10, 5}).best);
+}
+
+TEST(BranchAndBound, needs_the_pyramid) {
+  std::mt19937_64 random(45);
+  const ScoreGrid grid(0, 0, 0.05, 10, 10);
+  const SearchLattice lattice(grid, random_points(random, 3, 1.0), {0, 0, 0}, window_of_steps(1, 1, 1, 0.05));
+  EXPECT_THROW(branch_and_bound_search(lattice, 0), std::invalid_argument);
+}
+
+TEST(BranchAndBound, equals_the_exhaustive_search_on_real_scans) {
+  const auto log = real_log();
+  if (!log) GTEST_SKIP() << kNeedsRealScans;
+  const RealScans real = read_real_scans(*log);
+  ASSERT_FALSE(real.maps.empty());
+
+  constexpr struct {
+    SearchExtent extent;
+    int cases;
+  } kWindows[] = {{{0.3, 0.3, 0.1}, 16}, {{1.0, 0.7, 0.3}, 16},     {{2.0, 2.0, 0.35}, 12},
+                  {{4.0, 4.0, 0.4}, 8},  {{8.0, 8.0, M_PI / 6}, 4}, {{7.9, 2.3, 0.05}, 4}};
+  std::mt19937_64 random(46);
+  std::uniform_real_distribution<double> share(-0.9, 0.9);
+  for (const auto& window : kWindows) {
+    std::int64_t exhaustive_poses = 0;
+    std::int64_t fast_poses = 0;
+    for (int trial = 0; trial < window.cases; ++trial) {
+      const PlacedLocalMap& placed = real.maps[random() % real.maps.size()];
+      // A node of the map itself, seen with a wrong prediction; or any node, which need not fit at all.
+      const std::size_t within = placed.first_node + random() % (placed.last_node - placed.first_node + 1);
+      const std::size_t node = trial % 3 < 2 ? within : random() % real.nodes.size();
+      ScanPoints scan = *real.nodes[node].points;
+      if (window.extent.x_m > 5 && window.extent.theta_rad > 0.1) {  // the slow search takes long
+        ScanPoints thinned;
+        for (std::size_t p = 0; p < scan.points.size(); p += 3) thinned.points.push_back(scan.points[p]);
+        thinned.farthest_m = std::min(scan.farthest_m, 15.0);
+        scan = thinned;
+      }
+      TPose2D predicted = real.nodes[node].local_T_robot - placed.local_T_map;
+      predicted.x += share(random) * window.extent.x_m;
+      predicted.y += share(random) * window.extent.y_m;
+      predicted.phi += share(random) * window.extent.theta_rad;
+      const ScoreGrid& grid = static_cast<const LocalMap&>(*placed.map).scores();
+      const SearchLattice lattice(grid, scan, predicted,
+                                  make_search_window(window.extent, grid.resolution_m(), scan.farthest_m));
+      ASSERT_NO_FATAL_FAILURE(expect_equal_outcomes(
+          lattice, "node " + std::to_string(node) + " in local map " + std::to_string(placed.id) +
+                       ", window of " + std::to_string(window.extent.x_m) + " m"));
+      exhaustive_poses += exhaustive_search(lattice, 0).evaluations;
+      fast_poses += branch_and_bound_search(lattice, 0).evaluations;
+    }
+    EXPECT_LT(fast_poses, exhaustive_poses / 2) << "window of " << window.extent.x_m << " m";
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -164,9 +164,10 @@ Contents read_lines(const std::filesystem::path& path) {
       contents.edges.push_back(read_edge(fields, kToroEdge, number));
     } else if (tag == "FIX") {
       const Fix fix{fields.id(kFixLayout), number};
-      if (contents.fix && contents.fix->id != fix.id)
+      if (contents.fix && contents.fix->id != fix.id) {
         throw fields.bad("a second vertex is fixed after line " + std::to_string(contents.fix->line),
                          kFixLayout);
+      }
       fields.end(kFixLayout);
       contents.fix = fix;
     } else {
@@ -227,9 +228,10 @@ PoseGraphFile read_pose_graph(const std::filesystem::path& path) {
   }
   const auto existing = [&](std::int64_t id, std::size_t line) {
     const std::optional<std::size_t> node = node_of(result.ids, id);
-    if (!node)
+    if (!node) {
       throw UserError(place(path, line) + ": there is no vertex " + std::to_string(id) +
                       " in the file, expected a line VERTEX_SE2 (or VERTEX2) for it");
+    }
     return *node;
   };
   for (const Edge& edge : contents.edges) {

@@ -78,9 +78,10 @@ GraduatedReport optimize_graduated(PoseGraph& graph, SparsePoseAdjustment& solve
   report.solution.initial_chi2 = from_start.initial_chi2;
   report.solution.initial_robust_chi2 = from_start.initial_robust_chi2;
   report.solution.milliseconds = milliseconds;
-  for (std::size_t i = 0; i < report.solution.fits.size(); ++i)
+  for (std::size_t i = 0; i < report.solution.fits.size(); ++i) {
     if (is_enabled_loop(graph, i) && report.solution.fits[i].chi2 > inlier_width2)
       report.outliers.push_back(i);
+  }
   return report;
 }
 

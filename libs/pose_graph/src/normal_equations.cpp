@@ -54,16 +54,15 @@ void NormalEquations::check_connected(const PoseGraph& graph) {
 
 void NormalEquations::prepare(const PoseGraph& graph) {
   reordered_ = restructured_ = false;
-  bool must_order = false;
   if (!continues(graph)) {
     node_of_.clear();
     variable_of_.clear();
     ends_.clear();
     places_.clear();
     root_ = graph.root();
-    must_order = true;
+    ordered_variables_ = 0;
   }
-  bool must_lay_out = must_order;
+  bool must_lay_out = ordered_variables_ == 0;
   for (std::size_t node = variable_of_.size(); node < graph.num_nodes(); ++node) {
     must_lay_out = true;
     if (node == root_) {
@@ -85,8 +84,8 @@ void NormalEquations::prepare(const PoseGraph& graph) {
 
   restructured_ = true;
   const auto variables = static_cast<double>(node_of_.size());
-  must_order = must_order || variables * (1 - kMaxAppendedShare) > static_cast<double>(ordered_variables_) ||
-               wasted_products_ > kProductsOfOrderingPerLink * static_cast<double>(ends_.size());
+  const bool must_order = variables * (1 - kMaxAppendedShare) > static_cast<double>(ordered_variables_) ||
+                          wasted_products_ > kProductsOfOrderingPerLink * static_cast<double>(ends_.size());
   if (must_order) find_order(graph);
   lay_out(graph);
   if (must_order) {
@@ -139,9 +138,10 @@ void NormalEquations::lay_out(const PoseGraph& graph) {
     ++num_links;
   }
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  for (std::size_t i = 0; i < ends_.size(); ++i)
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
     if (places_[i].known && ends_of(i).second != kHeld)
       by_row[begin[ends_of(i).first]++] = static_cast<std::uint32_t>(i);
+  }
 
   begin.assign(n + 1, 0);
   for (std::size_t r = 0; r < num_links; ++r) ++begin[ends_of(by_row[r]).second + 1];
@@ -193,10 +193,11 @@ void NormalEquations::linearize(const PoseGraph& graph, const std::vector<Rotate
       gradient_.segment<3>(row(b)) += normals.j;
     }
     if (places_[i].block == kNoBlock) continue;
-    if (places_[i].transposed)
+    if (places_[i].transposed) {
       hessian_.blocks[places_[i].block] += normals.ij.transpose();
-    else
+    } else {
       hessian_.blocks[places_[i].block] += normals.ij;
+    }
   }
   if (coordinates == Coordinates::kHeadings) {
     hold(0);

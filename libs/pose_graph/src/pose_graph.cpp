@@ -38,10 +38,11 @@ GraphLink link_of(const Constraint& constraint) {
   const Eigen::Matrix3d scaled = scale.asDiagonal() * constraint.information * scale.asDiagonal();
   constexpr double kSingular = 1e-12;
   if (scale.allFinite()) scaled.computeInverseWithCheck(covariance, invertible, kSingular);
-  if (invertible)
+  if (invertible) {
     covariance = (scale.asDiagonal() * covariance * scale.asDiagonal()).eval();
-  else
+  } else {
     covariance = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
+  }
   link.xx = covariance(0, 0);
   link.xy = covariance(0, 1);
   link.xt = covariance(0, 2);
@@ -62,13 +63,15 @@ std::size_t PoseGraph::add_node(const TPose2D& map_T_node) {
 std::size_t PoseGraph::add_constraint(const Constraint& constraint) {
   if (constraint.from >= poses_.size() || constraint.to >= poses_.size())
     throw std::out_of_range("PoseGraph: a constraint names a node that does not exist");
-  if (constraint.from == constraint.to)
+  if (constraint.from == constraint.to) {
     throw std::invalid_argument("PoseGraph: a constraint links node " + std::to_string(constraint.from) +
                                 " to itself");
-  if (!is_finite(constraint.from_T_to) || !is_information_matrix(constraint.information))
+  }
+  if (!is_finite(constraint.from_T_to) || !is_information_matrix(constraint.information)) {
     throw std::invalid_argument("PoseGraph: the constraint " + std::to_string(constraint.from) + " -> " +
                                 std::to_string(constraint.to) +
                                 " is not finite or its information is not positive semi-definite");
+  }
   const auto index = static_cast<std::uint32_t>(constraints_.size());
   constraints_.push_back(constraint);
   constraints_.back().from_T_to.phi = wrap_to_pi(constraint.from_T_to.phi);
@@ -121,9 +124,10 @@ PoseGraph PoseGraph::from_mrpt(const mrpt::graphs::CNetworkOfPoses2DInf& graph) 
   PoseGraph result;
   for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
     const auto node = graph.nodes.find(i);
-    if (node == graph.nodes.end())
+    if (node == graph.nodes.end()) {
       throw UserError("the pose graph has no node " + std::to_string(i) + ": its " +
                       std::to_string(graph.nodes.size()) + " nodes must be numbered from 0 without a gap");
+    }
     result.add_node(node->second.asTPose());
   }
   for (const auto& [ends, edge] : graph.edges) {

@@ -71,25 +71,22 @@ int map(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
   load(line, bound);
   if (line.verbose) streams.err << changed_settings(bound.table);
+  const InterruptSignals signals;
   MappingSession session(line.log, bound.settings);
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
-
-  std::optional<RunSummary> summary;
-  {
-    const InterruptSignals signals;
-    std::optional<ProgressLine> progress_line;
-    watch(session, signals, line, streams, progress_line);
-    session.run(signals.came());
-    summary = session.export_to(folder);
-    session.set_observer({});
-  }
+  std::optional<ProgressLine> progress_line;
+  watch(session, signals, line, streams, progress_line);
+  session.run(signals.came());
+  const RunSummary summary = session.export_to(folder);
+  progress_line.reset();
+  session.set_observer({});
 
   const RunInfo info = session.run_info();
   if (line.verbose) streams.err << stages_text(session.result());
   if (line.json)
-    streams.out << summary_json(session.result(), info, *summary);
+    streams.out << summary_json(session.result(), info, summary);
   else if (!line.quiet)
-    streams.out << closing_text(*summary, info.log_name, folder);
+    streams.out << closing_text(summary, info.log_name, folder);
   if (!session.broken_off()) return kDone;
   streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
               << session.result().frames.size() << " scans before it\n";

@@ -93,7 +93,7 @@ void MappingSession::finish() {
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {
-  while (!stop && step()) {
+  while (step() && !stop) {
   }
   finish();
 }

@@ -64,7 +64,7 @@ class MappingSession {
   /// UserError when no scan had a return.
   void finish();
 
-  /// Steps to the end of the log, or until `stop` becomes true, and finishes.
+  /// Steps to the end of the log, or, from the first scan on, until `stop` is true; and finishes.
   void run(const std::atomic<bool>& stop);
 
   /// Draws the map and writes all results. Needs finish(). Throws SystemFailure when the disk does not take

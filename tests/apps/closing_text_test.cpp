@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing_text.h"
+
+#include <gmock/gmock.h>
+
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class ClosingText : public testing::Test {
+ protected:
+  std::string text() const {
+    return closing_text(summary_, "my.log", OutputFolder::prepare(folder_.path() / "out", false));
+  }
+
+  TemporaryFolder folder_;
+  RunSummary summary_;
+};
+
+TEST_F(ClosingText, says_where_the_map_is_and_what_it_is_made_of) {
+  summary_.log.scans = 13631;
+  summary_.log.duration_s = 2691;
+  summary_.path_length_m = 503.4;
+  summary_.nodes = 3463;
+  summary_.loops.accepted = 1;
+  summary_.wall_s = 20.25;
+  summary_.real_time_factor = 132.9;
+  summary_.peak_memory_mb = 305;
+  const std::string folder = (folder_.path() / "out").string();
+  EXPECT_EQ(text(), "The map is " + folder + "/map.png; " + folder +
+                        "/report.html tells how it was made.\n"
+                        "13631 scans of my.log over 44:51 and 503 m: 3463 nodes, 1 loop closed.\n"
+                        "It took 20.2 s, real-time factor 132.9, and 305 MB of memory.\n");
+}
+
+TEST_F(ClosingText, leaves_out_a_factor_that_cannot_be_said) {
+  EXPECT_THAT(text(), Not(HasSubstr("factor")));
+}
+
+TEST_F(ClosingText, lists_the_stages) {
+  MappingResult result;
+  result.stages = {{"read log", 10, 1.5, 0.5, 1, 2, 0.015}, {"draw map", 1, 60, 0, 60, 60, 0.06}};
+  EXPECT_THAT(stages_text(result),
+              testing::MatchesRegex("read log +10 x +1.500 ± 0.500 ms  \\[1.000, 2.000\\] +0.0[12] s\n"
+                                    "draw map +1 x +60.000 ± 0.000 ms  \\[60.000, 60.000\\] +0.06 s\n"));
+}
+
+}  // namespace
+}  // namespace psi_slam

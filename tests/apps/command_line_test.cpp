@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line.h"
+
+#include <gmock/gmock.h>
+
+#include "app_run.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using Command = CommandLine::Command;
+
+CommandLine parsed(const std::vector<std::string>& arguments) {
+  CLI::App app;
+  return parse_command_line(arguments, app);
+}
+
+/// What the program says to wrong usage.
+std::string complaint(const std::vector<std::string>& arguments) {
+  const AppRun run = run_app(arguments);
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.err, MatchesRegex("psi-slam: [^\n]+\n")) << "one line";
+  return run.err;
+}
+
+TEST(CommandLine, takes_options_before_and_behind_the_log) {
+  for (const CommandLine& line : {parsed({"-c", "my.ini", "--set", "a.b=1", "--set", "c.d=2", "my.log", "-o",
+                                          "out", "--force", "--json"}),
+                                  parsed({"my.log", "--output", "out", "--set=a.b=1", "--json",
+                                          "--config=my.ini", "--set", "c.d=2", "--force"})}) {
+    EXPECT_EQ(line.command, Command::kMap);
+    EXPECT_EQ(line.log, "my.log");
+    EXPECT_EQ(line.output, "out");
+    EXPECT_EQ(line.config, "my.ini");
+    EXPECT_THAT(line.settings, ElementsAre("a.b=1", "c.d=2"));
+    EXPECT_TRUE(line.force && line.json);
+    EXPECT_FALSE(line.quiet || line.verbose || line.seed || line.threads);
+  }
+}
+
+TEST(CommandLine, an_override_does_not_swallow_the_log_behind_it) {
+  EXPECT_EQ(parsed({"-o", "out", "--set", "a.b=1", "my.log"}).log, "my.log");
+  EXPECT_EQ(parsed({"check", "--set", "a.b=1", "my.log"}).log, "my.log");
+}
+
+TEST(CommandLine, knows_its_commands) {
+  const CommandLine check = parsed({"check", "my.log", "-c", "my.ini", "--json", "--set", "a.b=1"});
+  EXPECT_EQ(check.command, Command::kCheck);
+  EXPECT_EQ(check.log, "my.log");
+  EXPECT_EQ(check.config, "my.ini");
+  EXPECT_TRUE(check.json);
+  EXPECT_EQ(parsed({"options"}).command, Command::kOptions);
+  EXPECT_TRUE(parsed({"options", "--markdown"}).markdown);
+  EXPECT_EQ(parsed({"--dump-config", "-c", "my.ini"}).command, Command::kDumpConfig);
+}
+
+TEST(CommandLine, wrong_usage_gets_a_sentence) {
+  EXPECT_THAT(complaint({}), AllOf(HasSubstr("name the log"), HasSubstr("--help")));
+  EXPECT_THAT(complaint({"my.log"}), HasSubstr("name the folder for the results: -o DIR"));
+  EXPECT_THAT(complaint({"my.log", "-o"}), HasSubstr("--output"));
+  EXPECT_THAT(complaint({"my.log", "-o", "out", "--colour"}), HasSubstr("--colour"));
+  EXPECT_THAT(complaint({"a.log", "b.log", "-o", "out"}), HasSubstr("one log at a time"));
+  EXPECT_THAT(complaint({"chekc", "my.log"}), HasSubstr("no command \"chekc\"; did you mean \"check\"?"));
+  EXPECT_THAT(complaint({"check"}), HasSubstr("psi-slam check LOG"));
+  EXPECT_THAT(complaint({"check", "a.log", "b.log"}), HasSubstr("one log at a time"));
+  EXPECT_THAT(complaint({"-o", "out", "check", "a.log"}), HasSubstr("nothing is written"));
+  EXPECT_THAT(complaint({"--dump-config", "my.log"}), HasSubstr("\"my.log\" is one argument too many"));
+  EXPECT_THAT(complaint({"options", "my.log"}), HasSubstr("my.log"));
+  EXPECT_THAT(complaint({"my.log", "-o", "out", "-q", "-v"}), HasSubstr("excludes"));
+  EXPECT_THAT(complaint({"my.log", "-o", "out", "--seed"}), HasSubstr("--seed"));
+}
+
+TEST(CommandLine, tells_its_version_and_its_options) {
+  const AppRun version = run_app({"--version"});
+  EXPECT_EQ(version.code, 0);
+  EXPECT_THAT(version.out, MatchesRegex("psi-slam [0-9.]+\n"));
+  const AppRun help = run_app({"--help"});
+  EXPECT_EQ(help.code, 0);
+  for (const char* option : {"--config", "--output", "--set", "--seed", "--threads", "--force", "--json",
+                             "--quiet", "--verbose", "--dump-config", "--version", "check", "options", "LOG"})
+    EXPECT_THAT(help.out, HasSubstr(option));
+  EXPECT_EQ(run_app({"check", "--help"}).code, 0);
+  EXPECT_EQ(help.err, "");
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "log_check.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "../session/room_log.h"
+#include "app_run.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+class LogCheck : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  std::string log_ = write_lines(folder_.path() / "room.log", room_log_lines(60)).string();
+};
+
+TEST_F(LogCheck, tells_in_plain_sentences_what_the_log_holds) {
+  const AppRun run = run_app({"check", log_});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, HasSubstr("room.log: CARMEN, 60 scans by FLASER of 181 beams"));
+  EXPECT_THAT(run.out, HasSubstr("odometry: "));
+}
+
+TEST_F(LogCheck, tells_the_same_to_programs) {
+  const AppRun run = run_app({"check", "--json", log_});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(Json::parse(run.out)["facts"]["scans"], 60);
+}
+
+TEST_F(LogCheck, judges_by_the_settings) {
+  const AppRun run =
+      run_app({"check", "--json", log_, "--set", "log.max_range_m=2.5", "--set", "log.laser_x_m=0.3"});
+  const Json facts = Json::parse(run.out)["facts"];
+  EXPECT_EQ(facts["ranges"]["max_range_m"], 2.5);
+  EXPECT_EQ(facts["robot_T_laser"]["x_m"], 0.3);
+}
+
+TEST_F(LogCheck, what_cannot_be_read_is_the_users_mistake) {
+  const AppRun run = run_app({"check", "missing.log"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("missing.log does not exist"));
+}
+
+}  // namespace
+}  // namespace psi_slam

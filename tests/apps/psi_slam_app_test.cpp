@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whole runs of the program, from a log to its results.
+#include "psi_slam_app.h"
+
+#include <gmock/gmock.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "../session/room_log.h"
+#include "app_run.h"
+#include "psi_slam/base/time_stamp.h"
+#include "psi_slam/pose_graph/g2o_file.h"
+#include "psi_slam/results/relations_metric.h"
+#include "psi_slam/results/trajectory_file.h"
+#include "shared_logs.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::json;
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+std::set<std::string> all_result_names() {
+  return {result_names().begin(), result_names().end()};
+}
+
+class PsiSlamApp : public testing::Test {
+ protected:
+  /// Maps the log into the folder `name`.
+  AppRun map(const std::string& log, const std::string& name, std::vector<std::string> options = {}) {
+    options.insert(options.end(), {log, "-o", output(name).string()});
+    return run_app(options);
+  }
+
+  fs::path output(const std::string& name) const { return folder_.path() / name; }
+
+  std::string room_log(int scans = 60) {
+    return write_lines(folder_.path() / "room.log", room_log_lines(scans)).string();
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(PsiSlamApp, maps_the_quickstart_log) {
+  if (!fs::exists(kQuickstartLog)) GTEST_SKIP() << kNeedsQuickstartLog;
+  const AppRun run = map(kQuickstartLog, "out");
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, AllOf(HasSubstr((output("out") / "map.png").string()), HasSubstr("report.html"),
+                             HasSubstr("225 scans"), HasSubstr("real-time factor")));
+  EXPECT_EQ(names_in(output("out")), all_result_names());
+
+  EXPECT_EQ(read_trajectory(output("out") / "trajectory.tum").size(), 225U);
+  EXPECT_EQ(read_trajectory(output("out") / "trajectory.carmen").size(), 225U);
+  const Json summary = Json::parse(bytes_of(output("out") / "summary.json"));
+  EXPECT_EQ(summary["log"]["scans"], 225);
+  const PoseGraphFile graph = read_pose_graph(output("out") / "graph.g2o");
+  EXPECT_EQ(graph.graph.num_nodes(), summary["nodes"]);
+  mrpt::maps::COccupancyGridMap2D grid;
+  EXPECT_TRUE(grid.loadFromROSMapServerYAML((output("out") / "map.yaml").string()));
+  EXPECT_GT(grid.getSizeX(), 100U);
+  mrpt::io::CFileGZInputStream grid_file((output("out") / "map.gridmap.gz").string());
+  EXPECT_NO_THROW(mrpt::serialization::archiveFrom(grid_file) >> grid);
+  mrpt::maps::CSimpleMap simple_map;
+  EXPECT_TRUE(simple_map.loadFromFile((output("out") / "map.simplemap.gz").string()));
+  EXPECT_EQ(simple_map.size(), summary["nodes"]);
+  EXPECT_EQ(bytes_of(output("out") / "map.png").substr(1, 3), "PNG");
+  EXPECT_THAT(bytes_of(output("out") / "report.html"), HasSubstr("</html>"));
+}
+
+TEST_F(PsiSlamApp, gives_the_same_bytes_again_and_with_other_threads) {
+  if (!fs::exists(kQuickstartLog)) GTEST_SKIP() << kNeedsQuickstartLog;
+  ASSERT_EQ(map(kQuickstartLog, "first", {"--threads", "1"}).code, 0);
+  ASSERT_EQ(map(kQuickstartLog, "again", {"--threads", "1"}).code, 0);
+  ASSERT_EQ(map(kQuickstartLog, "two", {"--threads", "2"}).code, 0);
+  for (const char* name : {"trajectory.tum", "trajectory.carmen", "graph.g2o", "map.pgm", "map.yaml",
+                           "map.png", "map.gridmap.gz", "map.simplemap.gz"}) {
+    const std::string first = bytes_of(output("first") / name);
+    EXPECT_FALSE(first.empty()) << name;
+    EXPECT_TRUE(bytes_of(output("again") / name) == first) << name << " differs from run to run";
+    EXPECT_TRUE(bytes_of(output("two") / name) == first) << name << " differs with two threads";
+  }
+}
+
+TEST_F(PsiSlamApp, maps_a_benchmark_log_to_five_centimetres) {
+  const auto log = shared_file("mit-csail.clf.gz");
+  const auto relations = shared_file("mit-csail.relations");
+  if (!log || !relations) GTEST_SKIP() << kNeedsData;
+  const AppRun run =
+      map(log->string(), "out", {"-c", std::string(PSI_SLAM_INI_FOLDER) + "/mit-csail.ini", "-q"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.out + run.err, "") << "quiet";
+  const RelationsMetric metric =
+      evaluate_relations(read_trajectory(output("out") / "trajectory.tum"), read_relations(*relations));
+  EXPECT_EQ(metric.skipped, 0U);
+  EXPECT_LE(metric.translation_abs_m.mean, 0.05);
+}
+
+TEST_F(PsiSlamApp, prints_the_summary_as_json) {
+  const AppRun run = map(room_log(), "out", {"--json", "--seed", "7", "--set", "map.resolution_m=0.1"});
+  EXPECT_EQ(run.code, 0);
+  const Json summary = Json::parse(run.out);
+  EXPECT_EQ(summary["log"]["scans"], 60);
+  EXPECT_EQ(summary["settings"]["run.seed"], "7");
+  EXPECT_EQ(summary["map"]["resolution_m"], 0.1);
+  EXPECT_GT(summary["wall_s"], 0);
+  EXPECT_EQ(summary["interrupted"], false);
+}
+
+TEST_F(PsiSlamApp, shows_its_progress_on_a_terminal_only) {
+  const std::string log = room_log();
+  const AppRun run = run_app({log, "-o", output("terminal").string()}, true);
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.err, AllOf(HasSubstr(" scans/s"), HasSubstr(" left"), HasSubstr("writing the results")));
+  EXPECT_EQ(run.err.substr(run.err.size() - 4), "\r\x1b[K") << "the line is gone at the end";
+  EXPECT_EQ(run_app({log, "-o", output("file").string()}, false).err, "");
+  EXPECT_EQ(run_app({log, "-o", output("quiet").string(), "-q"}, true).err, "");
+}
+
+TEST_F(PsiSlamApp, verbose_tells_the_settings_changed_and_the_times) {
+  const AppRun run = map(room_log(), "out", {"-v", "--set", "log.max_range_m=40"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("log.max_range_m = 40\n"), HasSubstr("read log"), HasSubstr(" ± ")));
+  EXPECT_THAT(run.err, Not(HasSubstr("min_range_m")));
+}
+
+TEST_F(PsiSlamApp, overrides_take_precedence_over_the_file) {
+  const fs::path ini = folder_.path() / "my.ini";
+  write_bytes(ini, "[run]\nseed = 3\n[log]\nevery_nth_scan = 2\n");
+  const std::vector<std::string> options{"--json", "-c",        ini.string(), "--set", "log.every_nth_scan=3",
+                                         "--set",  "run.seed=5"};
+  const Json summary = Json::parse(map(room_log(), "out", options).out);
+  EXPECT_EQ(summary["log"]["scans"], 20);
+  EXPECT_EQ(summary["settings"]["run.seed"], "5");
+}
+
+TEST_F(PsiSlamApp, content_decides_not_the_name) {
+  const std::string log = write_lines(folder_.path() / "room.rawlog", room_log_lines(30)).string();
+  EXPECT_EQ(map(log, "out").code, 0);
+}
+
+TEST_F(PsiSlamApp, force_replaces_results_and_leaves_other_files_alone) {
+  const std::string log = room_log(30);
+  fs::create_directory(output("out"));
+  write_bytes(output("out") / "map.png", "old");
+  write_bytes(output("out") / "notes.txt", "mine");
+  EXPECT_EQ(map(log, "out", {"--force"}).code, 0);
+  EXPECT_NE(bytes_of(output("out") / "map.png"), "old");
+  EXPECT_EQ(bytes_of(output("out") / "notes.txt"), "mine");
+}
+
+TEST_F(PsiSlamApp, an_interrupt_ends_the_mapping_in_good_order) {
+  const std::string log = room_log(3000);
+  const AppProcess process({log, "-o", output("out").string(), "--json"}, folder_.path());
+  const auto began = std::chrono::steady_clock::now();
+  while (!fs::exists(output("out")) && std::chrono::steady_clock::now() - began < std::chrono::seconds(60))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  process.send(SIGINT);
+  const AppRun run = process.finish();
+  EXPECT_EQ(run.code, 0);
+  const Json summary = Json::parse(run.out);
+  EXPECT_EQ(summary["interrupted"], true);
+  const std::size_t scans = summary["log"]["scans"];
+  EXPECT_LT(scans, 3000U);
+  EXPECT_THAT(run.err, HasSubstr("interrupted, the map will show the " + std::to_string(scans) + " scan"));
+  EXPECT_EQ(names_in(output("out")), all_result_names());
+  EXPECT_EQ(read_trajectory(output("out") / "trajectory.tum").size(), scans);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -179,6 +179,27 @@ TEST(SparsePoseAdjustment, closes_a_ring_whose_loops_are_much_tighter_than_its_o
   EXPECT_LE(report.final_chi2, reference.chi2() * (1 + 1e-9));
 }
 
+TEST(SparsePoseAdjustment, closes_a_single_loop_after_more_drift_than_the_odometry_admits) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const KnownGraph known = ring(300, 1, 1, 0.05, 0.01, seed);
+    PoseGraph graph;
+    for (const TPose2D& pose : known.graph.poses()) graph.add_node(pose);
+    for (Constraint constraint : known.graph.constraints()) {
+      if (constraint.kind == Constraint::Kind::kOdometry)
+        constraint.information *= 36;  // says a sixth of its sigma
+      graph.add_constraint(constraint);
+    }
+    const Constraint& loop = graph.constraints().back();
+    const auto gap_m = [&] {
+      return reference_error(loop, graph.pose(loop.from), graph.pose(loop.to)).head<2>().norm();
+    };
+    ASSERT_GT(gap_m(), 1);
+    SparsePoseAdjustment solver;
+    EXPECT_TRUE(solver.optimize(graph).converged);
+    EXPECT_LT(gap_m(), 0.1);
+  }
+}
+
 TEST(SparsePoseAdjustment, recovers_from_rejected_steps) {
   // From poses that are nonsense no first step is any good.
   int rejected = 0;

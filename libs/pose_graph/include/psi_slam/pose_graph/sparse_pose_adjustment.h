@@ -27,6 +27,8 @@ struct PoseAdjustmentOptions {
   double initial_lambda = 0;         ///< of the first step; 0: Gauss-Newton
   RobustKernel odometry_kernel;      ///< of the constraints between successive nodes
   RobustKernel local_map_kernel;     ///< of those of nodes to their local maps
+  /// Convex, so that it closes a true loop however far the map has drifted; kernels that bound the cost leave
+  /// such a loop open. Where loops may be false, see optimize_graduated().
   RobustKernel loop_kernel{RobustKernel::Type::kHuber, 3};
 };
 

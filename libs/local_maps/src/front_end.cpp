@@ -3,6 +3,8 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -21,17 +23,7 @@ MatcherOptions matcher_options(const FrontEndOptions& options) {
   return matcher;
 }
 
-// How far odometry's motion and a steady robot's, that of the last step, are apart: a wheel that slips, an
-// encoder that stalls or catches up, and a stamp that is late all show here.
-struct Surprise {
-  double m;
-  double rad;
-};
-
-Surprise surprise(const TPose2D& motion, const TPose2D& last_motion) {
-  return {std::hypot(motion.x - last_motion.x, motion.y - last_motion.y),
-          std::abs(mrpt::math::wrapToPi(motion.phi - last_motion.phi))};
-}
+constexpr double kSteadyTime_s = 0.5;  // a robot's speed is much the same after this long
 
 }  // namespace
 
@@ -40,10 +32,11 @@ FrontEnd::FrontEnd(const FrontEndOptions& options) : options_(options), matcher_
 FrontEndStep FrontEnd::add(const Frame& frame) {
   FrontEndStep step;
   step.points = std::make_shared<const ScanPoints>(matching_points(frame.scan, options_.scan));
-  const TPose2D motion = last_ ? frame.odom_T_robot - last_->odom_T_robot : TPose2D(0, 0, 0);
-  step.local_T_robot = last_local_T_robot_ + motion;
+  const Motion motion = motion_to(frame);
+  step.local_T_robot = last_local_T_robot_ + motion.odometry;
   step.window = search_extent(motion);
   if (!active_.empty() && !step.points->points.empty()) match(step, motion);
+  propagate_covariances(step, motion);
   if (active_.empty() || moved_enough(step.local_T_robot)) insert(step, frame);
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}};
   last_motion_ = step.local_T_robot - last_local_T_robot_;
@@ -52,24 +45,35 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
   return step;
 }
 
-SearchExtent FrontEnd::search_extent(const TPose2D& motion) const {
-  const Surprise off = surprise(motion, last_motion_);
+FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
+  Motion motion;
+  if (!last_) return motion;
+  motion.odometry = frame.odom_T_robot - last_->odom_T_robot;
+  motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
+  motion.turn_rad = std::abs(mrpt::math::wrapToPi(motion.odometry.phi));
+  const double passed_s = std::max(0.0, seconds(frame.time_us - last_->time_us)) / kSteadyTime_s;
+  const double belief = 1 / (1 + passed_s * passed_s);
+  motion.surprise_m =
+      belief * std::hypot(motion.odometry.x - last_motion_.x, motion.odometry.y - last_motion_.y);
+  motion.surprise_rad = belief * std::abs(mrpt::math::wrapToPi(motion.odometry.phi - last_motion_.phi));
+  return motion;
+}
+
+SearchExtent FrontEnd::search_extent(const Motion& motion) const {
   const double lost = 1 + misses_;
-  const double half_m = lost * (options_.window_m + options_.window_per_metre * length_m(motion) + off.m);
-  const double half_rad =
-      lost * (options_.window_rad + options_.window_rad_per_metre * length_m(motion) +
-              options_.window_per_radian * std::abs(mrpt::math::wrapToPi(motion.phi)) + off.rad);
+  const double half_m =
+      lost * (options_.window_m + options_.window_per_metre * motion.length_m + motion.surprise_m);
+  const double half_rad = lost * (options_.window_rad + options_.window_rad_per_metre * motion.length_m +
+                                  options_.window_per_radian * motion.turn_rad + motion.surprise_rad);
   return {std::min(half_m, options_.max_window_m), std::min(half_m, options_.max_window_m),
           std::min(half_rad, options_.max_window_rad)};
 }
 
-PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const TPose2D& motion) const {
-  const Surprise off = surprise(motion, last_motion_);
-  const double sigma_m = options_.prior_sigma_m + options_.prior_per_metre * length_m(motion) +
-                         options_.prior_per_surprise * off.m;
-  const double sigma_rad = options_.prior_sigma_rad +
-                           options_.prior_per_radian * std::abs(mrpt::math::wrapToPi(motion.phi)) +
-                           options_.prior_per_surprise * off.rad;
+PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const Motion& motion) const {
+  const double sigma_m = options_.prior_sigma_m + options_.prior_per_metre * motion.length_m +
+                         options_.prior_per_surprise * motion.surprise_m;
+  const double sigma_rad = options_.prior_sigma_rad + options_.prior_per_radian * motion.turn_rad +
+                           options_.prior_per_surprise * motion.surprise_rad;
   PosePrior prior;
   prior.map_T_robot = map_T_robot;
   prior.information.diagonal() << 1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m),
@@ -77,14 +81,14 @@ PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const TPose2D& motion) con
   return prior;
 }
 
-void FrontEnd::match(FrontEndStep& step, const TPose2D& motion) {
+void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const PlacedLocalMap& older = active_.front();
-  const Surprise off = surprise(motion, last_motion_);
-  std::vector<TPose2D> motions = {motion};
-  if (off.m > options_.max_window_m || off.rad > options_.max_window_rad) motions.push_back(last_motion_);
+  std::vector<TPose2D> hypotheses = {motion.odometry};
+  if (motion.surprise_m > options_.max_window_m || motion.surprise_rad > options_.max_window_rad)
+    hypotheses.push_back(last_motion_);
   std::optional<MatchResult> best;
   PosePrior best_prior;
-  for (const TPose2D& hypothesis : motions) {
+  for (const TPose2D& hypothesis : hypotheses) {
     const PosePrior prior = this->prior(last_local_T_robot_ + hypothesis - older.local_T_map, motion);
     MatchProblem problem{older.map->scores(), *step.points, prior.map_T_robot, step.window};
     problem.min_response = options_.min_response;
@@ -106,6 +110,31 @@ void FrontEnd::match(FrontEndStep& step, const TPose2D& motion) {
   if (predicted.mean_score >= options_.prediction_share * best->refined_response) {
     step.information = predicted.information;
     step.local_T_robot = older.local_T_map + predicted.map_T_robot;
+  }
+}
+
+// A Kalman filter's covariance, for each active map: the motion adds odometry's noise, the match takes away
+// what it determines. So a pose known only by odometry along a corridor is passed on as just that.
+void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& motion) {
+  const double sigma_m = options_.odometry_sigma_m + options_.odometry_sigma_per_metre * motion.length_m;
+  const double sigma_rad = options_.odometry_sigma_rad + options_.odometry_sigma_per_radian * motion.turn_rad;
+  for (PlacedLocalMap& active : active_) {
+    const TPose2D before = last_local_T_robot_ - active.local_T_map;
+    const TPose2D after = step.local_T_robot - active.local_T_map;
+    Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
+    moved(0, 2) = -(after.y - before.y);
+    moved(1, 2) = after.x - before.x;
+    Eigen::Matrix3d covariance = moved * active.covariance * moved.transpose();
+    covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
+    if (step.matched) {
+      Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  // from the matched map's axes to this one's
+      turn.topLeftCorner<2, 2>() =
+          Eigen::Rotation2Dd(active_.front().local_T_map.phi - active.local_T_map.phi).toRotationMatrix();
+      const Eigen::Matrix3d information = turn * step.information * turn.transpose();
+      covariance = (Eigen::Matrix3d::Identity() + covariance * information).inverse() * covariance;
+      covariance = Eigen::Matrix3d(0.5 * (covariance + covariance.transpose()));
+    }
+    active.covariance = covariance;
   }
 }
 
@@ -135,7 +164,8 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
   for (PlacedLocalMap& active : active_) {
     active.last_node = node;
     active.travelled_m += moved_m;
-    step.memberships.push_back({active.id, active.anchor, step.local_T_robot - active.local_T_map});
+    step.memberships.push_back(
+        {active.id, active.anchor, step.local_T_robot - active.local_T_map, active.covariance});
   }
   const auto share = [&](const PlacedLocalMap& active) {
     return std::max(static_cast<double>(active.last_node - active.first_node) /

@@ -9,7 +9,8 @@ namespace {
 
 using Grid = mrpt::maps::COccupancyGridMap2D;
 
-// A cell this likely occupied is full evidence: two hits are, so that thinned logs can be matched as well.
+// A cell this likely occupied is full evidence: one hit is enough, so that thinned logs can be matched as
+// well.
 const double kCertain = getenv("CERT") ? atof(getenv("CERT")) : 0.75;
 
 }  // namespace

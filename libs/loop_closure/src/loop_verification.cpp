@@ -76,12 +76,11 @@ RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const PlaceMemor
   return sum;
 }
 
-std::string objection(LoopRecord& loop, const PlaceMemory& memory, const LoopVerificationOptions& options) {
-  const bool wide = loop.window.x_m > options.wide_window_m;
-  const double min_response = wide ? options.min_response_wide : options.min_response;
-  if (loop.response < min_response)
-    return "the response " + text(loop.response) + " is below " + text(min_response);
-  if (loop.ambiguity > options.max_ambiguity)
+std::string objection(LoopRecord& loop, const ScanPoints& scan, const PlaceMemory& memory,
+                      const LoopVerificationOptions& options) {
+  const double needed = min_response(loop.window, options);
+  if (loop.response < needed) return "the response " + text(loop.response) + " is below " + text(needed);
+  if (!is_wide(loop.window, options) && loop.ambiguity > options.max_ambiguity)
     return "another place fits as well: its response is " + text(loop.ambiguity) +
            " of the best, more than " + text(options.max_ambiguity);
   const double sigma_m = largest_sigma_m(loop.covariance);
@@ -89,11 +88,9 @@ std::string objection(LoopRecord& loop, const PlaceMemory& memory, const LoopVer
     return "the scan does not determine the position: its standard deviation is " + text(sigma_m) +
            " m, more than " + text(options.max_sigma_m) + " m";
 
-  const ScanPoints& points = *memory.nodes[loop.node].points;
-  const LocalMap::Agreement own =
-      memory.local_maps[loop.local_map].map->agreement(points, loop.anchor_T_node);
-  loop.observed_share = static_cast<double>(own.observed) / static_cast<double>(points.points.size());
-  if (loop.observed_share < options.min_observed_share)
+  const LocalMap::Agreement own = memory.local_maps[loop.local_map].map->agreement(scan, loop.anchor_T_node);
+  loop.observed_share = static_cast<double>(own.observed) / static_cast<double>(scan.points.size());
+  if (!is_wide(loop.window, options) && loop.observed_share < options.min_observed_share)
     return "only " + text(loop.observed_share) +
            " of the scan lies in space the local map has observed, less than " +
            text(options.min_observed_share);
@@ -113,9 +110,21 @@ std::string objection(LoopRecord& loop, const PlaceMemory& memory, const LoopVer
 
 }  // namespace
 
-void verify(LoopRecord& loop, const PlaceMemory& memory, const LoopVerificationOptions& options) {
-  loop.reason = objection(loop, memory, options);
-  loop.verdict = loop.reason.empty() ? LoopVerdict::kAccepted : LoopVerdict::kRefused;
+bool is_wide(const SearchExtent& extent, const LoopVerificationOptions& options) {
+  return extent.x_m > options.wide_window_m;
+}
+
+double min_response(const SearchExtent& extent, const LoopVerificationOptions& options) {
+  return is_wide(extent, options) ? options.min_context_response : options.min_response;
+}
+
+void verify(LoopRecord& loop, const ScanPoints& scan, const PlaceMemory& memory,
+            const LoopVerificationOptions& options) {
+  loop.reason = objection(loop, scan, memory, options);
+  if (!loop.reason.empty())
+    loop.verdict = LoopVerdict::kRefused;
+  else
+    loop.verdict = is_wide(loop.window, options) ? LoopVerdict::kPending : LoopVerdict::kAccepted;
 }
 
 }  // namespace psi_slam

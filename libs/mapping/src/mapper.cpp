@@ -4,15 +4,20 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
-Eigen::Matrix3d information_of(double sigma_m, double sigma_rad) {
-  return Eigen::Vector3d(1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m), 1 / (sigma_rad * sigma_rad))
-      .asDiagonal();
+// The inverse of a covariance with the noise of local maps themselves added.
+Eigen::Matrix3d information_of(const Eigen::Matrix3d& covariance, double sigma_m, double sigma_rad) {
+  Eigen::Matrix3d sum = covariance;
+  sum.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
+  const Eigen::Matrix3d information = sum.inverse();
+  return 0.5 * (information + information.transpose());
 }
 
 }  // namespace
@@ -22,6 +27,7 @@ Mapper::Mapper(const MapperOptions& options)
       front_end_(options.front_end),
       loop_matcher_(options.loop_matcher),
       loop_closer_(options.loop_closure),
+      loop_consensus_(options.loop_consensus),
       solver_(options.pose_graph) {}
 
 const FrameRecord& Mapper::add(Frame frame) {
@@ -67,7 +73,8 @@ void Mapper::add_node(const FrontEndStep& step, std::size_t frame) {
     constraint.from = membership.anchor;
     constraint.to = *step.node;
     constraint.from_T_to = membership.anchor_T_node;
-    constraint.information = information_of(options_.local_map_sigma_m, options_.local_map_sigma_rad);
+    constraint.information =
+        information_of(membership.covariance, options_.local_map_sigma_m, options_.local_map_sigma_rad);
     constraint.kind = Constraint::Kind::kLocalMap;
     graph_.add_constraint(constraint);
   }
@@ -79,88 +86,92 @@ void Mapper::remember(const PlacedLocalMap& finished) {
 }
 
 void Mapper::close_loops(std::size_t node, FrameRecord& record) {
-  bool moved = false;
+  bool news = false;
   record.loop_closing_ms = loop_clock_.time([&] {
     for (LoopRecord& loop : loop_closer_.close(node, memory_, graph_, loop_matcher_)) {
       record.evaluations += loop.evaluations;
-      if (loop.verdict == LoopVerdict::kAccepted) {
-        ++record.loops_accepted;
-        const TPose2D off = loop.anchor_T_node - (graph_.pose(node) - graph_.pose(loop.anchor));
-        moved = moved || std::hypot(off.x, off.y) > options_.loop_sigma_m ||
-                std::abs(off.phi) > options_.loop_sigma_rad;
-        add_loop_constraint(loop);
-      }
       result_.loops.push_back(std::move(loop));
+      const std::size_t index = result_.loops.size() - 1;
+      if (result_.loops[index].verdict == LoopVerdict::kPending && confirm(index)) news = true;
+      if (result_.loops[index].verdict != LoopVerdict::kAccepted) continue;
+      ++record.loops_accepted;
+      if (accept(index)) news = true;
     }
   });
   record.loops_tried = loop_closer_.tried();
   if (record.loops_tried > 0) record.matcher = loop_matcher_.name();
-  if (moved) optimize(&record);
+  if (news) record.pose_graph_ms = graph_clock_.time([&] { optimize(); });
 }
 
-void Mapper::add_loop_constraint(LoopRecord& loop) {
+// Puts a pending loop to the vote; true when others that waited became constraints with it. The loop itself
+// is then accepted, its constraint left to the caller.
+bool Mapper::confirm(std::size_t index) {
+  LoopRecord& loop = result_.loops[index];
+  const NodeScan& here = memory_.nodes[loop.node];
+  bool confirmed = false;
+  for (const std::size_t other : loop_consensus_.add(
+           {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity},
+           graph_)) {
+    result_.loops[other].verdict = LoopVerdict::kAccepted;
+    if (other != index) accept(other);
+    confirmed = true;
+  }
+  return confirmed;
+}
+
+// Makes a constraint of a loop; true when it tells the graph something new.
+bool Mapper::accept(std::size_t index) {
+  const LoopRecord& loop = result_.loops[index];
   Constraint constraint;
   constraint.from = loop.anchor;
   constraint.to = loop.node;
   constraint.from_T_to = loop.anchor_T_node;
-  Eigen::Matrix3d covariance = loop.covariance;
-  covariance.diagonal() += Eigen::Vector3d(options_.loop_sigma_m * options_.loop_sigma_m,
-                                           options_.loop_sigma_m * options_.loop_sigma_m,
-                                           options_.loop_sigma_rad * options_.loop_sigma_rad);
-  const Eigen::Matrix3d information = covariance.inverse();
-  constraint.information = 0.5 * (information + information.transpose());
+  constraint.information = information_of(loop.covariance, options_.loop_sigma_m, options_.loop_sigma_rad);
   constraint.kind = Constraint::Kind::kLoop;
-  loop_constraints_.push_back(graph_.add_constraint(constraint));
-  constraint_loop_.push_back(result_.loops.size());
+  loop_of_constraint_.emplace_back(graph_.add_constraint(constraint), index);
+  const TPose2D off = loop.anchor_T_node - (graph_.pose(loop.node) - graph_.pose(loop.anchor));
+  return std::hypot(off.x, off.y) > options_.loop_sigma_m || std::abs(off.phi) > options_.loop_sigma_rad;
 }
 
-void Mapper::optimize(FrameRecord* record) {
-  const double ms = graph_clock_.time([&] { solver_.optimize(graph_); });
-  if (record != nullptr) record->pose_graph_ms = ms;
+void Mapper::optimize() {
+  solver_.optimize(graph_);
 }
 
-void Mapper::switch_off_contradicted_loops() {}
+void Mapper::run_last_pass(const std::function<void(double)>& progress) {
+  std::set<std::pair<std::size_t, std::size_t>> known;
+  for (const LoopRecord& loop : result_.loops)
+    if (loop.verdict == LoopVerdict::kAccepted) known.emplace(loop.node, loop.local_map);
+  const auto is_known = [&](std::size_t node, std::size_t local_map) {
+    return known.count({node, local_map}) != 0;
+  };
+  for (LoopRecord& loop : last_pass(memory_, graph_, loop_matcher_, options_.loop_closure.verification,
+                                    options_.last_pass, is_known, progress)) {
+    const bool accepted = loop.verdict == LoopVerdict::kAccepted;
+    result_.loops.push_back(std::move(loop));
+    if (accepted) accept(result_.loops.size() - 1);
+  }
+}
 
-void Mapper::last_pass() {
-  for (std::size_t m = 0; m < memory_.local_maps.size(); ++m) {
-    const PlacedLocalMap& local_map = memory_.local_maps[m];
-    double last_m = -1e9;
-    for (std::size_t node = 0; node < memory_.nodes.size(); ++node) {
-      const NodeScan& here = memory_.nodes[node];
-      if (node >= local_map.first_node && node <= local_map.last_node) continue;
-      if (std::abs(here.travelled_m - last_m) < options_.last_pass_travel_m) continue;
-      const TPose2D predicted = graph_.pose(node) - graph_.pose(local_map.anchor);
-      bool near = false;
-      for (std::size_t other = local_map.first_node; other <= local_map.last_node && !near; other += 3) {
-        near =
-            std::hypot(graph_.pose(other).x - graph_.pose(node).x,
-                       graph_.pose(other).y - graph_.pose(node).y) < options_.loop_closure.candidates.reach_m;
-      }
-      if (!near) continue;
-      last_m = here.travelled_m;
-      MatchProblem problem{
-          local_map.map->scores(),
-          *here.points,
-          predicted,
-          {options_.last_pass_window_m, options_.last_pass_window_m, options_.last_pass_window_rad}};
-      problem.min_response = 0.4;
-      const MatchResult match = loop_matcher_.match(problem);
-      if (!match.found) continue;
-      LoopRecord loop;
-      loop.frame = here.frame;
-      loop.node = node;
-      loop.local_map = m;
-      loop.anchor = local_map.anchor;
-      loop.matcher = loop_matcher_.name();
-      loop.in_last_pass = true;
-      loop.anchor_T_node = match.map_T_robot;
-      loop.covariance = match.covariance;
-      loop.window = problem.extent;
-      loop.response = match.response;
-      verify(loop, memory_, options_.loop_closure.verification);
-      if (loop.verdict == LoopVerdict::kAccepted) add_loop_constraint(loop);
-      result_.loops.push_back(std::move(loop));
-    }
+void Mapper::switch_off_contradicted_loops() {
+  const std::vector<ConstraintFit> fits = solver_.optimize(graph_).fits;
+  bool changed = false;
+  for (const auto& [constraint, index] : loop_of_constraint_) {
+    const double chi = std::sqrt(fits[constraint].chi2);
+    if (!graph_.enabled(constraint) || chi <= options_.max_loop_chi) continue;
+    graph_.set_enabled(constraint, false);
+    result_.loops[index].verdict = LoopVerdict::kSwitchedOff;
+    result_.loops[index].reason =
+        "the other constraints contradict it by " + std::to_string(std::lround(chi)) + " standard deviations";
+    changed = true;
+  }
+  if (changed) optimize();
+}
+
+void Mapper::refuse_pending_loops() {
+  for (LoopRecord& loop : result_.loops) {
+    if (loop.verdict != LoopVerdict::kPending) continue;
+    loop.verdict = LoopVerdict::kRefused;
+    loop.reason = "found in a wide window, and too few other matches agree with it";
   }
 }
 
@@ -186,18 +197,18 @@ void Mapper::carry_frames_along() {
   }
 }
 
-MappingResult Mapper::finish() {
+MappingResult Mapper::finish(const std::function<void(double)>& progress) {
   for (const PlacedLocalMap& finished : front_end_.finish()) remember(finished);
+  refuse_pending_loops();
   if (options_.close_loops && !memory_.nodes.empty()) {
-    optimize(nullptr);
-    for (int pass = 0; pass < options_.last_passes; ++pass) {
-      for (std::size_t i = 0; i < loop_constraints_.size(); ++i)
-        graph_.set_enabled(loop_constraints_[i], false);
-      loop_constraints_.clear();
-      constraint_loop_.clear();
-      result_.loops.clear();
-      last_pass_clock_.time([&] { last_pass(); });
-      optimize(nullptr);
+    graph_clock_.time([&] { optimize(); });
+    for (int pass = 0; pass < options_.last_pass.passes; ++pass) {
+      last_pass_clock_.time([&] {
+        run_last_pass([&](double share) {
+          if (progress) progress((pass + share) / options_.last_pass.passes);
+        });
+      });
+      graph_clock_.time([&] { switch_off_contradicted_loops(); });
     }
   }
   carry_frames_along();

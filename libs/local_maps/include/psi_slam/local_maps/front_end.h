@@ -51,6 +51,13 @@ struct FrontEndOptions {
   /// preferred: along a corridor the search's best is decided by noise.
   double prediction_share = 0.95;
 
+  // Odometry's noise a step, for the covariance of the poses: where scans determine the pose it hardly
+  // matters.
+  double odometry_sigma_m = 0.01;
+  double odometry_sigma_rad = 0.005;
+  double odometry_sigma_per_metre = 0.05;
+  double odometry_sigma_per_radian = 0.05;
+
   double node_distance_m = 0.2;     ///< a scan becomes a node when the robot moved this far
   double node_rotation_rad = 0.15;  ///< or turned this much since the last node
   std::size_t nodes_per_local_map =
@@ -75,6 +82,7 @@ struct FrontEndStep {
     std::size_t local_map;
     std::size_t anchor;
     mrpt::math::TPose2D anchor_T_node;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of anchor_T_node, along the anchor's axes
   };
   std::vector<Membership> memberships;
   std::optional<PlacedLocalMap> finished;  ///< a local map that this node completed
@@ -91,9 +99,21 @@ class FrontEnd {
   std::vector<PlacedLocalMap> finish();
 
  private:
-  SearchExtent search_extent(const mrpt::math::TPose2D& motion) const;
-  PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const mrpt::math::TPose2D& motion) const;
-  void match(FrontEndStep& step, const mrpt::math::TPose2D& motion);
+  /// The motion since the last scan as odometry reports it, and how far it is from that of a steady robot,
+  /// the last step's again: a wheel that slips, an encoder that stalls or catches up, a stamp that is late
+  /// all show there. The steady robot is believed the less, the more time has passed.
+  struct Motion {
+    mrpt::math::TPose2D odometry;
+    double length_m = 0;
+    double turn_rad = 0;
+    double surprise_m = 0;
+    double surprise_rad = 0;
+  };
+  Motion motion_to(const Frame& frame) const;
+  SearchExtent search_extent(const Motion& motion) const;
+  PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
+  void match(FrontEndStep& step, const Motion& motion);
+  void propagate_covariances(const FrontEndStep& step, const Motion& motion);
   bool moved_enough(const mrpt::math::TPose2D& local_T_robot) const;
   void insert(FrontEndStep& step, const Frame& frame);
   void begin_local_map(std::size_t node, const mrpt::math::TPose2D& local_T_robot);

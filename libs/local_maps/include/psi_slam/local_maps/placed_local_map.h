@@ -3,6 +3,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <memory>
 
@@ -19,6 +20,9 @@ struct PlacedLocalMap {
   std::size_t first_node = 0;       ///< the nodes whose scans it holds: [first_node, last_node]
   std::size_t last_node = 0;
   double travelled_m = 0;  ///< by the robot while it was filled
+  /// Of the robot's pose in this map while it is active: x, y (m^2) and heading (rad^2), along the map's
+  /// axes.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   std::shared_ptr<LocalMap> map;
 };
 

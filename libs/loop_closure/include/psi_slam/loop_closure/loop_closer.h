@@ -9,6 +9,7 @@
 #include "psi_slam/loop_closure/loop_record.h"
 #include "psi_slam/loop_closure/loop_verification.h"
 #include "psi_slam/loop_closure/place_memory.h"
+#include "psi_slam/loop_closure/scan_context.h"
 #include "psi_slam/matching/matcher.h"
 #include "psi_slam/pose_graph/pose_graph.h"
 
@@ -17,6 +18,7 @@ namespace psi_slam {
 struct LoopClosureOptions {
   LoopCandidateOptions candidates;
   LoopVerificationOptions verification;
+  ScanContextOptions context;
   double attempt_distance_m =
       0.5;  ///< the robot travels this far between two attempts with the same local map
 };

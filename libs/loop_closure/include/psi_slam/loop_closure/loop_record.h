@@ -14,6 +14,7 @@ namespace psi_slam {
 
 enum class LoopVerdict {
   kAccepted,
+  kPending,      ///< found in a wide window: waits for other matches to agree; refused if none does
   kRefused,      ///< by verification: it never became a constraint
   kSwitchedOff,  ///< accepted first, but the rest of the graph contradicts it
 };

@@ -3,12 +3,15 @@
 // CMetricMapBuilderPsi all drive this class; it knows nothing of files, windows or options' texts.
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "psi_slam/local_maps/front_end.h"
+#include "psi_slam/loop_closure/last_pass.h"
 #include "psi_slam/loop_closure/loop_closer.h"
+#include "psi_slam/loop_closure/loop_consensus.h"
 #include "psi_slam/mapping/mapping_result.h"
 #include "psi_slam/mapping/stage_clock.h"
 #include "psi_slam/pose_graph/pose_graph.h"
@@ -20,17 +23,18 @@ struct MapperOptions {
   FrontEndOptions front_end;
   MatcherOptions loop_matcher;
   LoopClosureOptions loop_closure;
+  LoopConsensusOptions loop_consensus;
+  LastPassOptions last_pass;
   PoseAdjustmentOptions pose_graph;
 
-  double local_map_sigma_m = 0.02;  ///< of a node's pose in a local map it was inserted into
+  bool close_loops = true;
+  double local_map_sigma_m =
+      0.015;  ///< of a node's pose in a local map, on top of the front end's covariance
   double local_map_sigma_rad = 0.004;
   double loop_sigma_m = 0.02;  ///< of a loop, on top of its match's covariance
   double loop_sigma_rad = 0.004;
-  bool close_loops = true;
-  int last_passes = 2;  ///< global passes after the last scan: all pairs near each other
-  double last_pass_window_m = 0.3;
-  double last_pass_window_rad = 0.05;
-  double last_pass_travel_m = 0.3;  ///< between two nodes that are matched with the same local map
+  double max_loop_chi = 5.0;  ///< a loop that the finished graph contradicts by more standard deviations is
+                              ///< switched off
 };
 
 class Mapper {
@@ -41,8 +45,8 @@ class Mapper {
   const FrameRecord& add(Frame frame);
 
   /// The last loop search over all pairs near each other and the last optimisation; then the result. The
-  /// mapper cannot be used afterwards.
-  MappingResult finish();
+  /// mapper cannot be used afterwards. `progress` is called with the share done, in [0, 1].
+  MappingResult finish(const std::function<void(double)>& progress = {});
 
   /// The robot now, in the global map.
   mrpt::math::TPose2D map_T_robot() const;
@@ -54,22 +58,25 @@ class Mapper {
   void add_node(const FrontEndStep& step, std::size_t frame);
   void remember(const PlacedLocalMap& finished);
   void close_loops(std::size_t node, FrameRecord& record);
-  void add_loop_constraint(LoopRecord& loop);
-  void optimize(FrameRecord* record);
-  void last_pass();
+  bool confirm(std::size_t loop);
+  bool accept(std::size_t loop);
+  void optimize();
+  void run_last_pass(const std::function<void(double)>& progress);
   void switch_off_contradicted_loops();
+  void refuse_pending_loops();
   void carry_frames_along();
 
   MapperOptions options_;
   FrontEnd front_end_;
   CorrelativeMatcher loop_matcher_;
   LoopCloser loop_closer_;
+  LoopConsensus loop_consensus_;
   SparsePoseAdjustment solver_;
   PoseGraph graph_;
   PlaceMemory memory_;
-  std::vector<std::size_t> loop_constraints_;  ///< for each accepted loop record: its constraint
-  std::vector<std::size_t> constraint_loop_;   ///< and the record's index
-  mrpt::math::TPose2D map_T_local_;            ///< the front end's frame, as the newest node says
+  std::vector<std::pair<std::size_t, std::size_t>>
+      loop_of_constraint_;           ///< constraint, index in result_.loops
+  mrpt::math::TPose2D map_T_local_;  ///< the front end's frame, as the newest node says
   MappingResult result_;
   StageClock front_end_clock_{"match and insert scan"};
   StageClock loop_clock_{"close loops"};

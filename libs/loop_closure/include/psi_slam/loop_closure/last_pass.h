@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The last loop search (method, step 5): when the log has ended and the map has taken its shape, every node
+// is matched with every local map near it, in a small window.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "psi_slam/loop_closure/loop_record.h"
+#include "psi_slam/loop_closure/loop_verification.h"
+#include "psi_slam/loop_closure/place_memory.h"
+#include "psi_slam/matching/matcher.h"
+#include "psi_slam/pose_graph/pose_graph.h"
+
+namespace psi_slam {
+
+struct LastPassOptions {
+  int passes = 2;  ///< each followed by an optimisation; 0 leaves the map as the last scan left it
+  double window_m = 0.3;
+  double window_rad = 0.05;
+  double reach_m = 5.0;   ///< a local map is near when one of its nodes is at most this far
+  double travel_m = 0.3;  ///< of the path, between two nodes that are matched with the same local map
+};
+
+/// Every match that was found, accepted or refused; in the order of local maps, then nodes. Pairs for which
+/// `known(node, local_map)` holds are left out. `progress` is called with the share done.
+std::vector<LoopRecord> last_pass(const PlaceMemory& memory, const PoseGraph& graph, const Matcher& matcher,
+                                  const LoopVerificationOptions& verification, const LastPassOptions& options,
+                                  const std::function<bool(std::size_t node, std::size_t local_map)>& known,
+                                  const std::function<void(double)>& progress);
+
+}  // namespace psi_slam

@@ -49,7 +49,10 @@ class MappingSession::WorkClock {
 };
 
 MappingSession::MappingSession(const std::filesystem::path& log, const Settings& settings)
-    : path_(log), settings_(settings), source_(open(log, settings)), mapper_(settings.mapper) {}
+    : path_(log),
+      settings_(settings),
+      source_(open(log, settings)),
+      mapper_(std::make_unique<Mapper>(settings.mapper)) {}
 
 MappingSession::~MappingSession() = default;
 
@@ -60,7 +63,7 @@ bool MappingSession::step() {
     std::optional<Frame> frame = read();
     if (!frame) return false;
     any_return_ = any_return_ || has_return(frame->scan);
-    mapper_.add(*std::move(frame));
+    mapper_->add(*std::move(frame));
     ++scans_;
   }
   tell(SessionProgress::Phase::kMapping);
@@ -87,7 +90,9 @@ void MappingSession::finish() {
                     (scans_ == 0 ? "no scan was read, there is nothing to map"
                                  : "none of its " + std::to_string(scans_) +
                                        " scans has a return between log.min_range_m and log.max_range_m"));
-  result_ = mapper_.finish();
+  result_ = mapper_->finish();
+  graph_ = mapper_->graph();
+  mapper_.reset();
   result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
   result_.interrupted = !at_end_;
 }
@@ -101,7 +106,7 @@ void MappingSession::run(const std::atomic<bool>& stop) {
 RunSummary MappingSession::export_to(const OutputFolder& folder) {
   tell(SessionProgress::Phase::kWriting);
   WorkClock clock(work_s_);
-  write_g2o(mapper_.graph(), folder.path() / "graph.g2o");
+  write_g2o(graph_, folder.path() / "graph.g2o");
   StageClock drawing_clock("draw map");
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] { grid = draw_grid_map(result_.log, mapped_poses(result_), settings_.map); });

@@ -71,8 +71,8 @@ class MappingSession {
   /// them. The figures returned include the time that this took.
   RunSummary export_to(const OutputFolder& folder);
 
-  /// While mapping: the poses, the graph and the loops so far.
-  const Mapper& mapper() const { return mapper_; }
+  /// Until finish(): the poses, the graph and the loops so far.
+  const Mapper& mapper() const { return *mapper_; }
 
   /// After finish().
   const MappingResult& result() const { return result_; }
@@ -88,9 +88,10 @@ class MappingSession {
   std::filesystem::path path_;
   Settings settings_;
   std::unique_ptr<FrameSource> source_;
-  Mapper mapper_;
+  std::unique_ptr<Mapper> mapper_;  // gone after finish(): its local maps are the most of the memory
   Observer observer_;
   MappingResult result_;
+  PoseGraph graph_;  // of the result
   std::optional<std::string> broken_off_;
   StageClock reading_clock_{"read log"};
   double work_s_ = 0;  // as of now, pauses between calls left out

@@ -11,7 +11,7 @@ using Grid = mrpt::maps::COccupancyGridMap2D;
 
 // A cell this likely occupied is full evidence: one hit is enough, so that thinned logs can be matched as
 // well.
-const double kCertain = getenv("CERT") ? atof(getenv("CERT")) : 0.75;
+constexpr double kCertain = 0.65;
 
 }  // namespace
 

@@ -5,11 +5,13 @@
 
 namespace psi_slam {
 
-/// "accepted", "refused" or "switched off".
+/// "accepted", "pending", "refused" or "switched off".
 inline const char* verdict_text(LoopVerdict verdict) {
   switch (verdict) {
     case LoopVerdict::kAccepted:
       return "accepted";
+    case LoopVerdict::kPending:
+      return "pending";
     case LoopVerdict::kRefused:
       return "refused";
     case LoopVerdict::kSwitchedOff:

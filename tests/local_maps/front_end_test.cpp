@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/local_maps/front_end.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "simulated_drive.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+struct Outcome {
+  std::vector<FrontEndStep> steps;
+  std::vector<PlacedLocalMap> maps;  // all, in the order in which they were finished
+};
+
+Outcome follow(const SimulatedDrive& drive, const FrontEndOptions& options = {}) {
+  FrontEnd front_end(options);
+  Outcome result;
+  for (const Frame& frame : drive.frames) {
+    result.steps.push_back(front_end.add(frame));
+    if (result.steps.back().finished) result.maps.push_back(*result.steps.back().finished);
+  }
+  for (const PlacedLocalMap& last : front_end.finish()) result.maps.push_back(last);
+  return result;
+}
+
+struct PoseErrors {
+  double largest_m = 0;
+  double largest_rad = 0;
+};
+
+PoseErrors errors_of(const std::vector<TPose2D>& poses, const std::vector<TPose2D>& truth) {
+  PoseErrors errors;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    errors.largest_m =
+        std::max(errors.largest_m, std::hypot(poses[i].x - truth[i].x, poses[i].y - truth[i].y));
+    errors.largest_rad =
+        std::max(errors.largest_rad, std::abs(mrpt::math::wrapToPi(poses[i].phi - truth[i].phi)));
+  }
+  return errors;
+}
+
+PoseErrors errors_of(const Outcome& outcome, const SimulatedDrive& drive) {
+  std::vector<TPose2D> poses;
+  for (const FrontEndStep& step : outcome.steps) poses.push_back(step.local_T_robot);
+  return errors_of(poses, drive.map_T_robot);
+}
+
+PoseErrors errors_of_odometry(const SimulatedDrive& drive) {
+  std::vector<TPose2D> poses;
+  for (const Frame& frame : drive.frames) poses.push_back(frame.odom_T_robot);
+  return errors_of(poses, drive.map_T_robot);
+}
+
+TEST(FrontEnd, follows_a_robot_round_a_building_with_noisy_odometry) {
+  OdometryErrors errors;
+  errors.length_factor = 0.94;
+  errors.length_share = 0.2;
+  errors.turn_factor = 1.1;
+  errors.turn_share = 0.3;
+  errors.drift_rad_per_m = 0.02;
+  const SimulatedDrive drive = drive_along(office_floor(), round_the_office(), errors, 1);
+  EXPECT_GT(errors_of_odometry(drive).largest_m, 5) << "odometry alone is hopeless";
+  const Outcome outcome = follow(drive);
+  const PoseErrors off = errors_of(outcome, drive);
+  EXPECT_LT(off.largest_m, 0.25);
+  EXPECT_LT(off.largest_rad, 0.03);
+  for (std::size_t i = 1; i < outcome.steps.size(); ++i)
+    EXPECT_TRUE(outcome.steps[i].matched) << "scan " << i;
+}
+
+TEST(FrontEnd, follows_a_robot_whose_scans_are_far_apart) {
+  OdometryErrors errors;
+  errors.length_share = 0.05;
+  errors.turn_share = 0.1;
+  const SimulatedDrive drive = drive_along(
+      office_floor(), path_along({{1.6, 1.6}, {18.3, 1.6}, {18.3, 12.4}, {1.6, 12.4}, {1.6, 1.6}}, 0.9, 0.4),
+      errors, 2);
+  const PoseErrors off = errors_of(follow(drive), drive);
+  EXPECT_LT(off.largest_m, 0.3);
+  EXPECT_LT(off.largest_rad, 0.04);
+}
+
+// An encoder that hangs for a while, then catches up.
+TEST(FrontEnd, stands_odometry_that_stalls_and_jumps) {
+  SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 3);
+  for (std::size_t i = 0; i < drive.frames.size(); ++i)
+    if (i % 25 >= 20) drive.frames[i].odom_T_robot = drive.frames[i - i % 25 + 19].odom_T_robot;
+  const PoseErrors off = errors_of(follow(drive), drive);
+  EXPECT_LT(off.largest_m, 0.2);
+  EXPECT_LT(off.largest_rad, 0.03);
+}
+
+// The wheels' counters were reset, or the robot's base restarted: one increment means nothing.
+TEST(FrontEnd, stands_a_leap_of_odometry) {
+  SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 4);
+  const std::size_t leap = drive.frames.size() / 3;
+  for (std::size_t i = leap; i < drive.frames.size(); ++i)
+    drive.frames[i].odom_T_robot = TPose2D(50, -20, 1) + drive.frames[i].odom_T_robot;
+  const PoseErrors off = errors_of(follow(drive), drive);
+  EXPECT_LT(off.largest_m, 0.2);
+  EXPECT_LT(off.largest_rad, 0.03);
+}
+
+TEST(FrontEnd, follows_a_slow_robot_without_any_odometry) {
+  const auto path = path_along({{2, 1.5}, {6, 1.6}, {2, 1.4}}, 0.03, 0.03);
+  SimulatedDrive drive = drive_along(office_floor(), path, {}, 5);
+  for (Frame& frame : drive.frames) frame.odom_T_robot = {7, -3, 0.5};
+  const PoseErrors off = errors_of(follow(drive), drive);
+  EXPECT_LT(off.largest_m, 0.1);
+  EXPECT_LT(off.largest_rad, 0.02);
+}
+
+TEST(FrontEnd, a_robot_that_stands_still_stays_and_makes_no_more_nodes) {
+  const std::vector<TPose2D> path(100, TPose2D(5, 1.5, 0.3));
+  const Outcome outcome = follow(drive_along(office_floor(), path, {}, 6));
+  EXPECT_EQ(outcome.steps.front().node, 0U);
+  for (std::size_t i = 1; i < outcome.steps.size(); ++i) {
+    EXPECT_FALSE(outcome.steps[i].node) << "scan " << i;
+    EXPECT_LT(std::hypot(outcome.steps[i].local_T_robot.x, outcome.steps[i].local_T_robot.y), 0.01);
+  }
+  EXPECT_EQ(outcome.maps.size(), 1U);
+}
+
+// Nothing is seen of the way along a corridor: odometry decides there, the walls across it and of the
+// heading.
+TEST(FrontEnd, in_a_bare_corridor_odometry_tells_the_way_along_it) {
+  SimulatedWalls corridor;
+  corridor.add_wall(-100, 0, 140, 0);
+  corridor.add_wall(-100, 2.4, 140, 2.4);
+  OdometryErrors errors;
+  errors.length_factor = 0.98;
+  errors.length_share = 0.05;
+  errors.turn_share = 0.2;
+  errors.drift_rad_per_m = 0.02;
+  const SimulatedDrive drive = drive_along(corridor, path_along({{0, 1.1}, {25, 1.3}}), errors, 7);
+  FrontEndOptions options;
+  options.prediction_share = 0.8;
+  // Beams that graze the walls far away meet them at points apart, which look like objects of their own.
+  // These stay where they are as seen from the robot, and hold it back.
+  options.scan.max_range_m = 8;
+  const Outcome outcome = follow(drive, options);
+  double across_m = 0;
+  double heading_rad = 0;
+  const TPose2D first = path_along({{0, 1.1}, {25, 1.3}}).front();
+  for (std::size_t i = 0; i < outcome.steps.size(); ++i) {
+    const TPose2D in_corridor = first + outcome.steps[i].local_T_robot;
+    const TPose2D truth = first + drive.map_T_robot[i];
+    across_m = std::max(across_m, std::abs(in_corridor.y - truth.y));
+    heading_rad = std::max(heading_rad, std::abs(mrpt::math::wrapToPi(in_corridor.phi - truth.phi)));
+  }
+  EXPECT_LT(across_m, 0.3) << "odometry alone is 6 m off";
+  EXPECT_LT(heading_rad, 0.02);
+  const TPose2D& last = outcome.steps.back().local_T_robot;
+  EXPECT_NEAR(last.x, 0.98 * 25, 0.6) << "what odometry says of the length";
+}
+
+TEST(FrontEnd, scans_without_returns_are_placed_by_odometry) {
+  SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 8);
+  drive.frames.resize(120);
+  drive.map_T_robot.resize(120);
+  for (std::size_t i = 50; i < 60; ++i)
+    std::fill(drive.frames[i].scan.ranges_m.begin(), drive.frames[i].scan.ranges_m.end(), kNan);
+  const Outcome outcome = follow(drive);
+  for (std::size_t i = 50; i < 60; ++i) {
+    EXPECT_FALSE(outcome.steps[i].matched);
+    EXPECT_EQ(outcome.steps[i].response, 0);
+    EXPECT_TRUE(outcome.steps[i].points->points.empty());
+  }
+  EXPECT_LT(errors_of(outcome, drive).largest_m, 0.1);
+}
+
+TEST(FrontEnd, a_log_of_nothing_but_empty_scans_is_dead_reckoning) {
+  SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 9);
+  for (Frame& frame : drive.frames) frame.scan.ranges_m.assign(181, kNan);
+  const Outcome outcome = follow(drive);
+  const PoseErrors off = errors_of(outcome, drive);
+  EXPECT_LT(off.largest_m, 1e-6) << "this odometry is without error";
+  EXPECT_LT(off.largest_rad, 1e-6);
+  EXPECT_GT(outcome.maps.size(), 1U);
+}
+
+TEST(FrontEnd, starts_with_a_scan_that_sees_nothing) {
+  SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 10);
+  drive.frames.resize(100);
+  drive.map_T_robot.resize(100);
+  drive.frames[0].scan.ranges_m.assign(181, kNan);
+  EXPECT_LT(errors_of(follow(drive), drive).largest_m, 0.1);
+}
+
+TEST(FrontEnd, of_no_frames_there_are_no_local_maps) {
+  FrontEnd front_end{FrontEndOptions{}};
+  EXPECT_TRUE(front_end.finish().empty());
+}
+
+TEST(FrontEnd, every_step_tells_what_it_did) {
+  FrontEndOptions options;
+  SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 11);
+  drive.frames.resize(100);
+  const Outcome outcome = follow(drive, options);
+  EXPECT_FALSE(outcome.steps[0].matched) << "there was nothing to match with";
+  EXPECT_EQ(outcome.steps[0].local_T_robot, TPose2D(0, 0, 0)) << "its frame begins with the first scan";
+  std::size_t nodes = 0;
+  TPose2D last_node;
+  for (std::size_t i = 0; i < outcome.steps.size(); ++i) {
+    const FrontEndStep& step = outcome.steps[i];
+    if (i > 0) {
+      EXPECT_TRUE(step.matched);
+      EXPECT_GT(step.response, options.min_response);
+      EXPECT_LE(step.response, 1);
+      EXPECT_GT(step.evaluations, 0);
+      EXPECT_GT(step.information(0, 0), 0);
+      EXPECT_GT(step.window.x_m, 0);
+      EXPECT_LE(step.window.x_m, options.max_window_m);
+      EXPECT_LE(step.window.theta_rad, options.max_window_rad);
+    }
+    EXPECT_FALSE(step.points->points.empty());
+    const TPose2D motion = step.local_T_robot - last_node;
+    const bool moved = std::hypot(motion.x, motion.y) >= options.node_distance_m ||
+                       std::abs(mrpt::math::wrapToPi(motion.phi)) >= options.node_rotation_rad;
+    EXPECT_EQ(step.node.has_value(), i == 0 || moved) << "scan " << i;
+    if (!step.node) {
+      EXPECT_TRUE(step.memberships.empty());
+      EXPECT_FALSE(step.finished);
+      continue;
+    }
+    EXPECT_EQ(*step.node, nodes++);
+    last_node = step.local_T_robot;
+  }
+  EXPECT_GT(nodes, 20U);
+}
+
+TEST(FrontEnd, local_maps_overlap_by_half_and_two_at_most_are_active) {
+  FrontEndOptions options;
+  options.nodes_per_local_map = 30;
+  options.local_map_travel_m = 1000;
+  const SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 12);
+  const Outcome outcome = follow(drive, options);
+
+  std::vector<TPose2D> node_poses;
+  for (const FrontEndStep& step : outcome.steps)
+    if (step.node) node_poses.push_back(step.local_T_robot);
+
+  ASSERT_GT(outcome.maps.size(), 6U);
+  for (std::size_t i = 0; i < outcome.maps.size(); ++i) {
+    const PlacedLocalMap& map = outcome.maps[i];
+    EXPECT_EQ(map.id, i) << "they are finished in the order of their beginning";
+    EXPECT_EQ(map.anchor, map.first_node);
+    EXPECT_EQ(map.local_T_map, node_poses.at(map.anchor)) << "the anchor's pose is the map's frame";
+    EXPECT_TRUE(map.map->finished());
+    EXPECT_TRUE(map.map->scores().has_pyramid());
+    if (i + 2 < outcome.maps.size()) {
+      EXPECT_EQ(map.last_node - map.first_node, 30U);
+    }
+    if (i > 0) {
+      EXPECT_EQ(map.first_node, outcome.maps[i - 1].first_node + 15) << "half a map later";
+    }
+    double travelled_m = 0;
+    for (std::size_t node = map.first_node + 1; node <= map.last_node; ++node)
+      travelled_m += std::hypot(node_poses[node].x - node_poses[node - 1].x,
+                                node_poses[node].y - node_poses[node - 1].y);
+    EXPECT_NEAR(map.travelled_m, travelled_m, 1e-9);
+  }
+  EXPECT_EQ(outcome.maps.back().last_node, node_poses.size() - 1);
+
+  for (const FrontEndStep& step : outcome.steps) {
+    EXPECT_LE(step.memberships.size(), 2U);
+    for (std::size_t k = 0; k < step.memberships.size(); ++k) {
+      const FrontEndStep::Membership& membership = step.memberships[k];
+      const PlacedLocalMap& map = outcome.maps.at(membership.local_map);
+      EXPECT_EQ(membership.anchor, map.anchor);
+      EXPECT_GT(*step.node, map.first_node) << "the anchor is no member";
+      EXPECT_LE(*step.node, map.last_node);
+      const TPose2D expected = step.local_T_robot - map.local_T_map;
+      EXPECT_EQ(membership.anchor_T_node, expected);
+      if (k > 0) {
+        EXPECT_LT(step.memberships[k - 1].local_map, membership.local_map) << "older first";
+      }
+    }
+    // Each node but the first is a member of every map that holds it.
+    if (step.node) {
+      const auto holding =
+          std::count_if(outcome.maps.begin(), outcome.maps.end(), [&](const PlacedLocalMap& map) {
+            return map.first_node < *step.node && *step.node <= map.last_node;
+          });
+      EXPECT_EQ(static_cast<std::size_t>(holding), step.memberships.size()) << "node " << *step.node;
+    }
+  }
+}
+
+TEST(FrontEnd, local_maps_end_when_the_robot_has_travelled_far) {
+  FrontEndOptions options;
+  options.nodes_per_local_map = 100'000;
+  options.local_map_travel_m = 8;
+  const Outcome outcome = follow(drive_along(office_floor(), round_the_office(), {}, 13), options);
+  ASSERT_GT(outcome.maps.size(), 6U);
+  for (std::size_t i = 0; i + 2 < outcome.maps.size(); ++i) {
+    EXPECT_GE(outcome.maps[i].travelled_m, 8);
+    EXPECT_LT(outcome.maps[i].travelled_m, 8.5);
+  }
+}
+
+TEST(FrontEnd, every_node_is_drawn_into_its_local_maps) {
+  const SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 15);
+  const Outcome outcome = follow(drive);
+  for (const FrontEndStep& step : outcome.steps) {
+    for (const FrontEndStep::Membership& membership : step.memberships) {
+      const LocalMap::Agreement agreement =
+          outcome.maps.at(membership.local_map).map->agreement(*step.points, membership.anchor_T_node);
+      EXPECT_EQ(agreement.observed, step.points->points.size());
+      EXPECT_GT(agreement.share(), 0.9);
+    }
+  }
+}
+
+template <class Value>
+bool same_bytes(const Value& a, const Value& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+TEST(FrontEnd, the_same_frames_give_the_same_bytes) {
+  OdometryErrors errors;
+  errors.length_share = 0.1;
+  errors.turn_share = 0.2;
+  const SimulatedDrive drive = drive_along(office_floor(), round_the_office(), errors, 16);
+  const Outcome a = follow(drive);
+  const Outcome b = follow(drive);
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  for (std::size_t i = 0; i < a.steps.size(); ++i) {
+    EXPECT_TRUE(same_bytes(a.steps[i].local_T_robot.x, b.steps[i].local_T_robot.x));
+    EXPECT_TRUE(same_bytes(a.steps[i].local_T_robot.y, b.steps[i].local_T_robot.y));
+    EXPECT_TRUE(same_bytes(a.steps[i].local_T_robot.phi, b.steps[i].local_T_robot.phi));
+    EXPECT_TRUE(same_bytes(a.steps[i].response, b.steps[i].response));
+    EXPECT_EQ(a.steps[i].information, b.steps[i].information);
+  }
+  ASSERT_EQ(a.maps.size(), b.maps.size());
+  for (std::size_t m = 0; m < a.maps.size(); ++m) {
+    const ScoreLevel& of_a = a.maps[m].map->scores().finest();
+    const ScoreLevel& of_b = b.maps[m].map->scores().finest();
+    ASSERT_EQ(of_a.memory_bytes(), of_b.memory_bytes());
+    const auto first = [](const ScoreLevel& level) {
+      return level.cell(-ScoreLevel::kMargin, -ScoreLevel::kMargin);
+    };
+    EXPECT_EQ(std::memcmp(first(of_a), first(of_b), of_a.memory_bytes()), 0);
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

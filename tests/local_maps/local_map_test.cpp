@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/local_maps/local_map.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+#include <utility>
+
+#include "psi_slam/local_maps/scan_filter.h"
+#include "simulated_drive.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+// Without any spread, the score of a cell is the evidence for it alone.
+LocalMapOptions without_smoothing() {
+  LocalMapOptions options;
+  options.smoothing_sigma_m = 1e-4;
+  return options;
+}
+
+// One hit is no full evidence yet.
+LocalMapOptions with_weak_hits() {
+  LocalMapOptions options = without_smoothing();
+  options.hit_probability = 0.56;
+  return options;
+}
+
+// The middle of a cell, whose side is 5 cm.
+TPoint2D middle(int x, int y) {
+  return {0.05 * x + 0.025, 0.05 * y + 0.025};
+}
+
+Beams beam(const TPoint2D& origin, const TPoint2D& end, bool hit = true) {
+  return {origin, {end}, {hit}};
+}
+
+Beams operator+(Beams a, const Beams& b) {
+  a.ends.insert(a.ends.end(), b.ends.begin(), b.ends.end());
+  a.hits.insert(a.hits.end(), b.hits.begin(), b.hits.end());
+  return a;
+}
+
+int score_at(const ScoreGrid& grid, const TPoint2D& point) {
+  const auto index = [&](double v, double origin) {
+    return static_cast<int>(std::floor((v - origin) / grid.resolution_m()));
+  };
+  return grid.finest().at(index(point.x, grid.origin_x_m()), index(point.y, grid.origin_y_m()));
+}
+
+ScanPoints points_at(const std::vector<TPoint2D>& places) {
+  ScanPoints scan;
+  for (const TPoint2D& place : places)
+    scan.points.emplace_back(static_cast<float>(place.x), static_cast<float>(place.y));
+  return scan;
+}
+
+std::size_t observed(const LocalMap& map, const TPoint2D& place) {
+  return map.agreement(points_at({place}), {0, 0, 0}).observed;
+}
+
+Beams square_room_scan(double half_side_m, const TPose2D& map_T_robot, int beams = 361) {
+  SimulatedWalls room;
+  room.add_box(-half_side_m, -half_side_m, half_side_m, half_side_m);
+  std::mt19937_64 random(1);
+  const LaserScan scan = simulated_scan(
+      room, map_T_robot, even_bearings(-M_PI, M_PI * (1 - 2.0 / beams), beams), {0, 0, 0}, 0, random);
+  return drawing_beams(scan, map_T_robot, 0.1, 40);
+}
+
+TEST(LocalMap, a_hit_is_occupied_its_way_is_free_the_rest_is_unknown) {
+  LocalMap map(without_smoothing());
+  map.insert(beam(middle(0, 0), middle(40, 0)));
+  const ScoreGrid& scores = map.scores();
+  EXPECT_GT(score_at(scores, middle(40, 0)), 0);
+  for (int x = 0; x < 40; ++x) {
+    EXPECT_EQ(score_at(scores, middle(x, 0)), 0);
+    EXPECT_EQ(observed(map, middle(x, 0)), 1U) << "free, hence observed";
+  }
+  EXPECT_EQ(observed(map, middle(40, 0)), 1U);
+  for (const TPoint2D& place : {middle(41, 0), middle(-1, 0), middle(20, 1), middle(20, -1), middle(40, 1)}) {
+    EXPECT_EQ(score_at(scores, place), 0);
+    EXPECT_EQ(observed(map, place), 0U) << place.x << ", " << place.y;
+  }
+}
+
+TEST(LocalMap, a_beam_that_was_cut_has_nothing_at_its_end) {
+  LocalMap map(without_smoothing());
+  map.insert(beam(middle(0, 0), middle(40, 0), false));
+  EXPECT_EQ(score_at(map.scores(), middle(40, 0)), 0);
+  EXPECT_EQ(observed(map, middle(39, 0)), 1U);
+}
+
+TEST(LocalMap, every_beam_is_a_line_without_holes_to_beside_its_end) {
+  std::mt19937_64 random(2);
+  std::uniform_int_distribution<int> cell(-60, 60);
+  for (int trial = 0; trial < 100; ++trial) {
+    const int x0 = cell(random);
+    const int y0 = cell(random);
+    const int x1 = cell(random);
+    const int y1 = cell(random);
+    if (x0 == x1 && y0 == y1) continue;
+    LocalMap map(without_smoothing());
+    map.insert(beam(middle(x0, y0), middle(x1, y1)));
+    map.scores();
+    // Every cell that the beam's middle line runs well through is observed, none farther than a cell from it.
+    const double length = std::hypot(x1 - x0, y1 - y0);
+    for (int y = std::min(y0, y1) - 2; y <= std::max(y0, y1) + 2; ++y) {
+      for (int x = std::min(x0, x1) - 2; x <= std::max(x0, x1) + 2; ++x) {
+        const double across = std::abs((x - x0) * (y1 - y0) - (y - y0) * (x1 - x0)) / length;
+        const double along = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / length;
+        const bool on_the_way = along >= 0 && along <= length;
+        if (on_the_way && across < 0.3) {
+          EXPECT_EQ(observed(map, middle(x, y)), 1U) << x << ", " << y;
+        } else if (across > 1.1 || along < -1.1 || along > length + 1.1) {
+          EXPECT_EQ(observed(map, middle(x, y)), 0U) << x << ", " << y;
+        }
+      }
+    }
+  }
+}
+
+TEST(LocalMap, more_hits_are_more_evidence_and_passes_take_it_away) {
+  LocalMap map(with_weak_hits());
+  map.insert(beam(middle(0, 0), middle(40, 0)));
+  const int once = score_at(map.scores(), middle(40, 0));
+  map.insert(beam(middle(0, 0), middle(40, 0)));
+  const int twice = score_at(map.scores(), middle(40, 0));
+  EXPECT_GT(twice, once);
+  map.insert(beam(middle(0, 0), middle(50, 0)));
+  const int passed = score_at(map.scores(), middle(40, 0));
+  EXPECT_LE(passed, twice);
+  for (int i = 0; i < 8; ++i) map.insert(beam(middle(0, 0), middle(50, 0)));
+  EXPECT_EQ(score_at(map.scores(), middle(40, 0)), 0) << "a door that was closed twice, then open";
+}
+
+TEST(LocalMap, in_a_scan_ends_go_before_ways_in_whatever_order) {
+  const Beams hits = beam(middle(0, 0), middle(40, 0));
+  const Beams passes = beam(middle(0, 0), middle(50, 0));
+  LocalMap hit_only(with_weak_hits());
+  hit_only.insert(hits);
+  const int expected = score_at(hit_only.scores(), middle(40, 0));
+  for (const Beams& scan : {hits + passes, passes + hits}) {
+    LocalMap map(with_weak_hits());
+    map.insert(scan);
+    EXPECT_EQ(score_at(map.scores(), middle(40, 0)), expected);
+    EXPECT_EQ(score_at(map.scores(), middle(50, 0)), expected);
+  }
+}
+
+TEST(LocalMap, in_a_scan_a_cell_counts_once) {
+  const Beams hit = beam(middle(0, 0), middle(40, 0));
+  const Beams pass = beam(middle(0, 0), middle(50, 0));
+  LocalMap once(with_weak_hits());
+  LocalMap often(with_weak_hits());
+  for (int scan = 0; scan < 2; ++scan) {
+    once.insert(hit);
+    often.insert(hit + hit + hit + hit);
+  }
+  EXPECT_EQ(score_at(often.scores(), middle(40, 0)), score_at(once.scores(), middle(40, 0)));
+  once.insert(pass);
+  often.insert(pass + pass + pass + pass);
+  EXPECT_GT(score_at(once.scores(), middle(40, 0)), 0);
+  EXPECT_EQ(score_at(often.scores(), middle(40, 0)), score_at(once.scores(), middle(40, 0)));
+}
+
+// Cells remember the scan that last touched them in 16 bits.
+TEST(LocalMap, a_cell_counts_anew_after_65535_scans) {
+  LocalMap map(with_weak_hits());
+  map.insert(beam(middle(0, 0), middle(40, 0)));
+  const int once = score_at(map.scores(), middle(40, 0));
+  for (int i = 0; i < 65'534; ++i) map.insert(beam(middle(0, 0), middle(0, 3)));
+  map.insert(beam(middle(0, 0), middle(40, 0)));
+  EXPECT_GT(score_at(map.scores(), middle(40, 0)), once);
+}
+
+TEST(LocalMap, growing_keeps_what_was_drawn) {
+  LocalMap map({});
+  map.insert(square_room_scan(3, {0.3, 0.2, 0.4}));
+  map.insert(square_room_scan(3, {-0.3, 0.5, 1.4}));
+  std::map<std::pair<int, int>, int> before;
+  const ScoreGrid small = map.scores();
+  for (int y = -80; y < 80; ++y)
+    for (int x = -80; x < 80; ++x) before[{x, y}] = score_at(small, middle(x, y));
+
+  // Beams far away, none of which touches the room.
+  map.insert(beam({30, 0}, {47, 3}) + beam({30, 0}, {30, -28}));
+  map.insert(beam({-25, 30}, {-38, 31}));
+  const ScoreGrid& large = map.scores();
+  EXPECT_GT(large.finest().width(), small.finest().width());
+  EXPECT_GT(large.finest().height(), small.finest().height());
+  for (const auto& [cell, score] : before)
+    ASSERT_EQ(score_at(large, middle(cell.first, cell.second)), score) << cell.first << ", " << cell.second;
+  EXPECT_GT(score_at(large, {47, 3}), 0);
+  EXPECT_GT(score_at(large, {-38, 31}), 0);
+}
+
+TEST(LocalMap, scores_follow_scan_by_scan_what_drawing_at_once_gives) {
+  LocalMap step_by_step({});
+  LocalMap at_once({});
+  for (int i = 0; i < 30; ++i) {
+    const Beams scan = square_room_scan(4, {0.1 * i, -0.05 * i, 0.2 * i}, 90);
+    step_by_step.insert(scan);
+    step_by_step.scores();
+    at_once.insert(scan);
+  }
+  const ScoreGrid& a = step_by_step.scores();
+  const ScoreGrid& b = at_once.scores();
+  ASSERT_EQ(a.finest().width(), b.finest().width());
+  ASSERT_EQ(a.finest().height(), b.finest().height());
+  for (int y = 0; y < a.finest().height(); ++y)
+    for (int x = 0; x < a.finest().width(); ++x) ASSERT_EQ(a.finest().at(x, y), b.finest().at(x, y));
+}
+
+TEST(LocalMap, finishing_freezes_the_scores_and_frees_memory) {
+  LocalMap map({});
+  for (int i = 0; i < 5; ++i) map.insert(square_room_scan(4, {0.1 * i, 0, 0.1 * i}));
+  const ScoreGrid before = map.scores();
+  const std::size_t bytes_before = map.memory_bytes();
+  EXPECT_FALSE(map.finished());
+  EXPECT_FALSE(before.has_pyramid());
+  map.finish();
+  EXPECT_TRUE(map.finished());
+  EXPECT_LT(map.memory_bytes(), bytes_before);
+  for (int again = 0; again < 2; ++again) {
+    const ScoreGrid& after = map.scores();
+    EXPECT_TRUE(after.has_pyramid());
+    EXPECT_EQ(after.origin_x_m(), before.origin_x_m());
+    EXPECT_EQ(after.origin_y_m(), before.origin_y_m());
+    for (int y = -1; y <= before.finest().height(); ++y)
+      for (int x = -1; x <= before.finest().width(); ++x)
+        ASSERT_EQ(after.finest().at(x, y), before.finest().at(x, y));
+    map.finish();
+  }
+}
+
+TEST(LocalMap, finishing_scores_what_was_inserted_last) {
+  LocalMap map({});
+  map.insert(square_room_scan(4, {0, 0, 0}));
+  map.scores();
+  map.insert(beam({0, 0}, {1, 1}) + beam({0, 0}, {1, 1}));
+  map.finish();
+  EXPECT_GT(score_at(map.scores(), {1, 1}), 0);
+}
+
+TEST(LocalMap, agreement_counts_points_in_observed_space_and_those_on_walls) {
+  LocalMap map({});
+  for (int i = 0; i < 3; ++i) map.insert(square_room_scan(3, {0, 0, 0.01 * i}));
+  const ScanPoints scan = points_at({{2.99, 0},    // on the wall
+                                     {0.5, 2.96},  // on another
+                                     {1, 1},       // in free space
+                                     {-2, 0.5},    // as well
+                                     {4.5, 0},     // behind the wall: never seen
+                                     {400, 0}});   // off the grid
+  for (const bool finished : {false, true}) {
+    if (finished) map.finish();
+    map.scores();
+    const LocalMap::Agreement agreement = map.agreement(scan, {0, 0, 0});
+    EXPECT_EQ(agreement.observed, 4U);
+    EXPECT_EQ(agreement.hits, 2U);
+    EXPECT_EQ(agreement.share(), 0.5);
+  }
+}
+
+TEST(LocalMap, agreement_looks_from_the_pose) {
+  LocalMap map({});
+  for (int i = 0; i < 3; ++i) map.insert(square_room_scan(3, {0, 0, 0.01 * i}));
+  map.finish();
+  std::mt19937_64 random(3);
+  SimulatedWalls room;
+  room.add_box(-3, -3, 3, 3);
+  const TPose2D pose(0.7, -0.4, 0.6);
+  const ScanPoints scan =
+      matching_points(simulated_scan(room, pose, even_bearings(-3, 3, 200), {0.1, 0, 0}, 0.01, random), {});
+  EXPECT_GT(map.agreement(scan, pose).share(), 0.98);
+  // Between the beams that drew the map, and beyond walls by the ranges' noise, there are cells it never saw.
+  EXPECT_GT(map.agreement(scan, pose).observed, 0.7 * static_cast<double>(scan.points.size()));
+  EXPECT_LT(map.agreement(scan, {0.2, -0.1, 0.3}).share(), 0.5);
+  EXPECT_EQ(map.agreement(scan, {100, 0, 0}).observed, 0U);
+  EXPECT_EQ(map.agreement(scan, {100, 0, 0}).share(), 0);
+}
+
+TEST(LocalMap, an_empty_map_is_all_unknown) {
+  LocalMap map({});
+  map.insert({{0, 0}, {}, {}});
+  map.finish();
+  for (int y = 0; y < map.scores().finest().height(); ++y)
+    for (int x = 0; x < map.scores().finest().width(); ++x) ASSERT_EQ(map.scores().finest().at(x, y), 0);
+  EXPECT_EQ(map.agreement(points_at({{1, 1}}), {0, 0, 0}).observed, 0U);
+}
+
+// The same square room drawn by MRPT: walls where it has walls, free where it is free.
+TEST(LocalMap, agrees_with_MRPTs_own_drawing_of_a_square_room) {
+  constexpr double kHalfSide_m = 2.5;
+  LocalMap ours(without_smoothing());
+  mrpt::maps::COccupancyGridMap2D theirs(-5, 5, -5, 5, 0.05F);
+  SimulatedWalls room;
+  room.add_box(-kHalfSide_m, -kHalfSide_m, kHalfSide_m, kHalfSide_m);
+  const BeamBearings bearings = even_bearings(-M_PI / 2, M_PI / 2, 541);
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 12; ++i) {
+    const TPose2D robot(0.3 * std::cos(i), 0.3 * std::sin(i), i * M_PI / 6);
+    const LaserScan scan = simulated_scan(room, robot, bearings, {0, 0, 0}, 0, random);
+    ours.insert(drawing_beams(scan, robot, 0.1, 40));
+    mrpt::obs::CObservation2DRangeScan observation;
+    observation.aperture = static_cast<float>(M_PI);
+    observation.maxRange = 30;
+    observation.loadFromVectors(scan.ranges_m.size(), scan.ranges_m.data(),
+                                std::vector<char>(scan.ranges_m.size(), 1).data());
+    theirs.insertObservation(observation, mrpt::poses::CPose3D(robot));
+  }
+  const ScoreGrid& scores = ours.scores();
+  int walls = 0;
+  int walls_shared = 0;
+  int free = 0;
+  int free_shared = 0;
+  for (int y = -70; y < 70; ++y) {
+    for (int x = -70; x < 70; ++x) {
+      const TPoint2D place = middle(x, y);
+      const double their_free =
+          static_cast<double>(theirs.getPos(static_cast<float>(place.x), static_cast<float>(place.y)));
+      if (their_free < 0.3) {
+        ++walls;
+        int best = 0;  // beam ends are rounded to cells, and MRPT's beams are half a beam off at the sides
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) best = std::max(best, score_at(scores, middle(x + dx, y + dy)));
+        walls_shared += best > 100;
+      } else if (their_free > 0.7) {
+        ++free;
+        free_shared += score_at(scores, place) == 0 && observed(ours, place) == 1;
+      }
+    }
+  }
+  EXPECT_GT(walls, 300);
+  EXPECT_GT(free, 9000);
+  EXPECT_GT(walls_shared, 0.98 * walls);
+  EXPECT_GT(free_shared, 0.98 * free);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/loop_closure/loop_candidates.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+// Thirty metres along x and, a metre beside, back again: a node a metre, a local map every ten nodes.
+struct ThereAndBack {
+  PlaceMemory memory;
+  PoseGraph graph;
+
+  ThereAndBack() {
+    for (std::size_t i = 0; i < 60; ++i) {
+      const double along = static_cast<double>(i);
+      NodeScan node;
+      node.frame = i;
+      node.local_T_robot = i < 30 ? TPose2D(along, 0, 0) : TPose2D(59 - along, 1, M_PI);
+      node.travelled_m = along;
+      memory.nodes.push_back(node);
+      graph.add_node(node.local_T_robot);
+    }
+    for (std::size_t m = 0; m < 6; ++m) {
+      PlacedLocalMap local_map;
+      local_map.id = m;
+      local_map.anchor = local_map.first_node = 10 * m;
+      local_map.last_node = 10 * m + 9;
+      memory.local_maps.push_back(local_map);
+    }
+  }
+
+  std::vector<LoopCandidate> candidates(std::size_t node, const PositionSigma& sigma,
+                                        const LoopCandidateOptions& options = {}) const {
+    const std::vector<PositionSigma> all(memory.local_maps.size(), sigma);
+    return loop_candidates(node, memory, graph, all, options);
+  }
+  std::vector<std::size_t> local_maps(std::size_t node, const PositionSigma& sigma,
+                                      const LoopCandidateOptions& options = {}) const {
+    std::vector<std::size_t> result;
+    for (const LoopCandidate& candidate : candidates(node, sigma, options))
+      result.push_back(candidate.local_map);
+    return result;
+  }
+};
+
+using Maps = std::vector<std::size_t>;
+
+TEST(LoopCandidates, only_local_maps_near_the_node_are_tried) {
+  const ThereAndBack drive;
+  EXPECT_EQ(drive.local_maps(59, {0.01, 0.001}), Maps({0}));     // at x = 0
+  EXPECT_EQ(drive.local_maps(53, {0.01, 0.001}), Maps({0, 1}));  // at x = 6
+  EXPECT_EQ(drive.local_maps(44, {0.01, 0.001}), Maps({1, 2}));  // at x = 15: 6.1 m from the first map
+}
+
+TEST(LoopCandidates, an_uncertain_node_may_see_farther_local_maps) {
+  const ThereAndBack drive;
+  EXPECT_EQ(drive.local_maps(59, {1, 0.001}), Maps({0})) << "within 8 m of x = 0";
+  EXPECT_EQ(drive.local_maps(59, {2, 0.001}), Maps({0, 1, 4})) << "within 11 m of x = 0";
+  EXPECT_EQ(drive.local_maps(59, {1000, 0.001}), Maps({0, 1, 4})) << "never beyond 13 m";
+}
+
+TEST(LoopCandidates, each_local_map_has_its_own_uncertainty) {
+  const ThereAndBack drive;
+  std::vector<PositionSigma> sigma(6, {0.01, 0.001});
+  sigma[0] = {0.5, 0.05};
+  sigma[1] = {0.8, 0.08};
+  const auto candidates = loop_candidates(53, drive.memory, drive.graph, sigma, {});
+  ASSERT_EQ(candidates.size(), 2U);
+  EXPECT_NEAR(candidates[0].extent.x_m, 1.5, 1e-12);
+  EXPECT_NEAR(candidates[0].extent.theta_rad, 0.15, 1e-12);
+  EXPECT_NEAR(candidates[1].extent.x_m, 2.4, 1e-12);
+  EXPECT_NEAR(candidates[1].extent.theta_rad, 0.24, 1e-12);
+}
+
+TEST(LoopCandidates, the_window_covers_three_sigmas_within_its_bounds) {
+  const ThereAndBack drive;
+  const LoopCandidateOptions options;
+  const auto window = [&](double metres, double radians) {
+    const auto candidates = drive.candidates(59, {metres, radians});
+    return candidates.empty() ? SearchExtent() : candidates.front().extent;
+  };
+  EXPECT_EQ(window(0.001, 0.0001).x_m, options.min_window_m);
+  EXPECT_EQ(window(0.001, 0.0001).y_m, options.min_window_m);
+  EXPECT_EQ(window(0.001, 0.0001).theta_rad, options.min_window_rad);
+  EXPECT_NEAR(window(1.2, 0.1).x_m, 3.6, 1e-12);
+  EXPECT_NEAR(window(1.2, 0.1).y_m, 3.6, 1e-12);
+  EXPECT_NEAR(window(1.2, 0.1).theta_rad, 0.3, 1e-12);
+  EXPECT_EQ(window(50, 2).x_m, options.max_window.x_m);
+  EXPECT_EQ(window(50, 2).y_m, options.max_window.y_m);
+  EXPECT_EQ(window(50, 2).theta_rad, options.max_window.theta_rad);
+}
+
+TEST(LoopCandidates, an_unconnected_node_is_searched_in_the_largest_window) {
+  const ThereAndBack drive;
+  const double inf = std::numeric_limits<double>::infinity();
+  const auto candidates = drive.candidates(59, {inf, inf});
+  ASSERT_FALSE(candidates.empty());
+  EXPECT_EQ(candidates.front().extent.x_m, LoopCandidateOptions().max_window.x_m);
+  EXPECT_EQ(candidates.front().extent.theta_rad, LoopCandidateOptions().max_window.theta_rad);
+}
+
+TEST(LoopCandidates, both_bounds_of_an_oblong_window_hold) {
+  const ThereAndBack drive;
+  LoopCandidateOptions options;
+  options.max_window = {4, 2, 0.2};
+  const auto candidates = drive.candidates(59, {10, 1}, options);
+  ASSERT_FALSE(candidates.empty());
+  EXPECT_EQ(candidates.front().extent.x_m, 4);
+  EXPECT_EQ(candidates.front().extent.y_m, 2);
+  EXPECT_EQ(candidates.front().extent.theta_rad, 0.2);
+}
+
+TEST(LoopCandidates, local_maps_of_the_path_nearby_are_left_out) {
+  const ThereAndBack drive;
+  LoopCandidateOptions options;
+  options.reach_m = 100;
+  options.min_travel_m = 10;
+  EXPECT_EQ(drive.local_maps(18, {0.01, 0.001}, options), Maps({3, 4, 5}))
+      << "9 m after map 0, 2 m before map 2";
+  EXPECT_EQ(drive.local_maps(19, {0.01, 0.001}, options), Maps({0, 3, 4, 5})) << "10 m after map 0";
+  EXPECT_EQ(drive.local_maps(20, {0.01, 0.001}, options), Maps({0, 3, 4, 5})) << "10 m before map 3";
+  EXPECT_EQ(drive.local_maps(21, {0.01, 0.001}, options), Maps({0, 4, 5})) << "9 m before map 3";
+  options.min_travel_m = 0;
+  EXPECT_EQ(drive.local_maps(18, {0.01, 0.001}, options), Maps({0, 1, 2, 3, 4, 5}));
+}
+
+TEST(LoopCandidates, the_prediction_is_the_graphs) {
+  ThereAndBack drive;
+  drive.graph.set_pose(0, {1, 2, M_PI / 2});  // the graph has moved since; the front end's frame has not
+  drive.graph.set_pose(59, {2, 5, M_PI});
+  const auto candidates = drive.candidates(59, {0.01, 0.001});
+  ASSERT_EQ(candidates.size(), 1U);
+  EXPECT_NEAR(candidates[0].anchor_T_node.x, 3, 1e-12);
+  EXPECT_NEAR(candidates[0].anchor_T_node.y, -1, 1e-12);
+  EXPECT_NEAR(candidates[0].anchor_T_node.phi, M_PI / 2, 1e-12);
+  EXPECT_NEAR(candidates[0].distance_m, std::hypot(1, 3), 1e-9) << "the local map's node moved to (1, 2)";
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/loop_closure/loop_consensus.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace psi_slam {
+namespace {
+
+using Loops = std::vector<std::size_t>;
+using mrpt::math::TPose2D;
+
+// The front end's frame lies in the map as the first of these says; anchors 0 and 1 are far apart and turned.
+const TPose2D kMapTLocal(2, -1, 0.8);
+
+PoseGraph two_anchors() {
+  PoseGraph graph;
+  graph.add_node({0, 0, 0});
+  graph.add_node({6, 3, 2.9});
+  return graph;
+}
+
+// The robot drives straight on through the front end's frame. The match is off from where the map truly has
+// the robot by `error`, in the map's axes.
+LoopConsensus::Vote vote(std::size_t loop, double travelled_m, double ambiguity = 0, std::size_t anchor = 0,
+                         const TPose2D& error = {0, 0, 0}) {
+  LoopConsensus::Vote result;
+  result.loop = loop;
+  result.travelled_m = travelled_m;
+  result.local_T_robot = TPose2D(3, 1, 0.5) + TPose2D(travelled_m, 0, 0);
+  result.anchor = anchor;
+  const TPose2D map_T_robot = kMapTLocal + result.local_T_robot;
+  const TPose2D matched(map_T_robot.x + error.x, map_T_robot.y + error.y, map_T_robot.phi + error.phi);
+  result.anchor_T_robot = matched - two_anchors().pose(anchor);
+  result.ambiguity = ambiguity;
+  return result;
+}
+
+TEST(LoopConsensus, one_match_alone_is_never_confirmed) {
+  const PoseGraph graph = two_anchors();
+  for (const double ambiguity : {0.0, 0.5, 1.0}) {
+    LoopConsensus consensus({});
+    EXPECT_EQ(consensus.add(vote(0, 5, ambiguity), graph), Loops());
+  }
+}
+
+TEST(LoopConsensus, two_unambiguous_matches_a_metre_apart_are_confirmed) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensus consensus({});
+  EXPECT_EQ(consensus.add(vote(7, 5), graph), Loops());
+  EXPECT_EQ(consensus.add(vote(9, 6.1), graph), Loops({7, 9}));
+}
+
+TEST(LoopConsensus, matches_from_one_spot_prove_nothing) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensus consensus({});
+  for (std::size_t i = 0; i < 9; ++i)
+    EXPECT_EQ(consensus.add(vote(i, 5 + 0.1 * static_cast<double>(i)), graph), Loops()) << i;
+  EXPECT_EQ(consensus.add(vote(9, 6.05), graph).size(), 10U);
+}
+
+TEST(LoopConsensus, confirmed_matches_are_forgotten) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensus consensus({});
+  consensus.add(vote(0, 5), graph);
+  ASSERT_EQ(consensus.add(vote(1, 6.5), graph), Loops({0, 1}));
+  EXPECT_EQ(consensus.add(vote(2, 8), graph), Loops());
+  EXPECT_EQ(consensus.add(vote(3, 9.5), graph), Loops({2, 3}));
+}
+
+TEST(LoopConsensus, ambiguous_matches_need_many_others) {
+  const PoseGraph graph = two_anchors();
+  for (const double ambiguity : {0.95, 1.0}) {  // each weighs 0.05
+    LoopConsensus consensus({});
+    std::size_t votes = 0;
+    Loops confirmed;
+    while (confirmed.empty() && votes < 30) {
+      confirmed = consensus.add(vote(votes, 0.5 * static_cast<double>(votes), ambiguity), graph);
+      ++votes;
+    }
+    EXPECT_GE(votes, 10U);
+    EXPECT_LE(votes, 11U);
+    EXPECT_EQ(confirmed.size(), votes);
+  }
+}
+
+TEST(LoopConsensus, matches_of_different_places_do_not_add_up) {
+  const PoseGraph graph = two_anchors();
+  for (const TPose2D& error : {TPose2D(0.6, 0, 0), TPose2D(0, -0.6, 0), TPose2D(0, 0, 0.1)}) {
+    LoopConsensus consensus({});
+    consensus.add(vote(0, 5), graph);
+    EXPECT_EQ(consensus.add(vote(1, 6.5, 0, 0, error), graph), Loops()) << error.asString();
+  }
+  for (const TPose2D& error : {TPose2D(0.4, 0, 0), TPose2D(0, -0.4, 0), TPose2D(0, 0, 0.05)}) {
+    LoopConsensus consensus({});
+    consensus.add(vote(0, 5), graph);
+    EXPECT_EQ(consensus.add(vote(1, 6.5, 0, 0, error), graph), Loops({0, 1})) << error.asString();
+  }
+}
+
+TEST(LoopConsensus, a_rival_place_blocks_until_it_is_outweighed) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensus consensus({});
+  EXPECT_EQ(consensus.add(vote(0, 5.0, 0.4, 0, {3, 0, 0}), graph), Loops());  // the rival weighs 0.6
+  EXPECT_EQ(consensus.add(vote(1, 5.2, 0.5), graph), Loops());
+  EXPECT_EQ(consensus.add(vote(2, 6.5, 0.5), graph), Loops()) << "0.6 against 1.0";
+  EXPECT_EQ(consensus.add(vote(3, 7.5, 0.5), graph), Loops({1, 2, 3})) << "0.6 against 1.5";
+}
+
+TEST(LoopConsensus, scattered_rivals_do_not_block_together) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensus consensus({});
+  for (std::size_t i = 0; i < 4; ++i)  // each of another place
+    consensus.add(vote(i, 5.0, 0.6, 0, {3.0 + 2.0 * static_cast<double>(i), 0, 0}), graph);
+  consensus.add(vote(4, 5.2, 0.5), graph);
+  EXPECT_EQ(consensus.add(vote(5, 6.5, 0.5), graph), Loops({4, 5}));
+}
+
+TEST(LoopConsensus, old_matches_are_forgotten) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensusOptions options;
+  options.memory_m = 15;
+  LoopConsensus late(options);
+  late.add(vote(0, 5), graph);
+  EXPECT_EQ(late.add(vote(1, 20.5), graph), Loops());
+  LoopConsensus in_time(options);
+  in_time.add(vote(0, 5), graph);
+  EXPECT_EQ(in_time.add(vote(1, 19.5), graph), Loops({0, 1}));
+}
+
+TEST(LoopConsensus, old_rivals_no_longer_block) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensus consensus({});
+  consensus.add(vote(0, 5, 0, 0, {3, 0, 0}), graph);
+  consensus.add(vote(1, 18, 0.5), graph);
+  EXPECT_EQ(consensus.add(vote(2, 19.5, 0.5), graph), Loops()) << "the rival is 14.5 m back";
+  EXPECT_EQ(consensus.add(vote(3, 20.5, 0.9), graph), Loops({1, 2, 3})) << "the rival is 15.5 m back";
+}
+
+TEST(LoopConsensus, matches_with_different_anchors_agree_when_they_put_the_robot_in_one_place) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensus same({});
+  same.add(vote(0, 5, 0, 0), graph);
+  EXPECT_EQ(same.add(vote(1, 6.5, 0, 1), graph), Loops({0, 1}));
+  LoopConsensus other({});
+  other.add(vote(0, 5, 0, 0), graph);
+  EXPECT_EQ(other.add(vote(1, 6.5, 0, 1, {0, 1, 0}), graph), Loops());
+}
+
+TEST(LoopConsensus, sees_earlier_matches_from_where_their_anchors_are_now) {
+  PoseGraph moved = two_anchors();
+  LoopConsensus consensus({});
+  consensus.add(vote(0, 5, 0.2, 0), moved);
+  consensus.add(vote(1, 5, 0, 1), moved);
+  moved.set_pose(0, {2, 0, 0});  // all that anchor 0 sees moves along
+  EXPECT_EQ(consensus.add(vote(2, 6.5, 0, 0), moved), Loops()) << "anchor 1 says otherwise now";
+  EXPECT_EQ(consensus.add(vote(3, 7.5, 0, 0), moved), Loops({0, 2, 3}));
+
+  PoseGraph joined = two_anchors();
+  LoopConsensus apart({});
+  apart.add(vote(0, 5, 0, 0, {2, 0, 0}), joined);
+  joined.set_pose(0, {-2, 0, 0});  // which takes the error back
+  EXPECT_EQ(apart.add(vote(1, 6.5, 0, 1), joined), Loops({0, 1}));
+}
+
+TEST(LoopConsensus, headings_agree_across_the_turn_from_pi_to_minus_pi) {
+  PoseGraph graph;
+  graph.add_node({0, 0, 0});
+  LoopConsensus consensus({});
+  LoopConsensus::Vote first;
+  first.loop = 0;
+  first.anchor_T_robot = {1, 1, M_PI - 0.02};
+  LoopConsensus::Vote second;
+  second.loop = 1;
+  second.travelled_m = 1.5;
+  second.local_T_robot = {1.5, 0, 0};
+  second.anchor_T_robot = {-0.5, 1, -M_PI + 0.02};
+  consensus.add(first, graph);
+  EXPECT_EQ(consensus.add(second, graph), Loops({0, 1}));
+}
+
+}  // namespace
+}  // namespace psi_slam

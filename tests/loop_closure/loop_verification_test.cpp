@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/loop_closure/loop_verification.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "../local_maps/simulated_drive.h"
+#include "psi_slam/local_maps/front_end.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+// Twice round a furnished room with good odometry; local maps of the first round, seen again in the second.
+struct TwoRounds {
+  PlaceMemory memory;
+  std::vector<TPose2D> truth;  // by node
+  std::size_t node = 0;        // of the second round
+  std::size_t local_map = 0;   // of the first, holding a node near that one
+
+  TwoRounds() {
+    const SimulatedDrive drive = drive_along(
+        furnished_room(),
+        path_along({{2.3, 2}, {5.5, 2}, {5.5, 4}, {2.3, 4}, {2.3, 2}, {5.5, 2}, {5.5, 4}, {2.3, 4}}), {}, 5);
+    FrontEndOptions options;
+    options.nodes_per_local_map = 40;
+    FrontEnd front_end(options);
+    for (std::size_t i = 0; i < drive.frames.size(); ++i) {
+      const FrontEndStep step = front_end.add(drive.frames[i]);
+      if (!step.node) continue;
+      NodeScan scan;
+      scan.frame = i;
+      scan.local_T_robot = step.local_T_robot;
+      scan.points = step.points;
+      if (!memory.nodes.empty()) {
+        const TPose2D motion = step.local_T_robot - memory.nodes.back().local_T_robot;
+        scan.travelled_m = memory.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
+      }
+      memory.nodes.push_back(scan);
+      truth.push_back(drive.map_T_robot[i]);
+      if (step.finished) memory.local_maps.push_back(*step.finished);
+    }
+    while (memory.nodes[node].travelled_m < 12) ++node;
+  }
+
+  /// As a matcher would find it, at the true place moved by `off` in the robot's own frame.
+  LoopRecord loop(double half_width_m, const TPose2D& off = {0, 0, 0}) const {
+    LoopRecord result;
+    result.node = node;
+    result.frame = memory.nodes[node].frame;
+    result.local_map = local_map;
+    result.anchor = memory.local_maps[local_map].anchor;
+    result.anchor_T_node = (truth[node] - truth[result.anchor]) + off;
+    result.covariance.diagonal() << 1e-4, 1e-4, 1e-5;
+    result.window = {half_width_m, half_width_m, 0.1};
+    result.response = 0.8;
+    result.ambiguity = 0.3;
+    return result;
+  }
+
+  void judge(LoopRecord& loop, const LoopVerificationOptions& options = {}) const {
+    verify(loop, *memory.nodes[node].points, memory, options);
+  }
+};
+
+const TwoRounds& two_rounds() {
+  static const TwoRounds rounds;
+  return rounds;
+}
+
+constexpr double kNarrow_m = 0.5;
+constexpr double kWide_m = 3.0;
+
+void expect_refused(const LoopRecord& loop, const std::string& part_of_reason) {
+  EXPECT_EQ(loop.verdict, LoopVerdict::kRefused);
+  EXPECT_NE(loop.reason.find(part_of_reason), std::string::npos) << loop.reason;
+}
+
+TEST(LoopVerification, a_right_match_in_a_narrow_window_is_accepted) {
+  LoopRecord loop = two_rounds().loop(kNarrow_m);
+  two_rounds().judge(loop);
+  EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << loop.reason;
+  EXPECT_TRUE(loop.reason.empty());
+  EXPECT_GT(loop.observed_share, 0.9);
+  EXPECT_GT(loop.neighbours_agree, 0.9);
+  EXPECT_GT(loop.reverse_agree, 0.9);
+}
+
+TEST(LoopVerification, a_right_match_in_a_wide_window_waits_for_others) {
+  LoopRecord loop = two_rounds().loop(kWide_m);
+  two_rounds().judge(loop);
+  EXPECT_EQ(loop.verdict, LoopVerdict::kPending);
+  EXPECT_TRUE(loop.reason.empty()) << loop.reason;
+}
+
+TEST(LoopVerification, a_match_a_metre_off_is_refused_and_says_why) {
+  for (const double half_width_m : {kNarrow_m, kWide_m})
+    for (const TPose2D& off : {TPose2D(1, 0, 0), TPose2D(-1, 0, 0), TPose2D(0, 1, 0), TPose2D(0, -1, 0),
+                               TPose2D(0, 0, M_PI / 4), TPose2D(0, 0, M_PI)}) {
+      LoopRecord loop = two_rounds().loop(half_width_m, off);
+      two_rounds().judge(loop);
+      EXPECT_EQ(loop.verdict, LoopVerdict::kRefused) << off.asString();
+      EXPECT_FALSE(loop.reason.empty()) << off.asString();
+      EXPECT_LT(loop.neighbours_agree, 0.75) << off.asString();
+    }
+}
+
+TEST(LoopVerification, seen_from_the_other_side_a_wrong_match_is_refused_too) {
+  LoopVerificationOptions options;
+  options.min_observed_share = 0;
+  options.min_neighbours_agree = 0;
+  for (const TPose2D& off : {TPose2D(1, 0, 0), TPose2D(0, 0, M_PI / 4)}) {
+    LoopRecord loop = two_rounds().loop(kNarrow_m, off);
+    two_rounds().judge(loop, options);
+    expect_refused(loop, "from the other side");
+    EXPECT_LT(loop.reverse_agree, 0.75) << off.asString();
+  }
+}
+
+TEST(LoopVerification, an_ambiguous_match_is_refused_in_narrow_windows_only) {
+  LoopRecord narrow = two_rounds().loop(kNarrow_m);
+  narrow.ambiguity = 0.95;
+  two_rounds().judge(narrow);
+  expect_refused(narrow, "another place fits as well");
+  LoopRecord wide = two_rounds().loop(kWide_m);
+  wide.ambiguity = 0.95;
+  two_rounds().judge(wide);
+  EXPECT_EQ(wide.verdict, LoopVerdict::kPending) << wide.reason;
+}
+
+TEST(LoopVerification, the_response_needed_depends_on_the_window) {
+  const LoopVerificationOptions options;
+  EXPECT_FALSE(is_wide({options.wide_window_m, 9, 9}, options));
+  EXPECT_TRUE(is_wide({options.wide_window_m + 0.01, 0.1, 0.1}, options));
+  EXPECT_EQ(min_response({kNarrow_m, kNarrow_m, 0.1}, options), options.min_response);
+  EXPECT_EQ(min_response({kWide_m, kWide_m, 0.1}, options), options.min_context_response);
+
+  for (const double half_width_m : {kNarrow_m, kWide_m}) {
+    LoopRecord loop = two_rounds().loop(half_width_m);
+    const double needed = min_response(loop.window, options);
+    loop.response = needed - 0.01;
+    two_rounds().judge(loop);
+    expect_refused(loop, "the response");
+    loop.response = needed;
+    two_rounds().judge(loop);
+    EXPECT_NE(loop.verdict, LoopVerdict::kRefused) << loop.reason;
+  }
+}
+
+TEST(LoopVerification, a_position_known_in_one_direction_only_is_refused) {
+  LoopRecord loop = two_rounds().loop(kNarrow_m);
+  // A standard deviation of 0.4 m along a corridor at 45 degrees, of 0.01 m across: 0.28 m along x and y.
+  loop.covariance(0, 0) = loop.covariance(1, 1) = 0.5 * (0.16 + 0.0001);
+  loop.covariance(0, 1) = loop.covariance(1, 0) = 0.5 * (0.16 - 0.0001);
+  two_rounds().judge(loop);
+  expect_refused(loop, "does not determine the position");
+  EXPECT_NE(loop.reason.find("0.40 m"), std::string::npos) << loop.reason;
+  LoopVerificationOptions options;
+  options.max_sigma_m = 0.41;
+  two_rounds().judge(loop, options);
+  EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << loop.reason;
+}
+
+TEST(LoopVerification, a_scan_outside_the_space_the_local_map_has_seen_is_refused) {
+  LoopRecord loop = two_rounds().loop(kNarrow_m, {40, 0, 0});
+  two_rounds().judge(loop);
+  expect_refused(loop, "in space the local map has observed");
+  EXPECT_EQ(loop.observed_share, 0);
+}
+
+TEST(LoopVerification, every_threshold_decides) {
+  LoopRecord found = two_rounds().loop(kNarrow_m);
+  two_rounds().judge(found);
+  ASSERT_EQ(found.verdict, LoopVerdict::kAccepted) << found.reason;
+  struct Threshold {
+    double LoopVerificationOptions::*limit;
+    double measured;
+    double above;  // +1: a limit above what was measured refuses; -1: one below does
+    std::string reason;
+  };
+  const std::vector<Threshold> thresholds = {
+      {&LoopVerificationOptions::min_response, found.response, 1, "the response"},
+      {&LoopVerificationOptions::max_ambiguity, found.ambiguity, -1, "another place"},
+      {&LoopVerificationOptions::max_sigma_m, 0.01, -1, "does not determine"},
+      {&LoopVerificationOptions::min_observed_share, found.observed_share, 1, "has observed"},
+      {&LoopVerificationOptions::min_neighbours_agree, found.neighbours_agree, 1, "neighbouring scans"},
+      {&LoopVerificationOptions::min_reverse_agree, found.reverse_agree, 1, "from the other side"}};
+  for (const Threshold& threshold : thresholds) {
+    LoopVerificationOptions options;
+    LoopRecord loop = two_rounds().loop(kNarrow_m);
+    options.*threshold.limit = threshold.measured + threshold.above * 1e-6;
+    two_rounds().judge(loop, options);
+    expect_refused(loop, threshold.reason);
+    options.*threshold.limit = threshold.measured - threshold.above * 1e-6;
+    two_rounds().judge(loop, options);
+    EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << loop.reason;
+    EXPECT_TRUE(loop.reason.empty()) << "an earlier verdict's reason does not stay";
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -35,7 +35,10 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
   const Motion motion = motion_to(frame);
   step.local_T_robot = last_local_T_robot_ + motion.odometry;
   step.window = search_extent(motion);
-  if (!active_.empty() && !step.points->points.empty()) match(step, motion);
+  // A blind scan, or one that a turn would not move, cannot be matched (see make_search_window).
+  const bool blind =
+      step.points->points.empty() || step.points->farthest_m <= options_.local_map.resolution_m;
+  if (!active_.empty() && !blind) match(step, motion);
   propagate_covariances(step, motion);
   if (active_.empty() || moved_enough(step.local_T_robot)) insert(step, frame);
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}};

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace psi_slam {
 namespace {
@@ -11,11 +12,17 @@ namespace {
 // why.
 constexpr double kReportedShare = 0.8;
 
+// A blind scan has no points, or none that a turn would move (see make_search_window).
+bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
+  return !scan.points.empty() && scan.farthest_m > std::as_const(*local_map.map).scores().resolution_m();
+}
+
 }  // namespace
 
 std::optional<LoopRecord> attempt_loop(std::size_t node, const ScanPoints& scan,
                                        const LoopCandidate& candidate, const PlaceMemory& memory,
                                        const Matcher& matcher, const LoopVerificationOptions& verification) {
+  if (!can_be_searched(scan, memory.local_maps[candidate.local_map])) return std::nullopt;
   const auto start = std::chrono::steady_clock::now();
   const NodeScan& here = memory.nodes[node];
   const PlacedLocalMap& local_map = memory.local_maps[candidate.local_map];

@@ -32,7 +32,8 @@ ScanPoints scan_context(std::size_t node, const PlaceMemory& memory, const ScanC
     const auto y0 = static_cast<float>(here_T_there.y);
     for (std::size_t i = 0; i < there.points->points.size(); ++i) {
       const auto& point = there.points->points[i];
-      const auto& normal = there.points->normals[i];
+      const auto normal =
+          there.points->normals.empty() ? mrpt::math::TPoint2Df(0, 0) : there.points->normals[i];
       const float x = x0 + c * point.x - s * point.y;
       const float y = y0 + s * point.x + c * point.y;
       if (!taken.insert(square_of(x, y, options.point_spacing_m)).second) continue;

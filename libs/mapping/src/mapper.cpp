@@ -140,7 +140,7 @@ void Mapper::optimize() {
 void Mapper::run_last_pass(const std::function<void(double)>& progress) {
   std::set<std::pair<std::size_t, std::size_t>> known;
   for (const LoopRecord& loop : result_.loops)
-    if (loop.verdict == LoopVerdict::kAccepted) known.emplace(loop.node, loop.local_map);
+    if (loop.verdict != LoopVerdict::kRefused || loop.in_last_pass) known.emplace(loop.node, loop.local_map);
   const auto is_known = [&](std::size_t node, std::size_t local_map) {
     return known.count({node, local_map}) != 0;
   };
@@ -210,6 +210,7 @@ MappingResult Mapper::finish(const std::function<void(double)>& progress) {
       });
       graph_clock_.time([&] { switch_off_contradicted_loops(); });
     }
+    refuse_pending_loops();
   }
   carry_frames_along();
   result_.graph = graph_.to_mrpt();

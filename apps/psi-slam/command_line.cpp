@@ -8,6 +8,12 @@ namespace psi_slam {
 namespace {
 
 constexpr const char* kSeeHelp = " (see psi-slam --help)";
+constexpr const char* kExamples =
+    "\nExamples:\n"
+    "  psi-slam check my.log                    what is in a log, and what is wrong with it\n"
+    "  psi-slam my.log -o out/                  map it: open out/report.html\n"
+    "  psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0.025\n"
+    "  psi-slam --dump-config > my.ini          settings to begin with\n";
 
 void add_settings(CLI::App& app, CommandLine& line) {
   app.add_option("-c,--config", line.config, "Settings file; without it, the built-in defaults")
@@ -22,69 +28,87 @@ void add_settings(CLI::App& app, CommandLine& line) {
       ->allow_extra_args(false);
 }
 
-/// The one log among the arguments that are no options.
-std::string only_log(const std::vector<std::string>& logs, const std::string& usage) {
-  if (logs.empty()) throw UserError("name the log: " + usage + kSeeHelp);
-  if (logs.size() == 1) return logs.front();
-  const auto command = nearest_name(logs.front(), {"check", "options"});
-  if (command)
-    throw UserError("there is no command \"" + logs.front() + "\"; did you mean \"" + *command + "\"?");
-  throw UserError("one log at a time: \"" + logs[0] + "\" and \"" + logs[1] + "\" were given" + kSeeHelp);
+/// Complains about the first argument that is neither the log nor a known option.
+[[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
+  const auto ask = [](const std::optional<std::string>& name) {
+    return name ? "; did you mean \"" + *name + "\"?" : kSeeHelp;
+  };
+  if (argument.size() > 1 && argument.front() == '-') {
+    std::vector<std::string> options;
+    for (const CLI::Option* option : app.get_options())
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    throw UserError("there is no option \"" + argument + '"' + ask(nearest_name(argument, options)));
+  }
+  const auto command = nearest_name(line.log, {"check", "options"});
+  if (command) throw UserError("there is no command \"" + line.log + '"' + ask(command));
+  throw UserError("\"" + argument + "\" is one argument too many" + kSeeHelp);
 }
 
-void check_together(const CommandLine& line) {
-  const bool maps = line.command == CommandLine::Command::kMap;
-  if (maps && line.output.empty()) throw UserError("name the folder for the results: -o DIR");
-  if (!maps && !line.output.empty()) throw UserError("-o goes with mapping only: nothing is written here");
+void check_together(const CommandLine& line, const std::string& log_to_map) {
+  using Command = CommandLine::Command;
+  if (line.command == Command::kMap && line.log.empty())
+    throw UserError("name the log: psi-slam LOG -o DIR" + std::string(kSeeHelp));
+  if (line.command == Command::kCheck && line.log.empty())
+    throw UserError("name the log: psi-slam check LOG" + std::string(kSeeHelp));
+  if (line.command == Command::kMap && line.output.empty())
+    throw UserError("name the folder for the results: -o DIR" + std::string(kSeeHelp));
+  if (line.command != Command::kMap && !line.output.empty())
+    throw UserError("-o goes with mapping only: nothing is written here");
+  if (line.command != Command::kMap && !log_to_map.empty())
+    throw UserError("\"" + log_to_map + "\" is one argument too many" + kSeeHelp);
 }
 
 }  // namespace
 
 CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::App& app) {
   CommandLine line;
-  std::vector<std::string> logs;
+  std::string log_to_map;
   bool dump_config = false;
-  app.add_option("LOG", logs, "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped")
-      ->type_name("")
-      ->expected(0, -1);
+  app.add_option("LOG", log_to_map, "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped")
+      ->type_name("");
   app.add_option("-o,--output", line.output, "Folder for the results, new or empty")->type_name("DIR");
   add_settings(app, line);
   app.add_option("--seed", line.seed, "The same as --set run.seed=N")->type_name("N");
   app.add_option("--threads", line.threads, "The same as --set run.threads=N")->type_name("N");
   app.add_flag("--force", line.force, "Replace the results in a folder that is not empty");
   app.add_flag("--json", line.json, "Print the summary as JSON");
-  CLI::Option* const quiet = app.add_flag("-q,--quiet", line.quiet, "Print nothing but complaints");
-  app.add_flag("-v,--verbose", line.verbose, "Also print the settings changed and the times of all stages")
-      ->excludes(quiet);
+  app.add_flag("-q,--quiet", line.quiet, "Print nothing but complaints");
+  app.add_flag("-v,--verbose", line.verbose, "Also print the settings changed and the times of all stages");
   app.add_flag("--dump-config", dump_config, "Print a settings file with all options, and exit");
   app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version, and exit");
 
   CLI::App* const check =
       app.add_subcommand("check", "Tell what a log holds and what looks wrong, with the remedy");
-  std::vector<std::string> checked_logs;
-  check->add_option("LOG", checked_logs, "Log to look over")->type_name("")->expected(0, -1);
+  std::string log_to_check;
+  check->add_option("LOG", log_to_check, "Log to look over")->type_name("");
   add_settings(*check, line);
   check->add_flag("--json", line.json, "Print the findings as JSON");
 
   CLI::App* const options = app.add_subcommand("options", "Explain every option of the settings files");
   options->add_flag("--markdown", line.markdown, "Print a page in Markdown");
-  app.require_subcommand(0, 1);
 
+  app.require_subcommand(0, 1);
+  app.allow_extras();
+  check->allow_extras();
+  options->allow_extras();
+  app.footer(kExamples);
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
 
   if (options->parsed()) {
     line.command = CommandLine::Command::kOptions;
   } else if (check->parsed()) {
     line.command = CommandLine::Command::kCheck;
-    line.log = only_log(checked_logs, "psi-slam check LOG");
+    line.log = log_to_check;
   } else if (dump_config) {
     line.command = CommandLine::Command::kDumpConfig;
   } else {
-    line.log = only_log(logs, "psi-slam LOG -o DIR");
+    line.log = log_to_map;
   }
-  const bool maps = line.command == CommandLine::Command::kMap;
-  if (!maps && !logs.empty()) throw UserError("\"" + logs.front() + "\" is one argument too many" + kSeeHelp);
-  check_together(line);
+  const CLI::App& spoken_to = check->parsed() ? *check : options->parsed() ? *options : app;
+  const std::vector<std::string> unknown = app.remaining(true);
+  if (!unknown.empty()) fail_unknown(unknown.front(), line, spoken_to);
+  if (line.quiet && line.verbose) throw UserError("--quiet and --verbose do not go together");
+  check_together(line, log_to_map);
   return line;
 }
 

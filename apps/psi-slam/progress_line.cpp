@@ -24,17 +24,14 @@ std::string minutes_text(double seconds) {
 }
 
 std::string progress_text(const SessionProgress& progress) {
-  switch (progress.phase) {
-    case SessionProgress::Phase::kLastPass:
-      return std::to_string(progress.scans) + " scans mapped, looking for loops once more";
-    case SessionProgress::Phase::kWriting:
-      return "drawing the map and writing the results";
-    case SessionProgress::Phase::kMapping:
-      break;
-  }
+  using Phase = SessionProgress::Phase;
+  if (progress.phase == Phase::kWriting) return "drawing the map and writing the results";
   char text[128];
-  std::snprintf(text, sizeof text, "%3.0f %%   %zu scans   %.0f scans/s", 100 * progress.read_share,
-                progress.scans, progress.scans_per_s);
+  if (progress.phase == Phase::kMapping)
+    std::snprintf(text, sizeof text, "%3.0f %%   %zu scans   %.0f scans/s", 100 * progress.share,
+                  progress.scans, progress.scans_per_s);
+  else
+    std::snprintf(text, sizeof text, "%3.0f %%   looking for loops once more", 100 * progress.share);
   std::string line = text;
   if (progress.remaining_s) line += "   " + minutes_text(*progress.remaining_s) + " left";
   return line;

@@ -10,7 +10,8 @@
 
 namespace psi_slam {
 
-/// " 43 %   5876 scans   2100 scans/s   0:04 left"; of the later phases, what is being done.
+/// " 43 %   5876 scans   2100 scans/s   0:04 left"; of the later phases, what is being done. The time left is
+/// that of the phase.
 std::string progress_text(const SessionProgress& progress);
 
 /// "0:07", "12:30", "1:02:03".

@@ -15,8 +15,10 @@ TEST(ProgressLine, says_how_far_and_how_long) {
   EXPECT_EQ(progress_text({Phase::kMapping, 0.43, 5876, 2100.4, 2.8, 3.7}),
             " 43 %   5876 scans   2100 scans/s   0:04 left");
   EXPECT_EQ(progress_text({Phase::kMapping, 0, 1, 10, 0.1, {}}), "  0 %   1 scans   10 scans/s");
-  EXPECT_EQ(progress_text({Phase::kLastPass, 1, 5876, 10, 0.1, {}}),
-            "5876 scans mapped, looking for loops once more");
+  EXPECT_EQ(progress_text({Phase::kLastPass, 0.25, 5876, 10, 0.1, 61}),
+            " 25 %   looking for loops once more   1:01 left");
+  EXPECT_EQ(progress_text({Phase::kWriting, 0, 5876, 10, 0.1, {}}),
+            "drawing the map and writing the results");
 }
 
 TEST(ProgressLine, writes_times_as_clocks_do) {

@@ -122,6 +122,7 @@ TEST_F(PsiSlamApp, prints_the_summary_as_json) {
   EXPECT_EQ(summary["map"]["resolution_m"], 0.1);
   EXPECT_GT(summary["wall_s"], 0);
   EXPECT_EQ(summary["interrupted"], false);
+  EXPECT_EQ(run.out, bytes_of(output("out") / "summary.json"));
 }
 
 TEST_F(PsiSlamApp, shows_its_progress_on_a_terminal_only) {

@@ -51,7 +51,7 @@ TEST_F(MappingSessionTest, maps_a_log_to_its_end) {
   EXPECT_FALSE(result.interrupted);
   EXPECT_FALSE(session.broken_off().has_value());
   const auto off = result.frames[100].map_T_robot - result.frames[0].map_T_robot;
-  EXPECT_LT(std::hypot(off.x, off.y), 0.03) << "after one round the robot is back where it began";
+  EXPECT_LT(std::hypot(off.x, off.y), 0.05) << "after one round the robot is back where it began";
 }
 
 TEST_F(MappingSessionTest, neither_steps_nor_threads_change_the_result) {
@@ -92,20 +92,23 @@ TEST_F(MappingSessionTest, stops_when_it_is_told_to) {
 
 TEST_F(MappingSessionTest, tells_how_far_it_is) {
   std::vector<Phase> phases;
-  double read_share = 0;
+  double share = 0;
   MappingSession session(log(room_log_lines(60)), settings_);
   session.set_observer([&](const SessionProgress& progress) {
-    if (phases.empty() || phases.back() != progress.phase) phases.push_back(progress.phase);
-    EXPECT_GE(progress.read_share, read_share);
-    read_share = progress.read_share;
+    if (phases.empty() || phases.back() != progress.phase) {
+      EXPECT_EQ(share, phases.empty() ? 0 : 1) << "a phase ends when all of it is done";
+      phases.push_back(progress.phase);
+      share = 0;
+    }
+    EXPECT_GE(progress.share, share);
+    share = progress.share;
     EXPECT_GT(progress.elapsed_s, 0);
-    EXPECT_EQ(progress.remaining_s.has_value(), progress.phase == Phase::kMapping);
+    EXPECT_EQ(progress.remaining_s.has_value(), share > 0);
     EXPECT_GE(progress.remaining_s.value_or(0), 0);
   });
   session.run(go_on_);
   session.export_to(output());
   EXPECT_THAT(phases, ElementsAre(Phase::kMapping, Phase::kLastPass, Phase::kWriting));
-  EXPECT_EQ(read_share, 1);
 }
 
 TEST_F(MappingSessionTest, maps_a_log_up_to_where_it_breaks_off) {
@@ -171,7 +174,7 @@ TEST_F(MappingSessionTest, exports_the_graph_and_the_figures_of_the_whole_run) {
     stages_s += stage.total_s;
   }
   EXPECT_EQ(stages.front(), "read log");
-  EXPECT_EQ(stages.back(), "draw map");
+  EXPECT_EQ(stages.back(), "write results");
   EXPECT_LT(stages_s, summary.wall_s);
   EXPECT_EQ(session.run_info().log_name, "room.log");
   EXPECT_EQ(session.run_info().settings.at("front_end.window_m"), "0.2");

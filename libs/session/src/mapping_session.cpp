@@ -6,10 +6,12 @@
 #include <cmath>
 #include <utility>
 
+#include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/pose_graph/g2o_file.h"
 #include "psi_slam/results/grid_map.h"
+#include "psi_slam/results/summary_json.h"
 #include "psi_slam/session/read_ahead.h"
 
 namespace psi_slam {
@@ -66,7 +68,7 @@ bool MappingSession::step() {
     mapper_->add(*std::move(frame));
     ++scans_;
   }
-  tell(SessionProgress::Phase::kMapping);
+  tell(source_->progress());
   return true;
 }
 
@@ -83,14 +85,17 @@ std::optional<Frame> MappingSession::read() {
 }
 
 void MappingSession::finish() {
-  tell(SessionProgress::Phase::kLastPass);
-  const WorkClock clock(work_s_);
+  begin(SessionProgress::Phase::kLastPass);
+  WorkClock clock(work_s_);
   if (!any_return_)
     throw UserError(path_.string() + ": " +
                     (scans_ == 0 ? "no scan was read, there is nothing to map"
                                  : "none of its " + std::to_string(scans_) +
                                        " scans has a return between log.min_range_m and log.max_range_m"));
-  result_ = mapper_->finish();
+  result_ = mapper_->finish([&](double share) {
+    clock.stop();
+    tell(share);
+  });
   graph_ = mapper_->graph();
   mapper_.reset();
   result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
@@ -104,19 +109,27 @@ void MappingSession::run(const std::atomic<bool>& stop) {
 }
 
 RunSummary MappingSession::export_to(const OutputFolder& folder) {
-  tell(SessionProgress::Phase::kWriting);
+  begin(SessionProgress::Phase::kWriting);
   WorkClock clock(work_s_);
-  write_g2o(graph_, folder.path() / "graph.g2o");
+  const RunInfo info = run_info();
   StageClock drawing_clock("draw map");
+  StageClock writing_clock("write results");
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] { grid = draw_grid_map(result_.log, mapped_poses(result_), settings_.map); });
   result_.stages.push_back(drawing_clock.timing());
   clock.stop();
   result_.wall_s = work_s_;
-  RunSummary summary = export_all(result_, run_info(), *grid, folder);
+  RunSummary summary;
+  writing_clock.time([&] {
+    write_g2o(graph_, folder.path() / "graph.g2o");
+    summary = export_all(result_, info, *grid, folder);
+  });
+  result_.stages.push_back(writing_clock.timing());
   clock.stop();
   result_.wall_s = summary.wall_s = work_s_;
   summary.real_time_factor = summary.log.duration_s / work_s_;
+  // Once more, now that the time of the writing itself is known.
+  write_text_atomically(folder.path() / "summary.json", summary_json(result_, info, summary));
   return summary;
 }
 
@@ -131,16 +144,21 @@ RunInfo MappingSession::run_info() const {
   return info;
 }
 
-void MappingSession::tell(SessionProgress::Phase phase) {
+void MappingSession::begin(SessionProgress::Phase phase) {
+  phase_ = phase;
+  phase_began_s_ = work_s_;
+  tell(0);
+}
+
+void MappingSession::tell(double share) const {
   if (!observer_) return;
   SessionProgress progress;
-  progress.phase = phase;
-  progress.read_share = source_->progress();
+  progress.phase = phase_;
+  progress.share = share;
   progress.scans = scans_;
   progress.elapsed_s = work_s_;
   if (work_s_ > 0) progress.scans_per_s = static_cast<double>(scans_) / work_s_;
-  if (phase == SessionProgress::Phase::kMapping && progress.read_share > 0)
-    progress.remaining_s = work_s_ * (1 - progress.read_share) / progress.read_share;
+  if (share > 0) progress.remaining_s = (work_s_ - phase_began_s_) * (1 - share) / share;
   observer_(progress);
 }
 

@@ -85,6 +85,14 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
               "added to both for each metre or degree that odometry differs from a steady motion")
       .number("prediction_share", front_end.prediction_share, between(0, 1), "",
               "the prediction, refined, is preferred if it scores this share of the searched pose")
+      .number("odometry_sigma_m", front_end.odometry_sigma_m, above(0).at_most(10), "m",
+              "odometry's noise from scan to scan, for the covariance of the poses")
+      .angle_deg("odometry_sigma_theta_deg", front_end.odometry_sigma_rad, above(0).at_most(180),
+                 "the same in heading")
+      .number("odometry_sigma_per_metre", front_end.odometry_sigma_per_metre, at_least(0).at_most(10), "",
+              "added to odometry_sigma_m for each metre moved")
+      .number("odometry_sigma_theta_per_turn", front_end.odometry_sigma_per_radian, at_least(0).at_most(10),
+              "", "added to odometry_sigma_theta_deg for each degree turned")
       .number("node_distance_m", front_end.node_distance_m, at_least(0).at_most(100), "m",
               "a scan becomes a node of the graph when the robot moved this far since the last one")
       .angle_deg("node_rotation_deg", front_end.node_rotation_rad, at_least(0).at_most(180),
@@ -135,6 +143,12 @@ void describe_loop_closure(OptionTable& table, Settings& settings) {
               "and the robot has travelled this far since it left it: nearer ones share their scans")
       .number("attempt_distance_m", loops.attempt_distance_m, at_least(0), "m",
               "the robot travels this far between two attempts with the same local map")
+      .number("context_travel_m", loops.context.travel_m, at_least(0).at_most(1000), "m",
+              "wide windows are searched with the scans of so much of the path, not with one alone")
+      .number("context_node_spacing_m", loops.context.node_spacing_m, at_least(0).at_most(1000), "m",
+              "of these, scans nearer to each other along the path are left out")
+      .number("context_point_spacing_m", loops.context.point_spacing_m, above(0).at_most(10), "m",
+              "and their points are thinned to one a square of this size")
       .number("distinct_m", matcher.distinct_m, above(0).at_most(100), "m",
               "another peak of the response is distinct when it lies this far away along x or y")
       .angle_deg("distinct_deg", matcher.distinct_rad, above(0).at_most(180), "or is turned by this much")
@@ -148,13 +162,14 @@ void describe_loop_closure(OptionTable& table, Settings& settings) {
 
 void describe_verification(OptionTable& table, LoopVerificationOptions& verification) {
   table.section("verification", "Which loops are believed: one false loop ruins a map")
-      .number("min_response", verification.min_response, between(0, 1), "", "least response of a match")
-      .number("min_response_wide", verification.min_response_wide, between(0, 1), "",
-              "the same in wide windows, where there are more chances to err")
       .number("wide_window_m", verification.wide_window_m, at_least(0), "m",
-              "windows of a larger half-width are wide")
+              "windows of a larger half-width are wide: many things in them look alike")
+      .number("min_response", verification.min_response, between(0, 1), "",
+              "least response of a scan in a narrow window")
+      .number("min_context_response", verification.min_context_response, between(0, 1), "",
+              "least response of a scan and those before it in a wide window")
       .number("max_ambiguity", verification.max_ambiguity, between(0, 1), "",
-              "greatest response of another distinct peak, as a share of the best")
+              "greatest response of another distinct peak in a narrow window, as a share of the best")
       .number("max_sigma_m", verification.max_sigma_m, above(0), "m",
               "greatest standard deviation of the matched position")
       .number("min_observed_share", verification.min_observed_share, between(0, 1), "",
@@ -165,6 +180,23 @@ void describe_verification(OptionTable& table, LoopVerificationOptions& verifica
               "least share of the local map's points that fit what the scan sees")
       .number("neighbourhood_m", verification.neighbourhood_m, at_least(0), "m",
               "scans this far along the path, before and after, are neighbours");
+}
+
+void describe_consensus(OptionTable& table, LoopConsensusOptions& consensus) {
+  table.section("consensus", "Loops found in wide windows wait until others agree with them")
+      .number("memory_m", consensus.memory_m, above(0), "m",
+              "matches farther back along the path no longer count")
+      .number("same_place_m", consensus.same_place_m, above(0).at_most(100), "m",
+              "matches agree when they put the robot this near to each other")
+      .angle_deg("same_heading_deg", consensus.same_heading_rad, above(0).at_most(180),
+                 "and turn it by no more than this")
+      .number("min_span_m", consensus.min_span_m, at_least(0), "m",
+              "least way between the first and the last match that agree")
+      .number(
+          "min_weight", consensus.min_weight, above(0), "",
+          "least weight of those that agree; a match weighs the more, the less ambiguous it is, at most 1")
+      .number("max_rival_share", consensus.max_rival_share, between(0, 1), "",
+              "greatest weight of any other place, as a share of theirs");
 }
 
 void describe_kernel(OptionTable& table, const std::string& constraints, const std::string& whose,
@@ -186,12 +218,14 @@ void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
   PoseAdjustmentOptions& solver = mapper.pose_graph;
   table.section("pose_graph", "The graph of poses and its optimisation")
       .number("local_map_sigma_m", mapper.local_map_sigma_m, above(0), "m",
-              "standard deviation of a node in a local map that it was inserted into")
+              "standard deviation of a node in a local map, on top of the front end's covariance")
       .angle_deg("local_map_sigma_theta_deg", mapper.local_map_sigma_rad, above(0).at_most(180),
                  "the same in heading")
       .number("loop_sigma_m", mapper.loop_sigma_m, above(0), "m",
               "standard deviation of a loop, on top of its match's own")
-      .angle_deg("loop_sigma_theta_deg", mapper.loop_sigma_rad, above(0).at_most(180), "the same in heading");
+      .angle_deg("loop_sigma_theta_deg", mapper.loop_sigma_rad, above(0).at_most(180), "the same in heading")
+      .number("max_loop_chi", mapper.max_loop_chi, above(0), "sigma",
+              "a loop that the finished graph contradicts by more is switched off");
   describe_kernel(table, "odometry", "between successive nodes", solver.odometry_kernel);
   describe_kernel(table, "local_map", "of nodes to their local maps", solver.local_map_kernel);
   describe_kernel(table, "loop", "of loops", solver.loop_kernel);
@@ -205,14 +239,15 @@ void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
               "damping of the first step; 0 is Gauss-Newton");
 }
 
-void describe_last_pass(OptionTable& table, MapperOptions& mapper) {
+void describe_last_pass(OptionTable& table, LastPassOptions& last_pass) {
   table.section("last_pass", "After the last scan: all pairs near each other once more")
-      .integer("passes", mapper.last_passes, between(0, 100), "passes", "how often; 0 leaves it out")
-      .number("window_m", mapper.last_pass_window_m, above(0).at_most(100), "m",
-              "half-width of the search windows")
-      .angle_deg("window_theta_deg", mapper.last_pass_window_rad, above(0).at_most(180),
-                 "the same in heading")
-      .number("travel_m", mapper.last_pass_travel_m, at_least(0), "m",
+      .integer("passes", last_pass.passes, between(0, 100), "passes",
+               "how often; 0 leaves the map as the last scan left it")
+      .number("window_m", last_pass.window_m, above(0).at_most(100), "m", "half-width of the search windows")
+      .angle_deg("window_theta_deg", last_pass.window_rad, above(0).at_most(180), "the same in heading")
+      .number("reach_m", last_pass.reach_m, at_least(0).at_most(1000), "m",
+              "a local map is tried when one of its nodes is at most this far")
+      .number("travel_m", last_pass.travel_m, at_least(0), "m",
               "travelled between two nodes that are matched with the same local map");
 }
 
@@ -242,8 +277,9 @@ void describe(OptionTable& table, Settings& settings) {
   describe_local_maps(table, settings.mapper.front_end);
   describe_loop_closure(table, settings);
   describe_verification(table, settings.mapper.loop_closure.verification);
+  describe_consensus(table, settings.mapper.loop_consensus);
   describe_pose_graph(table, settings.mapper);
-  describe_last_pass(table, settings.mapper);
+  describe_last_pass(table, settings.mapper.last_pass);
   describe_map(table, settings.map);
   describe_run(table, settings.run);
 }

@@ -62,11 +62,8 @@ void check(const Settings& settings) {
   check_ranges(settings);
   check_windows(settings.mapper);
   const MatcherOptions& matcher = settings.mapper.loop_matcher;
-  const LoopVerificationOptions& verification = settings.mapper.loop_closure.verification;
   require_at_most({"loop_closure.min_sigma_m", matcher.min_sigma_m},
                   {"loop_closure.max_sigma_m", matcher.max_sigma_m});
-  require_at_most({"verification.min_response", verification.min_response},
-                  {"verification.min_response_wide", verification.min_response_wide});
   check_log_options(log_options(settings));
 }
 

@@ -33,11 +33,11 @@ struct SessionProgress {
   };
 
   Phase phase = Phase::kMapping;
-  double read_share = 0;  ///< of the log, in [0, 1]
+  double share = 0;       ///< of the phase that is done, in [0, 1]; while mapping, of the log
   std::size_t scans = 0;  ///< mapped so far
   double scans_per_s = 0;
   double elapsed_s = 0;               ///< of work, pauses left out
-  std::optional<double> remaining_s;  ///< of mapping, as far as it can be told
+  std::optional<double> remaining_s;  ///< of the phase, as far as it can be told
 };
 
 class MappingSession {
@@ -50,7 +50,8 @@ class MappingSession {
   MappingSession(const MappingSession&) = delete;
   MappingSession& operator=(const MappingSession&) = delete;
 
-  /// Is told after every scan and at the beginning of every phase, in the thread that drives the session.
+  /// Is told after every scan, at the beginning of every phase and now and then within, in the thread that
+  /// drives the session.
   void set_observer(Observer observer) { observer_ = std::move(observer); }
 
   /// Maps the next scan. False at the end of the log, and where it breaks off: see broken_off(). Throws
@@ -83,7 +84,8 @@ class MappingSession {
  private:
   class WorkClock;
   std::optional<Frame> read();
-  void tell(SessionProgress::Phase phase);
+  void begin(SessionProgress::Phase phase);
+  void tell(double share) const;
 
   std::filesystem::path path_;
   Settings settings_;
@@ -94,7 +96,9 @@ class MappingSession {
   PoseGraph graph_;  // of the result
   std::optional<std::string> broken_off_;
   StageClock reading_clock_{"read log"};
-  double work_s_ = 0;  // as of now, pauses between calls left out
+  SessionProgress::Phase phase_ = SessionProgress::Phase::kMapping;
+  double phase_began_s_ = 0;  // of the work
+  double work_s_ = 0;         // as of now, pauses between calls left out
   std::size_t scans_ = 0;
   bool any_return_ = false;
   bool at_end_ = false;

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/mapping/metric_map_builder_psi.h"
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
+
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/logs/odometry_interpolator.h"
+#include "psi_slam/logs/rawlog_laser.h"
+#include "psi_slam/logs/rawlog_objects.h"
+#include "psi_slam/pose_graph/marginal_covariance.h"
+#include "psi_slam/results/map_image.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::maps::COccupancyGridMap2D;
+using mrpt::math::TPose2D;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationOdometry;
+using mrpt::obs::CSensoryFrame;
+using mrpt::poses::CPose2D;
+using mrpt::poses::CPosePDFGaussian;
+
+// An observation that came alone, as the map keeps it.
+CSensoryFrame::Ptr frame_of(const CObservation::Ptr& observation) {
+  auto frame = CSensoryFrame::Create();
+  frame->insert(observation);
+  return frame;
+}
+
+void expect_map_updating(bool enabled) {
+  if (!enabled)
+    throw UserError(
+        "CMetricMapBuilderPsi: map updating is off, expected it on: psi-slam does not localise in "
+        "a fixed map");
+}
+
+}  // namespace
+
+class CMetricMapBuilderPsi::Implementation {
+ public:
+  explicit Implementation(const Options& options) : options_(options) {
+    check_log_options(options.log);
+    start(CPosePDFGaussian());
+  }
+
+  void initialize(const mrpt::maps::CSimpleMap& initial_map, const mrpt::poses::CPosePDF* x0) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!initial_map.empty())
+      throw UserError("CMetricMapBuilderPsi::initialize: the map to begin with has " +
+                      std::to_string(initial_map.size()) +
+                      " frames, expected none: a map made before cannot be gone on with");
+    start(x0 != nullptr ? CPosePDFGaussian(*x0) : estimate());
+  }
+
+  void process(const mrpt::obs::CActionCollection& actions, const CSensoryFrame& observations) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    expect_unfinished();
+    if (const auto movement = movement_of(actions)) {
+      if (odometry_ == Odometry::kUndecided) begin_with_actions();
+      if (odometry_ == Odometry::kActions) odom_T_robot_ = odom_T_robot_ + *movement;
+    }
+    // A copy of the list, not of what it holds: the caller may fill the frame anew.
+    const auto kept = std::make_shared<CSensoryFrame>(observations);
+    for (const CObservation::Ptr& observation : *kept) take(*observation, kept);
+  }
+
+  void process(const CObservation::Ptr& observation) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    expect_unfinished();
+    if (!observation) throw std::invalid_argument("CMetricMapBuilderPsi: no observation");
+    take(*observation, frame_of(observation));
+  }
+
+  void finish() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (finished_) return;
+    if (odometry_ == Odometry::kUndecided && waiting_.waiting() > 0) throw_no_odometry();
+    waiting_.end_of_log();
+    map_ready_scans();
+    MappingResult result = mapper_->finish();
+    graph_ = mapper_->graph();
+    mapper_.reset();
+    log_ = std::move(result.log);
+    frames_ = std::move(result.frames);
+    finished_ = true;
+  }
+
+  mrpt::poses::CPose3DPDF::Ptr pose() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::make_shared<mrpt::poses::CPose3DPDFGaussian>(estimate());
+  }
+
+  void simple_map(mrpt::maps::CSimpleMap& map) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    mrpt::math::CMatrixDouble33 covariance = mrpt::math::CMatrixDouble33::Zero();
+    covariance.setDiagonal(3, 1e-6);
+    map.clear();
+    for (std::size_t node = 0; node < node_observations_.size(); ++node) {
+      const CPose2D pose(start_.mean.asTPose() + graph().pose(node));
+      map.insert(CPosePDFGaussian::Create(pose, covariance), node_observations_[node]);
+    }
+  }
+
+  std::size_t nodes() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return node_observations_.size();
+  }
+
+  COccupancyGridMap2D::Ptr grid() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return up_to_date_grid();
+  }
+
+  const mrpt::maps::CMultiMetricMap& metric_map() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const COccupancyGridMap2D::Ptr grid = up_to_date_grid();
+    if (metric_map_.maps.size() != 1 || metric_map_.maps.front() != grid) {
+      metric_map_.maps.clear();
+      metric_map_.maps.push_back(grid);
+    }
+    return metric_map_;
+  }
+
+ private:
+  enum class Odometry { kUndecided, kActions, kObservations };
+
+  void start(const CPosePDFGaussian& map_T_start) {
+    start_ = map_T_start;
+    mapper_ = std::make_unique<Mapper>(options_.mapper);
+    laser_.emplace(options_.log);
+    laser_label_.reset();
+    odometry_label_.reset();
+    odometry_ = Odometry::kUndecided;
+    odom_T_robot_ = {0, 0, 0};
+    waiting_ = {};
+    waiting_observations_.clear();
+    scans_taken_ = 0;
+    log_.clear();
+    frames_.clear();
+    graph_ = {};
+    node_frames_.clear();
+    node_observations_.clear();
+    drawn_grid_.reset();
+    finished_ = false;
+  }
+
+  void expect_unfinished() const {
+    if (finished_)
+      throw std::logic_error("CMetricMapBuilderPsi: the map is finished, initialize() begins another one");
+  }
+
+  // Scans that came before the first action stand where the robot started.
+  void begin_with_actions() {
+    odometry_ = Odometry::kActions;
+    waiting_.add_odometry(0, odom_T_robot_);
+    waiting_.end_of_log();
+    map_ready_scans();
+    waiting_ = {};
+  }
+
+  void take(const CObservation& observation, const CSensoryFrame::Ptr& kept) {
+    if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) take_scan(*scan, kept);
+    if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&observation))
+      take_odometry(*odometry);
+  }
+
+  void take_scan(const CObservation2DRangeScan& observation, const CSensoryFrame::Ptr& kept) {
+    const bool wanted = options_.log.laser.empty() || options_.log.laser == observation.sensorLabel;
+    if (!laser_label_ && wanted) laser_label_ = observation.sensorLabel;
+    if (observation.sensorLabel != laser_label_) return;
+    const std::string place = "CMetricMapBuilderPsi: scan " + std::to_string(scans_taken_ + 1);
+    Frame frame;
+    frame.scan = laser_->scan(observation, place);
+    frame.time_us = stamp_of(observation, place);
+    frame.odom_T_robot = odom_T_robot_;
+    ++scans_taken_;
+    if (odometry_ == Odometry::kActions) {
+      map(std::move(frame), kept);
+      return;
+    }
+    waiting_.add_scan(std::move(frame));
+    waiting_observations_.push_back(kept);
+    if (odometry_ == Odometry::kUndecided && waiting_.waiting() > OdometryInterpolator::kMaxWaiting)
+      throw_no_odometry();
+    map_ready_scans();
+  }
+
+  void take_odometry(const CObservationOdometry& observation) {
+    if (odometry_ == Odometry::kActions) return;
+    if (!odometry_label_) odometry_label_ = observation.sensorLabel;
+    if (observation.sensorLabel != odometry_label_) return;
+    const TimeUs time_us = stamp_of(observation, "CMetricMapBuilderPsi: odometry");
+    odometry_ = Odometry::kObservations;
+    waiting_.add_odometry(time_us, observation.odometry.asTPose());
+    map_ready_scans();
+  }
+
+  static TimeUs stamp_of(const CObservation& observation, const std::string& place) {
+    const std::optional<TimeUs> stamp = time_us(observation);
+    if (!stamp) throw UserError(place + " has no time stamp, expected one on every observation");
+    return *stamp;
+  }
+
+  [[noreturn]] void throw_no_odometry() const {
+    throw UserError("CMetricMapBuilderPsi: no odometry came with " + std::to_string(waiting_.waiting()) +
+                    " scans, expected actions of class CActionRobotMovement2D or observations of class "
+                    "CObservationOdometry");
+  }
+
+  void map_ready_scans() {
+    while (std::optional<Frame> frame = waiting_.take()) {
+      const CSensoryFrame::Ptr kept = std::move(waiting_observations_.front());
+      waiting_observations_.pop_front();
+      map(*std::move(frame), kept);
+    }
+  }
+
+  void map(Frame frame, const CSensoryFrame::Ptr& kept) {
+    frame.index = log_.size();
+    log_.push_back(frame);
+    if (!mapper_->add(std::move(frame)).node) return;
+    node_frames_.push_back(log_.size() - 1);
+    node_observations_.push_back(kept);
+  }
+
+  const std::vector<FrameRecord>& frames() const { return finished_ ? frames_ : mapper_->frames(); }
+  const PoseGraph& graph() const { return finished_ ? graph_ : mapper_->graph(); }
+
+  CPosePDFGaussian estimate() const {
+    if (frames().empty()) return start_;
+    CPosePDFGaussian robot(CPose2D(frames().back().map_T_robot));
+    const std::size_t newest = node_frames_.size() - 1;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    if (newest > 0) {
+      MarginalCovariance marginals;
+      marginals.update(graph());
+      covariance = marginals.marginal(newest);
+    }
+    const double sigma_m = options_.mapper.local_map_sigma_m;
+    const double sigma_rad = options_.mapper.local_map_sigma_rad;
+    covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) robot.cov(i, j) = covariance(i, j);
+    CPosePDFGaussian estimate = start_;
+    estimate += robot;
+    return estimate;
+  }
+
+  // Of each scan: its own pose after finish(), before it where it stood relative to the last node.
+  std::vector<TPose2D> poses() const {
+    std::vector<TPose2D> poses;
+    std::size_t node = 0;
+    for (std::size_t i = 0; i < frames().size(); ++i) {
+      while (node + 1 < node_frames_.size() && node_frames_[node + 1] <= i) ++node;
+      const TPose2D start_T_robot =
+          finished_ ? frames()[i].map_T_robot
+                    : graph().pose(node) +
+                          (frames()[i].front_end_T_robot - frames()[node_frames_[node]].front_end_T_robot);
+      poses.push_back(start_.mean.asTPose() + start_T_robot);
+    }
+    return poses;
+  }
+
+  // Grids that were handed out are left alone: others may be reading them.
+  COccupancyGridMap2D::Ptr up_to_date_grid() const {
+    const bool drawn = drawn_grid_ && drawn_scans_ == log_.size() && drawn_finished_ == finished_;
+    if (!drawn) {
+      drawn_grid_ = draw_grid_map(log_, poses(), options_.map);
+      drawn_scans_ = log_.size();
+      drawn_finished_ = finished_;
+    }
+    return drawn_grid_;
+  }
+
+  const Options options_;
+  mutable std::mutex mutex_;  // of all that follows
+
+  CPosePDFGaussian start_;
+  std::unique_ptr<Mapper> mapper_;  // gone after finish()
+  std::optional<RawlogLaser> laser_;
+  std::optional<std::string> laser_label_;
+  std::optional<std::string> odometry_label_;
+  Odometry odometry_ = Odometry::kUndecided;
+  TPose2D odom_T_robot_{0, 0, 0};  // the sum of the actions
+  OdometryInterpolator waiting_;
+  std::deque<CSensoryFrame::Ptr> waiting_observations_;  // of the scans that wait
+  std::size_t scans_taken_ = 0;
+
+  std::vector<Frame> log_;
+  std::vector<std::size_t> node_frames_;
+  std::vector<CSensoryFrame::Ptr> node_observations_;
+  std::vector<FrameRecord> frames_;  // these two: after finish()
+  PoseGraph graph_;
+  bool finished_ = false;
+
+  mutable COccupancyGridMap2D::Ptr drawn_grid_;
+  mutable std::size_t drawn_scans_ = 0;
+  mutable bool drawn_finished_ = false;
+  mutable mrpt::maps::CMultiMetricMap metric_map_;
+};
+
+CMetricMapBuilderPsi::CMetricMapBuilderPsi(const Options& psi_options)
+    : implementation_(std::make_unique<Implementation>(psi_options)) {
+  setLoggerName("CMetricMapBuilderPsi");
+}
+
+CMetricMapBuilderPsi::CMetricMapBuilderPsi() : CMetricMapBuilderPsi(Options()) {}
+
+CMetricMapBuilderPsi::~CMetricMapBuilderPsi() = default;
+
+void CMetricMapBuilderPsi::initialize(const mrpt::maps::CSimpleMap& initial_map,
+                                      const mrpt::poses::CPosePDF* x0) {
+  implementation_->initialize(initial_map, x0);
+}
+
+void CMetricMapBuilderPsi::processActionObservation(mrpt::obs::CActionCollection& action,
+                                                    CSensoryFrame& observations) {
+  expect_map_updating(options.enableMapUpdating);
+  implementation_->process(action, observations);
+}
+
+void CMetricMapBuilderPsi::processObservation(const CObservation::Ptr& observation) {
+  expect_map_updating(options.enableMapUpdating);
+  implementation_->process(observation);
+}
+
+void CMetricMapBuilderPsi::finish() {
+  implementation_->finish();
+}
+
+mrpt::poses::CPose3DPDF::Ptr CMetricMapBuilderPsi::getCurrentPoseEstimation() const {
+  return implementation_->pose();
+}
+
+void CMetricMapBuilderPsi::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map) const {
+  implementation_->simple_map(out_map);
+}
+
+unsigned int CMetricMapBuilderPsi::getCurrentlyBuiltMapSize() {
+  return static_cast<unsigned int>(implementation_->nodes());
+}
+
+#if MRPT_VERSION >= 0x292
+const mrpt::maps::CMultiMetricMap& CMetricMapBuilderPsi::getCurrentlyBuiltMetricMap() const {
+  return implementation_->metric_map();
+}
+#else
+const mrpt::maps::CMultiMetricMap* CMetricMapBuilderPsi::getCurrentlyBuiltMetricMap() const {
+  return &implementation_->metric_map();
+}
+#endif
+
+COccupancyGridMap2D::ConstPtr CMetricMapBuilderPsi::grid() const {
+  return implementation_->grid();
+}
+
+#if MRPT_VERSION >= 0x030000
+void CMetricMapBuilderPsi::saveCurrentEstimationToImage(const std::string& file) {
+#else
+void CMetricMapBuilderPsi::saveCurrentEstimationToImage(const std::string& file, bool /*format_emf_bmp*/) {
+#endif
+  const COccupancyGridMap2D::ConstPtr grid = this->grid();
+  if (std::filesystem::path(file).extension() == ".png") {
+    write_map_image(file, *grid);
+  } else if (!grid->saveAsBitmapFile(file)) {
+    throw SystemFailure("cannot write " + file);
+  }
+}
+
+}  // namespace psi_slam

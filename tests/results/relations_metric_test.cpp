@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -102,6 +103,8 @@ TEST(RelationsMetric, skips_and_counts_what_lies_outside_or_in_a_long_gap) {
   const RelationsMetric wider = evaluate_relations(trajectory, relations, {3.0});
   EXPECT_EQ(wider.skipped, 2u);
   EXPECT_EQ(wider.interpolated, 1u);
+  EXPECT_EQ(evaluate_relations(trajectory, relations, {std::numeric_limits<double>::infinity()}).skipped, 2u);
+  EXPECT_THROW(evaluate_relations(trajectory, relations, {-1}), std::invalid_argument);
 }
 
 TEST(RelationsMetric, time_order_is_made_and_poses_of_one_time_keep_their_order) {

@@ -16,7 +16,6 @@ namespace psi_slam {
 namespace {
 
 using mrpt::DEG2RAD;
-using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
 
 constexpr std::size_t kFewestPairs = 20;

@@ -98,10 +98,11 @@ std::vector<float> CarmenLaser::bearings_rad(const CarmenLaserMessage& message,
   if (!field_of_view_rad) field_of_view_rad = usual_field_of_view_rad(beams);
   if (!field_of_view_rad && stated_resolution_rad_)
     field_of_view_rad = *stated_resolution_rad_ * static_cast<double>(beams - 1);
-  if (!field_of_view_rad)
+  if (!field_of_view_rad) {
     fields.fail(
         "a scan of " + std::to_string(beams) +
         " readings without angles has no usual field of view, expected log.field_of_view_deg to state it");
+  }
   return make_bearings_rad(options_.beam_angles, beams, *field_of_view_rad);
 }
 

@@ -173,18 +173,20 @@ Json to_json(const LogDiagnosis& diagnosis) {
                             {"jumps", diagnosis.jumps.pairs.size()},
                             {"revisits", diagnosis.revisits.revisits},
                             {"revisits_agreeing", diagnosis.revisits.agreeing}};
-  if (diagnosis.mount)
+  if (diagnosis.mount) {
     json["laser_mount_estimate"] = {{"robot_T_laser", to_json(diagnosis.mount->robot_T_laser)},
                                     {"deviation_m", diagnosis.mount->deviation_m},
                                     {"deviation_rad", diagnosis.mount->deviation_rad},
                                     {"odometry_scale", diagnosis.mount->odometry_scale}};
+  }
   json["beam_angles"] = beam_angles_json(diagnosis.beam_angles);
   json["findings"] = Json::array();
-  for (const Finding& finding : diagnosis.findings)
+  for (const Finding& finding : diagnosis.findings) {
     json["findings"].push_back({{"code", finding.code},
                                 {"severity", finding.severity == Severity::kWarning ? "warning" : "note"},
                                 {"sentence", finding.sentence},
                                 {"remedy", finding.remedy}});
+  }
   return json;
 }
 

@@ -89,9 +89,10 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   diagnosis.options.every_nth_scan = 1;
   FirstPass pass = read_once(path, diagnosis.options);
   diagnosis.facts = pass.facts;
-  if (!pass.states_beam_angles)
+  if (!pass.states_beam_angles) {
     diagnosis.used_beam_angles =
         options.beam_angles == BeamAngles::kAuto ? usual_beam_angles(pass.facts.beams) : options.beam_angles;
+  }
   const std::vector<FrameMark>& marks = pass.marks;
 
   const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
@@ -119,9 +120,10 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
     diagnosis.revisits = check_revisits(marks, revisits, library);
     std::optional<double> laser_heading_rad;
     if (diagnosis.mount) laser_heading_rad = (diagnosis.mount->robot_T_laser - pass.facts.robot_T_laser).phi;
-    if (!pass.states_beam_angles)
+    if (!pass.states_beam_angles) {
       diagnosis.beam_angles = study_beam_angles(marks, evidence, library, pass.bearings_rad,
                                                 field_of_view_rad(pass, options), laser_heading_rad);
+    }
   }
   diagnosis.marks = std::move(pass.marks);
   diagnosis.findings = judge(diagnosis);

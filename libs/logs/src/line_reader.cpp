@@ -9,8 +9,8 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kInitialBytes = 256 * 1024;
-constexpr std::size_t kMaxLineBytes = 16 * 1024 * 1024;
+constexpr std::size_t kInitialBytes = std::size_t{256} * 1024;
+constexpr std::size_t kMaxLineBytes = std::size_t{16} * 1024 * 1024;
 
 }  // namespace
 
@@ -23,9 +23,10 @@ bool LineReader::fill() {
     begin_ = 0;
   }
   if (end_ == buffer_.size()) {
-    if (buffer_.size() >= kMaxLineBytes)
+    if (buffer_.size() >= kMaxLineBytes) {
       throw UserError(file_.path().string() + ":" + std::to_string(line_number_ + 1) +
                       ": the line is longer than 16 MB, expected text");
+    }
     buffer_.resize(buffer_.size() * 2);
   }
   const std::size_t got = file_.read(buffer_.data() + end_, buffer_.size() - end_);

@@ -65,22 +65,26 @@ class Judge {
 
   void judge_time() {
     const TimeFacts& time = facts_.time;
-    if (time.backward_steps > 0)
+    if (time.backward_steps > 0) {
       note("time_backwards", "time runs backwards at " + counted(time.backward_steps, "scan") +
                                  ", by up to " + fixed(time.largest_backward_step_s, 3) +
                                  " s; the order of the file is taken as the truth");
-    if (time.gaps > 0)
+    }
+    if (time.gaps > 0) {
       note("time_gaps",
            counted(time.gaps, "gap") + " in time, the largest of " + fixed(time.largest_gap_s, 2) + " s");
-    if (time.repeated_scans > 0)
+    }
+    if (time.repeated_scans > 0) {
       warn("repeated_scans",
            counted(time.repeated_scans, "scan") +
                " repeat the one before, time and ranges alike: the log was merged "
                "or converted badly",
            "remove the repeated lines");
-    if (time.repeated_stamps > time.repeated_scans)
+    }
+    if (time.repeated_stamps > time.repeated_scans) {
       note("repeated_stamps", counted(time.repeated_stamps - time.repeated_scans, "scan") +
                                   " have the time of the one before, with other ranges");
+    }
   }
 
   void judge_ranges() {
@@ -88,11 +92,12 @@ class Judge {
     const double returns = share_of(ranges.returns, ranges.readings);
     const auto max_range_m = static_cast<double>(ranges.max_range_m);
     const auto ceiling_m = static_cast<double>(ranges.ceiling_m);
-    if (facts_.scans_of_other_shape > 0)
+    if (facts_.scans_of_other_shape > 0) {
       note("changing_beams", counted(facts_.scans_of_other_shape, "scan") +
                                  " have another number of beams than the "
                                  "first, which has " +
                                  std::to_string(facts_.beams));
+    }
     if (returns < 0.2 && ranges.largest_reading_m > 500) {
       warn("range_unit",
            "readings go up to " + fixed(static_cast<double>(ranges.largest_reading_m), 0) + " and only " +
@@ -101,17 +106,19 @@ class Judge {
            "write the ranges in metres");
       return;
     }
-    if (ceiling_m > 0 && ceiling_m < max_range_m)
+    if (ceiling_m > 0 && ceiling_m < max_range_m) {
       warn("max_range",
            percent(share_of(ranges.readings_at_ceiling, ranges.readings)) + " of the readings pile up at " +
                fixed(ceiling_m, 2) + " m or just above and none lie beyond, but only those from " +
                fixed(max_range_m, 2) + " m on count as no return",
            "log.max_range_m = " + fixed(ceiling_m, 2));
-    if (returns < 0.3)
+    }
+    if (returns < 0.3) {
       warn("few_returns",
            "only " + percent(returns) + " of the readings are returns below the maximum of " +
                fixed(max_range_m, 2) + " m",
            "see that log.max_range_m is the sensor's own");
+    }
     if (ranges.empty_scans > 0) {
       const std::string sentence = counted(ranges.empty_scans, "scan") + " have no return at all";
       if (share_of(ranges.empty_scans, facts_.scans) > 0.05) {
@@ -138,9 +145,10 @@ class Judge {
     }
     judge_length(odometry);
     judge_heading(odometry);
-    if (odometry.length_samples == 0 || odometry.heading == HeadingRelation::kUnknown)
+    if (odometry.length_samples == 0 || odometry.heading == HeadingRelation::kUnknown) {
       note("odometry_unchecked",
            "too few scans could be compared with each other to tell whether odometry is right");
+    }
   }
 
   void judge_length(const OdometryAgreement& odometry) {
@@ -253,10 +261,11 @@ class Judge {
   }
 
   void judge_correction() {
-    if (facts_.scans_with_two_poses > 0)
+    if (facts_.scans_with_two_poses > 0) {
       note("two_poses", counted(facts_.scans_with_two_poses, "scan") +
                             " carry a second pose beside their odometry, "
                             "some mapper's result; the odometry is used");
+    }
     const RevisitAgreement& revisits = diagnosis_.revisits;
     if (revisits.agreeing < 8 || share_of(revisits.agreeing, revisits.revisits) < 0.7) return;
     warn("corrected_odometry",
@@ -269,9 +278,10 @@ class Judge {
   /// The heading that would set the laser right once the best beam angles are used: those shift it, too.
   double laser_yaw_rad(const LaserMountEstimate& mount) const {
     const BeamAngleStudy& study = diagnosis_.beam_angles;
-    for (const BeamAngleFit& fit : study.fits)
+    for (const BeamAngleFit& fit : study.fits) {
       if (study.knows_heading && fit.angles == study.best)
         return mrpt::math::wrapToPi(facts_.robot_T_laser.phi + fit.laser_heading_rad);
+    }
     return mount.robot_T_laser.phi;
   }
 
@@ -294,9 +304,10 @@ class Judge {
                " m, y " + fixed(stated.y, 3) + " m, yaw " + fixed(RAD2DEG(stated.phi), 2) + " degrees",
            "log.laser_x_m = " + x + ", log.laser_y_m = " + y + ", log.laser_yaw_deg = " + yaw);
     }
-    if (std::abs(mount.odometry_scale - 1) > 0.03)
+    if (std::abs(mount.odometry_scale - 1) > 0.03) {
       note("odometry_scale", "odometry counts " + fixed(100 * std::abs(mount.odometry_scale - 1), 1) +
                                  " % too " + (mount.odometry_scale > 1 ? "much" : "little") + " way");
+    }
   }
 
   void judge_beam_angles() {

@@ -23,9 +23,10 @@ template <class Value>
 void check_log_options(const LogOptions& options) {
   if (options.every_nth_scan < 1) fail("log.every_nth_scan", options.every_nth_scan, "1 or more");
   if (options.field_of_view_rad &&
-      !(*options.field_of_view_rad > 0 && *options.field_of_view_rad <= 2 * M_PI))
+      !(*options.field_of_view_rad > 0 && *options.field_of_view_rad <= 2 * M_PI)) {
     fail("log.field_of_view_deg", mrpt::RAD2DEG(*options.field_of_view_rad),
          "more than 0 and up to 360 degrees");
+  }
   if (!(options.min_range_m >= 0)) fail("log.min_range_m", options.min_range_m, "0 metres or more");
   if (options.max_range_m && !(*options.max_range_m > options.min_range_m))
     fail("log.max_range_m", *options.max_range_m, "more metres than log.min_range_m");

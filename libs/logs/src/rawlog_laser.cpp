@@ -62,9 +62,10 @@ LaserScan RawlogLaser::scan(const mrpt::obs::CObservation2DRangeScan& observatio
   scan.max_range_m = static_cast<float>(options_.max_range_m.value_or(
       states_maximum ? static_cast<double>(observation.maxRange) : kUnstatedMaxRange_m));
   scan.ranges_m.resize(beams);
-  for (std::size_t i = 0; i < beams; ++i)
+  for (std::size_t i = 0; i < beams; ++i) {
     scan.ranges_m[i] = observation.getScanRangeValidity(i) ? observation.getScanRange(i)
                                                            : std::numeric_limits<float>::quiet_NaN();
+  }
   mark_no_returns(scan.ranges_m, options_.min_range_m, static_cast<double>(scan.max_range_m));
   return scan;
 }

@@ -76,20 +76,22 @@ Contents find_laser_and_odometry(const std::filesystem::path& path, const LogOpt
       if (!laser && wanted) laser = observation.sensorLabel;
     });
   }
-  if (labels.empty())
+  if (labels.empty()) {
     throw UserError(path.string() +
                     " has no laser scans, expected observations of class CObservation2DRangeScan");
+  }
   if (!laser) {
     std::string known;
     for (const std::string& label : labels) known += (known.empty() ? "\"" : ", \"") + label + "\"";
     throw UserError("log.laser is \"" + options.laser + "\", expected the label of a laser of " +
                     path.string() + ": " + known);
   }
-  if (!has_actions)
+  if (!has_actions) {
     throw UserError(
         path.string() +
         " has no odometry, expected actions of class CActionRobotMovement2D or observations of class "
         "CObservationOdometry");
+  }
   return {*laser, *has_actions};
 }
 
@@ -167,9 +169,10 @@ class RawlogReader::Implementation {
 
   TimeUs time_us(const CObservation& observation, const char* what) const {
     const std::int64_t ticks = observation.timestamp.time_since_epoch().count();
-    if (ticks <= 0)
+    if (ticks <= 0) {
       throw UserError(archive_.place() + ": the " + what +
                       " has no time stamp, expected one on every observation");
+    }
     const std::int64_t since_1970 = ticks - kTicksFrom1601To1970;
     const std::int64_t half = since_1970 < 0 ? -kTicksPerMicrosecond / 2 : kTicksPerMicrosecond / 2;
     return (since_1970 + half) / kTicksPerMicrosecond;

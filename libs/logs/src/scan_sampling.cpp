@@ -62,9 +62,10 @@ TPose2D odometry_between(const std::vector<FrameMark>& marks, const FramePair& p
 
 std::vector<double> unwrapped_headings(const std::vector<FrameMark>& marks) {
   std::vector<double> headings_rad(marks.size(), 0);
-  for (std::size_t i = 1; i < marks.size(); ++i)
+  for (std::size_t i = 1; i < marks.size(); ++i) {
     headings_rad[i] =
         headings_rad[i - 1] + mrpt::math::wrapToPi(marks[i].odom_T_robot.phi - marks[i - 1].odom_T_robot.phi);
+  }
   return headings_rad;
 }
 
@@ -73,9 +74,10 @@ std::vector<std::size_t> frames_in_motion(const std::vector<FrameMark>& marks, s
   if (marks.size() < 2) return frames;
   const std::vector<double> ways = ways_m(marks);
   std::vector<double> turns(marks.size(), 0);
-  for (std::size_t i = 1; i < marks.size(); ++i)
+  for (std::size_t i = 1; i < marks.size(); ++i) {
     turns[i] = turns[i - 1] +
                std::abs(mrpt::math::wrapToPi(marks[i].odom_T_robot.phi - marks[i - 1].odom_T_robot.phi));
+  }
   const bool moves = ways.back() > 0 || turns.back() > 0;
   const auto activity = [&](std::size_t i) {
     if (!moves) return static_cast<double>(i) / static_cast<double>(marks.size());

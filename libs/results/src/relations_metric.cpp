@@ -126,9 +126,12 @@ RelationsMetric evaluate_relations(Trajectory trajectory, const std::vector<Rela
     throw UserError("the metric needs a trajectory and relations, found " +
                     std::to_string(trajectory.size()) + " poses and " + std::to_string(relations.size()) +
                     " relations");
+  constexpr double kLongest_s = 1e9;
+  if (!(options.max_gap_s >= 0))
+    throw std::invalid_argument("evaluate_relations: the gap must not be negative");
   std::stable_sort(trajectory.begin(), trajectory.end(),
                    [](const StampedPose& a, const StampedPose& b) { return a.time_us < b.time_us; });
-  const TimeUs max_gap_us = std::llround(options.max_gap_s * 1e6);
+  const TimeUs max_gap_us = std::llround(std::min(options.max_gap_s, kLongest_s) * 1e6);
 
   RelationsMetric metric;
   for (const Relation& relation : relations) {

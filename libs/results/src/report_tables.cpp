@@ -145,7 +145,7 @@ std::string loops_table(const MappingResult& result) {
   std::string rows;
   std::size_t shown = 0;
   for (const LoopVerdict verdict :
-       {LoopVerdict::kAccepted, LoopVerdict::kSwitchedOff, LoopVerdict::kRefused}) {
+       {LoopVerdict::kAccepted, LoopVerdict::kSwitchedOff, LoopVerdict::kPending, LoopVerdict::kRefused}) {
     std::size_t of_verdict = 0;
     for (const LoopRecord& loop : result.loops) {
       if (loop.verdict != verdict || of_verdict == kLoopsShownOfAVerdict) continue;

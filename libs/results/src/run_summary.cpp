@@ -71,7 +71,7 @@ LoopCounts loop_counts(const std::vector<LoopRecord>& loops) {
       counts.accepted_in_last_pass += loop.in_last_pass ? 1 : 0;
       continue;
     }
-    ++(loop.verdict == LoopVerdict::kRefused ? counts.refused : counts.switched_off);
+    ++(loop.verdict == LoopVerdict::kSwitchedOff ? counts.switched_off : counts.refused);
     ++reasons[without_figures(loop.reason.empty() ? "no reason given" : loop.reason)];
   }
   for (const auto& [reason, count] : reasons) counts.reasons.push_back({reason, count});

@@ -75,7 +75,8 @@ struct RelationsMetric {
 /// The metric over all relations that the trajectory can answer. The trajectory is sorted by time first
 /// (poses of one time keep their order). A pose within 0.1 ms of a relation's time is taken as it is, since
 /// relations are printed with as few as five decimals; otherwise it is interpolated linearly, the angle along
-/// the shorter arc. Throws UserError when no relation can be answered, naming both spans of time.
+/// the shorter arc. Throws UserError when no relation can be answered, naming both spans of time;
+/// std::invalid_argument when the gap is negative or no number.
 RelationsMetric evaluate_relations(Trajectory trajectory, const std::vector<Relation>& relations,
                                    const RelationsMetricOptions& options = {});
 

@@ -48,7 +48,7 @@ struct ReasonCount {
 struct LoopCounts {
   std::size_t accepted = 0;
   std::size_t accepted_in_last_pass = 0;
-  std::size_t refused = 0;
+  std::size_t refused = 0;  ///< with those still pending when the run was stopped
   std::size_t switched_off = 0;
   std::vector<ReasonCount> reasons;  ///< of those refused or switched off, the most frequent first
 };

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs a build into a folder of its own, builds the project beside this file against it, and runs that.
+#
+#   cmake -D PSI_SLAM_BUILD=DIR -D WORK=DIR [-D CONFIG=Release] [-D CXX=COMPILER] -P package_test.cmake
+foreach(name PSI_SLAM_BUILD WORK)
+  if(NOT ${name})
+    message(FATAL_ERROR "${name} is not set")
+  endif()
+endforeach()
+
+# run(STEP COMMAND...): its output is left in `output`.
+function(run step)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${step} failed with ${result}:\n${out}")
+  endif()
+  set(output "${out}" PARENT_SCOPE)
+endfunction()
+
+set(config)
+if(CONFIG)
+  set(config --config ${CONFIG})
+  set(build_type -D CMAKE_BUILD_TYPE=${CONFIG})
+endif()
+if(CXX)
+  set(compiler -D CMAKE_CXX_COMPILER=${CXX})
+endif()
+
+file(REMOVE_RECURSE ${WORK})
+run("installing" ${CMAKE_COMMAND} --install ${PSI_SLAM_BUILD} --prefix ${WORK}/installed ${config})
+run("configuring" ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build
+  -D CMAKE_PREFIX_PATH=${WORK}/installed ${build_type} ${compiler})
+run("building" ${CMAKE_COMMAND} --build ${WORK}/build ${config})
+
+foreach(program psi-slam psi-slam-eval)
+  run("the installed ${program}" ${WORK}/installed/bin/${program} --version)
+endforeach()
+
+set(rawlog "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog")
+if(EXISTS ${rawlog})
+  run("mapping a rawlog" ${WORK}/build/map_rawlog ${rawlog} ${WORK}/map.simplemap.gz ${WORK}/map.png)
+  if(NOT output MATCHES "[1-9][0-9]* nodes")
+    message(FATAL_ERROR "the program that was built maps nothing:\n${output}")
+  endif()
+  foreach(name map.simplemap.gz map.png)
+    file(SIZE ${WORK}/${name} size)
+    if(size LESS 1000)
+      message(FATAL_ERROR "${name} has ${size} bytes only")
+    endif()
+  endforeach()
+else()
+  message("not run: it needs the data sets of the package mrpt-common")
+endif()
+file(REMOVE_RECURSE ${WORK})

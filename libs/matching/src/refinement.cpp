@@ -80,8 +80,11 @@ RefinedPose refine(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D&
   int iterations = 0;
   while (iterations < options.max_iterations) {
     ++iterations;
+    // Where the scan determines nothing, as along a corridor, rounding must not move the pose.
+    const double least = 1e-6 * (1 + std::max(here.hessian(0, 0), here.hessian(1, 1)));
+    const Eigen::Vector3d undetermined(least, least, 1e-6 * (1 + here.hessian(2, 2)));
     Eigen::Matrix3d damped = here.hessian;
-    damped.diagonal() += damping * here.hessian.diagonal() + Eigen::Vector3d::Constant(1e-6);
+    damped.diagonal() += damping * here.hessian.diagonal() + undetermined;
     const Eigen::Vector3d step = damped.ldlt().solve(here.descent);
     if (!step.allFinite()) break;
     TPose2D next(pose.x + step.x(), pose.y + step.y(), pose.phi + step.z());

@@ -44,6 +44,14 @@ TEST(RunSummary, counts_loops_and_like_reasons_together) {
   EXPECT_EQ(loops.reasons[0].count, 2U);
 }
 
+TEST(RunSummary, a_loop_still_pending_when_the_run_was_stopped_counts_as_refused) {
+  MappingResult result = walk_around_the_room();
+  result.loops[1].verdict = LoopVerdict::kPending;
+  const LoopCounts loops = summary_of(result).loops;
+  EXPECT_EQ(loops.refused, 2U);
+  EXPECT_EQ(loops.accepted + loops.switched_off, 0U);
+}
+
 TEST(RunSummary, tells_speed_memory_and_map) {
   const RunSummary summary = summary_of(walk_around_the_room());
   EXPECT_NEAR(summary.real_time_factor, 9.8 / 0.5, 1e-9);

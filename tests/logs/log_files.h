@@ -2,49 +2,14 @@
 // What the tests of logs share: writing small logs, and reading them back.
 #pragma once
 
-#include <gtest/gtest.h>
-#include <zlib.h>
-
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <iterator>
-#include <string>
+#include <utility>
 #include <vector>
 
-#include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/open_log.h"
+#include "test_files.h"
 
 namespace psi_slam {
-
-inline void write_file(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
-}
-
-inline std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-inline void write_gzipped(const std::filesystem::path& path, const std::string& bytes) {
-  gzFile file = gzopen(path.c_str(), "wb");
-  const bool done = file != nullptr && gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size())) ==
-                                           static_cast<int>(bytes.size());
-  if (!done || gzclose(file) != Z_OK) throw std::runtime_error("cannot write " + path.string());
-}
-
-/// The sentence of the UserError that `action` throws; a failed expectation and "" when it throws none.
-inline std::string sentence_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no UserError was thrown";
-  return {};
-}
 
 inline std::vector<Frame> all_frames(FrameSource& source) {
   std::vector<Frame> frames;

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "psi_slam/base/line_reader.h"
 #include "psi_slam/logs/carmen_message.h"
-#include "psi_slam/logs/line_reader.h"
 
 namespace psi_slam {
 namespace {

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "psi_slam/base/line_reader.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/carmen_laser.h"
 #include "psi_slam/logs/carmen_message.h"
 #include "psi_slam/logs/carmen_mount.h"
-#include "psi_slam/logs/line_reader.h"
 #include "psi_slam/logs/odometry_interpolator.h"
 
 namespace psi_slam {

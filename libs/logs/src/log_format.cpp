@@ -6,8 +6,8 @@
 #include <string>
 #include <system_error>
 
+#include "psi_slam/base/compressed_file.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/logs/compressed_file.h"
 
 namespace psi_slam {
 namespace {

@@ -8,8 +8,8 @@
 #include <exception>
 #include <optional>
 
+#include "psi_slam/base/compressed_file.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/logs/compressed_file.h"
 
 namespace psi_slam {
 namespace {

@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/line_reader.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/logs/line_reader.h"
 #include "psi_slam/pose_graph/information_matrix.h"
 #include "psi_slam/pose_graph/spanning_tree.h"
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "psi_slam/base/line_reader.h"
 #include "psi_slam/base/time_stamp.h"
-#include "psi_slam/logs/line_reader.h"
 
 namespace psi_slam {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/logs/compressed_file.h"
+#include "psi_slam/base/compressed_file.h"
 
 #include <random>
 
-#include "log_files.h"
 #include "temporary_folder.h"
+#include "test_files.h"
 
 namespace psi_slam {
 namespace {

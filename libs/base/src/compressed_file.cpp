@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/logs/compressed_file.h"
+#include "psi_slam/base/compressed_file.h"
 
 #include <zlib.h>
 

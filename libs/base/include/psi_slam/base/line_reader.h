@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "psi_slam/logs/compressed_file.h"
+#include "psi_slam/base/compressed_file.h"
 
 namespace psi_slam {
 

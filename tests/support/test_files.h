@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writing and reading small files, and the sentences of refused ones.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include "psi_slam/base/user_error.h"
+
+namespace psi_slam {
+
+inline void write_file(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+inline std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+inline void write_gzipped(const std::filesystem::path& path, const std::string& bytes) {
+  gzFile file = gzopen(path.c_str(), "wb");
+  const bool done = file != nullptr && gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size())) ==
+                                           static_cast<int>(bytes.size());
+  if (!done || gzclose(file) != Z_OK) throw std::runtime_error("cannot write " + path.string());
+}
+
+/// The sentence of the UserError that `action` throws; a failed expectation and "" when it throws none.
+inline std::string sentence_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no UserError was thrown";
+  return {};
+}
+
+}  // namespace psi_slam

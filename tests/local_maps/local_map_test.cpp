@@ -232,13 +232,22 @@ TEST(LocalMap, finishing_freezes_the_scores_and_frees_memory) {
   for (int again = 0; again < 2; ++again) {
     const ScoreGrid& after = map.scores();
     EXPECT_TRUE(after.has_pyramid());
-    EXPECT_EQ(after.origin_x_m(), before.origin_x_m());
-    EXPECT_EQ(after.origin_y_m(), before.origin_y_m());
+    EXPECT_LT(after.finest().memory_bytes(), before.finest().memory_bytes()) << "cropped to what was seen";
+    const long left = std::lround((after.origin_x_m() - before.origin_x_m()) / 0.05);
+    const long below = std::lround((after.origin_y_m() - before.origin_y_m()) / 0.05);
     for (int y = -1; y <= before.finest().height(); ++y)
       for (int x = -1; x <= before.finest().width(); ++x)
-        ASSERT_EQ(after.finest().at(x, y), before.finest().at(x, y));
+        ASSERT_EQ(after.finest().at(x - static_cast<int>(left), y - static_cast<int>(below)),
+                  before.finest().at(x, y));
     map.finish();
   }
+}
+
+TEST(LocalMap, a_map_of_nothing_can_be_finished) {
+  LocalMap map({});
+  map.finish();
+  EXPECT_TRUE(map.scores().has_pyramid());
+  EXPECT_EQ(map.agreement(points_at({{0, 0}, {1, 1}}), {0, 0, 0}).observed, 0U);
 }
 
 TEST(LocalMap, finishing_scores_what_was_inserted_last) {

@@ -43,7 +43,7 @@ struct TwoRounds {
       }
       memory.nodes.push_back(scan);
       truth.push_back(drive.map_T_robot[i]);
-      if (step.finished) memory.local_maps.push_back(*step.finished);
+      for (const PlacedLocalMap& finished : step.finished) memory.local_maps.push_back(finished);
     }
     while (memory.nodes[node].travelled_m < 12) ++node;
   }

@@ -188,6 +188,28 @@ TEST(Mapper, without_loop_closing_the_front_ends_poses_stand) {
   }
 }
 
+// The laser is covered for some metres of the far corridor, and odometry alone carries the robot through.
+TEST(Mapper, mends_by_loops_what_it_lost_while_blind) {
+  SimulatedDrive drive = office_drive();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 190; i < 250; ++i) {
+    auto& ranges = drive.frames[i].scan.ranges_m;
+    std::fill(ranges.begin(), ranges.end(), nan);
+  }
+  const auto error_m = [&](const MappingResult& result) {
+    return distance_m(result.frames.back().map_T_robot, drive.map_T_robot.back());
+  };
+  MapperOptions open;
+  open.close_loops = false;
+  const double lost_m = error_m(map_of(drive.frames, open));
+  const MappingResult result = map_of(drive.frames);
+  expect_consistent(result, drive.frames.size());
+  EXPECT_GT(lost_m, 0.5) << "the front end alone cannot know";
+  EXPECT_LT(error_m(result), 0.15);
+  EXPECT_GT(accepted_loops(result), 0U);
+  expect_no_false_loop(result, drive.map_T_robot);
+}
+
 TEST(Mapper, finishing_reports_its_progress_up_to_the_end) {
   Mapper mapper({});
   for (const Frame& frame : office_drive().frames) mapper.add(frame);

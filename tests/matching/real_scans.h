@@ -45,7 +45,7 @@ inline RealScans read_real_scans(const std::filesystem::path& log, std::size_t m
     if (!frame) break;
     const FrontEndStep step = front_end.add(*frame);
     if (step.node) real.nodes.push_back({step.local_T_robot, step.points});
-    if (step.finished) real.maps.push_back(*step.finished);
+    for (const PlacedLocalMap& finished : step.finished) real.maps.push_back(finished);
   }
   for (const PlacedLocalMap& finished : front_end.finish()) real.maps.push_back(finished);
   return real;

@@ -184,6 +184,37 @@ TEST(Refinement, with_normals_a_corridor_gives_no_information_along_it) {
   EXPECT_GT(without.information(0, 0), 10 * with.information(0, 0)) << "the walls' noise, taken for a slope";
 }
 
+// Nothing but noise speaks along it; the search for the least cost shall not follow that, nor be stopped by
+// it.
+TEST(Refinement, without_a_prior_a_corridor_is_refined_across_it) {
+  std::mt19937_64 random(65);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Corridor corridor(random);
+    const RefinedPose refined = refine(corridor.grid, corridor.scan, {0.01 * trial, 0.012, 0.003}, {});
+    EXPECT_NEAR(refined.map_T_robot.x, 0.01 * trial, 0.01) << "a fifth of a cell";
+    EXPECT_NEAR(refined.map_T_robot.y, 0, 0.005);
+    EXPECT_NEAR(refined.map_T_robot.phi, 0, 0.002);
+  }
+}
+
+TEST(Refinement, normals_turn_with_the_robot) {
+  std::mt19937_64 random(57);
+  Corridor corridor(random);
+  // The same scan by a robot that is turned by 0.7: points and normals turn back in its frame.
+  const double c = std::cos(-0.7);
+  const double s = std::sin(-0.7);
+  for (auto* vectors : {&corridor.scan.points, &corridor.scan.normals})
+    for (auto& v : *vectors) {
+      const auto x = static_cast<double>(v.x);
+      const auto y = static_cast<double>(v.y);
+      v = {static_cast<float>(c * x - s * y), static_cast<float>(s * x + c * y)};
+    }
+  const RefinedPose refined = refine(corridor.grid, corridor.scan, {0, 0.01, 0.702}, {});
+  EXPECT_LT(refined.information(0, 0), 1e-3 * refined.information(1, 1));
+  EXPECT_NEAR(refined.map_T_robot.y, 0, 0.004);
+  EXPECT_NEAR(refined.map_T_robot.phi, 0.7, 0.002);
+}
+
 TEST(Refinement, points_without_a_normal_keep_their_whole_slope) {
   std::mt19937_64 random(58);
   Corridor corridor(random);

@@ -189,5 +189,22 @@ TEST(ScoreGridInterpolation, is_zero_outside) {
   EXPECT_NEAR(grid.interpolate(0.25, 0.25).value, 1, 1e-6);
 }
 
+TEST(ScoreGrid, cropping_keeps_the_cells_and_their_places) {
+  ScoreGrid grid(-1, 2, 0.05, 40, 30);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x)
+      *grid.finest().cell(x, y) = static_cast<std::uint8_t>((7 * x + 13 * y) % 256);
+  const ScoreGrid part = grid.cropped(3, 5, 20, 10);
+  EXPECT_DOUBLE_EQ(part.origin_x_m(), -0.85);
+  EXPECT_DOUBLE_EQ(part.origin_y_m(), 2.25);
+  EXPECT_EQ(part.finest().width(), 20);
+  EXPECT_EQ(part.finest().height(), 10);
+  for (int y = -1; y <= 10; ++y)
+    for (int x = -1; x <= 20; ++x) {
+      const bool inside = x >= 0 && x < 20 && y >= 0 && y < 10;
+      EXPECT_EQ(part.finest().at(x, y), inside ? grid.finest().at(x + 3, y + 5) : 0);
+    }
+}
+
 }  // namespace
 }  // namespace psi_slam

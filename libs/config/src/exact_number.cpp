@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "psi_slam/base/degrees.h"
+
 namespace psi_slam {
 namespace {
 
@@ -50,7 +52,7 @@ std::string exact_text(double value) {
 std::optional<double> parse_degrees(std::string_view text) {
   const std::optional<long double> degrees = parse_finite<long double>(text);
   if (!degrees || !parse_number(text)) return {};
-  return static_cast<double>(*degrees * kPi / 180);
+  return radians_from_degrees(*degrees);
 }
 
 std::string exact_degrees_text(double radians) {

@@ -39,6 +39,7 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
   const bool blind =
       step.points->points.empty() || step.points->farthest_m <= options_.local_map.resolution_m;
   if (!active_.empty() && !blind) match(step, motion);
+  unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + motion.length_m;
   propagate_covariances(step, motion);
   if (active_.empty() || moved_enough(step.local_T_robot)) insert(step, frame);
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}};
@@ -158,6 +159,15 @@ void FrontEnd::begin_local_map(std::size_t node, const TPose2D& local_T_robot) {
   active_.push_back(std::move(begun));
 }
 
+void FrontEnd::end_local_maps(FrontEndStep& step, std::size_t count) {
+  const auto end = active_.begin() + static_cast<std::ptrdiff_t>(count);
+  for (auto active = active_.begin(); active != end; ++active) {
+    active->map->finish();
+    step.finished.push_back(*active);
+  }
+  active_.erase(active_.begin(), end);
+}
+
 void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
   const std::size_t node = next_node_++;
   step.node = node;
@@ -169,6 +179,10 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
     active.travelled_m += moved_m;
     step.memberships.push_back(
         {active.id, active.anchor, step.local_T_robot - active.local_T_map, active.covariance});
+  }
+  if (unmatched_travel_m_ >= options_.max_unmatched_travel_m) {
+    end_local_maps(step, active_.size());
+    unmatched_travel_m_ = 0;
   }
   const auto share = [&](const PlacedLocalMap& active) {
     return std::max(static_cast<double>(active.last_node - active.first_node) /
@@ -182,9 +196,7 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
                                      options_.scan.min_range_m, options_.local_map.max_insert_range_m));
   }
   if (share(active_.front()) >= 1.0 && active_.size() > 1) {
-    active_.front().map->finish();
-    step.finished = active_.front();
-    active_.erase(active_.begin());
+    end_local_maps(step, 1);
     begin_local_map(node, step.local_T_robot);
     active_.back().map->insert(drawing_beams(frame.scan, TPose2D(0, 0, 0), options_.scan.min_range_m,
                                              options_.local_map.max_insert_range_m));

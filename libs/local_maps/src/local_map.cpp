@@ -138,16 +138,36 @@ const ScoreGrid& LocalMap::scores() {
   return scores_;
 }
 
+// All observed cells, and around them what their smoothing reaches.
+LocalMap::Region LocalMap::observed_region() const {
+  const int width = static_cast<int>(grid_.getSizeX());
+  const int height = static_cast<int>(grid_.getSizeY());
+  Region region = {width, height, 0, 0};
+  for (int y = 0; y < height; ++y) {
+    const Grid::cellType* row = grid_.getRow(y);
+    for (int x = 0; x < width; ++x) {
+      if (row[x] == 0) continue;
+      region = {std::min(region.x, x), std::min(region.y, y), std::max(region.x_end, x + 1), y + 1};
+    }
+  }
+  if (region.x_end <= region.x) return {0, 0, 1, 1};
+  const int reach = ScorePainter(options_.smoothing_sigma_m, options_.resolution_m).reach_cells();
+  return {std::max(0, region.x - reach), std::max(0, region.y - reach), std::min(width, region.x_end + reach),
+          std::min(height, region.y_end + reach)};
+}
+
 void LocalMap::finish() {
   if (finished_) return;
   scores();
+  const Region region = observed_region();  // grids grow in large steps: the rest is given back
+  const int width = region.x_end - region.x;
+  const int height = region.y_end - region.y;
+  scores_ = scores_.cropped(region.x, region.y, width, height);
   scores_.build_pyramid();
-  const int width = static_cast<int>(grid_.getSizeX());
-  const int height = static_cast<int>(grid_.getSizeY());
   const int half_width = (width + 1) / 2;
   observed_.assign(static_cast<std::size_t>(half_width) * static_cast<std::size_t>((height + 1) / 2), false);
   for (int y = 0; y < height; ++y) {
-    const Grid::cellType* row = std::as_const(grid_).getRow(y);
+    const Grid::cellType* row = std::as_const(grid_).getRow(region.y + y) + region.x;
     for (int x = 0; x < width; ++x)
       if (row[x] != 0) observed_[static_cast<std::size_t>(y / 2 * half_width + x / 2)] = true;
   }

@@ -46,7 +46,7 @@ const FrameRecord& Mapper::add(Frame frame) {
   result_.log.push_back(std::move(frame));
   if (step.node) {
     add_node(step, result_.frames.size());
-    if (step.finished) remember(*step.finished);
+    for (const PlacedLocalMap& finished : step.finished) remember(finished);
     if (options_.close_loops) close_loops(*step.node, record);
     map_T_local_ = graph_.pose(*step.node) + (TPose2D(0, 0, 0) - memory_.nodes[*step.node].local_T_robot);
   }

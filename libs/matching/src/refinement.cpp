@@ -34,7 +34,7 @@ void keep_normal_part(ScoreGrid::Sample& sample, const mrpt::math::TPoint2Df& no
 }
 
 Linearisation linearise(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D& pose,
-                        double score_sigma, const std::optional<PosePrior>& prior) {
+                        double score_sigma, const PosePrior& prior) {
   Linearisation result;
   const double c = std::cos(pose.phi);
   const double s = std::sin(pose.phi);
@@ -59,20 +59,28 @@ Linearisation linearise(const ScoreGrid& grid, const ScanPoints& scan, const TPo
   result.descent *= weight;
   result.mean_score /= static_cast<double>(std::max<std::size_t>(1, scan.points.size()));
   result.hessian = result.information;
-  if (prior) {
-    const Eigen::Vector3d off(prior->map_T_robot.x - pose.x, prior->map_T_robot.y - pose.y,
-                              mrpt::math::wrapToPi(prior->map_T_robot.phi - pose.phi));
-    result.hessian += prior->information;
-    result.descent += prior->information * off;
-    result.cost += off.dot(prior->information * off);
-  }
+  const Eigen::Vector3d off(prior.map_T_robot.x - pose.x, prior.map_T_robot.y - pose.y,
+                            mrpt::math::wrapToPi(prior.map_T_robot.phi - pose.phi));
+  result.hessian += prior.information;
+  result.descent += prior.information * off;
+  result.cost += off.dot(prior.information * off);
   return result;
+}
+
+// Where the scan determines nothing, as along a corridor, noise alone would carry the pose away.
+PosePrior held_at(const TPose2D& map_T_robot) {
+  constexpr double kSigma_m = 0.15;
+  PosePrior prior;
+  prior.map_T_robot = map_T_robot;
+  prior.information.diagonal().head<2>().setConstant(1 / (kSigma_m * kSigma_m));
+  return prior;
 }
 
 }  // namespace
 
 RefinedPose refine(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D& map_T_robot,
-                   const RefinementOptions& options, const std::optional<PosePrior>& prior) {
+                   const RefinementOptions& options, const std::optional<PosePrior>& known) {
+  const PosePrior prior = known ? *known : held_at(map_T_robot);
   TPose2D pose = map_T_robot;
   Linearisation here = linearise(grid, scan, pose, options.score_sigma, prior);
   const Linearisation start = here;

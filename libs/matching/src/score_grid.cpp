@@ -62,6 +62,14 @@ ScoreGrid::ScoreGrid(double origin_x_m, double origin_y_m, double resolution_m, 
       resolution_m_(resolution_m),
       finest_(width, height, 1) {}
 
+ScoreGrid ScoreGrid::cropped(int x, int y, int width, int height) const {
+  ScoreGrid part(origin_x_m_ + x * resolution_m_, origin_y_m_ + y * resolution_m_, resolution_m_, width,
+                 height);
+  for (int row = 0; row < height; ++row)
+    std::copy_n(finest_.cell(x, y + row), width, part.finest_.cell(0, row));
+  return part;
+}
+
 void ScoreGrid::build_pyramid() {
   pyramid_.clear();
   for (const int stride : kStrides) pyramid_.push_back(pool(finest_, stride));

@@ -115,7 +115,9 @@ void describe_local_maps(OptionTable& table, FrontEndOptions& front_end) {
       .integer("nodes", front_end.nodes_per_local_map, between(2, 60000), "nodes",
                "a local map ends after this many; the next begins at half of them")
       .number("travel_m", front_end.local_map_travel_m, above(0), "m",
-              "or when the robot has travelled this far in it");
+              "or when the robot has travelled this far in it")
+      .number("max_unmatched_travel_m", front_end.max_unmatched_travel_m, above(0), "m",
+              "all end when the robot has travelled this far without a match (a blind laser)");
 }
 
 void describe_loop_closure(OptionTable& table, Settings& settings) {

@@ -54,6 +54,8 @@ void check_windows(const MapperOptions& mapper) {
                   {"loop_closure.window_y_m", loops.max_window.y_m});
   require_at_most({"loop_closure.min_window_theta_deg", loops.min_window_rad, true},
                   {"loop_closure.window_theta_deg", loops.max_window.theta_rad, true});
+  require_at_most({"last_pass.window_m", mapper.last_pass.window_m},
+                  {"verification.wide_window_m", mapper.loop_closure.verification.wide_window_m});
 }
 
 }  // namespace

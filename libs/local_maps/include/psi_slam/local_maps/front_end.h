@@ -15,6 +15,7 @@
 #include <optional>
 #include <vector>
 
+#include "psi_slam/base/degrees.h"
 #include "psi_slam/local_maps/local_map.h"
 #include "psi_slam/local_maps/placed_local_map.h"
 #include "psi_slam/local_maps/scan_filter.h"
@@ -32,18 +33,18 @@ struct FrontEndOptions {
   // odometry reports. What odometry and a steady robot (the last step's motion again) disagree about is
   // added.
   double window_m = 0.15;
-  double window_rad = 0.12;
+  double window_rad = radians_from_degrees(7.0L);
   double window_per_metre = 0.3;
   double window_per_radian = 0.6;
-  double window_rad_per_metre = 0.15;
+  double window_rad_per_metre = radians_from_degrees(8.5L);
   double max_window_m = 1.0;
-  double max_window_rad = 0.6;
+  double max_window_rad = radians_from_degrees(35.0L);
   double min_response = 0.25;  ///< a match below this is not believed: the prediction stands
 
   // The standard deviations of the prediction, which hold the pose where the scan does not (along corridors):
   // of a robot that stands still, and how they grow with the motion and with the disagreement above.
   double prior_sigma_m = 0.03;
-  double prior_sigma_rad = 0.10;
+  double prior_sigma_rad = radians_from_degrees(6.0L);
   double prior_per_metre = 0.1;
   double prior_per_radian = 0.5;
   double prior_per_surprise = 0.5;
@@ -54,15 +55,18 @@ struct FrontEndOptions {
   // Odometry's noise a step, for the covariance of the poses: where scans determine the pose it hardly
   // matters.
   double odometry_sigma_m = 0.01;
-  double odometry_sigma_rad = 0.005;
+  double odometry_sigma_rad = radians_from_degrees(0.3L);
   double odometry_sigma_per_metre = 0.05;
   double odometry_sigma_per_radian = 0.05;
 
-  double node_distance_m = 0.2;     ///< a scan becomes a node when the robot moved this far
-  double node_rotation_rad = 0.15;  ///< or turned this much since the last node
+  double node_distance_m = 0.2;  ///< a scan becomes a node when the robot moved this far
+  double node_rotation_rad = radians_from_degrees(8.5L);  ///< or turned this much since the last node
   std::size_t nodes_per_local_map =
       60;                            ///< a local map ends after these many, the next begins at half of them,
   double local_map_travel_m = 15.0;  ///< or when the robot has travelled this far in it
+  /// All local maps end when the robot has travelled this far without a match: what is drawn after such a
+  /// stretch is out of place by odometry's error, and would bend them.
+  double max_unmatched_travel_m = 0.5;
 };
 
 /// What became of one scan.
@@ -85,7 +89,7 @@ struct FrontEndStep {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of anchor_T_node, along the anchor's axes
   };
   std::vector<Membership> memberships;
-  std::optional<PlacedLocalMap> finished;  ///< a local map that this node completed
+  std::vector<PlacedLocalMap> finished;  ///< the local maps that this node completed, older first
 };
 
 class FrontEnd {
@@ -114,6 +118,7 @@ class FrontEnd {
   PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
   void match(FrontEndStep& step, const Motion& motion);
   void propagate_covariances(const FrontEndStep& step, const Motion& motion);
+  void end_local_maps(FrontEndStep& step, std::size_t count);
   bool moved_enough(const mrpt::math::TPose2D& local_T_robot) const;
   void insert(FrontEndStep& step, const Frame& frame);
   void begin_local_map(std::size_t node, const mrpt::math::TPose2D& local_T_robot);
@@ -126,7 +131,8 @@ class FrontEnd {
   std::optional<Frame> last_;  ///< without its ranges
   mrpt::math::TPose2D last_local_T_robot_;
   mrpt::math::TPose2D last_motion_;
-  int misses_ = 0;  ///< scans in a row that were not matched
+  int misses_ = 0;                 ///< scans in a row that were not matched
+  double unmatched_travel_m_ = 0;  ///< since the last match, or since the newest local map began
   mrpt::math::TPose2D last_node_local_T_robot_;
 };
 

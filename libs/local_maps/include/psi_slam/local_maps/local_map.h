@@ -74,6 +74,7 @@ class LocalMap {
   };
   void grow_to_hold(const Beams& beams);
   void add_to_dirty(const Region& region);
+  Region observed_region() const;
   bool observed(int x, int y) const;
   void draw_hit(int x, int y);
   void draw_way(int x0, int y0, int x1, int y1);

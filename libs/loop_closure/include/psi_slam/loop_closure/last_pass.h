@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "psi_slam/base/degrees.h"
 #include "psi_slam/loop_closure/loop_record.h"
 #include "psi_slam/loop_closure/loop_verification.h"
 #include "psi_slam/loop_closure/place_memory.h"
@@ -17,7 +18,7 @@ namespace psi_slam {
 struct LastPassOptions {
   int passes = 2;  ///< each followed by an optimisation; 0 leaves the map as the last scan left it
   double window_m = 0.3;
-  double window_rad = 0.05;
+  double window_rad = radians_from_degrees(3.0L);
   double reach_m = 5.0;   ///< a local map is near when one of its nodes is at most this far
   double travel_m = 0.3;  ///< of the path, between two nodes that are matched with the same local map
 };

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "psi_slam/base/degrees.h"
 #include "psi_slam/loop_closure/place_memory.h"
 #include "psi_slam/matching/search_window.h"
 #include "psi_slam/pose_graph/pose_graph.h"
@@ -17,9 +18,9 @@
 namespace psi_slam {
 
 struct LoopCandidateOptions {
-  SearchExtent max_window = {8.0, 8.0, 0.5235987755982988};  ///< the paper's W: 8 m, 30 degrees
+  SearchExtent max_window = {8.0, 8.0, radians_from_degrees(30.0L)};  ///< the paper's W: 8 m, 30 degrees
   double min_window_m = 0.25;
-  double min_window_rad = 0.06;
+  double min_window_rad = radians_from_degrees(3.5L);
   double window_sigmas = 3.0;  ///< the window covers this many standard deviations of the prediction
   double reach_m = 5.0;  ///< a local map is near when one of its nodes is at most this far from the window
   double min_travel_m =

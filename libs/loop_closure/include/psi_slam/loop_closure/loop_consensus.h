@@ -11,15 +11,16 @@
 #include <cstddef>
 #include <vector>
 
+#include "psi_slam/base/degrees.h"
 #include "psi_slam/pose_graph/pose_graph.h"
 
 namespace psi_slam {
 
 struct LoopConsensusOptions {
-  double memory_m = 15.0;          ///< matches farther back along the path no longer count
-  double same_place_m = 0.5;       ///< matches agree when they put the robot this near to each other,
-  double same_heading_rad = 0.06;  ///< and turned by no more than this
-  double min_span_m = 1.0;         ///< of the path, between the first and the last match that agree
+  double memory_m = 15.0;     ///< matches farther back along the path no longer count
+  double same_place_m = 0.5;  ///< matches agree when they put the robot this near to each other,
+  double same_heading_rad = radians_from_degrees(3.5L);  ///< and turned by no more than this
+  double min_span_m = 1.0;  ///< of the path, between the first and the last match that agree
   double min_weight = 0.5;  ///< of those that agree together; a match weighs 1 - ambiguity, at least 0.05
   double max_rival_share = 0.5;  ///< of that weight, which any other place may have
 };

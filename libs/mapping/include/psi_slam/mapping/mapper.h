@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "psi_slam/base/degrees.h"
 #include "psi_slam/local_maps/front_end.h"
 #include "psi_slam/loop_closure/last_pass.h"
 #include "psi_slam/loop_closure/loop_closer.h"
@@ -30,9 +31,9 @@ struct MapperOptions {
   bool close_loops = true;
   double local_map_sigma_m =
       0.015;  ///< of a node's pose in a local map, on top of the front end's covariance
-  double local_map_sigma_rad = 0.004;
+  double local_map_sigma_rad = radians_from_degrees(0.25L);
   double loop_sigma_m = 0.02;  ///< of a loop, on top of its match's covariance
-  double loop_sigma_rad = 0.004;
+  double loop_sigma_rad = radians_from_degrees(0.25L);
   double max_loop_chi = 5.0;  ///< a loop that the finished graph contradicts by more standard deviations is
                               ///< switched off
 };

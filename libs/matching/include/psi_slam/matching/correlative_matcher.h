@@ -3,6 +3,7 @@
 // cell. Olson, "Real-time correlative scan matching", ICRA 2009.
 #pragma once
 
+#include "psi_slam/base/degrees.h"
 #include "psi_slam/matching/matcher.h"
 #include "psi_slam/matching/refinement.h"
 
@@ -11,8 +12,8 @@ namespace psi_slam {
 /// What is the same for every matcher: how a found pose is refined and judged.
 struct MatcherOptions {
   RefinementOptions refinement;
-  double distinct_m = 0.5;       ///< another peak is distinct when it lies this far away along x or y,
-  double distinct_rad = 0.175;   ///< or is turned by this much (10 degrees)
+  double distinct_m = 0.5;  ///< another peak is distinct when it lies this far away along x or y,
+  double distinct_rad = radians_from_degrees(10.0L);  ///< or is turned by this much
   double ambiguity_floor = 0.6;  ///< peaks below this share of the best response are not looked for
   double min_sigma_m = 0.005;    ///< bounds of the covariance's standard deviations
   double max_sigma_m = 2.0;

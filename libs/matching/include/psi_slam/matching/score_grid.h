@@ -71,6 +71,9 @@ class ScoreGrid {
   const ScoreLevel& finest() const { return finest_; }
   ScoreLevel& finest() { return finest_; }
 
+  /// The cells [x, x + width) x [y, y + height) alone, without a pyramid. They must lie inside.
+  ScoreGrid cropped(int x, int y, int width, int height) const;
+
   /// Builds the levels above the finest. To be called when the finest grid is final; a matcher that needs the
   /// pyramid refuses a grid without it.
   void build_pyramid();

@@ -75,8 +75,8 @@ TEST(BranchAndBound, equals_three_plain_loops) {
   std::mt19937_64 random(43);
   for (int trial = 0; trial < 50; ++trial) {
     const ScoreGrid grid = random_grid(random, 50, 50, 3);
-    const SearchLattice lattice(grid, random_points(random, 12, 1.0), {0, 0, 0},
-                                window_of_steps(9, 8, 4, 0.05));
+    const ScanPoints scan = random_points(random, 12, 1.0);
+    const SearchLattice lattice(grid, scan, {0, 0, 0}, window_of_steps(9, 8, 4, 0.05));
     const SearchOutcome outcome = branch_and_bound_search(lattice, 0);
     const std::optional<Candidate> expected = slow_search(lattice, 0);
     ASSERT_TRUE(same(outcome.best, expected)) << to_text(outcome.best) << ", not " << to_text(expected);
@@ -86,15 +86,16 @@ TEST(BranchAndBound, equals_three_plain_loops) {
 TEST(BranchAndBound, finds_nothing_when_all_is_excluded) {
   std::mt19937_64 random(44);
   const ScoreGrid grid = random_grid(random, 50, 50, 256);
-  const SearchLattice lattice(grid, random_points(random, 12, 1.0), {0, 0, 0},
-                              window_of_steps(9, 8, 4, 0.05));
+  const ScanPoints scan = random_points(random, 12, 1.0);
+  const SearchLattice lattice(grid, scan, {0, 0, 0}, window_of_steps(9, 8, 4, 0.05));
   EXPECT_FALSE(branch_and_bound_search(lattice, 0, ExcludedRegion{{0, 0, 0}, 10, 5}).best);
 }
 
 TEST(BranchAndBound, needs_the_pyramid) {
   std::mt19937_64 random(45);
   const ScoreGrid grid(0, 0, 0.05, 10, 10);
-  const SearchLattice lattice(grid, random_points(random, 3, 1.0), {0, 0, 0}, window_of_steps(1, 1, 1, 0.05));
+  const ScanPoints scan = random_points(random, 3, 1.0);
+  const SearchLattice lattice(grid, scan, {0, 0, 0}, window_of_steps(1, 1, 1, 0.05));
   EXPECT_THROW(branch_and_bound_search(lattice, 0), std::invalid_argument);
 }
 

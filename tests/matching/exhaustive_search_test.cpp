@@ -58,8 +58,8 @@ TEST(ExhaustiveSearch, leaves_out_the_excluded_region) {
 TEST(ExhaustiveSearch, finds_nothing_when_all_is_excluded) {
   std::mt19937_64 random(33);
   const ScoreGrid grid = random_grid(random, 20, 20, 256);
-  const SearchLattice lattice(grid, random_points(random, 10, 0.5), {0, 0, 0},
-                              window_of_steps(3, 3, 3, 0.05));
+  const ScanPoints scan = random_points(random, 10, 0.5);
+  const SearchLattice lattice(grid, scan, {0, 0, 0}, window_of_steps(3, 3, 3, 0.05));
   EXPECT_FALSE(exhaustive_search(lattice, 0, ExcludedRegion{{0, 0, 0}, 4, 4}).best);
   EXPECT_TRUE(exhaustive_search(lattice, 0, ExcludedRegion{{0, 0, 0}, 4, 3}).best);
 }
@@ -67,8 +67,8 @@ TEST(ExhaustiveSearch, finds_nothing_when_all_is_excluded) {
 TEST(ExhaustiveSearch, the_smallest_sum_is_reached_by_equality) {
   std::mt19937_64 random(34);
   const ScoreGrid grid = random_grid(random, 30, 30, 256);
-  const SearchLattice lattice(grid, random_points(random, 15, 0.5), {0, 0, 0},
-                              window_of_steps(5, 5, 5, 0.05));
+  const ScanPoints scan = random_points(random, 15, 0.5);
+  const SearchLattice lattice(grid, scan, {0, 0, 0}, window_of_steps(5, 5, 5, 0.05));
   const std::optional<Candidate> best = slow_search(lattice, 0);
   EXPECT_TRUE(same(exhaustive_search(lattice, best->sum).best, best));
   EXPECT_FALSE(exhaustive_search(lattice, best->sum + 1).best);
@@ -77,8 +77,8 @@ TEST(ExhaustiveSearch, the_smallest_sum_is_reached_by_equality) {
 TEST(ExhaustiveSearch, far_from_the_grid_the_centre_is_the_best_of_equals) {
   std::mt19937_64 random(35);
   const ScoreGrid grid = random_grid(random, 30, 30, 256);
-  const SearchLattice lattice(grid, random_points(random, 15, 0.5), {500, -700, 0},
-                              window_of_steps(5, 5, 5, 0.05));
+  const ScanPoints scan = random_points(random, 15, 0.5);
+  const SearchLattice lattice(grid, scan, {500, -700, 0}, window_of_steps(5, 5, 5, 0.05));
   const SearchOutcome outcome = exhaustive_search(lattice, 0);
   EXPECT_TRUE(same(outcome.best, Candidate{0, {0, 0, 0}})) << to_text(outcome.best);
   EXPECT_FALSE(exhaustive_search(lattice, 1).best);

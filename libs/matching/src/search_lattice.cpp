@@ -42,23 +42,30 @@ bool ExcludedRegion::contains(const LatticePose& pose) const {
 
 SearchLattice::SearchLattice(const ScoreGrid& grid, const ScanPoints& scan,
                              const mrpt::math::TPose2D& map_T_robot, const SearchWindow& window)
-    : grid_(&grid), window_(window), centre_(map_T_robot), points_(scan.points.size()) {
-  const double cells_per_m = 1 / grid.resolution_m();
-  const double x0 = (map_T_robot.x - grid.origin_x_m()) * cells_per_m;
-  const double y0 = (map_T_robot.y - grid.origin_y_m()) * cells_per_m;
-  cells_.resize(static_cast<std::size_t>(2 * window.n_theta + 1) * points_);
-  Cell* cell = cells_.data();
-  for (int k = -window.n_theta; k <= window.n_theta; ++k) {
-    const double theta = map_T_robot.phi + k * window.angular_step_rad;
-    const double c = std::cos(theta) * cells_per_m;
-    const double s = std::sin(theta) * cells_per_m;
-    for (const auto& point : scan.points) {
-      const double x = static_cast<double>(point.x);
-      const double y = static_cast<double>(point.y);
-      *cell++ = {static_cast<std::int32_t>(std::floor(x0 + c * x - s * y)),
-                 static_cast<std::int32_t>(std::floor(y0 + s * x + c * y))};
-    }
+    : grid_(&grid),
+      scan_(&scan),
+      window_(window),
+      centre_(map_T_robot),
+      points_(scan.points.size()),
+      cells_(new Cell[static_cast<std::size_t>(2 * window.n_theta + 1) * points_]),
+      turned_(static_cast<std::size_t>(2 * window.n_theta + 1), false) {}
+
+void SearchLattice::turn_scan(int theta) const {
+  const auto turn = static_cast<std::size_t>(theta + window_.n_theta);
+  const double cells_per_m = 1 / grid_->resolution_m();
+  const double x0 = (centre_.x - grid_->origin_x_m()) * cells_per_m;
+  const double y0 = (centre_.y - grid_->origin_y_m()) * cells_per_m;
+  const double heading = centre_.phi + theta * window_.angular_step_rad;
+  const double c = std::cos(heading) * cells_per_m;
+  const double s = std::sin(heading) * cells_per_m;
+  Cell* cell = cells_.get() + turn * points_;
+  for (const auto& point : scan_->points) {
+    const double x = static_cast<double>(point.x);
+    const double y = static_cast<double>(point.y);
+    *cell++ = {static_cast<std::int32_t>(std::floor(x0 + c * x - s * y)),
+               static_cast<std::int32_t>(std::floor(y0 + s * x + c * y))};
   }
+  turned_[turn] = true;
 }
 
 mrpt::math::TPose2D SearchLattice::pose(const LatticePose& steps) const {

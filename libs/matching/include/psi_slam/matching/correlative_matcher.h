@@ -3,31 +3,17 @@
 // cell. Olson, "Real-time correlative scan matching", ICRA 2009.
 #pragma once
 
-#include "psi_slam/base/degrees.h"
-#include "psi_slam/matching/matcher.h"
-#include "psi_slam/matching/refinement.h"
+#include "psi_slam/matching/window_matcher.h"
 
 namespace psi_slam {
 
-/// What is the same for every matcher: how a found pose is refined and judged.
-struct MatcherOptions {
-  RefinementOptions refinement;
-  double distinct_m = 0.5;  ///< another peak is distinct when it lies this far away along x or y,
-  double distinct_rad = radians_from_degrees(10.0L);  ///< or is turned by this much
-  double ambiguity_floor = 0.6;  ///< peaks below this share of the best response are not looked for
-  double min_sigma_m = 0.005;    ///< bounds of the covariance's standard deviations
-  double max_sigma_m = 2.0;
-};
-
-class CorrelativeMatcher : public Matcher {
+class CorrelativeMatcher : public WindowMatcher {
  public:
-  explicit CorrelativeMatcher(const MatcherOptions& options) : options_(options) {}
-
-  MatchResult match(const MatchProblem& problem) const override;
+  explicit CorrelativeMatcher(const MatcherOptions& options) : WindowMatcher(options) {}
   std::string name() const override { return "csm"; }
 
  private:
-  MatcherOptions options_;
+  FoundPeaks find_peaks(const SearchLattice& lattice, const PeakRequest& request) const override;
 };
 
 }  // namespace psi_slam

@@ -36,6 +36,13 @@ struct MatchProblem {
   MatchSeed seed = {};
 };
 
+/// What a genetic search did; all zero for the others.
+struct GeneticEffort {
+  int generations = 0;
+  std::int64_t decoded = 0;   ///< chromosomes that became poses
+  std::int64_t repaired = 0;  ///< of those, codes that lay outside the window
+};
+
 struct MatchResult {
   bool found = false;                ///< false: no pose of the window reaches min_response
   mrpt::math::TPose2D map_T_robot;   ///< refined below a cell
@@ -49,6 +56,7 @@ struct MatchResult {
   std::optional<double> ambiguity;
   SearchWindow window;           ///< as searched
   std::int64_t evaluations = 0;  ///< poses scored on any level of the grid
+  GeneticEffort genetic;
 };
 
 class Matcher {

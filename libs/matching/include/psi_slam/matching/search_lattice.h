@@ -6,6 +6,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "psi_slam/matching/scan_points.h"
@@ -47,8 +48,12 @@ struct ExcludedRegion {
 
 class SearchLattice {
  public:
+  /// Keeps references to the grid and the scan.
   SearchLattice(const ScoreGrid& grid, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot,
                 const SearchWindow& window);
+
+  SearchLattice(const ScoreGrid& grid, ScanPoints&& scan, const mrpt::math::TPose2D& map_T_robot,
+                const SearchWindow& window) = delete;
 
   const ScoreGrid& grid() const { return *grid_; }
   const SearchWindow& window() const { return window_; }
@@ -56,20 +61,27 @@ class SearchLattice {
   /// The largest possible sum: every point on a cell of probability 1.
   std::uint32_t goal_max() const { return static_cast<std::uint32_t>(255 * points_); }
 
-  /// The finest cells of all points, turned by `theta` steps and not shifted.
+  /// The finest cells of all points, turned by `theta` steps and not shifted. Computed when first asked for:
+  /// a lattice must not be shared between threads.
   const Cell* cells(int theta) const {
-    return cells_.data() + static_cast<std::size_t>(theta + window_.n_theta) * points_;
+    const auto turn = static_cast<std::size_t>(theta + window_.n_theta);
+    if (!turned_[turn]) turn_scan(theta);
+    return cells_.get() + turn * points_;
   }
   mrpt::math::TPose2D pose(const LatticePose& steps) const;
   /// R_v of equation 11.
   double response(std::uint32_t sum) const { return static_cast<double>(sum) / goal_max(); }
 
  private:
+  void turn_scan(int theta) const;
+
   const ScoreGrid* grid_;
+  const ScanPoints* scan_;
   SearchWindow window_;
   mrpt::math::TPose2D centre_;
   std::size_t points_;
-  std::vector<Cell> cells_;
+  mutable std::unique_ptr<Cell[]> cells_;  // left unwritten until turned
+  mutable std::vector<bool> turned_;
 };
 
 /// Sums of scores for a block of neighbouring shifts: scratch memory of one search, reused from block to

@@ -174,15 +174,16 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
   const double moved_m = node == 0 ? 0 : length_m(step.local_T_robot - last_node_local_T_robot_);
   last_node_local_T_robot_ = step.local_T_robot;
 
+  for (const PlacedLocalMap& active : active_)
+    step.memberships.push_back(
+        {active.id, active.anchor, step.local_T_robot - active.local_T_map, active.covariance});
+  if (unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 0) {  // this scan is another miss
+    end_local_maps(step, active_.size());
+    unmatched_travel_m_ = 0;
+  }
   for (PlacedLocalMap& active : active_) {
     active.last_node = node;
     active.travelled_m += moved_m;
-    step.memberships.push_back(
-        {active.id, active.anchor, step.local_T_robot - active.local_T_map, active.covariance});
-  }
-  if (unmatched_travel_m_ >= options_.max_unmatched_travel_m) {
-    end_local_maps(step, active_.size());
-    unmatched_travel_m_ = 0;
   }
   const auto share = [&](const PlacedLocalMap& active) {
     return std::max(static_cast<double>(active.last_node - active.first_node) /

@@ -117,7 +117,7 @@ void describe_local_maps(OptionTable& table, FrontEndOptions& front_end) {
       .number("travel_m", front_end.local_map_travel_m, above(0), "m",
               "or when the robot has travelled this far in it")
       .number("max_unmatched_travel_m", front_end.max_unmatched_travel_m, above(0), "m",
-              "all end when the robot has travelled this far without a match (a blind laser)");
+              "all end after two scans or more without a match and this much travel (a blind laser)");
 }
 
 void describe_loop_closure(OptionTable& table, Settings& settings) {

@@ -64,8 +64,8 @@ struct FrontEndOptions {
   std::size_t nodes_per_local_map =
       60;                            ///< a local map ends after these many, the next begins at half of them,
   double local_map_travel_m = 15.0;  ///< or when the robot has travelled this far in it
-  /// All local maps end when the robot has travelled this far without a match: what is drawn after such a
-  /// stretch is out of place by odometry's error, and would bend them.
+  /// All local maps end when at least two scans in a row were not matched and the robot has travelled this far
+  /// meanwhile: what is drawn after such a stretch is out of place by odometry's error, and would bend them.
   double max_unmatched_travel_m = 0.5;
 };
 
@@ -81,7 +81,8 @@ struct FrontEndStep {
 
   std::optional<std::size_t> node;  ///< set when the scan became a node: nodes count from 0
   /// The local maps it was inserted into, older first, with its pose in each; a map that begins with this
-  /// very node is not among them.
+  /// very node is not among them. A node without a match that ends the local maps is a member of them all the
+  /// same, so that the graph holds together, but its scan is not in them.
   struct Membership {
     std::size_t local_map;
     std::size_t anchor;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/matching/coarse_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "score_grids.h"
+#include "slow_search.h"
+
+namespace psi_slam {
+namespace {
+
+// The sum of a block by its definition: of each point, the largest score of the coarsest level's cell.
+std::uint32_t slow_block_sum(const SearchLattice& lattice, const Tile& cell) {
+  const ScoreLevel& level = lattice.grid().pyramid(1);
+  std::uint32_t sum = 0;
+  for (std::size_t p = 0; p < lattice.points(); ++p) {
+    const Cell at = lattice.cells(cell.theta)[p];
+    const auto divide = [&](int a) { return static_cast<int>(std::floor(a / 8.0)); };
+    const int x = divide(at.x + cell.first.x);
+    const int y = divide(at.y + cell.first.y);
+    if (level.inside(x, y)) sum += *level.cell(x, y);
+  }
+  return sum;
+}
+
+struct Problem {
+  std::mt19937_64 random{91};
+  ScoreGrid grid = random_grid(random, 120, 90, 8);
+  ScanPoints scan = random_points(random, 20, 1.0);
+  SearchLattice lattice{grid, scan, {1, 1, 0.4}, window_of_steps(21, 18, 7, 0.03)};
+};
+
+TEST(CoarseCells, are_all_there_in_the_order_of_their_sums) {
+  const Problem problem;
+  const CoarseCells coarse = rank_coarse_cells(problem.lattice, 4, 1'000'000, 0);
+  ASSERT_EQ(coarse.best.size(), 6U * 5U * 4U) << "43 x 37 shifts in blocks of 8, 15 headings in fours";
+  EXPECT_EQ(coarse.evaluations, 120);
+  for (std::size_t i = 1; i < coarse.best.size(); ++i)
+    EXPECT_GE(slow_block_sum(problem.lattice, coarse.best[i - 1]),
+              slow_block_sum(problem.lattice, coarse.best[i]));
+  // Together they cover the window: every shift in one block of every heading.
+  std::set<std::tuple<int, int, int>> shifts;
+  std::set<int> headings;
+  for (const Tile& cell : coarse.best) {
+    headings.insert(cell.theta);
+    for (int y = 0; y < cell.height; ++y)
+      for (int x = 0; x < cell.width; ++x)
+        EXPECT_TRUE(shifts.emplace(cell.theta, cell.first.x + x, cell.first.y + y).second);
+  }
+  EXPECT_EQ(headings, (std::set<int>{-5, -1, 3, 7}));
+  EXPECT_EQ(shifts.size(), 43U * 37U * 4U);
+}
+
+TEST(CoarseCells, the_best_are_the_best_of_all) {
+  const Problem problem;
+  const CoarseCells all = rank_coarse_cells(problem.lattice, 4, 1'000'000, 0);
+  const CoarseCells few = rank_coarse_cells(problem.lattice, 4, 9, 0);
+  ASSERT_EQ(few.best.size(), 9U);
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_EQ(few.best[i].theta, all.best[i].theta);
+    EXPECT_EQ(few.best[i].first.x, all.best[i].first.x);
+    EXPECT_EQ(few.best[i].first.y, all.best[i].first.y);
+  }
+}
+
+TEST(CoarseCells, below_the_smallest_sum_none_is_kept) {
+  const Problem problem;
+  const CoarseCells all = rank_coarse_cells(problem.lattice, 4, 1'000'000, 0);
+  const std::uint32_t middle = slow_block_sum(problem.lattice, all.best[all.best.size() / 2]);
+  const CoarseCells upper = rank_coarse_cells(problem.lattice, 4, 1'000'000, middle);
+  const auto reach = std::count_if(all.best.begin(), all.best.end(), [&](const Tile& cell) {
+    return slow_block_sum(problem.lattice, cell) >= middle;
+  });
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(upper.best.size()), reach);
+}
+
+// At its own heading, a cell's sum bounds its poses.
+TEST(CoarseCells, sums_bound_the_poses_of_their_cells) {
+  const Problem problem;
+  for (const Tile& cell : rank_coarse_cells(problem.lattice, 4, 20, 0).best)
+    for (int y = 0; y < cell.height; y += 3)
+      for (int x = 0; x < cell.width; x += 3)
+        EXPECT_LE(slow_sum(problem.lattice, {cell.first.x + x, cell.first.y + y, cell.theta}),
+                  slow_block_sum(problem.lattice, cell));
+}
+
+TEST(CoarseCells, need_the_pyramid) {
+  std::mt19937_64 random(92);
+  const ScoreGrid grid(0, 0, 0.05, 10, 10);
+  const ScanPoints scan = random_points(random, 3, 1.0);
+  const SearchLattice lattice(grid, scan, {0, 0, 0}, window_of_steps(1, 1, 1, 0.05));
+  EXPECT_THROW(rank_coarse_cells(lattice, 4, 10, 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace psi_slam

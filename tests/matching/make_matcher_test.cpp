@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What must hold of every matcher behind the one interface.
+#include "psi_slam/matching/make_matcher.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "score_grids.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+struct Kind {
+  MatcherKind kind;
+  GeneticVariant variant;
+  std::string name;
+};
+
+class EveryMatcher : public testing::TestWithParam<Kind> {
+ protected:
+  std::unique_ptr<Matcher> matcher(const MatcherOptions& options = {}) const {
+    GeneticOptions genetic;
+    genetic.variant = GetParam().variant;
+    return make_matcher(GetParam().kind, options, genetic);
+  }
+  SimulatedWalls walls = furnished_room();
+  ScoreGrid grid = grid_of(walls);
+};
+
+INSTANTIATE_TEST_SUITE_P(MakeMatcher, EveryMatcher,
+                         testing::Values(Kind{MatcherKind::kCsm, GeneticVariant::kMemetic, "csm"},
+                                         Kind{MatcherKind::kCsmGa, GeneticVariant::kMemetic, "csm_ga"},
+                                         Kind{MatcherKind::kGa, GeneticVariant::kMemetic, "ga"},
+                                         Kind{MatcherKind::kGa, GeneticVariant::kPaper, "ga_paper"}),
+                         [](const auto& kind) { return kind.param.name; });
+
+TEST_P(EveryMatcher, has_its_name) {
+  EXPECT_EQ(matcher()->name(), name(GetParam().kind));
+  EXPECT_EQ(GetParam().name.rfind(matcher()->name(), 0), 0U);
+}
+
+TEST_P(EveryMatcher, finds_random_poses) {
+  std::mt19937_64 random(121);
+  std::uniform_real_distribution<double> x(2.0, 6.0);
+  std::uniform_real_distribution<double> y(1.5, 4.0);
+  std::uniform_real_distribution<double> heading(-M_PI, M_PI);
+  std::uniform_real_distribution<double> share(-0.7, 0.7);
+  const int trials = 30;
+  int found = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const TPose2D truth(x(random), y(random), heading(random));
+    const ScanPoints scan = scan_of(walls, truth, 180, 0.01, random);
+    const double half_m = trial % 2 == 0 ? 0.4 : 3.0;
+    const TPose2D predicted(truth.x + share(random) * half_m, truth.y + share(random) * half_m,
+                            truth.phi + share(random) * 0.4);
+    MatchProblem problem{grid, scan, predicted, {half_m, half_m, 0.4}};
+    problem.seed = {1, static_cast<std::uint64_t>(trial), 2};
+    const MatchResult match = matcher()->match(problem);
+    ASSERT_TRUE(match.found);
+    const TPose2D off = match.map_T_robot - truth;
+    if (std::hypot(off.x, off.y) < 0.01 && std::abs(mrpt::math::wrapToPi(off.phi)) < 0.005) ++found;
+  }
+  EXPECT_GE(found, GetParam().variant == GeneticVariant::kPaper ? trials / 2 : trials);
+}
+
+TEST_P(EveryMatcher, states_a_response_that_its_pose_has_and_a_covariance) {
+  std::mt19937_64 random(122);
+  const ScanPoints scan = scan_of(walls, {4, 3, 0.3}, 120, 0.01, random);
+  MatchProblem problem{grid, scan, {4.5, 2.6, 0.2}, {2, 2, 0.4}};
+  problem.measure_ambiguity = true;
+  const MatchResult match = matcher()->match(problem);
+  ASSERT_TRUE(match.found);
+  const RefinedPose at_lattice = [&] {
+    RefinementOptions as_it_is;
+    as_it_is.max_iterations = 0;
+    return refine(grid, scan, match.lattice_pose, as_it_is);
+  }();
+  EXPECT_NEAR(match.response, at_lattice.mean_score, 0.1) << "of cells, and interpolated";
+  EXPECT_GE(match.refined_response, at_lattice.mean_score);
+  EXPECT_GT(match.covariance(0, 0), 0);
+  EXPECT_GT(match.information(2, 2), 0);
+  ASSERT_TRUE(match.ambiguity);
+  EXPECT_GE(*match.ambiguity, 0);
+  EXPECT_LE(*match.ambiguity, 1);
+  EXPECT_GT(match.evaluations, 0);
+  EXPECT_EQ(match.genetic.decoded > 0, GetParam().kind != MatcherKind::kCsm);
+}
+
+TEST_P(EveryMatcher, finds_nothing_where_nothing_fits) {
+  std::mt19937_64 random(123);
+  const ScanPoints scan = scan_of(walls, {4, 3, 0.3}, 120, 0.01, random);
+  MatchProblem problem{grid, scan, {400, 3, 0.3}, {2, 2, 0.4}};
+  problem.min_response = 0.4;
+  const MatchResult match = matcher()->match(problem);
+  EXPECT_FALSE(match.found);
+  EXPECT_EQ(match.response, 0);
+}
+
+TEST_P(EveryMatcher, gives_the_same_on_any_thread) {
+  std::mt19937_64 random(124);
+  const ScanPoints scan = scan_of(walls, {4, 3, 0.3}, 120, 0.01, random);
+  MatchProblem problem{grid, scan, {4.5, 2.6, 0.2}, {2, 2, 0.4}};
+  problem.seed = {1, 2, 3};
+  const auto shared = matcher();
+  const MatchResult expected = shared->match(problem);
+  std::vector<MatchResult> results(4);
+  std::vector<std::thread> threads;
+  for (MatchResult& result : results) threads.emplace_back([&] { result = shared->match(problem); });
+  for (std::thread& thread : threads) thread.join();
+  for (const MatchResult& result : results) {
+    EXPECT_EQ(result.map_T_robot, expected.map_T_robot);
+    EXPECT_EQ(result.response, expected.response);
+    EXPECT_EQ(result.evaluations, expected.evaluations);
+  }
+}
+
+TEST_P(EveryMatcher, refuses_a_degenerate_window) {
+  std::mt19937_64 random(125);
+  const ScanPoints scan = scan_of(walls, {4, 3, 0.3}, 120, 0.01, random);
+  EXPECT_THROW(matcher()->match({grid, scan, {4, 3, 0}, {0, 1, 0.1}}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace psi_slam

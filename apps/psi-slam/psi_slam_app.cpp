@@ -87,9 +87,11 @@ int map(const CommandLine& line, const Streams& streams) {
     streams.out << summary_json(session.result(), info, summary);
   else if (!line.quiet)
     streams.out << closing_text(summary, info.log_name, folder);
+  if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
+    streams.err << "psi-slam: " << skipped.sentence() << '\n';
   if (!session.broken_off()) return kDone;
   streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
-              << session.result().frames.size() << " scans before it\n";
+              << session.result().frames.size() << " scans that could be read\n";
   return kWrongUsageOrInput;
 }
 

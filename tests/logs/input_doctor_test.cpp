@@ -219,6 +219,15 @@ TEST_F(InputDoctorTest, knows_repeated_scans) {
   EXPECT_THAT(finding_of(diagnosis, "repeated_scans").sentence, testing::StartsWith("1 scan repeat"));
 }
 
+TEST_F(InputDoctorTest, tells_of_lines_that_do_not_parse) {
+  const std::string log = carmen_log(round_trips(1));
+  const LogDiagnosis diagnosis = diagnose_text("FLASER 3 1.0\n" + log);
+  EXPECT_EQ(diagnosis.facts.skipped.count, 1U);
+  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty()) << "one line is no harm";
+  EXPECT_THAT(finding_of(diagnosis, "skipped_lines").sentence,
+              testing::AllOf(testing::StartsWith("1 line of the log"), testing::HasSubstr(":1: FLASER")));
+}
+
 TEST_F(InputDoctorTest, reads_rawlogs_too) {
   const SimulatedRun run = round_trips(1);
   RawlogObjects objects;

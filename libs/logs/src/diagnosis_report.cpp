@@ -86,6 +86,7 @@ Json facts_json(const LogFacts& facts) {
             {"ceiling_m", ranges.ceiling_m}}},
           {"scans_with_two_poses", facts.scans_with_two_poses},
           {"messages", facts.messages},
+          {"skipped_lines", facts.skipped.count},
           {"scans_of_other_lasers", facts.other_lasers}};
 }
 

@@ -49,6 +49,7 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
     const CarmenStatistics& statistics = log.statistics();
     pass.facts.laser = statistics.laser_message;
     pass.facts.messages = statistics.messages;
+    pass.facts.skipped = statistics.skipped;
     pass.facts.scans_with_two_poses = statistics.scans_with_two_poses;
     pass.states_beam_angles = statistics.laser_message != "FLASER" && statistics.laser_message != "RLASER";
   } else {

@@ -11,6 +11,7 @@
 
 #include "psi_slam/base/time_stamp.h"
 #include "psi_slam/logs/frame.h"
+#include "psi_slam/logs/skipped_lines.h"
 
 namespace psi_slam {
 
@@ -62,6 +63,7 @@ struct LogFacts {
   RangeFacts ranges;
   std::size_t scans_with_two_poses = 0;         ///< CARMEN: whose line has another pose beside its odometry
   std::map<std::string, std::size_t> messages;  ///< CARMEN: lines of each kind
+  SkippedLines skipped;                         ///< CARMEN: lines that do not parse
   std::map<std::string, std::size_t> other_lasers;  ///< rawlog: scans by sensor label
 };
 

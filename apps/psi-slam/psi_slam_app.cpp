@@ -118,7 +118,11 @@ int run(const CommandLine& line, const Streams& streams) {
     case CommandLine::Command::kCheck: {
       BoundSettings bound;
       load(line, bound);
-      check_log(line.log, log_options(bound.settings), line.json, streams.out);
+      const std::string broken_off = check_log(line.log, log_options(bound.settings), line.json, streams.out);
+      if (!broken_off.empty()) {
+        streams.err << "psi-slam: " << broken_off << '\n';
+        code = kWrongUsageOrInput;
+      }
       break;
     }
     case CommandLine::Command::kOptions:

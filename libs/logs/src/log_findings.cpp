@@ -65,6 +65,12 @@ class Judge {
   }
 
   void judge_reading() {
+    if (!facts_.broken_off.empty()) {
+      warn("broken_off",
+           facts_.broken_off + "; all else is said of the " + counted(facts_.scans, "scan") +
+               " that could be read",
+           "fetch the log again, or map what there is");
+    }
     if (facts_.skipped.count > 0) note("skipped_lines", facts_.skipped.sentence());
   }
 

@@ -50,8 +50,9 @@ struct RangeFacts {
 };
 
 struct LogFacts {
-  std::string format;  ///< "CARMEN", "MRPT rawlog"
-  std::string laser;   ///< the message or the sensor's label that the scans come from
+  std::string broken_off;  ///< what is wrong behind the last readable scan, a sentence; empty in a whole log
+  std::string format;      ///< "CARMEN", "MRPT rawlog"
+  std::string laser;       ///< the message or the sensor's label that the scans come from
   std::size_t scans = 0;
   std::size_t beams = 0;  ///< of the first scan
   double first_bearing_rad = 0;

@@ -77,8 +77,9 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   app.add_flag("--dump-config", dump_config, "Print a settings file with all options, and exit");
   app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version, and exit");
 
-  CLI::App* const check =
-      app.add_subcommand("check", "Tell what a log holds and what looks wrong, with the remedy");
+  CLI::App* const check = app.add_subcommand(
+      "check",
+      "Tell what a log holds and what looks wrong, with the remedy (exit code 2 when the log breaks off)");
   std::string log_to_check;
   check->add_option("LOG", log_to_check, "Log to look over")->type_name("");
   add_settings(*check, line);

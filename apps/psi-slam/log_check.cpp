@@ -9,14 +9,16 @@
 
 namespace psi_slam {
 
-void check_log(const std::filesystem::path& log, const LogOptions& options, bool as_json, std::ostream& out) {
+std::string check_log(const std::filesystem::path& log, const LogOptions& options, bool as_json,
+                      std::ostream& out) {
   const LogDiagnosis diagnosis = diagnose(log, options);
   if (as_json) {
     using Json = nlohmann::ordered_json;
     out << to_json(diagnosis).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
-    return;
+  } else {
+    for (const std::string& line : describe(diagnosis)) out << line << '\n';
   }
-  for (const std::string& line : describe(diagnosis)) out << line << '\n';
+  return diagnosis.facts.broken_off;
 }
 
 }  // namespace psi_slam

@@ -87,9 +87,11 @@ int map(const CommandLine& line, const Streams& streams) {
     streams.out << summary_json(session.result(), info, summary);
   else if (!line.quiet)
     streams.out << closing_text(summary, info.log_name, folder);
+  if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
+    streams.err << "psi-slam: " << skipped.sentence() << '\n';
   if (!session.broken_off()) return kDone;
   streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
-              << session.result().frames.size() << " scans before it\n";
+              << session.result().frames.size() << " scans that could be read\n";
   return kWrongUsageOrInput;
 }
 
@@ -116,7 +118,11 @@ int run(const CommandLine& line, const Streams& streams) {
     case CommandLine::Command::kCheck: {
       BoundSettings bound;
       load(line, bound);
-      check_log(line.log, log_options(bound.settings), line.json, streams.out);
+      const std::string broken_off = check_log(line.log, log_options(bound.settings), line.json, streams.out);
+      if (!broken_off.empty()) {
+        streams.err << "psi-slam: " << broken_off << '\n';
+        code = kWrongUsageOrInput;
+      }
       break;
     }
     case CommandLine::Command::kOptions:

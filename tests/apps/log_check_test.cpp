@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "../session/room_log.h"
@@ -12,7 +13,9 @@
 namespace psi_slam {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::StartsWith;
 using Json = nlohmann::json;
 
 class LogCheck : public testing::Test {
@@ -41,6 +44,14 @@ TEST_F(LogCheck, judges_by_the_settings) {
   const Json facts = Json::parse(run.out)["facts"];
   EXPECT_EQ(facts["ranges"]["max_range_m"], 2.5);
   EXPECT_EQ(facts["robot_T_laser"]["x_m"], 0.3);
+}
+
+TEST_F(LogCheck, a_log_that_breaks_off_is_told_of_up_to_there_and_is_wrong_input) {
+  std::ofstream(log_, std::ios::app) << "FLASER 181 1.0";
+  const AppRun run = run_app({"check", log_});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.out, AllOf(HasSubstr("60 scans by FLASER"), HasSubstr("the file is cut off in this line")));
+  EXPECT_THAT(run.err, AllOf(StartsWith("psi-slam: "), HasSubstr("room.log:61: FLASER: ")));
 }
 
 TEST_F(LogCheck, what_cannot_be_read_is_the_users_mistake) {

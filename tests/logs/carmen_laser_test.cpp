@@ -135,6 +135,7 @@ TEST_F(CarmenLaserTest, refuses_parameters_that_make_no_sense) {
   EXPECT_THROW(give_parameter(laser, "laser_front_laser_resolution -1"), UserError);
   EXPECT_THROW(give_parameter(laser, "robot_frontlaser_offset here"), UserError);
   EXPECT_NO_THROW(give_parameter(laser, "robot_name some text"));
+  EXPECT_EQ(scan(laser, 180).max_range_m, 50.0F) << "the bad values have changed nothing";
 }
 
 TEST_F(CarmenLaserTest, knows_which_messages_a_laser_has) {

@@ -57,6 +57,10 @@ TEST_F(CarmenMountTest, is_unknown_when_the_laser_pose_was_corrected) {
   EXPECT_FALSE(mount_in(log_with_drift({0.3, 0, 0}, {0, 0, 0.001})));
 }
 
+TEST_F(CarmenMountTest, passes_over_lines_that_do_not_parse) {
+  EXPECT_TRUE(mount_in("ROBOTLASER1 garbled\n" + log_with_drift({0.3, -0.1, 0.2}, {})));
+}
+
 TEST_F(CarmenMountTest, is_unknown_without_such_lines) {
   EXPECT_FALSE(mount_in("FLASER 1 1.0 0 0 0 0 0 0 1.0 host 1\n"));
 }

@@ -190,11 +190,80 @@ TEST_F(CarmenReaderTest, says_when_scans_are_missing) {
   EXPECT_THAT(sentence_about("# nothing\n"), testing::EndsWith("found no message at all"));
 }
 
+TEST_F(CarmenReaderTest, leaves_out_a_line_that_does_not_parse_and_keeps_its_place) {
+  const std::string good = flaser("FLASER", "0 0 0", "1 0 0", "1");
+  const auto frames = read(good + "\nFLASER 181 1.0 abc\n" + flaser("FLASER", "0 0 0", "2 0 0", "2"));
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[1].index, 1U);
+  EXPECT_EQ(frames[1].odom_T_robot.x, 2);
+  EXPECT_EQ(statistics_.skipped.count, 1U);
+  EXPECT_EQ(statistics_.skipped.first,
+            path_.string() + ":3: FLASER: found \"abc\", expected reading 2 of 181 in metres");
+  EXPECT_EQ(read("FLASER x\n" + good).size(), 1U) << "the first line may be it, too";
+}
+
+TEST_F(CarmenReaderTest, leaves_out_odometry_and_parameters_that_do_not_parse) {
+  std::string log = "PARAM robot_front_laser_max 0 host 1\n" + odom("1 0 0", "1") + "ODOM 1.5 2 3\n";
+  for (int i = 0; i < 200; ++i) log += rawlaser("RAWLASER1", "1.5");
+  const auto frames = read(log + odom("2 0 0", "2"));
+  ASSERT_EQ(frames.size(), 200U);
+  EXPECT_EQ(frames[0].odom_T_robot.x, 1.5);
+  EXPECT_EQ(frames[0].scan.max_range_m, 30);
+  EXPECT_EQ(statistics_.skipped.count, 2U);
+  EXPECT_THAT(statistics_.skipped.first, testing::StartsWith(path_.string() + ":1: PARAM: "));
+}
+
+TEST_F(CarmenReaderTest, does_not_read_odometry_that_scans_bring_along) {
+  EXPECT_EQ(read(flaser("FLASER", "0 0 0", "0 0 0", "1") + "ODOM 1 2 3\nODOM\n").size(), 1U);
+  EXPECT_EQ(statistics_.skipped.count, 0U);
+}
+
+TEST_F(CarmenReaderTest, a_scan_survives_an_early_parameter_that_does_not_parse) {
+  std::string log =
+      "PARAM robot_frontlaser_offset here host 1\nPARAM robot_frontlaser_side_offset 0.2 host 1\n";
+  for (int i = 0; i < 600; ++i) log += "SYNC\n";
+  const auto frames = read(log + flaser("FLASER", "0 0 0", "0 0 0", "1"));
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].scan.robot_T_laser.y, 0.2) << "the parameter behind the bad one counts";
+  EXPECT_EQ(statistics_.skipped.count, 1U);
+}
+
+TEST_F(CarmenReaderTest, tells_the_mount_in_spite_of_a_line_that_does_not_parse) {
+  const auto frames =
+      read(robotlaser("1.2 0 0", "1 0 0", "1") + "ROBOTLASER1 x\n" + robotlaser("2.2 0 0", "2 0 0", "2"));
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_NEAR(frames[0].scan.robot_T_laser.x, 0.2, 1e-12);
+}
+
+TEST_F(CarmenReaderTest, gives_up_when_more_than_one_line_in_a_hundred_does_not_parse) {
+  const std::string good = flaser("FLASER", "0 0 0", "0 0 0", "1");
+  const auto log_of = [&](int good_lines, int bad_lines) {
+    std::string log;
+    for (int i = 0; i < bad_lines; ++i) log += good + "FLASER 181 1.0\n";
+    for (int i = bad_lines; i < good_lines; ++i) log += good;
+    return log;
+  };
+  EXPECT_EQ(read(log_of(297, 3)).size(), 297U);
+  EXPECT_EQ(sentence_about(log_of(296, 3)),
+            path_.string() +
+                " is damaged: 3 of its first 299 messages do not parse, expected at most 1 %; the first is " +
+                path_.string() + ":2: FLASER: the line ends, expected reading 2 of 181 in metres");
+  write_file(path_, log_of(150, 150));
+  CarmenReader reader(path_, {});
+  int frames = 0;
+  EXPECT_THAT(sentence_of([&] {
+                while (reader.next()) ++frames;
+              }),
+              testing::HasSubstr("101 of its first 202 messages"))
+      << "a hopeless log is not read to its end";
+  EXPECT_EQ(frames, 101);
+}
+
 TEST_F(CarmenReaderTest, names_file_and_line_of_what_is_malformed) {
   const std::string good = flaser("FLASER", "0 0 0", "0 0 0", "1");
-  EXPECT_EQ(sentence_about(good + "\nFLASER 181 1.0 abc\n"),
-            path_.string() + ":3: FLASER: found \"abc\", expected reading 2 of 181 in metres");
-  EXPECT_EQ(sentence_about(good + "ODOM 1 2 3\n"),
+  EXPECT_EQ(sentence_about("\nFLASER 181 1.0 abc\n"),
+            path_.string() + ":2: FLASER: found \"abc\", expected reading 2 of 181 in metres");
+  EXPECT_EQ(sentence_about(rawlaser("RAWLASER1", "1") + "ODOM 1 2 3\n"),
             path_.string() + ":2: ODOM: the line ends, expected tv, a number");
   const std::string cut = good + good.substr(0, good.size() / 2);
   EXPECT_THAT(sentence_about(cut),
@@ -202,8 +271,8 @@ TEST_F(CarmenReaderTest, names_file_and_line_of_what_is_malformed) {
                                   ":2: FLASER: the file is cut off in this line, expected reading "));
 }
 
-TEST_F(CarmenReaderTest, gives_the_frames_before_a_malformed_line) {
-  write_file(path_, flaser("FLASER", "0 0 0", "1 0 0", "1") + "FLASER x\n");
+TEST_F(CarmenReaderTest, gives_the_frames_before_the_line_that_is_cut_off) {
+  write_file(path_, flaser("FLASER", "0 0 0", "1 0 0", "1") + "FLASER 181");
   CarmenReader reader(path_, {});
   EXPECT_TRUE(reader.next());
   EXPECT_THROW(reader.next(), UserError);

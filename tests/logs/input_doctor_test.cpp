@@ -219,6 +219,15 @@ TEST_F(InputDoctorTest, knows_repeated_scans) {
   EXPECT_THAT(finding_of(diagnosis, "repeated_scans").sentence, testing::StartsWith("1 scan repeat"));
 }
 
+TEST_F(InputDoctorTest, tells_of_lines_that_do_not_parse) {
+  const std::string log = carmen_log(round_trips(1));
+  const LogDiagnosis diagnosis = diagnose_text("FLASER 3 1.0\n" + log);
+  EXPECT_EQ(diagnosis.facts.skipped.count, 1U);
+  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty()) << "one line is no harm";
+  EXPECT_THAT(finding_of(diagnosis, "skipped_lines").sentence,
+              testing::AllOf(testing::StartsWith("1 line of the log"), testing::HasSubstr(":1: FLASER")));
+}
+
 TEST_F(InputDoctorTest, reads_rawlogs_too) {
   const SimulatedRun run = round_trips(1);
   RawlogObjects objects;
@@ -247,6 +256,22 @@ TEST_F(InputDoctorTest, diagnoses_logs_of_one_scan_or_two) {
     EXPECT_EQ(diagnosis.facts.scans, steps + 1);
     EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
   }
+}
+
+TEST_F(InputDoctorTest, judges_a_log_that_breaks_off_up_to_there) {
+  std::string log = carmen_log(round_trips(1));
+  const LogDiagnosis whole = diagnose_text(log);
+  EXPECT_EQ(whole.facts.broken_off, "");
+  const LogDiagnosis diagnosis = diagnose_text(log + "FLASER 181 1.0");
+  EXPECT_EQ(diagnosis.facts.scans, whole.facts.scans);
+  EXPECT_TRUE(diagnosis.odometry_is_sound);
+  EXPECT_THAT(diagnosis.facts.broken_off, testing::HasSubstr("the file is cut off in this line"));
+  ASSERT_THAT(warnings_of(diagnosis), testing::ElementsAre("broken_off"));
+  EXPECT_EQ(diagnosis.findings.front().code, "broken_off");
+  EXPECT_THAT(
+      diagnosis.findings.front().sentence,
+      testing::AllOf(testing::StartsWith(diagnosis.facts.broken_off),
+                     testing::EndsWith(std::to_string(whole.facts.scans) + " scans that could be read")));
 }
 
 TEST_F(InputDoctorTest, passes_the_sentence_of_a_log_that_cannot_be_read) {

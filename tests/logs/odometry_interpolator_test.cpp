@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace psi_slam {
 namespace {
@@ -67,6 +68,60 @@ TEST(OdometryInterpolator, keeps_the_order_of_scans_whose_time_runs_backwards) {
   interpolator.add_odometry(200, {2, 0, 0});
   EXPECT_DOUBLE_EQ(interpolator.take()->odom_T_robot.x, 1.5);
   EXPECT_DOUBLE_EQ(interpolator.take()->odom_T_robot.x, 0.5);
+}
+
+constexpr TimeUs kSecond = 1'000'000;
+
+std::vector<double> poses_taken(OdometryInterpolator& interpolator) {
+  std::vector<double> poses;
+  while (const auto frame = interpolator.take()) poses.push_back(frame->odom_T_robot.x);
+  return poses;
+}
+
+TEST(OdometryInterpolator, follows_a_clock_that_is_set_back) {
+  for (const TimeUs step : {-3600 * kSecond, -5 * kSecond}) {
+    SCOPED_TRACE(step);
+    OdometryInterpolator interpolator;
+    for (int i = 0; i <= 100; ++i) interpolator.add_odometry(i * kSecond, {1.0 * i, 0, 0});
+    interpolator.add_scan(scan_at(100 * kSecond + kSecond / 4));         // of the old clock, the last
+    interpolator.add_scan(scan_at(100 * kSecond + kSecond / 2 + step));  // of the new clock, the first
+    interpolator.add_scan(scan_at(100 * kSecond + 3 * kSecond / 4 + step));
+    EXPECT_FALSE(interpolator.take()) << "odometry has not told of the new clock yet";
+    interpolator.add_odometry(101 * kSecond + step, {101, 0, 0});
+    EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{100, 101, 101}));
+    interpolator.add_scan(scan_at(101 * kSecond + kSecond / 2 + step));
+    EXPECT_FALSE(interpolator.take());
+    interpolator.add_odometry(102 * kSecond + step, {102, 0, 0});
+    EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{101.5}));
+  }
+}
+
+TEST(OdometryInterpolator, a_scan_between_old_and_new_time_waits_even_as_the_first) {
+  OdometryInterpolator interpolator;
+  for (int i = 3600; i <= 3700; ++i) interpolator.add_odometry(i * kSecond, {1.0 * i, 0, 0});
+  interpolator.add_scan(scan_at(100 * kSecond));
+  EXPECT_FALSE(interpolator.take());
+  interpolator.add_odometry(101 * kSecond, {3701, 0, 0});
+  EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{3701}));
+}
+
+TEST(OdometryInterpolator, what_waits_for_the_old_clock_does_not_wait_for_the_new) {
+  OdometryInterpolator interpolator;
+  interpolator.add_odometry(3600 * kSecond, {1, 0, 0});
+  interpolator.add_scan(scan_at(3605 * kSecond));
+  interpolator.add_odometry(3601 * kSecond, {2, 0, 0});
+  EXPECT_FALSE(interpolator.take());
+  interpolator.add_odometry(0, {3, 0, 0});
+  EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{2}));
+}
+
+TEST(OdometryInterpolator, a_scan_of_no_known_time_gets_a_neighbour_in_the_log) {
+  OdometryInterpolator interpolator;
+  for (int i = 1000; i <= 1100; ++i) {
+    interpolator.add_odometry(i * kSecond, {1.0 * i, 0, 0});
+    if (i == 1050) interpolator.add_scan(scan_at(7 * kSecond));
+  }
+  EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{1050})) << "not the oldest message of all";
 }
 
 TEST(OdometryInterpolator, does_not_wait_forever_when_odometry_has_stopped) {

@@ -25,10 +25,11 @@ RunSummary some_figures() {
 
 TEST(SummaryJson, reads_back_with_its_schema_and_figures) {
   const MappingResult result = walk_around_the_room();
-  const RunInfo info{"0.1.0", "room \"1\".clf", {{"front_end.window_x_m", "0.3"}}};
+  const RunInfo info{"0.1.0", "room \"1\".clf", {{"front_end.window_x_m", "0.3"}}, {"a line is odd"}};
   const auto json = nlohmann::json::parse(summary_json(result, info, some_figures()));
   EXPECT_EQ(json["schema"], "psi-slam-summary");
   EXPECT_EQ(json["schema_version"], kSummarySchemaVersion);
+  EXPECT_EQ(json["warnings"], nlohmann::json::array({"a line is odd"}));
   EXPECT_EQ(json["program_version"], "0.1.0");
   EXPECT_EQ(json["log"]["name"], "room \"1\".clf");
   EXPECT_EQ(json["log"]["scans"], 50);

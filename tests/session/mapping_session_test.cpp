@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <functional>
 
 #include "psi_slam/base/user_error.h"
@@ -113,8 +114,10 @@ TEST_F(MappingSessionTest, tells_how_far_it_is) {
 
 TEST_F(MappingSessionTest, maps_a_log_up_to_where_it_breaks_off) {
   auto lines = room_log_lines(60);
-  lines[40] = "FLASER 181 1.0 2.0";
-  MappingSession session(log(lines), settings_);
+  lines.resize(40);
+  const auto path = log(lines);
+  std::ofstream(path, std::ios::app) << "FLASER 181 1.0 2.0";
+  MappingSession session(path, settings_);
   session.run(go_on_);
   ASSERT_TRUE(session.broken_off().has_value());
   EXPECT_THAT(*session.broken_off(), HasSubstr("room.log:41"));
@@ -122,9 +125,24 @@ TEST_F(MappingSessionTest, maps_a_log_up_to_where_it_breaks_off) {
   EXPECT_EQ(session.result().frames.size(), 40U);
 }
 
-TEST_F(MappingSessionTest, refuses_a_log_whose_first_scan_is_broken) {
+TEST_F(MappingSessionTest, maps_a_log_without_the_line_that_does_not_parse_and_says_so) {
+  auto lines = room_log_lines(60);
+  lines[40] = "FLASER 181 1.0 2.0";
+  for (const int threads : {1, 2}) {
+    settings_.run.threads = threads;
+    MappingSession session(log(lines), settings_);
+    session.run(go_on_);
+    EXPECT_FALSE(session.broken_off().has_value());
+    EXPECT_FALSE(session.result().interrupted);
+    EXPECT_EQ(session.result().frames.size(), 59U);
+    EXPECT_EQ(session.skipped_lines().count, 1U);
+    EXPECT_THAT(session.run_info().warnings, ElementsAre(HasSubstr("room.log:41")));
+  }
+}
+
+TEST_F(MappingSessionTest, refuses_a_log_of_broken_scans) {
   auto lines = room_log_lines(5);
-  lines[0] = "FLASER 181 1.0 2.0";
+  for (std::string& line : lines) line = "FLASER 181 1.0 2.0";
   const auto path = log(lines);
   EXPECT_THAT(sentence_of([&] { MappingSession(path, settings_).run(go_on_); }), HasSubstr("room.log:1:"));
 }

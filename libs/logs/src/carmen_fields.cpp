@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "psi_slam/base/user_error.h"
-
 namespace psi_slam {
 namespace {
 
@@ -42,7 +40,7 @@ std::string_view CarmenFields::next_field() {
 }
 
 void CarmenFields::fail(const std::string& found_and_expected) const {
-  throw UserError(lines_.place() + ": " + std::string(message_) + ": " + found_and_expected);
+  throw MalformedLine(lines_.place() + ": " + std::string(message_) + ": " + found_and_expected);
 }
 
 void CarmenFields::fail_field(std::string_view field, const std::string& expected) const {

@@ -54,11 +54,13 @@ void CarmenLaser::take_parameter(CarmenFields& fields) {
   } else if (name == mount + "angular_offset") {
     angular_offset_rad_ = fields.number("the laser's angular offset in radians");
   } else if (name == "robot_" + position_ + "_laser_max") {
-    stated_max_range_m_ = fields.number("the laser's maximum range in metres");
-    if (*stated_max_range_m_ <= 0) fields.fail("the laser's maximum range is not positive, expected metres");
+    const double max_range_m = fields.number("the laser's maximum range in metres");
+    if (max_range_m <= 0) fields.fail("the laser's maximum range is not positive, expected metres");
+    stated_max_range_m_ = max_range_m;
   } else if (name == "laser_" + position_ + "_laser_resolution") {
-    stated_resolution_rad_ = mrpt::DEG2RAD(fields.number("the laser's resolution in degrees"));
-    if (*stated_resolution_rad_ <= 0) fields.fail("the laser's resolution is not positive, expected degrees");
+    const double resolution_deg = fields.number("the laser's resolution in degrees");
+    if (resolution_deg <= 0) fields.fail("the laser's resolution is not positive, expected degrees");
+    stated_resolution_rad_ = mrpt::DEG2RAD(resolution_deg);
   }
 }
 

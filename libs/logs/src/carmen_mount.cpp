@@ -21,6 +21,14 @@ bool same_mount(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b) {
          std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= kSameMount_rad;
 }
 
+std::optional<CarmenLaserMessage> readable_robotlaser(CarmenFields& fields) {
+  try {
+    return read_robotlaser(fields);
+  } catch (const MalformedLine&) {  // whoever reads the log tells of it
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const std::filesystem::path& path,
@@ -34,15 +42,16 @@ std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const std::filesystem::pa
   while (path_m < kEnoughPath_m && turn_rad < kEnoughTurn_rad && lines.next(line)) {
     CarmenFields fields(line, lines);
     if (fields.message() != message) continue;
-    const CarmenLaserMessage laser = read_robotlaser(fields);
-    const mrpt::math::TPose2D robot_T_laser = laser.odom_T_laser - laser.odom_T_robot;
+    const auto laser = readable_robotlaser(fields);
+    if (!laser) continue;
+    const mrpt::math::TPose2D robot_T_laser = laser->odom_T_laser - laser->odom_T_robot;
     if (mount && !same_mount(*mount, robot_T_laser)) return std::nullopt;
     if (!mount) mount = robot_T_laser;
     if (last_robot) {
-      path_m += std::hypot(laser.odom_T_robot.x - last_robot->x, laser.odom_T_robot.y - last_robot->y);
-      turn_rad += std::abs(mrpt::math::wrapToPi(laser.odom_T_robot.phi - last_robot->phi));
+      path_m += std::hypot(laser->odom_T_robot.x - last_robot->x, laser->odom_T_robot.y - last_robot->y);
+      turn_rad += std::abs(mrpt::math::wrapToPi(laser->odom_T_robot.phi - last_robot->phi));
     }
-    last_robot = laser.odom_T_robot;
+    last_robot = laser->odom_T_robot;
   }
   return mount;
 }

@@ -18,6 +18,8 @@ namespace psi_slam {
 namespace {
 
 constexpr std::size_t kLinesOfHead = 500;
+constexpr std::size_t kLinesForOneSkipped = 100;
+constexpr std::size_t kSkippedBeforeTheEnd = 100;  // damage may come in one place, and the share sink later
 
 bool starts_with(std::string_view text, std::string_view beginning) {
   return text.substr(0, beginning.size()) == beginning;
@@ -52,7 +54,7 @@ class CarmenReader::Implementation {
       if (auto frame = interpolator_.take()) return numbered(std::move(frame));
       if (at_end_) return std::nullopt;
       if (lines_.next(line)) {
-        if (auto frame = take_line(line)) return numbered(std::move(frame));
+        if (auto frame = take_or_skip(line)) return numbered(std::move(frame));
       } else {
         end_of_log();
       }
@@ -89,6 +91,24 @@ class CarmenReader::Implementation {
     return scan_count_;
   }
 
+  std::optional<Frame> take_or_skip(std::string_view line) {
+    try {
+      return take_line(line);
+    } catch (const MalformedLine& error) {
+      if (!lines_.line_was_ended()) throw;
+      skip(error);
+      return std::nullopt;
+    }
+  }
+
+  void skip(const MalformedLine& error) {
+    SkippedLines& skipped = statistics_.skipped;
+    if (skipped.count == 0) skipped.first = error.what();
+    ++skipped.count;
+    if (skipped.count > std::max(kSkippedBeforeTheEnd, lines_needed_ / kLinesForOneSkipped))
+      fail_as_garbled();
+  }
+
   /// A frame if the line is a scan with its own odometry; scans without go to the interpolator.
   std::optional<Frame> take_line(std::string_view line) {
     CarmenFields fields(line, lines_);
@@ -99,10 +119,12 @@ class CarmenReader::Implementation {
     if (is_candidate) choose_laser(std::string(name));
     count(name);
     if (laser_ && name == laser_->message_name()) return take_scan(fields);
-    if (name == "ODOM") {
+    if (name == "ODOM" && needs_odometry_messages()) {
+      ++lines_needed_;
       const CarmenOdometryMessage odometry = read_odometry(fields);
       interpolator_.add_odometry(odometry.time_us, odometry.odom_T_robot);
     } else if (name == "PARAM" && laser_) {
+      ++lines_needed_;
       laser_->take_parameter(fields);
     } else if (name == "PARAM") {
       early_parameters_.emplace_back(line);
@@ -110,7 +132,10 @@ class CarmenReader::Implementation {
     return std::nullopt;
   }
 
+  bool needs_odometry_messages() const { return !laser_ || starts_with(laser_->message_name(), "RAWLASER"); }
+
   std::optional<Frame> take_scan(CarmenFields& fields) {
+    ++lines_needed_;
     take_early_parameters();
     const bool is_raw = starts_with(fields.message(), "RAWLASER");
     const bool is_robotlaser = starts_with(fields.message(), "ROBOTLASER");
@@ -132,16 +157,32 @@ class CarmenReader::Implementation {
 
   void take_early_parameters() {
     for (const std::string& line : std::exchange(early_parameters_, {})) {
+      ++lines_needed_;
       CarmenFields fields(line, lines_);
-      laser_->take_parameter(fields);
+      try {
+        laser_->take_parameter(fields);
+      } catch (const MalformedLine& error) {  // the scan in whose line they are taken is none of it
+        skip(error);
+      }
     }
   }
 
   void end_of_log() {
     at_end_ = interpolator_.waiting() == 0;
+    const bool gives_nothing = frames_given_ == 0 && (at_end_ || !interpolator_.has_odometry());
+    if (gives_nothing && statistics_.skipped.count > 0) throw UserError(statistics_.skipped.first);
+    if (at_end_ && statistics_.skipped.count > std::max<std::size_t>(1, lines_needed_ / kLinesForOneSkipped))
+      fail_as_garbled();
     if (at_end_ && frames_given_ == 0) fail_without_scans();
     if (!at_end_ && !interpolator_.has_odometry()) fail_without_odometry("there is none");
     interpolator_.end_of_log();
+  }
+
+  [[noreturn]] void fail_as_garbled() const {
+    throw UserError(lines_.path().string() + " is damaged: " + std::to_string(statistics_.skipped.count) +
+                    " of its first " + std::to_string(lines_needed_) +
+                    " messages do not parse, expected at most 1 %; the first is " +
+                    statistics_.skipped.first);
   }
 
   [[noreturn]] void fail_without_odometry(const std::string& found) const {
@@ -167,6 +208,7 @@ class CarmenReader::Implementation {
   OdometryInterpolator interpolator_;
   CarmenStatistics statistics_;
   std::size_t* scan_count_ = nullptr;
+  std::size_t lines_needed_ = 0;  // that were parsed, or should have been
   std::size_t frames_given_ = 0;
   bool at_end_ = false;
 };

@@ -53,7 +53,8 @@ Json to_json(const mrpt::math::TPose2D& pose) {
 Json facts_json(const LogFacts& facts) {
   const TimeFacts& time = facts.time;
   const RangeFacts& ranges = facts.ranges;
-  return {{"format", facts.format},
+  return {{"broken_off", facts.broken_off},
+          {"format", facts.format},
           {"laser", facts.laser},
           {"scans", facts.scans},
           {"beams", facts.beams},
@@ -86,6 +87,7 @@ Json facts_json(const LogFacts& facts) {
             {"ceiling_m", ranges.ceiling_m}}},
           {"scans_with_two_poses", facts.scans_with_two_poses},
           {"messages", facts.messages},
+          {"skipped_lines", facts.skipped.count},
           {"scans_of_other_lasers", facts.other_lasers}};
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/carmen_reader.h"
 #include "psi_slam/logs/log_format.h"
 #include "psi_slam/logs/open_log.h"
@@ -36,11 +37,18 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
   FirstPass pass;
   LogFactsCollector collector;
   const auto collect = [&](FrameSource& log) {
-    while (const auto frame = log.next()) {
-      if (pass.bearings_rad.empty()) pass.bearings_rad = *frame->scan.bearings_rad;
-      collector.add(*frame, first->scan.max_range_m);
+    std::string broken_off;
+    try {
+      while (const auto frame = log.next()) {
+        if (pass.bearings_rad.empty()) pass.bearings_rad = *frame->scan.bearings_rad;
+        collector.add(*frame, first->scan.max_range_m);
+      }
+    } catch (const UserError& error) {
+      if (collector.marks().empty()) throw;
+      broken_off = error.what();
     }
     pass.facts = collector.facts();
+    pass.facts.broken_off = broken_off;
   };
   const LogFormat format = detect_log_format(path);
   if (format == LogFormat::kCarmen) {
@@ -49,6 +57,7 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
     const CarmenStatistics& statistics = log.statistics();
     pass.facts.laser = statistics.laser_message;
     pass.facts.messages = statistics.messages;
+    pass.facts.skipped = statistics.skipped;
     pass.facts.scans_with_two_poses = statistics.scans_with_two_poses;
     pass.states_beam_angles = statistics.laser_message != "FLASER" && statistics.laser_message != "RLASER";
   } else {

@@ -41,6 +41,7 @@ class Judge {
   explicit Judge(const LogDiagnosis& diagnosis) : diagnosis_(diagnosis), facts_(diagnosis.facts) {}
 
   std::vector<Finding> findings() {
+    judge_reading();
     judge_time();
     judge_ranges();
     judge_motion();
@@ -61,6 +62,16 @@ class Judge {
   /// "12.34 s into the log", by the frame's own stamp.
   std::string moment(std::size_t frame) const {
     return fixed(seconds(diagnosis_.marks[frame].time_us - facts_.time.first_us), 2) + " s into the log";
+  }
+
+  void judge_reading() {
+    if (!facts_.broken_off.empty()) {
+      warn("broken_off",
+           facts_.broken_off + "; all else is said of the " + counted(facts_.scans, "scan") +
+               " that could be read",
+           "fetch the log again, or map what there is");
+    }
+    if (facts_.skipped.count > 0) note("skipped_lines", facts_.skipped.sentence());
   }
 
   void judge_time() {

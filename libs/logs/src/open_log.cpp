@@ -27,6 +27,7 @@ class ThinnedSource : public FrameSource {
   }
 
   double progress() const override { return source_->progress(); }
+  SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
 
  private:
   std::unique_ptr<FrameSource> source_;

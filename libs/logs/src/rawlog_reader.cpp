@@ -2,11 +2,9 @@
 #include "psi_slam/logs/rawlog_reader.h"
 
 #include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/poses/CPosePDF.h>
 
 #include <deque>
 #include <functional>
@@ -17,32 +15,16 @@
 #include "psi_slam/logs/odometry_interpolator.h"
 #include "psi_slam/logs/rawlog_archive.h"
 #include "psi_slam/logs/rawlog_laser.h"
+#include "psi_slam/logs/rawlog_objects.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::obs::CActionCollection;
-using mrpt::obs::CActionRobotMovement2D;
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
-
-constexpr std::int64_t kTicksFrom1601To1970 = 116'444'736'000'000'000;
-constexpr std::int64_t kTicksPerMicrosecond = 10;
-
-/// The increment of odometry; where the action is an estimate of another kind, its mean.
-std::optional<mrpt::math::TPose2D> movement_of(const CActionCollection& actions) {
-  std::optional<mrpt::math::TPose2D> estimate;
-  for (const auto& action : actions) {
-    const auto* movement = dynamic_cast<const CActionRobotMovement2D*>(action.get());
-    if (movement == nullptr) continue;
-    if (movement->estimationMethod == CActionRobotMovement2D::emOdometry)
-      return movement->rawOdometryIncrementReading.asTPose();
-    if (!estimate && movement->poseChange) estimate = movement->poseChange->getMeanVal().asTPose();
-  }
-  return estimate;
-}
 
 void for_each_observation(mrpt::serialization::CSerializable& object,
                           const std::function<void(const CObservation&)>& take) {
@@ -151,7 +133,7 @@ class RawlogReader::Implementation {
       return;
     }
     Frame frame;
-    frame.time_us = time_us(observation, "scan");
+    frame.time_us = stamp_of(observation, "scan");
     frame.scan = laser_.scan(observation, archive_.place());
     frame.odom_T_robot = odom_T_robot_;
     if (statistics_.has_actions) {
@@ -164,18 +146,13 @@ class RawlogReader::Implementation {
   void take_odometry(const CObservationOdometry& observation) {
     if (!odometry_label_) odometry_label_ = observation.sensorLabel;
     if (observation.sensorLabel != *odometry_label_) return;
-    interpolator_.add_odometry(time_us(observation, "odometry"), observation.odometry.asTPose());
+    interpolator_.add_odometry(stamp_of(observation, "odometry"), observation.odometry.asTPose());
   }
 
-  TimeUs time_us(const CObservation& observation, const char* what) const {
-    const std::int64_t ticks = observation.timestamp.time_since_epoch().count();
-    if (ticks <= 0) {
-      throw UserError(archive_.place() + ": the " + what +
-                      " has no time stamp, expected one on every observation");
-    }
-    const std::int64_t since_1970 = ticks - kTicksFrom1601To1970;
-    const std::int64_t half = since_1970 < 0 ? -kTicksPerMicrosecond / 2 : kTicksPerMicrosecond / 2;
-    return (since_1970 + half) / kTicksPerMicrosecond;
+  TimeUs stamp_of(const CObservation& observation, const char* what) const {
+    if (const auto stamp = time_us(observation)) return *stamp;
+    throw UserError(archive_.place() + ": the " + what +
+                    " has no time stamp, expected one on every observation");
   }
 
   RawlogArchive archive_;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/results/range_observation.h"
 
-#include <mrpt/core/Clock.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <vector>
+
+#include "psi_slam/logs/rawlog_objects.h"
 
 namespace psi_slam {
 namespace {
@@ -44,22 +43,15 @@ EvenRays even_rays(const std::vector<float>& bearings) {
   }
 }
 
-mrpt::Clock::time_point mrpt_time(TimeUs time_us) {
-  constexpr std::int64_t kTicksFrom1601To1970 = 116'444'736'000'000'000;
-  return mrpt::Clock::time_point(mrpt::Clock::duration(time_us * 10 + kTicksFrom1601To1970));
-}
-
 }  // namespace
 
 CObservation2DRangeScan::Ptr range_observation(const Frame& frame) {
-  static_assert(std::is_same_v<mrpt::Clock::period, std::ratio<1, 10'000'000>>,
-                "MRPT counts tenths of microseconds");
   const LaserScan& scan = frame.scan;
   const std::vector<float>& bearings = *scan.bearings_rad;
   const EvenRays rays = even_rays(bearings);
 
   auto observation = CObservation2DRangeScan::Create();
-  observation->timestamp = mrpt_time(frame.time_us);
+  observation->timestamp = mrpt_clock_time(frame.time_us);
   observation->sensorLabel = "LASER";
   observation->maxRange = scan.max_range_m;
   observation->resizeScanAndAssign(rays.count, scan.max_range_m, false);

@@ -92,6 +92,8 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
         "<section class=\"card banner\">The run was stopped before the end of the log: all below is of its "
         "first " +
         counted(summary.log.scans, "scan", "scans") + ".</section>\n";
+  for (const std::string& warning : info.warnings)
+    html += "<section class=\"card banner\">" + escape_html(warning) + ".</section>\n";
   html += key_figures(summary);
   html += card("Map", "", report_map(result, grid));
   html += card("Response of the front end", response_key(summary), response_plot(result));

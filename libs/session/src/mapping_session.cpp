@@ -138,9 +138,12 @@ RunInfo MappingSession::run_info() const {
   OptionTable table;
   describe(table, settings);
   settings = settings_;
-  RunInfo info{PSI_SLAM_VERSION, path_.filename().string(), {}};
+  RunInfo info{PSI_SLAM_VERSION, path_.filename().string(), {}, {}};
   for (const OptionSection& section : table.sections())
     for (const Option& option : section.options) info.settings[option.name()] = option.text();
+  if (broken_off_) info.warnings.push_back(*broken_off_);
+  if (const SkippedLines skipped = skipped_lines(); skipped.count > 0)
+    info.warnings.push_back(skipped.sentence());
   return info;
 }
 

@@ -25,6 +25,7 @@ std::optional<Frame> ReadAhead::next() {
   changed_.wait(lock, [this] { return !ahead_.empty(); });
   const bool is_last = !ahead_.front().frame.has_value();
   progress_ = ahead_.front().progress;
+  skipped_ = ahead_.front().skipped;
   if (is_last) {  // stays, for whoever asks again
     if (ahead_.front().failure) std::rethrow_exception(ahead_.front().failure);
     return std::nullopt;
@@ -58,6 +59,7 @@ ReadAhead::Read ReadAhead::read_one() noexcept {
     read.failure = std::current_exception();
   }
   read.progress = source_->progress();
+  read.skipped = source_->skipped_lines();
   return read;
 }
 

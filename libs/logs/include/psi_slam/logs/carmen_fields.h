@@ -10,12 +10,18 @@
 
 #include "psi_slam/base/line_reader.h"
 #include "psi_slam/base/time_stamp.h"
+#include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
 
-/// Takes the fields of one line of a CARMEN log from left to right. Each call throws UserError with file,
-/// line, message and what was expected when the next field is missing or is something else; a line that the
-/// end of the file cuts short is named as such.
+/// A line that is not what its message should be. Its text names file, line, message and what was expected.
+class MalformedLine : public UserError {
+ public:
+  using UserError::UserError;
+};
+
+/// Takes the fields of one line of a CARMEN log from left to right. Each call throws MalformedLine when the
+/// next field is missing or is something else; a line that the end of the file cuts short is named as such.
 class CarmenFields {
  public:
   /// Takes the message's name, which may be empty (a blank line).

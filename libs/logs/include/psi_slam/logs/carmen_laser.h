@@ -27,13 +27,14 @@ class CarmenLaser {
 
   const std::string& message_name() const { return message_name_; }
 
-  /// Takes a PARAM line's name and value (the fields behind "PARAM"); other parameters pass unread.
+  /// Takes a PARAM line's name and value (the fields behind "PARAM"); other parameters pass unread. A
+  /// malformed line changes nothing.
   void take_parameter(CarmenFields& fields);
 
   /// The mount where neither the user nor a PARAM line states one.
   void set_mount_by_poses(const mrpt::math::TPose2D& robot_T_laser) { mount_by_poses_ = robot_T_laser; }
 
-  /// Throws UserError when the bearings cannot be known; `fields` gives the place.
+  /// Throws MalformedLine when the bearings cannot be known; `fields` gives the place.
   LaserScan scan(CarmenLaserMessage message, const CarmenFields& fields);
 
  private:

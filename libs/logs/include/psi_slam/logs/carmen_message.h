@@ -28,7 +28,7 @@ struct CarmenOdometryMessage {
   mrpt::math::TPose2D odom_T_robot;
 };
 
-// Each takes the fields behind the message's name, and throws UserError on a malformed line.
+// Each takes the fields behind the message's name, and throws MalformedLine on another.
 CarmenLaserMessage read_flaser(CarmenFields& fields);      ///< also RLASER
 CarmenLaserMessage read_rawlaser(CarmenFields& fields);    ///< without poses
 CarmenLaserMessage read_robotlaser(CarmenFields& fields);  ///< the robot's pose is odometry

@@ -12,7 +12,7 @@ namespace psi_slam {
 /// The pose of the laser on the robot by the two poses that ROBOTLASER lines of that name carry, looked at
 /// until the robot has moved 3 m or turned 1 rad. None when the difference of the poses changes meanwhile:
 /// then the laser's pose was corrected by some mapper, and the difference is no mount. None also without such
-/// lines.
+/// lines. Lines that do not parse are passed over.
 std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const std::filesystem::path& path,
                                                        std::string_view message);
 

@@ -8,6 +8,9 @@
 // Odometry at the scan's time is in the scan's own line, but for RAWLASER lines, which get it by
 // interpolation between ODOM lines. FLASER lines carry a second pose, which some mapper may have corrected:
 // it is never used.
+//
+// Lines that do not parse are left out as long as they are few: at most 1 % of the lines that were needed, or
+// one. A log with more ends with a UserError, and so does one whose last line is cut off.
 #pragma once
 
 #include <cstddef>
@@ -27,6 +30,7 @@ struct CarmenStatistics {
   std::string laser_message;                    ///< the kind that scans come from; empty before the first
   std::map<std::string, std::size_t> messages;  ///< lines of each kind, the ignored ones too
   std::size_t scans_with_two_poses = 0;         ///< whose line carries another pose than its odometry
+  SkippedLines skipped;
 };
 
 class CarmenReader : public FrameSource {
@@ -36,6 +40,7 @@ class CarmenReader : public FrameSource {
 
   std::optional<Frame> next() override;
   double progress() const override;
+  SkippedLines skipped_lines() const override { return statistics().skipped; }
   const CarmenStatistics& statistics() const;
 
  private:

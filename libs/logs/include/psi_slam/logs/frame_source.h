@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "psi_slam/logs/frame.h"
+#include "psi_slam/logs/skipped_lines.h"
 
 namespace psi_slam {
 
@@ -17,11 +18,14 @@ class FrameSource {
   virtual ~FrameSource() = default;
 
   /// The next frame, or none at the end. Throws UserError (file, place, what was expected) on a malformed
-  /// log.
+  /// log; formats of lines tolerate a few malformed ones, see skipped_lines().
   virtual std::optional<Frame> next() = 0;
 
   /// How much of the log has been read, in [0, 1], by bytes of the file on disk.
   virtual double progress() const = 0;
+
+  /// What was left out of what has been read so far.
+  virtual SkippedLines skipped_lines() const { return {}; }
 };
 
 }  // namespace psi_slam

@@ -11,6 +11,7 @@
 
 #include "psi_slam/base/time_stamp.h"
 #include "psi_slam/logs/frame.h"
+#include "psi_slam/logs/skipped_lines.h"
 
 namespace psi_slam {
 
@@ -49,8 +50,9 @@ struct RangeFacts {
 };
 
 struct LogFacts {
-  std::string format;  ///< "CARMEN", "MRPT rawlog"
-  std::string laser;   ///< the message or the sensor's label that the scans come from
+  std::string broken_off;  ///< what is wrong behind the last readable scan, a sentence; empty in a whole log
+  std::string format;      ///< "CARMEN", "MRPT rawlog"
+  std::string laser;       ///< the message or the sensor's label that the scans come from
   std::size_t scans = 0;
   std::size_t beams = 0;  ///< of the first scan
   double first_bearing_rad = 0;
@@ -62,6 +64,7 @@ struct LogFacts {
   RangeFacts ranges;
   std::size_t scans_with_two_poses = 0;         ///< CARMEN: whose line has another pose beside its odometry
   std::map<std::string, std::size_t> messages;  ///< CARMEN: lines of each kind
+  SkippedLines skipped;                         ///< CARMEN: lines that do not parse
   std::map<std::string, std::size_t> other_lasers;  ///< rawlog: scans by sensor label
 };
 

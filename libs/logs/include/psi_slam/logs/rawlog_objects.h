@@ -2,6 +2,7 @@
 // What the objects of MRPT's rawlogs, or of a program that uses MRPT, say in our terms.
 #pragma once
 
+#include <mrpt/core/Clock.h>
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
@@ -10,21 +11,30 @@
 
 #include <cstdint>
 #include <optional>
+#include <ratio>
+#include <type_traits>
 
 #include "psi_slam/base/time_stamp.h"
 
 namespace psi_slam {
 
-/// Unix time to the nearest microsecond; MRPT counts tenths of it since 1601. None when there is no time
-/// stamp.
+static_assert(std::is_same_v<mrpt::Clock::period, std::ratio<1, 10'000'000>>,
+              "MRPT counts tenths of microseconds, since 1601");
+inline constexpr std::int64_t kMrptTicksFrom1601To1970 = 116'444'736'000'000'000;
+inline constexpr std::int64_t kMrptTicksPerMicrosecond = 10;
+
+inline mrpt::Clock::time_point mrpt_clock_time(TimeUs time_us) {
+  return mrpt::Clock::time_point(
+      mrpt::Clock::duration(time_us * kMrptTicksPerMicrosecond + kMrptTicksFrom1601To1970));
+}
+
+/// Unix time to the nearest microsecond. None when there is no time stamp.
 inline std::optional<TimeUs> time_us(const mrpt::obs::CObservation& observation) {
-  constexpr std::int64_t kTicksFrom1601To1970 = 116'444'736'000'000'000;
-  constexpr std::int64_t kTicksPerMicrosecond = 10;
   const std::int64_t ticks = observation.timestamp.time_since_epoch().count();
   if (ticks <= 0) return std::nullopt;
-  const std::int64_t since_1970 = ticks - kTicksFrom1601To1970;
-  const std::int64_t half = since_1970 < 0 ? -kTicksPerMicrosecond / 2 : kTicksPerMicrosecond / 2;
-  return (since_1970 + half) / kTicksPerMicrosecond;
+  const std::int64_t since_1970 = ticks - kMrptTicksFrom1601To1970;
+  const std::int64_t half = since_1970 < 0 ? -kMrptTicksPerMicrosecond / 2 : kMrptTicksPerMicrosecond / 2;
+  return (since_1970 + half) / kMrptTicksPerMicrosecond;
 }
 
 /// The increment of odometry; where the action is an estimate of another kind, its mean. None when no action

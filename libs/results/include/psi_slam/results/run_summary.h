@@ -20,6 +20,7 @@ struct RunInfo {
   std::string program_version;                  ///< "0.1.0"
   std::string log_name;                         ///< as a person knows it: "intel.clf.gz"
   std::map<std::string, std::string> settings;  ///< "section.key" -> value, as text
+  std::vector<std::string> warnings{};          ///< what was wrong with the log, a sentence each
 };
 
 /// The log as it was read.

@@ -61,6 +61,9 @@ class MappingSession {
   /// What is wrong with the log behind its last readable scan, as a sentence.
   const std::optional<std::string>& broken_off() const { return broken_off_; }
 
+  /// What was left out of what the session has read.
+  SkippedLines skipped_lines() const { return source_->skipped_lines(); }
+
   /// Ends the mapping. Where the log was not read to its end, the result is marked as interrupted. Throws
   /// UserError when no scan had a return.
   void finish();

@@ -29,11 +29,13 @@ class ReadAhead : public FrameSource {
 
   /// Of the frames taken, not of those read ahead.
   double progress() const override { return progress_; }
+  SkippedLines skipped_lines() const override { return skipped_; }
 
  private:
   struct Read {
     std::optional<Frame> frame;  ///< empty at the end
     double progress = 0;
+    SkippedLines skipped;
     std::exception_ptr failure;
   };
 
@@ -43,6 +45,7 @@ class ReadAhead : public FrameSource {
   std::unique_ptr<FrameSource> source_;
   const std::size_t capacity_;
   double progress_ = 0;
+  SkippedLines skipped_;
 
   std::mutex mutex_;  // of what follows
   std::condition_variable changed_;

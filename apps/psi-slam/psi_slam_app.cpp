@@ -57,8 +57,9 @@ std::string changed_settings(const OptionTable& table) {
 void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
            const Streams& streams, std::optional<ProgressLine>& progress_line) {
   if (streams.err_is_terminal && !line.quiet) progress_line.emplace(streams.err);
-  session.set_observer([&](const SessionProgress& progress) {
-    if (progress.phase == SessionProgress::Phase::kLastPass && signals.came()) {
+  session.set_observer([&, told = false](const SessionProgress& progress) mutable {
+    if (!told && progress.phase == SessionProgress::Phase::kLastPass && signals.came()) {
+      told = true;
       if (progress_line) progress_line->clear();
       streams.err << "psi-slam: interrupted, the map will show the " << progress.scans
                   << " scans read so far (interrupt again to give up)\n";

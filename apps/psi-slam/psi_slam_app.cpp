@@ -62,7 +62,7 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
       told = true;
       if (progress_line) progress_line->clear();
       streams.err << "psi-slam: interrupted, the map will show the " << progress.scans
-                  << " scans read so far (interrupt again to give up)\n";
+                  << " scans read so far and the loops found so far (interrupt again to give up)\n";
     }
     if (progress_line) progress_line->show(progress);
   });

@@ -214,11 +214,29 @@ TEST(Mapper, finishing_reports_its_progress_up_to_the_end) {
   Mapper mapper({});
   for (const Frame& frame : office_drive().frames) mapper.add(frame);
   std::vector<double> shares;
-  mapper.finish([&](double share) { shares.push_back(share); });
+  const MappingResult result = mapper.finish([&](double share) {
+    shares.push_back(share);
+    return share < 1;
+  });
   ASSERT_FALSE(shares.empty());
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_GT(shares.front(), 0);
   EXPECT_EQ(shares.back(), 1);
+  EXPECT_FALSE(result.interrupted) << "a stop when all is done stops nothing";
+}
+
+TEST(Mapper, the_last_pass_can_be_cut_short) {
+  Mapper mapper({});
+  for (const Frame& frame : office_drive().frames) mapper.add(frame);
+  int calls = 0;
+  const MappingResult result = mapper.finish([&](double) { return ++calls < 3; });
+  EXPECT_EQ(calls, 3);
+  EXPECT_TRUE(result.last_pass_cut_short);
+  EXPECT_TRUE(result.interrupted);
+  expect_consistent(result, office_drive().frames.size());
+  EXPECT_LT(result.loops.size(), office_map().loops.size());
+  EXPECT_LT(distance_m(result.frames.back().map_T_robot, office_drive().map_T_robot.back()), 0.2)
+      << "the loops found until then hold";
 }
 
 TEST(Mapper, nothing_to_map_is_an_empty_map) {

@@ -100,5 +100,13 @@ TEST(ReportHtml, an_empty_and_an_interrupted_run_are_shown_too) {
   EXPECT_THAT(html, Not(HasSubstr("nan")));
 }
 
+TEST(ReportHtml, tells_that_the_last_pass_was_cut_short) {
+  MappingResult result = walk_around_the_room();
+  EXPECT_THAT(report_of(result, {}), Not(HasSubstr("cut short")));
+  result.interrupted = result.last_pass_cut_short = true;
+  EXPECT_THAT(report_of(result, {}),
+              HasSubstr("of the 50 scans read until then, and the last search for loops was cut short."));
+}
+
 }  // namespace
 }  // namespace psi_slam

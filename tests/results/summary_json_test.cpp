@@ -20,6 +20,7 @@ RunSummary some_figures() {
   summary.loops.reasons = {{"response … is below …", 7}};
   summary.real_time_factor = 19.6;
   summary.peak_memory_mb = 123.4;
+  summary.last_pass_cut_short = true;
   return summary;
 }
 
@@ -34,6 +35,7 @@ TEST(SummaryJson, reads_back_with_its_schema_and_figures) {
   EXPECT_EQ(json["log"]["scans"], 50);
   EXPECT_EQ(json["log"]["first_time_s"], "976052905.167303");
   EXPECT_EQ(json["real_time_factor"], 19.6);
+  EXPECT_EQ(json["last_pass_cut_short"], true);
   EXPECT_EQ(json["settings"]["front_end.window_x_m"], "0.3");
   EXPECT_EQ(json["loop_counts"]["reasons"][0]["count"], 7);
   EXPECT_EQ(json["stages"][0]["calls"], 50);

@@ -90,6 +90,41 @@ TEST_F(MappingSessionTest, stops_when_it_is_told_to) {
   EXPECT_EQ(session.result().frames.size(), 25U);
 }
 
+TEST_F(MappingSessionTest, told_to_stop_in_the_last_pass_it_cuts_that_short) {
+  std::atomic<bool> stop{false};
+  double share = 0;
+  MappingSession session(log(room_log_lines()), settings_);
+  session.set_observer([&](const SessionProgress& progress) {
+    if (progress.phase != Phase::kLastPass) return;
+    stop = true;
+    share = progress.share;
+  });
+  session.run(stop);
+  EXPECT_GT(share, 0);
+  EXPECT_LT(share, 1) << "it goes on no further";
+  EXPECT_EQ(session.result().frames.size(), 150U);
+  EXPECT_TRUE(session.result().interrupted);
+  const RunSummary summary = session.export_to(output());
+  EXPECT_TRUE(summary.interrupted);
+  EXPECT_TRUE(summary.last_pass_cut_short);
+}
+
+TEST_F(MappingSessionTest, told_to_stop_when_all_is_done_it_was_not_interrupted) {
+  for (const Phase phase : {Phase::kMapping, Phase::kLastPass}) {
+    settings_.mapper.last_pass.passes = phase == Phase::kMapping ? 0 : 2;
+    std::atomic<bool> stop{false};
+    MappingSession session(log(room_log_lines(60)), settings_);
+    session.set_observer([&](const SessionProgress& progress) {
+      const bool all_done = progress.phase == Phase::kMapping ? progress.scans == 60 : progress.share == 1;
+      if (progress.phase == phase && all_done) stop = true;
+    });
+    session.run(stop);
+    EXPECT_TRUE(stop);
+    EXPECT_FALSE(session.result().interrupted);
+    EXPECT_EQ(session.result().frames.size(), 60U);
+  }
+}
+
 TEST_F(MappingSessionTest, tells_how_far_it_is) {
   std::vector<Phase> phases;
   double share = 0;

@@ -139,6 +139,7 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
   if (result.wall_s > 0) summary.real_time_factor = summary.log.duration_s / result.wall_s;
   summary.peak_memory_mb = peak_memory_mb();
   summary.interrupted = result.interrupted;
+  summary.last_pass_cut_short = result.last_pass_cut_short;
   return summary;
 }
 

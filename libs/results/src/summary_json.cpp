@@ -74,6 +74,7 @@ std::string summary_json(const MappingResult& result, const RunInfo& info, const
                      {"schema_version", kSummarySchemaVersion},
                      {"program_version", info.program_version},
                      {"interrupted", summary.interrupted},
+                     {"last_pass_cut_short", summary.last_pass_cut_short},
                      {"log", log_json(summary.log, info.log_name)},
                      {"path_length_m", number(summary.path_length_m, 3)},
                      {"nodes", summary.nodes},

@@ -84,7 +84,7 @@ std::optional<Frame> MappingSession::read() {
   return frame;
 }
 
-void MappingSession::finish() {
+void MappingSession::finish(const std::atomic<bool>& stop) {
   begin(SessionProgress::Phase::kLastPass);
   WorkClock clock(work_s_);
   if (!any_return_)
@@ -92,20 +92,23 @@ void MappingSession::finish() {
                     (scans_ == 0 ? "no scan was read, there is nothing to map"
                                  : "none of its " + std::to_string(scans_) +
                                        " scans has a return between log.min_range_m and log.max_range_m"));
+  const bool scans_left = !at_end_ && !broken_off_ && read().has_value();
   result_ = mapper_->finish([&](double share) {
+    const bool go_on = !stop;
     clock.stop();
     tell(share);
+    return go_on;
   });
   graph_ = mapper_->graph();
   mapper_.reset();
   result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
-  result_.interrupted = !at_end_;
+  result_.interrupted = result_.interrupted || scans_left;
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {
   while (step() && !stop) {
   }
-  finish();
+  finish(stop);
 }
 
 RunSummary MappingSession::export_to(const OutputFolder& folder) {

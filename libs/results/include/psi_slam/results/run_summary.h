@@ -77,6 +77,7 @@ struct RunSummary {
   double real_time_factor = 0;  ///< seconds of the log in a second of work; 0 where that cannot be said
   double peak_memory_mb = 0;    ///< of this process so far
   bool interrupted = false;
+  bool last_pass_cut_short = false;
 };
 
 RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid);

@@ -61,9 +61,11 @@ class MappingSession {
   /// What is wrong with the log behind its last readable scan, as a sentence.
   const std::optional<std::string>& broken_off() const { return broken_off_; }
 
-  /// Ends the mapping. Where the log was not read to its end, the result is marked as interrupted. Throws
-  /// UserError when no scan had a return.
-  void finish();
+  /// Ends the mapping. Once `stop` is true the last pass is cut short. The result is marked as interrupted
+  /// when scans of the log were left unread or the last pass was cut short. Throws UserError when no scan had
+  /// a return.
+  void finish(const std::atomic<bool>& stop);
+  void finish() { finish(std::atomic<bool>(false)); }
 
   /// Steps to the end of the log, or, from the first scan on, until `stop` is true; and finishes.
   void run(const std::atomic<bool>& stop);

@@ -5,13 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "psi_slam/base/user_error.h"
 #include "psi_slam/pose_graph/g2o_file.h"
+#include "psi_slam/results/grid_map.h"
+#include "psi_slam/results/report_html.h"
+#include "psi_slam/results/summary_json.h"
 #include "psi_slam/results/trajectory_file.h"
 #include "room_log.h"
 #include "temporary_folder.h"
+#include "test_files.h"
 
 namespace psi_slam {
 namespace {
@@ -24,16 +26,6 @@ class MappingSessionTest : public testing::Test {
  protected:
   std::filesystem::path log(const std::vector<std::string>& lines) {
     return write_lines(folder_.path() / "room.log", lines);
-  }
-
-  std::string sentence_of(const std::function<void()>& action) {
-    try {
-      action();
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "no UserError was thrown";
-    return {};
   }
 
   OutputFolder output() { return OutputFolder::prepare(folder_.path() / "out", false); }
@@ -213,6 +205,18 @@ TEST_F(MappingSessionTest, exports_the_graph_and_the_figures_of_the_whole_run) {
   EXPECT_LT(stages_s, summary.wall_s);
   EXPECT_EQ(session.run_info().log_name, "room.log");
   EXPECT_EQ(session.run_info().settings.at("front_end.window_m"), "0.2");
+}
+
+TEST_F(MappingSessionTest, report_summary_and_caller_are_told_the_same_times) {
+  MappingSession session(log(room_log_lines(60)), settings_);
+  session.run(go_on_);
+  const RunSummary summary = session.export_to(output());
+  const std::filesystem::path out = folder_.path() / "out";
+  const MappingResult& result = session.result();
+  const auto grid = draw_grid_map(result.log, mapped_poses(result), settings_.map);
+  EXPECT_EQ(read_file(out / "summary.json"), summary_json(result, session.run_info(), summary));
+  EXPECT_TRUE(read_file(out / "report.html") == report_html(result, session.run_info(), summary, *grid));
+  EXPECT_THAT(read_file(out / "report.html"), HasSubstr("<th>write results</th>"));
 }
 
 }  // namespace

@@ -6,12 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/pose_graph/g2o_file.h"
 #include "psi_slam/results/grid_map.h"
-#include "psi_slam/results/summary_json.h"
 #include "psi_slam/session/read_ahead.h"
 
 namespace psi_slam {
@@ -114,25 +112,20 @@ void MappingSession::run(const std::atomic<bool>& stop) {
 RunSummary MappingSession::export_to(const OutputFolder& folder) {
   begin(SessionProgress::Phase::kWriting);
   WorkClock clock(work_s_);
-  const RunInfo info = run_info();
   StageClock drawing_clock("draw map");
   StageClock writing_clock("write results");
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] { grid = draw_grid_map(result_.log, mapped_poses(result_), settings_.map); });
   result_.stages.push_back(drawing_clock.timing());
-  clock.stop();
-  result_.wall_s = work_s_;
-  RunSummary summary;
   writing_clock.time([&] {
     write_g2o(graph_, folder.path() / "graph.g2o");
-    summary = export_all(result_, info, *grid, folder);
+    export_results(result_, *grid, folder);
   });
   result_.stages.push_back(writing_clock.timing());
   clock.stop();
-  result_.wall_s = summary.wall_s = work_s_;
-  summary.real_time_factor = summary.log.duration_s / work_s_;
-  // Once more, now that the time of the writing itself is known.
-  write_text_atomically(folder.path() / "summary.json", summary_json(result_, info, summary));
+  result_.wall_s = work_s_;
+  const RunSummary summary = summarize_run(result_, *grid);
+  export_account(result_, run_info(), summary, *grid, folder);
   return summary;
 }
 

@@ -71,7 +71,8 @@ class MappingSession {
   void run(const std::atomic<bool>& stop);
 
   /// Draws the map and writes all results. Needs finish(). Throws SystemFailure when the disk does not take
-  /// them. The figures returned include the time that this took.
+  /// them. The figures returned are those of summary.json and report.html; their times include all but the
+  /// writing of these two.
   RunSummary export_to(const OutputFolder& folder);
 
   /// Until finish(): the poses, the graph and the loops so far.

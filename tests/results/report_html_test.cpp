@@ -100,6 +100,16 @@ TEST(ReportHtml, an_empty_and_an_interrupted_run_are_shown_too) {
   EXPECT_THAT(html, Not(HasSubstr("nan")));
 }
 
+TEST(ReportHtml, tells_why_the_log_breaks_off) {
+  MappingResult result = walk_around_the_room();
+  result.broken_off = "a<b.log:41: expected 181 ranges";
+  const std::string html = report_of(result, {});
+  EXPECT_THAT(html,
+              HasSubstr("The log breaks off: a&lt;b.log:41: expected 181 ranges. All below is of the 50 "
+                        "scans before that."));
+  EXPECT_THAT(html, Not(HasSubstr("stopped")));
+}
+
 TEST(ReportHtml, tells_that_the_last_pass_was_cut_short) {
   MappingResult result = walk_around_the_room();
   EXPECT_THAT(report_of(result, {}), Not(HasSubstr("cut short")));

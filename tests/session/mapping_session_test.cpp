@@ -145,8 +145,12 @@ TEST_F(MappingSessionTest, maps_a_log_up_to_where_it_breaks_off) {
   session.run(go_on_);
   ASSERT_TRUE(session.broken_off().has_value());
   EXPECT_THAT(*session.broken_off(), HasSubstr("room.log:41"));
-  EXPECT_TRUE(session.result().interrupted);
+  EXPECT_FALSE(session.result().interrupted) << "nobody did";
+  EXPECT_EQ(session.result().broken_off, session.broken_off());
   EXPECT_EQ(session.result().frames.size(), 40U);
+  const RunSummary summary = session.export_to(output());
+  EXPECT_FALSE(summary.interrupted);
+  EXPECT_EQ(summary.broken_off, session.broken_off());
 }
 
 TEST_F(MappingSessionTest, refuses_a_log_whose_first_scan_is_broken) {

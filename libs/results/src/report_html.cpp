@@ -99,6 +99,9 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
   const std::string name = escape_html(info.log_name.empty() ? "A run of psi-slam" : info.log_name);
   std::string html = head(name) + "<body>\n<main>\n<header>" + kLogo + "<div><h1>" + name + "</h1><p>" +
                      story(info, summary) + "</p></div></header>\n";
+  if (summary.broken_off)
+    html += banner("The log breaks off: " + escape_html(*summary.broken_off) + ". All below is of the " +
+                   counted(summary.log.scans, "scan", "scans") + " before that.");
   if (summary.interrupted) html += banner(stop_text(summary));
   html += key_figures(summary);
   html += card("Map", "", report_map(result, grid));

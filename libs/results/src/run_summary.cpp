@@ -140,6 +140,7 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
   summary.peak_memory_mb = peak_memory_mb();
   summary.interrupted = result.interrupted;
   summary.last_pass_cut_short = result.last_pass_cut_short;
+  summary.broken_off = result.broken_off;
   return summary;
 }
 

@@ -75,6 +75,7 @@ std::string summary_json(const MappingResult& result, const RunInfo& info, const
                      {"program_version", info.program_version},
                      {"interrupted", summary.interrupted},
                      {"last_pass_cut_short", summary.last_pass_cut_short},
+                     {"broken_off", summary.broken_off ? Json(*summary.broken_off) : Json(nullptr)},
                      {"log", log_json(summary.log, info.log_name)},
                      {"path_length_m", number(summary.path_length_m, 3)},
                      {"nodes", summary.nodes},

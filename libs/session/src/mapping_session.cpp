@@ -101,6 +101,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   mapper_.reset();
   result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
   result_.interrupted = result_.interrupted || scans_left;
+  result_.broken_off = broken_off_;
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,7 @@ struct RunSummary {
   double peak_memory_mb = 0;    ///< of this process so far
   bool interrupted = false;
   bool last_pass_cut_short = false;
+  std::optional<std::string> broken_off;  ///< what is wrong with the log behind its last scan
 };
 
 RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid);

@@ -61,9 +61,9 @@ class MappingSession {
   /// What is wrong with the log behind its last readable scan, as a sentence.
   const std::optional<std::string>& broken_off() const { return broken_off_; }
 
-  /// Ends the mapping. Once `stop` is true the last pass is cut short. The result is marked as interrupted
-  /// when scans of the log were left unread or the last pass was cut short. Throws UserError when no scan had
-  /// a return.
+  /// Ends the mapping. Once `stop` is true the last pass is cut short. The result is marked as interrupted,
+  /// by the user, when readable scans of the log were left unread or the last pass was cut short. Throws
+  /// UserError when no scan had a return.
   void finish(const std::atomic<bool>& stop);
   void finish() { finish(std::atomic<bool>(false)); }
 

@@ -88,6 +88,7 @@ int map(const CommandLine& line, const Streams& streams) {
     streams.out << summary_json(session.result(), info, summary);
   else if (!line.quiet)
     streams.out << closing_text(summary, info.log_name, folder);
+  if (const auto coarser = coarser_cells_text(summary.map)) streams.err << "psi-slam: " << *coarser << '\n';
   if (!session.broken_off()) return kDone;
   streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
               << session.result().frames.size() << " scans before it\n";

@@ -126,6 +126,16 @@ TEST_F(PsiSlamApp, prints_the_summary_as_json) {
   EXPECT_EQ(run.out, bytes_of(output("out") / "summary.json"));
 }
 
+TEST_F(PsiSlamApp, says_when_the_map_is_coarser_than_asked_for) {
+  const AppRun run = map(room_log(), "out", {"--json", "--set", "map.max_cells=20000"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.err,
+            "psi-slam: map.max_cells leaves no room for cells of 0.05 m: those of the map are 0.1 m\n");
+  const Json summary = Json::parse(run.out);
+  EXPECT_EQ(summary["map"]["resolution_m"], 0.1);
+  EXPECT_EQ(summary["map"]["asked_resolution_m"], 0.05);
+}
+
 TEST_F(PsiSlamApp, shows_its_progress_on_a_terminal_only) {
   const std::string log = room_log();
   const AppRun run = run_app({log, "-o", output("terminal").string()}, true);

@@ -100,6 +100,16 @@ TEST(ReportHtml, an_empty_and_an_interrupted_run_are_shown_too) {
   EXPECT_THAT(html, Not(HasSubstr("nan")));
 }
 
+TEST(ReportHtml, tells_when_the_map_is_coarser_than_asked_for) {
+  const MappingResult result = walk_around_the_room();
+  const auto grid = draw_grid_map(result.log, mapped_poses(result));
+  RunSummary summary = summarize_run(result, *grid);
+  EXPECT_THAT(report_html(result, {}, summary, *grid), Not(HasSubstr("map.max_cells")));
+  summary.map.asked_resolution_m = 0.0125;
+  EXPECT_THAT(report_html(result, {}, summary, *grid),
+              HasSubstr("map.max_cells leaves no room for cells of 0.0125 m: those of the map are 0.05 m."));
+}
+
 TEST(ReportHtml, tells_why_the_log_breaks_off) {
   MappingResult result = walk_around_the_room();
   result.broken_off = "a<b.log:41: expected 181 ranges";

@@ -103,6 +103,7 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
     html += banner("The log breaks off: " + escape_html(*summary.broken_off) + ". All below is of the " +
                    counted(summary.log.scans, "scan", "scans") + " before that.");
   if (summary.interrupted) html += banner(stop_text(summary));
+  if (const auto coarser = coarser_cells_text(summary.map)) html += banner(*coarser + '.');
   html += key_figures(summary);
   html += card("Map", "", report_map(result, grid));
   html += card("Response of the front end", response_key(summary), response_plot(result));

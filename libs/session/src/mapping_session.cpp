@@ -125,7 +125,7 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   result_.stages.push_back(writing_clock.timing());
   clock.stop();
   result_.wall_s = work_s_;
-  const RunSummary summary = summarize_run(result_, *grid);
+  const RunSummary summary = summarize_run(result_, *grid, settings_.map);
   export_account(result_, run_info(), summary, *grid, folder);
   return summary;
 }

@@ -152,6 +152,7 @@ TEST(Mapper, says_where_the_robot_is_while_it_maps) {
     const FrameRecord& record = mapper.add(drive.frames[i]);
     EXPECT_EQ(record.time_us, drive.frames[i].time_us);
     EXPECT_EQ(mapper.frames().size(), i + 1);
+    EXPECT_EQ(mapper.log().size(), i + 1);
     largest_m = std::max(largest_m, distance_m(mapper.map_T_robot(), drive.map_T_robot[i]));
   }
   EXPECT_LT(largest_m, 0.15);

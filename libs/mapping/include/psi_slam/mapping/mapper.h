@@ -54,6 +54,7 @@ class Mapper {
   /// The robot now, in the global map.
   mrpt::math::TPose2D map_T_robot() const;
   const PoseGraph& graph() const { return graph_; }
+  const std::vector<Frame>& log() const { return result_.log; }
   const std::vector<FrameRecord>& frames() const { return result_.frames; }
   const std::vector<LoopRecord>& loops() const { return result_.loops; }
 

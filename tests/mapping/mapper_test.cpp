@@ -11,9 +11,6 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
-#include "psi_slam/logs/open_log.h"
-#include "psi_slam/results/relations_metric.h"
-#include "shared_logs.h"
 
 namespace psi_slam {
 namespace {
@@ -279,28 +276,6 @@ TEST(Mapper, scans_without_a_beam_do_no_harm) {
   expect_consistent(result, frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i)
     EXPECT_LT(distance_m(result.frames[i].map_T_robot, office_drive().map_T_robot[i]), 0.2) << "scan " << i;
-}
-
-TEST(Mapper, maps_the_intel_laboratory) {
-  const auto log = shared_file("intel.clf.gz");
-  const auto relations = shared_file("intel.relations");
-  if (!log || !relations) GTEST_SKIP() << kNeedsData;
-  LogOptions options;
-  options.every_nth_scan = 15;
-  const auto source = open_log(*log, options);
-  Mapper mapper({});
-  while (auto frame = source->next()) mapper.add(std::move(*frame));
-  const MappingResult result = mapper.finish();
-  expect_consistent(result, result.log.size());
-  EXPECT_GT(accepted_loops(result), 20U);
-  Trajectory trajectory;
-  for (const FrameRecord& frame : result.frames) trajectory.push_back({frame.time_us, frame.map_T_robot});
-  RelationsMetricOptions metric;
-  metric.max_gap_s = 15;
-  const RelationsMetric errors = evaluate_relations(trajectory, read_relations(*relations), metric);
-  EXPECT_GT(errors.errors.size(), 5 * errors.skipped) << "nearly every relation is answered";
-  RecordProperty("mean_relation_error_m", std::to_string(errors.translation_abs_m.mean));
-  EXPECT_LT(errors.translation_abs_m.mean, 0.4);
 }
 
 }  // namespace

@@ -189,6 +189,7 @@ TEST_F(PsiSlamApp, an_interrupt_ends_the_mapping_in_good_order) {
   EXPECT_EQ(run.code, 0);
   const Json summary = Json::parse(run.out);
   EXPECT_EQ(summary["interrupted"], true);
+  EXPECT_EQ(summary["last_pass_cut_short"], true);
   const std::size_t scans = summary["log"]["scans"];
   EXPECT_LT(scans, 3000U);
   EXPECT_THAT(run.err, MatchesRegex("psi-slam: interrupted, the map will show the " + std::to_string(scans) +

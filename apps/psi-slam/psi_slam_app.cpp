@@ -57,11 +57,12 @@ std::string changed_settings(const OptionTable& table) {
 void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
            const Streams& streams, std::optional<ProgressLine>& progress_line) {
   if (streams.err_is_terminal && !line.quiet) progress_line.emplace(streams.err);
-  session.set_observer([&](const SessionProgress& progress) {
-    if (progress.phase == SessionProgress::Phase::kLastPass && signals.came()) {
+  session.set_observer([&, told = false](const SessionProgress& progress) mutable {
+    if (!told && progress.phase == SessionProgress::Phase::kLastPass && signals.came()) {
+      told = true;
       if (progress_line) progress_line->clear();
       streams.err << "psi-slam: interrupted, the map will show the " << progress.scans
-                  << " scans read so far (interrupt again to give up)\n";
+                  << " scans read so far and the loops found so far (interrupt again to give up)\n";
     }
     if (progress_line) progress_line->show(progress);
   });
@@ -89,6 +90,7 @@ int map(const CommandLine& line, const Streams& streams) {
     streams.out << closing_text(summary, info.log_name, folder);
   if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
     streams.err << "psi-slam: " << skipped.sentence() << '\n';
+  if (const auto coarser = coarser_cells_text(summary.map)) streams.err << "psi-slam: " << *coarser << '\n';
   if (!session.broken_off()) return kDone;
   streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
               << session.result().frames.size() << " scans that could be read\n";

@@ -11,9 +11,6 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
-#include "psi_slam/logs/open_log.h"
-#include "psi_slam/results/relations_metric.h"
-#include "shared_logs.h"
 
 namespace psi_slam {
 namespace {
@@ -152,6 +149,7 @@ TEST(Mapper, says_where_the_robot_is_while_it_maps) {
     const FrameRecord& record = mapper.add(drive.frames[i]);
     EXPECT_EQ(record.time_us, drive.frames[i].time_us);
     EXPECT_EQ(mapper.frames().size(), i + 1);
+    EXPECT_EQ(mapper.log().size(), i + 1);
     largest_m = std::max(largest_m, distance_m(mapper.map_T_robot(), drive.map_T_robot[i]));
   }
   EXPECT_LT(largest_m, 0.15);
@@ -214,11 +212,29 @@ TEST(Mapper, finishing_reports_its_progress_up_to_the_end) {
   Mapper mapper({});
   for (const Frame& frame : office_drive().frames) mapper.add(frame);
   std::vector<double> shares;
-  mapper.finish([&](double share) { shares.push_back(share); });
+  const MappingResult result = mapper.finish([&](double share) {
+    shares.push_back(share);
+    return share < 1;
+  });
   ASSERT_FALSE(shares.empty());
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_GT(shares.front(), 0);
   EXPECT_EQ(shares.back(), 1);
+  EXPECT_FALSE(result.interrupted) << "a stop when all is done stops nothing";
+}
+
+TEST(Mapper, the_last_pass_can_be_cut_short) {
+  Mapper mapper({});
+  for (const Frame& frame : office_drive().frames) mapper.add(frame);
+  int calls = 0;
+  const MappingResult result = mapper.finish([&](double) { return ++calls < 3; });
+  EXPECT_EQ(calls, 3);
+  EXPECT_TRUE(result.last_pass_cut_short);
+  EXPECT_TRUE(result.interrupted);
+  expect_consistent(result, office_drive().frames.size());
+  EXPECT_LT(result.loops.size(), office_map().loops.size());
+  EXPECT_LT(distance_m(result.frames.back().map_T_robot, office_drive().map_T_robot.back()), 0.2)
+      << "the loops found until then hold";
 }
 
 TEST(Mapper, nothing_to_map_is_an_empty_map) {
@@ -260,28 +276,6 @@ TEST(Mapper, scans_without_a_beam_do_no_harm) {
   expect_consistent(result, frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i)
     EXPECT_LT(distance_m(result.frames[i].map_T_robot, office_drive().map_T_robot[i]), 0.2) << "scan " << i;
-}
-
-TEST(Mapper, maps_the_intel_laboratory) {
-  const auto log = shared_file("intel.clf.gz");
-  const auto relations = shared_file("intel.relations");
-  if (!log || !relations) GTEST_SKIP() << kNeedsData;
-  LogOptions options;
-  options.every_nth_scan = 15;
-  const auto source = open_log(*log, options);
-  Mapper mapper({});
-  while (auto frame = source->next()) mapper.add(std::move(*frame));
-  const MappingResult result = mapper.finish();
-  expect_consistent(result, result.log.size());
-  EXPECT_GT(accepted_loops(result), 20U);
-  Trajectory trajectory;
-  for (const FrameRecord& frame : result.frames) trajectory.push_back({frame.time_us, frame.map_T_robot});
-  RelationsMetricOptions metric;
-  metric.max_gap_s = 15;
-  const RelationsMetric errors = evaluate_relations(trajectory, read_relations(*relations), metric);
-  EXPECT_GT(errors.errors.size(), 5 * errors.skipped) << "nearly every relation is answered";
-  RecordProperty("mean_relation_error_m", std::to_string(errors.translation_abs_m.mean));
-  EXPECT_LT(errors.translation_abs_m.mean, 0.4);
 }
 
 }  // namespace

@@ -13,8 +13,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <thread>
 
@@ -179,6 +181,47 @@ TEST(MetricMapBuilderPsi, follows_the_robot_while_it_drives) {
     EXPECT_LT(covariance.trace(), 0.1);
   }
   EXPECT_EQ(node_poses(builder).size(), builder.getCurrentlyBuiltMapSize());
+}
+
+double seconds_of(const std::function<void()>& action) {
+  const auto start = std::chrono::steady_clock::now();
+  action();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TEST(MetricMapBuilderPsi, asking_for_the_pose_again_costs_nothing) {
+  CMetricMapBuilderPsi builder;
+  process_as_actions(builder, short_drive(400));
+  ASSERT_GT(builder.getCurrentlyBuiltMapSize(), 100U);
+  const double first_s = seconds_of([&] { estimate_of(builder); });
+  const double again_s = seconds_of([&] {
+    for (int i = 0; i < 100; ++i) estimate_of(builder);
+  });
+  EXPECT_LT(again_s, 20 * first_s);
+}
+
+TEST(MetricMapBuilderPsi, the_covariance_is_the_same_however_often_it_was_asked_for) {
+  const SimulatedDrive drive = short_drive();
+  CMetricMapBuilderPsi asked_always;
+  TPose2D last;
+  for (std::size_t i = 0; i < drive.frames.size(); ++i) {
+    CActionCollection::Ptr actions = movement(CPose2D(drive.frames[i].odom_T_robot - last));
+    CSensoryFrame::Ptr observations = sensory_frame({range_observation(drive.frames[i])});
+    asked_always.processActionObservation(*actions, *observations);
+    last = drive.frames[i].odom_T_robot;
+    const Eigen::Matrix3d covariance = estimate_of(asked_always).cov.asEigen();
+    if (i % 30 != 29) continue;
+    SimulatedDrive so_far = drive;
+    so_far.frames.resize(i + 1);
+    CMetricMapBuilderPsi asked_once;
+    process_as_actions(asked_once, so_far);
+    EXPECT_TRUE(covariance.isApprox(estimate_of(asked_once).cov.asEigen(), 1e-6)) << "after scan " << i;
+  }
+  CMetricMapBuilderPsi asked_once;
+  process_as_actions(asked_once, drive);
+  asked_once.finish();
+  asked_always.finish();
+  EXPECT_TRUE(estimate_of(asked_always).cov.asEigen().isApprox(estimate_of(asked_once).cov.asEigen(), 1e-6));
 }
 
 TEST(MetricMapBuilderPsi, both_forms_give_the_same_map) {

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <sstream>
 
+#include "psi_slam/logs/carmen_reader.h"
 #include "psi_slam/results/trajectory_file.h"
 #include "temporary_folder.h"
 
@@ -61,6 +63,52 @@ TEST(CorrectedLog, is_read_back_as_the_trajectory_it_was_written_from) {
   EXPECT_EQ(read[0].time_us, 976052905167303);
   EXPECT_NEAR(read[0].pose.x, -1.123456789, 1e-12);
   EXPECT_NEAR(read[0].pose.phi, -0.25, 1e-12);
+}
+
+/// Where the beams end, on the robot, from the right of the laser to its left.
+std::vector<mrpt::math::TPoint2D> beam_ends(const LaserScan& scan) {
+  std::vector<mrpt::math::TPoint2D> ends;
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const auto range_m = static_cast<double>(scan.ranges_m[i]);
+    const auto bearing = static_cast<double>((*scan.bearings_rad)[i]);
+    ends.push_back(scan.robot_T_laser.composePoint(
+        mrpt::math::TPoint2D(range_m * std::cos(bearing), range_m * std::sin(bearing))));
+  }
+  if (scan.bearings_rad->front() > scan.bearings_rad->back()) std::reverse(ends.begin(), ends.end());
+  return ends;
+}
+
+TEST(CorrectedLog, lasers_of_any_mount_are_read_back_with_their_beams_where_they_were) {
+  constexpr int kBeams = 181;
+  const mrpt::math::TPose2D rear(-0.31, 0.07, M_PI);
+  const mrpt::math::TPose2D askew(0.2, -0.15, 0.75);
+  for (const mrpt::math::TPose2D& mount : {rear, askew}) {
+    for (const bool clockwise : {false, true}) {
+      std::vector<float> ranges_m;
+      std::vector<float> bearings;
+      for (int i = 0; i < kBeams; ++i) {
+        ranges_m.push_back(1 + 0.03F * static_cast<float>(i));
+        const double bearing = M_PI * (static_cast<double>(i) / (kBeams - 1) - 0.5);
+        bearings.push_back(static_cast<float>(clockwise ? -bearing : bearing));
+      }
+      Frame written = frame(1'000'000, {7, 8, 0.5}, ranges_m);
+      written.scan.bearings_rad = std::make_shared<const std::vector<float>>(bearings);
+      written.scan.robot_T_laser = mount;
+      const TemporaryFolder folder;
+      const auto path = folder.path() / "trajectory.carmen";
+      write_corrected_log(path, {written}, {{1, 2, -0.25}});
+      const auto read = CarmenReader(path, LogOptions()).next();
+      ASSERT_TRUE(read.has_value());
+      const auto expected = beam_ends(written.scan);
+      const auto ends = beam_ends(read->scan);
+      ASSERT_EQ(ends.size(), expected.size());
+      for (std::size_t i = 0; i < ends.size(); ++i) {
+        ASSERT_NEAR(ends[i].x, expected[i].x, 1e-5) << i << (clockwise ? " clockwise" : "");
+        ASSERT_NEAR(ends[i].y, expected[i].y, 1e-5) << i << (clockwise ? " clockwise" : "");
+      }
+      EXPECT_NEAR(read->odom_T_robot.x, 7, 1e-9);
+    }
+  }
 }
 
 TEST(CorrectedLog, wants_a_pose_for_each_scan) {

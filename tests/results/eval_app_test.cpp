@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 
 class EvalApp : public ::testing::Test {
  protected:
@@ -98,6 +100,15 @@ TEST_F(EvalApp, wrong_usage_and_wrong_input_exit_with_2) {
   std::ofstream(relations_) << "1 2 3\n";
   EXPECT_EQ(run(), 2);
   EXPECT_THAT(err_.str(), HasSubstr("true.relations:1: expected"));
+}
+
+TEST_F(EvalApp, relations_that_match_nothing_are_told_in_one_sentence) {
+  std::ofstream(relations_) << "101 102 3 0 0 0 0 0\n103 104 3 0 0 0 0 0\n";
+  EXPECT_EQ(run({"--per-relation", csv_}), 2);
+  EXPECT_EQ(out_.str(), "");
+  EXPECT_THAT(err_.str(), MatchesRegex("psi-slam-eval: [^\n]+\n"));
+  EXPECT_THAT(err_.str(), AllOf(HasSubstr("101"), HasSubstr("104"))) << "their span of time";
+  EXPECT_FALSE(std::filesystem::exists(csv_));
 }
 
 TEST_F(EvalApp, a_result_that_cannot_be_written_exits_with_1) {

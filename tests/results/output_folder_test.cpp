@@ -46,7 +46,9 @@ std::string complaint(const fs::path& path, bool force = false) {
 
 void export_room(const OutputFolder& folder) {
   const MappingResult result = walk_around_the_room();
-  export_all(result, kInfo, *draw_grid_map(result.log, mapped_poses(result)), folder);
+  const auto grid = draw_grid_map(result.log, mapped_poses(result));
+  export_results(result, *grid, folder);
+  export_account(result, kInfo, summarize_run(result, *grid), *grid, folder);
 }
 
 TEST(OutputFolder, is_made_with_those_above_it) {

@@ -100,5 +100,33 @@ TEST(ReportHtml, an_empty_and_an_interrupted_run_are_shown_too) {
   EXPECT_THAT(html, Not(HasSubstr("nan")));
 }
 
+TEST(ReportHtml, tells_when_the_map_is_coarser_than_asked_for) {
+  const MappingResult result = walk_around_the_room();
+  const auto grid = draw_grid_map(result.log, mapped_poses(result));
+  RunSummary summary = summarize_run(result, *grid);
+  EXPECT_THAT(report_html(result, {}, summary, *grid), Not(HasSubstr("map.max_cells")));
+  summary.map.asked_resolution_m = 0.0125;
+  EXPECT_THAT(report_html(result, {}, summary, *grid),
+              HasSubstr("map.max_cells leaves no room for cells of 0.0125 m: those of the map are 0.05 m."));
+}
+
+TEST(ReportHtml, tells_why_the_log_breaks_off) {
+  MappingResult result = walk_around_the_room();
+  result.broken_off = "a<b.log:41: expected 181 ranges";
+  const std::string html = report_of(result, {});
+  EXPECT_THAT(html,
+              HasSubstr("The log breaks off: a&lt;b.log:41: expected 181 ranges. All below is of the 50 "
+                        "scans before that."));
+  EXPECT_THAT(html, Not(HasSubstr("stopped")));
+}
+
+TEST(ReportHtml, tells_that_the_last_pass_was_cut_short) {
+  MappingResult result = walk_around_the_room();
+  EXPECT_THAT(report_of(result, {}), Not(HasSubstr("cut short")));
+  result.interrupted = result.last_pass_cut_short = true;
+  EXPECT_THAT(report_of(result, {}),
+              HasSubstr("of the 50 scans read until then, and the last search for loops was cut short."));
+}
+
 }  // namespace
 }  // namespace psi_slam

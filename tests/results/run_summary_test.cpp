@@ -64,6 +64,20 @@ TEST(RunSummary, tells_speed_memory_and_map) {
   EXPECT_NEAR(summary.path_length_m, 9.69, 0.4) << "around an ellipse of 2 m by 1 m, but for its last step";
 }
 
+TEST(RunSummary, tells_when_the_map_is_coarser_than_asked_for) {
+  const MappingResult result = walk_around_the_room();
+  const auto text_of = [&](const GridMapOptions& asked) {
+    const auto grid = draw_grid_map(result.log, mapped_poses(result), asked);
+    return coarser_cells_text(summarize_run(result, *grid, asked).map).value_or("");
+  };
+  GridMapOptions asked;
+  EXPECT_EQ(text_of(asked), "");
+  asked.resolution_m = 0.1;
+  EXPECT_EQ(text_of(asked), "");
+  asked.max_cells = 1000;
+  EXPECT_EQ(text_of(asked), "map.max_cells leaves no room for cells of 0.1 m: those of the map are 0.2 m");
+}
+
 TEST(RunSummary, a_robot_that_trembles_goes_nowhere) {
   std::vector<mrpt::math::TPose2D> poses;
   for (int i = 0; i < 1000; ++i) poses.emplace_back(i % 2 == 0 ? 0.03 : 0, 0, 0);

@@ -20,6 +20,8 @@ RunSummary some_figures() {
   summary.loops.reasons = {{"response … is below …", 7}};
   summary.real_time_factor = 19.6;
   summary.peak_memory_mb = 123.4;
+  summary.last_pass_cut_short = true;
+  summary.broken_off = "room.clf:41: expected a number";
   return summary;
 }
 
@@ -35,6 +37,8 @@ TEST(SummaryJson, reads_back_with_its_schema_and_figures) {
   EXPECT_EQ(json["log"]["scans"], 50);
   EXPECT_EQ(json["log"]["first_time_s"], "976052905.167303");
   EXPECT_EQ(json["real_time_factor"], 19.6);
+  EXPECT_EQ(json["last_pass_cut_short"], true);
+  EXPECT_EQ(json["broken_off"], "room.clf:41: expected a number");
   EXPECT_EQ(json["settings"]["front_end.window_x_m"], "0.3");
   EXPECT_EQ(json["loop_counts"]["reasons"][0]["count"], 7);
   EXPECT_EQ(json["stages"][0]["calls"], 50);
@@ -46,6 +50,7 @@ TEST(SummaryJson, survives_what_is_not_a_number_and_not_utf8) {
   const auto json = nlohmann::json::parse(summary_json({}, {"0.1.0", "caf\xe9.clf", {}}, summary));
   EXPECT_TRUE(json["mean_response"].is_null());
   EXPECT_TRUE(json["settings"].is_object());
+  EXPECT_TRUE(nlohmann::json::parse(summary_json({}, {}, {}))["broken_off"].is_null());
 }
 
 }  // namespace

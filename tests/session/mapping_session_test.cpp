@@ -8,11 +8,14 @@
 #include <fstream>
 #include <functional>
 
-#include "psi_slam/base/user_error.h"
 #include "psi_slam/pose_graph/g2o_file.h"
+#include "psi_slam/results/grid_map.h"
+#include "psi_slam/results/report_html.h"
+#include "psi_slam/results/summary_json.h"
 #include "psi_slam/results/trajectory_file.h"
 #include "room_log.h"
 #include "temporary_folder.h"
+#include "test_files.h"
 
 namespace psi_slam {
 namespace {
@@ -25,16 +28,6 @@ class MappingSessionTest : public testing::Test {
  protected:
   std::filesystem::path log(const std::vector<std::string>& lines) {
     return write_lines(folder_.path() / "room.log", lines);
-  }
-
-  std::string sentence_of(const std::function<void()>& action) {
-    try {
-      action();
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "no UserError was thrown";
-    return {};
   }
 
   OutputFolder output() { return OutputFolder::prepare(folder_.path() / "out", false); }
@@ -91,6 +84,41 @@ TEST_F(MappingSessionTest, stops_when_it_is_told_to) {
   EXPECT_EQ(session.result().frames.size(), 25U);
 }
 
+TEST_F(MappingSessionTest, told_to_stop_in_the_last_pass_it_cuts_that_short) {
+  std::atomic<bool> stop{false};
+  double share = 0;
+  MappingSession session(log(room_log_lines()), settings_);
+  session.set_observer([&](const SessionProgress& progress) {
+    if (progress.phase != Phase::kLastPass) return;
+    stop = true;
+    share = progress.share;
+  });
+  session.run(stop);
+  EXPECT_GT(share, 0);
+  EXPECT_LT(share, 1) << "it goes on no further";
+  EXPECT_EQ(session.result().frames.size(), 150U);
+  EXPECT_TRUE(session.result().interrupted);
+  const RunSummary summary = session.export_to(output());
+  EXPECT_TRUE(summary.interrupted);
+  EXPECT_TRUE(summary.last_pass_cut_short);
+}
+
+TEST_F(MappingSessionTest, told_to_stop_when_all_is_done_it_was_not_interrupted) {
+  for (const Phase phase : {Phase::kMapping, Phase::kLastPass}) {
+    settings_.mapper.last_pass.passes = phase == Phase::kMapping ? 0 : 2;
+    std::atomic<bool> stop{false};
+    MappingSession session(log(room_log_lines(60)), settings_);
+    session.set_observer([&](const SessionProgress& progress) {
+      const bool all_done = progress.phase == Phase::kMapping ? progress.scans == 60 : progress.share == 1;
+      if (progress.phase == phase && all_done) stop = true;
+    });
+    session.run(stop);
+    EXPECT_TRUE(stop);
+    EXPECT_FALSE(session.result().interrupted);
+    EXPECT_EQ(session.result().frames.size(), 60U);
+  }
+}
+
 TEST_F(MappingSessionTest, tells_how_far_it_is) {
   std::vector<Phase> phases;
   double share = 0;
@@ -121,8 +149,12 @@ TEST_F(MappingSessionTest, maps_a_log_up_to_where_it_breaks_off) {
   session.run(go_on_);
   ASSERT_TRUE(session.broken_off().has_value());
   EXPECT_THAT(*session.broken_off(), HasSubstr("room.log:41"));
-  EXPECT_TRUE(session.result().interrupted);
+  EXPECT_FALSE(session.result().interrupted) << "nobody did";
+  EXPECT_EQ(session.result().broken_off, session.broken_off());
   EXPECT_EQ(session.result().frames.size(), 40U);
+  const RunSummary summary = session.export_to(output());
+  EXPECT_FALSE(summary.interrupted);
+  EXPECT_EQ(summary.broken_off, session.broken_off());
 }
 
 TEST_F(MappingSessionTest, maps_a_log_without_the_line_that_does_not_parse_and_says_so) {
@@ -196,6 +228,18 @@ TEST_F(MappingSessionTest, exports_the_graph_and_the_figures_of_the_whole_run) {
   EXPECT_LT(stages_s, summary.wall_s);
   EXPECT_EQ(session.run_info().log_name, "room.log");
   EXPECT_EQ(session.run_info().settings.at("front_end.window_m"), "0.2");
+}
+
+TEST_F(MappingSessionTest, report_summary_and_caller_are_told_the_same_times) {
+  MappingSession session(log(room_log_lines(60)), settings_);
+  session.run(go_on_);
+  const RunSummary summary = session.export_to(output());
+  const std::filesystem::path out = folder_.path() / "out";
+  const MappingResult& result = session.result();
+  const auto grid = draw_grid_map(result.log, mapped_poses(result), settings_.map);
+  EXPECT_EQ(read_file(out / "summary.json"), summary_json(result, session.run_info(), summary));
+  EXPECT_TRUE(read_file(out / "report.html") == report_html(result, session.run_info(), summary, *grid));
+  EXPECT_THAT(read_file(out / "report.html"), HasSubstr("<th>write results</th>"));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ bool is_near(std::size_t node, const PlacedLocalMap& local_map, const PoseGraph&
 std::vector<LoopRecord> last_pass(const PlaceMemory& memory, const PoseGraph& graph, const Matcher& matcher,
                                   const LoopVerificationOptions& verification, const LastPassOptions& options,
                                   const std::function<bool(std::size_t, std::size_t)>& known,
-                                  const std::function<void(double)>& progress) {
+                                  const std::function<bool(double)>& progress) {
   std::vector<LoopRecord> loops;
   for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = memory.local_maps[m];
@@ -44,7 +44,7 @@ std::vector<LoopRecord> last_pass(const PlaceMemory& memory, const PoseGraph& gr
         loops.push_back(std::move(*loop));
       }
     }
-    progress(static_cast<double>(m + 1) / static_cast<double>(memory.local_maps.size()));
+    if (!progress(static_cast<double>(m + 1) / static_cast<double>(memory.local_maps.size()))) break;
   }
   return loops;
 }

@@ -137,7 +137,7 @@ void Mapper::optimize() {
   solver_.optimize(graph_);
 }
 
-void Mapper::run_last_pass(const std::function<void(double)>& progress) {
+void Mapper::run_last_pass(const std::function<bool(double)>& progress) {
   std::set<std::pair<std::size_t, std::size_t>> known;
   for (const LoopRecord& loop : result_.loops)
     if (loop.verdict != LoopVerdict::kRefused || loop.in_last_pass) known.emplace(loop.node, loop.local_map);
@@ -197,21 +197,25 @@ void Mapper::carry_frames_along() {
   }
 }
 
-MappingResult Mapper::finish(const std::function<void(double)>& progress) {
+MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
   for (const PlacedLocalMap& finished : front_end_.finish()) remember(finished);
   refuse_pending_loops();
   if (options_.close_loops && !memory_.nodes.empty()) {
     graph_clock_.time([&] { optimize(); });
-    for (int pass = 0; pass < options_.last_pass.passes; ++pass) {
+    for (int pass = 0; pass < options_.last_pass.passes && !result_.last_pass_cut_short; ++pass) {
       last_pass_clock_.time([&] {
         run_last_pass([&](double share) {
-          if (progress) progress((pass + share) / options_.last_pass.passes);
+          const double all_share = (pass + share) / options_.last_pass.passes;
+          const bool go_on = !progress || progress(all_share);
+          result_.last_pass_cut_short = !go_on && all_share < 1;
+          return go_on;
         });
       });
       graph_clock_.time([&] { switch_off_contradicted_loops(); });
     }
     refuse_pending_loops();
   }
+  result_.interrupted = result_.last_pass_cut_short;
   carry_frames_along();
   result_.graph = graph_.to_mrpt();
   for (const StageClock* clock : {&front_end_clock_, &loop_clock_, &graph_clock_, &last_pass_clock_})

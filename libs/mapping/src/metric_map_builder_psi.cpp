@@ -93,6 +93,7 @@ class CMetricMapBuilderPsi::Implementation {
     MappingResult result = mapper_->finish();
     graph_ = mapper_->graph();
     mapper_.reset();
+    newest_marginal_.reset();
     log_ = std::move(result.log);
     frames_ = std::move(result.frames);
     finished_ = true;
@@ -153,6 +154,8 @@ class CMetricMapBuilderPsi::Implementation {
     graph_ = {};
     node_frames_.clear();
     node_observations_.clear();
+    marginals_ = {};
+    newest_marginal_.reset();
     drawn_grid_.reset();
     finished_ = false;
   }
@@ -229,26 +232,35 @@ class CMetricMapBuilderPsi::Implementation {
   }
 
   void map(Frame frame, const CSensoryFrame::Ptr& kept) {
-    frame.index = log_.size();
-    log_.push_back(frame);
+    const std::size_t index = mapper_->log().size();
+    frame.index = index;
     if (!mapper_->add(std::move(frame)).node) return;
-    node_frames_.push_back(log_.size() - 1);
+    node_frames_.push_back(index);
     node_observations_.push_back(kept);
   }
 
+  const std::vector<Frame>& log() const { return finished_ ? log_ : mapper_->log(); }
   const std::vector<FrameRecord>& frames() const { return finished_ ? frames_ : mapper_->frames(); }
   const PoseGraph& graph() const { return finished_ ? graph_ : mapper_->graph(); }
+
+  // Of the newest node. The graph changes with its nodes and constraints, and in finish(), only.
+  const Eigen::Matrix3d& newest_marginal() const {
+    const std::pair<std::size_t, std::size_t> state(graph().num_nodes(), graph().num_constraints());
+    if (!newest_marginal_ || marginal_state_ != state) {
+      newest_marginal_ = Eigen::Matrix3d::Zero();
+      if (state.first > 1) {
+        marginals_.update(graph());
+        newest_marginal_ = marginals_.marginal(state.first - 1);
+      }
+      marginal_state_ = state;
+    }
+    return *newest_marginal_;
+  }
 
   CPosePDFGaussian estimate() const {
     if (frames().empty()) return start_;
     CPosePDFGaussian robot(CPose2D(frames().back().map_T_robot));
-    const std::size_t newest = node_frames_.size() - 1;
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    if (newest > 0) {
-      MarginalCovariance marginals;
-      marginals.update(graph());
-      covariance = marginals.marginal(newest);
-    }
+    Eigen::Matrix3d covariance = newest_marginal();
     const double sigma_m = options_.mapper.local_map_sigma_m;
     const double sigma_rad = options_.mapper.local_map_sigma_rad;
     covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
@@ -276,10 +288,10 @@ class CMetricMapBuilderPsi::Implementation {
 
   // Grids that were handed out are left alone: others may be reading them.
   COccupancyGridMap2D::Ptr up_to_date_grid() const {
-    const bool drawn = drawn_grid_ && drawn_scans_ == log_.size() && drawn_finished_ == finished_;
+    const bool drawn = drawn_grid_ && drawn_scans_ == log().size() && drawn_finished_ == finished_;
     if (!drawn) {
-      drawn_grid_ = draw_grid_map(log_, poses(), options_.map);
-      drawn_scans_ = log_.size();
+      drawn_grid_ = draw_grid_map(log(), poses(), options_.map);
+      drawn_scans_ = log().size();
       drawn_finished_ = finished_;
     }
     return drawn_grid_;
@@ -299,13 +311,16 @@ class CMetricMapBuilderPsi::Implementation {
   std::deque<CSensoryFrame::Ptr> waiting_observations_;  // of the scans that wait
   std::size_t scans_taken_ = 0;
 
-  std::vector<Frame> log_;
   std::vector<std::size_t> node_frames_;
   std::vector<CSensoryFrame::Ptr> node_observations_;
-  std::vector<FrameRecord> frames_;  // these two: after finish()
+  std::vector<Frame> log_;  // these three: after finish()
+  std::vector<FrameRecord> frames_;
   PoseGraph graph_;
   bool finished_ = false;
 
+  mutable MarginalCovariance marginals_;
+  mutable std::optional<Eigen::Matrix3d> newest_marginal_;
+  mutable std::pair<std::size_t, std::size_t> marginal_state_;  // nodes and constraints it was computed for
   mutable COccupancyGridMap2D::Ptr drawn_grid_;
   mutable std::size_t drawn_scans_ = 0;
   mutable bool drawn_finished_ = false;

@@ -61,8 +61,8 @@ OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
   return OutputFolder(path);
 }
 
-RunSummary export_all(const MappingResult& result, const RunInfo& info,
-                      const mrpt::maps::COccupancyGridMap2D& grid, const OutputFolder& folder) {
+void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
+                    const OutputFolder& folder) {
   const auto file = [&](const char* name) { return folder.path() / name; };
   write_tum(file("trajectory.tum"), trajectory_of(result));
   write_corrected_log(file("trajectory.carmen"), result.log, mapped_poses(result));
@@ -72,10 +72,12 @@ RunSummary export_all(const MappingResult& result, const RunInfo& info,
   write_map_server_pair(file("map.yaml"), grid);
   write_grid_map(file("map.gridmap.gz"), grid);
   write_simple_map(file("map.simplemap.gz"), simple_map(result));
-  const RunSummary summary = summarize_run(result, grid);
-  write_text_atomically(file("summary.json"), summary_json(result, info, summary));
-  write_text_atomically(file("report.html"), report_html(result, info, summary, grid));
-  return summary;
+}
+
+void export_account(const MappingResult& result, const RunInfo& info, const RunSummary& summary,
+                    const mrpt::maps::COccupancyGridMap2D& grid, const OutputFolder& folder) {
+  write_text_atomically(folder.path() / "summary.json", summary_json(result, info, summary));
+  write_text_atomically(folder.path() / "report.html", report_html(result, info, summary, grid));
 }
 
 std::vector<mrpt::math::TPose2D> mapped_poses(const MappingResult& result) {

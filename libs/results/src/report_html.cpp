@@ -39,6 +39,18 @@ std::string card(const std::string& title, const std::string& note, const std::s
          "</h2>\n" + content + "</section>\n";
 }
 
+std::string banner(const std::string& text) {
+  return "<section class=\"card banner\">" + text + "</section>\n";
+}
+
+std::string stop_text(const RunSummary& summary) {
+  const std::string scans = counted(summary.log.scans, "scan", "scans");
+  if (!summary.last_pass_cut_short)
+    return "The run was stopped before the end of the log: all below is of its first " + scans + '.';
+  return "The run was stopped: all below is of the " + scans +
+         " read until then, and the last search for loops was cut short.";
+}
+
 /// "Mapped by psi-slam 0.1.0 in 51.3 s, 52 times faster than it was recorded."
 std::string story(const RunInfo& info, const RunSummary& summary) {
   std::string text = "Mapped by psi-slam";
@@ -87,13 +99,12 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
   const std::string name = escape_html(info.log_name.empty() ? "A run of psi-slam" : info.log_name);
   std::string html = head(name) + "<body>\n<main>\n<header>" + kLogo + "<div><h1>" + name + "</h1><p>" +
                      story(info, summary) + "</p></div></header>\n";
-  if (summary.interrupted)
-    html +=
-        "<section class=\"card banner\">The run was stopped before the end of the log: all below is of its "
-        "first " +
-        counted(summary.log.scans, "scan", "scans") + ".</section>\n";
-  for (const std::string& warning : info.warnings)
-    html += "<section class=\"card banner\">" + escape_html(warning) + ".</section>\n";
+  if (summary.broken_off)
+    html += banner("The log breaks off: " + escape_html(*summary.broken_off) + ". All below is of the " +
+                   counted(summary.log.scans, "scan", "scans") + " before that.");
+  if (summary.interrupted) html += banner(stop_text(summary));
+  if (const auto coarser = coarser_cells_text(summary.map)) html += banner(*coarser + '.');
+  for (const std::string& warning : info.warnings) html += banner(escape_html(warning) + '.');
   html += key_figures(summary);
   html += card("Map", "", report_map(result, grid));
   html += card("Response of the front end", response_key(summary), response_plot(result));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "psi_slam/results/map_image.h"
+#include "psi_slam/results/number_text.h"
 
 namespace psi_slam {
 namespace {
@@ -117,7 +118,8 @@ double path_length_m(const std::vector<TPose2D>& poses) {
   return length + distance(poses.back());
 }
 
-RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid) {
+RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
+                         const GridMapOptions& asked) {
   RunSummary summary;
   summary.log = log_facts(result);
   std::vector<TPose2D> poses;
@@ -135,11 +137,21 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
   summary.local_maps = result.local_maps.size();
   summary.loops = loop_counts(result.loops);
   summary.map = map_extent(grid);
+  summary.map.asked_resolution_m = asked.resolution_m;
   summary.wall_s = result.wall_s;
   if (result.wall_s > 0) summary.real_time_factor = summary.log.duration_s / result.wall_s;
   summary.peak_memory_mb = peak_memory_mb();
   summary.interrupted = result.interrupted;
+  summary.last_pass_cut_short = result.last_pass_cut_short;
+  summary.broken_off = result.broken_off;
   return summary;
+}
+
+std::optional<std::string> coarser_cells_text(const MapExtent& map) {
+  if (map.resolution_m < 1.5 * map.asked_resolution_m) return std::nullopt;  // it is doubled at least
+  const auto metres = [](double value) { return shortest_text(static_cast<float>(value)) + " m"; };
+  return "map.max_cells leaves no room for cells of " + metres(map.asked_resolution_m) +
+         ": those of the map are " + metres(map.resolution_m);
 }
 
 }  // namespace psi_slam

@@ -38,9 +38,10 @@ Json log_json(const LogFacts& log, const std::string& name) {
 }
 
 Json map_json(const MapExtent& map) {
-  return {{"resolution_m", number(map.resolution_m)}, {"x_min_m", number(map.x_min_m, 3)},
-          {"y_min_m", number(map.y_min_m, 3)},        {"x_max_m", number(map.x_max_m, 3)},
-          {"y_max_m", number(map.y_max_m, 3)},        {"free_m2", number(map.free_m2, 2)}};
+  return {{"resolution_m", number(map.resolution_m)}, {"asked_resolution_m", number(map.asked_resolution_m)},
+          {"x_min_m", number(map.x_min_m, 3)},        {"y_min_m", number(map.y_min_m, 3)},
+          {"x_max_m", number(map.x_max_m, 3)},        {"y_max_m", number(map.y_max_m, 3)},
+          {"free_m2", number(map.free_m2, 2)}};
 }
 
 Json loop_counts_json(const LoopCounts& loops) {
@@ -75,6 +76,8 @@ std::string summary_json(const MappingResult& result, const RunInfo& info, const
                      {"program_version", info.program_version},
                      {"interrupted", summary.interrupted},
                      {"warnings", info.warnings},
+                     {"last_pass_cut_short", summary.last_pass_cut_short},
+                     {"broken_off", summary.broken_off ? Json(*summary.broken_off) : Json(nullptr)},
                      {"log", log_json(summary.log, info.log_name)},
                      {"path_length_m", number(summary.path_length_m, 3)},
                      {"nodes", summary.nodes},

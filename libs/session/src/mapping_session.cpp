@@ -6,12 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/pose_graph/g2o_file.h"
 #include "psi_slam/results/grid_map.h"
-#include "psi_slam/results/summary_json.h"
 #include "psi_slam/session/read_ahead.h"
 
 namespace psi_slam {
@@ -84,7 +82,7 @@ std::optional<Frame> MappingSession::read() {
   return frame;
 }
 
-void MappingSession::finish() {
+void MappingSession::finish(const std::atomic<bool>& stop) {
   begin(SessionProgress::Phase::kLastPass);
   WorkClock clock(work_s_);
   if (!any_return_)
@@ -92,44 +90,43 @@ void MappingSession::finish() {
                     (scans_ == 0 ? "no scan was read, there is nothing to map"
                                  : "none of its " + std::to_string(scans_) +
                                        " scans has a return between log.min_range_m and log.max_range_m"));
+  const bool scans_left = !at_end_ && !broken_off_ && read().has_value();
   result_ = mapper_->finish([&](double share) {
+    const bool go_on = !stop;
     clock.stop();
     tell(share);
+    return go_on;
   });
   graph_ = mapper_->graph();
   mapper_.reset();
   result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
-  result_.interrupted = !at_end_;
+  result_.interrupted = result_.interrupted || scans_left;
+  result_.broken_off = broken_off_;
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {
   while (step() && !stop) {
   }
-  finish();
+  finish(stop);
 }
 
 RunSummary MappingSession::export_to(const OutputFolder& folder) {
   begin(SessionProgress::Phase::kWriting);
   WorkClock clock(work_s_);
-  const RunInfo info = run_info();
   StageClock drawing_clock("draw map");
   StageClock writing_clock("write results");
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
   drawing_clock.time([&] { grid = draw_grid_map(result_.log, mapped_poses(result_), settings_.map); });
   result_.stages.push_back(drawing_clock.timing());
-  clock.stop();
-  result_.wall_s = work_s_;
-  RunSummary summary;
   writing_clock.time([&] {
     write_g2o(graph_, folder.path() / "graph.g2o");
-    summary = export_all(result_, info, *grid, folder);
+    export_results(result_, *grid, folder);
   });
   result_.stages.push_back(writing_clock.timing());
   clock.stop();
-  result_.wall_s = summary.wall_s = work_s_;
-  summary.real_time_factor = summary.log.duration_s / work_s_;
-  // Once more, now that the time of the writing itself is known.
-  write_text_atomically(folder.path() / "summary.json", summary_json(result_, info, summary));
+  result_.wall_s = work_s_;
+  const RunSummary summary = summarize_run(result_, *grid, settings_.map);
+  export_account(result_, run_info(), summary, *grid, folder);
   return summary;
 }
 

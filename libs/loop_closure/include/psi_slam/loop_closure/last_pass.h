@@ -24,10 +24,11 @@ struct LastPassOptions {
 };
 
 /// Every match that was found, accepted or refused; in the order of local maps, then nodes. Pairs for which
-/// `known(node, local_map)` holds are left out. `progress` is called with the share done.
+/// `known(node, local_map)` holds are left out. `progress` is called with the share done; when it
+/// returns false, the search ends there.
 std::vector<LoopRecord> last_pass(const PlaceMemory& memory, const PoseGraph& graph, const Matcher& matcher,
                                   const LoopVerificationOptions& verification, const LastPassOptions& options,
                                   const std::function<bool(std::size_t node, std::size_t local_map)>& known,
-                                  const std::function<void(double)>& progress);
+                                  const std::function<bool(double)>& progress);
 
 }  // namespace psi_slam

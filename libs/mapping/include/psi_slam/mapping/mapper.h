@@ -46,12 +46,15 @@ class Mapper {
   const FrameRecord& add(Frame frame);
 
   /// The last loop search over all pairs near each other and the last optimisation; then the result. The
-  /// mapper cannot be used afterwards. `progress` is called with the share done, in [0, 1].
-  MappingResult finish(const std::function<void(double)>& progress = {});
+  /// mapper cannot be used afterwards. `progress` is called with the share done, in [0, 1];
+  /// when it returns false, the search ends there: the map is of the loops found until then, and the result
+  /// says that it was cut short.
+  MappingResult finish(const std::function<bool(double)>& progress = {});
 
   /// The robot now, in the global map.
   mrpt::math::TPose2D map_T_robot() const;
   const PoseGraph& graph() const { return graph_; }
+  const std::vector<Frame>& log() const { return result_.log; }
   const std::vector<FrameRecord>& frames() const { return result_.frames; }
   const std::vector<LoopRecord>& loops() const { return result_.loops; }
 
@@ -62,7 +65,7 @@ class Mapper {
   bool confirm(std::size_t loop);
   bool accept(std::size_t loop);
   void optimize();
-  void run_last_pass(const std::function<void(double)>& progress);
+  void run_last_pass(const std::function<bool(double)>& progress);
   void switch_off_contradicted_loops();
   void refuse_pending_loops();
   void carry_frames_along();

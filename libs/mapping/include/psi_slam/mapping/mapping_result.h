@@ -54,7 +54,9 @@ struct MappingResult {
   std::vector<LoopRecord> loops;
   std::vector<StageTiming> stages;
   double wall_s = 0;         ///< of the whole run so far, loading included
-  bool interrupted = false;  ///< true when the user stopped it before the log's end
+  bool interrupted = false;  ///< true when the user stopped it before the log's end, or cut the last pass
+  bool last_pass_cut_short = false;       ///< some of its pairs were not tried
+  std::optional<std::string> broken_off;  ///< what is wrong with the log behind its last scan, as a sentence
 };
 
 }  // namespace psi_slam

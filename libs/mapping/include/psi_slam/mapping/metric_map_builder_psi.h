@@ -71,7 +71,8 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   void finish();
 
   /// The robot at the last scan mapped: a CPose3DPDFGaussian. Its covariance is that of `x0`, of the newest
-  /// node given the whole graph, and of a scan in its local map.
+  /// node given the whole graph, and of a scan in its local map. The first call after a new node or a loop
+  /// factorises the whole graph; others cost nothing.
   mrpt::poses::CPose3DPDF::Ptr getCurrentPoseEstimation() const override;
 
   /// The nodes of the graph with all that was observed there. Each pose comes with a covariance of (1 mm)^2
@@ -80,7 +81,8 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   unsigned int getCurrentlyBuiltMapSize() override;
 
   /// One occupancy grid of all scans at their current poses. It is drawn when asked for and lives as long as
-  /// the builder.
+  /// the builder. The first call after a new scan draws all scans of the log anew: ask now and then, not at
+  /// every scan.
 #if MRPT_VERSION >= 0x292
   const mrpt::maps::CMultiMetricMap& getCurrentlyBuiltMetricMap() const override;
 #else

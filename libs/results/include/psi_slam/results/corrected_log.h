@@ -6,7 +6,9 @@
 //
 // Both poses are the robot's: the first in the map, the second raw odometry. A beam that returned nothing is
 // written as the sensor's maximum. FLASER has no room for the beams' bearings and the laser's mount: PARAM
-// lines at the top say them as far as CARMEN has names for them, a comment says them whole.
+// lines at the top say the mount, and the bearings as far as CARMEN has names for them; a comment says them
+// whole. Ranges go counter-clockwise, also those of a laser that runs clockwise: who reads this log must not
+// set log.mirrored again.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

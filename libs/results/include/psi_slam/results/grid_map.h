@@ -24,7 +24,7 @@ struct GridMapOptions {
   double max_range_m = 30;  ///< longer beams are drawn up to here, as free space only
   double margin_m = 0.5;    ///< of unknown space around all that was seen
   /// The resolution is doubled until the map has no more cells than this (four bytes each while drawing, one
-  /// after): a map that fell apart shall not exhaust the memory.
+  /// after): a map that fell apart shall not exhaust the memory. coarser_cells_text() tells it.
   std::size_t max_cells = 100'000'000;
 };
 

@@ -31,11 +31,16 @@ class OutputFolder {
   std::filesystem::path path_;
 };
 
-/// Writes all files named above, each of them whole or not at all, the report last. `grid` is the map of
+/// Writes the maps, the trajectories and the tables, each file whole or not at all. `grid` is the map of
 /// `result` as draw_grid_map makes it. Throws SystemFailure (a sentence that names the file) when the disk
-/// does not take one. Returns the figures that the summary and the report show.
-RunSummary export_all(const MappingResult& result, const RunInfo& info,
-                      const mrpt::maps::COccupancyGridMap2D& grid, const OutputFolder& folder);
+/// does not take one.
+void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
+                    const OutputFolder& folder);
+
+/// Writes summary.json and, last of all, report.html: after the rest, so that their times include the writing
+/// of it. Throws as export_results.
+void export_account(const MappingResult& result, const RunInfo& info, const RunSummary& summary,
+                    const mrpt::maps::COccupancyGridMap2D& grid, const OutputFolder& folder);
 
 /// Where each scan was taken in the map, in the log's order.
 std::vector<mrpt::math::TPose2D> mapped_poses(const MappingResult& result);

@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "psi_slam/base/time_stamp.h"
 #include "psi_slam/mapping/mapping_result.h"
+#include "psi_slam/results/grid_map.h"
 
 namespace psi_slam {
 
@@ -61,6 +63,7 @@ struct MapExtent {
   double x_max_m = 0;
   double y_max_m = 0;
   double resolution_m = 0;
+  double asked_resolution_m = 0;
   double free_m2 = 0;
 };
 
@@ -78,9 +81,16 @@ struct RunSummary {
   double real_time_factor = 0;  ///< seconds of the log in a second of work; 0 where that cannot be said
   double peak_memory_mb = 0;    ///< of this process so far
   bool interrupted = false;
+  bool last_pass_cut_short = false;
+  std::optional<std::string> broken_off;  ///< what is wrong with the log behind its last scan
 };
 
-RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid);
+/// `grid` was drawn with the options `asked`.
+RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
+                         const GridMapOptions& asked = {});
+
+/// Where the map has coarser cells than asked for: a sentence without its full stop that says so and why.
+std::optional<std::string> coarser_cells_text(const MapExtent& map);
 
 /// The length of a path, walked in steps of at least 0.1 m so that the jitter of a robot at rest does not add
 /// up.

@@ -64,15 +64,18 @@ class MappingSession {
   /// What was left out of what the session has read.
   SkippedLines skipped_lines() const { return source_->skipped_lines(); }
 
-  /// Ends the mapping. Where the log was not read to its end, the result is marked as interrupted. Throws
+  /// Ends the mapping. Once `stop` is true the last pass is cut short. The result is marked as interrupted,
+  /// by the user, when readable scans of the log were left unread or the last pass was cut short. Throws
   /// UserError when no scan had a return.
-  void finish();
+  void finish(const std::atomic<bool>& stop);
+  void finish() { finish(std::atomic<bool>(false)); }
 
   /// Steps to the end of the log, or, from the first scan on, until `stop` is true; and finishes.
   void run(const std::atomic<bool>& stop);
 
   /// Draws the map and writes all results. Needs finish(). Throws SystemFailure when the disk does not take
-  /// them. The figures returned include the time that this took.
+  /// them. The figures returned are those of summary.json and report.html; their times include all but the
+  /// writing of these two.
   RunSummary export_to(const OutputFolder& folder);
 
   /// Until finish(): the poses, the graph and the loops so far.

@@ -175,7 +175,7 @@ void describe_verification(OptionTable& table, LoopVerificationOptions& verifica
       .number("max_sigma_m", verification.max_sigma_m, above(0), "m",
               "greatest standard deviation of the matched position")
       .number("min_observed_share", verification.min_observed_share, between(0, 1), "",
-              "least share of the scan's points in space that the local map has seen")
+              "least share of the scan's points in space that the local map has seen; in wide windows not asked for")
       .number("min_neighbours_agree", verification.min_neighbours_agree, between(0, 1), "",
               "least share of the neighbouring scans' points that fit the local map")
       .number("min_reverse_agree", verification.min_reverse_agree, between(0, 1), "",
@@ -228,7 +228,6 @@ void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
       .angle_deg("loop_sigma_theta_deg", mapper.loop_sigma_rad, above(0).at_most(180), "the same in heading")
       .number("max_loop_chi", mapper.max_loop_chi, above(0), "sigma",
               "a loop that the finished graph contradicts by more is switched off");
-  describe_kernel(table, "odometry", "between successive nodes", solver.odometry_kernel);
   describe_kernel(table, "local_map", "of nodes to their local maps", solver.local_map_kernel);
   describe_kernel(table, "loop", "of loops", solver.loop_kernel);
   table

@@ -78,6 +78,13 @@ LogOptions log_options(const Settings& settings) {
   return options;
 }
 
+MapperOptions mapper_options(const Settings& settings) {
+  MapperOptions options = settings.mapper;
+  options.seed = settings.run.seed;
+  options.threads = worker_threads(settings.run);
+  return options;
+}
+
 int worker_threads(const RunOptions& run) {
   if (run.threads > 0) return run.threads;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

@@ -32,7 +32,9 @@ Mapper::Mapper(const MapperOptions& options)
       loop_closer_(options.loop_closure, options.seed),
       loop_consensus_(options.loop_consensus),
       pool_(options.threads),
-      solver_(options.pose_graph) {}
+      solver_(options.pose_graph) {
+  result_.psi = options.psi;
+}
 
 const FrameRecord& Mapper::add(Frame frame) {
   FrameRecord record;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "psi_slam/logs/frame.h"
+#include "psi_slam/loop_closure/loop_closure_factor.h"
 #include "psi_slam/loop_closure/loop_effort.h"
 #include "psi_slam/loop_closure/loop_record.h"
 #include "psi_slam/mapping/stage_clock.h"
@@ -69,6 +70,7 @@ struct MappingResult {
   std::vector<std::size_t> node_frames;      ///< the frame of each node
   std::vector<LocalMapRecord> local_maps;
   std::vector<LoopRecord> loops;
+  PsiOptions psi;                                          ///< its thresholds are drawn beside the factor
   std::map<std::string, LoopMatcherRecord> loop_matchers;  ///< by name, those that were used
   std::vector<StageTiming> stages;
   double wall_s = 0;         ///< of the whole run so far, loading included

@@ -27,7 +27,7 @@ Eigen::Matrix3d information_of(const Eigen::Matrix3d& covariance, double sigma_m
 Mapper::Mapper(const MapperOptions& options)
     : options_(options),
       front_end_(options.front_end),
-      loop_matcher_(options.loop_matcher),
+      matcher_policy_(options.matcher, options.psi, options.loop_matcher, options.genetic),
       loop_closure_factor_(options.psi),
       loop_closer_(options.loop_closure, options.seed),
       loop_consensus_(options.loop_consensus),
@@ -109,7 +109,8 @@ void Mapper::remember(const PlacedLocalMap& finished) {
 }
 
 void Mapper::close_loops(std::size_t node, FrameRecord& record) {
-  const Matcher& matcher = loop_matcher_;
+  matcher_of_node_.push_back(matcher_policy_.kind(record.psi));
+  const Matcher& matcher = matcher_policy_.matcher(matcher_of_node_.back());
   record.matcher = matcher.name();
   bool news = false;
   record.loop_closing_ms = loop_clock_.time([&] {
@@ -165,7 +166,9 @@ void Mapper::run_last_pass(const std::function<void(double)>& progress) {
   const auto is_known = [&](std::size_t node, std::size_t local_map) {
     return known.count({node, local_map}) != 0;
   };
-  const auto matcher_of = [&](std::size_t) -> const Matcher& { return loop_matcher_; };
+  const auto matcher_of = [&](std::size_t node) -> const Matcher& {
+    return matcher_policy_.matcher(matcher_of_node_[node]);
+  };
   LastPassOutcome outcome = last_pass(memory_, graph_, matcher_of, options_.loop_closure.verification,
                                       options_.last_pass, is_known, options_.seed, pool_, progress);
   for (const auto& [matcher, effort] : outcome.effort) {

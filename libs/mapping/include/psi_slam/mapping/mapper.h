@@ -16,6 +16,7 @@
 #include "psi_slam/loop_closure/loop_closer.h"
 #include "psi_slam/loop_closure/loop_closure_factor.h"
 #include "psi_slam/loop_closure/loop_consensus.h"
+#include "psi_slam/loop_closure/matcher_policy.h"
 #include "psi_slam/mapping/mapping_result.h"
 #include "psi_slam/mapping/stage_clock.h"
 #include "psi_slam/pose_graph/pose_graph.h"
@@ -25,7 +26,9 @@ namespace psi_slam {
 
 struct MapperOptions {
   FrontEndOptions front_end;
-  MatcherOptions loop_matcher;
+  LoopMatcher matcher = LoopMatcher::kAdaptive;
+  MatcherOptions loop_matcher;  ///< what all of them share
+  GeneticOptions genetic;
   PsiOptions psi;
   LoopClosureOptions loop_closure;
   LoopConsensusOptions loop_consensus;
@@ -76,7 +79,7 @@ class Mapper {
 
   MapperOptions options_;
   FrontEnd front_end_;
-  CorrelativeMatcher loop_matcher_;
+  MatcherPolicy matcher_policy_;
   LoopClosureFactor loop_closure_factor_;
   LoopCloser loop_closer_;
   LoopConsensus loop_consensus_;
@@ -84,6 +87,7 @@ class Mapper {
   SparsePoseAdjustment solver_;
   PoseGraph graph_;
   PlaceMemory memory_;
+  std::vector<MatcherKind> matcher_of_node_;  ///< that Psi chose there
   std::vector<std::pair<std::size_t, std::size_t>>
       loop_of_constraint_;           ///< constraint, index in result_.loops
   mrpt::math::TPose2D map_T_local_;  ///< the front end's frame, as the newest node says

@@ -13,11 +13,6 @@
 
 namespace psi_slam {
 
-/// How loops are searched.
-enum class LoopMatcher {
-  kCsm,  ///< exhaustive in result: correlative scan matching by branch and bound
-};
-
 /// The laser's pose on the robot, as far as the user states it.
 struct LaserMount {
   std::optional<double> x_m;
@@ -34,7 +29,6 @@ struct Settings {
   LogOptions log;  ///< its robot_T_laser is left empty: `laser_mount` stands for it
   LaserMount laser_mount;
   MapperOptions mapper;  ///< its seed and threads are those of `run`: see mapper_options()
-  LoopMatcher loop_matcher = LoopMatcher::kCsm;
   GridMapOptions map;
   RunOptions run;
 };

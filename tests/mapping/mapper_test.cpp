@@ -281,6 +281,27 @@ TEST(Mapper, records_the_factor_of_loop_closing) {
   EXPECT_GT(largest_psi, 1);
 }
 
+TEST(Mapper, searches_loops_by_the_matcher_that_psi_chooses_in_the_last_pass_too) {
+  const MappingResult& result = office_map();
+  std::size_t genetic_in_last_pass = 0;
+  for (const FrameRecord& frame : result.frames) {
+    const MatcherKind kind = matcher_kind(LoopMatcher::kAdaptive, {}, frame.psi);
+    EXPECT_EQ(frame.matcher, frame.node ? name(kind) : "");
+  }
+  for (const LoopRecord& loop : result.loops) {
+    EXPECT_EQ(loop.matcher, result.frames[loop.frame].matcher);
+    genetic_in_last_pass += loop.in_last_pass && loop.matcher != "csm" ? 1 : 0;
+  }
+  EXPECT_GT(genetic_in_last_pass, 0U);
+  EXPECT_GT(result.loop_matchers.size(), 1U);
+
+  MapperOptions options;
+  options.matcher = LoopMatcher::kCsmGa;
+  const MappingResult fixed = map_of(office_drive().frames, options);
+  ASSERT_EQ(fixed.loop_matchers.size(), 1U);
+  EXPECT_EQ(fixed.loop_matchers.begin()->first, "csm_ga");
+}
+
 TEST(Mapper, contradicted_loops_are_switched_off_without_a_last_pass_too) {
   MapperOptions options;
   options.last_pass.passes = 0;

@@ -174,12 +174,13 @@ std::string short_text(double value) {
   return text;
 }
 
-std::string limit_line(const Axes& axes, double value, const std::string& text) {
+/// A dashed line across the plot, named at its beginning or at its end.
+std::string limit_line(const Axes& axes, double value, const std::string& text, bool named_early) {
   const std::string y = fixed_text(axes.y(value), 1);
+  const double x = named_early ? kLeft + 4 : kWidth - kRight - 4;
   return "<path class=\"limit\" d=\"M" + fixed_text(kLeft, 0) + ',' + y + "H" +
-         fixed_text(kWidth - kRight, 0) + "\"/><text class=\"limit\" x=\"" +
-         fixed_text(kWidth - kRight - 4, 0) + "\" y=\"" + y + "\" dy=\"-5\">" + escape_html(text) +
-         "</text>\n";
+         fixed_text(kWidth - kRight, 0) + "\"/><text class=\"limit" + (named_early ? " early" : "") +
+         "\" x=\"" + fixed_text(x, 0) + "\" y=\"" + y + "\" dy=\"-5\">" + escape_html(text) + "</text>\n";
 }
 
 struct DurationPlot {
@@ -279,8 +280,8 @@ std::string psi_plot(const MappingResult& result) {
   ticks.front().label = "≤ " + ticks.front().label;
   std::string svg = frame_of_plot(axes, ticks);
   svg += band_and_mean(binned(samples, span.length_s), axes);
-  svg += limit_line(axes, result.psi.psi_1, "Ψ₁ = " + short_text(result.psi.psi_1));
-  svg += limit_line(axes, result.psi.psi_2, "Ψ₂ = " + short_text(result.psi.psi_2));
+  svg += limit_line(axes, result.psi.psi_1, "Ψ₁ = " + short_text(result.psi.psi_1), true);
+  svg += limit_line(axes, result.psi.psi_2, "Ψ₂ = " + short_text(result.psi.psi_2), true);
   svg += matcher_strip(result.frames, span, axes);
   return plot("The factor Ψ over time", svg);
 }
@@ -316,7 +317,7 @@ std::string work_plot(const MappingResult& result) {
   DurationPlot work = duration_plot(samples, span, period_ms);
   if (period_ms > 0)
     work.svg +=
-        limit_line(work.axes, period_ms, "a scan comes every " + milliseconds_text(period_ms) + " ms");
+        limit_line(work.axes, period_ms, "a scan comes every " + milliseconds_text(period_ms) + " ms", false);
   return plot("Work for each scan over time", work.svg);
 }
 

@@ -88,6 +88,7 @@ label[for=show-odometry] { --mark: #8b93a3; }
 .plot text.value { text-anchor: end; }
 .plot text.time { text-anchor: middle; }
 .plot text.limit { text-anchor: end; fill: var(--warn); }
+.plot text.limit.early { text-anchor: start; }
 .plot path { fill: none; }
 .plot path.rule { stroke: var(--line); }
 .plot path.band { fill: var(--accent-soft); }

@@ -108,13 +108,15 @@ TEST(LoopCandidates, an_unconnected_node_is_searched_in_the_largest_window) {
 
 TEST(LoopCandidates, both_bounds_of_an_oblong_window_hold) {
   const ThereAndBack drive;
-  LoopCandidateOptions options;
-  options.max_window = {4, 2, 0.2};
-  const auto candidates = drive.candidates(59, {10, 1}, options);
-  ASSERT_FALSE(candidates.empty());
-  EXPECT_EQ(candidates.front().extent.x_m, 4);
-  EXPECT_EQ(candidates.front().extent.y_m, 2);
-  EXPECT_EQ(candidates.front().extent.theta_rad, 0.2);
+  for (const SearchExtent& bounds : {SearchExtent{4, 2, 0.2}, SearchExtent{2, 4, 0.2}}) {
+    LoopCandidateOptions options;
+    options.max_window = bounds;
+    const auto candidates = drive.candidates(59, {10, 1}, options);
+    ASSERT_EQ(candidates.size(), 1U) << "within 5 m + 4 m of x = 0";
+    EXPECT_EQ(candidates.front().extent.x_m, bounds.x_m);
+    EXPECT_EQ(candidates.front().extent.y_m, bounds.y_m);
+    EXPECT_EQ(candidates.front().extent.theta_rad, bounds.theta_rad);
+  }
 }
 
 TEST(LoopCandidates, local_maps_of_the_path_nearby_are_left_out) {

@@ -8,69 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "../local_maps/simulated_drive.h"
-#include "psi_slam/local_maps/front_end.h"
+#include "two_rounds.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
-// Twice round a furnished room with good odometry; local maps of the first round, seen again in the second.
-struct TwoRounds {
-  PlaceMemory memory;
-  std::vector<TPose2D> truth;  // by node
-  std::size_t node = 0;        // of the second round
-  std::size_t local_map = 0;   // of the first, holding a node near that one
-
-  TwoRounds() {
-    const SimulatedDrive drive = drive_along(
-        furnished_room(),
-        path_along({{2.3, 2}, {5.5, 2}, {5.5, 4}, {2.3, 4}, {2.3, 2}, {5.5, 2}, {5.5, 4}, {2.3, 4}}), {}, 5);
-    FrontEndOptions options;
-    options.nodes_per_local_map = 40;
-    FrontEnd front_end(options);
-    for (std::size_t i = 0; i < drive.frames.size(); ++i) {
-      const FrontEndStep step = front_end.add(drive.frames[i]);
-      if (!step.node) continue;
-      NodeScan scan;
-      scan.frame = i;
-      scan.local_T_robot = step.local_T_robot;
-      scan.points = step.points;
-      if (!memory.nodes.empty()) {
-        const TPose2D motion = step.local_T_robot - memory.nodes.back().local_T_robot;
-        scan.travelled_m = memory.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
-      }
-      memory.nodes.push_back(scan);
-      truth.push_back(drive.map_T_robot[i]);
-      for (const PlacedLocalMap& finished : step.finished) memory.local_maps.push_back(finished);
-    }
-    while (memory.nodes[node].travelled_m < 12) ++node;
-  }
-
-  /// As a matcher would find it, at the true place moved by `off` in the robot's own frame.
-  LoopRecord loop(double half_width_m, const TPose2D& off = {0, 0, 0}) const {
-    LoopRecord result;
-    result.node = node;
-    result.frame = memory.nodes[node].frame;
-    result.local_map = local_map;
-    result.anchor = memory.local_maps[local_map].anchor;
-    result.anchor_T_node = (truth[node] - truth[result.anchor]) + off;
-    result.covariance.diagonal() << 1e-4, 1e-4, 1e-5;
-    result.window = {half_width_m, half_width_m, 0.1};
-    result.response = 0.8;
-    result.ambiguity = 0.3;
-    return result;
-  }
-
-  void judge(LoopRecord& loop, const LoopVerificationOptions& options = {}) const {
-    verify(loop, *memory.nodes[node].points, memory, options);
-  }
-};
-
-const TwoRounds& two_rounds() {
-  static const TwoRounds rounds;
-  return rounds;
+void judge(LoopRecord& loop, const LoopVerificationOptions& options = {}) {
+  verify(loop, *two_rounds().memory.nodes[loop.node].points, two_rounds().memory, options);
 }
 
 constexpr double kNarrow_m = 0.5;
@@ -83,7 +29,7 @@ void expect_refused(const LoopRecord& loop, const std::string& part_of_reason) {
 
 TEST(LoopVerification, a_right_match_in_a_narrow_window_is_accepted) {
   LoopRecord loop = two_rounds().loop(kNarrow_m);
-  two_rounds().judge(loop);
+  judge(loop);
   EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << loop.reason;
   EXPECT_TRUE(loop.reason.empty());
   EXPECT_GT(loop.observed_share, 0.9);
@@ -93,7 +39,7 @@ TEST(LoopVerification, a_right_match_in_a_narrow_window_is_accepted) {
 
 TEST(LoopVerification, a_right_match_in_a_wide_window_waits_for_others) {
   LoopRecord loop = two_rounds().loop(kWide_m);
-  two_rounds().judge(loop);
+  judge(loop);
   EXPECT_EQ(loop.verdict, LoopVerdict::kPending);
   EXPECT_TRUE(loop.reason.empty()) << loop.reason;
 }
@@ -103,7 +49,7 @@ TEST(LoopVerification, a_match_a_metre_off_is_refused_and_says_why) {
     for (const TPose2D& off : {TPose2D(1, 0, 0), TPose2D(-1, 0, 0), TPose2D(0, 1, 0), TPose2D(0, -1, 0),
                                TPose2D(0, 0, M_PI / 4), TPose2D(0, 0, M_PI)}) {
       LoopRecord loop = two_rounds().loop(half_width_m, off);
-      two_rounds().judge(loop);
+      judge(loop);
       EXPECT_EQ(loop.verdict, LoopVerdict::kRefused) << off.asString();
       EXPECT_FALSE(loop.reason.empty()) << off.asString();
       EXPECT_LT(loop.neighbours_agree, 0.75) << off.asString();
@@ -116,7 +62,7 @@ TEST(LoopVerification, seen_from_the_other_side_a_wrong_match_is_refused_too) {
   options.min_neighbours_agree = 0;
   for (const TPose2D& off : {TPose2D(1, 0, 0), TPose2D(0, 0, M_PI / 4)}) {
     LoopRecord loop = two_rounds().loop(kNarrow_m, off);
-    two_rounds().judge(loop, options);
+    judge(loop, options);
     expect_refused(loop, "from the other side");
     EXPECT_LT(loop.reverse_agree, 0.75) << off.asString();
   }
@@ -125,17 +71,18 @@ TEST(LoopVerification, seen_from_the_other_side_a_wrong_match_is_refused_too) {
 TEST(LoopVerification, an_ambiguous_match_is_refused_in_narrow_windows_only) {
   LoopRecord narrow = two_rounds().loop(kNarrow_m);
   narrow.ambiguity = 0.95;
-  two_rounds().judge(narrow);
+  judge(narrow);
   expect_refused(narrow, "another place fits as well");
   LoopRecord wide = two_rounds().loop(kWide_m);
   wide.ambiguity = 0.95;
-  two_rounds().judge(wide);
+  judge(wide);
   EXPECT_EQ(wide.verdict, LoopVerdict::kPending) << wide.reason;
 }
 
 TEST(LoopVerification, the_response_needed_depends_on_the_window) {
   const LoopVerificationOptions options;
-  EXPECT_FALSE(is_wide({options.wide_window_m, 9, 9}, options));
+  EXPECT_FALSE(is_wide({options.wide_window_m, options.wide_window_m, 9}, options));
+  EXPECT_TRUE(is_wide({0.1, options.wide_window_m + 0.01, 0.1}, options));
   EXPECT_TRUE(is_wide({options.wide_window_m + 0.01, 0.1, 0.1}, options));
   EXPECT_EQ(min_response({kNarrow_m, kNarrow_m, 0.1}, options), options.min_response);
   EXPECT_EQ(min_response({kWide_m, kWide_m, 0.1}, options), options.min_context_response);
@@ -144,10 +91,10 @@ TEST(LoopVerification, the_response_needed_depends_on_the_window) {
     LoopRecord loop = two_rounds().loop(half_width_m);
     const double needed = min_response(loop.window, options);
     loop.response = needed - 0.01;
-    two_rounds().judge(loop);
+    judge(loop);
     expect_refused(loop, "the response");
     loop.response = needed;
-    two_rounds().judge(loop);
+    judge(loop);
     EXPECT_NE(loop.verdict, LoopVerdict::kRefused) << loop.reason;
   }
 }
@@ -157,25 +104,25 @@ TEST(LoopVerification, a_position_known_in_one_direction_only_is_refused) {
   // A standard deviation of 0.4 m along a corridor at 45 degrees, of 0.01 m across: 0.28 m along x and y.
   loop.covariance(0, 0) = loop.covariance(1, 1) = 0.5 * (0.16 + 0.0001);
   loop.covariance(0, 1) = loop.covariance(1, 0) = 0.5 * (0.16 - 0.0001);
-  two_rounds().judge(loop);
+  judge(loop);
   expect_refused(loop, "does not determine the position");
   EXPECT_NE(loop.reason.find("0.40 m"), std::string::npos) << loop.reason;
   LoopVerificationOptions options;
   options.max_sigma_m = 0.41;
-  two_rounds().judge(loop, options);
+  judge(loop, options);
   EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << loop.reason;
 }
 
 TEST(LoopVerification, a_scan_outside_the_space_the_local_map_has_seen_is_refused) {
   LoopRecord loop = two_rounds().loop(kNarrow_m, {40, 0, 0});
-  two_rounds().judge(loop);
+  judge(loop);
   expect_refused(loop, "in space the local map has observed");
   EXPECT_EQ(loop.observed_share, 0);
 }
 
 TEST(LoopVerification, every_threshold_decides) {
   LoopRecord found = two_rounds().loop(kNarrow_m);
-  two_rounds().judge(found);
+  judge(found);
   ASSERT_EQ(found.verdict, LoopVerdict::kAccepted) << found.reason;
   struct Threshold {
     double LoopVerificationOptions::*limit;
@@ -194,10 +141,10 @@ TEST(LoopVerification, every_threshold_decides) {
     LoopVerificationOptions options;
     LoopRecord loop = two_rounds().loop(kNarrow_m);
     options.*threshold.limit = threshold.measured + threshold.above * 1e-6;
-    two_rounds().judge(loop, options);
+    judge(loop, options);
     expect_refused(loop, threshold.reason);
     options.*threshold.limit = threshold.measured - threshold.above * 1e-6;
-    two_rounds().judge(loop, options);
+    judge(loop, options);
     EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << loop.reason;
     EXPECT_TRUE(loop.reason.empty()) << "an earlier verdict's reason does not stay";
   }

@@ -173,6 +173,149 @@ TEST(Mapper, the_same_log_gives_the_same_poses_to_the_last_bit) {
   }
 }
 
+void expect_same_map(const MappingResult& a, const MappingResult& b) {
+  ASSERT_EQ(a.frames.size(), b.frames.size());
+  for (std::size_t i = 0; i < a.frames.size(); ++i) {
+    ASSERT_EQ(a.frames[i].map_T_robot, b.frames[i].map_T_robot) << "scan " << i;
+    ASSERT_EQ(a.frames[i].evaluations, b.frames[i].evaluations) << "scan " << i;
+    ASSERT_EQ(a.frames[i].psi, b.frames[i].psi) << "scan " << i;
+  }
+  ASSERT_EQ(a.loops.size(), b.loops.size());
+  for (std::size_t i = 0; i < a.loops.size(); ++i) {
+    ASSERT_EQ(a.loops[i].node, b.loops[i].node) << "loop " << i;
+    ASSERT_EQ(a.loops[i].local_map, b.loops[i].local_map) << "loop " << i;
+    ASSERT_EQ(a.loops[i].anchor_T_node, b.loops[i].anchor_T_node) << "loop " << i;
+    ASSERT_EQ(a.loops[i].verdict, b.loops[i].verdict) << "loop " << i;
+  }
+}
+
+TEST(Mapper, any_number_of_threads_makes_the_same_map) {
+  for (const int threads : {2, 4}) {
+    SCOPED_TRACE(threads);
+    MapperOptions options;
+    options.threads = threads;
+    expect_same_map(office_map(), map_of(office_drive().frames, options));
+  }
+}
+
+TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
+  MapperOptions options;
+  options.loop_closure.verification.wide_window_m = options.last_pass.window_m;  // many wait for others
+  const MappingResult result = map_of(office_drive().frames, options);
+  std::size_t counted = 0;
+  bool several_at_once = false;
+  for (const FrameRecord& frame : result.frames) {
+    counted += static_cast<std::size_t>(frame.loops_accepted);
+    several_at_once = several_at_once || frame.loops_accepted > frame.loops_tried;
+    EXPECT_TRUE(frame.node || frame.loops_accepted == 0);
+  }
+  std::size_t constraints = 0;
+  for (const LoopRecord& loop : result.loops) {
+    const bool constraint =
+        loop.verdict == LoopVerdict::kAccepted || loop.verdict == LoopVerdict::kSwitchedOff;
+    constraints += constraint && !loop.in_last_pass ? 1 : 0;
+  }
+  EXPECT_EQ(counted, constraints);
+  EXPECT_TRUE(several_at_once) << "loops found at earlier frames were confirmed";
+}
+
+TEST(Mapper, counts_attempts_that_found_nothing_too) {
+  const MappingResult& result = office_map();
+  LoopEffort sum;
+  LoopEffort last_pass;
+  std::size_t accepted = 0;
+  for (const auto& [name, matcher] : result.loop_matchers) {
+    sum += matcher.effort;
+    last_pass += matcher.last_pass_effort;
+    accepted += matcher.accepted;
+  }
+  EXPECT_EQ(sum.found, result.loops.size());
+  EXPECT_GT(sum.attempts, sum.found);
+  EXPECT_EQ(accepted, accepted_loops(result));
+  EXPECT_GT(last_pass.attempts, 0U);
+
+  LoopEffort of_frames;
+  for (const FrameRecord& frame : result.frames) {
+    of_frames.attempts += static_cast<std::size_t>(frame.loops_tried);
+    of_frames.evaluations += frame.loop_evaluations;
+    of_frames.milliseconds += frame.loop_matching_ms;
+    EXPECT_GE(frame.evaluations, frame.loop_evaluations);
+    EXPECT_EQ(frame.loops_tried > 0, frame.loop_evaluations > 0);
+  }
+  EXPECT_EQ(of_frames.attempts, sum.attempts - last_pass.attempts);
+  EXPECT_EQ(of_frames.evaluations, sum.evaluations - last_pass.evaluations);
+  EXPECT_NEAR(of_frames.milliseconds, sum.milliseconds - last_pass.milliseconds, 1e-6);
+  std::int64_t of_loops = 0;
+  for (const LoopRecord& loop : result.loops) of_loops += loop.evaluations;
+  EXPECT_GT(sum.evaluations, of_loops);
+}
+
+// Slowly again: the mean over the nodes before, and eta as long as no loop has moved the map.
+TEST(Mapper, records_the_factor_of_loop_closing) {
+  const MappingResult& result = office_map();
+  const auto window = static_cast<std::size_t>(PsiOptions().window_frames);
+  std::vector<int> loops;
+  double path_m = 0;
+  bool any_loop = false;
+  double largest_psi = 0;
+  for (std::size_t i = 0; i < result.frames.size(); ++i) {
+    const FrameRecord& frame = result.frames[i];
+    if (i > 0) path_m += distance_m(frame.odom_T_robot, result.frames[i - 1].odom_T_robot);
+    double mean = 0;
+    const std::size_t count = std::min(window, loops.size());
+    for (std::size_t k = loops.size() - count; k < loops.size(); ++k)
+      mean += static_cast<double>(loops[k]) / static_cast<double>(count);
+    ASSERT_NEAR(frame.mean_loops, mean, 1e-12) << "scan " << i;
+    ASSERT_NEAR(frame.psi, frame.eta * mean, 1e-9) << "scan " << i;
+    ASSERT_LE(frame.eta, PsiOptions().eta_max);
+    if (!any_loop && i > 0) {
+      const double from_start_m = distance_m(frame.front_end_T_robot, result.frames[0].front_end_T_robot);
+      ASSERT_NEAR(frame.eta, std::min(path_m / from_start_m, PsiOptions().eta_max), 1e-9) << "scan " << i;
+    }
+    if (frame.node) loops.push_back(frame.loops_accepted);
+    any_loop = any_loop || frame.loops_accepted > 0;
+    largest_psi = std::max(largest_psi, frame.psi);
+  }
+  EXPECT_GT(largest_psi, 1);
+}
+
+TEST(Mapper, searches_loops_by_the_matcher_that_psi_chooses_in_the_last_pass_too) {
+  const MappingResult& result = office_map();
+  std::size_t genetic_in_last_pass = 0;
+  for (const FrameRecord& frame : result.frames) {
+    const MatcherKind kind = matcher_kind(LoopMatcher::kAdaptive, {}, frame.psi);
+    EXPECT_EQ(frame.matcher, frame.node ? name(kind) : "");
+  }
+  for (const LoopRecord& loop : result.loops) {
+    EXPECT_EQ(loop.matcher, result.frames[loop.frame].matcher);
+    genetic_in_last_pass += loop.in_last_pass && loop.matcher != "csm" ? 1 : 0;
+  }
+  EXPECT_GT(genetic_in_last_pass, 0U);
+  EXPECT_GT(result.loop_matchers.size(), 1U);
+
+  MapperOptions options;
+  options.matcher = LoopMatcher::kCsmGa;
+  const MappingResult fixed = map_of(office_drive().frames, options);
+  ASSERT_EQ(fixed.loop_matchers.size(), 1U);
+  EXPECT_EQ(fixed.loop_matchers.begin()->first, "csm_ga");
+}
+
+TEST(Mapper, contradicted_loops_are_switched_off_without_a_last_pass_too) {
+  MapperOptions options;
+  options.last_pass.passes = 0;
+  options.max_loop_chi = 0.7;
+  const MappingResult result = map_of(office_drive().frames, options);
+  expect_consistent(result, office_drive().frames.size());
+  std::size_t off = 0;
+  for (const LoopRecord& loop : result.loops) {
+    if (loop.verdict != LoopVerdict::kSwitchedOff) continue;
+    ++off;
+    EXPECT_NE(loop.reason.find("contradict"), std::string::npos) << loop.reason;
+  }
+  EXPECT_GT(off, 0U);
+  EXPECT_GT(accepted_loops(result), 0U);
+}
+
 TEST(Mapper, without_loop_closing_the_front_ends_poses_stand) {
   MapperOptions options;
   options.close_loops = false;

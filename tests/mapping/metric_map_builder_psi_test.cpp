@@ -183,23 +183,6 @@ TEST(MetricMapBuilderPsi, follows_the_robot_while_it_drives) {
   EXPECT_EQ(node_poses(builder).size(), builder.getCurrentlyBuiltMapSize());
 }
 
-double seconds_of(const std::function<void()>& action) {
-  const auto start = std::chrono::steady_clock::now();
-  action();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-TEST(MetricMapBuilderPsi, asking_for_the_pose_again_costs_nothing) {
-  CMetricMapBuilderPsi builder;
-  process_as_actions(builder, short_drive(400));
-  ASSERT_GT(builder.getCurrentlyBuiltMapSize(), 100U);
-  const double first_s = seconds_of([&] { estimate_of(builder); });
-  const double again_s = seconds_of([&] {
-    for (int i = 0; i < 100; ++i) estimate_of(builder);
-  });
-  EXPECT_LT(again_s, 20 * first_s);
-}
-
 TEST(MetricMapBuilderPsi, the_covariance_is_the_same_however_often_it_was_asked_for) {
   const SimulatedDrive drive = short_drive();
   CMetricMapBuilderPsi asked_always;

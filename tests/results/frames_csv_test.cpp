@@ -38,6 +38,11 @@ TEST(FramesCsv, has_a_row_for_each_scan_under_its_header) {
     EXPECT_EQ(row[column("node")], frame.node ? std::to_string(*frame.node) : "");
     EXPECT_EQ(row[column("matcher")], frame.matcher);
     EXPECT_EQ(std::stoll(row[column("evaluations")]), frame.evaluations);
+    EXPECT_EQ(std::stoll(row[column("loop_evaluations")]), frame.loop_evaluations);
+    EXPECT_NEAR(std::stod(row[column("psi")]), frame.psi, 1e-4);
+    EXPECT_NEAR(std::stod(row[column("eta")]), frame.eta, 1e-4);
+    EXPECT_NEAR(std::stod(row[column("mean_loops")]), frame.mean_loops, 1e-4);
+    EXPECT_NEAR(std::stod(row[column("loop_matching_ms")]), frame.loop_matching_ms, 1e-4);
   }
   EXPECT_FALSE(std::getline(text, line));
 }

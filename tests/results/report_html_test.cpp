@@ -73,8 +73,23 @@ TEST(ReportHtml, shows_the_figures) {
   const std::string html = report_of_the_room();
   for (const char* shown :
        {"room.clf", "20×", "10 <small>nodes</small>", "match scan to local map", "response … is below …",
-        "1 setting", "2 loops tried", "Mapped by psi-slam 0.1.0 in 0.50 s"})
+        "1 setting", "of 12 tried", "2 matches found", "Mapped by psi-slam 0.1.0 in 0.50 s"})
     EXPECT_THAT(html, HasSubstr(shown));
+}
+
+TEST(ReportHtml, shows_the_factor_and_the_matchers) {
+  const std::string html = report_of_the_room();
+  for (const char* shown :
+       {"Ψ₁ = 2", "Ψ₂ = 6", "<path class=\"matcher csm\"", "<path class=\"matcher csm_ga\"",
+        "<path class=\"matcher ga\"", "key matcher csm_ga"})
+    EXPECT_THAT(html, HasSubstr(shown));
+  MappingResult one = walk_around_the_room();
+  for (FrameRecord& frame : one.frames)
+    if (frame.node) frame.matcher = "ga";
+  const std::string of_one = report_of(one, {});
+  EXPECT_THAT(of_one, HasSubstr("<path class=\"matcher ga\""));
+  EXPECT_THAT(of_one, Not(HasSubstr("<path class=\"matcher csm\"")));
+  EXPECT_THAT(of_one, Not(HasSubstr("key matcher csm\"")));
 }
 
 TEST(ReportHtml, the_users_texts_cannot_break_it) {
@@ -95,7 +110,7 @@ TEST(ReportHtml, an_empty_and_an_interrupted_run_are_shown_too) {
   result.interrupted = true;
   const std::string html = report_of(result, {});
   EXPECT_THAT(html, HasSubstr("stopped before the end of the log"));
-  EXPECT_THAT(html, HasSubstr("No loop was tried"));
+  EXPECT_THAT(html, HasSubstr("No match was found"));
   EXPECT_THAT(html, HasSubstr("No times were measured"));
   EXPECT_THAT(html, Not(HasSubstr("nan")));
 }

@@ -44,6 +44,16 @@ TEST(RunSummary, counts_loops_and_like_reasons_together) {
   EXPECT_EQ(loops.reasons[0].count, 2U);
 }
 
+TEST(RunSummary, counts_attempts_that_found_nothing) {
+  const MappingResult result = walk_around_the_room();
+  const RunSummary summary = summary_of(result);
+  EXPECT_EQ(summary.loops.tried, 12U);
+  EXPECT_EQ(summary.loops.found, 2U);
+  std::int64_t of_frames = 0;
+  for (const FrameRecord& frame : result.frames) of_frames += frame.evaluations;
+  EXPECT_EQ(summary.evaluations, of_frames + 200) << "and those of the last pass";
+}
+
 TEST(RunSummary, a_loop_still_pending_when_the_run_was_stopped_counts_as_refused) {
   MappingResult result = walk_around_the_room();
   result.loops[1].verdict = LoopVerdict::kPending;

@@ -75,11 +75,17 @@ inline MappingResult walk_around_the_room(int scans = 50) {
     record.response = i == 0 ? 0 : 0.8 + 0.1 * std::sin(i);
     record.window = {0.3, 0.3, 0.35};
     record.evaluations = 1000 + i;
+    record.eta = 1 + 0.1 * i;
+    record.mean_loops = i / 20;
+    record.psi = record.eta * record.mean_loops;
     record.front_end_ms = 1.5;
     if (i % 5 == 0) {
       record.node = result.node_frames.size();
       record.loops_tried = 1;
-      record.matcher = "csm";
+      record.matcher = record.psi < 2 ? "csm" : record.psi < 6 ? "csm_ga" : "ga";
+      record.loop_evaluations = 40;
+      record.loop_matching_ms = 3.5;
+      record.loop_closing_ms = 4;
       result.graph.nodes[*record.node] = mrpt::poses::CPose2D(map_T_robot);
       result.node_frames.push_back(static_cast<std::size_t>(i));
     }
@@ -104,6 +110,8 @@ inline MappingResult walk_around_the_room(int scans = 50) {
   refused.reason = "response 0.41 is below 0.55";
   result.loops = {refused, accepted};
   result.frames[accepted.frame].loops_accepted = 1;
+  result.loop_matchers["csm"] = {{12, 2, 600, 45.25}, {2, 0, 200, 10.25}, 1, 0};
+  result.psi = {2, 6, 20, 20};
   result.stages = {{"match scan to local map", 50, 1.5, 0.2, 1.1, 2.4, 0.075},
                    {"close loops", 10, 4, 1, 2, 9, 0.04}};
   result.wall_s = 0.5;

@@ -41,6 +41,16 @@ TEST(SummaryJson, reads_back_with_its_schema_and_figures) {
   EXPECT_EQ(json["broken_off"], "room.clf:41: expected a number");
   EXPECT_EQ(json["settings"]["front_end.window_x_m"], "0.3");
   EXPECT_EQ(json["loop_counts"]["reasons"][0]["count"], 7);
+  ASSERT_EQ(json["loop_matchers"].size(), 1U);
+  const auto& matcher = json["loop_matchers"][0];
+  EXPECT_EQ(matcher["matcher"], "csm");
+  EXPECT_EQ(matcher["attempts"], 12);
+  EXPECT_EQ(matcher["found"], 2);
+  EXPECT_EQ(matcher["accepted"], 1);
+  EXPECT_EQ(matcher["evaluations"], 600);
+  EXPECT_EQ(matcher["milliseconds"], 45.25);
+  EXPECT_EQ(matcher["last_pass"]["attempts"], 2);
+  EXPECT_EQ(matcher["last_pass"]["accepted"], 0);
   EXPECT_EQ(json["stages"][0]["calls"], 50);
 }
 

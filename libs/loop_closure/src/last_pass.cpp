@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/loop_closure/last_pass.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "loop_attempt.h"
 
 namespace psi_slam {
 namespace {
+
+// Pairs matched between two reports of the progress.
+constexpr std::size_t kBatch = 64;
 
 bool is_near(std::size_t node, const PlacedLocalMap& local_map, const PoseGraph& graph, double reach_m) {
   const mrpt::math::TPose2D& here = graph.pose(node);
@@ -18,13 +23,15 @@ bool is_near(std::size_t node, const PlacedLocalMap& local_map, const PoseGraph&
   return false;
 }
 
-}  // namespace
+struct Pair {
+  std::size_t node = 0;
+  LoopCandidate candidate;
+};
 
-std::vector<LoopRecord> last_pass(const PlaceMemory& memory, const PoseGraph& graph, const Matcher& matcher,
-                                  const LoopVerificationOptions& verification, const LastPassOptions& options,
-                                  const std::function<bool(std::size_t, std::size_t)>& known,
-                                  const std::function<bool(double)>& progress) {
-  std::vector<LoopRecord> loops;
+std::vector<Pair> pairs_near_each_other(
+    const PlaceMemory& memory, const PoseGraph& graph, const LastPassOptions& options,
+    const std::function<bool(std::size_t node, std::size_t local_map)>& known) {
+  std::vector<Pair> pairs;
   for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = memory.local_maps[m];
     double last_m = -std::numeric_limits<double>::infinity();
@@ -34,19 +41,43 @@ std::vector<LoopRecord> last_pass(const PlaceMemory& memory, const PoseGraph& gr
       if (here_m - last_m < options.travel_m || !is_near(node, local_map, graph, options.reach_m)) continue;
       last_m = here_m;
       if (known(node, m)) continue;
-      LoopCandidate candidate;
-      candidate.local_map = m;
-      candidate.anchor_T_node = graph.pose(node) - graph.pose(local_map.anchor);
-      candidate.extent = {options.window_m, options.window_m, options.window_rad};
-      if (auto loop =
-              attempt_loop(node, *memory.nodes[node].points, candidate, memory, matcher, verification)) {
-        loop->in_last_pass = true;
-        loops.push_back(std::move(*loop));
-      }
+      Pair pair;
+      pair.node = node;
+      pair.candidate.local_map = m;
+      pair.candidate.anchor_T_node = graph.pose(node) - graph.pose(local_map.anchor);
+      pair.candidate.extent = {options.window_m, options.window_m, options.window_rad};
+      pairs.push_back(pair);
     }
-    if (!progress(static_cast<double>(m + 1) / static_cast<double>(memory.local_maps.size()))) break;
   }
-  return loops;
+  return pairs;
+}
+
+}  // namespace
+
+LastPassOutcome last_pass(const PlaceMemory& memory, const PoseGraph& graph,
+                          const std::function<const Matcher&(std::size_t)>& matcher_of,
+                          const LoopVerificationOptions& verification, const LastPassOptions& options,
+                          const std::function<bool(std::size_t, std::size_t)>& known, std::uint64_t run_seed,
+                          WorkerPool& pool, const std::function<bool(double)>& progress) {
+  const std::vector<Pair> pairs = pairs_near_each_other(memory, graph, options, known);
+  LastPassOutcome outcome;
+  for (std::size_t begin = 0; begin < pairs.size(); begin += kBatch) {
+    const std::size_t end = std::min(begin + kBatch, pairs.size());
+    auto attempts = map_in_parallel<LoopAttempt>(pool, end - begin, [&](std::size_t index) {
+      const auto& [node, candidate] = pairs[begin + index];
+      return attempt_loop(node, *memory.nodes[node].points, candidate, memory, matcher_of(node), verification,
+                          run_seed);
+    });
+    for (std::size_t i = 0; i < attempts.size(); ++i) {
+      outcome.effort[matcher_of(pairs[begin + i].node).name()] += attempts[i].effort;
+      if (!attempts[i].loop) continue;
+      attempts[i].loop->in_last_pass = true;
+      outcome.loops.push_back(*std::move(attempts[i].loop));
+    }
+    if (!progress(static_cast<double>(end) / static_cast<double>(pairs.size()))) break;
+  }
+  if (pairs.empty()) progress(1);
+  return outcome;
 }
 
 }  // namespace psi_slam

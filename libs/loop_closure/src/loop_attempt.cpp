@@ -19,21 +19,28 @@ bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
 
 }  // namespace
 
-std::optional<LoopRecord> attempt_loop(std::size_t node, const ScanPoints& scan,
-                                       const LoopCandidate& candidate, const PlaceMemory& memory,
-                                       const Matcher& matcher, const LoopVerificationOptions& verification) {
-  if (!can_be_searched(scan, memory.local_maps[candidate.local_map])) return std::nullopt;
-  const auto start = std::chrono::steady_clock::now();
+LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCandidate& candidate,
+                         const PlaceMemory& memory, const Matcher& matcher,
+                         const LoopVerificationOptions& verification, std::uint64_t run_seed) {
+  LoopAttempt attempt;
   const NodeScan& here = memory.nodes[node];
   const PlacedLocalMap& local_map = memory.local_maps[candidate.local_map];
-  MatchProblem problem{local_map.map->scores(), scan, candidate.anchor_T_node, candidate.extent};
+  if (!can_be_searched(scan, local_map)) return attempt;
+  MatchProblem problem{std::as_const(*local_map.map).scores(), scan, candidate.anchor_T_node,
+                       candidate.extent};
   problem.min_response = kReportedShare * min_response(candidate.extent, verification);
   problem.measure_ambiguity = true;
-  problem.seed = {0, here.frame, local_map.id};
+  problem.seed = {run_seed, here.frame, local_map.id};
+  const auto start = std::chrono::steady_clock::now();
   const MatchResult match = matcher.match(problem);
-  if (!match.found) return std::nullopt;
+  const auto time = std::chrono::steady_clock::now() - start;
+  attempt.effort.attempts = 1;
+  attempt.effort.found = match.found ? 1 : 0;
+  attempt.effort.evaluations = match.evaluations;
+  attempt.effort.milliseconds = std::chrono::duration<double, std::milli>(time).count();
+  if (!match.found) return attempt;
 
-  LoopRecord loop;
+  LoopRecord& loop = attempt.loop.emplace();
   loop.frame = here.frame;
   loop.node = node;
   loop.local_map = candidate.local_map;
@@ -47,10 +54,9 @@ std::optional<LoopRecord> attempt_loop(std::size_t node, const ScanPoints& scan,
   loop.moved_m = std::hypot(match.map_T_robot.x - candidate.anchor_T_node.x,
                             match.map_T_robot.y - candidate.anchor_T_node.y);
   loop.evaluations = match.evaluations;
+  loop.milliseconds = attempt.effort.milliseconds;
   verify(loop, scan, memory, verification);
-  loop.milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return loop;
+  return attempt;
 }
 
 }  // namespace psi_slam

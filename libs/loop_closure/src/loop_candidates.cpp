@@ -38,17 +38,21 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const PlaceMemory& 
   for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = memory.local_maps[m];
     if (travel_between_m(node, local_map, memory) < options.min_travel_m) continue;
-    const double half_m = std::clamp(options.window_sigmas * sigma_of_anchor[m].metres, options.min_window_m,
-                                     options.max_window.x_m);
+    const auto half_width = [&](double sigma, double least, double most) {
+      return std::clamp(options.window_sigmas * sigma, least, most);
+    };
+    const PositionSigma& sigma = sigma_of_anchor[m];
+    const SearchExtent extent = {
+        half_width(sigma.metres, options.min_window_m, options.max_window.x_m),
+        half_width(sigma.metres, options.min_window_m, options.max_window.y_m),
+        half_width(sigma.radians, options.min_window_rad, options.max_window.theta_rad)};
     const double distance_m = nearest_node_m(local_map, map_T_node, graph);
-    if (distance_m > options.reach_m + half_m) continue;
+    if (distance_m > options.reach_m + std::max(extent.x_m, extent.y_m)) continue;
     LoopCandidate candidate;
     candidate.local_map = m;
     candidate.anchor_T_node = map_T_node - graph.pose(local_map.anchor);
     candidate.distance_m = distance_m;
-    candidate.extent = {half_m, std::min(half_m, options.max_window.y_m),
-                        std::clamp(options.window_sigmas * sigma_of_anchor[m].radians, options.min_window_rad,
-                                   options.max_window.theta_rad)};
+    candidate.extent = extent;
     candidates.push_back(candidate);
   }
   return candidates;

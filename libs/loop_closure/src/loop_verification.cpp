@@ -111,7 +111,7 @@ std::string objection(LoopRecord& loop, const ScanPoints& scan, const PlaceMemor
 }  // namespace
 
 bool is_wide(const SearchExtent& extent, const LoopVerificationOptions& options) {
-  return extent.x_m > options.wide_window_m;
+  return std::max(extent.x_m, extent.y_m) > options.wide_window_m;
 }
 
 double min_response(const SearchExtent& extent, const LoopVerificationOptions& options) {

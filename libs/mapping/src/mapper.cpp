@@ -7,6 +7,8 @@
 #include <set>
 #include <string>
 
+#include "psi_slam/loop_closure/contradicted_loops.h"
+
 namespace psi_slam {
 namespace {
 
@@ -25,10 +27,14 @@ Eigen::Matrix3d information_of(const Eigen::Matrix3d& covariance, double sigma_m
 Mapper::Mapper(const MapperOptions& options)
     : options_(options),
       front_end_(options.front_end),
-      loop_matcher_(options.loop_matcher),
-      loop_closer_(options.loop_closure),
+      matcher_policy_(options.matcher, options.psi, options.loop_matcher, options.genetic),
+      loop_closure_factor_(options.psi),
+      loop_closer_(options.loop_closure, options.seed),
       loop_consensus_(options.loop_consensus),
-      solver_(options.pose_graph) {}
+      pool_(options.threads),
+      solver_(options.pose_graph) {
+  result_.psi = options.psi;
+}
 
 const FrameRecord& Mapper::add(Frame frame) {
   FrameRecord record;
@@ -42,6 +48,7 @@ const FrameRecord& Mapper::add(Frame frame) {
   record.window = step.window;
   record.evaluations = step.evaluations;
   record.node = step.node;
+  record_factor(record, step);
 
   result_.log.push_back(std::move(frame));
   if (step.node) {
@@ -53,6 +60,22 @@ const FrameRecord& Mapper::add(Frame frame) {
   record.map_T_robot = map_T_local_ + step.local_T_robot;
   result_.frames.push_back(record);
   return result_.frames.back();
+}
+
+// The robot is where the front end has it, corrected by the loops of the frames before: in the map, as its
+// start is.
+void Mapper::record_factor(FrameRecord& record, const FrontEndStep& step) {
+  double odometry_m = 0;
+  if (!result_.frames.empty()) {
+    const TPose2D motion = record.odom_T_robot - result_.frames.back().odom_T_robot;
+    odometry_m = std::hypot(motion.x, motion.y);
+  }
+  const TPose2D map_T_robot = map_T_local_ + step.local_T_robot;
+  loop_closure_factor_.move(odometry_m, {map_T_robot.x, map_T_robot.y});
+  const LoopClosureFactor::Value factor = loop_closure_factor_.value();
+  record.psi = factor.psi;
+  record.eta = factor.eta;
+  record.mean_loops = factor.mean_loops;
 }
 
 void Mapper::add_node(const FrontEndStep& step, std::size_t frame) {
@@ -86,42 +109,45 @@ void Mapper::remember(const PlacedLocalMap& finished) {
 }
 
 void Mapper::close_loops(std::size_t node, FrameRecord& record) {
+  matcher_of_node_.push_back(matcher_policy_.kind(record.psi));
+  const Matcher& matcher = matcher_policy_.matcher(matcher_of_node_.back());
+  record.matcher = matcher.name();
   bool news = false;
   record.loop_closing_ms = loop_clock_.time([&] {
-    for (LoopRecord& loop : loop_closer_.close(node, memory_, graph_, loop_matcher_)) {
-      record.evaluations += loop.evaluations;
+    LoopCloser::Outcome outcome = loop_closer_.close(node, memory_, graph_, matcher, pool_);
+    record.loops_tried = static_cast<int>(outcome.effort.attempts);
+    record.loop_evaluations = outcome.effort.evaluations;
+    record.evaluations += outcome.effort.evaluations;
+    record.loop_matching_ms = outcome.effort.milliseconds;
+    result_.loop_matchers[matcher.name()].effort += outcome.effort;
+    for (LoopRecord& loop : outcome.loops) {
+      const bool pending = loop.verdict == LoopVerdict::kPending;
       result_.loops.push_back(std::move(loop));
-      const std::size_t index = result_.loops.size() - 1;
-      if (result_.loops[index].verdict == LoopVerdict::kPending && confirm(index)) news = true;
-      if (result_.loops[index].verdict != LoopVerdict::kAccepted) continue;
-      ++record.loops_accepted;
-      if (accept(index)) news = true;
+      for (const std::size_t confirmed : confirmed_by(result_.loops.size() - 1)) {
+        ++record.loops_accepted;
+        news = accept(confirmed) || pending || news;
+      }
     }
   });
-  record.loops_tried = loop_closer_.tried();
-  if (record.loops_tried > 0) record.matcher = loop_matcher_.name();
-  if (news) record.pose_graph_ms = graph_clock_.time([&] { optimize(); });
+  loop_closure_factor_.add_frame(record.loops_accepted);
+  if (news) record.pose_graph_ms = graph_clock_.time([&] { solver_.optimize(graph_); });
 }
 
-// Puts a pending loop to the vote; true when others that waited became constraints with it. The loop itself
-// is then accepted, its constraint left to the caller.
-bool Mapper::confirm(std::size_t index) {
-  LoopRecord& loop = result_.loops[index];
+// The loops that are to become constraints now that this one was found: itself when verification accepted it;
+// when it waits for others to agree, those that waited and it, if they now do.
+std::vector<std::size_t> Mapper::confirmed_by(std::size_t index) {
+  const LoopRecord& loop = result_.loops[index];
+  if (loop.verdict == LoopVerdict::kAccepted) return {index};
+  if (loop.verdict != LoopVerdict::kPending) return {};
   const NodeScan& here = memory_.nodes[loop.node];
-  bool confirmed = false;
-  for (const std::size_t other : loop_consensus_.add(
-           {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity},
-           graph_)) {
-    result_.loops[other].verdict = LoopVerdict::kAccepted;
-    if (other != index) accept(other);
-    confirmed = true;
-  }
-  return confirmed;
+  return loop_consensus_.add(
+      {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity}, graph_);
 }
 
 // Makes a constraint of a loop; true when it tells the graph something new.
 bool Mapper::accept(std::size_t index) {
-  const LoopRecord& loop = result_.loops[index];
+  LoopRecord& loop = result_.loops[index];
+  loop.verdict = LoopVerdict::kAccepted;
   Constraint constraint;
   constraint.from = loop.anchor;
   constraint.to = loop.node;
@@ -133,10 +159,6 @@ bool Mapper::accept(std::size_t index) {
   return std::hypot(off.x, off.y) > options_.loop_sigma_m || std::abs(off.phi) > options_.loop_sigma_rad;
 }
 
-void Mapper::optimize() {
-  solver_.optimize(graph_);
-}
-
 void Mapper::run_last_pass(const std::function<bool(double)>& progress) {
   std::set<std::pair<std::size_t, std::size_t>> known;
   for (const LoopRecord& loop : result_.loops)
@@ -144,27 +166,36 @@ void Mapper::run_last_pass(const std::function<bool(double)>& progress) {
   const auto is_known = [&](std::size_t node, std::size_t local_map) {
     return known.count({node, local_map}) != 0;
   };
-  for (LoopRecord& loop : last_pass(memory_, graph_, loop_matcher_, options_.loop_closure.verification,
-                                    options_.last_pass, is_known, progress)) {
+  const auto matcher_of = [&](std::size_t node) -> const Matcher& {
+    return matcher_policy_.matcher(matcher_of_node_[node]);
+  };
+  LastPassOutcome outcome = last_pass(memory_, graph_, matcher_of, options_.loop_closure.verification,
+                                      options_.last_pass, is_known, options_.seed, pool_, progress);
+  for (const auto& [matcher, effort] : outcome.effort) {
+    result_.loop_matchers[matcher].effort += effort;
+    result_.loop_matchers[matcher].last_pass_effort += effort;
+  }
+  for (LoopRecord& loop : outcome.loops) {
     const bool accepted = loop.verdict == LoopVerdict::kAccepted;
     result_.loops.push_back(std::move(loop));
     if (accepted) accept(result_.loops.size() - 1);
   }
 }
 
-void Mapper::switch_off_contradicted_loops() {
-  const std::vector<ConstraintFit> fits = solver_.optimize(graph_).fits;
-  bool changed = false;
-  for (const auto& [constraint, index] : loop_of_constraint_) {
-    const double chi = std::sqrt(fits[constraint].chi2);
-    if (!graph_.enabled(constraint) || chi <= options_.max_loop_chi) continue;
-    graph_.set_enabled(constraint, false);
-    result_.loops[index].verdict = LoopVerdict::kSwitchedOff;
-    result_.loops[index].reason =
-        "the other constraints contradict it by " + std::to_string(std::lround(chi)) + " standard deviations";
-    changed = true;
+// Optimises the graph, and switches off the loops that it contradicts.
+void Mapper::settle_loops() {
+  std::vector<std::size_t> constraints;
+  for (const auto& [constraint, index] : loop_of_constraint_) constraints.push_back(constraint);
+  const std::vector<double> chi =
+      switch_off_contradicted_loops(graph_, solver_, constraints, options_.max_loop_chi);
+  for (std::size_t i = 0; i < chi.size(); ++i) {
+    LoopRecord& loop = result_.loops[loop_of_constraint_[i].second];
+    const bool fits = graph_.enabled(constraints[i]);
+    loop.verdict = fits ? LoopVerdict::kAccepted : LoopVerdict::kSwitchedOff;
+    loop.reason = fits ? ""
+                       : "the other constraints contradict it by " + std::to_string(std::lround(chi[i])) +
+                             " standard deviations";
   }
-  if (changed) optimize();
 }
 
 void Mapper::refuse_pending_loops() {
@@ -172,6 +203,14 @@ void Mapper::refuse_pending_loops() {
     if (loop.verdict != LoopVerdict::kPending) continue;
     loop.verdict = LoopVerdict::kRefused;
     loop.reason = "found in a wide window, and too few other matches agree with it";
+  }
+}
+
+void Mapper::count_accepted_loops() {
+  for (const LoopRecord& loop : result_.loops) {
+    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    ++result_.loop_matchers[loop.matcher].accepted;
+    if (loop.in_last_pass) ++result_.loop_matchers[loop.matcher].accepted_in_last_pass;
   }
 }
 
@@ -201,7 +240,7 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
   for (const PlacedLocalMap& finished : front_end_.finish()) remember(finished);
   refuse_pending_loops();
   if (options_.close_loops && !memory_.nodes.empty()) {
-    graph_clock_.time([&] { optimize(); });
+    graph_clock_.time([&] { settle_loops(); });
     for (int pass = 0; pass < options_.last_pass.passes && !result_.last_pass_cut_short; ++pass) {
       last_pass_clock_.time([&] {
         run_last_pass([&](double share) {
@@ -211,11 +250,12 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
           return go_on;
         });
       });
-      graph_clock_.time([&] { switch_off_contradicted_loops(); });
+      graph_clock_.time([&] { settle_loops(); });
     }
     refuse_pending_loops();
   }
   result_.interrupted = result_.last_pass_cut_short;
+  count_accepted_loops();
   carry_frames_along();
   result_.graph = graph_.to_mrpt();
   for (const StageClock* clock : {&front_end_clock_, &loop_clock_, &graph_clock_, &last_pass_clock_})

@@ -11,7 +11,8 @@ namespace {
 constexpr const char* kHeader =
     "frame,time_s,odom_x_m,odom_y_m,odom_theta_rad,front_end_x_m,front_end_y_m,front_end_theta_rad,"
     "map_x_m,map_y_m,map_theta_rad,node,response,window_x_m,window_y_m,window_theta_rad,"
-    "loops_tried,loops_accepted,matcher,evaluations,front_end_ms,loop_closing_ms,pose_graph_ms\n";
+    "psi,eta,mean_loops,loops_tried,loops_accepted,matcher,loop_evaluations,evaluations,front_end_ms,"
+    "loop_matching_ms,loop_closing_ms,pose_graph_ms\n";
 
 std::string row_of(std::size_t index, const FrameRecord& frame) {
   std::string row = std::to_string(index) + ',' + format_seconds(frame.time_us);
@@ -22,9 +23,12 @@ std::string row_of(std::size_t index, const FrameRecord& frame) {
   row += ',' + fixed_text(frame.response, 4);
   row += ',' + fixed_text(frame.window.x_m, 4) + ',' + fixed_text(frame.window.y_m, 4) + ',' +
          fixed_text(frame.window.theta_rad, 4);
+  for (const double value : {frame.psi, frame.eta, frame.mean_loops}) row += ',' + fixed_text(value, 4);
   row += ',' + std::to_string(frame.loops_tried) + ',' + std::to_string(frame.loops_accepted);
-  row += ',' + csv_field(frame.matcher) + ',' + std::to_string(frame.evaluations);
-  for (const double ms : {frame.front_end_ms, frame.loop_closing_ms, frame.pose_graph_ms})
+  row += ',' + csv_field(frame.matcher) + ',' + std::to_string(frame.loop_evaluations) + ',' +
+         std::to_string(frame.evaluations);
+  for (const double ms :
+       {frame.front_end_ms, frame.loop_matching_ms, frame.loop_closing_ms, frame.pose_graph_ms})
     row += ',' + fixed_text(ms, 4);
   return row + '\n';
 }

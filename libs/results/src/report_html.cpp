@@ -30,7 +30,7 @@ constexpr const char* kFiles =
     "<li><a href=\"trajectory.carmen\">trajectory.carmen</a> <span>the corrected log</span></li>\n"
     "<li><a href=\"graph.g2o\">graph.g2o</a> <span>the pose graph</span></li>\n"
     "<li><a href=\"frames.csv\">frames.csv</a> <span>a row for each scan</span></li>\n"
-    "<li><a href=\"loops.csv\">loops.csv</a> <span>a row for each loop tried</span></li>\n"
+    "<li><a href=\"loops.csv\">loops.csv</a> <span>a row for each loop found</span></li>\n"
     "<li><a href=\"summary.json\">summary.json</a> <span>these figures for programs</span></li>\n"
     "</ul>\n";
 
@@ -89,7 +89,7 @@ std::string loops_card(const MappingResult& result, const LoopCounts& loops) {
     text +=
         " and " + counted(loops.switched_off, "was", "were") + " switched off, since the others contradict";
   text += ".</p>\n";
-  return card("Loops", "", text + reasons_table(loops) + loops_table(result));
+  return card("Loops", "", text + loop_matchers_table(result) + reasons_table(loops) + loops_table(result));
 }
 
 }  // namespace
@@ -108,6 +108,8 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
   html += key_figures(summary);
   html += card("Map", "", report_map(result, grid));
   html += card("Response of the front end", response_key(summary), response_plot(result));
+  html += card("The factor Ψ and the matcher in use", psi_key(result), psi_plot(result));
+  html += card("Matching loops, for each node", kKey, loop_matching_plot(result));
   html += card("Where the time went", "", stages_table(result.stages, result.wall_s));
   html += card("Work for each scan", kKey, work_plot(result));
   html += loops_card(result, summary.loops);

@@ -2,8 +2,10 @@
 #include "report_plot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "html_text.h"
@@ -151,6 +153,97 @@ struct Span {
   double since_first(TimeUs time_us) const { return seconds(time_us - first_us); }
 };
 
+/// Decades that hold all values from least to most.
+Axes decades_around(double least, double most, double last_s) {
+  Axes axes{last_s, std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most))),
+            true};
+  if (axes.high <= axes.low) axes.high = 10 * axes.low;
+  return axes;
+}
+
+/// That a power of ten needs.
+int decimals_of(double value) {
+  return std::max(0, -static_cast<int>(std::lround(std::log10(value))));
+}
+
+/// "4", "0.35".
+std::string short_text(double value) {
+  std::string text = fixed_text(value, 2);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+/// A dashed line across the plot, named at its beginning or at its end.
+std::string limit_line(const Axes& axes, double value, const std::string& text, bool named_early) {
+  const std::string y = fixed_text(axes.y(value), 1);
+  const double x = named_early ? kLeft + 4 : kWidth - kRight - 4;
+  return "<path class=\"limit\" d=\"M" + fixed_text(kLeft, 0) + ',' + y + "H" +
+         fixed_text(kWidth - kRight, 0) + "\"/><text class=\"limit" + (named_early ? " early" : "") +
+         "\" x=\"" + fixed_text(x, 0) + "\" y=\"" + y + "\" dy=\"-5\">" + escape_html(text) + "</text>\n";
+}
+
+struct DurationPlot {
+  Axes axes;
+  std::string svg;
+};
+
+/// Milliseconds on a logarithmic axis that reaches up to `most_ms` at least.
+DurationPlot duration_plot(const std::vector<Sample>& samples, const Span& span, double most_ms) {
+  double least_ms = std::numeric_limits<double>::infinity();
+  for (const Sample& sample : samples) {
+    least_ms = std::min(least_ms, sample.value);
+    most_ms = std::max(most_ms, sample.value);
+  }
+  constexpr double kLeast_ms = 1e-3;
+  const Axes axes =
+      decades_around(std::max(least_ms, kLeast_ms), std::max(most_ms, kLeast_ms), span.length_s);
+  std::vector<Tick> ticks;
+  for (double value = axes.low; value <= axes.high * 1.001; value *= 10)
+    ticks.push_back({value, value >= 999 ? fixed_text(value / 1000, 0) + " s"
+                                         : fixed_text(value, decimals_of(value)) + " ms"});
+  return {axes, frame_of_plot(axes, ticks) + band_and_mean(binned(samples, span.length_s), axes)};
+}
+
+/// As the report's style knows them.
+constexpr std::array<const char*, 3> kMatchers = {"csm", "csm_ga", "ga"};
+
+/// Under the plot: for each stretch of time, on what share of its nodes each matcher was in use.
+std::string matcher_strip(const std::vector<FrameRecord>& frames, const Span& span, const Axes& axes) {
+  constexpr std::size_t kStretches = 320;
+  constexpr double kStripTop = kHeight - kBottom + 4;
+  constexpr double kStripHeight = 8;
+  std::vector<std::array<int, kMatchers.size()>> nodes(kStretches);
+  for (const FrameRecord& frame : frames) {
+    const auto name = std::find(kMatchers.begin(), kMatchers.end(), frame.matcher);
+    if (name == kMatchers.end()) continue;
+    const double place = span.since_first(frame.time_us) / span.length_s * static_cast<double>(kStretches);
+    ++nodes[std::min(static_cast<std::size_t>(place), kStretches - 1)][name - kMatchers.begin()];
+  }
+  std::array<std::string, kMatchers.size()> paths;
+  // A stretch without a node, where the robot stood, goes on as the one before.
+  std::array<int, kMatchers.size()> last{};
+  for (std::size_t i = 0; i < kStretches; ++i) {
+    if (std::accumulate(nodes[i].begin(), nodes[i].end(), 0) > 0) last = nodes[i];
+    const int all = std::accumulate(last.begin(), last.end(), 0);
+    const double x = axes.x(static_cast<double>(i) / kStretches * axes.last_s);
+    const double width = axes.x(static_cast<double>(i + 1) / kStretches * axes.last_s) - x;
+    double y = kStripTop;
+    for (std::size_t m = 0; m < kMatchers.size(); ++m) {
+      if (last[m] == 0) continue;
+      const double height = kStripHeight * last[m] / all;
+      paths[m] += 'M' + point(x, y) + 'h' + fixed_text(width, 2) + 'v' + fixed_text(height, 2) + 'h' +
+                  fixed_text(-width, 2) + 'z';
+      y += height;
+    }
+  }
+  std::string svg;
+  for (std::size_t m = 0; m < kMatchers.size(); ++m)
+    if (!paths[m].empty())
+      svg += "<path class=\"matcher " + std::string(kMatchers[m]) + "\" d=\"" + paths[m] + "\"/>\n";
+  return svg;
+}
+
 }  // namespace
 
 std::string response_plot(const MappingResult& result) {
@@ -171,41 +264,61 @@ std::string response_plot(const MappingResult& result) {
   return plot("Response of the front end over time", svg);
 }
 
+std::string psi_plot(const MappingResult& result) {
+  const Span span(result.frames);
+  std::vector<Sample> samples;
+  double most = result.psi.psi_2;
+  for (const FrameRecord& frame : result.frames) {
+    samples.push_back({span.since_first(frame.time_us), frame.psi});
+    most = std::max(most, frame.psi);
+  }
+  // Where no loop was closed of late, Psi is 0: it lies on the lowest line.
+  Axes axes = decades_around(result.psi.psi_1 / 10, most, span.length_s);
+  std::vector<Tick> ticks;
+  for (double value = axes.low; value <= axes.high * 1.001; value *= 10)
+    ticks.push_back({value, fixed_text(value, decimals_of(value))});
+  ticks.front().label = "≤ " + ticks.front().label;
+  std::string svg = frame_of_plot(axes, ticks);
+  svg += band_and_mean(binned(samples, span.length_s), axes);
+  svg += limit_line(axes, result.psi.psi_1, "Ψ₁ = " + short_text(result.psi.psi_1), true);
+  svg += limit_line(axes, result.psi.psi_2, "Ψ₂ = " + short_text(result.psi.psi_2), true);
+  svg += matcher_strip(result.frames, span, axes);
+  return plot("The factor Ψ over time", svg);
+}
+
+std::string psi_key(const MappingResult& result) {
+  std::string key;
+  for (const char* name : kMatchers)
+    if (std::any_of(result.frames.begin(), result.frames.end(),
+                    [&](const FrameRecord& frame) { return frame.matcher == name; }))
+      key += "<span class=\"key matcher " + std::string(name) + "\"></span>" + name;
+  return key;
+}
+
+std::string loop_matching_plot(const MappingResult& result) {
+  const Span span(result.frames);
+  std::vector<Sample> samples;
+  for (const FrameRecord& frame : result.frames)
+    if (frame.loops_tried > 0) samples.push_back({span.since_first(frame.time_us), frame.loop_matching_ms});
+  if (samples.empty()) return "<p class=\"none\">No loop was searched for.</p>\n";
+  return plot("Time of matching loops for each node over time", duration_plot(samples, span, 0).svg);
+}
+
 std::string work_plot(const MappingResult& result) {
   const Span span(result.frames);
   std::vector<Sample> samples;
-  double least = std::numeric_limits<double>::infinity();
-  double most = 0;
   for (const FrameRecord& frame : result.frames) {
     const double work_ms = frame.front_end_ms + frame.loop_closing_ms + frame.pose_graph_ms;
-    if (!(work_ms > 0)) continue;
-    samples.push_back({span.since_first(frame.time_us), work_ms});
-    least = std::min(least, work_ms);
-    most = std::max(most, work_ms);
+    if (work_ms > 0) samples.push_back({span.since_first(frame.time_us), work_ms});
   }
   if (samples.empty()) return "<p class=\"none\">No times were measured.</p>\n";
   const double period_ms =
       result.frames.size() < 2 ? 0 : 1e3 * span.length_s / static_cast<double>(result.frames.size() - 1);
-  most = std::max(most, period_ms);
-  Axes axes{span.length_s, std::pow(10, std::floor(std::log10(least))),
-            std::pow(10, std::ceil(std::log10(most))), true};
-  if (axes.high <= axes.low) axes.high = 10 * axes.low;
-  std::vector<Tick> ticks;
-  for (double value = axes.low; value <= axes.high * 1.001; value *= 10)
-    ticks.push_back({value, (value >= 1000 ? fixed_text(value / 1000, 0) + " s"
-                                           : fixed_text(value, value < 0.1 ? 2
-                                                               : value < 1 ? 1
-                                                                           : 0) +
-                                                 " ms")});
-  std::string svg = frame_of_plot(axes, ticks) + band_and_mean(binned(samples, span.length_s), axes);
-  if (period_ms > 0) {
-    const std::string y = fixed_text(axes.y(period_ms), 1);
-    svg += "<path class=\"limit\" d=\"M" + fixed_text(kLeft, 0) + ',' + y + "H" +
-           fixed_text(kWidth - kRight, 0) + "\"/>";
-    svg += "<text class=\"limit\" x=\"" + fixed_text(kWidth - kRight - 4, 0) + "\" y=\"" + y +
-           "\" dy=\"-5\">a scan comes every " + milliseconds_text(period_ms) + " ms</text>\n";
-  }
-  return plot("Work for each scan over time", svg);
+  DurationPlot work = duration_plot(samples, span, period_ms);
+  if (period_ms > 0)
+    work.svg +=
+        limit_line(work.axes, period_ms, "a scan comes every " + milliseconds_text(period_ms) + " ms", false);
+  return plot("Work for each scan over time", work.svg);
 }
 
 }  // namespace psi_slam

@@ -88,10 +88,15 @@ label[for=show-odometry] { --mark: #8b93a3; }
 .plot text.value { text-anchor: end; }
 .plot text.time { text-anchor: middle; }
 .plot text.limit { text-anchor: end; fill: var(--warn); }
+.plot text.limit.early { text-anchor: start; }
 .plot path { fill: none; }
 .plot path.rule { stroke: var(--line); }
 .plot path.band { fill: var(--accent-soft); }
 .plot path.mean { stroke: var(--accent); stroke-width: 1.6; stroke-linejoin: round; }
+.plot path.matcher { opacity: .85; }
+.plot path.matcher.csm { fill: #3a7bd5; } .plot path.matcher.csm_ga { fill: #9a5be0; } .plot path.matcher.ga { fill: #e2508f; }
+.key.matcher { height: .7rem; vertical-align: -.02rem; opacity: .85; }
+.key.csm { background: #3a7bd5; } .key.csm_ga { background: #9a5be0; } .key.ga { background: #e2508f; }
 .plot path.closed { stroke: var(--good); stroke-width: 2; }
 .plot path.limit { stroke: var(--warn); stroke-width: 1.3; stroke-dasharray: 6 5; }
 .key { display: inline-block; width: .95rem; height: .2rem; border-radius: 2px; vertical-align: .22rem; margin: 0 .3rem 0 .9rem; background: var(--accent); }

@@ -64,7 +64,6 @@ std::string key_figures(const RunSummary& summary) {
   const double rate_hz =
       log.duration_s > 0 && log.scans > 1 ? static_cast<double>(log.scans - 1) / log.duration_s : 0;
   const LoopCounts& loops = summary.loops;
-  const std::size_t tried = loops.accepted + loops.refused + loops.switched_off;
   const MapExtent& map = summary.map;
   std::string html = "<section class=\"tiles\">\n";
   html += tile("Duration", clock_text(log.duration_s), log.duration_s < 3600 ? "min" : "h",
@@ -79,7 +78,7 @@ std::string key_figures(const RunSummary& summary) {
                counted(summary.edges, "edge", "edges") + ", " +
                    counted(summary.local_maps, "local map", "local maps"));
   html += tile("Loops closed", whole(loops.accepted), "",
-               "of " + whole(tried) + " tried" +
+               "of " + whole(loops.tried) + " tried" +
                    (loops.switched_off > 0 ? ", " + whole(loops.switched_off) + " switched off" : ""));
   html += tile("Real-time factor", summary.real_time_factor > 0 ? speed_text(summary.real_time_factor) : "–",
                "", duration_text(summary.wall_s) + " of work");
@@ -140,8 +139,28 @@ std::string stages_table(const std::vector<StageTiming>& stages, double wall_s) 
   return html + "</tbody></table></div>\n";
 }
 
+std::string loop_matchers_table(const MappingResult& result) {
+  if (result.loop_matchers.empty()) return {};
+  std::string html =
+      "<div class=\"wide\"><table class=\"rows\">\n<thead><tr><th>Matcher</th><th>tried</th><th>found</th>"
+      "<th>closed</th><th>poses scored a try</th><th>ms a try</th><th>total</th><th>of it in the last "
+      "pass</th>"
+      "</tr></thead>\n<tbody>\n";
+  for (const auto& [name, matcher] : result.loop_matchers) {
+    const LoopEffort& effort = matcher.effort;
+    const double tries = static_cast<double>(std::max<std::size_t>(effort.attempts, 1));
+    html += "<tr><th>" + escape_html(name) + "</th>" +
+            cells({whole(effort.attempts), whole(effort.found), whole(matcher.accepted),
+                   grouped(static_cast<double>(effort.evaluations) / tries, 0),
+                   milliseconds_text(effort.milliseconds / tries), duration_text(effort.milliseconds * 1e-3),
+                   duration_text(matcher.last_pass_effort.milliseconds * 1e-3)}) +
+            "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
 std::string loops_table(const MappingResult& result) {
-  if (result.loops.empty()) return "<p class=\"none\">No loop was tried.</p>\n";
+  if (result.loops.empty()) return "<p class=\"none\">No match was found.</p>\n";
   std::string rows;
   std::size_t shown = 0;
   for (const LoopVerdict verdict :
@@ -165,7 +184,7 @@ std::string loops_table(const MappingResult& result) {
     }
   }
   const std::size_t left = result.loops.size() - shown;
-  return "<details><summary>" + counted(result.loops.size(), "loop tried", "loops tried") +
+  return "<details><summary>" + counted(result.loops.size(), "match found", "matches found") +
          "</summary><div class=\"wide tall\"><table "
          "class=\"rows\">\n<thead><tr><th>Verdict</th><th>scan</th><th>node</th>"
          "<th>local "

@@ -14,6 +14,9 @@ std::string log_table(const LogFacts& log, const std::string& name);
 std::string reasons_table(const LoopCounts& loops);
 std::string stages_table(const std::vector<StageTiming>& stages, double wall_s);
 
+/// What each matcher did to close loops; empty where none was used.
+std::string loop_matchers_table(const MappingResult& result);
+
 /// The first loops of each verdict, folded away; loops.csv has them all.
 std::string loops_table(const MappingResult& result);
 

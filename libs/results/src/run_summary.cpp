@@ -63,10 +63,14 @@ std::string without_figures(const std::string& reason) {
   return text;
 }
 
-LoopCounts loop_counts(const std::vector<LoopRecord>& loops) {
+LoopCounts loop_counts(const MappingResult& result) {
   LoopCounts counts;
+  for (const auto& [name, matcher] : result.loop_matchers) {
+    counts.tried += matcher.effort.attempts;
+    counts.found += matcher.effort.found;
+  }
   std::map<std::string, std::size_t> reasons;
-  for (const LoopRecord& loop : loops) {
+  for (const LoopRecord& loop : result.loops) {
     if (loop.verdict == LoopVerdict::kAccepted) {
       ++counts.accepted;
       counts.accepted_in_last_pass += loop.in_last_pass ? 1 : 0;
@@ -130,12 +134,14 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
     summary.mean_response += frame.response;
     matched += frame.response > 0 ? 1 : 0;
   }
+  for (const auto& [name, matcher] : result.loop_matchers)
+    summary.evaluations += matcher.last_pass_effort.evaluations;
   if (matched > 0) summary.mean_response /= static_cast<double>(matched);
   summary.path_length_m = path_length_m(poses);
   summary.nodes = result.graph.nodes.size();
   summary.edges = result.graph.edges.size();
   summary.local_maps = result.local_maps.size();
-  summary.loops = loop_counts(result.loops);
+  summary.loops = loop_counts(result);
   summary.map = map_extent(grid);
   summary.map.asked_resolution_m = asked.resolution_m;
   summary.wall_s = result.wall_s;

@@ -48,11 +48,30 @@ Json loop_counts_json(const LoopCounts& loops) {
   Json reasons = Json::array();
   for (const ReasonCount& reason : loops.reasons)
     reasons.push_back({{"reason", reason.reason}, {"count", reason.count}});
-  return {{"accepted", loops.accepted},
-          {"accepted_in_last_pass", loops.accepted_in_last_pass},
-          {"refused", loops.refused},
-          {"switched_off", loops.switched_off},
+  return {{"tried", loops.tried},       {"found", loops.found},
+          {"accepted", loops.accepted}, {"accepted_in_last_pass", loops.accepted_in_last_pass},
+          {"refused", loops.refused},   {"switched_off", loops.switched_off},
           {"reasons", reasons}};
+}
+
+Json effort_json(const LoopEffort& effort, std::size_t accepted) {
+  return {{"attempts", effort.attempts},
+          {"found", effort.found},
+          {"accepted", accepted},
+          {"evaluations", effort.evaluations},
+          {"milliseconds", number(effort.milliseconds, 3)}};
+}
+
+/// Of each matcher over the whole run, and of that what the last pass took.
+Json loop_matchers_json(const std::map<std::string, LoopMatcherRecord>& matchers) {
+  Json list = Json::array();
+  for (const auto& [name, matcher] : matchers) {
+    Json entry = {{"matcher", name}};
+    entry.update(effort_json(matcher.effort, matcher.accepted));
+    entry["last_pass"] = effort_json(matcher.last_pass_effort, matcher.accepted_in_last_pass);
+    list.push_back(std::move(entry));
+  }
+  return list;
 }
 
 Json stages_json(const std::vector<StageTiming>& stages) {
@@ -91,6 +110,7 @@ std::string summary_json(const MappingResult& result, const RunInfo& info, const
                      {"peak_memory_mb", number(summary.peak_memory_mb, 1)},
                      {"stages", stages_json(result.stages)},
                      {"loop_counts", loop_counts_json(summary.loops)},
+                     {"loop_matchers", loop_matchers_json(result.loop_matchers)},
                      {"settings", info.settings}};
   // Names and reasons are whatever bytes the user's files had: what is no UTF-8 is replaced, not refused.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';

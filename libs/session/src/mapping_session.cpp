@@ -52,7 +52,7 @@ MappingSession::MappingSession(const std::filesystem::path& log, const Settings&
     : path_(log),
       settings_(settings),
       source_(open(log, settings)),
-      mapper_(std::make_unique<Mapper>(settings.mapper)) {}
+      mapper_(std::make_unique<Mapper>(mapper_options(settings))) {}
 
 MappingSession::~MappingSession() = default;
 

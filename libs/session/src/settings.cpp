@@ -120,14 +120,18 @@ void describe_local_maps(OptionTable& table, FrontEndOptions& front_end) {
               "all end after two scans or more without a match and this much travel (a blind laser)");
 }
 
-void describe_loop_closure(OptionTable& table, Settings& settings) {
-  LoopClosureOptions& loops = settings.mapper.loop_closure;
-  MatcherOptions& matcher = settings.mapper.loop_matcher;
+void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
+  LoopClosureOptions& loops = mapper.loop_closure;
+  MatcherOptions& matcher = mapper.loop_matcher;
   LoopCandidateOptions& candidates = loops.candidates;
   table.section("loop_closure", "Finding places seen before")
-      .flag("enabled", settings.mapper.close_loops, "without, the map is the front end's alone")
-      .choice("matcher", settings.loop_matcher, {{"csm", LoopMatcher::kCsm}},
-              "how the search window is searched: csm is exhaustive")
+      .flag("enabled", mapper.close_loops, "without, the map is the front end's alone")
+      .choice("matcher", mapper.matcher,
+              {{"csm", LoopMatcher::kCsm},
+               {"csm_ga", LoopMatcher::kCsmGa},
+               {"ga", LoopMatcher::kGa},
+               {"adaptive", LoopMatcher::kAdaptive}},
+              "the window is searched exhaustively, in part, genetically or as the factor Psi says")
       .number("window_x_m", candidates.max_window.x_m, above(0).at_most(100), "m",
               "largest half-width of the search window around the prediction, along x")
       .number("window_y_m", candidates.max_window.y_m, above(0).at_most(100), "m", "the same along y")
@@ -162,6 +166,65 @@ void describe_loop_closure(OptionTable& table, Settings& settings) {
   describe_refinement(table, matcher.refinement);
 }
 
+void describe_psi(OptionTable& table, PsiOptions& psi) {
+  table.section("psi", "The factor Psi, by which loop_closure.matcher = adaptive chooses")
+      .number("psi_1", psi.psi_1, at_least(0), "", "up to here csm searches for loops; above it csm_ga")
+      .number("psi_2", psi.psi_2, above(0), "", "from here on ga")
+      .integer("window_frames", psi.window_frames, between(1, 1'000'000), "nodes",
+               "loops are counted over so many nodes before: the K of equation 13")
+      .number("eta_max", psi.eta_max, at_least(1), "",
+              "bound of eta, path over distance from the start, for a robot that comes back there");
+}
+
+void describe_paper_genetic(OptionTable& table, PaperGeneticOptions& paper) {
+  table
+      .integer("paper_population", paper.population, between(2, 1'000'000), "poses",
+               "variant paper: of each generation")
+      .integer("paper_generations", paper.generations, between(1, 1'000'000), "generations",
+               "variant paper: how many")
+      .number("paper_crossover_rate", paper.crossover_rate, between(0, 1), "",
+              "variant paper: share of the pairs that are crossed at two points")
+      .number("paper_mutation_rate", paper.mutation_rate, between(0, 1), "",
+              "variant paper: chance of each bit to flip");
+}
+
+void describe_genetic(OptionTable& table, GeneticOptions& genetic) {
+  MemeticGeneticOptions& memetic = genetic.memetic;
+  table.section("genetic", "The genetic search of the matchers csm_ga and ga")
+      .choice("variant", genetic.variant,
+              {{"memetic", GeneticVariant::kMemetic}, {"paper", GeneticVariant::kPaper}},
+              "of ga: with local search and all options below, or as in the paper, with those of paper_*")
+      .integer("population", memetic.population, between(2, 1'000'000), "tiles",
+               "of each generation: a tile is a heading and a block of shifts")
+      .integer("children", memetic.children, between(1, 1'000'000), "tiles", "born in each generation")
+      .integer("elite", memetic.elite, between(0, 1'000'000), "tiles",
+               "best ones kept from generation to generation; 0: none")
+      .integer("generations", memetic.generations, between(0, 1'000'000), "generations", "at most")
+      .integer("patience", memetic.patience, between(0, 1'000'000), "generations",
+               "stop after so many without a better one; 0: never")
+      .number("crossover_rate", memetic.crossover_rate, between(0, 1), "",
+              "share of the children with two parents")
+      .number("mutation_rate", memetic.mutation_rate, between(0, 1), "", "chance of each bit to flip")
+      .flag("gray_code", memetic.gray_code, "a step in space is one bit; without, the paper's binary code")
+      .flag("niches", memetic.niches, "one individual a neighbourhood, so that two corridors both survive")
+      .flag("remember", memetic.remember, "a chromosome met before is not scored again")
+      .flag("pooled_fitness", memetic.pooled_fitness, "it evolves on the max-pooled grid first")
+      .integer("descents", memetic.descents, between(0, 1'000'000), "tiles",
+               "best ones of a generation that descend along the heading")
+      .integer("polished", memetic.polished, between(0, 1'000'000), "poses",
+               "best ones whose neighbourhood is searched exactly at the end")
+      .flag("seed_coarse", memetic.seed_coarse,
+            "the first generation comes of a sparse coarse search; without, it is random")
+      .integer("seeds", memetic.seeds, between(1, 1'000'000), "tiles", "at most, of that search")
+      .integer("seed_points", memetic.seed_points, between(1, 1'000'000), "points",
+               "of the scan, that it looks at")
+      .integer("heading_stride", memetic.heading_stride, between(1, 1000), "headings",
+               "it, and the coarse stage of csm_ga, look at one heading in so many")
+      .integer("coarse_cells", genetic.coarse.cells, between(1, 1'000'000), "cells",
+               "of csm_ga: the best ones that the genetic search looks into");
+  describe_paper_genetic(table, genetic.paper);
+}
+
 void describe_verification(OptionTable& table, LoopVerificationOptions& verification) {
   table.section("verification", "Which loops are believed: one false loop ruins a map")
       .number("wide_window_m", verification.wide_window_m, at_least(0), "m",
@@ -175,7 +238,8 @@ void describe_verification(OptionTable& table, LoopVerificationOptions& verifica
       .number("max_sigma_m", verification.max_sigma_m, above(0), "m",
               "greatest standard deviation of the matched position")
       .number("min_observed_share", verification.min_observed_share, between(0, 1), "",
-              "least share of the scan's points in space that the local map has seen")
+              "least share of the scan's points in space that the local map has seen; in wide windows not "
+              "asked for")
       .number("min_neighbours_agree", verification.min_neighbours_agree, between(0, 1), "",
               "least share of the neighbouring scans' points that fit the local map")
       .number("min_reverse_agree", verification.min_reverse_agree, between(0, 1), "",
@@ -228,7 +292,6 @@ void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
       .angle_deg("loop_sigma_theta_deg", mapper.loop_sigma_rad, above(0).at_most(180), "the same in heading")
       .number("max_loop_chi", mapper.max_loop_chi, above(0), "sigma",
               "a loop that the finished graph contradicts by more is switched off");
-  describe_kernel(table, "odometry", "between successive nodes", solver.odometry_kernel);
   describe_kernel(table, "local_map", "of nodes to their local maps", solver.local_map_kernel);
   describe_kernel(table, "loop", "of loops", solver.loop_kernel);
   table
@@ -277,7 +340,9 @@ void describe(OptionTable& table, Settings& settings) {
   describe_log(table, settings);
   describe_front_end(table, settings.mapper.front_end);
   describe_local_maps(table, settings.mapper.front_end);
-  describe_loop_closure(table, settings);
+  describe_loop_closure(table, settings.mapper);
+  describe_psi(table, settings.mapper.psi);
+  describe_genetic(table, settings.mapper.genetic);
   describe_verification(table, settings.mapper.loop_closure.verification);
   describe_consensus(table, settings.mapper.loop_consensus);
   describe_pose_graph(table, settings.mapper);

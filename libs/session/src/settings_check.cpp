@@ -58,14 +58,19 @@ void check_windows(const MapperOptions& mapper) {
                   {"verification.wide_window_m", mapper.loop_closure.verification.wide_window_m});
 }
 
+void check_matchers(const MapperOptions& mapper) {
+  const MatcherOptions& matcher = mapper.loop_matcher;
+  require_at_most({"loop_closure.min_sigma_m", matcher.min_sigma_m},
+                  {"loop_closure.max_sigma_m", matcher.max_sigma_m});
+  require_below({"psi.psi_1", mapper.psi.psi_1}, {"psi.psi_2", mapper.psi.psi_2});
+}
+
 }  // namespace
 
 void check(const Settings& settings) {
   check_ranges(settings);
   check_windows(settings.mapper);
-  const MatcherOptions& matcher = settings.mapper.loop_matcher;
-  require_at_most({"loop_closure.min_sigma_m", matcher.min_sigma_m},
-                  {"loop_closure.max_sigma_m", matcher.max_sigma_m});
+  check_matchers(settings.mapper);
   check_log_options(log_options(settings));
 }
 
@@ -75,6 +80,13 @@ LogOptions log_options(const Settings& settings) {
   if (mount.x_m || mount.y_m || mount.yaw_rad)
     options.robot_T_laser =
         mrpt::math::TPose2D(mount.x_m.value_or(0), mount.y_m.value_or(0), mount.yaw_rad.value_or(0));
+  return options;
+}
+
+MapperOptions mapper_options(const Settings& settings) {
+  MapperOptions options = settings.mapper;
+  options.seed = settings.run.seed;
+  options.threads = worker_threads(settings.run);
   return options;
 }
 

@@ -3,10 +3,15 @@
 // is matched with every local map near it, in a small window.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "psi_slam/base/degrees.h"
+#include "psi_slam/base/worker_pool.h"
+#include "psi_slam/loop_closure/loop_effort.h"
 #include "psi_slam/loop_closure/loop_record.h"
 #include "psi_slam/loop_closure/loop_verification.h"
 #include "psi_slam/loop_closure/place_memory.h"
@@ -23,12 +28,19 @@ struct LastPassOptions {
   double travel_m = 0.3;  ///< of the path, between two nodes that are matched with the same local map
 };
 
-/// Every match that was found, accepted or refused; in the order of local maps, then nodes. Pairs for which
-/// `known(node, local_map)` holds are left out. `progress` is called with the share done; when it
-/// returns false, the search ends there.
-std::vector<LoopRecord> last_pass(const PlaceMemory& memory, const PoseGraph& graph, const Matcher& matcher,
-                                  const LoopVerificationOptions& verification, const LastPassOptions& options,
-                                  const std::function<bool(std::size_t node, std::size_t local_map)>& known,
-                                  const std::function<bool(double)>& progress);
+struct LastPassOutcome {
+  std::vector<LoopRecord> loops;  ///< every match found, accepted or refused, by local map, then node
+  std::map<std::string, LoopEffort> effort;  ///< by the matcher's name
+};
+
+/// Matches several pairs at a time, each by `matcher_of(node)`; pairs for which `known(node, local_map)`
+/// holds are left out. `run_seed` is that of MatchSeed. `progress` is called with the share done, by the
+/// thread that calls; when it returns false, the search ends there.
+LastPassOutcome last_pass(const PlaceMemory& memory, const PoseGraph& graph,
+                          const std::function<const Matcher&(std::size_t node)>& matcher_of,
+                          const LoopVerificationOptions& verification, const LastPassOptions& options,
+                          const std::function<bool(std::size_t node, std::size_t local_map)>& known,
+                          std::uint64_t run_seed, WorkerPool& pool,
+                          const std::function<bool(double)>& progress);
 
 }  // namespace psi_slam

@@ -2,10 +2,12 @@
 // The per-loop step: a node against every nearby finished local map.
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <vector>
 
+#include "psi_slam/base/worker_pool.h"
 #include "psi_slam/loop_closure/loop_candidates.h"
+#include "psi_slam/loop_closure/loop_effort.h"
 #include "psi_slam/loop_closure/loop_record.h"
 #include "psi_slam/loop_closure/loop_verification.h"
 #include "psi_slam/loop_closure/place_memory.h"
@@ -25,20 +27,26 @@ struct LoopClosureOptions {
 
 class LoopCloser {
  public:
-  explicit LoopCloser(const LoopClosureOptions& options) : options_(options) {}
+  /// `run_seed` is that of MatchSeed.
+  LoopCloser(const LoopClosureOptions& options, std::uint64_t run_seed)
+      : options_(options), run_seed_(run_seed) {}
 
-  /// Matches `node` with every local map it may see again. Every attempt that found anything is returned,
-  /// accepted or refused, in the order of the local maps' ids.
-  std::vector<LoopRecord> close(std::size_t node, const PlaceMemory& memory, const PoseGraph& graph,
-                                const Matcher& matcher);
-
-  /// The local maps matched with by the last call of close().
-  int tried() const { return tried_; }
+  struct Outcome {
+    std::vector<LoopRecord>
+        loops;  ///< every match found, accepted or refused, in the order of the local maps
+    LoopEffort effort;
+  };
+  /// Matches `node` with every local map it may see again, several at a time.
+  Outcome close(std::size_t node, const PlaceMemory& memory, const PoseGraph& graph, const Matcher& matcher,
+                WorkerPool& pool);
 
  private:
+  std::vector<LoopCandidate> due_candidates(std::size_t node, const PlaceMemory& memory,
+                                            const PoseGraph& graph);
+
   LoopClosureOptions options_;
+  std::uint64_t run_seed_;
   std::vector<double> last_attempt_m_;  ///< by local map: where along the path it was last matched with
-  int tried_ = 0;
 };
 
 }  // namespace psi_slam

@@ -19,7 +19,7 @@ enum class LoopVerdict {
   kSwitchedOff,  ///< accepted first, but the rest of the graph contradicts it
 };
 
-/// One attempt to close a loop, and what became of it.
+/// One attempt to close a loop that found a match, and what became of it.
 struct LoopRecord {
   std::size_t frame = 0;      ///< in the log's order
   std::size_t node = 0;       ///< of the graph
@@ -39,7 +39,7 @@ struct LoopRecord {
   double reverse_agree = 0;     ///< share of the local map's points seen from the scan that fit it
   double moved_m = 0;           ///< how far from the prediction the match was found
   std::int64_t evaluations = 0;
-  double milliseconds = 0;
+  double milliseconds = 0;  ///< of matching
 
   LoopVerdict verdict = LoopVerdict::kRefused;
   std::string reason;  ///< why refused or switched off, as a clause; empty when accepted

@@ -16,7 +16,8 @@ struct LoopVerificationOptions {
   double max_ambiguity = 0.9;       ///< of a match in a narrow window; wide ones leave that to the consensus
   double wide_window_m = 1.0;       ///< windows with a larger half-width are wide
   double max_sigma_m = 0.3;         ///< largest standard deviation of the matched position
-  double min_observed_share = 0.5;  ///< of the scan's points, in space that the local map has observed
+  double min_observed_share = 0.5;  ///< of the scan's points, in space that the local map has observed; of a
+                                    ///< match in a narrow window
   double min_neighbours_agree =
       0.75;  ///< of the neighbouring scans' points in observed space, on something occupied
   double min_reverse_agree =

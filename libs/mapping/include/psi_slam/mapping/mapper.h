@@ -3,16 +3,20 @@
 // CMetricMapBuilderPsi all drive this class; it knows nothing of files, windows or options' texts.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "psi_slam/base/degrees.h"
+#include "psi_slam/base/worker_pool.h"
 #include "psi_slam/local_maps/front_end.h"
 #include "psi_slam/loop_closure/last_pass.h"
 #include "psi_slam/loop_closure/loop_closer.h"
+#include "psi_slam/loop_closure/loop_closure_factor.h"
 #include "psi_slam/loop_closure/loop_consensus.h"
+#include "psi_slam/loop_closure/matcher_policy.h"
 #include "psi_slam/mapping/mapping_result.h"
 #include "psi_slam/mapping/stage_clock.h"
 #include "psi_slam/pose_graph/pose_graph.h"
@@ -22,7 +26,10 @@ namespace psi_slam {
 
 struct MapperOptions {
   FrontEndOptions front_end;
-  MatcherOptions loop_matcher;
+  LoopMatcher matcher = LoopMatcher::kAdaptive;
+  MatcherOptions loop_matcher;  ///< what all of them share
+  GeneticOptions genetic;
+  PsiOptions psi;
   LoopClosureOptions loop_closure;
   LoopConsensusOptions loop_consensus;
   LastPassOptions last_pass;
@@ -36,6 +43,8 @@ struct MapperOptions {
   double loop_sigma_rad = radians_from_degrees(0.25L);
   double max_loop_chi = 5.0;  ///< a loop that the finished graph contradicts by more standard deviations is
                               ///< switched off
+  std::uint64_t seed = 1;     ///< of all random numbers
+  int threads = 1;            ///< that match loops; no result depends on it
 };
 
 class Mapper {
@@ -59,25 +68,29 @@ class Mapper {
   const std::vector<LoopRecord>& loops() const { return result_.loops; }
 
  private:
+  void record_factor(FrameRecord& record, const FrontEndStep& step);
   void add_node(const FrontEndStep& step, std::size_t frame);
   void remember(const PlacedLocalMap& finished);
   void close_loops(std::size_t node, FrameRecord& record);
-  bool confirm(std::size_t loop);
+  std::vector<std::size_t> confirmed_by(std::size_t loop);
   bool accept(std::size_t loop);
-  void optimize();
   void run_last_pass(const std::function<bool(double)>& progress);
-  void switch_off_contradicted_loops();
+  void settle_loops();
   void refuse_pending_loops();
+  void count_accepted_loops();
   void carry_frames_along();
 
   MapperOptions options_;
   FrontEnd front_end_;
-  CorrelativeMatcher loop_matcher_;
+  MatcherPolicy matcher_policy_;
+  LoopClosureFactor loop_closure_factor_;
   LoopCloser loop_closer_;
   LoopConsensus loop_consensus_;
+  WorkerPool pool_;
   SparsePoseAdjustment solver_;
   PoseGraph graph_;
   PlaceMemory memory_;
+  std::vector<MatcherKind> matcher_of_node_;  ///< that Psi chose there
   std::vector<std::pair<std::size_t, std::size_t>>
       loop_of_constraint_;           ///< constraint, index in result_.loops
   mrpt::math::TPose2D map_T_local_;  ///< the front end's frame, as the newest node says

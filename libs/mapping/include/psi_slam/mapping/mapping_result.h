@@ -7,11 +7,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "psi_slam/logs/frame.h"
+#include "psi_slam/loop_closure/loop_closure_factor.h"
+#include "psi_slam/loop_closure/loop_effort.h"
 #include "psi_slam/loop_closure/loop_record.h"
 #include "psi_slam/mapping/stage_clock.h"
 #include "psi_slam/matching/search_window.h"
@@ -26,16 +29,31 @@ struct FrameRecord {
   mrpt::math::TPose2D map_T_robot;        ///< the result: its node's pose, or its matched pose carried along
   std::optional<std::size_t> node;        ///< its node in the graph, if it became one
 
-  double response = 0;     ///< of the front end's match, in [0, 1]; 0 where there was nothing to match with
-  SearchExtent window;     ///< the front end's search window (half-widths)
-  int loops_tried = 0;     ///< local maps that the frame was matched with to close a loop
-  int loops_accepted = 0;  ///< C_i of equation 13
-  std::string matcher;     ///< that searched the loops of this frame: "csm", ...; empty where none was tried
-  std::int64_t evaluations = 0;  ///< poses scored, front end and loops together
+  double response = 0;    ///< of the front end's match, in [0, 1]; 0 where there was nothing to match with
+  SearchExtent window;    ///< the front end's search window (half-widths)
+  double psi = 0;         ///< of equation 13, before the loops of this frame
+  double eta = 0;         ///< of equation 14
+  double mean_loops = 0;  ///< the mean of C_i in equation 13
+  int loops_tried = 0;    ///< local maps that the frame was matched with to close a loop
+  /// C_i of equation 13: the loops that became constraints at this frame, found here or on the way and
+  /// confirmed here. Whether they are switched off later plays no part.
+  int loops_accepted = 0;
+  std::string matcher;  ///< that is to search for loops at this frame: "csm", ...; empty where none does
+  std::int64_t loop_evaluations = 0;  ///< poses scored to close loops, found or not
+  std::int64_t evaluations = 0;       ///< these and the front end's together
 
   double front_end_ms = 0;
-  double loop_closing_ms = 0;
+  double loop_matching_ms = 0;  ///< added up over the matches, which may run at the same time
+  double loop_closing_ms = 0;   ///< from the first to the last of them, candidates and verification included
   double pose_graph_ms = 0;
+};
+
+/// What one matcher did to close loops, over the whole run.
+struct LoopMatcherRecord {
+  LoopEffort effort;
+  LoopEffort last_pass_effort;  ///< of `effort`, after the last scan
+  std::size_t accepted = 0;     ///< constraints that the finished graph keeps
+  std::size_t accepted_in_last_pass = 0;
 };
 
 /// One local map, for drawings: its anchor node and the nodes whose scans it holds, [first_node, last_node].
@@ -52,6 +70,8 @@ struct MappingResult {
   std::vector<std::size_t> node_frames;      ///< the frame of each node
   std::vector<LocalMapRecord> local_maps;
   std::vector<LoopRecord> loops;
+  PsiOptions psi;                                          ///< its thresholds are drawn beside the factor
+  std::map<std::string, LoopMatcherRecord> loop_matchers;  ///< by name, those that were used
   std::vector<StageTiming> stages;
   double wall_s = 0;         ///< of the whole run so far, loading included
   bool interrupted = false;  ///< true when the user stopped it before the log's end, or cut the last pass

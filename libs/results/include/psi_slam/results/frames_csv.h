@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// frames.csv: one row for each scan of the log, in its order: the three poses, the match, the loops, the time
-// spent. Lengths are metres, angles radians, stamps seconds; `node` and `matcher` are empty where there is
+// frames.csv: one row for each scan of the log, in its order: the three poses, the match, the factor Psi, the
+// loops, the time spent. Lengths are metres, angles radians, stamps seconds; `node` and `matcher` are empty where there is
 // none.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// loops.csv: one row for each attempt to close a loop, in the order they were made: between what, where and
+// loops.csv: one row for each match found to close a loop, in the order they were made: between what, where and
 // how well it matched, what became of it and why. Lengths are metres, angles radians; `reason` is empty where
 // it was accepted.
 #pragma once

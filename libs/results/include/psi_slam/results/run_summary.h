@@ -49,6 +49,8 @@ struct ReasonCount {
 };
 
 struct LoopCounts {
+  std::size_t tried = 0;  ///< windows searched, whether anything was found in them or not
+  std::size_t found = 0;  ///< of those, with a match: each was accepted, refused or switched off
   std::size_t accepted = 0;
   std::size_t accepted_in_last_pass = 0;
   std::size_t refused = 0;  ///< with those still pending when the run was stopped
@@ -74,8 +76,8 @@ struct RunSummary {
   std::size_t edges = 0;
   std::size_t local_maps = 0;
   LoopCounts loops;
-  double mean_response = 0;  ///< over the frames that were matched
-  std::int64_t evaluations = 0;
+  double mean_response = 0;      ///< over the frames that were matched
+  std::int64_t evaluations = 0;  ///< poses scored, in the last pass too
   MapExtent map;
   double wall_s = 0;
   double real_time_factor = 0;  ///< seconds of the log in a second of work; 0 where that cannot be said

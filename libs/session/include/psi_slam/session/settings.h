@@ -13,11 +13,6 @@
 
 namespace psi_slam {
 
-/// How loops are searched.
-enum class LoopMatcher {
-  kCsm,  ///< exhaustive in result: correlative scan matching by branch and bound
-};
-
 /// The laser's pose on the robot, as far as the user states it.
 struct LaserMount {
   std::optional<double> x_m;
@@ -33,8 +28,7 @@ struct RunOptions {
 struct Settings {
   LogOptions log;  ///< its robot_T_laser is left empty: `laser_mount` stands for it
   LaserMount laser_mount;
-  MapperOptions mapper;
-  LoopMatcher loop_matcher = LoopMatcher::kCsm;
+  MapperOptions mapper;  ///< its seed and threads are those of `run`: see mapper_options()
   GridMapOptions map;
   RunOptions run;
 };
@@ -49,6 +43,9 @@ void check(const Settings& settings);
 
 /// What the reader of the log takes. Where the mount is stated in part, the rest of it is 0.
 LogOptions log_options(const Settings& settings);
+
+/// What the mapper takes: with the seed and the threads of `run`.
+MapperOptions mapper_options(const Settings& settings);
 
 /// The number of threads that run.threads stands for, at least 1.
 int worker_threads(const RunOptions& run);

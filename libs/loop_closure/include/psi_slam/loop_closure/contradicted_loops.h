@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which loops the rest of the graph contradicts. A false loop bends the graph, and true ones beside it look
+// wrong then; so the worst are switched off first, the graph is optimised anew, and so on until none is
+// contradicted; those that fit after all are switched on again.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "psi_slam/pose_graph/pose_graph.h"
+#include "psi_slam/pose_graph/sparse_pose_adjustment.h"
+
+namespace psi_slam {
+
+/// Optimises the graph and switches the constraints `loops`, on or off before, so that none that is on is
+/// contradicted by more than `max_chi` standard deviations. Returns by how many each is, in their order.
+std::vector<double> switch_off_contradicted_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
+                                                  const std::vector<std::size_t>& loops, double max_chi);
+
+}  // namespace psi_slam

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/loop_closure/contradicted_loops.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace psi_slam {
+namespace {
+
+// Of the worst contradiction, what loops have at least that are switched off together with it.
+constexpr double kShareOfWorst = 0.5;
+
+std::vector<double> optimized_chi(PoseGraph& graph, SparsePoseAdjustment& solver,
+                                  const std::vector<std::size_t>& loops) {
+  const std::vector<ConstraintFit> fits = solver.optimize(graph).fits;
+  std::vector<double> chi;
+  for (const std::size_t loop : loops) chi.push_back(std::sqrt(fits[loop].chi2));
+  return chi;
+}
+
+// Ends, since every round switches off one at least.
+void switch_off_worst_first(PoseGraph& graph, SparsePoseAdjustment& solver,
+                            const std::vector<std::size_t>& loops, double max_chi, std::vector<double>& chi) {
+  while (true) {
+    double worst = 0;
+    for (std::size_t i = 0; i < loops.size(); ++i)
+      if (graph.enabled(loops[i])) worst = std::max(worst, chi[i]);
+    if (worst <= max_chi) return;
+    for (std::size_t i = 0; i < loops.size(); ++i)
+      if (chi[i] > max_chi && chi[i] >= kShareOfWorst * worst) graph.set_enabled(loops[i], false);
+    chi = optimized_chi(graph, solver, loops);
+  }
+}
+
+}  // namespace
+
+std::vector<double> switch_off_contradicted_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
+                                                  const std::vector<std::size_t>& loops, double max_chi) {
+  std::vector<double> chi = optimized_chi(graph, solver, loops);
+  switch_off_worst_first(graph, solver, loops, max_chi, chi);
+  bool any_fits_after_all = false;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (graph.enabled(loops[i]) || chi[i] > max_chi) continue;
+    graph.set_enabled(loops[i], true);
+    any_fits_after_all = true;
+  }
+  if (any_fits_after_all) {
+    chi = optimized_chi(graph, solver, loops);
+    switch_off_worst_first(graph, solver, loops, max_chi, chi);
+  }
+  return chi;
+}
+
+}  // namespace psi_slam

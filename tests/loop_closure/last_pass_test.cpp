@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/loop_closure/last_pass.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "psi_slam/matching/correlative_matcher.h"
+#include "two_rounds.h"
+
+namespace psi_slam {
+namespace {
+
+using Known = std::function<bool(std::size_t, std::size_t)>;
+
+// The exact matcher under another name.
+class NamedMatcher : public Matcher {
+ public:
+  explicit NamedMatcher(std::string name) : name_(std::move(name)), exact_(MatcherOptions()) {}
+  MatchResult match(const MatchProblem& problem) const override { return exact_.match(problem); }
+  std::string name() const override { return name_; }
+
+ private:
+  std::string name_;
+  CorrelativeMatcher exact_;
+};
+
+const NamedMatcher kEarly("early");
+const NamedMatcher kLate("late");
+
+bool is_late(std::size_t node) {
+  return node >= two_rounds().node;
+}
+
+LastPassOutcome pass(
+    int threads, const Known& known = [](std::size_t, std::size_t) { return false; },
+    const std::function<bool(double)>& progress = [](double) { return true; }) {
+  WorkerPool pool(threads);
+  const auto matcher_of = [](std::size_t node) -> const Matcher& { return is_late(node) ? kLate : kEarly; };
+  return last_pass(two_rounds().memory, two_rounds().graph(), matcher_of, {}, {}, known, 1, pool, progress);
+}
+
+TEST(LastPass, finds_true_loops_and_nothing_else) {
+  const LastPassOutcome outcome = pass(1);
+  std::size_t accepted = 0;
+  for (const LoopRecord& loop : outcome.loops) {
+    EXPECT_TRUE(loop.in_last_pass);
+    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    ++accepted;
+    const auto off = loop.anchor_T_node - (two_rounds().truth[loop.node] - two_rounds().truth[loop.anchor]);
+    EXPECT_LT(std::hypot(off.x, off.y), 0.1);
+  }
+  EXPECT_GT(accepted, 10U);
+}
+
+TEST(LastPass, each_node_is_matched_by_its_own_matcher_and_counted_there) {
+  const LastPassOutcome outcome = pass(2);
+  ASSERT_EQ(outcome.effort.size(), 2U);
+  std::size_t late = 0;
+  for (const LoopRecord& loop : outcome.loops) {
+    EXPECT_EQ(loop.matcher, is_late(loop.node) ? "late" : "early");
+    late += is_late(loop.node) ? 1 : 0;
+  }
+  EXPECT_GT(late, 0U);
+  EXPECT_EQ(outcome.effort.at("late").found, late);
+  EXPECT_EQ(outcome.effort.at("early").found, outcome.loops.size() - late);
+}
+
+TEST(LastPass, known_pairs_are_left_out) {
+  const LastPassOutcome all = pass(1);
+  const LastPassOutcome some =
+      pass(1, [](std::size_t node, std::size_t local_map) { return local_map == 0 || node < 20; });
+  std::size_t expected = 0;
+  for (const LoopRecord& loop : all.loops) expected += loop.local_map != 0 && loop.node >= 20 ? 1 : 0;
+  EXPECT_EQ(some.loops.size(), expected);
+  EXPECT_LT(some.loops.size(), all.loops.size());
+  for (const LoopRecord& loop : some.loops) EXPECT_TRUE(loop.local_map != 0 && loop.node >= 20);
+}
+
+TEST(LastPass, finds_the_same_in_the_same_order_with_any_number_of_threads) {
+  const LastPassOutcome alone = pass(1);
+  EXPECT_TRUE(
+      std::is_sorted(alone.loops.begin(), alone.loops.end(), [](const LoopRecord& a, const LoopRecord& b) {
+        return std::pair(a.local_map, a.node) < std::pair(b.local_map, b.node);
+      }));
+  for (const int threads : {2, 4}) {
+    const LastPassOutcome together = pass(threads);
+    ASSERT_EQ(together.loops.size(), alone.loops.size());
+    for (std::size_t i = 0; i < alone.loops.size(); ++i) {
+      EXPECT_EQ(together.loops[i].node, alone.loops[i].node);
+      EXPECT_EQ(together.loops[i].anchor_T_node, alone.loops[i].anchor_T_node);
+      EXPECT_EQ(together.loops[i].verdict, alone.loops[i].verdict);
+    }
+    EXPECT_EQ(together.effort.at("late").evaluations, alone.effort.at("late").evaluations);
+  }
+}
+
+TEST(LastPass, progress_grows_up_to_the_end_and_reaches_it_where_nothing_is_near_too) {
+  for (const bool nothing : {false, true}) {
+    std::vector<double> shares;
+    const auto known = [&](std::size_t, std::size_t) { return nothing; };
+    const LastPassOutcome outcome = pass(2, known, [&](double share) {
+      shares.push_back(share);
+      return true;
+    });
+    EXPECT_EQ(outcome.loops.empty(), nothing);
+    ASSERT_FALSE(shares.empty());
+    EXPECT_GT(shares.front(), 0);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(shares.back(), 1);
+  }
+}
+
+TEST(LastPass, ends_where_it_is_told_to_stop) {
+  const auto nothing_known = [](std::size_t, std::size_t) { return false; };
+  int calls = 0;
+  const LastPassOutcome cut = pass(2, nothing_known, [&](double) {
+    ++calls;
+    return false;
+  });
+  EXPECT_EQ(calls, 1);
+  EXPECT_LE(cut.loops.size(), pass(2, nothing_known).loops.size());
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/loop_closure/loop_closer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <mutex>
+#include <vector>
+
+#include "psi_slam/matching/correlative_matcher.h"
+#include "two_rounds.h"
+
+namespace psi_slam {
+namespace {
+
+// Finds nothing, and keeps what it was asked.
+class AskedMatcher : public Matcher {
+ public:
+  struct Question {
+    SearchExtent extent;
+    MatchSeed seed;
+    std::size_t points = 0;
+  };
+
+  MatchResult match(const MatchProblem& problem) const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    questions_.push_back({problem.extent, problem.seed, problem.scan.points.size()});
+    MatchResult result;
+    result.evaluations = 7;
+    return result;
+  }
+  std::string name() const override { return "asked"; }
+  const std::vector<Question>& questions() const { return questions_; }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::vector<Question> questions_;
+};
+
+LoopClosureOptions near_maps_too() {
+  LoopClosureOptions options;
+  options.candidates.min_travel_m = 3;
+  return options;
+}
+
+LoopCloser::Outcome close(const PoseGraph& graph, const Matcher& matcher, int threads = 1,
+                          const PlaceMemory& memory = two_rounds().memory) {
+  WorkerPool pool(threads);
+  LoopCloser closer(near_maps_too(), 5);
+  return closer.close(two_rounds().node, memory, graph, matcher, pool);
+}
+
+TEST(LoopCloser, attempts_that_find_nothing_are_counted) {
+  const AskedMatcher matcher;
+  const LoopCloser::Outcome outcome = close(two_rounds().graph(), matcher);
+  EXPECT_TRUE(outcome.loops.empty());
+  EXPECT_GT(outcome.effort.attempts, 1U);
+  EXPECT_EQ(outcome.effort.attempts, matcher.questions().size());
+  EXPECT_EQ(outcome.effort.found, 0U);
+  EXPECT_EQ(outcome.effort.evaluations, 7 * static_cast<std::int64_t>(outcome.effort.attempts));
+  EXPECT_GE(outcome.effort.milliseconds, 0);
+}
+
+TEST(LoopCloser, every_match_has_a_seed_of_its_own) {
+  const AskedMatcher matcher;
+  close(two_rounds().graph(), matcher);
+  const std::size_t scan = two_rounds().memory.nodes[two_rounds().node].frame;
+  std::vector<std::uint64_t> local_maps;
+  for (const auto& question : matcher.questions()) {
+    EXPECT_EQ(question.seed.run, 5U);
+    EXPECT_EQ(question.seed.scan, scan);
+    local_maps.push_back(question.seed.local_map);
+  }
+  EXPECT_EQ(std::adjacent_find(local_maps.begin(), local_maps.end()), local_maps.end());
+}
+
+TEST(LoopCloser, a_blind_scan_is_not_searched_for) {
+  PlaceMemory memory = two_rounds().memory;
+  memory.nodes[two_rounds().node].points = std::make_shared<const ScanPoints>();
+  const AskedMatcher matcher;
+  const LoopCloser::Outcome outcome = close(two_rounds().graph(), matcher, 1, memory);
+  EXPECT_EQ(outcome.effort.attempts, 0U);
+  EXPECT_TRUE(matcher.questions().empty());
+}
+
+TEST(LoopCloser, the_same_local_map_is_not_tried_again_on_the_spot) {
+  const AskedMatcher matcher;
+  WorkerPool pool(1);
+  LoopCloser closer(near_maps_too(), 5);
+  const TwoRounds& rounds = two_rounds();
+  EXPECT_GT(closer.close(rounds.node, rounds.memory, rounds.graph(), matcher, pool).effort.attempts, 0U);
+  EXPECT_EQ(closer.close(rounds.node, rounds.memory, rounds.graph(), matcher, pool).effort.attempts, 0U);
+}
+
+TEST(LoopCloser, a_node_that_nothing_links_to_a_local_map_is_searched_for_in_the_largest_window) {
+  const SearchExtent largest = LoopCandidateOptions().max_window;
+  const AskedMatcher linked;
+  close(two_rounds().graph(), linked);
+  ASSERT_FALSE(linked.questions().empty());
+  for (const auto& question : linked.questions()) {
+    EXPECT_LT(question.extent.x_m, 1);
+    EXPECT_LT(question.extent.theta_rad, largest.theta_rad);
+  }
+
+  PoseGraph graph = two_rounds().graph();
+  for (const std::uint32_t constraint : graph.constraints_of(two_rounds().node))
+    graph.set_enabled(constraint, false);
+  const AskedMatcher apart;
+  close(graph, apart);
+  ASSERT_FALSE(apart.questions().empty());
+  for (const auto& question : apart.questions()) {
+    EXPECT_EQ(question.extent.x_m, largest.x_m);
+    EXPECT_EQ(question.extent.y_m, largest.y_m);
+    EXPECT_EQ(question.extent.theta_rad, largest.theta_rad);
+    EXPECT_GT(question.points, two_rounds().memory.nodes[two_rounds().node].points->points.size())
+        << "wide windows are searched with the context";
+  }
+}
+
+TEST(LoopCloser, finds_the_same_loops_with_any_number_of_threads) {
+  const CorrelativeMatcher matcher({});
+  const PoseGraph graph = two_rounds().graph();
+  const LoopCloser::Outcome alone = close(graph, matcher, 1);
+  ASSERT_GT(alone.loops.size(), 1U);
+  EXPECT_TRUE(std::any_of(alone.loops.begin(), alone.loops.end(),
+                          [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
+  for (const int threads : {2, 4}) {
+    const LoopCloser::Outcome together = close(graph, matcher, threads);
+    EXPECT_EQ(together.effort.evaluations, alone.effort.evaluations);
+    ASSERT_EQ(together.loops.size(), alone.loops.size());
+    for (std::size_t i = 0; i < alone.loops.size(); ++i) {
+      EXPECT_EQ(together.loops[i].local_map, alone.loops[i].local_map);
+      EXPECT_EQ(together.loops[i].anchor_T_node, alone.loops[i].anchor_T_node);
+      EXPECT_EQ(together.loops[i].reason, alone.loops[i].reason);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A drive with local maps that are seen again, for the tests of this folder.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "../local_maps/simulated_drive.h"
+#include "psi_slam/local_maps/front_end.h"
+#include "psi_slam/loop_closure/loop_record.h"
+#include "psi_slam/loop_closure/place_memory.h"
+#include "psi_slam/pose_graph/pose_graph.h"
+
+namespace psi_slam {
+
+/// Twice round a furnished room with good odometry; local maps of the first round, seen again in the second.
+struct TwoRounds {
+  PlaceMemory memory;
+  std::vector<mrpt::math::TPose2D> truth;  ///< by node
+  std::size_t node = 0;                    ///< of the second round
+  std::size_t local_map = 0;               ///< of the first, holding a node near that one
+
+  TwoRounds() {
+    const SimulatedDrive drive = drive_along(
+        furnished_room(),
+        path_along({{2.3, 2}, {5.5, 2}, {5.5, 4}, {2.3, 4}, {2.3, 2}, {5.5, 2}, {5.5, 4}, {2.3, 4}}), {}, 5);
+    FrontEndOptions options;
+    options.nodes_per_local_map = 40;
+    FrontEnd front_end(options);
+    for (std::size_t i = 0; i < drive.frames.size(); ++i) {
+      const FrontEndStep step = front_end.add(drive.frames[i]);
+      if (!step.node) continue;
+      NodeScan scan;
+      scan.frame = i;
+      scan.local_T_robot = step.local_T_robot;
+      scan.points = step.points;
+      if (!memory.nodes.empty()) {
+        const mrpt::math::TPose2D motion = step.local_T_robot - memory.nodes.back().local_T_robot;
+        scan.travelled_m = memory.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
+      }
+      memory.nodes.push_back(scan);
+      truth.push_back(drive.map_T_robot[i]);
+      for (const PlacedLocalMap& finished : step.finished) memory.local_maps.push_back(finished);
+    }
+    while (memory.nodes[node].travelled_m < 12) ++node;
+  }
+
+  /// As a matcher would find it, at the true place moved by `off` in the robot's own frame.
+  LoopRecord loop(double half_width_m, const mrpt::math::TPose2D& off = {0, 0, 0}) const {
+    LoopRecord result;
+    result.node = node;
+    result.frame = memory.nodes[node].frame;
+    result.local_map = local_map;
+    result.anchor = memory.local_maps[local_map].anchor;
+    result.anchor_T_node = (truth[node] - truth[result.anchor]) + off;
+    result.covariance.diagonal() << 1e-4, 1e-4, 1e-5;
+    result.window = {half_width_m, half_width_m, 0.1};
+    result.response = 0.8;
+    result.ambiguity = 0.3;
+    return result;
+  }
+
+  /// Each node linked to the one before, at its true pose.
+  PoseGraph graph() const {
+    PoseGraph result;
+    for (const mrpt::math::TPose2D& pose : truth) result.add_node(pose);
+    for (std::size_t to = 1; to < truth.size(); ++to) {
+      Constraint constraint;
+      constraint.from = to - 1;
+      constraint.to = to;
+      constraint.from_T_to = truth[to] - truth[to - 1];
+      constraint.information = Eigen::Vector3d(1e5, 1e5, 1e6).asDiagonal();
+      result.add_constraint(constraint);
+    }
+    return result;
+  }
+};
+
+inline const TwoRounds& two_rounds() {
+  static const TwoRounds rounds;
+  return rounds;
+}
+
+}  // namespace psi_slam

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <ctime>
 
 #include "log_files.h"
 #include "shared_logs.h"
@@ -287,11 +286,10 @@ struct KnownLog {
 
 class CarmenReaderOnKnownLogs : public testing::TestWithParam<KnownLog> {};
 
-TEST_P(CarmenReaderOnKnownLogs, reads_them_whole_and_fast) {
+TEST_P(CarmenReaderOnKnownLogs, reads_them_whole) {
   const KnownLog known = GetParam();
   const auto path = shared_file(std::string(known.name) + ".clf.gz");
   if (!path) GTEST_SKIP() << kNeedsData;
-  [[maybe_unused]] const std::clock_t start = std::clock();
   CarmenReader reader(*path, {});
   std::size_t scans = 0;
   TimeUs first_us = 0;
@@ -310,8 +308,6 @@ TEST_P(CarmenReaderOnKnownLogs, reads_them_whole_and_fast) {
   EXPECT_EQ(scans, known.scans);
   EXPECT_NEAR(seconds(last_us - first_us), known.seconds, 1.0);
   EXPECT_GT(path_m, 100);
-  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 1.0)
-      << "about 0.1 s in an optimised build";
 }
 
 INSTANTIATE_TEST_SUITE_P(all, CarmenReaderOnKnownLogs,

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <zlib.h>
 
-#include <ctime>
 #include <functional>
 #include <sstream>
 
@@ -331,11 +330,8 @@ class InputDoctorOnKnownLogs : public testing::TestWithParam<const char*> {
   std::filesystem::path log_;
 };
 
-TEST_P(InputDoctorOnKnownLogs, raises_no_false_alarm_and_takes_seconds) {
-  [[maybe_unused]] const std::clock_t start = std::clock();
+TEST_P(InputDoctorOnKnownLogs, raises_no_false_alarm) {
   const LogDiagnosis diagnosis = diagnose(log_);
-  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5.0)
-      << "1 to 2 s in an optimised build";
   EXPECT_TRUE(diagnosis.odometry_is_sound);
   ASSERT_TRUE(diagnosis.mount);
   EXPECT_LT(diagnosis.mount->robot_T_laser.norm(), 0.15);

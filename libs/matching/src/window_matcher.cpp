@@ -24,6 +24,19 @@ double ambiguity_of(const Candidate& best, const std::optional<Candidate>& next)
 
 }  // namespace
 
+void pick_peaks(const std::vector<Candidate>& scored, const PeakRequest& request, FoundPeaks& peaks) {
+  const auto keep_best = [](std::optional<Candidate>& best, const Candidate& candidate) {
+    if (!best || candidate.better_than(*best)) best = candidate;
+  };
+  for (const Candidate& candidate : scored)
+    if (candidate.sum >= request.min_sum) keep_best(peaks.best, candidate);
+  if (!peaks.best || !request.next) return;
+  const ExcludedRegion around = {peaks.best->pose, request.next->cells, request.next->turns};
+  const double least = request.next->share * peaks.best->sum;
+  for (const Candidate& candidate : scored)
+    if (candidate.sum >= least && !around.contains(candidate.pose)) keep_best(peaks.next, candidate);
+}
+
 MatchResult WindowMatcher::match(const MatchProblem& problem) const {
   MatchResult result;
   result.window = make_search_window(problem.extent, problem.grid.resolution_m(), problem.scan.farthest_m);

@@ -3,6 +3,8 @@
 // the covariance, the ambiguity. They differ in find_peaks() alone.
 #pragma once
 
+#include <vector>
+
 #include "psi_slam/base/degrees.h"
 #include "psi_slam/matching/matcher.h"
 #include "psi_slam/matching/refinement.h"
@@ -42,6 +44,9 @@ struct FoundPeaks {
   std::int64_t evaluations = 0;  ///< poses scored on any level of the grid
   GeneticEffort genetic;
 };
+
+/// The peaks that are asked for among scored poses, into `peaks`.
+void pick_peaks(const std::vector<Candidate>& scored, const PeakRequest& request, FoundPeaks& peaks);
 
 class WindowMatcher : public Matcher {
  public:

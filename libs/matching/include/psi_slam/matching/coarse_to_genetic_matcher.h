@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The middle mode of the paper (section 3.2; method, section 6): the rough stage of correlative matching
+// ranks coarse cells exhaustively, and the genetic search looks for the best pose inside the best of them.
+#pragma once
+
+#include "psi_slam/matching/genetic_options.h"
+#include "psi_slam/matching/window_matcher.h"
+
+namespace psi_slam {
+
+class CoarseToGeneticMatcher : public WindowMatcher {
+ public:
+  CoarseToGeneticMatcher(const MatcherOptions& options, const CoarseCellOptions& coarse,
+                         const MemeticGeneticOptions& genetic)
+      : WindowMatcher(options), coarse_(coarse), genetic_(genetic) {}
+  std::string name() const override { return "csm_ga"; }
+
+ private:
+  FoundPeaks find_peaks(const SearchLattice& lattice, const PeakRequest& request) const override;
+
+  CoarseCellOptions coarse_;
+  MemeticGeneticOptions genetic_;
+};
+
+}  // namespace psi_slam

@@ -16,7 +16,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kUsualNodesPerLocalMap = 60;
+const std::size_t kUsualNodesPerLocalMap = FrontEndOptions().nodes_per_local_map;
 constexpr std::size_t kFewerCases = 5;  // the series over sizes draw one case where the others draw five
 
 std::string md5_of(const std::filesystem::path& path) {
@@ -29,7 +29,6 @@ MatchSeries make_series(std::string title, const MatchBenchmarkOptions& options)
   series.title = std::move(title);
   series.cases.count = options.cases;
   series.cases.seed = options.seed;
-  series.nodes_per_local_map = kUsualNodesPerLocalMap;
   return series;
 }
 
@@ -47,7 +46,8 @@ MatchBenchmark plan(const MatchBenchmarkOptions& options) {
     series.field = Field::kMatchers;
     benchmark.windows.push_back(std::move(series));
   }
-  for (const std::size_t nodes : {30, 60, 120}) {
+  for (const std::size_t nodes :
+       {kUsualNodesPerLocalMap / 2, kUsualNodesPerLocalMap, 2 * kUsualNodesPerLocalMap}) {
     MatchSeries series = make_series(std::to_string(nodes) + " nodes", fewer);
     series.nodes_per_local_map = nodes;
     series.field = Field::kMatchers;

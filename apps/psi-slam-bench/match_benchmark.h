@@ -18,7 +18,7 @@ namespace psi_slam {
 struct MatchSeries {
   std::string title;
   CaseOptions cases;
-  std::size_t nodes_per_local_map = 60;
+  std::size_t nodes_per_local_map = FrontEndOptions().nodes_per_local_map;
   Field field = Field::kAll;
 
   struct Row {

@@ -52,7 +52,7 @@ class BenchApp : public testing::Test {
   void write_room(double stretch = 1) const {
     constexpr int kScans = 190;
     write_lines(data_ / "room.log", room_log_lines(kScans));
-    write_file(ini_ / "room.ini", "[front_end]\nnodes_per_local_map = 20\n");
+    write_file(ini_ / "room.ini", "[log]\n");
     std::string relations;
     for (int i = 20; i < kScans; i += 10) {
       const mrpt::math::TPose2D motion = room_pose(2 * M_PI * i / 100) - room_pose(2 * M_PI * (i - 20) / 100);
@@ -94,21 +94,32 @@ TEST_F(BenchApp, leaves_out_logs_whose_truth_cannot_be_trusted) {
   EXPECT_THAT(refusal({}), HasSubstr("there are no relations"));
 }
 
-TEST_F(BenchApp, real_cases_do_not_depend_on_when_they_are_drawn) {
-  if (!shared_file("mit-csail.clf.gz")) GTEST_SKIP() << kNeedsData;
-  fs::create_symlink(*shared_file("mit-csail.clf.gz"), data_ / "mit-csail.clf.gz");
-  fs::create_symlink(*shared_file("mit-csail.relations"), data_ / "mit-csail.relations");
+TEST_F(BenchApp, gives_the_same_figures_again_but_for_the_times) {
+  write_room();
   std::vector<Json> runs;
-  for (int i = 0; i < 2; ++i) {
-    const std::string file = (folder_.path() / ("csail" + std::to_string(i) + ".json")).string();
-    ASSERT_EQ(run({"match", "--data", data_.string(), "--cases", "1", "--json", file}), 0) << err_.str();
+  for (const char* name : {"first.json", "again.json"}) {
+    const fs::path file = folder_.path() / name;
+    ASSERT_EQ(match({"--cases", "3", "--seed", "5", "--json", file.string()}), 0) << err_.str();
     Json json = Json::parse(read_file(file));
     for (Json* rows : {&json["matchers"], &json["context"]["matchers"]})
       for (Json& row : *rows) row.erase("time_ms");
     runs.push_back(std::move(json));
   }
   EXPECT_EQ(runs[0], runs[1]);
-  EXPECT_EQ(runs[0]["matchers"][0]["cases"], 2);
+  EXPECT_EQ(runs[0]["seed"], 5);
+}
+
+TEST_F(BenchApp, draws_both_kinds_from_a_benchmark_log_with_the_settings_that_come_along) {
+  if (!shared_file("mit-csail.clf.gz")) GTEST_SKIP() << kNeedsData;
+  for (const char* name : {"mit-csail.clf.gz", "mit-csail.relations"})
+    fs::create_symlink(shared_file(name).value(), data_ / name);
+  const fs::path file = folder_.path() / "csail.json";
+  ASSERT_EQ(run({"match", "--data", data_.string(), "--cases", "1", "--json", file.string()}), 0)
+      << err_.str();
+  const Json json = Json::parse(read_file(file));
+  EXPECT_EQ(json["matchers"][0]["cases"], 2);
+  EXPECT_EQ(json["logs"][0]["remark"], "");
+  EXPECT_LT(json["logs"][0]["translation_error_m"], 0.05);
 }
 
 TEST_F(BenchApp, wrong_usage_and_wrong_input_are_one_sentence_and_2) {

@@ -27,9 +27,9 @@ bool success(const MatchResult& match) {
 TEST(MatchFigures, success_ends_at_thirty_centimetres_and_three_and_a_half_degrees) {
   EXPECT_TRUE(success(match_at(0.3, 0)));
   EXPECT_FALSE(success(match_at(0.3001, 0)));
-  EXPECT_TRUE(success(match_at(0, kSuccess_rad)));
-  EXPECT_TRUE(success(match_at(0, -kSuccess_rad)));
-  EXPECT_FALSE(success(match_at(0, 1.001 * kSuccess_rad)));
+  EXPECT_TRUE(success(match_at(0, 0.9999 * kSuccess_rad)));
+  EXPECT_TRUE(success(match_at(0, -0.9999 * kSuccess_rad)));
+  EXPECT_FALSE(success(match_at(0, 1.0001 * kSuccess_rad)));
   MatchResult nothing = match_at(0, 0);
   nothing.found = false;
   EXPECT_FALSE(success(nothing));

@@ -8,10 +8,6 @@
 namespace psi_slam {
 namespace {
 
-// Responses a little below what is accepted are still reported, so that a person sees what was refused and
-// why.
-constexpr double kReportedShare = 0.8;
-
 // A blind scan has no points, or none that a turn would move (see make_search_window).
 bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
   return !scan.points.empty() && scan.farthest_m > std::as_const(*local_map.map).scores().resolution_m();

@@ -30,6 +30,9 @@ bool is_wide(const SearchExtent& extent, const LoopVerificationOptions& options)
 /// What a match in this window must score.
 double min_response(const SearchExtent& extent, const LoopVerificationOptions& options);
 
+/// Loops are looked for down to this share of min_response(), so that a person sees what was refused and why.
+inline constexpr double kReportedShare = 0.8;
+
 /// Fills in what was found out of `loop` (observed share, agreements) and decides its verdict: refused, with
 /// the reason; accepted; or, found in a wide window, pending until others agree (see LoopConsensus). `scan`
 /// is what was matched.

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "benchmark_logs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/config/apply_settings.h"
+#include "psi_slam/config/ini_file.h"
+#include "psi_slam/logs/open_log.h"
+#include "psi_slam/results/relations_metric.h"
+#include "psi_slam/session/settings.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The name of the log that a file is, if it is one.
+std::optional<std::string> log_name(const std::string& file) {
+  for (const char* ending : {".clf", ".log", ".rawlog", ".clf.gz", ".log.gz", ".rawlog.gz"}) {
+    const std::string_view end = ending;
+    if (file.size() > end.size() && file.compare(file.size() - end.size(), end.size(), end) == 0)
+      return file.substr(0, file.size() - end.size());
+  }
+  return std::nullopt;
+}
+
+Settings settings_of(const fs::path& ini) {
+  Settings settings;
+  OptionTable table;
+  describe(table, settings);
+  apply(read_ini(ini), table);
+  check(settings);
+  return settings;
+}
+
+/// The front end once more beside the mapper, which keeps its local maps to itself: it gives the same ones.
+class PlaceCollector {
+ public:
+  explicit PlaceCollector(const FrontEndOptions& options) : front_end_(options) {}
+
+  void add(const Frame& frame) {
+    const FrontEndStep step = front_end_.add(frame);
+    if (step.node) {
+      NodeScan node;
+      node.frame = frames_;
+      node.local_T_robot = step.local_T_robot;
+      node.points = step.points;
+      if (!memory_.nodes.empty()) {
+        const mrpt::math::TPose2D motion = step.local_T_robot - memory_.nodes.back().local_T_robot;
+        node.travelled_m = memory_.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
+      }
+      memory_.nodes.push_back(std::move(node));
+    }
+    keep(step.finished);
+    ++frames_;
+  }
+
+  PlaceMemory finish() {
+    keep(front_end_.finish());
+    return std::move(memory_);
+  }
+
+ private:
+  void keep(const std::vector<PlacedLocalMap>& finished) {
+    memory_.local_maps.insert(memory_.local_maps.end(), finished.begin(), finished.end());
+  }
+
+  FrontEnd front_end_;
+  PlaceMemory memory_;
+  std::size_t frames_ = 0;
+};
+
+/// Until the mapper itself chooses: exact search while no loop was closed over the last nodes, then the
+/// genetic one.
+std::vector<std::string> adaptive_matchers(const MappingResult& result) {
+  constexpr std::size_t kRecentNodes = 20;
+  std::vector<std::string> names;
+  std::size_t last_loop = 0;  // the node behind the last one that closed a loop
+  for (std::size_t node = 0; node < result.node_frames.size(); ++node) {
+    names.push_back(last_loop > 0 && node < last_loop + kRecentNodes ? "ga" : "csm");
+    if (result.frames[result.node_frames[node]].loops_accepted > 0) last_loop = node + 1;
+  }
+  return names;
+}
+
+double translation_error_m(const MappingResult& result, const fs::path& relations) {
+  Trajectory trajectory;
+  for (const FrameRecord& frame : result.frames) trajectory.push_back({frame.time_us, frame.map_T_robot});
+  return evaluate_relations(std::move(trajectory), read_relations(relations)).translation_abs_m.mean;
+}
+
+}  // namespace
+
+std::vector<BenchmarkLog> find_benchmark_logs(const fs::path& data, const fs::path& ini) {
+  if (!fs::is_directory(data)) throw UserError(data.string() + " is no folder");
+  std::map<std::string, fs::path> files;
+  for (const auto& entry : fs::directory_iterator(data)) {
+    const auto name = log_name(entry.path().filename().string());
+    if (!name || !entry.is_regular_file()) continue;
+    fs::path& file = files[*name];
+    if (file.empty() || entry.path() < file) file = entry.path();
+  }
+  if (files.empty())
+    throw UserError("there is no log in " + data.string() +
+                    ": expected NAME.clf.gz, NAME.log or NAME.rawlog with NAME.relations beside it");
+  std::vector<BenchmarkLog> logs;
+  for (const auto& [name, file] : files) {
+    BenchmarkLog log{name, file, ini / (name + ".ini"), {}};
+    if (!fs::exists(log.ini))
+      throw UserError(file.string() + " has no settings: expected " + log.ini.string() +
+                      " with the facts of its sensor");
+    const fs::path relations = data / (name + ".relations");
+    if (fs::exists(relations)) log.relations = relations;
+    logs.push_back(std::move(log));
+  }
+  return logs;
+}
+
+std::optional<fs::path> shipped_ini_folder() {
+  std::error_code failed;
+  fs::path folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
+  while (!failed && !folder.empty()) {
+    for (const fs::path& ini : {folder / "share" / "psi-slam" / "ini", folder / "ini"})
+      if (fs::exists(ini / "psi-slam.ini", failed)) return ini;
+    if (folder == folder.root_path()) break;
+    folder = folder.parent_path();
+  }
+  return std::nullopt;
+}
+
+MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
+                  const std::function<void(double)>& progress) {
+  const Settings settings = settings_of(log.ini);
+  MappedLog mapped;
+  mapped.name = log.name;
+  mapped.options = settings.mapper;
+  FrontEndOptions& front_end = mapped.options.front_end;
+  front_end.local_map_travel_m *=
+      static_cast<double>(nodes_per_local_map) / static_cast<double>(front_end.nodes_per_local_map);
+  front_end.nodes_per_local_map = nodes_per_local_map;
+
+  const std::unique_ptr<FrameSource> source = open_log(log.log, log_options(settings));
+  Mapper mapper(mapped.options);
+  PlaceCollector places(front_end);
+  while (std::optional<Frame> frame = source->next()) {
+    places.add(*frame);
+    mapper.add(std::move(*frame));
+    progress(source->progress());
+  }
+  mapped.memory = places.finish();
+  const MappingResult result = mapper.finish();
+  mapped.map_T_node.resize(mapped.memory.nodes.size());
+  for (const auto& [node, pose] : result.graph.nodes)
+    mapped.map_T_node[node] = mrpt::math::TPose2D(pose.x(), pose.y(), pose.phi());
+  mapped.adaptive_matcher = adaptive_matchers(result);
+  mapped.translation_error_m = translation_error_m(result, log.relations.value());
+  return mapped;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "growth_plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "psi_slam/results/number_text.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr double kWidth = 760;
+constexpr double kHeight = 400;
+constexpr double kLeft = 70;
+constexpr double kRight = 120;  // room for the lines' names
+constexpr double kTop = 46;
+constexpr double kBottom = 40;
+constexpr double kNameHeight = 16;
+constexpr std::array<const char*, 6> kColours = {"#1f5fa8", "#c2571a", "#2f8f4e",
+                                                 "#8a3fa0", "#a88a1f", "#555555"};
+
+/// Whole decades of milliseconds.
+struct Decades {
+  double low = 0.1;
+  double high = 1;
+
+  double y(double value) const {
+    return kHeight - kBottom - std::log(value / low) / std::log(high / low) * (kHeight - kTop - kBottom);
+  }
+};
+
+Decades decades_of(const GrowthPlot& plot) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (const GrowthPlot::Line& line : plot.lines)
+    for (const double value : line.values) {
+      if (!(value > 0)) continue;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  if (!(most > 0)) return {};
+  Decades decades{std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most)))};
+  if (decades.high <= decades.low) decades.high = 10 * decades.low;
+  return decades;
+}
+
+double x_of(std::size_t place, std::size_t places) {
+  if (places < 2) return kLeft;
+  return kLeft + 24 +
+         static_cast<double>(place) / static_cast<double>(places - 1) * (kWidth - kLeft - kRight - 48);
+}
+
+std::string text(double x, double y, const std::string& attributes, const std::string& content) {
+  return "<text x=\"" + fixed_text(x, 1) + "\" y=\"" + fixed_text(y, 1) + "\" " + attributes + '>' + content +
+         "</text>\n";
+}
+
+std::string axes(const GrowthPlot& plot, const Decades& decades) {
+  std::string svg;
+  for (double value = decades.low; value <= decades.high * 1.001; value *= 10) {
+    const double y = decades.y(value);
+    svg += "<path d=\"M" + fixed_text(kLeft, 0) + ',' + fixed_text(y, 1) + 'H' +
+           fixed_text(kWidth - kRight, 0) + "\" stroke=\"#ddd\"/>\n";
+    const int decimals = std::max(0, static_cast<int>(std::lround(-std::log10(value))));
+    svg += text(kLeft - 8, y + 4, "text-anchor=\"end\"", fixed_text(value, decimals) + " ms");
+  }
+  for (std::size_t i = 0; i < plot.labels.size(); ++i)
+    svg += text(x_of(i, plot.labels.size()), kHeight - 14, "text-anchor=\"middle\"", plot.labels[i]);
+  return svg;
+}
+
+/// The places of the names beside the lines' ends, moved apart where they would cover each other.
+std::vector<double> name_places(const GrowthPlot& plot, const Decades& decades) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+    const std::vector<double>& values = plot.lines[i].values;
+    order.emplace_back(values.empty() || !(values.back() > 0) ? kTop : decades.y(values.back()), i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<double> places(plot.lines.size());
+  double next = kTop;
+  for (const auto& [y, line] : order) {
+    places[line] = std::max(y, next);
+    next = places[line] + kNameHeight;
+  }
+  return places;
+}
+
+std::string line_svg(const GrowthPlot::Line& line, const char* colour, const Decades& decades,
+                     double name_y) {
+  std::string path;
+  std::string dots;
+  for (std::size_t i = 0; i < line.values.size(); ++i) {
+    if (!(line.values[i] > 0)) continue;
+    const std::string x = fixed_text(x_of(i, line.values.size()), 1);
+    const std::string y = fixed_text(decades.y(line.values[i]), 1);
+    path += (path.empty() ? 'M' : 'L') + x + ',' + y;
+    dots += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"3.5\" fill=\"" + colour + "\"/>\n";
+  }
+  return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"2\"/>\n" + dots +
+         text(kWidth - kRight + 6, name_y + 4, std::string("fill=\"") + colour + '"', line.name);
+}
+
+}  // namespace
+
+std::string growth_svg(const GrowthPlot& plot) {
+  const Decades decades = decades_of(plot);
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed_text(kWidth, 0) + ' ' +
+                    fixed_text(kHeight, 0) + "\" width=\"" + fixed_text(kWidth, 0) + "\" height=\"" +
+                    fixed_text(kHeight, 0) +
+                    "\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#333\">\n" +
+                    "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
+                    text(kLeft, 24, "font-size=\"15\"", plot.title) + axes(plot, decades);
+  const std::vector<double> names = name_places(plot, decades);
+  for (std::size_t i = 0; i < plot.lines.size(); ++i)
+    svg += line_svg(plot.lines[i], kColours[i % kColours.size()], decades, names[i]);
+  return svg + "</svg>\n";
+}
+
+}  // namespace psi_slam

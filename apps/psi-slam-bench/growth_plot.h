@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A small plot of how times grow, logarithmic, as an SVG file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace psi_slam {
+
+struct GrowthPlot {
+  std::string title;
+  std::vector<std::string> labels;  ///< of the places along the horizontal axis, left to right
+
+  struct Line {
+    std::string name;
+    std::vector<double> values;  ///< milliseconds, one a label; what is not positive is left out
+  };
+  std::vector<Line> lines;
+};
+
+std::string growth_svg(const GrowthPlot& plot);
+
+}  // namespace psi_slam

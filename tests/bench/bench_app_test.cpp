@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench_app.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "../session/room_log.h"
+#include "bench_progress.h"
+#include "psi_slam/base/time_stamp.h"
+#include "shared_logs.h"
+#include "temporary_folder.h"
+#include "test_files.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using Json = nlohmann::json;
+
+class BenchApp : public testing::Test {
+ protected:
+  BenchApp() {
+    fs::create_directory(data_);
+    fs::create_directory(ini_);
+  }
+
+  int run(const std::vector<std::string>& arguments, bool terminal = false) {
+    out_.str("");
+    err_.str("");
+    return run_bench_app(arguments, {out_, err_, terminal});
+  }
+
+  int match(std::vector<std::string> options, bool terminal = false) {
+    options.insert(options.begin(), {"match", "--data", data_.string(), "--ini", ini_.string()});
+    return run(options, terminal);
+  }
+
+  /// The sentence with which it is refused as the user's fault.
+  std::string refusal(const std::vector<std::string>& options) {
+    EXPECT_EQ(match(options), 2);
+    EXPECT_EQ(out_.str(), "");
+    EXPECT_THAT(err_.str(), MatchesRegex("psi-slam-bench: [^\n]+\n")) << "one line";
+    return err_.str();
+  }
+
+  /// A drive of almost two rounds, and where the robot truly was; `stretch` 1 is the truth.
+  void write_room(double stretch = 1) const {
+    constexpr int kScans = 190;
+    write_lines(data_ / "room.log", room_log_lines(kScans));
+    write_file(ini_ / "room.ini", "[log]\n");
+    std::string relations;
+    for (int i = 20; i < kScans; i += 10) {
+      const mrpt::math::TPose2D motion = room_pose(2 * M_PI * i / 100) - room_pose(2 * M_PI * (i - 20) / 100);
+      relations += format_seconds(1'000'000'000 + 200'000 * (i - 20)) + ' ' +
+                   format_seconds(1'000'000'000 + 200'000 * i) + ' ' + std::to_string(stretch * motion.x) +
+                   ' ' + std::to_string(stretch * motion.y) + " 0 0 0 " + std::to_string(motion.phi) + '\n';
+    }
+    write_file(data_ / "room.relations", relations);
+  }
+
+  TemporaryFolder folder_;
+  fs::path data_ = folder_.path() / "data";
+  fs::path ini_ = folder_.path() / "ini";
+  std::ostringstream out_;
+  std::ostringstream err_;
+};
+
+TEST_F(BenchApp, compares_the_matchers_on_a_log) {
+  write_room();
+  const fs::path json_file = folder_.path() / "match.json";
+  const fs::path output = folder_.path() / "out" / "bench";
+  ASSERT_EQ(match({"--cases", "1", "--json", json_file.string(), "-o", output.string()}, true), 0)
+      << err_.str();
+  EXPECT_THAT(err_.str(), AllOf(HasSubstr("mapping room"), HasSubstr(" left")));
+  EXPECT_EQ(out_.str(), read_file(output / "match.md"));
+  EXPECT_THAT(out_.str(), HasSubstr("it has only 0 of 1 negative cases")) << "the room is too small";
+  const Json json = Json::parse(read_file(json_file));
+  EXPECT_EQ(json["matchers"][0]["matcher"], "csm");
+  EXPECT_EQ(json["matchers"][0]["cases"], 1);
+  EXPECT_TRUE(json["matchers"][0]["false_accept_rate"].is_null());
+  EXPECT_LT(json["logs"][0]["translation_error_m"], 0.1);
+  EXPECT_EQ(json["logs"][0]["positive"], 1);
+}
+
+TEST_F(BenchApp, leaves_out_logs_whose_truth_cannot_be_trusted) {
+  write_room(1.5);
+  EXPECT_THAT(refusal({}), AllOf(HasSubstr("no log can be used: room"), HasSubstr("off the true relations")));
+  fs::remove(data_ / "room.relations");
+  EXPECT_THAT(refusal({}), HasSubstr("there are no relations"));
+}
+
+TEST_F(BenchApp, gives_the_same_figures_again_but_for_the_times) {
+  write_room();
+  std::vector<Json> runs;
+  for (const char* name : {"first.json", "again.json"}) {
+    const fs::path file = folder_.path() / name;
+    ASSERT_EQ(match({"--cases", "3", "--seed", "5", "--json", file.string()}), 0) << err_.str();
+    Json json = Json::parse(read_file(file));
+    for (Json* rows : {&json["matchers"], &json["context"]["matchers"]})
+      for (Json& row : *rows) row.erase("time_ms");
+    runs.push_back(std::move(json));
+  }
+  EXPECT_EQ(runs[0], runs[1]);
+  EXPECT_EQ(runs[0]["seed"], 5);
+}
+
+TEST_F(BenchApp, draws_both_kinds_from_a_benchmark_log_with_the_settings_that_come_along) {
+  if (!shared_file("mit-csail.clf.gz")) GTEST_SKIP() << kNeedsData;
+  for (const char* name : {"mit-csail.clf.gz", "mit-csail.relations"})
+    fs::create_symlink(shared_file(name).value(), data_ / name);
+  const fs::path file = folder_.path() / "csail.json";
+  ASSERT_EQ(run({"match", "--data", data_.string(), "--cases", "1", "--json", file.string()}), 0)
+      << err_.str();
+  const Json json = Json::parse(read_file(file));
+  EXPECT_EQ(json["matchers"][0]["cases"], 2);
+  EXPECT_EQ(json["logs"][0]["remark"], "");
+  EXPECT_LT(json["logs"][0]["translation_error_m"], 0.05);
+}
+
+TEST_F(BenchApp, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
+  EXPECT_THAT(refusal({}), HasSubstr("there is no log in " + data_.string()));
+  write_lines(data_ / "other.log", room_log_lines(2));
+  EXPECT_THAT(refusal({}), AllOf(HasSubstr("other.log has no settings"), HasSubstr("other.ini")));
+  write_file(ini_ / "other.ini", "[log]\n");
+  EXPECT_THAT(refusal({"--bogus"}), HasSubstr("--bogus"));
+  EXPECT_THAT(refusal({"--cases", "0"}), HasSubstr("--cases"));
+  EXPECT_THAT(refusal({"--cases", "many"}), HasSubstr("--cases"));
+  EXPECT_THAT(refusal({"--json", folder_.path().string()}), HasSubstr("is a folder"));
+  EXPECT_THAT(refusal({"--json", (folder_.path() / "no" / "a.json").string()}), HasSubstr("does not exist"));
+  EXPECT_THAT(refusal({"-o", (data_ / "other.log").string()}), HasSubstr("other.log"));
+  EXPECT_EQ(run({"match", "--data", (folder_.path() / "no").string()}), 2);
+  EXPECT_THAT(err_.str(), HasSubstr("is no folder"));
+  EXPECT_EQ(run({}), 2);
+  EXPECT_EQ(run({"match"}), 2);
+  EXPECT_EQ(run({"--help"}), 0);
+  EXPECT_EQ(run({"match", "--help"}), 0);
+  EXPECT_THAT(out_.str(), HasSubstr("--windows"));
+}
+
+TEST(BenchProgress, tells_the_time_left_once_it_can) {
+  EXPECT_EQ(bench_progress_text("intel", 0.25, 60), "intel    25 %   3:00 left");
+  EXPECT_EQ(bench_progress_text("intel", 0.001, 60), "intel     0 %");
+}
+
+}  // namespace
+}  // namespace psi_slam

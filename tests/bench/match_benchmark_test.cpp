@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "match_benchmark.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "office_log.h"
+
+namespace psi_slam {
+namespace {
+
+/// Remembers the order of its calls with the others.
+class NotedMatcher : public Matcher {
+ public:
+  NotedMatcher(std::string name, std::vector<std::string>& calls) : name_(std::move(name)), calls_(calls) {}
+  MatchResult match(const MatchProblem& problem) const override {
+    calls_.push_back(name_);
+    EXPECT_DOUBLE_EQ(problem.min_response, 0.8 * 0.5);
+    EXPECT_TRUE(problem.measure_ambiguity);
+    EXPECT_DOUBLE_EQ(problem.extent.x_m, 1);
+    EXPECT_DOUBLE_EQ(problem.extent.theta_rad, 0.3);
+    return {};
+  }
+  std::string name() const override { return name_; }
+
+ private:
+  std::string name_;
+  std::vector<std::string>& calls_;
+};
+
+TEST(MatchBenchmark, takes_turns_case_by_case) {
+  CaseOptions options = office_cases();
+  options.count = 1;
+  std::vector<LoopCase> cases = draw_cases(office_log(), options);
+  ASSERT_EQ(cases.size(), 2U);
+  cases[0].adaptive_matcher = "b";
+  cases[1].adaptive_matcher = "a";
+  std::vector<std::string> calls;
+  const auto a = std::make_shared<NotedMatcher>("a", calls);
+  const auto b = std::make_shared<NotedMatcher>("b", calls);
+  const Contestant adaptive("adaptive", std::vector<std::shared_ptr<const Matcher>>{a, b});
+  MatchSeries series;
+  series.cases = options;
+  int told = 0;
+  run_cases(cases, {{"a", a}, {"b", b}, adaptive}, 0.5, series, [&told] { ++told; });
+  EXPECT_THAT(calls, testing::ElementsAre("a", "b", "b", "b", "a", "a"));
+  EXPECT_EQ(told, 2);
+  ASSERT_EQ(series.rows.size(), 3U);
+  EXPECT_EQ(series.rows[2].matcher, "adaptive");
+  EXPECT_EQ(series.rows[2].tally.figures().cases, 2U);
+}
+
+TEST(MatchBenchmark, exact_matching_finds_the_loops_of_the_office) {
+  const CaseOptions options = office_cases();
+  const std::vector<Contestant> field = contestants(Field::kMatchers, office_log().options);
+  MatchSeries series;
+  series.cases = options;
+  run_cases(draw_cases(office_log(), options), field, 0.5, series, [] {});
+  const MatchFigures csm = series.rows.front().tally.figures();
+  EXPECT_EQ(series.rows.front().matcher, "csm");
+  EXPECT_EQ(csm.cases, 24U);
+  EXPECT_GE(*csm.success_rate, 0.9);
+  EXPECT_EQ(*csm.same_optimum_rate, 1);
+  EXPECT_GT(csm.evaluations, 0);
+  EXPECT_GT(csm.time_ms.p99, 0);
+}
+
+TEST(MatchBenchmark, every_row_has_its_own_name) {
+  std::vector<std::string> names;
+  for (const Contestant& contestant : contestants(Field::kAll, MapperOptions()))
+    names.push_back(contestant.name());
+  const std::vector<std::string> first(names.begin(), names.begin() + 5);
+  EXPECT_THAT(first, testing::ElementsAre("csm", "csm_ga", "ga", "adaptive", "ga_paper"));
+  EXPECT_GT(names.size(), 10U);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+}
+
+}  // namespace
+}  // namespace psi_slam

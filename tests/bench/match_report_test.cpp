@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "match_report.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace psi_slam {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::ordered_json;
+
+MatchSeries series_of(double csm_ms, double ga_ms) {
+  MatchSeries series;
+  series.title = "some title";
+  LoopCase positive;
+  positive.positive = true;
+  MatchResult match;
+  match.evaluations = 1000;
+  MatchTally csm;
+  csm.add(positive, {true, true, false}, match, csm_ms);
+  MatchTally ga;
+  match.genetic = {1, 8, 2};
+  ga.add(positive, {true, false, false}, match, ga_ms);
+  series.rows = {{"csm", csm}, {"ga", ga}};
+  return series;
+}
+
+MatchBenchmark benchmark() {
+  MatchBenchmark result;
+  result.logs = {{"intel", "0123", 0.019, 250, 250, "", true},
+                 {"odd", "4567", {}, 0, 0, "left out: why", false}};
+  result.scans = series_of(4, 1);
+  result.contexts = series_of(10, 2);
+  return result;
+}
+
+std::vector<std::string> keys_of(const Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& item : object.items()) keys.push_back(item.key());
+  return keys;
+}
+
+TEST(MatchReport, json_has_a_row_for_each_matcher) {
+  const Json json = Json::parse(match_json(benchmark(), {}, "a machine"));
+  ASSERT_EQ(json["matchers"].size(), 2U);
+  const Json& row = json["matchers"][1];
+  EXPECT_THAT(keys_of(row), testing::ElementsAre("matcher", "cases", "success_rate", "same_optimum_rate",
+                                                 "false_accept_rate", "evaluations", "time_ms"));
+  EXPECT_THAT(keys_of(row["time_ms"]), testing::ElementsAre("mean", "p50", "p95", "p99"));
+  EXPECT_EQ(row["matcher"], "ga");
+  EXPECT_EQ(row["cases"], 1);
+  EXPECT_EQ(row["success_rate"], 1.0);
+  EXPECT_EQ(row["same_optimum_rate"], 0.0);
+  EXPECT_TRUE(row["false_accept_rate"].is_null()) << "there was no negative case";
+  EXPECT_EQ(row["evaluations"], 1000.0);
+  EXPECT_EQ(row["time_ms"]["p95"], 1.0);
+}
+
+TEST(MatchReport, json_tells_where_it_comes_from) {
+  MatchBenchmarkOptions options;
+  options.seed = 77;
+  const Json json = Json::parse(match_json(benchmark(), options, "a machine"));
+  EXPECT_EQ(json["machine"], "a machine");
+  EXPECT_EQ(json["seed"], 77);
+  EXPECT_EQ(json["window_m"], 8.0);
+  EXPECT_EQ(json["window_deg"], 30.0);
+  EXPECT_EQ(json["logs"][0]["translation_error_m"], 0.019);
+  EXPECT_TRUE(json["logs"][1]["translation_error_m"].is_null());
+  EXPECT_EQ(json["logs"][1]["used"], false);
+  EXPECT_EQ(json["repaired_share"], (Json{{"ga", 0.25}}));
+  EXPECT_EQ(json["context"]["matchers"][0]["time_ms"]["mean"], 10.0);
+  EXPECT_FALSE(json.contains("windows"));
+}
+
+TEST(MatchReport, markdown_has_the_rows_and_the_ratios) {
+  const std::string page = match_markdown(benchmark(), {}, "a machine");
+  EXPECT_THAT(page,
+              AllOf(HasSubstr("a machine"), HasSubstr("| intel | `0123` | 0.019 | 250 | 250 |  |\n"),
+                    HasSubstr("| odd | `4567` | – | 0 | 0 | left out: why |\n"),
+                    HasSubstr("| csm | 1 | 100.0 | 100.0 | – | 1000 | 4.000 | 4.000 | 4.000 | 4.000 | – |\n"),
+                    HasSubstr("| ga | 1 | 100.0 | 0.0 | – | 1000 | 1.000 | 1.000 | 1.000 | 1.000 | 25.0 |\n"),
+                    HasSubstr("| ga | × 1.000 | × 0.25 | × 0.25 |\n"), Not(HasSubstr("half-width |"))));
+}
+
+TEST(MatchReport, sizes_have_tables_and_plots) {
+  MatchBenchmark result = benchmark();
+  result.windows = {series_of(0.4, 0.2), series_of(40, 2)};
+  result.windows[0].title = "±2 m";
+  result.windows[1].title = "±4 m";
+  result.windows[1].cases.window_m = 4;
+  result.local_maps = {series_of(1, 1)};
+  EXPECT_THAT(match_markdown(result, {}, "a machine"), HasSubstr("| ±4 m | csm | 1 | 100.0 |"));
+  const Json json = Json::parse(match_json(result, {}, "a machine"));
+  EXPECT_EQ(json["windows"][1]["window_m"], 4.0);
+  EXPECT_EQ(json["windows"][1]["matchers"][0]["time_ms"]["mean"], 40.0);
+  EXPECT_EQ(json["local_maps"][0]["nodes_per_local_map"], 60);
+  const std::string svg = window_plot(result);
+  EXPECT_THAT(svg, AllOf(HasSubstr("±2 m</text>"), HasSubstr(">csm</text>"), HasSubstr(">ga</text>"),
+                         HasSubstr("0.1 ms"), HasSubstr("100 ms"), Not(HasSubstr("nan"))));
+  EXPECT_THAT(local_map_plot(result), Not(HasSubstr("nan"))) << "one place alone";
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -169,7 +169,8 @@ std::string match_markdown(const MatchBenchmark& benchmark, const MatchBenchmark
       "closing would accept before it verifies\n"
       "- evaluations: poses scored on any level of the score grid, mean; times over all cases\n"
       "- repaired: codes that lay outside the window, of those that became poses\n"
-      "- adaptive: the matcher that the mapped log's loops up to the scan call for, case by case\n\n";
+      "- adaptive: ";
+  text += std::string(kAdaptiveNote) + "\n\n";
   text += logs_text(benchmark.logs) + '\n';
   text += series_text(benchmark.scans) + series_text(benchmark.contexts);
   text += sizes_text("Window sizes", "half-width",

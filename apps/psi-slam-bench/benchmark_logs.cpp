@@ -74,8 +74,7 @@ class PlaceCollector {
   std::size_t frames_ = 0;
 };
 
-/// Until the mapper itself chooses: exact search while no loop was closed over the last nodes, then the
-/// genetic one.
+/// By node, as kAdaptiveNote says: until the mapper itself chooses and records it.
 std::vector<std::string> adaptive_matchers(const MappingResult& result) {
   constexpr std::size_t kRecentNodes = 20;
   std::vector<std::string> names;

@@ -42,6 +42,8 @@ MatchBenchmark plan(const MatchBenchmarkOptions& options) {
   fewer.cases = std::max<std::size_t>(1, options.cases / kFewerCases);
   for (const double window_m : {2.0, 4.0, 8.0, 16.0}) {
     MatchSeries series = make_series("±" + fixed_text(window_m, 0) + " m", fewer);
+    // As far away as negative cases of the usual window, so that windows of all sizes have the same pairs.
+    series.cases.clear_m += series.cases.window_m - window_m;
     series.cases.window_m = window_m;
     series.field = Field::kMatchers;
     benchmark.windows.push_back(std::move(series));
@@ -71,14 +73,28 @@ double accepted_response(const CaseOptions& cases, const LoopVerificationOptions
   return cases.context ? verification.min_context_response : verification.min_response;
 }
 
-std::string missing_cases(const LogNote& note, std::size_t wanted) {
-  const auto missing = [wanted](std::size_t got, const char* kind) {
-    return "it has only " + std::to_string(got) + " of " + std::to_string(wanted) + ' ' + kind + " cases";
+struct CaseCounts {
+  std::size_t positive = 0;
+  std::size_t negative = 0;
+};
+
+CaseCounts count(const std::vector<LoopCase>& cases) {
+  CaseCounts counts;
+  for (const LoopCase& loop_case : cases) ++(loop_case.positive ? counts.positive : counts.negative);
+  return counts;
+}
+
+/// What the log could not give, as a clause; else empty.
+std::string missing_cases(const CaseCounts& counts, const MatchSeries& series) {
+  const auto missing = [&](std::size_t got, const char* kind) {
+    if (got >= series.cases.count) return std::string();
+    return std::to_string(got) + " of " + std::to_string(series.cases.count) + ' ' + kind + " cases";
   };
-  std::string remark;
-  if (note.positive < wanted) remark = missing(note.positive, "positive");
-  if (note.negative < wanted) remark += (remark.empty() ? "" : ", and ") + missing(note.negative, "negative");
-  return remark;
+  const std::string positive = missing(counts.positive, "positive");
+  const std::string negative = missing(counts.negative, "negative");
+  if (positive.empty() && negative.empty()) return {};
+  return series.title + ": it has only " + positive + (positive.empty() || negative.empty() ? "" : " and ") +
+         negative;
 }
 
 void add_remark(LogNote& note, const std::string& remark) {
@@ -136,7 +152,13 @@ class BenchmarkRun {
     double matches = 0;
     for (MatchSeries* series : all_series) {
       const std::vector<LoopCase> cases = draw_cases(mapped, series->cases);
-      if (series == &benchmark_.scans) count_cases(cases, series->cases.count, note);
+      const CaseCounts counts = count(cases);
+      if (series == &benchmark_.scans) {
+        note.positive = counts.positive;
+        note.negative = counts.negative;
+      }
+      const std::string missing = missing_cases(counts, *series);
+      if (!missing.empty()) add_remark(note, missing);
       const std::vector<Contestant> field = contestants(series->field, mapped.options);
       run_cases(cases, field, accepted_response(series->cases, mapped.options.loop_closure.verification),
                 *series, [&] {
@@ -144,12 +166,6 @@ class BenchmarkRun {
                   observer_(log.name + ", " + series->title, done_ + matches, all_);
                 });
     }
-  }
-
-  static void count_cases(const std::vector<LoopCase>& cases, std::size_t wanted, LogNote& note) {
-    for (const LoopCase& loop_case : cases) ++(loop_case.positive ? note.positive : note.negative);
-    const std::string missing = missing_cases(note, wanted);
-    if (!missing.empty()) add_remark(note, missing);
   }
 
   const BenchObserver& observer_;

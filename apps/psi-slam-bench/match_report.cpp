@@ -63,10 +63,10 @@ std::string series_text(const MatchSeries& series) {
   return text + '\n' + against_csm(series) + '\n';
 }
 
-std::string sizes_text(const std::string& title, const std::string& column,
+std::string sizes_text(const std::string& title, const std::string& column, const std::string& note,
                        const std::vector<MatchSeries>& sizes) {
   if (sizes.empty()) return {};
-  std::string text = "## " + title + "\n\n" + header_text(column + " | ");
+  std::string text = "## " + title + "\n\n" + note + "\n\n" + header_text(column + " | ");
   for (const MatchSeries& series : sizes)
     for (const MatchSeries::Row& row : series.rows)
       text += row_text(series.title + " | ", row.matcher, row.tally.figures());
@@ -169,11 +169,15 @@ std::string match_markdown(const MatchBenchmark& benchmark, const MatchBenchmark
       "closing would accept before it verifies\n"
       "- evaluations: poses scored on any level of the score grid, mean; times over all cases\n"
       "- repaired: codes that lay outside the window, of those that became poses\n"
-      "- adaptive: the matcher that the mapped log's loops up to the scan call for, case by case\n\n";
+      "- adaptive: ";
+  text += std::string(kAdaptiveNote) + "\n\n";
   text += logs_text(benchmark.logs) + '\n';
   text += series_text(benchmark.scans) + series_text(benchmark.contexts);
-  text += sizes_text("Window sizes", "half-width", benchmark.windows);
-  text += sizes_text("Sizes of local maps", "local maps of", benchmark.local_maps);
+  text += sizes_text("Window sizes", "half-width",
+                     "The same pairs of scan and local map in every window; fewer cases than above.",
+                     benchmark.windows);
+  text += sizes_text("Sizes of local maps", "local maps of",
+                     "Every log mapped anew with each size; fewer cases than above.", benchmark.local_maps);
   text.pop_back();
   return text;
 }

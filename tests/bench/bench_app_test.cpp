@@ -78,7 +78,8 @@ TEST_F(BenchApp, compares_the_matchers_on_a_log) {
       << err_.str();
   EXPECT_THAT(err_.str(), AllOf(HasSubstr("mapping room"), HasSubstr(" left")));
   EXPECT_EQ(out_.str(), read_file(output / "match.md"));
-  EXPECT_THAT(out_.str(), HasSubstr("it has only 0 of 1 negative cases")) << "the room is too small";
+  EXPECT_THAT(out_.str(), HasSubstr("Single scans: it has only 0 of 1 negative cases"))
+      << "the room is too small";
   const Json json = Json::parse(read_file(json_file));
   EXPECT_EQ(json["matchers"][0]["matcher"], "csm");
   EXPECT_EQ(json["matchers"][0]["cases"], 1);

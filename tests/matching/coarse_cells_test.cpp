@@ -22,8 +22,8 @@ std::uint32_t slow_block_sum(const SearchLattice& lattice, const Tile& cell) {
   for (std::size_t p = 0; p < lattice.points(); ++p) {
     const Cell at = lattice.cells(cell.theta)[p];
     const auto divide = [&](int a) { return static_cast<int>(std::floor(a / 8.0)); };
-    const int x = divide(at.x + cell.first.x);
-    const int y = divide(at.y + cell.first.y);
+    const int x = divide(at.x + cell.block.first.x);
+    const int y = divide(at.y + cell.block.first.y);
     if (level.inside(x, y)) sum += *level.cell(x, y);
   }
   return sum;
@@ -49,9 +49,9 @@ TEST(CoarseCells, are_all_there_in_the_order_of_their_sums) {
   std::set<int> headings;
   for (const Tile& cell : coarse.best) {
     headings.insert(cell.theta);
-    for (int y = 0; y < cell.height; ++y)
-      for (int x = 0; x < cell.width; ++x)
-        EXPECT_TRUE(shifts.emplace(cell.theta, cell.first.x + x, cell.first.y + y).second);
+    for (int y = 0; y < cell.block.height; ++y)
+      for (int x = 0; x < cell.block.width; ++x)
+        EXPECT_TRUE(shifts.emplace(cell.theta, cell.block.first.x + x, cell.block.first.y + y).second);
   }
   EXPECT_EQ(headings, (std::set<int>{-5, -1, 3, 7}));
   EXPECT_EQ(shifts.size(), 43U * 37U * 4U);
@@ -64,8 +64,8 @@ TEST(CoarseCells, the_best_are_the_best_of_all) {
   ASSERT_EQ(few.best.size(), 9U);
   for (std::size_t i = 0; i < 9; ++i) {
     EXPECT_EQ(few.best[i].theta, all.best[i].theta);
-    EXPECT_EQ(few.best[i].first.x, all.best[i].first.x);
-    EXPECT_EQ(few.best[i].first.y, all.best[i].first.y);
+    EXPECT_EQ(few.best[i].block.first.x, all.best[i].block.first.x);
+    EXPECT_EQ(few.best[i].block.first.y, all.best[i].block.first.y);
   }
 }
 
@@ -84,9 +84,9 @@ TEST(CoarseCells, below_the_smallest_sum_none_is_kept) {
 TEST(CoarseCells, sums_bound_the_poses_of_their_cells) {
   const Problem problem;
   for (const Tile& cell : rank_coarse_cells(problem.lattice, 4, 20, 0).best)
-    for (int y = 0; y < cell.height; y += 3)
-      for (int x = 0; x < cell.width; x += 3)
-        EXPECT_LE(slow_sum(problem.lattice, {cell.first.x + x, cell.first.y + y, cell.theta}),
+    for (int y = 0; y < cell.block.height; y += 3)
+      for (int x = 0; x < cell.block.width; x += 3)
+        EXPECT_LE(slow_sum(problem.lattice, {cell.block.first.x + x, cell.block.first.y + y, cell.theta}),
                   slow_block_sum(problem.lattice, cell));
 }
 

@@ -52,8 +52,8 @@ TEST(CoarseSeeds, are_few_and_differ_and_one_of_the_first_is_where_the_robot_is)
     bool near = false;
     for (const Chromosome chromosome : seeds.chromosomes) {
       const Tile tile = tiles.tile(chromosome);
-      near = near || (std::abs(tile.theta - theta) <= 8 && std::abs(tile.first.x + 8 - x) <= 24 &&
-                      std::abs(tile.first.y + 8 - y) <= 24);
+      near = near || (std::abs(tile.theta - theta) <= 8 && std::abs(tile.block.first.x + 8 - x) <= 24 &&
+                      std::abs(tile.block.first.y + 8 - y) <= 24);
     }
     EXPECT_TRUE(near) << "trial " << trial;
   }

@@ -20,8 +20,8 @@ struct Problem {
 
 Candidate slow_best(const SearchLattice& lattice, const Tile& tile) {
   std::optional<Candidate> best;
-  for (int y = tile.first.y; y < tile.first.y + tile.height; ++y)
-    for (int x = tile.first.x; x < tile.first.x + tile.width; ++x) {
+  for (int y = tile.block.first.y; y < tile.block.first.y + tile.block.height; ++y)
+    for (int x = tile.block.first.x; x < tile.block.first.x + tile.block.width; ++x) {
       const Candidate candidate = {slow_sum(lattice, {x, y, tile.theta}), {x, y, tile.theta}};
       if (!best || candidate.better_than(*best)) best = candidate;
     }
@@ -49,8 +49,9 @@ TEST(TileScorer, finds_the_best_pose_near_one_within_the_window) {
   for (const LatticePose& pose : {LatticePose{0, 0, 0}, {-20, 19, 3}, {20, -3, -3}, {-15, 12, 1}}) {
     const int x = std::max(-20, pose.x - 8);
     const int y = std::max(-19, pose.y - 8);
-    const Candidate expected = slow_best(
-        problem.lattice, {pose.theta, {x, y}, std::min(21, pose.x + 8) - x, std::min(20, pose.y + 8) - y});
+    const Candidate expected =
+        slow_best(problem.lattice,
+                  Tile{pose.theta, {{x, y}, std::min(21, pose.x + 8) - x, std::min(20, pose.y + 8) - y}});
     const Candidate best = scorer.best_near(pose);
     EXPECT_TRUE(same(best, expected)) << to_text(best) << ", not " << to_text(expected);
   }
@@ -59,9 +60,9 @@ TEST(TileScorer, finds_the_best_pose_near_one_within_the_window) {
 TEST(TileScorer, counts_the_poses_it_scores) {
   const Problem problem;
   TileScorer scorer(problem.lattice);
-  scorer.score({0, {0, 0}, 7, 5}, TileLevel::kFinest);
+  scorer.score({0, {{0, 0}, 7, 5}}, TileLevel::kFinest);
   EXPECT_EQ(scorer.evaluations(), 35);
-  scorer.score({0, {0, 0}, 7, 5}, TileLevel::kPooled);
+  scorer.score({0, {{0, 0}, 7, 5}}, TileLevel::kPooled);
   EXPECT_EQ(scorer.evaluations(), 35 + 4 * 3);
 }
 

@@ -16,7 +16,7 @@ namespace {
 using Key = std::tuple<int, int, int>;
 
 Key key(const Tile& tile) {
-  return {tile.theta, tile.first.x, tile.first.y};
+  return {tile.theta, tile.block.first.x, tile.block.first.y};
 }
 
 // All tiles of a space, by trying every string of bits; checks what must hold of each.
@@ -41,8 +41,9 @@ TEST(WindowTiles, cover_every_pose_of_the_window_once) {
       EXPECT_EQ(static_cast<std::int64_t>(tiles.size()), space.size());
       std::map<Key, int> covered;
       for (const auto& [name, tile] : tiles)
-        for (int y = 0; y < tile.height; ++y)
-          for (int x = 0; x < tile.width; ++x) ++covered[{tile.theta, tile.first.x + x, tile.first.y + y}];
+        for (int y = 0; y < tile.block.height; ++y)
+          for (int x = 0; x < tile.block.width; ++x)
+            ++covered[{tile.theta, tile.block.first.x + x, tile.block.first.y + y}];
       const auto poses = static_cast<std::size_t>((2 * window.n_x + 1) * (2 * window.n_y + 1)) *
                          static_cast<std::size_t>(2 * window.n_theta + 1);
       EXPECT_EQ(covered.size(), poses);
@@ -73,8 +74,8 @@ TEST(WindowTiles, encode_names_the_block_that_holds_a_shift) {
       for (int x = -40; x <= 40; x += 9) {
         const Tile tile = space.tile(space.encode(-5, space.column_of(x), space.row_of(y)));
         EXPECT_EQ(tile.theta, -5);
-        EXPECT_TRUE(tile.first.x <= x && x < tile.first.x + tile.width);
-        EXPECT_TRUE(tile.first.y <= y && y < tile.first.y + tile.height);
+        EXPECT_TRUE(tile.block.first.x <= x && x < tile.block.first.x + tile.block.width);
+        EXPECT_TRUE(tile.block.first.y <= y && y < tile.block.first.y + tile.block.height);
       }
   }
 }
@@ -110,7 +111,7 @@ TEST(WindowTiles, turn_up_to_the_windows_edge) {
 
 TEST(CellTiles, hold_all_headings_of_their_cells_that_the_window_has) {
   const SearchWindow window = window_of_steps(40, 40, 10, 0.01);
-  const std::vector<Tile> cells = {{0, {-8, 0}, 8, 8}, {9, {16, -40}, 8, 8}, {-10, {32, 8}, 8, 5}};
+  const std::vector<Tile> cells = {{0, {{-8, 0}, 8, 8}}, {9, {{16, -40}, 8, 8}}, {-10, {{32, 8}, 8, 5}}};
   for (const bool gray : {false, true}) {
     const CellTiles space(window, cells, 4, gray);
     EXPECT_EQ(space.size(), 12);
@@ -118,11 +119,11 @@ TEST(CellTiles, hold_all_headings_of_their_cells_that_the_window_has) {
     std::set<Key> expected;
     for (const Tile& cell : cells)
       for (int turn = -2; turn < 2; ++turn)
-        expected.insert({std::clamp(cell.theta + turn, -10, 10), cell.first.x, cell.first.y});
+        expected.insert({std::clamp(cell.theta + turn, -10, 10), cell.block.first.x, cell.block.first.y});
     ASSERT_EQ(tiles.size(), expected.size());
     for (const auto& [name, tile] : tiles) {
       EXPECT_EQ(expected.count(name), 1U);
-      EXPECT_EQ(tile.height, tile.first.x == 32 ? 5 : 8);
+      EXPECT_EQ(tile.block.height, tile.block.first.x == 32 ? 5 : 8);
     }
     for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_EQ(key(space.tile(space.encode(i))), key(cells[i]));
     EXPECT_EQ(key(space.tile(*space.turned(space.encode(0), 1))), Key(1, -8, 0));

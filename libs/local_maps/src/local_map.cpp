@@ -190,16 +190,19 @@ LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
   const ScoreLevel& finest = scores_.finest();
   const double c = std::cos(map_T_robot.phi);
   const double s = std::sin(map_T_robot.phi);
+  const double cells_per_m = 1 / scores_.resolution_m();
   for (const auto& point : scan.points) {
     const double px = map_T_robot.x + c * static_cast<double>(point.x) - s * static_cast<double>(point.y);
     const double py = map_T_robot.y + s * static_cast<double>(point.x) + c * static_cast<double>(point.y);
-    const int x = static_cast<int>(std::floor((px - scores_.origin_x_m()) / scores_.resolution_m()));
-    const int y = static_cast<int>(std::floor((py - scores_.origin_y_m()) / scores_.resolution_m()));
+    const int x = floor_to_int((px - scores_.origin_x_m()) * cells_per_m);
+    const int y = floor_to_int((py - scores_.origin_y_m()) * cells_per_m);
     if (!observed(x, y)) continue;
     ++agreement.observed;
-    int best = 0;
-    for (int j = -1; j <= 1; ++j)
-      for (int i = -1; i <= 1; ++i) best = std::max<int>(best, finest.at(x + i, y + j));
+    std::uint8_t best = 0;
+    for (int j = -1; j <= 1; ++j) {
+      const std::uint8_t* row = finest.cell(x, y + j);  // what was observed has a margin around it
+      best = std::max({best, row[-1], row[0], row[1]});
+    }
     if (best >= kHitScore) ++agreement.hits;
   }
   return agreement;

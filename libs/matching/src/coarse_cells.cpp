@@ -42,10 +42,11 @@ CoarseCells rank_coarse_cells(const SearchLattice& lattice, int heading_stride, 
       for (int x = 0; x < width; ++x, ++order) {
         if (sums.row(y)[x] < min_sum) continue;
         const Cell first = {x * side - window.n_x, y * side - window.n_y};
-        ranked.push_back({sums.row(y)[x],
-                          order,
-                          {turn, first, std::min(side, window.n_x + 1 - first.x),
-                           std::min(side, window.n_y + 1 - first.y)}});
+        ranked.push_back(
+            {sums.row(y)[x],
+             order,
+             {turn,
+              {first, std::min(side, window.n_x + 1 - first.x), std::min(side, window.n_y + 1 - first.y)}}});
       }
     }
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/matching/exhaustive_search.h"
 
-#include <algorithm>
-
 namespace psi_slam {
 namespace {
 
@@ -15,57 +13,33 @@ class Search {
 
   SearchOutcome run() {
     const SearchWindow& window = lattice_.window();
-    const Shifts all = {-window.n_x, -window.n_y, window.n_x + 1, window.n_y + 1};
+    const ShiftBlock all = {{-window.n_x, -window.n_y}, 2 * window.n_x + 1, 2 * window.n_y + 1};
     for (int theta = -window.n_theta; theta <= window.n_theta; ++theta) {
-      if (excluded_ && std::abs(theta - excluded_->centre.theta) < excluded_->turns)
-        score_around(theta, all);
-      else
+      if (!excluded_) {
         score(theta, all);
+        continue;
+      }
+      for (const ShiftBlock& strip : outside(*excluded_, theta, all)) score(theta, strip);
     }
     return outcome_;
   }
 
  private:
-  struct Shifts {  // [x, x_end) x [y, y_end)
-    int x;
-    int y;
-    int x_end;
-    int y_end;
-  };
-
-  // What the excluded square leaves of `all`: the strips below, above, left and right of it.
-  void score_around(int theta, const Shifts& all) {
-    const auto edge = [&](int centre, std::int64_t offset, int from, int to) {
-      return static_cast<int>(std::clamp<std::int64_t>(centre + offset, from, to));
-    };
-    const std::int64_t cells = excluded_->cells;
-    const int x = edge(excluded_->centre.x, 1 - cells, all.x, all.x_end);
-    const int x_end = edge(excluded_->centre.x, cells, x, all.x_end);
-    const int y = edge(excluded_->centre.y, 1 - cells, all.y, all.y_end);
-    const int y_end = edge(excluded_->centre.y, cells, y, all.y_end);
-    score(theta, {all.x, all.y, all.x_end, y});
-    score(theta, {all.x, y_end, all.x_end, all.y_end});
-    score(theta, {all.x, y, x, y_end});
-    score(theta, {x_end, y, all.x_end, y_end});
-  }
-
-  void score(int theta, const Shifts& shifts) {
-    const int width = shifts.x_end - shifts.x;
-    const int height = shifts.y_end - shifts.y;
-    if (width <= 0 || height <= 0) return;
-    sums_.compute(lattice_.grid().finest(), lattice_.cells(theta), lattice_.points(), {shifts.x, shifts.y},
-                  width, height);
-    for (int y = 0; y < height; ++y) {
+  void score(int theta, const ShiftBlock& shifts) {
+    if (shifts.width <= 0 || shifts.height <= 0) return;
+    sums_.compute(lattice_.grid().finest(), lattice_.cells(theta), lattice_.points(), shifts.first,
+                  shifts.width, shifts.height);
+    for (int y = 0; y < shifts.height; ++y) {
       const std::uint32_t* row = sums_.row(y);
-      for (int x = 0; x < width; ++x) {
+      for (int x = 0; x < shifts.width; ++x) {
         if (row[x] < best_.sum) continue;
-        const Candidate candidate = {row[x], {shifts.x + x, shifts.y + y, theta}};
+        const Candidate candidate = {row[x], {shifts.first.x + x, shifts.first.y + y, theta}};
         if (outcome_.best && !candidate.better_than(best_)) continue;
         best_ = candidate;
         outcome_.best = candidate;
       }
     }
-    outcome_.evaluations += static_cast<std::int64_t>(width) * height;
+    outcome_.evaluations += static_cast<std::int64_t>(shifts.width) * shifts.height;
   }
 
   const SearchLattice& lattice_;

@@ -8,14 +8,18 @@ namespace {
 
 __extension__ using Wide = unsigned __int128;
 
+// The finaliser of SplitMix64 (Steele et al. 2014): neighbouring numbers become unlike ones.
+std::uint64_t mixed(std::uint64_t number) {
+  number += 0x9e3779b97f4a7c15;
+  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9;
+  number = (number ^ (number >> 27)) * 0x94d049bb133111eb;
+  return number ^ (number >> 31);
+}
+
 }  // namespace
 
 Random random_for(const MatchSeed& seed) {
-  std::seed_seq words{
-      static_cast<std::uint32_t>(seed.run),       static_cast<std::uint32_t>(seed.run >> 32),
-      static_cast<std::uint32_t>(seed.scan),      static_cast<std::uint32_t>(seed.scan >> 32),
-      static_cast<std::uint32_t>(seed.local_map), static_cast<std::uint32_t>(seed.local_map >> 32)};
-  return Random(words);
+  return Random(mixed(mixed(mixed(seed.run) + seed.scan) + seed.local_map));
 }
 
 // Lemire, "Fast random integer generation in an interval", 2019.

@@ -17,8 +17,9 @@ FoundPeaks memetic_search(const SearchLattice& lattice, const PeakRequest& reque
   Random random = random_for(request.seed);
   Seeds seeds;
   if (options.seed_coarse) seeds = coarse_seeds(lattice, tiles, options, random);
-  FoundPeaks peaks = evolve_tiles(lattice, tiles, seeds.chromosomes, options.pooled_fitness && !one_block,
-                                  request, options, random);
+  FoundPeaks peaks =
+      evolve_tiles(lattice, tiles, seeds.chromosomes, options.pooled_fitness && lattice.grid().has_pyramid(),
+                   request, options, random);
   peaks.evaluations += seeds.evaluations;
   return peaks;
 }

@@ -38,7 +38,6 @@ Linearisation linearise(const ScoreGrid& grid, const ScanPoints& scan, const TPo
   Linearisation result;
   const double c = std::cos(pose.phi);
   const double s = std::sin(pose.phi);
-  Eigen::Vector3d jacobian;
   const bool with_normals = !scan.normals.empty();
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const auto& point = scan.points[i];
@@ -49,12 +48,12 @@ Linearisation linearise(const ScoreGrid& grid, const ScanPoints& scan, const TPo
     const double residual = 1 - sample.value;
     result.cost += residual * residual;
     result.mean_score += sample.value;
-    jacobian << sample.d_dx, sample.d_dy, dx * sample.d_dy - dy * sample.d_dx;
-    result.information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian);
+    const Eigen::Vector3d jacobian(sample.d_dx, sample.d_dy, dx * sample.d_dy - dy * sample.d_dx);
+    result.information.noalias() += jacobian * jacobian.transpose();
     result.descent += jacobian * residual;
   }
   const double weight = 1 / (score_sigma * score_sigma);
-  result.information = Eigen::Matrix3d(result.information.selfadjointView<Eigen::Lower>()) * weight;
+  result.information *= weight;
   result.cost *= weight;
   result.descent *= weight;
   result.mean_score /= static_cast<double>(std::max<std::size_t>(1, scan.points.size()));

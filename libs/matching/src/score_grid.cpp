@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace psi_slam {
 namespace {
@@ -30,19 +31,27 @@ ScoreLevel pool(const ScoreLevel& fine, int stride) {
   return pooled;
 }
 
+using Four = float __attribute__((vector_size(16)));
+using FourBytes = std::uint8_t __attribute__((vector_size(4)));
+
 // Catmull-Rom weights of the four neighbours for u in [0, 1) between the middle two, and their derivatives.
 struct CubicWeights {
-  std::array<float, 4> value;
-  std::array<float, 4> slope;
+  Four value;
+  Four slope;
 };
 
+float dot(const Four& a, const Four& b) {
+  const Four product = a * b;
+  return (product[0] + product[1]) + (product[2] + product[3]);
+}
+
 CubicWeights cubic_weights(float u) {
-  const float u2 = u * u;
-  const float u3 = u2 * u;
-  return {{0.5F * (-u3 + 2 * u2 - u), 0.5F * (3 * u3 - 5 * u2 + 2), 0.5F * (-3 * u3 + 4 * u2 + u),
-           0.5F * (u3 - u2)},
-          {0.5F * (-3 * u2 + 4 * u - 1), 0.5F * (9 * u2 - 10 * u), 0.5F * (-9 * u2 + 8 * u + 1),
-           0.5F * (3 * u2 - 2 * u)}};
+  constexpr Four kCubic = {-0.5F, 1.5F, -1.5F, 0.5F};
+  constexpr Four kSquare = {1.0F, -2.5F, 2.0F, -0.5F};
+  constexpr Four kLinear = {-0.5F, 0.0F, 0.5F, 0.0F};
+  constexpr Four kConstant = {0.0F, 1.0F, 0.0F, 0.0F};
+  return {((kCubic * u + kSquare) * u + kLinear) * u + kConstant,
+          (3.0F * kCubic * u + 2.0F * kSquare) * u + kLinear};
 }
 
 }  // namespace
@@ -78,27 +87,23 @@ void ScoreGrid::build_pyramid() {
 ScoreGrid::Sample ScoreGrid::interpolate(double x_m, double y_m) const {
   const double x = (x_m - origin_x_m_) / resolution_m_ - 0.5;
   const double y = (y_m - origin_y_m_) / resolution_m_ - 0.5;
-  const int column = static_cast<int>(std::floor(x));
-  const int row = static_cast<int>(std::floor(y));
+  const int column = floor_to_int(x);
+  const int row = floor_to_int(y);
   if (!finest_.inside(column - 1, row - 1) || !finest_.inside(column + 2, row + 2)) return {0, 0, 0};
   const CubicWeights wx = cubic_weights(static_cast<float>(x - column));
   const CubicWeights wy = cubic_weights(static_cast<float>(y - row));
-  float value = 0;
-  float d_dx = 0;
-  float d_dy = 0;
+  Four across = {};  // the column-wise sums, weighted by rows
+  Four across_slope = {};
   for (int j = 0; j < 4; ++j) {
-    const std::uint8_t* cell = finest_.cell(column - 1, row - 1 + j);
-    float row_value = 0;
-    float row_slope = 0;
-    for (int i = 0; i < 4; ++i) {
-      const auto score = static_cast<float>(cell[i]);
-      row_value += wx.value[i] * score;
-      row_slope += wx.slope[i] * score;
-    }
-    value += wy.value[j] * row_value;
-    d_dx += wy.value[j] * row_slope;
-    d_dy += wy.slope[j] * row_value;
+    FourBytes bytes;
+    std::memcpy(&bytes, finest_.cell(column - 1, row - 1 + j), sizeof bytes);
+    const Four scores = __builtin_convertvector(bytes, Four);
+    across += wy.value[j] * scores;
+    across_slope += wy.slope[j] * scores;
   }
+  const float value = dot(across, wx.value);
+  const float d_dx = dot(across, wx.slope);
+  const float d_dy = dot(across_slope, wx.value);
   const double per_metre = 1.0 / (255.0 * resolution_m_);
   return {static_cast<double>(value) / 255.0, static_cast<double>(d_dx) * per_metre,
           static_cast<double>(d_dy) * per_metre};

@@ -40,6 +40,24 @@ bool ExcludedRegion::contains(const LatticePose& pose) const {
          std::abs(pose.theta - centre.theta) < turns;
 }
 
+std::array<ShiftBlock, 4> outside(const ExcludedRegion& excluded, int theta, const ShiftBlock& block) {
+  if (std::abs(theta - excluded.centre.theta) >= excluded.turns) return {block};
+  const int x_end = block.first.x + block.width;
+  const int y_end = block.first.y + block.height;
+  const auto edge = [](int centre, std::int64_t offset, int from, int to) {
+    return static_cast<int>(std::clamp<std::int64_t>(centre + offset, from, to));
+  };
+  const std::int64_t cells = excluded.cells;
+  const int left = edge(excluded.centre.x, 1 - cells, block.first.x, x_end);
+  const int right = edge(excluded.centre.x, cells, left, x_end);
+  const int low = edge(excluded.centre.y, 1 - cells, block.first.y, y_end);
+  const int high = edge(excluded.centre.y, cells, low, y_end);
+  return {{{block.first, block.width, low - block.first.y},
+           {{block.first.x, high}, block.width, y_end - high},
+           {{block.first.x, low}, left - block.first.x, high - low},
+           {{right, low}, x_end - right, high - low}}};
+}
+
 SearchLattice::SearchLattice(const ScoreGrid& grid, const ScanPoints& scan,
                              const mrpt::math::TPose2D& map_T_robot, const SearchWindow& window)
     : grid_(&grid),
@@ -62,8 +80,7 @@ void SearchLattice::turn_scan(int theta) const {
   for (const auto& point : scan_->points) {
     const double x = static_cast<double>(point.x);
     const double y = static_cast<double>(point.y);
-    *cell++ = {static_cast<std::int32_t>(std::floor(x0 + c * x - s * y)),
-               static_cast<std::int32_t>(std::floor(y0 + s * x + c * y))};
+    *cell++ = {floor_to_int(x0 + c * x - s * y), floor_to_int(y0 + s * x + c * y)};
   }
   turned_[turn] = true;
 }

@@ -22,6 +22,10 @@ bool fitter(const Individual& a, const Individual& b) {
   return a.chromosome < b.chromosome;
 }
 
+bool spans(const SearchWindow& window, const ShiftBlock& block) {
+  return block.width == 2 * window.n_x + 1 && block.height == 2 * window.n_y + 1;
+}
+
 class Evolution {
  public:
   Evolution(const SearchLattice& lattice, const TileSpace& space, const PeakRequest& request,
@@ -31,7 +35,8 @@ class Evolution {
         request_(request),
         options_(options),
         random_(random),
-        scorer_(lattice) {}
+        scorer_(lattice),
+        whole_(spans(lattice.window(), space.tile(0).block)) {}
 
   FoundPeaks run(const std::vector<Chromosome>& first_generation, bool pooled) {
     std::vector<Chromosome> chromosomes = first_generation;
@@ -61,7 +66,8 @@ class Evolution {
     population_.clear();
     for (const Chromosome chromosome : chromosomes) population_.push_back(born(chromosome));
     select();
-    descend();
+    if (level == TileLevel::kFinest || !whole_) descend();
+    if (whole_) return;
     int still = 0;
     for (int generation = 0; generation < options_.generations; ++generation) {
       const std::uint32_t best = population_.front().best.sum;
@@ -94,7 +100,10 @@ class Evolution {
 
   Candidate score(Chromosome chromosome) {
     const Candidate best = scorer_.score(space_.tile(chromosome), level_);
-    if (level_ == TileLevel::kFinest) scored_.push_back(best);
+    if (level_ == TileLevel::kFinest) {
+      scored_.push_back(best);
+      scored_tiles_.push_back(chromosome);
+    }
     return best;
   }
 
@@ -156,6 +165,7 @@ class Evolution {
 
   // From the best poses to the exact best around them, wherever tiles end.
   void polish() {
+    if (whole_) return;
     std::vector<Candidate> best = scored_;
     const std::size_t count = std::min(best.size(), size(options_.polished));
     std::partial_sort(best.begin(), best.begin() + static_cast<std::ptrdiff_t>(count), best.end(),
@@ -177,7 +187,24 @@ class Evolution {
     return true;
   }
 
+  // A tile states its best pose only. Where tiles are large, the second peak may hide in one of them.
+  void look_beside_the_best() {
+    if (!whole_ || !request_.next || scored_.empty()) return;
+    const Candidate best =
+        *std::min_element(scored_.begin(), scored_.end(),
+                          [](const Candidate& a, const Candidate& b) { return a.better_than(b); });
+    const ExcludedRegion around = {best.pose, request_.next->cells, request_.next->turns};
+    const std::size_t count = scored_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Tile tile = space_.tile(scored_tiles_[i]);
+      for (const ShiftBlock& strip : outside(around, tile.theta, tile.block))
+        if (strip.width > 0 && strip.height > 0)
+          scored_.push_back(scorer_.score({tile.theta, strip}, TileLevel::kFinest));
+    }
+  }
+
   FoundPeaks finish() {
+    look_beside_the_best();
     FoundPeaks peaks;
     peaks.evaluations = scorer_.evaluations();
     peaks.genetic = effort_;
@@ -191,10 +218,12 @@ class Evolution {
   const MemeticGeneticOptions& options_;
   Random& random_;
   TileScorer scorer_;
+  bool whole_;  // tiles are as large as the window: descents along the heading meet all that is worth it
   TileLevel level_ = TileLevel::kFinest;
   std::vector<Individual> population_;
   std::unordered_map<Chromosome, Candidate> known_;
-  std::vector<Candidate> scored_;  // on the finest level
+  std::vector<Candidate> scored_;         // on the finest level,
+  std::vector<Chromosome> scored_tiles_;  // and the tiles whose best the first of them are
   GeneticEffort effort_;
 };
 

@@ -67,9 +67,9 @@ Tile WindowTiles::tile(Chromosome chromosome) const {
   const int x = place.column * width_;
   const int y = place.row * height_;
   return {place.theta,
-          {x - window_.n_x, y - window_.n_y},
-          std::min(width_, 2 * window_.n_x + 1 - x),
-          std::min(height_, 2 * window_.n_y + 1 - y)};
+          {{x - window_.n_x, y - window_.n_y},
+           std::min(width_, 2 * window_.n_x + 1 - x),
+           std::min(height_, 2 * window_.n_y + 1 - y)}};
 }
 
 Chromosome WindowTiles::repaired(Chromosome chromosome) const {

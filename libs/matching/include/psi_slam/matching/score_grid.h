@@ -15,6 +15,13 @@
 
 namespace psi_slam {
 
+/// The largest whole number not above `value`, which must fit an int: std::floor is a call of the library on
+/// processors that the build does not demand more of, and cells are looked up by the million.
+inline int floor_to_int(double value) {
+  const int towards_zero = static_cast<int>(value);
+  return towards_zero - (value < towards_zero ? 1 : 0);
+}
+
 /// One level of the pyramid. Cell (x, y) of a level with `stride_cells` = s holds the largest score among the
 /// finest cells [x s, (x + 2) s) x [y s, (y + 2) s) for s > 1, and the score itself for s = 1. Twice the
 /// stride, because a block of s shifts of a point that stands anywhere reaches into two aligned blocks: so

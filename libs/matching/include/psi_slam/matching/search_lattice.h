@@ -5,6 +5,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -45,6 +46,17 @@ struct ExcludedRegion {
 
   bool contains(const LatticePose& pose) const;
 };
+
+/// A block of shifts, [first, first + width) x [first, first + height).
+struct ShiftBlock {
+  Cell first = {0, 0};
+  int width = 0;
+  int height = 0;
+};
+
+/// What the region leaves of a block at a heading: all of it, or the strips below, above, left and right of
+/// the excluded square, some of them perhaps empty.
+std::array<ShiftBlock, 4> outside(const ExcludedRegion& excluded, int theta, const ShiftBlock& block);
 
 class SearchLattice {
  public:

@@ -10,13 +10,11 @@
 
 namespace psi_slam {
 
-/// All shifts of a block, [first, first + width) x [first, first + height), at one heading. The sum kernel
+/// All shifts of a block at one heading. The sum kernel
 /// scores them together for little more than the price of one pose.
 struct Tile {
   int theta = 0;  ///< steps from the window's centre
-  Cell first = {0, 0};
-  int width = 0;
-  int height = 0;
+  ShiftBlock block;
 };
 
 /// A set of tiles and their codes.

@@ -9,6 +9,8 @@ namespace psi_slam {
 
 FoundPeaks CoarseToGeneticMatcher::find_peaks(const SearchLattice& lattice,
                                               const PeakRequest& request) const {
+  const WindowTiles tiles(lattice.window(), genetic_.gray_code);
+  if (tiles.columns() * tiles.rows() == 1) return memetic_search(lattice, request, genetic_);
   const CoarseCells coarse =
 
       rank_coarse_cells(lattice, genetic_.heading_stride, coarse_.cells, request.min_sum);

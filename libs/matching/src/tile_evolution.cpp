@@ -42,6 +42,10 @@ class Evolution {
     std::vector<Chromosome> chromosomes = first_generation;
     if (chromosomes.empty())
       while (chromosomes.size() < size(options_.population)) chromosomes.push_back(random_() & all_bits());
+    if (whole_) {
+      search_headings(chromosomes, pooled);
+      return finish();
+    }
     if (pooled) {
       evolve(chromosomes, TileLevel::kPooled);
       if (population_.front().best.sum < request_.min_sum) return finish();  // its bound: no pose reaches it
@@ -66,8 +70,7 @@ class Evolution {
     population_.clear();
     for (const Chromosome chromosome : chromosomes) population_.push_back(born(chromosome));
     select();
-    if (level == TileLevel::kFinest || !whole_) descend();
-    if (whole_) return;
+    descend();
     int still = 0;
     for (int generation = 0; generation < options_.generations; ++generation) {
       const std::uint32_t best = population_.front().best.sum;
@@ -81,6 +84,24 @@ class Evolution {
       ++effort_.generations;
       still = population_.front().best.sum > best ? 0 : still + 1;
       if (options_.patience > 0 && still >= options_.patience) break;
+    }
+  }
+
+  // Tiles as large as the window leave only the heading: from the most promising one on, descents meet all
+  // that generations would. A bound below what was found ends it.
+  void search_headings(const std::vector<Chromosome>& chromosomes, bool pooled) {
+    level_ = pooled ? TileLevel::kPooled : TileLevel::kFinest;
+    for (const Chromosome chromosome : chromosomes) population_.push_back(born(chromosome));
+    std::sort(population_.begin(), population_.end(), fitter);
+    population_.resize(std::min(population_.size(), size(options_.population)));
+    known_.clear();
+    level_ = TileLevel::kFinest;
+    std::uint32_t found = request_.min_sum;
+    for (const Individual& seed : population_) {
+      if (pooled && seed.best.sum < found) break;
+      Individual one = scored(seed.chromosome);
+      if (options_.descents > 0) descend(one);
+      found = std::max(found, one.best.sum);
     }
   }
 
@@ -146,12 +167,13 @@ class Evolution {
   // Pattern search along the heading; what it learns goes into the chromosome.
   void descend() {
     const std::size_t count = std::min(population_.size(), size(options_.descents));
-    for (std::size_t i = 0; i < count; ++i) {
-      Individual& one = population_[i];
-      for (int step = std::max(1, options_.heading_stride / 2); step >= 1;)
-        if (!turn_if_fitter(one, step) && !turn_if_fitter(one, -step)) step /= 2;
-    }
+    for (std::size_t i = 0; i < count; ++i) descend(population_[i]);
     std::sort(population_.begin(), population_.end(), fitter);
+  }
+
+  void descend(Individual& one) {
+    for (int step = std::max(1, options_.heading_stride / 2); step >= 1;)
+      if (!turn_if_fitter(one, step) && !turn_if_fitter(one, -step)) step /= 2;
   }
 
   bool turn_if_fitter(Individual& one, int steps) {
@@ -165,7 +187,6 @@ class Evolution {
 
   // From the best poses to the exact best around them, wherever tiles end.
   void polish() {
-    if (whole_) return;
     std::vector<Candidate> best = scored_;
     const std::size_t count = std::min(best.size(), size(options_.polished));
     std::partial_sort(best.begin(), best.begin() + static_cast<std::ptrdiff_t>(count), best.end(),
@@ -218,7 +239,7 @@ class Evolution {
   const MemeticGeneticOptions& options_;
   Random& random_;
   TileScorer scorer_;
-  bool whole_;  // tiles are as large as the window: descents along the heading meet all that is worth it
+  bool whole_;  // tiles are as large as the window
   TileLevel level_ = TileLevel::kFinest;
   std::vector<Individual> population_;
   std::unordered_map<Chromosome, Candidate> known_;

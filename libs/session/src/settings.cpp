@@ -168,8 +168,10 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
 
 void describe_psi(OptionTable& table, PsiOptions& psi) {
   table.section("psi", "The factor Psi, by which loop_closure.matcher = adaptive chooses")
-      .number("psi_1", psi.psi_1, at_least(0), "", "up to here csm searches for loops; above it csm_ga")
-      .number("psi_2", psi.psi_2, above(0), "", "from here on ga")
+      .number(
+          "psi_1", psi.psi_1, any_number(), "",
+          "up to here csm searches for loops, above it csm_ga; below 0: never csm, for Psi is never negative")
+      .number("psi_2", psi.psi_2, any_number(), "", "from here on ga")
       .integer("window_frames", psi.window_frames, between(1, 1'000'000), "nodes",
                "loops are counted over so many nodes before: the K of equation 13")
       .number("eta_max", psi.eta_max, at_least(1), "",

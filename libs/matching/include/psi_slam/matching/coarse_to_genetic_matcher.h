@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The middle mode of the paper (section 3.2; method, section 6): the rough stage of correlative matching
-// ranks coarse cells exhaustively, and the genetic search looks for the best pose inside the best of them.
+// ranks coarse cells exhaustively, and the genetic search looks for the best pose inside the best of them. In
+// a window of one block (see WindowTiles) only headings are left to rank, which is what the genetic search of
+// the whole window begins with: there the two modes are one.
 #pragma once
 
 #include "psi_slam/matching/genetic_options.h"

@@ -74,15 +74,10 @@ class PlaceCollector {
   std::size_t frames_ = 0;
 };
 
-/// By node, as kAdaptiveNote says: until the mapper itself chooses and records it.
+/// By node: the matcher that Psi chose there when the log was mapped.
 std::vector<std::string> adaptive_matchers(const MappingResult& result) {
-  constexpr std::size_t kRecentNodes = 20;
   std::vector<std::string> names;
-  std::size_t last_loop = 0;  // the node behind the last one that closed a loop
-  for (std::size_t node = 0; node < result.node_frames.size(); ++node) {
-    names.push_back(last_loop > 0 && node < last_loop + kRecentNodes ? "ga" : "csm");
-    if (result.frames[result.node_frames[node]].loops_accepted > 0) last_loop = node + 1;
-  }
+  for (const std::size_t frame : result.node_frames) names.push_back(result.frames[frame].matcher);
   return names;
 }
 

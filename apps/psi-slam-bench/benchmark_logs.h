@@ -45,7 +45,7 @@ struct MappedLog {
 /// How `adaptive_matcher` is chosen, as the tables say it: cases drawn one by one have no history of their
 /// own.
 inline constexpr const char* kAdaptiveNote =
-    "csm where the mapped log closed no loop at the 20 nodes before the scan's, else ga";
+    "the matcher that Psi chose at the scan's node when the log was mapped";
 
 /// Maps a log whose relations are there. Local maps hold so many nodes, or as long a path in proportion to
 /// the settings' own. `progress` is called with the share done. Throws UserError as open_log() and

@@ -43,7 +43,7 @@ const Matcher& Contestant::matcher(const LoopCase& loop_case) const {
 }
 
 std::vector<Contestant> contestants(Field field, const MapperOptions& options) {
-  const GeneticOptions genetic;
+  const GeneticOptions& genetic = options.genetic;
   const auto make = [&options](MatcherKind kind, const GeneticOptions& how) {
     return std::shared_ptr<const Matcher>(make_matcher(kind, options.loop_matcher, how));
   };

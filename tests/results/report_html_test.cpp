@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "psi_slam/results/grid_map.h"
@@ -113,6 +114,21 @@ TEST(ReportHtml, an_empty_and_an_interrupted_run_are_shown_too) {
   EXPECT_THAT(html, HasSubstr("No match was found"));
   EXPECT_THAT(html, HasSubstr("No times were measured"));
   EXPECT_THAT(html, Not(HasSubstr("nan")));
+}
+
+TEST(ReportHtml, shows_psi_for_any_thresholds) {
+  for (const auto& [psi_1, psi_2] :
+       {std::pair{-1.0, 1.0}, {0.0, 1e-300}, {-2.0, -1.0}, {1.0, 4.0}, {1e200, 1e300}}) {
+    MappingResult result = walk_around_the_room();
+    result.psi.psi_1 = psi_1;
+    result.psi.psi_2 = psi_2;
+    const std::string html = report_of(result, {});
+    EXPECT_EQ(complaint_about(without_style_and_script(html)), "") << psi_1 << ", " << psi_2;
+    EXPECT_THAT(html, Not(HasSubstr("nan")));
+    EXPECT_THAT(html, Not(HasSubstr("inf")));
+    EXPECT_EQ(html.find("Ψ₁ = ") != std::string::npos, psi_1 > 0);
+    EXPECT_EQ(html.find("Ψ₂ = ") != std::string::npos, psi_2 > 0);
+  }
 }
 
 TEST(ReportHtml, tells_when_the_map_is_coarser_than_asked_for) {

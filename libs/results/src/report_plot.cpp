@@ -267,21 +267,27 @@ std::string response_plot(const MappingResult& result) {
 std::string psi_plot(const MappingResult& result) {
   const Span span(result.frames);
   std::vector<Sample> samples;
-  double most = result.psi.psi_2;
+  double most = std::max(1.0, result.psi.psi_2);
   for (const FrameRecord& frame : result.frames) {
     samples.push_back({span.since_first(frame.time_us), frame.psi});
     most = std::max(most, frame.psi);
   }
-  // Where no loop was closed of late, Psi is 0: it lies on the lowest line.
-  Axes axes = decades_around(result.psi.psi_1 / 10, most, span.length_s);
+  // Where no loop was closed of late, Psi is 0: it lies on the lowest line. So would a threshold of 0 or
+  // less, which Psi is always above.
+  double least = 0.1;
+  for (const double threshold : {result.psi.psi_1, result.psi.psi_2})
+    if (threshold > 0) least = std::min(least, threshold / 10);
+  Axes axes = decades_around(std::max(least, 1e-6 * most), most, span.length_s);
   std::vector<Tick> ticks;
   for (double value = axes.low; value <= axes.high * 1.001; value *= 10)
     ticks.push_back({value, fixed_text(value, decimals_of(value))});
   ticks.front().label = "≤ " + ticks.front().label;
   std::string svg = frame_of_plot(axes, ticks);
   svg += band_and_mean(binned(samples, span.length_s), axes);
-  svg += limit_line(axes, result.psi.psi_1, "Ψ₁ = " + short_text(result.psi.psi_1), true);
-  svg += limit_line(axes, result.psi.psi_2, "Ψ₂ = " + short_text(result.psi.psi_2), true);
+  if (result.psi.psi_1 > 0)
+    svg += limit_line(axes, result.psi.psi_1, "Ψ₁ = " + short_text(result.psi.psi_1), true);
+  if (result.psi.psi_2 > 0)
+    svg += limit_line(axes, result.psi.psi_2, "Ψ₂ = " + short_text(result.psi.psi_2), true);
   svg += matcher_strip(result.frames, span, axes);
   return plot("The factor Ψ over time", svg);
 }

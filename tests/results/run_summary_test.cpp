@@ -17,7 +17,7 @@ RunSummary summary_of(const MappingResult& result) {
 TEST(RunSummary, tells_what_was_read) {
   MappingResult result = walk_around_the_room();
   std::swap(result.log[10].time_us, result.log[11].time_us);
-  const LogFacts log = summary_of(result).log;
+  const MappedLogFacts log = summary_of(result).log;
   EXPECT_EQ(log.scans, 50U);
   EXPECT_EQ(log.beams, 181U);
   EXPECT_NEAR(log.first_bearing_rad, -M_PI / 2, 1e-6);

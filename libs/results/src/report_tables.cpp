@@ -60,7 +60,7 @@ std::string speed_text(double real_time_factor) {
 }  // namespace
 
 std::string key_figures(const RunSummary& summary) {
-  const LogFacts& log = summary.log;
+  const MappedLogFacts& log = summary.log;
   const double rate_hz =
       log.duration_s > 0 && log.scans > 1 ? static_cast<double>(log.scans - 1) / log.duration_s : 0;
   const LoopCounts& loops = summary.loops;
@@ -86,7 +86,7 @@ std::string key_figures(const RunSummary& summary) {
   return html + "</section>\n";
 }
 
-std::string log_table(const LogFacts& log, const std::string& name) {
+std::string log_table(const MappedLogFacts& log, const std::string& name) {
   std::string html = "<table class=\"facts\">\n";
   html += fact("Log", escape_html(name));
   html += fact("Scans", whole(log.scans) + " of " + whole(log.beams) + " beams, " +

@@ -10,7 +10,7 @@
 namespace psi_slam {
 
 std::string key_figures(const RunSummary& summary);
-std::string log_table(const LogFacts& log, const std::string& name);
+std::string log_table(const MappedLogFacts& log, const std::string& name);
 std::string reasons_table(const LoopCounts& loops);
 std::string stages_table(const std::vector<StageTiming>& stages, double wall_s);
 

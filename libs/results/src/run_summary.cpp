@@ -14,8 +14,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-LogFacts log_facts(const MappingResult& result) {
-  LogFacts facts;
+MappedLogFacts log_facts(const MappingResult& result) {
+  MappedLogFacts facts;
   facts.scans = result.log.size();
   if (result.log.empty()) return facts;
   const LaserScan& first = result.log.front().scan;

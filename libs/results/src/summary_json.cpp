@@ -21,7 +21,7 @@ Json pose_json(const mrpt::math::TPose2D& pose) {
   return {number(pose.x), number(pose.y), number(pose.phi)};
 }
 
-Json log_json(const LogFacts& log, const std::string& name) {
+Json log_json(const MappedLogFacts& log, const std::string& name) {
   return {{"name", name},
           {"scans", log.scans},
           {"beams", log.beams},

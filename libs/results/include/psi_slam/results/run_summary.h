@@ -26,7 +26,7 @@ struct RunInfo {
 };
 
 /// The log as it was read.
-struct LogFacts {
+struct MappedLogFacts {
   std::size_t scans = 0;
   std::size_t beams = 0;         ///< of the first scan
   double first_bearing_rad = 0;  ///< of the first scan
@@ -70,7 +70,7 @@ struct MapExtent {
 };
 
 struct RunSummary {
-  LogFacts log;
+  MappedLogFacts log;
   double path_length_m = 0;  ///< of the mapped trajectory
   std::size_t nodes = 0;
   std::size_t edges = 0;

@@ -43,7 +43,8 @@ const Matcher& Contestant::matcher(const LoopCase& loop_case) const {
 }
 
 std::vector<Contestant> contestants(Field field, const MapperOptions& options) {
-  const GeneticOptions& genetic = options.genetic;
+  GeneticOptions genetic = options.genetic;
+  genetic.variant = GeneticVariant::kMemetic;
   const auto make = [&options](MatcherKind kind, const GeneticOptions& how) {
     return std::shared_ptr<const Matcher>(make_matcher(kind, options.loop_matcher, how));
   };
@@ -62,6 +63,13 @@ std::vector<Contestant> contestants(Field field, const MapperOptions& options) {
     ablation.apply(without.memetic);
     all.emplace_back(ablation.name, make(MatcherKind::kGa, without));
   }
+  all.emplace_back("csm_ga_paper", make(MatcherKind::kCsmGa, paper));
+  GeneticOptions few_cells = genetic;
+  few_cells.coarse.cells = 256;
+  all.emplace_back("csm_ga with 256 cells", make(MatcherKind::kCsmGa, few_cells));
+  GeneticOptions no_generations = genetic;
+  no_generations.memetic.generations = 0;
+  all.emplace_back("csm_ga without generations", make(MatcherKind::kCsmGa, no_generations));
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -294,6 +295,18 @@ TEST(Mapper, searches_loops_by_the_matcher_that_psi_chooses_in_the_last_pass_too
   EXPECT_GT(result.loop_matchers.size(), 1U);
 
   MapperOptions options;
+  options.psi.psi_1 = 0.5;
+  options.psi.psi_2 = 3;
+  const MappingResult by_thresholds = map_of(office_drive().frames, options);
+  std::set<std::string> used;
+  for (const FrameRecord& frame : by_thresholds.frames) {
+    const MatcherKind kind = matcher_kind(LoopMatcher::kAdaptive, options.psi, frame.psi);
+    EXPECT_EQ(frame.matcher, frame.node ? name(kind) : "");
+    if (frame.node) used.insert(frame.matcher);
+  }
+  EXPECT_EQ(used, (std::set<std::string>{"csm", "csm_ga", "ga"}));
+  expect_no_false_loop(by_thresholds, office_drive().map_T_robot);
+
   options.matcher = LoopMatcher::kCsmGa;
   const MappingResult fixed = map_of(office_drive().frames, options);
   ASSERT_EQ(fixed.loop_matchers.size(), 1U);

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "psi_slam/matching/correlative_matcher.h"
 #include "score_grids.h"
 
 namespace psi_slam {
@@ -40,6 +41,7 @@ INSTANTIATE_TEST_SUITE_P(MakeMatcher, EveryMatcher,
                          testing::Values(Kind{MatcherKind::kCsm, GeneticVariant::kMemetic, "csm"},
                                          Kind{MatcherKind::kCsmGa, GeneticVariant::kMemetic, "csm_ga"},
                                          Kind{MatcherKind::kGa, GeneticVariant::kMemetic, "ga"},
+                                         Kind{MatcherKind::kCsmGa, GeneticVariant::kPaper, "csm_ga_paper"},
                                          Kind{MatcherKind::kGa, GeneticVariant::kPaper, "ga_paper"}),
                          [](const auto& kind) { return kind.param.name; });
 
@@ -93,6 +95,40 @@ TEST_P(EveryMatcher, states_a_response_that_its_pose_has_and_a_covariance) {
   EXPECT_LE(*match.ambiguity, 1);
   EXPECT_GT(match.evaluations, 0);
   EXPECT_EQ(match.genetic.decoded > 0, GetParam().kind != MatcherKind::kCsm);
+}
+
+// A corridor with doors 1.2 m apart: a scan of it fits a door further on nearly as well. Verification refuses
+// such matches by their ambiguity, whoever found them.
+TEST_P(EveryMatcher, sees_the_second_peak_of_a_narrow_window_as_well_as_the_exact_one) {
+  SimulatedWalls corridor;
+  corridor.add_wall(-8, -1, 8, -1);
+  for (int door = -6; door <= 6; ++door) {
+    corridor.add_wall(1.2 * door, 1, 1.2 * door + 0.7, 1);
+    corridor.add_wall(1.2 * door, 1, 1.2 * door, 1.15);
+  }
+  corridor.add_box(-8, -3, 8, 3);
+  const ScoreGrid corridor_grid = grid_of(corridor);
+  std::mt19937_64 random(126);
+  const CorrelativeMatcher exact({});
+  int ambiguous = 0;
+  for (const double half_m : {0.4, 0.7, 0.9, 1.0}) {
+    for (int trial = 0; trial < 5; ++trial) {
+      const TPose2D truth(0.17 * trial, 0.1, 0.02 * trial);
+      const ScanPoints scan = scan_of(corridor, truth, 180, 0.01, random);
+      MatchProblem problem{corridor_grid,
+                           scan,
+                           {truth.x + 0.8 * half_m, truth.y - 0.05, truth.phi + 0.02},
+                           {half_m, half_m, 0.1}};
+      problem.measure_ambiguity = true;
+      problem.seed = {1, static_cast<std::uint64_t>(trial), 2};
+      const MatchResult expected = exact.match(problem);
+      const MatchResult match = matcher()->match(problem);
+      ASSERT_TRUE(match.ambiguity && expected.ambiguity);
+      if (*expected.ambiguity > 0.7) ++ambiguous;
+      EXPECT_GE(*match.ambiguity, *expected.ambiguity - 0.02);
+    }
+  }
+  EXPECT_GT(ambiguous, 2) << "else this tests nothing";
 }
 
 TEST_P(EveryMatcher, finds_nothing_where_nothing_fits) {

@@ -168,6 +168,36 @@ TEST(MemeticSearch, sees_that_two_places_fit_alike) {
   EXPECT_GT(peaks.next->sum, 0.9 * peaks.best->sum);
 }
 
+// Niches are what keeps the second one: a population of two is otherwise crowded with neighbours of the
+// first.
+TEST(MemeticSearch, niches_keep_a_small_population_from_crowding_in_one_place) {
+  SimulatedWalls walls = furnished_room();
+  const std::vector<SimulatedWalls::Wall> one_room = walls.walls;
+  for (const auto& wall : one_room) walls.add_wall(wall.x0 + 10, wall.y0, wall.x1 + 10, wall.y1);
+  const ScoreGrid grid = grid_of(walls);
+  std::mt19937_64 random(115);
+  const ScanPoints scan = scan_of(furnished_room(), {4, 3, 0.5}, 180, 0.01, random);
+  const SearchLattice lattice(grid, scan, {9, 3.2, 0.45},
+                              make_search_window({8, 3, 0.2}, 0.05, scan.farthest_m));
+  const auto both_found = [&](bool niches) {
+    int both = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      MemeticGeneticOptions options;
+      options.niches = niches;
+      options.population = options.elite = 2;
+      options.children = 2;
+      options.polished = 0;
+      PeakRequest request = request_of(seed);
+      request.next = PeakRequest::Next{60, 1000, 0.8};
+      if (memetic_search(lattice, request, options).next) ++both;
+    }
+    return both;
+  };
+  const int with_niches = both_found(true);
+  EXPECT_GE(with_niches, 18);
+  EXPECT_LT(both_found(false), with_niches);
+}
+
 TEST(MemeticSearch, finds_nothing_below_the_smallest_sum) {
   const Room room;
   EXPECT_FALSE(memetic_search(room.lattice, request_of(6, room.lattice.goal_max()), {}).best);

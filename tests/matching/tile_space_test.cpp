@@ -22,8 +22,11 @@ Key key(const Tile& tile) {
 // All tiles of a space, by trying every string of bits; checks what must hold of each.
 std::map<Key, Tile> all_tiles(const TileSpace& space) {
   std::map<Key, Tile> tiles;
+  std::map<Key, Chromosome> code_of;
   for (Chromosome chromosome = 0; chromosome < (Chromosome{1} << space.bits()); ++chromosome) {
     const Chromosome repaired = space.repaired(chromosome);
+    EXPECT_EQ(code_of.emplace(key(space.tile(chromosome)), repaired).first->second, repaired)
+        << "a tile has one chromosome";
     EXPECT_EQ(space.repaired(repaired), repaired);
     EXPECT_EQ(repaired >> space.bits(), 0U);
     EXPECT_EQ(key(space.tile(chromosome)), key(space.tile(repaired)));

@@ -11,7 +11,9 @@ namespace {
 constexpr TimeUs kMicrosecondsPerSecond = 1'000'000;
 constexpr TimeUs kMaxSeconds = 9'000'000'000'000;  // keeps microseconds inside 64 bits
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 std::optional<TimeUs> parse_with_exponent(std::string_view text) {
   double value = 0;
@@ -25,8 +27,8 @@ std::optional<TimeUs> parse_with_exponent(std::string_view text) {
 
 std::string format_seconds(TimeUs time_us) {
   const bool negative = time_us < 0;
-  const auto magnitude = negative ? std::uint64_t{0} - static_cast<std::uint64_t>(time_us)
-                                  : static_cast<std::uint64_t>(time_us);
+  const auto magnitude =
+      negative ? std::uint64_t{0} - static_cast<std::uint64_t>(time_us) : static_cast<std::uint64_t>(time_us);
   char text[32];
   std::snprintf(text, sizeof text, "%s%llu.%06llu", negative ? "-" : "",
                 static_cast<unsigned long long>(magnitude / kMicrosecondsPerSecond),

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/base/worker_pool.h"
 
+#include <system_error>
 #include <utility>
 
 namespace psi_slam {
 
 WorkerPool::WorkerPool(int threads) {
-  for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
+  try {
+    for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
+  } catch (const std::system_error&) {
+    // The system gives no more threads: those there are do all the work.
+  }
 }
 
 WorkerPool::~WorkerPool() {

@@ -10,12 +10,18 @@ namespace {
 
 struct RankedCell {
   std::uint32_t sum;
-  std::uint32_t order;
+  std::int64_t order;
   Tile cell;
 };
 
 bool better(const RankedCell& a, const RankedCell& b) {
   return std::tie(b.sum, a.order) < std::tie(a.sum, b.order);
+}
+
+void keep_best(std::vector<RankedCell>& ranked, std::size_t count) {
+  if (ranked.size() <= count) return;
+  std::nth_element(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(count), ranked.end(), better);
+  ranked.resize(count);
 }
 
 }  // namespace
@@ -31,13 +37,15 @@ CoarseCells rank_coarse_cells(const SearchLattice& lattice, int heading_stride, 
   const int height = (2 * window.n_y + side) / side;
   CoarseCells coarse;
   std::vector<RankedCell> ranked;
+  const auto kept_at_most = static_cast<std::size_t>(count);
   ShiftSums sums;
-  std::uint32_t order = 0;
+  std::int64_t order = 0;
   for (int theta = -window.n_theta + heading_stride / 2; theta - heading_stride / 2 <= window.n_theta;
        theta += heading_stride) {
     const int turn = std::min(theta, window.n_theta);
     sums.compute(level, lattice.cells(turn), lattice.points(), {-window.n_x, -window.n_y}, width, height);
     coarse.evaluations += static_cast<std::int64_t>(width) * height;
+    if (ranked.size() > 4 * kept_at_most) keep_best(ranked, kept_at_most);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x, ++order) {
         if (sums.row(y)[x] < min_sum) continue;
@@ -50,9 +58,9 @@ CoarseCells rank_coarse_cells(const SearchLattice& lattice, int heading_stride, 
       }
     }
   }
-  const auto kept = std::min(ranked.size(), static_cast<std::size_t>(count));
-  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(kept), ranked.end(), better);
-  for (std::size_t i = 0; i < kept; ++i) coarse.best.push_back(ranked[i].cell);
+  keep_best(ranked, kept_at_most);
+  std::sort(ranked.begin(), ranked.end(), better);
+  for (const RankedCell& one : ranked) coarse.best.push_back(one.cell);
   return coarse;
 }
 

@@ -12,14 +12,9 @@ namespace {
 class TileSums {
  public:
   TileSums(int turns, const WindowTiles& tiles)
-      : turns_(turns),
-        rows_(tiles.rows()),
-        columns_(tiles.columns()),
-        sums_(static_cast<std::size_t>(turns * rows_ * columns_), 0) {}
+      : turns_(turns), rows_(tiles.rows()), columns_(tiles.columns()), sums_(index(turns, 0, 0), 0) {}
 
-  std::uint32_t& at(int turn, int row, int column) {
-    return sums_[static_cast<std::size_t>((turn * rows_ + row) * columns_ + column)];
-  }
+  std::uint32_t& at(int turn, int row, int column) { return sums_[index(turn, row, column)]; }
 
   // No neighbour, diagonal ones among them, is better.
   bool is_peak(int turn, int row, int column) {
@@ -41,6 +36,13 @@ class TileSums {
   }
 
  private:
+  std::size_t index(int turn, int row, int column) const {
+    return (static_cast<std::size_t>(turn) * static_cast<std::size_t>(rows_) +
+            static_cast<std::size_t>(row)) *
+               static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+
   int turns_;
   int rows_;
   int columns_;

@@ -27,7 +27,7 @@ std::unique_ptr<Matcher> make_matcher(MatcherKind kind, const MatcherOptions& op
     case MatcherKind::kCsm:
       return std::make_unique<CorrelativeMatcher>(options);
     case MatcherKind::kCsmGa:
-      return std::make_unique<CoarseToGeneticMatcher>(options, genetic.coarse, genetic.memetic);
+      return std::make_unique<CoarseToGeneticMatcher>(options, genetic);
     case MatcherKind::kGa:
       return std::make_unique<GeneticMatcher>(options, genetic);
   }

@@ -18,7 +18,7 @@ std::int64_t squared_distance(const LatticePose& pose) {
   return x * x + y * y + theta * theta;
 }
 
-// The nearest whole number below, for strides that are powers of two and any sign.
+// Of a stride that is a power of two. Shifting right by it rounds down, for any sign.
 int log2_of(int stride) {
   int log2 = 0;
   while ((1 << log2) < stride) ++log2;

@@ -121,10 +121,7 @@ class Evolution {
 
   Candidate score(Chromosome chromosome) {
     const Candidate best = scorer_.score(space_.tile(chromosome), level_);
-    if (level_ == TileLevel::kFinest) {
-      scored_.push_back(best);
-      scored_tiles_.push_back(chromosome);
-    }
+    if (level_ == TileLevel::kFinest) scored_.push_back(best);
     return best;
   }
 
@@ -140,11 +137,14 @@ class Evolution {
   }
 
   bool crowded(const Individual& one, const std::vector<Individual>& others) const {
-    return std::any_of(others.begin(), others.end(), [&](const Individual& other) {
-      return std::abs(one.best.pose.theta - other.best.pose.theta) <= options_.heading_stride &&
-             std::abs(one.best.pose.x - other.best.pose.x) <= WindowTiles::kSide &&
-             std::abs(one.best.pose.y - other.best.pose.y) <= WindowTiles::kSide;
-    });
+    return std::any_of(others.begin(), others.end(),
+                       [&](const Individual& other) { return near(one.best, other.best); });
+  }
+
+  bool near(const Candidate& a, const Candidate& b) const {
+    return std::abs(a.pose.theta - b.pose.theta) <= options_.heading_stride &&
+           std::abs(a.pose.x - b.pose.x) <= WindowTiles::kSide &&
+           std::abs(a.pose.y - b.pose.y) <= WindowTiles::kSide;
   }
 
   // By rank: responses differ too little for a wheel of their own.
@@ -185,13 +185,17 @@ class Evolution {
     return true;
   }
 
-  // From the best poses to the exact best around them, wherever tiles end.
+  // From the best poses, one a neighbourhood, to the exact best around them, wherever tiles end.
   void polish() {
-    std::vector<Candidate> best = scored_;
-    const std::size_t count = std::min(best.size(), size(options_.polished));
-    std::partial_sort(best.begin(), best.begin() + static_cast<std::ptrdiff_t>(count), best.end(),
-                      [](const Candidate& a, const Candidate& b) { return a.better_than(b); });
-    best.resize(count);
+    std::vector<Candidate> ranked = scored_;
+    std::sort(ranked.begin(), ranked.end(),
+              [](const Candidate& a, const Candidate& b) { return a.better_than(b); });
+    std::vector<Candidate> best;
+    for (const Candidate& one : ranked) {
+      if (best.size() >= static_cast<std::size_t>(options_.polished)) break;
+      if (std::none_of(best.begin(), best.end(), [&](const Candidate& other) { return near(one, other); }))
+        best.push_back(one);
+    }
     for (Candidate& one : best) {
       while (move_if_better(one, 0) || move_if_better(one, 1) || move_if_better(one, -1)) {
       }
@@ -208,24 +212,7 @@ class Evolution {
     return true;
   }
 
-  // A tile states its best pose only. Where tiles are large, the second peak may hide in one of them.
-  void look_beside_the_best() {
-    if (!whole_ || !request_.next || scored_.empty()) return;
-    const Candidate best =
-        *std::min_element(scored_.begin(), scored_.end(),
-                          [](const Candidate& a, const Candidate& b) { return a.better_than(b); });
-    const ExcludedRegion around = {best.pose, request_.next->cells, request_.next->turns};
-    const std::size_t count = scored_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const Tile tile = space_.tile(scored_tiles_[i]);
-      for (const ShiftBlock& strip : outside(around, tile.theta, tile.block))
-        if (strip.width > 0 && strip.height > 0)
-          scored_.push_back(scorer_.score({tile.theta, strip}, TileLevel::kFinest));
-    }
-  }
-
   FoundPeaks finish() {
-    look_beside_the_best();
     FoundPeaks peaks;
     peaks.evaluations = scorer_.evaluations();
     peaks.genetic = effort_;
@@ -243,8 +230,7 @@ class Evolution {
   TileLevel level_ = TileLevel::kFinest;
   std::vector<Individual> population_;
   std::unordered_map<Chromosome, Candidate> known_;
-  std::vector<Candidate> scored_;         // on the finest level,
-  std::vector<Chromosome> scored_tiles_;  // and the tiles whose best the first of them are
+  std::vector<Candidate> scored_;  // on the finest level
   GeneticEffort effort_;
 };
 

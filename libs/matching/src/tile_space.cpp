@@ -100,15 +100,19 @@ Chromosome CellTiles::encode(const Place& place) const {
   return code_of(static_cast<std::size_t>(place.turn), gray_) | (code_of(place.cell, gray_) << turn_bits_);
 }
 
+// Headings beyond the window's edge stand for the edge's own.
 CellTiles::Place CellTiles::decode(Chromosome chromosome) const {
-  return {static_cast<std::size_t>(number_in(chromosome, turn_bits_, cell_bits_, cells_.size(), gray_)),
-          number_in(chromosome, 0, turn_bits_, static_cast<std::size_t>(turns_), gray_)};
+  const auto cell =
+      static_cast<std::size_t>(number_in(chromosome, turn_bits_, cell_bits_, cells_.size(), gray_));
+  const int turn = number_in(chromosome, 0, turn_bits_, static_cast<std::size_t>(turns_), gray_);
+  const int first = cells_[cell].theta - turns_ / 2;
+  return {cell, std::clamp(first + turn, -window_.n_theta, window_.n_theta) - first};
 }
 
 Tile CellTiles::tile(Chromosome chromosome) const {
   const Place place = decode(chromosome);
   Tile tile = cells_[place.cell];
-  tile.theta = std::clamp(tile.theta + place.turn - turns_ / 2, -window_.n_theta, window_.n_theta);
+  tile.theta += place.turn - turns_ / 2;
   return tile;
 }
 

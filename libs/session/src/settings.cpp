@@ -180,9 +180,9 @@ void describe_psi(OptionTable& table, PsiOptions& psi) {
 
 void describe_paper_genetic(OptionTable& table, PaperGeneticOptions& paper) {
   table
-      .integer("paper_population", paper.population, between(2, 1'000'000), "poses",
+      .integer("paper_population", paper.population, between(2, 10'000), "poses",
                "variant paper: of each generation")
-      .integer("paper_generations", paper.generations, between(1, 1'000'000), "generations",
+      .integer("paper_generations", paper.generations, between(1, 1000), "generations",
                "variant paper: how many")
       .number("paper_crossover_rate", paper.crossover_rate, between(0, 1), "",
               "variant paper: share of the pairs that are crossed at two points")
@@ -195,14 +195,14 @@ void describe_genetic(OptionTable& table, GeneticOptions& genetic) {
   table.section("genetic", "The genetic search of the matchers csm_ga and ga")
       .choice("variant", genetic.variant,
               {{"memetic", GeneticVariant::kMemetic}, {"paper", GeneticVariant::kPaper}},
-              "of ga: with local search and all options below, or as in the paper, with those of paper_*")
-      .integer("population", memetic.population, between(2, 1'000'000), "tiles",
+              "with local search and all options below, or as in the paper, with those of paper_*")
+      .integer("population", memetic.population, between(2, 10'000), "tiles",
                "of each generation: a tile is a heading and a block of shifts")
-      .integer("children", memetic.children, between(1, 1'000'000), "tiles", "born in each generation")
-      .integer("elite", memetic.elite, between(0, 1'000'000), "tiles",
+      .integer("children", memetic.children, between(1, 10'000), "tiles", "born in each generation")
+      .integer("elite", memetic.elite, between(0, 10'000), "tiles",
                "best ones kept from generation to generation; 0: none")
-      .integer("generations", memetic.generations, between(0, 1'000'000), "generations", "at most")
-      .integer("patience", memetic.patience, between(0, 1'000'000), "generations",
+      .integer("generations", memetic.generations, between(0, 10'000), "generations", "at most")
+      .integer("patience", memetic.patience, between(0, 10'000), "generations",
                "stop after so many without a better one; 0: never")
       .number("crossover_rate", memetic.crossover_rate, between(0, 1), "",
               "share of the children with two parents")
@@ -211,18 +211,18 @@ void describe_genetic(OptionTable& table, GeneticOptions& genetic) {
       .flag("niches", memetic.niches, "one individual a neighbourhood, so that two corridors both survive")
       .flag("remember", memetic.remember, "a chromosome met before is not scored again")
       .flag("pooled_fitness", memetic.pooled_fitness, "it evolves on the max-pooled grid first")
-      .integer("descents", memetic.descents, between(0, 1'000'000), "tiles",
+      .integer("descents", memetic.descents, between(0, 10'000), "tiles",
                "best ones of a generation that descend along the heading")
-      .integer("polished", memetic.polished, between(0, 1'000'000), "poses",
+      .integer("polished", memetic.polished, between(0, 10'000), "poses",
                "best ones whose neighbourhood is searched exactly at the end")
       .flag("seed_coarse", memetic.seed_coarse,
             "the first generation comes of a sparse coarse search; without, it is random")
-      .integer("seeds", memetic.seeds, between(1, 1'000'000), "tiles", "at most, of that search")
+      .integer("seeds", memetic.seeds, between(1, 10'000), "tiles", "at most, of that search")
       .integer("seed_points", memetic.seed_points, between(1, 1'000'000), "points",
                "of the scan, that it looks at")
       .integer("heading_stride", memetic.heading_stride, between(1, 1000), "headings",
                "it, and the coarse stage of csm_ga, look at one heading in so many")
-      .integer("coarse_cells", genetic.coarse.cells, between(1, 1'000'000), "cells",
+      .integer("coarse_cells", genetic.coarse.cells, between(1, 100'000), "cells",
                "of csm_ga: the best ones that the genetic search looks into");
   describe_paper_genetic(table, genetic.paper);
 }

@@ -12,16 +12,17 @@ namespace psi_slam {
 
 class CoarseToGeneticMatcher : public WindowMatcher {
  public:
-  CoarseToGeneticMatcher(const MatcherOptions& options, const CoarseCellOptions& coarse,
-                         const MemeticGeneticOptions& genetic)
-      : WindowMatcher(options), coarse_(coarse), genetic_(genetic) {}
+  /// The variant paper searches each of the best 32 cells by the paper's GA, a chromosome of equation 10
+  /// each.
+  CoarseToGeneticMatcher(const MatcherOptions& options, const GeneticOptions& genetic)
+      : WindowMatcher(options), genetic_(genetic) {}
   std::string name() const override { return "csm_ga"; }
 
  private:
   FoundPeaks find_peaks(const SearchLattice& lattice, const PeakRequest& request) const override;
+  FoundPeaks search(const SearchLattice& lattice, const PeakRequest& request) const;
 
-  CoarseCellOptions coarse_;
-  MemeticGeneticOptions genetic_;
+  GeneticOptions genetic_;
 };
 
 }  // namespace psi_slam

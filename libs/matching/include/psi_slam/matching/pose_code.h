@@ -7,7 +7,8 @@
 //     smallest l_1, l_2 with 2^l_1 > L_max, 2^l_2 > R_max
 //
 // in steps from the window's centre. Cells are half open: the last column, row and angle of the exhaustive
-// search, +n, have no code (see method, section 4). Codes outside the window are repaired by the modulus.
+// search, +n, have no code: a genetic search never finds a pose there (see method, section 4). Codes outside
+// the window are repaired by the modulus.
 #pragma once
 
 #include <cstdint>

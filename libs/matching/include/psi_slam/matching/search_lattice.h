@@ -68,6 +68,7 @@ class SearchLattice {
                 const SearchWindow& window) = delete;
 
   const ScoreGrid& grid() const { return *grid_; }
+  const ScanPoints& scan() const { return *scan_; }
   const SearchWindow& window() const { return window_; }
   std::size_t points() const { return points_; }
   /// The largest possible sum: every point on a cell of probability 1.

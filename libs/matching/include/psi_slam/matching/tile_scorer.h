@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The fitness of the memetic search: tiles scored on one level of the score grid.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,8 @@ class TileScorer {
   /// The best sum of the tile and the pose that has it; on the pooled level, the first pose of the block.
   Candidate score(const Tile& tile, TileLevel level);
 
-  /// The best of the poses around one, up to 8 shifts away, at the same heading, which must be of the window.
+  /// The best of the 16 x 16 poses around one, -8 .. 7 shifts away, at the same heading, which must be of the
+  /// window.
   Candidate best_near(const LatticePose& pose);
 
   std::int64_t evaluations() const { return evaluations_; }

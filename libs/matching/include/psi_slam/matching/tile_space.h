@@ -77,7 +77,9 @@ class WindowTiles : public TileSpace {
   int row_bits_;
 };
 
-/// Some coarse cells of a window: the bits of a cell's number, and those of the heading inside it.
+/// Some coarse cells of a window: the bits of a cell's number, and those of the heading inside it. As in
+/// WindowTiles, the fewest bits that hold all: equation 10, whose lengths are at times one more, is
+/// PoseCode's.
 class CellTiles : public TileSpace {
  public:
   /// Cells are named by their middle heading, and span [theta - turns / 2, theta - turns / 2 + turns). At

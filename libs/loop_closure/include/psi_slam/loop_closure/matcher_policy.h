@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which matcher searches for loops (method, section 6): where loops are rare, the exhaustive one, which
+// Which matcher searches for loops (method, section 6). The paper: where loops are rare, the exhaustive one, which
 // misses none; where they come so often that one missed costs little, the genetic one; in between both, one
-// after the other.
+// after the other. See PsiOptions for what the defaults make of that.
 #pragma once
 
 #include <array>

@@ -85,13 +85,17 @@ TEST(LoopCloser, a_blind_scan_is_not_searched_for) {
   EXPECT_TRUE(matcher.questions().empty());
 }
 
-TEST(LoopCloser, the_same_local_map_is_not_tried_again_on_the_spot) {
+TEST(LoopCloser, only_the_first_node_of_a_stretch_is_searched_for) {
   const AskedMatcher matcher;
   WorkerPool pool(1);
-  LoopCloser closer(near_maps_too(), 5);
+  const LoopCloser closer(near_maps_too(), 5);
   const TwoRounds& rounds = two_rounds();
-  EXPECT_GT(closer.close(rounds.node, rounds.memory, rounds.graph(), matcher, pool).effort.attempts, 0U);
-  EXPECT_EQ(closer.close(rounds.node, rounds.memory, rounds.graph(), matcher, pool).effort.attempts, 0U);
+  const auto attempts = [&](std::size_t node) {
+    return closer.close(node, rounds.memory, rounds.graph(), matcher, pool).effort.attempts;
+  };
+  ASSERT_FALSE(begins_stretch(rounds.node + 1, rounds.memory.nodes, LoopClosureOptions().attempt_distance_m));
+  EXPECT_GT(attempts(rounds.node), 0U);
+  EXPECT_EQ(attempts(rounds.node + 1), 0U);
 }
 
 TEST(LoopCloser, a_node_that_nothing_links_to_a_local_map_is_searched_for_in_the_largest_window) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "loop_attempt.h"
@@ -34,13 +33,11 @@ std::vector<Pair> pairs_near_each_other(
   std::vector<Pair> pairs;
   for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = memory.local_maps[m];
-    double last_m = -std::numeric_limits<double>::infinity();
     for (std::size_t node = 0; node < memory.nodes.size(); ++node) {
       if (node >= local_map.first_node && node <= local_map.last_node) continue;
-      const double here_m = memory.nodes[node].travelled_m;
-      if (here_m - last_m < options.travel_m || !is_near(node, local_map, graph, options.reach_m)) continue;
-      last_m = here_m;
-      if (known(node, m)) continue;
+      if (!begins_stretch(node, memory.nodes, options.travel_m) || known(node, m) ||
+          !is_near(node, local_map, graph, options.reach_m))
+        continue;
       Pair pair;
       pair.node = node;
       pair.candidate.local_map = m;

@@ -34,24 +34,12 @@ std::vector<PositionSigma> sigma_of_anchors(std::size_t node, const PlaceMemory&
 
 }  // namespace
 
-// Of the candidates, those that were not matched with just before.
-std::vector<LoopCandidate> LoopCloser::due_candidates(std::size_t node, const PlaceMemory& memory,
-                                                      const PoseGraph& graph) {
-  const double here_m = memory.nodes[node].travelled_m;
-  last_attempt_m_.resize(memory.local_maps.size(), -std::numeric_limits<double>::infinity());
-  std::vector<LoopCandidate> due;
-  for (const LoopCandidate& candidate :
-       loop_candidates(node, memory, graph, sigma_of_anchors(node, memory, graph), options_.candidates)) {
-    if (here_m - last_attempt_m_[candidate.local_map] < options_.attempt_distance_m) continue;
-    last_attempt_m_[candidate.local_map] = here_m;
-    due.push_back(candidate);
-  }
-  return due;
-}
-
 LoopCloser::Outcome LoopCloser::close(std::size_t node, const PlaceMemory& memory, const PoseGraph& graph,
-                                      const Matcher& matcher, WorkerPool& pool) {
-  const std::vector<LoopCandidate> candidates = due_candidates(node, memory, graph);
+                                      const Matcher& matcher, WorkerPool& pool) const {
+  Outcome outcome;
+  if (!begins_stretch(node, memory.nodes, options_.attempt_distance_m)) return outcome;
+  const std::vector<LoopCandidate> candidates =
+      loop_candidates(node, memory, graph, sigma_of_anchors(node, memory, graph), options_.candidates);
   const auto wide = [&](const LoopCandidate& candidate) {
     return is_wide(candidate.extent, options_.verification);
   };
@@ -60,7 +48,6 @@ LoopCloser::Outcome LoopCloser::close(std::size_t node, const PlaceMemory& memor
     context = scan_context(node, memory, options_.context);
   const ScanPoints& scan = *memory.nodes[node].points;
 
-  Outcome outcome;
   for (LoopAttempt& attempt : map_in_parallel<LoopAttempt>(pool, candidates.size(), [&](std::size_t index) {
          const LoopCandidate& candidate = candidates[index];
          return attempt_loop(node, wide(candidate) ? context : scan, candidate, memory, matcher,

@@ -148,7 +148,7 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
       .number("min_travel_m", candidates.min_travel_m, at_least(0), "m",
               "and the robot has travelled this far since it left it: nearer ones share their scans")
       .number("attempt_distance_m", loops.attempt_distance_m, at_least(0), "m",
-              "the robot travels this far between two attempts with the same local map")
+              "loops are looked for once in so much travel")
       .number("context_travel_m", loops.context.travel_m, at_least(0).at_most(1000), "m",
               "wide windows are searched with the scans of so much of the path, not with one alone")
       .number("context_node_spacing_m", loops.context.node_spacing_m, at_least(0).at_most(1000), "m",
@@ -315,7 +315,7 @@ void describe_last_pass(OptionTable& table, LastPassOptions& last_pass) {
       .number("reach_m", last_pass.reach_m, at_least(0).at_most(1000), "m",
               "a local map is tried when one of its nodes is at most this far")
       .number("travel_m", last_pass.travel_m, at_least(0), "m",
-              "travelled between two nodes that are matched with the same local map");
+              "of all nodes in so much travel one is matched; 0: every node");
 }
 
 void describe_map(OptionTable& table, GridMapOptions& map) {

@@ -25,7 +25,7 @@ struct LastPassOptions {
   double window_m = 0.3;
   double window_rad = radians_from_degrees(3.0L);
   double reach_m = 5.0;   ///< a local map is near when one of its nodes is at most this far
-  double travel_m = 0.3;  ///< of the path, between two nodes that are matched with the same local map
+  double travel_m = 0;    ///< of all nodes in so much travel one is matched; 0: every node
 };
 
 struct LastPassOutcome {

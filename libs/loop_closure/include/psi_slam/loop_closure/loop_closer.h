@@ -21,8 +21,7 @@ struct LoopClosureOptions {
   LoopCandidateOptions candidates;
   LoopVerificationOptions verification;
   ScanContextOptions context;
-  double attempt_distance_m =
-      0.5;  ///< the robot travels this far between two attempts with the same local map
+  double attempt_distance_m = 0.5;  ///< loops are looked for once in so much travel
 };
 
 class LoopCloser {
@@ -38,15 +37,11 @@ class LoopCloser {
   };
   /// Matches `node` with every local map it may see again, several at a time.
   Outcome close(std::size_t node, const PlaceMemory& memory, const PoseGraph& graph, const Matcher& matcher,
-                WorkerPool& pool);
+                WorkerPool& pool) const;
 
  private:
-  std::vector<LoopCandidate> due_candidates(std::size_t node, const PlaceMemory& memory,
-                                            const PoseGraph& graph);
-
   LoopClosureOptions options_;
   std::uint64_t run_seed_;
-  std::vector<double> last_attempt_m_;  ///< by local map: where along the path it was last matched with
 };
 
 }  // namespace psi_slam

@@ -26,4 +26,9 @@ struct PlaceMemory {
   std::vector<PlacedLocalMap> local_maps;  ///< finished ones, in the order of their ids
 };
 
+/// Whether `node` is the first in its stretch, when the path is cut into stretches of `stretch_m`. Loops are
+/// looked for at such nodes only, whichever were found before: one match more or less does not shift all that
+/// follow. Every node is one when `stretch_m` is 0.
+bool begins_stretch(std::size_t node, const std::vector<NodeScan>& nodes, double stretch_m);
+
 }  // namespace psi_slam

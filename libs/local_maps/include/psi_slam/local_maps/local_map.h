@@ -23,9 +23,9 @@ namespace psi_slam {
 struct LocalMapOptions {
   double resolution_m = 0.05;
   double hit_probability = 0.65;   ///< of a cell being occupied, given that a scan point fell into it
-  double miss_probability = 0.45;  ///< of a cell being occupied, given that a beam passed through it
+  double miss_probability = 0.48;  ///< of a cell being occupied, given that a beam passed through it
   double smoothing_sigma_m =
-      0.05;  ///< of the Gaussian that turns occupancy into scores: range noise and cell size
+      0.03;  ///< of the Gaussian that turns occupancy into scores: range noise and cell size
   double max_insert_range_m = 40.0;  ///< beams are cut there: beyond, nothing is drawn
 };
 

@@ -13,7 +13,7 @@ namespace psi_slam {
 struct ScanFilterOptions {
   double min_range_m = 0.1;
   double max_range_m = 40.0;  ///< returns beyond are not matched
-  double spacing_m = 0.05;    ///< neighbouring points nearer than this to the last one kept are dropped
+  double spacing_m = 0.03;    ///< neighbouring points nearer than this to the last one kept are dropped
 };
 
 /// The scan's returns in the robot's frame, thinned so that near surfaces do not outweigh far ones.

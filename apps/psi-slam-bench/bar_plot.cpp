@@ -67,7 +67,7 @@ std::string bar_svg(const BarPlot& plot) {
     svg += "<rect x=\"" + fixed_text(kLeft, 1) + "\" y=\"" + fixed_text(y, 1) + "\" width=\"" +
            fixed_text(end - kLeft, 1) + "\" height=\"" + fixed_text(kBarHeight, 1) + "\" fill=\"" +
            (bar.ours ? "#c2571a" : "#1f5fa8") + "\"/>\n";
-    svg += svg_text(end + 6, y + 13, "", fixed_text(bar.value, 3));
+    svg += svg_text(end + 6, y + 13, "font-size=\"12\"", fixed_text(bar.value, 3));
     y += kPitch;
   }
   return svg_page(kWidth, bottom + kBottom, svg);

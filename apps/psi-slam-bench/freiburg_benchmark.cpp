@@ -77,12 +77,18 @@ ChildProcess process_of(const FreiburgRun& run, const fs::path& program) {
   return child;
 }
 
-/// What the process came to: its figures with what it took, or why there are none.
-FreiburgResult result_of(const ChildEnd& end, std::uint64_t seed) {
+/// Runs the process to its end: its figures with what it took, or why there are none.
+FreiburgResult result_of(const ChildProcess& child, std::uint64_t seed) {
   FreiburgResult result;
   result.seed = seed;
   result.made = true;
-  result.failure = end.failure();
+  ChildEnd end;
+  try {
+    end = run_child(child);
+    result.failure = end.failure();
+  } catch (const SystemFailure& failure) {
+    result.failure = failure.what();
+  }
   if (result.failure.compare(0, kSpokenBy.size(), kSpokenBy) == 0) result.failure.erase(0, kSpokenBy.size());
   if (!result.failure.empty()) return result;
   result.figures = read_figures(end.out);
@@ -155,7 +161,7 @@ class Tasks {
       tell(task.name);
       return stop_.load();
     };
-    const FreiburgResult result = result_of(run_child(child), task.run.seed);
+    const FreiburgResult result = result_of(child, task.run.seed);
     if (stop_ && !result.figures) return;
     if (result.figures) keep_figures(task, *result.figures);
     *task.result = result;

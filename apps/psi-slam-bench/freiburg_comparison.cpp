@@ -99,7 +99,7 @@ std::string comparison_table(const Comparison& comparison) {
 std::string comparison_plot(const Comparison& comparison, const std::string& log) {
   for (const ComparisonRow& row : comparison.rows) {
     if (row.log != log || row.figure != 0) continue;
-    BarPlot plot{log + ": mean translational error", "m", {}};
+    BarPlot plot{log + ": mean translational error (logarithmic)", "m", {}};
     bool any_of_ours = false;
     for (std::size_t i = 0; i < row.values.size(); ++i) {
       const ComparisonColumn& column = comparison.columns[i];

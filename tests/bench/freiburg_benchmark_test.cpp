@@ -142,6 +142,13 @@ TEST_F(FreiburgBenchmarks, a_killed_run_is_a_failed_one) {
       EXPECT_THAT(result.failure, HasSubstr("ended by a signal"));
 }
 
+TEST_F(FreiburgBenchmarks, a_run_that_cannot_be_started_is_a_failed_one) {
+  options_.program = folder_.path() / "no_program";
+  write_file(options_.program, "text");
+  for (const FreiburgCell& cell : run().cells)
+    for (const FreiburgResult& result : cell.runs) EXPECT_THAT(result.failure, HasSubstr("cannot start"));
+}
+
 TEST_F(FreiburgBenchmarks, interrupted_it_keeps_what_is_finished) {
   options_.matchers = {"csm"};
   run();

@@ -11,7 +11,6 @@
 #include "psi_slam/config/ini_file.h"
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/results/relations_metric.h"
-#include "psi_slam/session/settings.h"
 
 namespace psi_slam {
 namespace {
@@ -26,15 +25,6 @@ std::optional<std::string> log_name(const std::string& file) {
       return file.substr(0, file.size() - end.size());
   }
   return std::nullopt;
-}
-
-Settings settings_of(const fs::path& ini) {
-  Settings settings;
-  OptionTable table;
-  describe(table, settings);
-  apply(read_ini(ini), table);
-  check(settings);
-  return settings;
 }
 
 /// The front end once more beside the mapper, which keeps its local maps to itself: it gives the same ones.
@@ -126,9 +116,19 @@ std::optional<fs::path> shipped_ini_folder() {
   return std::nullopt;
 }
 
+Settings benchmark_settings(const fs::path& ini, const std::vector<std::string>& assignments) {
+  Settings settings;
+  OptionTable table;
+  describe(table, settings);
+  apply(read_ini(ini), table);
+  for (const std::string& assignment : assignments) apply_override(assignment, table);
+  check(settings);
+  return settings;
+}
+
 MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
                   const std::function<void(double)>& progress) {
-  const Settings settings = settings_of(log.ini);
+  const Settings settings = benchmark_settings(log.ini);
   MappedLog mapped;
   mapped.name = log.name;
   mapped.options = settings.mapper;

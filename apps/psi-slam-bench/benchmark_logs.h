@@ -13,6 +13,7 @@
 
 #include "psi_slam/loop_closure/place_memory.h"
 #include "psi_slam/mapping/mapper.h"
+#include "psi_slam/session/settings.h"
 
 namespace psi_slam {
 
@@ -31,6 +32,11 @@ std::vector<BenchmarkLog> find_benchmark_logs(const std::filesystem::path& data,
 /// The folder of the settings that come with the program, installed or in the tree it was built from: looked
 /// for from the program's own folder upwards.
 std::optional<std::filesystem::path> shipped_ini_folder();
+
+/// The settings of a log: the defaults, what its file says, and "section.key=value" on top. Throws UserError
+/// for what psi-slam would refuse.
+Settings benchmark_settings(const std::filesystem::path& ini,
+                            const std::vector<std::string>& assignments = {});
 
 /// A mapped log: what a loop closer would have, and where everything truly was.
 struct MappedLog {

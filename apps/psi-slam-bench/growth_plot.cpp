@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "psi_slam/results/number_text.h"
+#include "svg_parts.h"
 
 namespace psi_slam {
 namespace {
@@ -52,11 +53,6 @@ double x_of(std::size_t place, std::size_t places) {
          static_cast<double>(place) / static_cast<double>(places - 1) * (kWidth - kLeft - kRight - 48);
 }
 
-std::string text(double x, double y, const std::string& attributes, const std::string& content) {
-  return "<text x=\"" + fixed_text(x, 1) + "\" y=\"" + fixed_text(y, 1) + "\" " + attributes + '>' + content +
-         "</text>\n";
-}
-
 std::string axes(const GrowthPlot& plot, const Decades& decades) {
   std::string svg;
   for (double value = decades.low; value <= decades.high * 1.001; value *= 10) {
@@ -64,10 +60,10 @@ std::string axes(const GrowthPlot& plot, const Decades& decades) {
     svg += "<path d=\"M" + fixed_text(kLeft, 0) + ',' + fixed_text(y, 1) + 'H' +
            fixed_text(kWidth - kRight, 0) + "\" stroke=\"#ddd\"/>\n";
     const int decimals = std::max(0, static_cast<int>(std::lround(-std::log10(value))));
-    svg += text(kLeft - 8, y + 4, "text-anchor=\"end\"", fixed_text(value, decimals) + " ms");
+    svg += svg_text(kLeft - 8, y + 4, "text-anchor=\"end\"", fixed_text(value, decimals) + " ms");
   }
   for (std::size_t i = 0; i < plot.labels.size(); ++i)
-    svg += text(x_of(i, plot.labels.size()), kHeight - 14, "text-anchor=\"middle\"", plot.labels[i]);
+    svg += svg_text(x_of(i, plot.labels.size()), kHeight - 14, "text-anchor=\"middle\"", plot.labels[i]);
   return svg;
 }
 
@@ -100,23 +96,18 @@ std::string line_svg(const GrowthPlot::Line& line, const char* colour, const Dec
     dots += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"3.5\" fill=\"" + colour + "\"/>\n";
   }
   return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"2\"/>\n" + dots +
-         text(kWidth - kRight + 6, name_y + 4, std::string("fill=\"") + colour + '"', line.name);
+         svg_text(kWidth - kRight + 6, name_y + 4, std::string("fill=\"") + colour + '"', line.name);
 }
 
 }  // namespace
 
 std::string growth_svg(const GrowthPlot& plot) {
   const Decades decades = decades_of(plot);
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed_text(kWidth, 0) + ' ' +
-                    fixed_text(kHeight, 0) + "\" width=\"" + fixed_text(kWidth, 0) + "\" height=\"" +
-                    fixed_text(kHeight, 0) +
-                    "\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#333\">\n" +
-                    "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
-                    text(kLeft, 24, "font-size=\"15\"", plot.title) + axes(plot, decades);
+  std::string svg = svg_text(kLeft, 24, "font-size=\"15\"", plot.title) + axes(plot, decades);
   const std::vector<double> names = name_places(plot, decades);
   for (std::size_t i = 0; i < plot.lines.size(); ++i)
     svg += line_svg(plot.lines[i], kColours[i % kColours.size()], decades, names[i]);
-  return svg + "</svg>\n";
+  return svg_page(kWidth, kHeight, svg);
 }
 
 }  // namespace psi_slam

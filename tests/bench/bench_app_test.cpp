@@ -8,7 +8,7 @@
 
 #include "../session/room_log.h"
 #include "bench_progress.h"
-#include "psi_slam/base/time_stamp.h"
+#include "room_benchmark.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
 #include "test_files.h"
@@ -48,20 +48,7 @@ class BenchApp : public testing::Test {
     return err_.str();
   }
 
-  /// A drive of almost two rounds, and where the robot truly was; `stretch` 1 is the truth.
-  void write_room(double stretch = 1) const {
-    constexpr int kScans = 190;
-    write_lines(data_ / "room.log", room_log_lines(kScans));
-    write_file(ini_ / "room.ini", "[log]\n");
-    std::string relations;
-    for (int i = 20; i < kScans; i += 10) {
-      const mrpt::math::TPose2D motion = room_pose(2 * M_PI * i / 100) - room_pose(2 * M_PI * (i - 20) / 100);
-      relations += format_seconds(1'000'000'000 + 200'000 * (i - 20)) + ' ' +
-                   format_seconds(1'000'000'000 + 200'000 * i) + ' ' + std::to_string(stretch * motion.x) +
-                   ' ' + std::to_string(stretch * motion.y) + " 0 0 0 " + std::to_string(motion.phi) + '\n';
-    }
-    write_file(data_ / "room.relations", relations);
-  }
+  void write_room(double stretch = 1) const { write_room_benchmark(data_, ini_, stretch); }
 
   TemporaryFolder folder_;
   fs::path data_ = folder_.path() / "data";

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "child_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+
+#include "psi_slam/base/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kBetweenLooks_ms = 200;
+constexpr std::size_t kMostOut = std::size_t{16} << 20;
+constexpr std::size_t kMostErr = std::size_t{64} << 10;
+
+[[noreturn]] void fail(const std::string& doing, int error) {
+  throw SystemFailure(doing + ": " + std::strerror(error));
+}
+
+/// Closes itself, here and in every program that is started meanwhile.
+class Pipe {
+ public:
+  Pipe() {
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) fail("cannot make a pipe", errno);
+  }
+  ~Pipe() {
+    close_end(0);
+    close_end(1);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  int reading() const { return ends_[0]; }
+  int writing() const { return ends_[1]; }
+  void close_writing() { close_end(1); }
+
+  /// Takes what is there, of which the last `most` bytes are kept. False at the end.
+  bool read_to(std::string& text, std::size_t most) {
+    std::array<char, 1 << 14> block{};
+    const ssize_t count = ::read(ends_[0], block.data(), block.size());
+    if (count < 0) return errno == EINTR || errno == EAGAIN;
+    text.append(block.data(), static_cast<std::size_t>(count));
+    if (text.size() > 2 * most) text.erase(0, text.size() - most);
+    return count > 0;
+  }
+
+ private:
+  void close_end(std::size_t end) {
+    if (ends_[end] >= 0) ::close(ends_[end]);
+    ends_[end] = -1;
+  }
+
+  std::array<int, 2> ends_{-1, -1};
+};
+
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+pid_t start(const ChildProcess& child, const Pipe& out, const Pipe& err) {
+  std::vector<std::string> words = child.words;
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&files, out.writing(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&files, err.writing(), STDERR_FILENO);
+  pid_t pid = -1;
+  const int error =
+      ::posix_spawn(&pid, words.at(0).c_str(), &files, nullptr, pointers_to(words).data(), ::environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (error != 0) fail("cannot start " + child.words[0], error);
+  return pid;
+}
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// The last line that says something.
+std::string last_line(std::string text) {
+  while (!text.empty() && std::strchr(" \t\r\n", text.back()) != nullptr) text.pop_back();
+  return text.substr(text.rfind('\n') + 1);  // npos + 1 is 0
+}
+
+}  // namespace
+
+std::string ChildEnd::failure() const {
+  if (code == 0) return {};
+  if (stopped) return "interrupted";
+  if (over_time) return "stopped at its time limit";
+  if (signal != 0) return std::string("ended by a signal: ") + ::strsignal(signal);
+  const std::string words = last_line(err);
+  return words.empty() ? "ended with code " + std::to_string(code) : words;
+}
+
+ChildEnd run_child(const ChildProcess& child) {
+  Pipe out;
+  Pipe err;
+  ChildEnd end;
+  const Clock::time_point began = Clock::now();
+  const auto elapsed_s = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
+  const pid_t pid = start(child, out, err);
+  out.close_writing();
+  err.close_writing();
+  std::array<pollfd, 2> ends{{{out.reading(), POLLIN, 0}, {err.reading(), POLLIN, 0}}};
+  while (ends[0].fd >= 0 || ends[1].fd >= 0) {
+    ::poll(ends.data(), ends.size(), kBetweenLooks_ms);
+    if (ends[0].revents != 0 && !out.read_to(end.out, kMostOut)) ends[0].fd = -1;  // poll() passes it over
+    if (ends[1].revents != 0 && !err.read_to(end.err, kMostErr)) ends[1].fd = -1;
+    if (end.over_time || end.stopped) continue;
+    end.over_time = child.time_limit_s > 0 && elapsed_s() > child.time_limit_s;
+    end.stopped = child.stop && child.stop();
+    if (end.over_time || end.stopped) ::kill(pid, SIGKILL);
+  }
+  int status = 0;
+  rusage usage{};
+  while (::wait4(pid, &status, 0, &usage) < 0)
+    if (errno != EINTR) fail("cannot wait for " + child.words[0], errno);
+  end.wall_s = elapsed_s();
+  end.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+  end.peak_memory_mib = static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts kibibytes
+  if (WIFEXITED(status)) end.code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  return end;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <memory>
+#include <ostream>
+
+#include "bench_command.h"
+#include "bench_progress.h"
+#include "benchmark_logs.h"
+#include "freiburg_comparison.h"
+#include "freiburg_report.h"
+#include "interrupt_signals.h"
+#include "match_report.h"
+#include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/user_error.h"
+#include "published_figures.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPage = "freiburg.md";
+
+struct FreiburgArguments {
+  std::string data;
+  std::string ini;
+  std::string json;
+  std::string output = "out/freiburg";
+  std::vector<std::string> names;  ///< of logs; empty: all
+  FreiburgOptions options;
+};
+
+/// What can be evaluated of the logs, and which cannot or is not asked for.
+struct ChosenLogs {
+  std::vector<BenchmarkLog> logs;
+  std::vector<std::string> without_relations;
+  std::vector<std::string> left_out;
+};
+
+/// Throws UserError when a name is there twice.
+void check_once(const std::vector<std::string>& names, const std::string& option) {
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      throw UserError(option + ": " + *name + " is named twice");
+}
+
+ChosenLogs choose(const std::vector<BenchmarkLog>& all, const std::vector<std::string>& names,
+                  const std::string& data) {
+  for (const std::string& name : names)
+    if (std::none_of(all.begin(), all.end(), [&](const BenchmarkLog& log) { return log.name == name; }))
+      throw UserError("--logs: there is no log " + name + " in " + data);
+  ChosenLogs chosen;
+  for (const BenchmarkLog& log : all) {
+    const bool asked = names.empty() || std::find(names.begin(), names.end(), log.name) != names.end();
+    if (!asked)
+      chosen.left_out.push_back(log.name);
+    else if (!log.relations)
+      chosen.without_relations.push_back(log.name);
+    else
+      chosen.logs.push_back(log);
+  }
+  if (chosen.logs.empty())
+    throw UserError("no log can be evaluated: expected NAME.relations in " + data + " beside its log");
+  return chosen;
+}
+
+void write_files(const FreiburgArguments& arguments, const FreiburgBenchmark& benchmark,
+                 const std::string& page, const std::string& machine) {
+  const fs::path folder = arguments.output;
+  if (!arguments.json.empty())
+    write_text_atomically(arguments.json, freiburg_json(benchmark, arguments.options, machine));
+  write_text_atomically(folder / kPage, page);
+  const Comparison comparison = compare_with_others(benchmark);
+  for (const FreiburgLog& log : benchmark.logs) {
+    const std::string plot = comparison_plot(comparison, benchmark_log_title(log.name));
+    if (!plot.empty()) write_text_atomically(folder / ("freiburg-" + log.name + ".svg"), plot);
+  }
+}
+
+std::size_t failed_runs(const FreiburgBenchmark& benchmark) {
+  std::size_t failed = 0;
+  for (const FreiburgCell& cell : benchmark.cells)
+    for (const FreiburgResult& run : cell.runs) failed += run.figures ? 0 : 1;
+  return failed;
+}
+
+void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
+  check_once(arguments.options.matchers, "--matchers");
+  const ChosenLogs chosen =
+      choose(find_benchmark_logs(arguments.data, ini_folder(arguments.ini)), arguments.names, arguments.data);
+  for (const BenchmarkLog& log : chosen.logs)
+    benchmark_settings(log.ini);  // wrong ones are told before the work
+  if (!arguments.json.empty()) check_writable(arguments.json);
+  prepare_folder(arguments.output, kPage);
+  prepare_folder(fs::path(arguments.output) / "runs", "any.json");
+  arguments.options.output = arguments.output;
+  FreiburgBenchmark benchmark;
+  {
+    const InterruptSignals signals;
+    BenchProgress progress(streams.err_is_terminal ? &streams.err : nullptr);
+    benchmark = run_freiburg_benchmark(
+        chosen.logs, arguments.options, signals.came(),
+        [&](const std::string& doing, double done, double all) { progress.show(doing, done, all); });
+  }
+  benchmark.without_relations = chosen.without_relations;
+  benchmark.left_out = chosen.left_out;
+
+  const std::string machine = machine_text();
+  const std::string page = freiburg_markdown(benchmark, arguments.options, machine);
+  write_files(arguments, benchmark, page, machine);
+  streams.out << page << std::flush;
+  if (!streams.out) throw SystemFailure("cannot write to standard output");
+  if (const std::size_t failed = failed_runs(benchmark); failed > 0)
+    throw SystemFailure(std::to_string(failed) + (failed == 1 ? " run" : " runs") +
+                        " failed: the page says which and why");
+}
+
+/// A run in this process, its figures on standard output: what the benchmark starts processes for.
+void run_once(const FreiburgRun& run, const Streams& streams) {
+  streams.out << figures_json(map_and_evaluate(run)) << std::endl;
+  if (!streams.out) throw SystemFailure("cannot write to standard output");
+}
+
+void add_run_command(CLI::App& app, const Streams& streams) {
+  const auto run = std::make_shared<FreiburgRun>();
+  CLI::App* const once = app.add_subcommand("freiburg-run", "One run of the Freiburg benchmark");
+  once->group("");  // not for people: hidden from --help
+  once->add_option("--log", run->log)->required();
+  once->add_option("--ini", run->ini)->required();
+  once->add_option("--relations", run->relations)->required();
+  once->add_option("--matcher", run->matcher)->required()->check(CLI::IsMember(freiburg_matchers()));
+  once->add_option("--seed", run->seed);
+  once->add_option("--threads", run->threads);
+  once->callback([run, &streams] { run_once(*run, streams); });
+}
+
+void add_work_options(CLI::App& freiburg, FreiburgArguments& arguments) {
+  constexpr std::uint64_t kMostSeeds = 1'000'000;
+  freiburg
+      .add_option("--seeds", arguments.options.seeds, "Runs of each random matcher, with seeds 1, 2, ...")
+      ->check(CLI::Range(std::uint64_t{1}, kMostSeeds))
+      ->capture_default_str();
+  freiburg
+      .add_option("--matchers", arguments.options.matchers,
+                  "Which of csm, csm_ga, ga, adaptive and adaptive_paper; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(freiburg_matchers()))
+      ->type_name("NAME,...");
+  freiburg.add_option("--logs", arguments.names, "Which logs; default: all that have relations")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  freiburg
+      .add_option("--processes", arguments.options.processes, "Runs at a time; more than 1 spoils the times")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  freiburg.add_option("--threads", arguments.options.threads, "Threads of each run")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_freiburg_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<FreiburgArguments>();
+  CLI::App* const freiburg = app.add_subcommand(
+      "freiburg", "Map the logs of the Freiburg benchmark, and compare with what others reached");
+  freiburg->add_option("--data", arguments->data, "Folder of the logs: NAME.clf.gz with NAME.relations")
+      ->required()
+      ->type_name("DIR");
+  freiburg
+      ->add_option("--ini", arguments->ini, "Folder of their settings NAME.ini; default: those of psi-slam")
+      ->type_name("DIR");
+  freiburg
+      ->add_option("--json", arguments->json, "Write the figures to this file; one that is there is replaced")
+      ->type_name("FILE");
+  freiburg
+      ->add_option("-o,--output", arguments->output,
+                   "Folder for freiburg.md, the plots and the runs; runs that are there are not made again")
+      ->type_name("DIR")
+      ->capture_default_str();
+  add_work_options(*freiburg, *arguments);
+  freiburg->callback([arguments, &streams] { run_freiburg(*arguments, streams); });
+  add_run_command(app, streams);
+}
+
+}  // namespace psi_slam

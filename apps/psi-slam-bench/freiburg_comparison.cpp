@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "freiburg_comparison.h"
+
+#include <algorithm>
+
+#include "bar_plot.h"
+#include "freiburg_figures.h"
+#include "psi_slam/results/number_text.h"
+
+namespace psi_slam {
+namespace {
+
+/// The matcher whose figures stand for us.
+std::string our_matcher(const FreiburgBenchmark& benchmark) {
+  for (const FreiburgCell& cell : benchmark.cells)
+    if (cell.matcher == "adaptive") return cell.matcher;
+  return benchmark.cells.empty() ? "adaptive" : benchmark.cells.front().matcher;
+}
+
+/// The benchmark's logs by its own order, then what else was mapped.
+std::vector<BenchmarkLogTitle> logs_of(const FreiburgBenchmark& benchmark) {
+  std::vector<BenchmarkLogTitle> logs = benchmark_log_titles();
+  for (const FreiburgLog& log : benchmark.logs) {
+    const std::string name = benchmark_log_name(log.name);
+    if (std::none_of(logs.begin(), logs.end(), [&](const auto& known) { return known.log == name; }))
+      logs.push_back({name, name});
+  }
+  return logs;
+}
+
+std::optional<PathErrors> our_errors(const FreiburgBenchmark& benchmark, const std::string& matcher,
+                                     const std::string& log) {
+  for (const FreiburgCell& cell : benchmark.cells)
+    if (cell.matcher == matcher && benchmark_log_name(cell.log) == log)
+      if (const auto figures = figures_of(cell)) return figures->errors;
+  return std::nullopt;
+}
+
+void mark_best(ComparisonRow& row) {
+  std::optional<double> least;
+  for (const auto& value : row.values)
+    if (value && (!least || value->mean < *least)) least = value->mean;
+  for (const auto& value : row.values) row.best.push_back(value && value->mean == *least);
+}
+
+std::string value_text(const std::optional<PublishedFigure>& value) {
+  if (!value) return "–";
+  constexpr int kDecimals = 4;
+  return fixed_text(value->mean, kDecimals) + (value->std ? " ± " + fixed_text(*value->std, kDecimals) : "");
+}
+
+}  // namespace
+
+Comparison compare_with_others(const FreiburgBenchmark& benchmark) {
+  const std::string matcher = our_matcher(benchmark);
+  Comparison comparison;
+  comparison.columns.push_back({"psi-slam, " + matcher, "this run: means over the seeds.", true});
+  for (const PublishedSystem& system : published_systems())
+    comparison.columns.push_back({system.name, system.source, false});
+  for (const BenchmarkLogTitle& log : logs_of(benchmark)) {
+    const auto ours = our_errors(benchmark, matcher, log.log);
+    for (std::size_t figure = 0; figure < kPaperFigures; ++figure) {
+      ComparisonRow row{log.title, figure, {}, {}};
+      row.values.emplace_back();
+      if (ours) {
+        const MeanAndStd& errors = (*ours).*kPathFigures[figure].errors;
+        row.values.back() = PublishedFigure{errors.mean, errors.std};
+      }
+      for (const PublishedSystem& system : published_systems()) {
+        const PublishedErrors* errors = system.errors_of(log.log);
+        row.values.push_back(errors != nullptr ? (*errors)[figure] : std::nullopt);
+      }
+      mark_best(row);
+      comparison.rows.push_back(std::move(row));
+    }
+  }
+  return comparison;
+}
+
+std::string comparison_table(const Comparison& comparison) {
+  std::string text = "| log | error |";
+  std::string rule = "|---|---|";
+  for (const ComparisonColumn& column : comparison.columns) {
+    text += ' ' + column.name + " |";
+    rule += "---:|";
+  }
+  text += '\n' + rule + '\n';
+  for (const ComparisonRow& row : comparison.rows) {
+    text += "| " + row.log + " | " + kPathFigures[row.figure].name + " |";
+    for (std::size_t i = 0; i < row.values.size(); ++i) {
+      const std::string mark = row.best[i] ? "**" : "";
+      text += ' ' + mark + value_text(row.values[i]) + mark + " |";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string comparison_plot(const Comparison& comparison, const std::string& log) {
+  for (const ComparisonRow& row : comparison.rows) {
+    if (row.log != log || row.figure != 0) continue;
+    BarPlot plot{log + ": mean translational error (logarithmic)", "m", {}};
+    bool any_of_ours = false;
+    for (std::size_t i = 0; i < row.values.size(); ++i) {
+      const ComparisonColumn& column = comparison.columns[i];
+      if (!row.values[i]) continue;
+      plot.bars.push_back({column.name, row.values[i]->mean, column.ours});
+      any_of_ours = any_of_ours || column.ours;
+    }
+    return any_of_ours ? bar_svg(plot) : std::string();
+  }
+  return {};
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "freiburg_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace psi_slam {
+
+SeedSpread spread_of(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  const auto count = static_cast<double>(values.size());
+  SeedSpread spread;
+  spread.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double squares = 0;
+  for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
+  spread.std = std::sqrt(squares / count);
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  spread.min = *least;
+  spread.max = *most;
+  return spread;
+}
+
+std::optional<CellFigures> figures_of(const FreiburgCell& cell) {
+  std::vector<FreiburgFigures> runs;
+  for (const FreiburgResult& run : cell.runs)
+    if (run.figures) runs.push_back(*run.figures);
+  if (runs.empty()) return std::nullopt;
+  const auto over_seeds = [&runs](const auto& value_of) {
+    std::vector<double> values;
+    for (const FreiburgFigures& run : runs) values.push_back(static_cast<double>(value_of(run)));
+    return spread_of(values);
+  };
+  CellFigures figures;
+  figures.runs = runs.size();
+  figures.failed = cell.runs.size() - runs.size();
+  for (std::size_t i = 0; i < kPathFigures.size(); ++i) {
+    const auto errors = kPathFigures[i].errors;
+    figures.spread[i] = over_seeds([&](const FreiburgFigures& run) { return (run.errors.*errors).mean; });
+    figures.errors.*errors = {figures.spread[i].mean, over_seeds([&](const FreiburgFigures& run) {
+                                                        return (run.errors.*errors).std;
+                                                      }).mean};
+  }
+  figures.relations_used = over_seeds([](const FreiburgFigures& run) { return run.relations_used; }).mean;
+  figures.relations_skipped =
+      over_seeds([](const FreiburgFigures& run) { return run.relations_skipped; }).mean;
+  figures.loops_accepted = over_seeds([](const FreiburgFigures& run) { return run.loops_accepted; });
+  figures.wall_s = over_seeds([](const FreiburgFigures& run) { return run.wall_s; });
+  figures.cpu_s = over_seeds([](const FreiburgFigures& run) { return run.cpu_s; });
+  figures.real_time_factor = over_seeds([](const FreiburgFigures& run) { return run.real_time_factor(); });
+  figures.peak_memory_mib = over_seeds([](const FreiburgFigures& run) { return run.peak_memory_mib; });
+  return figures;
+}
+
+}  // namespace psi_slam

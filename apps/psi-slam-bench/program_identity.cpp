@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program_identity.h"
+
+#include "program_commit.h"  // made by the build
+
+namespace psi_slam {
+
+std::string program_version() {
+  return PSI_SLAM_VERSION;
+}
+
+std::string program_commit() {
+  return PSI_SLAM_COMMIT;
+}
+
+}  // namespace psi_slam

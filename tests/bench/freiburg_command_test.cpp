@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "../results/well_formed.h"
+#include "bench_app.h"
+#include "child_process.h"
+#include "room_benchmark.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using Json = nlohmann::json;
+
+class FreiburgCommand : public testing::Test {
+ protected:
+  FreiburgCommand() {
+    for (const fs::path& folder : {data_, ini_}) fs::create_directories(folder);
+  }
+
+  std::vector<std::string> words(const std::vector<std::string>& options) const {
+    std::vector<std::string> all{"freiburg",    "--data", data_.string(),  "--ini",
+                                 ini_.string(), "-o",     output_.string()};
+    all.insert(all.end(), options.begin(), options.end());
+    return all;
+  }
+
+  /// The built program, as a process of its own.
+  ChildEnd run(const std::vector<std::string>& options) const {
+    ChildProcess program;
+    program.words = words(options);
+    program.words.insert(program.words.begin(), PSI_SLAM_BENCH_PROGRAM);
+    return run_child(program);
+  }
+
+  /// The sentence with which it is refused as the user's fault.
+  std::string refusal(const std::vector<std::string>& options) const {
+    std::ostringstream out;
+    std::ostringstream err;
+    EXPECT_EQ(run_bench_app(words(options), {out, err, false}), 2);
+    EXPECT_EQ(out.str(), "");
+    EXPECT_THAT(err.str(), MatchesRegex("psi-slam-bench: [^\n]+\n")) << "one line";
+    return err.str();
+  }
+
+  TemporaryFolder folder_;
+  fs::path data_ = folder_.path() / "data";
+  fs::path ini_ = folder_.path() / "ini";
+  fs::path output_ = folder_.path() / "out" / "freiburg";
+};
+
+TEST_F(FreiburgCommand, maps_the_logs_and_writes_page_figures_and_plots) {
+  write_room_benchmark(data_, ini_);
+  write_lines(data_ / "unknown.log", room_log_lines(2));
+  write_file(ini_ / "unknown.ini", "[log]\n");
+  const fs::path json_file = folder_.path() / "freiburg.json";
+  const ChildEnd end = run({"--seeds", "2", "--matchers", "csm,adaptive", "--json", json_file.string()});
+  ASSERT_EQ(end.code, 0) << end.err;
+  EXPECT_EQ(end.out, read_file(output_ / "freiburg.md"));
+  EXPECT_THAT(end.out, AllOf(HasSubstr("| room | csm | 1, draws no random numbers | 0.0"),
+                             HasSubstr("| room | adaptive | 2 | 0.0"), HasSubstr("seeds 1 to 2"),
+                             HasSubstr("Freiburg hospital: its log is not in the folder"),
+                             HasSubstr("unknown has no relations"), HasSubstr("Hess")));
+  EXPECT_EQ(complaint_about(read_file(output_ / "freiburg-room.svg")), "");
+  EXPECT_TRUE(fs::exists(output_ / "runs" / "room-adaptive-2.json"));
+  const Json json = Json::parse(read_file(json_file));
+  EXPECT_EQ(json["cells"].size(), 2U);
+  EXPECT_EQ(json["cells"][1]["runs"], 2);
+  EXPECT_LT(json["cells"][1]["translation_abs_m"]["mean"], 0.1);
+  EXPECT_GE(json["cells"][1]["translation_abs_m"]["over_seeds"]["max"],
+            json["cells"][1]["translation_abs_m"]["over_seeds"]["min"]);
+  EXPECT_EQ(json["logs"][0]["sha256"].get<std::string>().size(), 64U);
+  EXPECT_THAT(end.out, HasSubstr(json["logs"][0]["sha256"].get<std::string>()));
+  EXPECT_NE(json["commit"], "");
+}
+
+TEST_F(FreiburgCommand, says_by_its_code_that_a_run_failed) {
+  write_room_benchmark(data_, ini_);
+  write_file(data_ / "room.relations", "1 2 0 0 0 0 0 0\n");  // long before the log
+  const ChildEnd end = run({"--matchers", "csm"});
+  EXPECT_EQ(end.code, 1);
+  EXPECT_THAT(end.err, HasSubstr("1 run failed"));
+  EXPECT_THAT(end.out, HasSubstr("| room | csm | failed: "));
+}
+
+TEST_F(FreiburgCommand, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
+  EXPECT_THAT(refusal({}), HasSubstr("there is no log in " + data_.string()));
+  write_room_benchmark(data_, ini_);
+  EXPECT_THAT(refusal({"--bogus"}), HasSubstr("--bogus"));
+  EXPECT_THAT(refusal({"--seeds", "0"}), HasSubstr("--seeds"));
+  EXPECT_THAT(refusal({"--seeds", "-1"}), HasSubstr("--seeds"));
+  EXPECT_THAT(refusal({"--processes", "0"}), HasSubstr("--processes"));
+  EXPECT_THAT(refusal({"--threads", "some"}), HasSubstr("--threads"));
+  EXPECT_THAT(refusal({"--matchers", "csm,icp"}), AllOf(HasSubstr("--matchers"), HasSubstr("icp")));
+  EXPECT_THAT(refusal({"--matchers", "csm,ga,csm"}), HasSubstr("csm is named twice"));
+  EXPECT_THAT(refusal({"--logs", "intel"}), AllOf(HasSubstr("no log intel"), HasSubstr(data_.string())));
+  EXPECT_THAT(refusal({"--json", folder_.path().string()}), HasSubstr("is a folder"));
+  write_file(ini_ / "room.ini", "[log]\nbogus = 1\n");
+  EXPECT_THAT(refusal({}), HasSubstr("bogus"));
+  fs::remove(data_ / "room.relations");
+  EXPECT_THAT(refusal({}), HasSubstr("expected NAME.relations"));
+}
+
+TEST_F(FreiburgCommand, an_output_folder_that_cannot_be_made_is_told_before_the_work) {
+  write_room_benchmark(data_, ini_);
+  output_ = data_ / "room.log";
+  EXPECT_THAT(refusal({}), HasSubstr("room.log"));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "freiburg_comparison.h"
+
+#include <gmock/gmock.h>
+
+#include "../results/well_formed.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+
+/// Mapped by the adaptive matcher with that mean translational error, the other errors 1.
+FreiburgBenchmark benchmark_with(const std::string& log, double error_m) {
+  FreiburgResult run;
+  run.figures.emplace();
+  run.figures->errors = {{error_m, 0.5}, {1, 1}, {1, 1}, {1, 1}, {1, 1}};
+  FreiburgBenchmark benchmark;
+  benchmark.logs.push_back({log, "a", "b"});
+  benchmark.cells.push_back({log, "csm", {{}}});
+  benchmark.cells.push_back({log, "adaptive", {run}});
+  return benchmark;
+}
+
+ComparisonRow row_of(const Comparison& comparison, const std::string& log, std::size_t figure) {
+  for (const ComparisonRow& row : comparison.rows)
+    if (row.log == log && row.figure == figure) return row;
+  throw std::invalid_argument("no row of " + log);
+}
+
+/// The heads of the columns marked as best.
+std::vector<std::string> best_of(const Comparison& comparison, const ComparisonRow& row) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < row.best.size(); ++i)
+    if (row.best[i]) names.push_back(comparison.columns[i].name);
+  return names;
+}
+
+TEST(FreiburgComparison, the_best_is_who_has_the_least_mean) {
+  using Names = std::vector<std::string>;
+  const auto best_with = [](double error_m) {
+    const Comparison comparison = compare_with_others(benchmark_with("intel", error_m));
+    return best_of(comparison, row_of(comparison, "Intel", 0));
+  };
+  EXPECT_EQ(best_with(0.02), Names{"psi-slam, adaptive"});
+  EXPECT_EQ(best_with(0.03), Names{"Karto (live)"});
+  EXPECT_EQ(best_with(0.0213), (Names{"psi-slam, adaptive", "Karto (live)"}));
+}
+
+TEST(FreiburgComparison, the_table_shows_the_best_in_bold_and_has_every_log_of_the_benchmark) {
+  const std::string table = comparison_table(compare_with_others(benchmark_with("intel", 0.02)));
+  EXPECT_THAT(table, HasSubstr("| Intel | translation [m] | **0.0200 ± 0.5000** | 0.1650 ± 0.4700 |"));
+  EXPECT_THAT(table, HasSubstr("| Intel | rotation [deg] | 1.0000 ± 1.0000 |"));
+  EXPECT_THAT(table, HasSubstr("**0.4530**"));
+  EXPECT_THAT(table, HasSubstr("| Freiburg hospital | translation [m] | – | 0.5750 ± 0.8360 |"));
+}
+
+TEST(FreiburgComparison, a_log_of_somebody_else_has_our_figures_only) {
+  const Comparison comparison = compare_with_others(benchmark_with("my room", 0.02));
+  const ComparisonRow row = row_of(comparison, "my room", 0);
+  EXPECT_TRUE(row.values[0]);
+  EXPECT_EQ(best_of(comparison, row).size(), 1U);
+  EXPECT_EQ(comparison.rows.size(), (benchmark_log_titles().size() + 1) * kPaperFigures);
+}
+
+TEST(FreiburgComparison, the_hospital_stands_beside_what_was_published_of_it) {
+  const Comparison comparison = compare_with_others(benchmark_with("hospital", 0.05));
+  EXPECT_EQ(best_of(comparison, row_of(comparison, "Freiburg hospital", 0)).front(), "psi-slam, adaptive");
+}
+
+TEST(FreiburgComparison, draws_a_bar_for_each_system_that_has_the_figure) {
+  const Comparison comparison = compare_with_others(benchmark_with("mit-csail", 0.03));
+  const std::string svg = comparison_plot(comparison, "MIT CSAIL");
+  EXPECT_EQ(complaint_about(svg), "");
+  EXPECT_THAT(svg, HasSubstr("psi-slam, adaptive"));
+  EXPECT_THAT(svg, HasSubstr("GMapping (live)"));
+  EXPECT_THAT(svg, testing::Not(HasSubstr("Karto (paper)")));
+  EXPECT_EQ(comparison_plot(comparison, "Intel"), "") << "it was not mapped";
+}
+
+}  // namespace
+}  // namespace psi_slam

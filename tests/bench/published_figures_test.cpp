@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "published_figures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace psi_slam {
+namespace {
+
+const PublishedSystem& system_of(const std::string& name) {
+  for (const PublishedSystem& system : published_systems())
+    if (system.name == name) return system;
+  throw std::invalid_argument("no system " + name);
+}
+
+TEST(PublishedFigures, each_row_is_of_a_known_log_and_has_a_mean_and_a_source) {
+  for (const PublishedSystem& system : published_systems()) {
+    EXPECT_NE(system.source, "");
+    EXPECT_FALSE(system.logs.empty()) << system.name;
+    for (const PublishedLog& log : system.logs) {
+      SCOPED_TRACE(system.name + ", " + log.log);
+      EXPECT_TRUE(std::any_of(benchmark_log_titles().begin(), benchmark_log_titles().end(),
+                              [&](const BenchmarkLogTitle& title) { return title.log == log.log; }));
+      ASSERT_TRUE(log.errors[0]);
+      ASSERT_TRUE(log.errors[0]->std);
+      for (const auto& figure : log.errors) EXPECT_GT(figure.value_or(*log.errors[0]).mean, 0);
+    }
+  }
+}
+
+TEST(PublishedFigures, the_paper_has_all_four_of_each_log) {
+  EXPECT_EQ(system_of("GA-based (paper)").logs.size(), benchmark_log_titles().size());
+  std::size_t rivals = 0;
+  for (const char* name : {"GA-based (paper)", "Karto (paper)", "GMapping (paper)"}) {
+    for (const PublishedLog& log : system_of(name).logs) {
+      SCOPED_TRACE(std::string(name) + ", " + log.log);
+      rivals += std::string(name) == "GA-based (paper)" ? 0 : 1;
+      for (const auto& figure : log.errors) {
+        ASSERT_TRUE(figure);
+        EXPECT_TRUE(figure->std);
+      }
+      // A mean of squares is no less than the square of the mean, but for the last printed digit.
+      EXPECT_GT(log.errors[1]->mean, log.errors[0]->mean * log.errors[0]->mean);
+      EXPECT_GT(log.errors[3]->mean, log.errors[2]->mean * log.errors[2]->mean - 0.001);
+    }
+  }
+  EXPECT_EQ(rivals, benchmark_log_titles().size()) << "each log has one of the paper's two rivals";
+}
+
+TEST(PublishedFigures, the_hospital_goes_by_two_names) {
+  EXPECT_EQ(benchmark_log_name("hospital"), "fr-hospital");
+  EXPECT_EQ(benchmark_log_title("hospital"), "Freiburg hospital");
+  EXPECT_EQ(benchmark_log_title("intel"), "Intel");
+  EXPECT_EQ(benchmark_log_title("my room"), "my room");
+}
+
+}  // namespace
+}  // namespace psi_slam

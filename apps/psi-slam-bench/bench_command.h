@@ -13,6 +13,7 @@ namespace psi_slam {
 /// Adds the command with its options to the program; parsing the command line then runs it. It throws
 /// UserError when the user must mend something. `streams` outlives `app`.
 void add_match_command(CLI::App& app, const Streams& streams);
+void add_simulate_command(CLI::App& app, const Streams& streams);
 
 /// Throws UserError when `file` cannot be written: told before the work, which is long.
 void check_writable(const std::filesystem::path& file);

@@ -107,7 +107,10 @@ void ScanSimulator::paint(const PlanSegment& segment) {
 double ScanSimulator::range_m(const TPose2D& ray, float least_free) const {
   float range = 0;
   bool valid = false;
-  grid_.simulateScanRay(ray.x, ray.y, ray.phi, range, valid, options_.max_range_m, least_free);
+  // MRPT counts its steps as if each were a whole cell long.
+  const double steps_m =
+      options_.max_range_m / mrpt::maps::COccupancyGridMap2D::RAYTRACE_STEP_SIZE_IN_CELL_UNITS;
+  grid_.simulateScanRay(ray.x, ray.y, ray.phi, range, valid, steps_m, least_free);
   return valid ? static_cast<double>(range) : std::numeric_limits<double>::infinity();
 }
 

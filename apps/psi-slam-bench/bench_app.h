@@ -2,6 +2,9 @@
 // psi-slam-bench: how good and how fast the parts of psi-slam are.
 //
 //     psi-slam-bench match --data DIR [--ini DIR] [--json FILE] [--cases N] [--seed S] [--windows] [-o DIR]
+//     psi-slam-bench simulate [--path-m M,M,...] [--people N] [--glass SHARE] [--seed S] [--json FILE] [-o
+//     DIR]
+//                             [--write-log NAME.clf.gz]
 #pragma once
 
 #include <string>

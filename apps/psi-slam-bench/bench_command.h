@@ -14,6 +14,7 @@ namespace psi_slam {
 /// UserError when the user must mend something. `streams` outlives `app`.
 void add_freiburg_command(CLI::App& app, const Streams& streams);
 void add_match_command(CLI::App& app, const Streams& streams);
+void add_simulate_command(CLI::App& app, const Streams& streams);
 
 /// Throws UserError when `file` cannot be written: told before the work, which is long.
 void check_writable(const std::filesystem::path& file);

@@ -22,7 +22,7 @@ constexpr double kNameHeight = 16;
 constexpr std::array<const char*, 6> kColours = {"#1f5fa8", "#c2571a", "#2f8f4e",
                                                  "#8a3fa0", "#a88a1f", "#555555"};
 
-/// Whole decades of milliseconds.
+/// Whole decades of the unit.
 struct Decades {
   double low = 0.1;
   double high = 1;
@@ -60,7 +60,7 @@ std::string axes(const GrowthPlot& plot, const Decades& decades) {
     svg += "<path d=\"M" + fixed_text(kLeft, 0) + ',' + fixed_text(y, 1) + 'H' +
            fixed_text(kWidth - kRight, 0) + "\" stroke=\"#ddd\"/>\n";
     const int decimals = std::max(0, static_cast<int>(std::lround(-std::log10(value))));
-    svg += svg_text(kLeft - 8, y + 4, "text-anchor=\"end\"", fixed_text(value, decimals) + " ms");
+    svg += svg_text(kLeft - 8, y + 4, "text-anchor=\"end\"", fixed_text(value, decimals) + ' ' + plot.unit);
   }
   for (std::size_t i = 0; i < plot.labels.size(); ++i)
     svg += svg_text(x_of(i, plot.labels.size()), kHeight - 14, "text-anchor=\"middle\"", plot.labels[i]);

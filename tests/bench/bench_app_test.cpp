@@ -9,6 +9,9 @@
 #include "../session/room_log.h"
 #include "bench_progress.h"
 #include "room_benchmark.h"
+#include "psi_slam/base/time_stamp.h"
+#include "psi_slam/logs/open_log.h"
+#include "psi_slam/results/relations_metric.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
 #include "test_files.h"
@@ -128,6 +131,55 @@ TEST_F(BenchApp, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
   EXPECT_EQ(run({"--help"}), 0);
   EXPECT_EQ(run({"match", "--help"}), 0);
   EXPECT_THAT(out_.str(), HasSubstr("--windows"));
+}
+
+TEST_F(BenchApp, simulates_drives_and_writes_one_as_a_log_with_its_truth) {
+  const fs::path json_file = folder_.path() / "simulate.json";
+  const fs::path output = folder_.path() / "out";
+  const fs::path log = folder_.path() / "drive.clf.gz";
+  ASSERT_EQ(run({"simulate", "--path-m", "40", "--seed", "3", "--json", json_file.string(), "-o",
+                 output.string(), "--write-log", log.string()},
+                true),
+            0)
+      << err_.str();
+  EXPECT_THAT(err_.str(), HasSubstr("40 m"));
+  EXPECT_EQ(out_.str(), read_file(output / "simulate.md"));
+  for (const char* name : {"plan", "error", "time", "memory"})
+    EXPECT_THAT(read_file(output / (std::string("simulate-") + name + ".svg")), HasSubstr("</svg>"));
+  const Json drive = Json::parse(read_file(json_file))["drives"][0];
+  EXPECT_EQ(drive["false_loops"], 0);
+  EXPECT_LT(drive["error_mean_m"], 0.3);
+  EXPECT_GT(drive["peak_memory_mb"], 10);
+
+  const Trajectory truth = read_trajectory(folder_.path() / "drive.tum");
+  EXPECT_EQ(truth.size(), drive["scans"]);
+  const std::vector<Relation> relations = read_relations(folder_.path() / "drive.relations");
+  EXPECT_LT(evaluate_relations(truth, relations).translation_abs_m.max, 1e-4);
+  const auto source = open_log(log, LogOptions());
+  std::size_t frames = 0;
+  while (const std::optional<Frame> frame = source->next()) {
+    ASSERT_EQ(frame->time_us, truth[frames++].time_us);
+    ASSERT_EQ(frame->scan.ranges_m.size(), 181U);
+    ASSERT_NEAR(static_cast<double>(frame->scan.bearings_rad->front()), -M_PI / 2, 1e-4);
+    ASSERT_NEAR(frame->scan.robot_T_laser.x, 0.1, 1e-6);
+  }
+  EXPECT_EQ(frames, truth.size());
+}
+
+TEST_F(BenchApp, refuses_simulations_that_make_no_sense) {
+  const std::vector<std::vector<std::string>> wrong = {
+      {"--path-m", "5"},
+      {"--path-m", "far"},
+      {"--glass", "1.5"},
+      {"--people", "-1"},
+      {"--write-log", (folder_.path() / "a.clf.gz").string()},
+      {"--path-m", "40", "--write-log", (folder_.path() / "a.log").string()},
+      {"--path-m", "40", "--json", folder_.path().string()}};
+  for (std::vector<std::string> options : wrong) {
+    options.insert(options.begin(), "simulate");
+    EXPECT_EQ(run(options), 2) << options[1] << ' ' << options[2];
+    EXPECT_THAT(err_.str(), MatchesRegex("psi-slam-bench: [^\n]+\n")) << "one line";
+  }
 }
 
 TEST(BenchProgress, tells_the_time_left_once_it_can) {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "psi_slam/results/trajectory_file.h"
+#include "psi_slam/simulation/floor_plan.h"
+
+namespace psi_slam {
+
+/// The floor plan with the robot's true path in it, SVG.
+std::string plan_svg(const FloorPlan& plan, const Trajectory& truth);
+
+}  // namespace psi_slam

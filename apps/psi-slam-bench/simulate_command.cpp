@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <memory>
+#include <ostream>
+
+#include "bench_command.h"
+#include "bench_progress.h"
+#include "match_report.h"
+#include "plan_picture.h"
+#include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/user_error.h"
+#include "simulate_benchmark.h"
+#include "simulate_report.h"
+#include "simulated_log_file.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SimulateArguments {
+  std::string json;
+  std::string output;
+  std::string log;
+  SimulateOptions options;
+};
+
+/// Of the shortest drive, which is a picture that one can see something in.
+std::string plan_of_shortest(const SimulateOptions& options) {
+  const double path_m = *std::min_element(options.path_m.begin(), options.path_m.end());
+  SimulatedLog log(simulated_drive_options(options, path_m));
+  Trajectory truth;
+  while (const std::optional<Frame> frame = log.next())
+    truth.push_back({frame->time_us, log.world_T_robot()});
+  return plan_svg(log.plan(), truth);
+}
+
+void check(const SimulateArguments& arguments) {
+  if (!arguments.json.empty()) check_writable(arguments.json);
+  if (!arguments.output.empty()) prepare_folder(arguments.output, "simulate.md");
+  if (arguments.log.empty()) return;
+  if (arguments.options.path_m.size() != 1)
+    throw UserError("--write-log takes one drive: name one length with --path-m");
+  check_simulated_log_file(arguments.log);
+}
+
+void run_simulate(const SimulateArguments& arguments, const Streams& streams) {
+  check(arguments);
+  const SimulateOptions& options = arguments.options;
+  if (!arguments.log.empty())
+    write_simulated_log(arguments.log, simulated_drive_options(options, options.path_m.front()));
+  BenchProgress progress(streams.err_is_terminal ? &streams.err : nullptr);
+  const std::vector<SimulateRow> rows = run_simulate_benchmark(
+      options, [&](const std::string& doing, double done, double all) { progress.show(doing, done, all); });
+  progress.clear();
+
+  const std::string machine = machine_text();
+  const std::string page = simulate_markdown(rows, options, machine);
+  if (!arguments.json.empty()) write_text_atomically(arguments.json, simulate_json(rows, options, machine));
+  if (!arguments.output.empty()) {
+    const fs::path folder = arguments.output;
+    write_text_atomically(folder / "simulate.md", page);
+    write_text_atomically(folder / "simulate-error.svg", error_plot(rows));
+    write_text_atomically(folder / "simulate-time.svg", time_plot(rows));
+    write_text_atomically(folder / "simulate-memory.svg", memory_plot(rows));
+    write_text_atomically(folder / "simulate-plan.svg", plan_of_shortest(options));
+  }
+  streams.out << page << std::flush;
+  if (!streams.out) throw SystemFailure("cannot write to standard output");
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<SimulateArguments>();
+  SimulateOptions& options = arguments->options;
+  CLI::App* const simulate =
+      app.add_subcommand("simulate", "Map simulated drives of growing length, and compare with the truth");
+  simulate->add_option("--path-m", options.path_m, "Lengths of the drives, metres, with commas between them")
+      ->delimiter(',')
+      ->check(CLI::Range(20.0, 100'000.0))
+      ->capture_default_str();
+  simulate->add_option("--seed", options.seed, "Of buildings, drives and noise")->capture_default_str();
+  simulate->add_option("--people", options.people, "Who walk the corridors, for every 500 m of path")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  simulate->add_option("--glass", options.glass_share, "Share of rooms' fronts and outer walls that is glass")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("SHARE")
+      ->capture_default_str();
+  simulate->add_option("--threads", options.threads, "That match loops; only times depend on it")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  simulate
+      ->add_option("--json", arguments->json, "Write the figures to this file; one that is there is replaced")
+      ->type_name("FILE");
+  simulate
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Folder for simulate.md, the plots and a picture of the shortest drive's floor plan; those "
+          "that are there are replaced")
+      ->type_name("DIR");
+  simulate
+      ->add_option("--write-log", arguments->log,
+                   "Also write the drive as FILE, NAME.clf.gz, with its truth in NAME.relations and NAME.tum")
+      ->type_name("FILE");
+  simulate->callback([arguments, &streams] { run_simulate(*arguments, streams); });
+}
+
+}  // namespace psi_slam

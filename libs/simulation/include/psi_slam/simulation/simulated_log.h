@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A log of a robot in a simulated building, made scan by scan as it is read, with the truth of each scan.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "psi_slam/logs/frame_source.h"
+#include "psi_slam/simulation/floor_plan.h"
+#include "psi_slam/simulation/odometry_noise.h"
+#include "psi_slam/simulation/robot_path.h"
+#include "psi_slam/simulation/scan_simulator.h"
+#include "psi_slam/simulation/walking_people.h"
+
+namespace psi_slam {
+
+/// Each part has a seed of its own; simulated_log_options() sets them all.
+struct SimulatedLogOptions {
+  FloorPlanOptions plan;
+  RobotPathOptions path;
+  ScanSimulatorOptions scan;
+  OdometryNoiseOptions odometry;
+  std::size_t people = 0;
+  std::uint64_t people_seed = 1;
+};
+
+/// A drive of that length through a building in which it comes by every place about three times, with the one
+/// seed for all parts.
+SimulatedLogOptions simulated_log_options(double path_m, std::uint64_t seed);
+
+class SimulatedLog : public FrameSource {
+ public:
+  explicit SimulatedLog(const SimulatedLogOptions& options);
+  SimulatedLog(const SimulatedLog&) = delete;
+  SimulatedLog& operator=(const SimulatedLog&) = delete;
+
+  std::optional<Frame> next() override;
+  /// By metres of the path.
+  double progress() const override;
+
+  /// Where the robot truly was at the frame that next() gave last, in the plan.
+  const mrpt::math::TPose2D& world_T_robot() const { return now_.world_T_robot; }
+  double travelled_m() const { return now_.travelled_m; }
+  const FloorPlan& plan() const { return plan_; }
+
+ private:
+  SimulatedLogOptions options_;
+  FloorPlan plan_;
+  RobotPath path_;
+  ScanSimulator scanner_;
+  OdometryNoise odometry_;
+  WalkingPeople people_;
+  PathPose now_;
+  std::size_t frames_ = 0;
+};
+
+}  // namespace psi_slam

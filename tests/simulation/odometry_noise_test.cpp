@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/simulation/odometry_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+struct Moments {
+  double mean = 0;
+  double variance = 0;
+};
+
+constexpr int kDrives = 4000;
+constexpr double kMeanBound = 5;         // standard deviations of a mean
+constexpr double kVarianceShare = 0.12;  // more than five standard deviations of a variance over 4000
+
+Moments moments(const std::vector<double>& values) {
+  Moments result;
+  for (const double value : values) result.mean += value / static_cast<double>(values.size());
+  for (const double value : values)
+    result.variance += std::pow(value - result.mean, 2) / static_cast<double>(values.size() - 1);
+  return result;
+}
+
+/// What odometry says after `steps` equal steps, over many drives.
+std::vector<TPose2D> ends(OdometryNoiseOptions options, const TPose2D& step, int steps) {
+  std::vector<TPose2D> poses;
+  for (int drive = 0; drive < kDrives; ++drive) {
+    options.seed = static_cast<std::uint64_t>(drive);
+    OdometryNoise odometry(options);
+    TPose2D pose;
+    for (int i = 0; i < steps; ++i) pose = odometry.move(step);
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+void expect_moments(const std::vector<double>& values, double mean, double sigma) {
+  const Moments found = moments(values);
+  EXPECT_NEAR(found.mean, mean, kMeanBound * sigma / std::sqrt(kDrives));
+  EXPECT_NEAR(found.variance, sigma * sigma, kVarianceShare * sigma * sigma);
+}
+
+// The same way in coarse and in fine steps.
+TEST(OdometryNoise, lengths_are_off_by_scale_and_by_a_walk) {
+  for (const int steps : {4, 80}) {
+    OdometryNoiseOptions options;
+    options.sigma_rad_per_root_m = 0;
+    std::vector<double> lengths;
+    for (const TPose2D& end : ends(options, {4.0 / steps, 0, 0}, steps)) lengths.push_back(end.x);
+    expect_moments(lengths, 4 * options.length_scale, 2 * options.sigma_m_per_root_m);
+  }
+}
+
+TEST(OdometryNoise, headings_drift_with_the_way) {
+  for (const int steps : {4, 80}) {
+    const OdometryNoiseOptions options;
+    std::vector<double> headings;
+    for (const TPose2D& end : ends(options, {4.0 / steps, 0, 0}, steps)) headings.push_back(end.phi);
+    expect_moments(headings, 0, 2 * options.sigma_rad_per_root_m);
+  }
+}
+
+TEST(OdometryNoise, turns_are_off_by_scale_and_by_a_walk) {
+  for (const int steps : {2, 40}) {
+    const OdometryNoiseOptions options;
+    std::vector<double> headings;
+    for (const TPose2D& end : ends(options, {0, 0, -2.0 / steps}, steps)) {
+      headings.push_back(end.phi);
+      EXPECT_EQ(std::hypot(end.x, end.y), 0);
+    }
+    expect_moments(headings, -2 * options.turn_scale, std::sqrt(2) * options.sigma_rad_per_root_rad);
+  }
+}
+
+TEST(OdometryNoise, is_the_same_for_the_same_seed_alone) {
+  OdometryNoiseOptions options;
+  const TPose2D first = OdometryNoise(options).move({1, 0, 0.1});
+  EXPECT_EQ(first, OdometryNoise(options).move({1, 0, 0.1}));
+  options.seed = 2;
+  EXPECT_NE(first.x, OdometryNoise(options).move({1, 0, 0.1}).x);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/simulation/scan_simulator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "plan_geometry.h"
+#include "psi_slam/simulation/robot_path.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+ScanSimulatorOptions exact() {
+  ScanSimulatorOptions options;
+  options.noise_m = 0;
+  options.dropout_share = 0;
+  return options;
+}
+
+/// A wall of glass 3 m before the origin, a wall 5 m before it.
+FloorPlan glass_before_wall() {
+  FloorPlan plan;
+  plan.segments = {{{3, -20}, {3, 20}, Material::kGlass}, {{5, -20}, {5, 20}, Material::kWall}};
+  return plan;
+}
+
+/// A beam is as exact as the grid: a surface a cell to either side of it gives a range between these.
+bool within_a_cell(const FloorPlan& plan, const TPose2D& ray, double range_m, double cell_m) {
+  if (std::abs(range_m - ray_m(plan, ray, true)) <= 2 * cell_m) return true;
+  const mrpt::math::TPoint2D end(ray.x + range_m * std::cos(ray.phi), ray.y + range_m * std::sin(ray.phi));
+  return clearance_m(plan, end) <= 2 * cell_m;
+}
+
+TEST(ScanSimulator, agrees_with_rays_and_segments) {
+  FloorPlanOptions plan_options;
+  plan_options.glass_share = 0;
+  const FloorPlan plan = draw_floor_plan(plan_options);
+  const ScanSimulatorOptions options = exact();
+  ScanSimulator simulator(plan, options);
+  RobotPathOptions path_options;
+  path_options.path_m = 100;
+  RobotPath path(plan, path_options);
+  std::size_t beams = 0;
+  std::size_t within_two_cells = 0;
+  for (int i = 0; const std::optional<PathPose> pose = path.next(); ++i) {
+    if (i % 50 != 0) continue;
+    const LaserScan scan = simulator.scan(pose->world_T_robot, {}, 0);
+    const TPose2D laser = pose->world_T_robot + options.robot_T_laser;
+    for (std::size_t beam = 0; beam < options.beams; ++beam) {
+      const TPose2D ray(laser.x, laser.y, laser.phi + static_cast<double>((*scan.bearings_rad)[beam]));
+      const auto range = static_cast<double>(scan.ranges_m[beam]);
+      const double true_m = ray_m(plan, ray, true);
+      ++beams;
+      if (!std::isfinite(range)) {
+        EXPECT_GT(true_m, options.max_range_m - 2 * options.resolution_m);
+        continue;
+      }
+      within_two_cells += std::abs(range - true_m) <= 2 * options.resolution_m;
+      EXPECT_TRUE(within_a_cell(plan, ray, range, options.resolution_m)) << range << " for " << true_m;
+    }
+  }
+  ASSERT_GT(beams, 3000U);
+  EXPECT_GT(static_cast<double>(within_two_cells), 0.9 * static_cast<double>(beams))
+      << "all but grazing ones";
+}
+
+TEST(ScanSimulator, no_beam_slips_through_a_slanting_wall) {
+  FloorPlan plan;
+  const std::vector<mrpt::math::TPoint2D> corners = {{4, -3}, {5, 2.5}, {0.3, 4}, {-4, 3.1}, {-3, -4.2}};
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    plan.segments.push_back({corners[i], corners[(i + 1) % corners.size()], Material::kWall});
+  ScanSimulatorOptions options = exact();
+  options.beams = 2001;
+  ScanSimulator simulator(plan, options);
+  for (int i = 0; i < 20; ++i) {
+    const TPose2D robot(0.11 * i - 1, 0.07 * i - 0.7, 0.3 * i);
+    const LaserScan scan = simulator.scan(robot, {}, 0);
+    const TPose2D laser = robot + options.robot_T_laser;
+    for (std::size_t beam = 0; beam < options.beams; ++beam) {
+      const TPose2D ray(laser.x, laser.y, laser.phi + static_cast<double>((*scan.bearings_rad)[beam]));
+      ASSERT_NEAR(static_cast<double>(scan.ranges_m[beam]), ray_m(plan, ray, true), 0.1) << "beam " << beam;
+    }
+  }
+}
+
+TEST(ScanSimulator, glass_returns_some_beams_loses_some_and_lets_the_others_pass) {
+  const FloorPlan plan = glass_before_wall();
+  ScanSimulatorOptions options = exact();
+  options.field_of_view_rad = 0.5;
+  options.robot_T_laser = {0, 0, 0};
+  ScanSimulator simulator(plan, options);
+  double at_glass = 0;
+  double lost = 0;
+  double all = 0;
+  for (std::uint64_t index = 0; index < 50; ++index) {
+    const LaserScan scan = simulator.scan({0, 0, 0}, {}, index);
+    for (std::size_t beam = 0; beam < options.beams; ++beam) {
+      const double range = static_cast<double>(scan.ranges_m[beam]);
+      const double x = range * std::cos(static_cast<double>((*scan.bearings_rad)[beam]));
+      ++all;
+      lost += std::isnan(range) ? 1 : 0;
+      at_glass += std::abs(x - 3) < 0.05 ? 1 : 0;
+      EXPECT_TRUE(std::isnan(range) || std::abs(x - 3) < 0.05 || std::abs(x - 5) < 0.05) << x;
+    }
+  }
+  const double bound = 5 * std::sqrt(0.25 / all);
+  EXPECT_NEAR(at_glass / all, options.glass_return_share, bound);
+  EXPECT_NEAR(lost / all, options.glass_loss_share, bound);
+}
+
+TEST(ScanSimulator, people_stand_in_the_way) {
+  FloorPlan plan;
+  plan.segments = {{{5, -20}, {5, 20}, Material::kWall}};
+  ScanSimulatorOptions options = exact();
+  options.robot_T_laser = {0, 0, 0};
+  ScanSimulator simulator(plan, options);
+  const std::size_t ahead = options.beams / 2;
+  EXPECT_NEAR(static_cast<double>(simulator.scan({0, 0, 0}, {}, 0).ranges_m[ahead]), 5, 0.03);
+  EXPECT_NEAR(static_cast<double>(simulator.scan({0, 0, 0}, {{2, 0}}, 0).ranges_m[ahead]), 1.8, 0.001);
+  EXPECT_NEAR(static_cast<double>(simulator.scan({0, 0, 0}, {{-2, 0}}, 0).ranges_m[ahead]), 5, 0.03);
+}
+
+TEST(ScanSimulator, noise_and_dropouts_are_as_stated) {
+  FloorPlan plan;
+  plan.segments = {{{5, -20}, {5, 20}, Material::kWall}};
+  ScanSimulatorOptions options;
+  options.field_of_view_rad = 0.5;
+  options.dropout_share = 0.1;
+  ScanSimulatorOptions plain = exact();
+  plain.field_of_view_rad = 0.5;
+  const LaserScan truth = ScanSimulator(plan, plain).scan({0, 0, 0}, {}, 0);
+  ScanSimulator simulator(plan, options);
+  double lost = 0;
+  double sum2 = 0;
+  double all = 0;
+  for (std::uint64_t index = 0; index < 50; ++index) {
+    const LaserScan scan = simulator.scan({0, 0, 0}, {}, index);
+    for (std::size_t beam = 0; beam < options.beams; ++beam) {
+      ++all;
+      if (std::isnan(scan.ranges_m[beam])) {
+        ++lost;
+      } else {
+        sum2 += std::pow(static_cast<double>(scan.ranges_m[beam] - truth.ranges_m[beam]), 2);
+      }
+    }
+  }
+  EXPECT_NEAR(lost / all, options.dropout_share, 0.02);
+  EXPECT_NEAR(std::sqrt(sum2 / (all - lost)), options.noise_m, 0.05 * options.noise_m);
+}
+
+TEST(ScanSimulator, refuses_what_is_no_laser) {
+  const FloorPlan plan;
+  ScanSimulatorOptions options;
+  options.beams = 1;
+  EXPECT_THROW(ScanSimulator(plan, options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -20,9 +20,11 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
   CLI::App app("psi-slam-bench measures how good and how fast the parts of psi-slam are.", "psi-slam-bench");
   try {
     add_match_command(app, streams);
+    add_false_loops_command(app, streams);
     app.require_subcommand(1);
     app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version, and exit");
-    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // last first, as CLI11 takes them
+    app.parse(
+        std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // last first, as CLI11 takes them
     return kDone;
   } catch (const CLI::Success& asked) {  // --help, --version
     app.exit(asked, streams.out, streams.err);

@@ -2,6 +2,8 @@
 // psi-slam-bench: how good and how fast the parts of psi-slam are.
 //
 //     psi-slam-bench match --data DIR [--ini DIR] [--json FILE] [--cases N] [--seed S] [--windows] [-o DIR]
+//     psi-slam-bench false-loops --data DIR [--ini DIR] [--logs NAMES] [--shares PERCENTS] [--seed S]
+//                                [--json FILE] [-o DIR]
 #pragma once
 
 #include <string>

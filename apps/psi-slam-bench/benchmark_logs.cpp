@@ -6,9 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "mapped_run.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/config/apply_settings.h"
-#include "psi_slam/config/ini_file.h"
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/results/relations_metric.h"
 #include "psi_slam/session/settings.h"
@@ -26,15 +25,6 @@ std::optional<std::string> log_name(const std::string& file) {
       return file.substr(0, file.size() - end.size());
   }
   return std::nullopt;
-}
-
-Settings settings_of(const fs::path& ini) {
-  Settings settings;
-  OptionTable table;
-  describe(table, settings);
-  apply(read_ini(ini), table);
-  check(settings);
-  return settings;
 }
 
 /// The front end once more beside the mapper, which keeps its local maps to itself: it gives the same ones.
@@ -81,12 +71,6 @@ std::vector<std::string> adaptive_matchers(const MappingResult& result) {
   return names;
 }
 
-double translation_error_m(const MappingResult& result, const fs::path& relations) {
-  Trajectory trajectory;
-  for (const FrameRecord& frame : result.frames) trajectory.push_back({frame.time_us, frame.map_T_robot});
-  return evaluate_relations(std::move(trajectory), read_relations(relations)).translation_abs_m.mean;
-}
-
 }  // namespace
 
 std::vector<BenchmarkLog> find_benchmark_logs(const fs::path& data, const fs::path& ini) {
@@ -128,7 +112,7 @@ std::optional<fs::path> shipped_ini_folder() {
 
 MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
                   const std::function<void(double)>& progress) {
-  const Settings settings = settings_of(log.ini);
+  const Settings settings = benchmark_settings(log);
   MappedLog mapped;
   mapped.name = log.name;
   mapped.options = settings.mapper;
@@ -151,7 +135,8 @@ MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
   for (const auto& [node, pose] : result.graph.nodes)
     mapped.map_T_node[node] = mrpt::math::TPose2D(pose.x(), pose.y(), pose.phi());
   mapped.adaptive_matcher = adaptive_matchers(result);
-  mapped.translation_error_m = translation_error_m(result, log.relations.value());
+  mapped.translation_error_m =
+      error_of(result.frames, read_relations(log.relations.value())).translation_abs_m.mean;
   return mapped;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small plot of how times grow, logarithmic, as an SVG file.
+// A small plot of how times or errors grow, logarithmic, as an SVG file.
 #pragma once
 
 #include <string>
@@ -9,11 +9,13 @@ namespace psi_slam {
 
 struct GrowthPlot {
   std::string title;
+  std::string unit = "ms";          ///< of the values
   std::vector<std::string> labels;  ///< of the places along the horizontal axis, left to right
 
   struct Line {
     std::string name;
-    std::vector<double> values;  ///< milliseconds, one a label; what is not positive is left out
+    std::vector<double> values;  ///< one a label; what is not positive is left out
+    bool faint = false;          ///< thin and light, in the colour of the line before
   };
   std::vector<Line> lines;
 };

@@ -21,6 +21,7 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
   try {
     add_match_command(app, streams);
     add_false_loops_command(app, streams);
+    add_robustness_command(app, streams);
     app.require_subcommand(1);
     app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version, and exit");
     app.parse(

@@ -4,6 +4,7 @@
 //     psi-slam-bench match --data DIR [--ini DIR] [--json FILE] [--cases N] [--seed S] [--windows] [-o DIR]
 //     psi-slam-bench false-loops --data DIR [--ini DIR] [--logs NAMES] [--shares PERCENTS] [--seed S]
 //                                [--json FILE] [-o DIR]
+//     psi-slam-bench robustness --data DIR [--ini DIR] [--logs NAMES] [--seed S] [--json FILE] [-o DIR]
 #pragma once
 
 #include <string>

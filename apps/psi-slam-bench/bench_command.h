@@ -16,6 +16,7 @@ namespace psi_slam {
 /// UserError when the user must mend something. `streams` outlives `app`.
 void add_match_command(CLI::App& app, const Streams& streams);
 void add_false_loops_command(CLI::App& app, const Streams& streams);
+void add_robustness_command(CLI::App& app, const Streams& streams);
 
 /// Throws UserError when `file` cannot be written: told before the work, which is long.
 void check_writable(const std::filesystem::path& file);

@@ -40,10 +40,10 @@ Mapper::Mapper(const MapperOptions& options)
 const FrameRecord& Mapper::add(Frame frame) {
   FrameRecord record;
   record.time_us = frame.time_us;
-  record.odom_T_robot = frame.odom_T_robot;
 
   FrontEndStep step;
   record.front_end_ms = front_end_clock_.time([&] { step = front_end_.add(frame); });
+  record.odom_T_robot = frame.has_odometry ? frame.odom_T_robot : step.local_T_robot;
   record.front_end_T_robot = step.local_T_robot;
   record.response = step.response;
   record.window = step.window;

@@ -22,9 +22,12 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_freiburg_command(app, streams);
     add_match_command(app, streams);
     add_simulate_command(app, streams);
+    add_false_loops_command(app, streams);
+    add_robustness_command(app, streams);
     app.require_subcommand(1);
     app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version, and exit");
-    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // last first, as CLI11 takes them
+    app.parse(
+        std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // last first, as CLI11 takes them
     return kDone;
   } catch (const CLI::Success& asked) {  // --help, --version
     app.exit(asked, streams.out, streams.err);

@@ -3,6 +3,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <ostream>
+
 #include "benchmark_logs.h"
 #include "psi_slam/base/user_error.h"
 
@@ -29,6 +32,26 @@ fs::path ini_folder(const std::string& given) {
   if (!given.empty()) return given;
   if (const auto shipped = shipped_ini_folder()) return *shipped;
   throw UserError("name the folder of the logs' settings: --ini DIR");
+}
+
+std::vector<BenchmarkLog> chosen_logs(std::vector<BenchmarkLog> logs, const std::vector<std::string>& names) {
+  std::vector<BenchmarkLog> chosen;
+  for (BenchmarkLog& log : logs) {
+    if (!names.empty() && std::find(names.begin(), names.end(), log.name) == names.end()) continue;
+    if (!log.relations)
+      throw UserError(log.log.string() + " has no relations to measure its error by: expected " + log.name +
+                      ".relations beside it");
+    chosen.push_back(std::move(log));
+  }
+  for (const std::string& name : names)
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const BenchmarkLog& log) { return log.name == name; }))
+      throw UserError("there is no log called " + name + " in the folder");
+  return chosen;
+}
+
+void print_page(const std::string& page, const Streams& streams) {
+  streams.out << page << std::flush;
+  if (!streams.out) throw SystemFailure("cannot write to standard output");
 }
 
 }  // namespace psi_slam

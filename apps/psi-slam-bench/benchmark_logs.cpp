@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "mapped_run.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/config/apply_settings.h"
 #include "psi_slam/config/ini_file.h"
@@ -69,12 +70,6 @@ std::vector<std::string> adaptive_matchers(const MappingResult& result) {
   std::vector<std::string> names;
   for (const std::size_t frame : result.node_frames) names.push_back(result.frames[frame].matcher);
   return names;
-}
-
-double translation_error_m(const MappingResult& result, const fs::path& relations) {
-  Trajectory trajectory;
-  for (const FrameRecord& frame : result.frames) trajectory.push_back({frame.time_us, frame.map_T_robot});
-  return evaluate_relations(std::move(trajectory), read_relations(relations)).translation_abs_m.mean;
 }
 
 }  // namespace
@@ -151,7 +146,8 @@ MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
   for (const auto& [node, pose] : result.graph.nodes)
     mapped.map_T_node[node] = mrpt::math::TPose2D(pose.x(), pose.y(), pose.phi());
   mapped.adaptive_matcher = adaptive_matchers(result);
-  mapped.translation_error_m = translation_error_m(result, log.relations.value());
+  mapped.translation_error_m =
+      error_of(result.frames, read_relations(log.relations.value())).translation_abs_m.mean;
   return mapped;
 }
 

@@ -22,7 +22,7 @@ constexpr double kNameHeight = 16;
 constexpr std::array<const char*, 6> kColours = {"#1f5fa8", "#c2571a", "#2f8f4e",
                                                  "#8a3fa0", "#a88a1f", "#555555"};
 
-/// Whole decades of the unit.
+/// Whole decades of the values.
 struct Decades {
   double low = 0.1;
   double high = 1;
@@ -71,6 +71,7 @@ std::string axes(const GrowthPlot& plot, const Decades& decades) {
 std::vector<double> name_places(const GrowthPlot& plot, const Decades& decades) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+    if (plot.lines[i].faint) continue;
     const std::vector<double>& values = plot.lines[i].values;
     order.emplace_back(values.empty() || !(values.back() > 0) ? kTop : decades.y(values.back()), i);
   }
@@ -95,7 +96,9 @@ std::string line_svg(const GrowthPlot::Line& line, const char* colour, const Dec
     path += (path.empty() ? 'M' : 'L') + x + ',' + y;
     dots += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"3.5\" fill=\"" + colour + "\"/>\n";
   }
-  return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"2\"/>\n" + dots +
+  const std::string stroke = "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour + '"';
+  if (line.faint) return stroke + " stroke-width=\"1\" stroke-opacity=\"0.5\" stroke-dasharray=\"4 3\"/>\n";
+  return stroke + " stroke-width=\"2\"/>\n" + dots +
          svg_text(kWidth - kRight + 6, name_y + 4, std::string("fill=\"") + colour + '"', line.name);
 }
 
@@ -105,8 +108,11 @@ std::string growth_svg(const GrowthPlot& plot) {
   const Decades decades = decades_of(plot);
   std::string svg = svg_text(kLeft, 24, "font-size=\"15\"", plot.title) + axes(plot, decades);
   const std::vector<double> names = name_places(plot, decades);
-  for (std::size_t i = 0; i < plot.lines.size(); ++i)
-    svg += line_svg(plot.lines[i], kColours[i % kColours.size()], decades, names[i]);
+  std::size_t colours = 0;
+  for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+    if (i > 0 && !plot.lines[i].faint) ++colours;
+    svg += line_svg(plot.lines[i], kColours[colours % kColours.size()], decades, names[i]);
+  }
   return svg_page(kWidth, kHeight, svg);
 }
 

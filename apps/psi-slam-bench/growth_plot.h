@@ -15,6 +15,7 @@ struct GrowthPlot {
   struct Line {
     std::string name;
     std::vector<double> values;  ///< one a label; what is not positive is left out
+    bool faint = false;          ///< thin and light, in the colour of the line before
   };
   std::vector<Line> lines;
 };

@@ -4,39 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <utility>
 
+#include "psi_slam/base/random_draws.h"
 #include "psi_slam/loop_closure/scan_context.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
-
-/// Draws that are the same on every machine; the standard library's distributions need not be.
-class Draws {
- public:
-  /// One stream of numbers for each seed, log and kind of cases.
-  Draws(std::uint64_t seed, const std::string& log, bool positive) {
-    std::vector<std::uint32_t> words{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
-                                     positive ? 1U : 0U};
-    for (const char letter : log) words.push_back(static_cast<unsigned char>(letter));
-    std::seed_seq sequence(words.begin(), words.end());
-    random_.seed(sequence);
-  }
-
-  /// In [0, 1).
-  double share() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
-  double plus_minus(double most) { return (2 * share() - 1) * most; }
-  /// In [0, count).
-  std::size_t index(std::size_t count) {
-    return static_cast<std::size_t>(share() * static_cast<double>(count));
-  }
-
- private:
-  std::mt19937_64 random_;
-};
 
 struct Pair {
   std::size_t node = 0;
@@ -88,7 +64,7 @@ bool shares_space(const LoopCase& loop_case, const CaseOptions& options) {
 }
 
 TPose2D draw_start(const MappedLog& log, const LoopCase& loop_case, const CaseOptions& options,
-                   Draws& draws) {
+                   RandomDraws& draws) {
   const PlacedLocalMap& map = log.memory.local_maps[loop_case.local_map];
   TPose2D start = loop_case.anchor_T_node;
   if (!loop_case.positive) {
@@ -106,7 +82,7 @@ TPose2D draw_start(const MappedLog& log, const LoopCase& loop_case, const CaseOp
 }
 
 void draw(const MappedLog& log, const CaseOptions& options, bool positive, std::vector<LoopCase>& cases) {
-  Draws draws(options.seed, log.name, positive);
+  RandomDraws draws(options.seed, log.name, positive ? 1U : 0U);
   std::vector<Pair> left = pairs(log, options, positive);
   std::size_t drawn = 0;
   while (drawn < options.count && !left.empty()) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
-#include <ostream>
 
 #include "bench_command.h"
 #include "bench_progress.h"
@@ -8,7 +7,6 @@
 #include "match_benchmark.h"
 #include "match_report.h"
 #include "psi_slam/base/atomic_file.h"
-#include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -45,8 +43,7 @@ void run_match(const MatchArguments& arguments, const Streams& streams) {
       write_text_atomically(folder / "match-local-maps.svg", local_map_plot(benchmark));
     }
   }
-  streams.out << page << std::flush;
-  if (!streams.out) throw SystemFailure("cannot write to standard output");
+  print_page(page, streams);
 }
 
 }  // namespace
@@ -59,7 +56,8 @@ void add_match_command(CLI::App& app, const Streams& streams) {
       ->type_name("DIR");
   match->add_option("--ini", arguments->ini, "Folder of their settings NAME.ini; default: those of psi-slam")
       ->type_name("DIR");
-  match->add_option("--json", arguments->json, "Write the figures to this file; one that is there is replaced")
+  match
+      ->add_option("--json", arguments->json, "Write the figures to this file; one that is there is replaced")
       ->type_name("FILE");
   match
       ->add_option("--cases", arguments->options.cases,

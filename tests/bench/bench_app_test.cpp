@@ -113,6 +113,42 @@ TEST_F(BenchApp, draws_both_kinds_from_a_benchmark_log_with_the_settings_that_co
   EXPECT_LT(json["logs"][0]["translation_error_m"], 0.05);
 }
 
+TEST_F(BenchApp, adds_false_loops_to_the_graph_of_a_log) {
+  write_room();
+  const fs::path json_file = folder_.path() / "false.json";
+  const fs::path output = folder_.path() / "out";
+  ASSERT_EQ(run({"false-loops", "--data", data_.string(), "--ini", ini_.string(), "--shares", "50,200",
+                 "--json", json_file.string(), "-o", output.string()},
+                true),
+            0)
+      << err_.str();
+  EXPECT_THAT(err_.str(), HasSubstr("mapping room"));
+  EXPECT_EQ(out_.str(), read_file(output / "false-loops.md"));
+  for (const char* kind : {"scattered", "groups", "nearby"})
+    EXPECT_THAT(read_file(output / ("false-loops-" + std::string(kind) + ".svg")), HasSubstr("</svg>"));
+  const Json json = Json::parse(read_file(json_file));
+  ASSERT_EQ(json["rows"].size(), 6U);
+  EXPECT_GT(json["logs"][0]["loops"], 10);
+  for (const Json& row : json["rows"]) {
+    EXPECT_EQ(row["undefended"]["false_kept"], row["false_loops"]);
+    EXPECT_LT(row["defended"]["translation_error_m"], 0.1);
+  }
+}
+
+TEST_F(BenchApp, commands_on_chosen_logs_name_what_is_missing) {
+  write_room();
+  const auto refused = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"false-loops", "--data", data_.string(), "--ini", ini_.string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(arguments), 2);
+    return err_.str();
+  };
+  EXPECT_THAT(refused({"--logs", "room,hall"}), HasSubstr("no log called hall"));
+  EXPECT_THAT(refused({"--shares", "-1"}), HasSubstr("--shares"));
+  fs::remove(data_ / "room.relations");
+  EXPECT_THAT(refused({}), HasSubstr("room.relations"));
+}
+
 TEST_F(BenchApp, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
   EXPECT_THAT(refusal({}), HasSubstr("there is no log in " + data_.string()));
   write_lines(data_ / "other.log", room_log_lines(2));

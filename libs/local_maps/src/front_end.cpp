@@ -42,7 +42,8 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
   unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + motion.length_m;
   propagate_covariances(step, motion);
   if (active_.empty() || moved_enough(step.local_T_robot)) insert(step, frame);
-  last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}};
+  last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}, frame.has_odometry};
+  steady_robot_.moved(frame.time_us, step.local_T_robot, step.matched);
   last_motion_ = step.local_T_robot - last_local_T_robot_;
   last_local_T_robot_ = step.local_T_robot;
   misses_ = step.matched ? 0 : misses_ + 1;
@@ -52,6 +53,7 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
 FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   Motion motion;
   if (!last_) return motion;
+  if (!frame.has_odometry) return steady_motion(frame.time_us);
   motion.odometry = frame.odom_T_robot - last_->odom_T_robot;
   motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
   motion.turn_rad = std::abs(mrpt::math::wrapToPi(motion.odometry.phi));
@@ -60,6 +62,17 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   motion.surprise_m =
       belief * std::hypot(motion.odometry.x - last_motion_.x, motion.odometry.y - last_motion_.y);
   motion.surprise_rad = belief * std::abs(mrpt::math::wrapToPi(motion.odometry.phi - last_motion_.phi));
+  return motion;
+}
+
+FrontEnd::Motion FrontEnd::steady_motion(TimeUs time_us) const {
+  const PredictedMotion predicted = steady_robot_.predict(time_us);
+  Motion motion;
+  motion.odometry = predicted.motion;
+  motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
+  motion.turn_rad = std::abs(motion.odometry.phi);
+  motion.surprise_m = predicted.sigma_m;
+  motion.surprise_rad = predicted.sigma_rad;
   return motion;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "psi_slam/loop_closure/trusted_loops.h"
+
 namespace psi_slam {
 namespace {
 
@@ -32,11 +34,28 @@ void switch_off_worst_first(PoseGraph& graph, SparsePoseAdjustment& solver,
   }
 }
 
+double contradicted_share(const PoseGraph& graph, const std::vector<std::size_t>& loops, double max_chi,
+                          const std::vector<double>& chi) {
+  std::size_t on = 0;
+  std::size_t contradicted = 0;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (!graph.enabled(loops[i])) continue;
+    ++on;
+    contradicted += chi[i] > max_chi ? 1 : 0;
+  }
+  return on == 0 ? 0 : static_cast<double>(contradicted) / static_cast<double>(on);
+}
+
 }  // namespace
 
 std::vector<double> switch_off_contradicted_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
-                                                  const std::vector<std::size_t>& loops, double max_chi) {
+                                                  const std::vector<std::size_t>& loops, double max_chi,
+                                                  double doubtful_share) {
   std::vector<double> chi = optimized_chi(graph, solver, loops);
+  if (contradicted_share(graph, loops, max_chi, chi) > doubtful_share) {
+    trust_loops(graph, solver, loops, max_chi);
+    chi = optimized_chi(graph, solver, loops);
+  }
   switch_off_worst_first(graph, solver, loops, max_chi, chi);
   bool any_fits_after_all = false;
   for (std::size_t i = 0; i < loops.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "psi_slam/loop_closure/contradicted_loops.h"
+#include "psi_slam/mapping/carried_frames.h"
 
 namespace psi_slam {
 namespace {
@@ -39,10 +40,10 @@ Mapper::Mapper(const MapperOptions& options)
 const FrameRecord& Mapper::add(Frame frame) {
   FrameRecord record;
   record.time_us = frame.time_us;
-  record.odom_T_robot = frame.odom_T_robot;
 
   FrontEndStep step;
   record.front_end_ms = front_end_clock_.time([&] { step = front_end_.add(frame); });
+  record.odom_T_robot = frame.has_odometry ? frame.odom_T_robot : step.local_T_robot;
   record.front_end_T_robot = step.local_T_robot;
   record.response = step.response;
   record.window = step.window;
@@ -214,28 +215,6 @@ void Mapper::count_accepted_loops() {
   }
 }
 
-void Mapper::carry_frames_along() {
-  std::size_t node = 0;
-  for (std::size_t i = 0; i < result_.frames.size(); ++i) {
-    while (node + 1 < result_.node_frames.size() && result_.node_frames[node + 1] <= i) ++node;
-    FrameRecord& frame = result_.frames[i];
-    const TPose2D local_T_robot = frame.front_end_T_robot;
-    const auto carried = [&](std::size_t by) {
-      return graph_.pose(by) + (local_T_robot - memory_.nodes[by].local_T_robot);
-    };
-    TPose2D pose = carried(node);
-    if (node + 1 < result_.node_frames.size()) {
-      const TPose2D next = carried(node + 1);
-      const double u = static_cast<double>(i - result_.node_frames[node]) /
-                       static_cast<double>(result_.node_frames[node + 1] - result_.node_frames[node]);
-      const TPose2D off = next - pose;
-      pose = pose + TPose2D(u * off.x, u * off.y, u * off.phi);
-    }
-    frame.map_T_robot = pose;
-    frame.map_T_robot.normalizePhi();
-  }
-}
-
 MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
   for (const PlacedLocalMap& finished : front_end_.finish()) remember(finished);
   refuse_pending_loops();
@@ -256,7 +235,7 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
   }
   result_.interrupted = result_.last_pass_cut_short;
   count_accepted_loops();
-  carry_frames_along();
+  carry_frames_along(graph_.poses(), result_.node_frames, result_.frames);
   result_.graph = graph_.to_mrpt();
   for (const StageClock* clock : {&front_end_clock_, &loop_clock_, &graph_clock_, &last_pass_clock_})
     result_.stages.push_back(clock->timing());

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "pose_at_time.h"
 #include "psi_slam/base/user_error.h"
 #include "text_lines.h"
 
@@ -19,34 +19,6 @@ namespace {
 using mrpt::math::TPose2D;
 
 constexpr std::size_t kRelationWords = 8;
-constexpr TimeUs kSameTimeUs = 100;  // exclusive
-
-struct PoseAtTime {
-  TPose2D pose;
-  bool interpolated = false;
-};
-
-TPose2D between(const StampedPose& before, const StampedPose& after, TimeUs time_us) {
-  const double u =
-      static_cast<double>(time_us - before.time_us) / static_cast<double>(after.time_us - before.time_us);
-  const TPose2D& a = before.pose;
-  const TPose2D& b = after.pose;
-  return {a.x + u * (b.x - a.x), a.y + u * (b.y - a.y),
-          mrpt::math::wrapToPi(a.phi + u * mrpt::math::wrapToPi(b.phi - a.phi))};
-}
-
-/// None where the sorted trajectory does not know.
-std::optional<PoseAtTime> pose_at(const Trajectory& sorted, TimeUs time_us, TimeUs max_gap_us) {
-  const auto after =
-      std::lower_bound(sorted.begin(), sorted.end(), time_us,
-                       [](const StampedPose& pose, TimeUs time) { return pose.time_us < time; });
-  if (after != sorted.begin() && time_us - std::prev(after)->time_us < kSameTimeUs)
-    return PoseAtTime{std::prev(after)->pose, false};
-  if (after != sorted.end() && after->time_us - time_us < kSameTimeUs) return PoseAtTime{after->pose, false};
-  if (after == sorted.begin() || after == sorted.end()) return std::nullopt;
-  if (after->time_us - std::prev(after)->time_us > max_gap_us) return std::nullopt;
-  return PoseAtTime{between(*std::prev(after), *after, time_us), true};
-}
 
 RelationError error_of(const Relation& relation, const PoseAtTime& pose1, const PoseAtTime& pose2) {
   const TPose2D& truth = relation.pose1_T_pose2;
@@ -135,8 +107,8 @@ RelationsMetric evaluate_relations(Trajectory trajectory, const std::vector<Rela
 
   RelationsMetric metric;
   for (const Relation& relation : relations) {
-    const auto pose1 = pose_at(trajectory, relation.time1_us, max_gap_us);
-    const auto pose2 = pose_at(trajectory, relation.time2_us, max_gap_us);
+    const auto pose1 = pose_at_time(trajectory, relation.time1_us, max_gap_us);
+    const auto pose2 = pose_at_time(trajectory, relation.time2_us, max_gap_us);
     if (!pose1 || !pose2) {
       ++metric.skipped;
       continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The front end (method, step 2): predicts each scan's pose by odometry, matches it with the active local map
+// The front end (method, step 2): predicts each scan's pose by odometry, or by
+// the robot's speed where there is none, matches it with the active local map
 // (equations 1 and 2), and inserts it when the robot moved enough.
 //
 // It works in a frame of its own, "local", which is continuous: no loop closing ever moves it. The mapper
@@ -19,6 +20,7 @@
 #include "psi_slam/local_maps/local_map.h"
 #include "psi_slam/local_maps/placed_local_map.h"
 #include "psi_slam/local_maps/scan_filter.h"
+#include "psi_slam/local_maps/steady_robot.h"
 #include "psi_slam/logs/frame.h"
 #include "psi_slam/matching/correlative_matcher.h"
 
@@ -64,8 +66,9 @@ struct FrontEndOptions {
   std::size_t nodes_per_local_map =
       60;                            ///< a local map ends after these many, the next begins at half of them,
   double local_map_travel_m = 15.0;  ///< or when the robot has travelled this far in it
-  /// All local maps end when at least two scans in a row were not matched and the robot has travelled this far
-  /// meanwhile: what is drawn after such a stretch is out of place by odometry's error, and would bend them.
+  /// All local maps end when at least two scans in a row were not matched and the robot has travelled this
+  /// far meanwhile: what is drawn after such a stretch is out of place by odometry's error, and would bend
+  /// them.
   double max_unmatched_travel_m = 0.5;
 };
 
@@ -115,6 +118,8 @@ class FrontEnd {
     double surprise_rad = 0;
   };
   Motion motion_to(const Frame& frame) const;
+  /// Without odometry: the motion of a steady robot, as uncertain as its speed.
+  Motion steady_motion(TimeUs time_us) const;
   SearchExtent search_extent(const Motion& motion) const;
   PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
   void match(FrontEndStep& step, const Motion& motion);
@@ -130,6 +135,7 @@ class FrontEnd {
   std::size_t next_local_map_ = 0;
   std::size_t next_node_ = 0;
   std::optional<Frame> last_;  ///< without its ranges
+  SteadyRobot steady_robot_;
   mrpt::math::TPose2D last_local_T_robot_;
   mrpt::math::TPose2D last_motion_;
   int misses_ = 0;                 ///< scans in a row that were not matched

@@ -35,6 +35,7 @@ struct Frame {
   TimeUs time_us = 0;
   mrpt::math::TPose2D odom_T_robot;
   LaserScan scan;
+  bool has_odometry = true;  ///< false: nothing is known of the motion, and odom_T_robot says nothing
 };
 
 }  // namespace psi_slam

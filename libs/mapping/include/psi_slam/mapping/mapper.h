@@ -55,7 +55,7 @@ class Mapper {
   const FrameRecord& add(Frame frame);
 
   /// The last loop search over all pairs near each other and the last optimisation; then the result. The
-  /// mapper cannot be used afterwards. `progress` is called with the share done, in [0, 1];
+  /// mapper can be asked for its graph afterwards, but not go on. `progress` is called with the share done, in [0, 1];
   /// when it returns false, the search ends there: the map is of the loops found until then, and the result
   /// says that it was cut short.
   MappingResult finish(const std::function<bool(double)>& progress = {});
@@ -78,7 +78,6 @@ class Mapper {
   void settle_loops();
   void refuse_pending_loops();
   void count_accepted_loops();
-  void carry_frames_along();
 
   MapperOptions options_;
   FrontEnd front_end_;

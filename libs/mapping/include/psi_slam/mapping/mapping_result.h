@@ -24,7 +24,7 @@ namespace psi_slam {
 /// What happened to one scan of the log, in the log's order.
 struct FrameRecord {
   TimeUs time_us = 0;
-  mrpt::math::TPose2D odom_T_robot;       ///< raw odometry
+  mrpt::math::TPose2D odom_T_robot;       ///< raw odometry; without any, the front end's pose
   mrpt::math::TPose2D front_end_T_robot;  ///< the front end's own pose, before any loop was closed
   mrpt::math::TPose2D map_T_robot;        ///< the result: its node's pose, or its matched pose carried along
   std::optional<std::size_t> node;        ///< its node in the graph, if it became one

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A benchmark log mapped as psi-slam maps it, and how far its map is from the truth.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "psi_slam/logs/frame_source.h"
+#include "psi_slam/mapping/mapper.h"
+#include "psi_slam/pose_graph/pose_graph.h"
+#include "psi_slam/results/relations_metric.h"
+
+namespace psi_slam {
+
+struct MappedRun {
+  MappingResult result;
+  PoseGraph graph;  ///< optimised, with the kinds of the constraints and those that are switched off
+};
+
+/// `progress` is called with the share of the log done. Throws UserError as the source does.
+MappedRun map_source(FrameSource& source, const MapperOptions& options,
+                     const std::function<void(double)>& progress);
+
+/// Of where the map has the frames.
+RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations);
+
+}  // namespace psi_slam

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws that are the same on every machine; the standard library's distributions need not be.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string_view>
+#include <vector>
+
+namespace psi_slam {
+
+class RandomDraws {
+ public:
+  /// One stream of numbers for each seed, name and part.
+  RandomDraws(std::uint64_t seed, std::string_view name, std::uint32_t part) {
+    std::vector<std::uint32_t> words{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
+                                     part};
+    for (const char letter : name) words.push_back(static_cast<unsigned char>(letter));
+    std::seed_seq sequence(words.begin(), words.end());
+    random_.seed(sequence);
+  }
+
+  /// In [0, 1).
+  double share() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
+  double plus_minus(double most) { return (2 * share() - 1) * most; }
+  /// In [0, count).
+  std::size_t index(std::size_t count) {
+    return static_cast<std::size_t>(share() * static_cast<double>(count));
+  }
+  /// Of mean 0 and standard deviation 1, by Box and Muller.
+  double normal() {
+    const double radius = std::sqrt(-2 * std::log(1 - share()));
+    return radius * std::cos(2 * M_PI * share());
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+}  // namespace psi_slam

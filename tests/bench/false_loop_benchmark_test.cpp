@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "false_loop_benchmark.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "../pose_graph/test_graphs.h"
+#include "false_loop_report.h"
+#include "psi_slam/pose_graph/spanning_tree.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+
+/// A building whose loops are closed, and where the robot would be without them.
+LoopTrial building_trial() {
+  const KnownGraph known = building(1000, 2, 2);
+  LoopTrial trial;
+  trial.graph = known.graph;
+  trial.unlooped = spanning_tree_poses(trial.graph);  // by odometry
+  SparsePoseAdjustment solver;
+  solver.optimize(trial.graph);
+  trial.error = [truth = known.truth](const std::vector<TPose2D>& map_T_node) {
+    double sum = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      sum += std::hypot(map_T_node[i].x - truth[i].x, map_T_node[i].y - truth[i].y);
+    return LoopTrial::Error{sum / static_cast<double>(truth.size()), 0};
+  };
+  return trial;
+}
+
+TEST(FalseLoopBenchmark, the_back_end_survives_10_100_and_500_percent) {
+  const LoopTrial trial = building_trial();
+  const double error_m = trial.error(trial.graph.poses()).translation_m;
+  EXPECT_GT(trial.error(trial.unlooped).translation_m, 3 * error_m) << "loops are needed";
+  for (const FalseLoopKind kind :
+       {FalseLoopKind::kScattered, FalseLoopKind::kGroups, FalseLoopKind::kNearby}) {
+    for (const double share_percent : {10, 100, 500}) {
+      SCOPED_TRACE(name_of(kind) + ", " + std::to_string(share_percent) + " %");
+      const FalseLoopRow row = run_loop_trial(trial, kind, share_percent, 1);
+      EXPECT_EQ(row.false_loops, std::lround(share_percent / 100 * static_cast<double>(row.true_loops)));
+      EXPECT_EQ(row.undefended.false_kept, row.false_loops);
+      if (kind != FalseLoopKind::kNearby) {  // those average out
+        EXPECT_GT(row.undefended.error.translation_m, 1.1 * error_m);
+      }
+      for (const LoopTrialOutcome* outcome : {&row.defended, &row.from_map}) {
+        EXPECT_LT(outcome->error.translation_m, 1.1 * error_m);
+        EXPECT_LE(outcome->false_kept, row.false_loops / 100);
+        EXPECT_LE(outcome->true_lost, row.true_loops / 50);
+      }
+    }
+  }
+}
+
+TEST(FalseLoopBenchmark, is_reported_for_people_and_programs) {
+  FalseLoopBenchmark benchmark;
+  benchmark.logs = {{"office", 100, 40, {0.02, 0.5}, {0.3, 1.5}}};
+  FalseLoopRow row;
+  row.log = "office";
+  row.kind = FalseLoopKind::kGroups;
+  row.share_percent = 50;
+  row.false_loops = 20;
+  row.undefended.error.translation_m = 7;
+  row.defended = {{0.0213, 0.6}, 3, 4, 12};
+  benchmark.rows = {row};
+  EXPECT_THAT(false_loop_markdown(benchmark, {}, "a machine"),
+              testing::AllOf(HasSubstr("| office | groups | 50 | 20 | 7.000 |"),
+                             HasSubstr("| 0.0213 | 0.600 | 3 / 4 | 12 |"), HasSubstr("a machine; seed 1")));
+  const auto json = nlohmann::json::parse(false_loop_json(benchmark, {}, "a machine"));
+  EXPECT_EQ(json["rows"][0]["kind"], "groups");
+  EXPECT_EQ(json["rows"][0]["defended"]["true_lost"], 4);
+  EXPECT_EQ(json["logs"][0]["without_loops"]["translation_error_m"], 0.3);
+  const std::string plot = false_loop_plot(benchmark, FalseLoopKind::kGroups);
+  EXPECT_THAT(plot, testing::AllOf(HasSubstr(">50 %<"), HasSubstr(">office<"), HasSubstr("10 m<")));
+  EXPECT_EQ(std::count(plot.begin(), plot.end(), '<') - std::count(plot.begin(), plot.end(), '>'), 0);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -9,10 +9,10 @@
 
 #include "psi_slam/logs/frame_source.h"
 #include "psi_slam/simulation/floor_plan.h"
-#include "psi_slam/simulation/odometry_noise.h"
 #include "psi_slam/simulation/robot_path.h"
 #include "psi_slam/simulation/scan_simulator.h"
 #include "psi_slam/simulation/walking_people.h"
+#include "psi_slam/simulation/wheel_odometry.h"
 
 namespace psi_slam {
 
@@ -21,7 +21,7 @@ struct SimulatedLogOptions {
   FloorPlanOptions plan;
   RobotPathOptions path;
   ScanSimulatorOptions scan;
-  OdometryNoiseOptions odometry;
+  WheelOdometryOptions odometry;
   std::size_t people = 0;
   std::uint64_t people_seed = 1;
 };
@@ -50,7 +50,7 @@ class SimulatedLog : public FrameSource {
   FloorPlan plan_;
   RobotPath path_;
   ScanSimulator scanner_;
-  OdometryNoise odometry_;
+  WheelOdometry odometry_;
   WalkingPeople people_;
   PathPose now_;
   std::size_t frames_ = 0;

@@ -12,7 +12,7 @@
 
 namespace psi_slam {
 
-struct OdometryNoiseOptions {
+struct WheelOdometryOptions {
   std::uint64_t seed = 1;
   double length_scale = 1.01;        ///< of every length: a wheel smaller than stated
   double turn_scale = 1.01;          ///< of every turn: wheels farther apart than stated
@@ -22,16 +22,16 @@ struct OdometryNoiseOptions {
       radians_from_degrees(1.0L);  ///< of the heading, after turning by one radian
 };
 
-class OdometryNoise {
+class WheelOdometry {
  public:
-  explicit OdometryNoise(const OdometryNoiseOptions& options)
+  explicit WheelOdometry(const WheelOdometryOptions& options)
       : options_(options), random_(options.seed, SimulationRandom::Stream::kOdometry) {}
 
   /// The robot's odometry after it moved by `before_T_now` since the last call; it starts at the origin.
   mrpt::math::TPose2D move(const mrpt::math::TPose2D& before_T_now);
 
  private:
-  OdometryNoiseOptions options_;
+  WheelOdometryOptions options_;
   SimulationRandom random_;
   mrpt::math::TPose2D odom_T_robot_{0, 0, 0};
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/simulation/odometry_noise.h"
+#include "psi_slam/simulation/wheel_odometry.h"
 
 #include <gtest/gtest.h>
 
@@ -29,11 +29,11 @@ Moments moments(const std::vector<double>& values) {
 }
 
 /// What odometry says after `steps` equal steps, over many drives.
-std::vector<TPose2D> ends(OdometryNoiseOptions options, const TPose2D& step, int steps) {
+std::vector<TPose2D> ends(WheelOdometryOptions options, const TPose2D& step, int steps) {
   std::vector<TPose2D> poses;
   for (int drive = 0; drive < kDrives; ++drive) {
     options.seed = static_cast<std::uint64_t>(drive);
-    OdometryNoise odometry(options);
+    WheelOdometry odometry(options);
     TPose2D pose;
     for (int i = 0; i < steps; ++i) pose = odometry.move(step);
     poses.push_back(pose);
@@ -48,9 +48,9 @@ void expect_moments(const std::vector<double>& values, double mean, double sigma
 }
 
 // The same way in coarse and in fine steps.
-TEST(OdometryNoise, lengths_are_off_by_scale_and_by_a_walk) {
+TEST(WheelOdometry, lengths_are_off_by_scale_and_by_a_walk) {
   for (const int steps : {4, 80}) {
-    OdometryNoiseOptions options;
+    WheelOdometryOptions options;
     options.sigma_rad_per_root_m = 0;
     std::vector<double> lengths;
     for (const TPose2D& end : ends(options, {4.0 / steps, 0, 0}, steps)) lengths.push_back(end.x);
@@ -58,18 +58,18 @@ TEST(OdometryNoise, lengths_are_off_by_scale_and_by_a_walk) {
   }
 }
 
-TEST(OdometryNoise, headings_drift_with_the_way) {
+TEST(WheelOdometry, headings_drift_with_the_way) {
   for (const int steps : {4, 80}) {
-    const OdometryNoiseOptions options;
+    const WheelOdometryOptions options;
     std::vector<double> headings;
     for (const TPose2D& end : ends(options, {4.0 / steps, 0, 0}, steps)) headings.push_back(end.phi);
     expect_moments(headings, 0, 2 * options.sigma_rad_per_root_m);
   }
 }
 
-TEST(OdometryNoise, turns_are_off_by_scale_and_by_a_walk) {
+TEST(WheelOdometry, turns_are_off_by_scale_and_by_a_walk) {
   for (const int steps : {2, 40}) {
-    const OdometryNoiseOptions options;
+    const WheelOdometryOptions options;
     std::vector<double> headings;
     for (const TPose2D& end : ends(options, {0, 0, -2.0 / steps}, steps)) {
       headings.push_back(end.phi);
@@ -79,12 +79,12 @@ TEST(OdometryNoise, turns_are_off_by_scale_and_by_a_walk) {
   }
 }
 
-TEST(OdometryNoise, is_the_same_for_the_same_seed_alone) {
-  OdometryNoiseOptions options;
-  const TPose2D first = OdometryNoise(options).move({1, 0, 0.1});
-  EXPECT_EQ(first, OdometryNoise(options).move({1, 0, 0.1}));
+TEST(WheelOdometry, is_the_same_for_the_same_seed_alone) {
+  WheelOdometryOptions options;
+  const TPose2D first = WheelOdometry(options).move({1, 0, 0.1});
+  EXPECT_EQ(first, WheelOdometry(options).move({1, 0, 0.1}));
   options.seed = 2;
-  EXPECT_NE(first.x, OdometryNoise(options).move({1, 0, 0.1}).x);
+  EXPECT_NE(first.x, WheelOdometry(options).move({1, 0, 0.1}).x);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/simulation/odometry_noise.h"
+#include "psi_slam/simulation/wheel_odometry.h"
 
 #include <cmath>
 
 namespace psi_slam {
 
-mrpt::math::TPose2D OdometryNoise::move(const mrpt::math::TPose2D& before_T_now) {
+mrpt::math::TPose2D WheelOdometry::move(const mrpt::math::TPose2D& before_T_now) {
   const double way_m = std::hypot(before_T_now.x, before_T_now.y);
   const double turned_rad = std::abs(before_T_now.phi);
   const double root_m = std::sqrt(way_m);

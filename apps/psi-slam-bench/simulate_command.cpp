@@ -47,8 +47,6 @@ void check(const SimulateArguments& arguments) {
 void run_simulate(const SimulateArguments& arguments, const Streams& streams) {
   check(arguments);
   const SimulateOptions& options = arguments.options;
-  if (!arguments.log.empty())
-    write_simulated_log(arguments.log, simulated_drive_options(options, options.path_m.front()));
   BenchProgress progress(streams.err_is_terminal ? &streams.err : nullptr);
   const std::vector<SimulateRow> rows = run_simulate_benchmark(
       options, [&](const std::string& doing, double done, double all) { progress.show(doing, done, all); });
@@ -65,6 +63,9 @@ void run_simulate(const SimulateArguments& arguments, const Streams& streams) {
     write_text_atomically(folder / "simulate-memory.svg", memory_plot(rows));
     write_text_atomically(folder / "simulate-plan.svg", plan_of_shortest(options));
   }
+  // Only now: a child that is forked while this process holds a drive would count that memory as its own.
+  if (!arguments.log.empty())
+    write_simulated_log(arguments.log, simulated_drive_options(options, options.path_m.front()));
   streams.out << page << std::flush;
   if (!streams.out) throw SystemFailure("cannot write to standard output");
 }

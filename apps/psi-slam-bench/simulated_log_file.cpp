@@ -7,6 +7,8 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <system_error>
+#include <utility>
 
 #include "bench_command.h"
 #include "psi_slam/base/atomic_file.h"
@@ -21,6 +23,19 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".clf.gz";
+
+/// Gone at the end of its scope, however that is left.
+struct ScratchFile {
+  fs::path path;
+
+  explicit ScratchFile(fs::path file) : path(std::move(file)) {}
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  ~ScratchFile() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+};
 
 /// `path` without the ending and with another one.
 fs::path beside(const fs::path& log, const std::string& ending) {
@@ -73,15 +88,9 @@ void write_simulated_log(const fs::path& log, const SimulatedLogOptions& drive) 
     frames.push_back(*std::move(frame));
   }
   write_atomically(log, [&](const fs::path& temporary) {
-    const fs::path plain = temporary.string() + ".plain";
-    write_corrected_log(plain, frames, poses);
-    try {
-      compress(plain, temporary);
-    } catch (...) {
-      fs::remove(plain);
-      throw;
-    }
-    fs::remove(plain);
+    const ScratchFile plain(temporary.string() + ".plain");
+    write_corrected_log(plain.path, frames, poses);
+    compress(plain.path, temporary);
   });
   write_text_atomically(beside(log, ".relations"),
                         relations_text(draw_relations(truth, kRelations, drive.path.seed)));

@@ -25,14 +25,6 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-MeanAndP99 mean_and_p99(std::vector<double> values) {
-  if (values.empty()) return {};
-  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-  const std::size_t rank = std::min(values.size() - 1, values.size() * 99 / 100);
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
-  return {sum / static_cast<double>(values.size()), values[rank]};
-}
-
 void compare_with_truth(const MappingResult& result, const Trajectory& truth, std::uint64_t seed,
                         SimulateRow& row) {
   std::vector<TPose2D> mapped;
@@ -58,6 +50,14 @@ void compare_with_truth(const MappingResult& result, const Trajectory& truth, st
 }
 
 }  // namespace
+
+MeanAndP99 mean_and_p99(std::vector<double> values) {
+  if (values.empty()) return {};
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  const std::size_t rank = (values.size() * 99 + 99) / 100 - 1;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
+  return {sum / static_cast<double>(values.size()), values[rank]};
+}
 
 SimulatedLogOptions simulated_drive_options(const SimulateOptions& options, double path_m) {
   SimulatedLogOptions drive = simulated_log_options(path_m, options.seed);

@@ -23,7 +23,7 @@ struct SimulateOptions {
   int threads = 1;           ///< that match loops
 };
 
-/// The mean and what 99 of 100 do not exceed.
+/// The mean, and the least of the values that 99 of 100 do not exceed.
 struct MeanAndP99 {
   double mean = 0;
   double p99 = 0;
@@ -60,6 +60,9 @@ inline constexpr double kFalseLoop_deg = 5;
 
 /// Pairs of scans for the relations metric.
 inline constexpr std::size_t kRelations = 2000;
+
+/// Zeros for no values.
+MeanAndP99 mean_and_p99(std::vector<double> values);
 
 /// The drive of one length: with the options' seed, people and glass.
 SimulatedLogOptions simulated_drive_options(const SimulateOptions& options, double path_m);

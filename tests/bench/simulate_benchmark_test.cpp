@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace psi_slam {
 namespace {
 
@@ -27,6 +29,22 @@ TEST(SimulateBenchmark, glass_and_people_do_not_break_it) {
   const SimulateRow row = map(150, 30, 0.3);
   EXPECT_LT(row.error_mean_m, 0.25);
   EXPECT_EQ(row.false_loops, 0U);
+}
+
+TEST(SimulateBenchmark, p99_is_the_least_value_that_99_of_100_do_not_exceed) {
+  std::vector<double> values;
+  EXPECT_EQ(mean_and_p99(values).p99, 0);
+  const auto add_up_to = [&](std::size_t count) {
+    while (values.size() < count) values.insert(values.begin(), static_cast<double>(values.size() + 1));
+    return mean_and_p99(values).p99;
+  };
+  EXPECT_EQ(add_up_to(1), 1);
+  EXPECT_EQ(add_up_to(2), 2);
+  EXPECT_EQ(add_up_to(99), 99);
+  EXPECT_EQ(add_up_to(100), 99);
+  EXPECT_EQ(mean_and_p99(values).mean, 50.5);
+  EXPECT_EQ(add_up_to(101), 100);
+  EXPECT_EQ(add_up_to(200), 198);
 }
 
 TEST(SimulateBenchmark, errors_are_distances_after_laying_the_starts_on_each_other) {

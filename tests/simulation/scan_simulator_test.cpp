@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "plan_geometry.h"
@@ -153,10 +155,36 @@ TEST(ScanSimulator, noise_and_dropouts_are_as_stated) {
 }
 
 TEST(ScanSimulator, refuses_what_is_no_laser) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const FloorPlan plan;
+  const auto refuses = [&](auto member, auto value) {
+    ScanSimulatorOptions options;
+    options.*member = value;
+    EXPECT_THROW(ScanSimulator(plan, options), std::invalid_argument) << value;
+  };
+  using Options = ScanSimulatorOptions;
+  refuses(&Options::beams, std::size_t{1});
+  for (const double value : {0.0, -1.0, 2 * M_PI + 1e-9, nan}) refuses(&Options::field_of_view_rad, value);
+  for (const double value : {0.0, -0.02, nan}) refuses(&Options::resolution_m, value);
+  for (const double value : {0.0, 0.02, infinity, nan}) refuses(&Options::max_range_m, value);
+  for (const double value : {-0.01, infinity, nan}) refuses(&Options::noise_m, value);
+  refuses(&Options::robot_T_laser, TPose2D(0, nan, 0));
+  for (const auto share : {&Options::dropout_share, &Options::glass_return_share, &Options::glass_loss_share})
+    for (const double value : {-0.1, 1.1, nan}) refuses(share, value);
+  refuses(&Options::glass_return_share, 0.9);  // with 0.2 lost
+}
+
+TEST(ScanSimulator, takes_options_at_their_bounds) {
   const FloorPlan plan;
   ScanSimulatorOptions options;
-  options.beams = 1;
-  EXPECT_THROW(ScanSimulator(plan, options), std::invalid_argument);
+  options.beams = 2;
+  options.field_of_view_rad = 2 * M_PI;
+  options.noise_m = 0;
+  options.dropout_share = 1;
+  options.glass_return_share = 0;
+  options.glass_loss_share = 1;
+  EXPECT_NO_THROW(ScanSimulator(plan, options));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <string>
 
 #include "psi_slam/simulation/walking_people.h"
 
@@ -44,9 +45,28 @@ BeamBearings even_bearings(std::size_t beams, double field_of_view_rad) {
   return std::make_shared<const std::vector<float>>(std::move(bearings));
 }
 
+bool is_share(double value) {
+  return value >= 0 && value <= 1;
+}
+
 void check(const ScanSimulatorOptions& options) {
-  if (options.beams < 2 || !(options.resolution_m > 0) || !(options.max_range_m > options.resolution_m))
-    throw std::invalid_argument("ScanSimulator: at least two beams, a resolution and a longer range");
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(std::string("ScanSimulator: ") + what);
+  };
+  const TPose2D& mount = options.robot_T_laser;
+  require(options.beams >= 2, "fewer than two beams");
+  require(options.field_of_view_rad > 0 && options.field_of_view_rad <= 2 * M_PI,
+          "the field of view is not in (0, 2 pi]");
+  require(options.resolution_m > 0, "the resolution is not positive");
+  require(options.max_range_m > options.resolution_m && std::isfinite(options.max_range_m),
+          "the range is not longer than a cell, or has no end");
+  require(std::isfinite(mount.x) && std::isfinite(mount.y) && std::isfinite(mount.phi),
+          "the laser is nowhere on the robot");
+  require(options.noise_m >= 0 && std::isfinite(options.noise_m), "the noise is negative or has no end");
+  require(is_share(options.dropout_share), "the share of dropouts is not in [0, 1]");
+  require(options.glass_return_share >= 0 && options.glass_loss_share >= 0 &&
+              is_share(options.glass_return_share + options.glass_loss_share),
+          "the shares at glass are negative, or more than 1 in all");
 }
 
 }  // namespace

@@ -20,11 +20,11 @@ namespace psi_slam {
 struct ScanSimulatorOptions {
   std::uint64_t seed = 1;
   std::size_t beams = 181;
-  double field_of_view_rad = M_PI;
+  double field_of_view_rad = M_PI;  ///< in (0, 2 pi]
   double max_range_m = 30;
   mrpt::math::TPose2D robot_T_laser{0.1, 0, 0};
   double resolution_m = 0.02;       ///< of the grid that is painted
-  double noise_m = 0.01;            ///< standard deviation of a range
+  double noise_m = 0.01;            ///< standard deviation of a range, not negative
   double dropout_share = 0.005;     ///< of the beams that return nothing for no reason
   double glass_return_share = 0.3;  ///< of the beams that meet glass: it returns them
   double glass_loss_share = 0.2;    ///< of the beams that meet glass: they never return; the others pass
@@ -32,7 +32,9 @@ struct ScanSimulatorOptions {
 
 class ScanSimulator {
  public:
-  /// The plan outlives the simulator. Throws std::invalid_argument when an option makes no sense.
+  /// The plan outlives the simulator. Throws std::invalid_argument for fewer than two beams, a field of view,
+  /// noise or share out of bounds, a resolution that is not positive, a range that is not longer than it, and
+  /// what is not finite.
   ScanSimulator(const FloorPlan& plan, const ScanSimulatorOptions& options);
 
   /// The scan from a pose; `index` seeds its noise. A beam without return is NaN.

@@ -8,8 +8,8 @@
 namespace psi_slam {
 
 struct ForkedResult {
-  std::string text;           ///< that the work returned
-  double peak_memory_mb = 0;  ///< MiB, the most that it ever held in memory
+  std::string text;            ///< that the work returned
+  double peak_memory_mib = 0;  ///< the most that it ever held in memory
 };
 
 /// Runs `work` in a child process and waits for it. What it reports on the way, a line each, is given to

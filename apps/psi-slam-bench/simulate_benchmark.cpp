@@ -160,7 +160,7 @@ std::vector<SimulateRow> run_simulate_benchmark(
           observer(doing, done_m + path_m * std::stoi(per_mille) / 1000, all_m);
         });
     rows.push_back(row_of_json(child.text));
-    rows.back().peak_memory_mb = child.peak_memory_mb;
+    rows.back().peak_memory_mib = child.peak_memory_mib;
     done_m += path_m;
   }
   return rows;

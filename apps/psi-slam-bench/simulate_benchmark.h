@@ -50,7 +50,7 @@ struct SimulateRow {
   MeanAndP99 scan_ms;   ///< of Mapper::add
   double add_s = 0;     ///< of all scans
   double finish_s = 0;  ///< of the last pass
-  double peak_memory_mb = 0;
+  double peak_memory_mib = 0;
   std::vector<std::pair<std::string, double>> stages_s;  ///< the mapper's own account of its time
 };
 

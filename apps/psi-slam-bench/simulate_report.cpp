@@ -33,7 +33,7 @@ Json json_of(const SimulateRow& row) {
           {"scan_ms", {{"mean", row.scan_ms.mean}, {"p99", row.scan_ms.p99}}},
           {"add_s", row.add_s},
           {"finish_s", row.finish_s},
-          {"peak_memory_mb", row.peak_memory_mb},
+          {"peak_memory_mib", row.peak_memory_mib},
           {"stages_s", stages}};
 }
 
@@ -67,7 +67,7 @@ std::string cost_text(const std::vector<SimulateRow>& rows) {
   for (const SimulateRow& row : rows) {
     text += "| " + metres_text(row.path_m) + " | " + fixed_text(row.scan_ms.mean, 2) + " | " +
             fixed_text(row.scan_ms.p99, 2) + " | " + fixed_text(row.add_s, 1) + " | " +
-            fixed_text(row.finish_s, 1) + " | " + fixed_text(row.peak_memory_mb, 0) + " |";
+            fixed_text(row.finish_s, 1) + " | " + fixed_text(row.peak_memory_mib, 0) + " |";
     for (const auto& [stage, time_s] : row.stages_s) text += ' ' + fixed_text(time_s, 1) + " |";
     text += '\n';
   }
@@ -157,7 +157,7 @@ SimulateRow row_of_json(const std::string& text) {
   json.at("scan_ms").at("p99").get_to(row.scan_ms.p99);
   json.at("add_s").get_to(row.add_s);
   json.at("finish_s").get_to(row.finish_s);
-  json.at("peak_memory_mb").get_to(row.peak_memory_mb);
+  json.at("peak_memory_mib").get_to(row.peak_memory_mib);
   for (const auto& [stage, time_s] : json.at("stages_s").items())
     row.stages_s.emplace_back(stage, time_s.get<double>());
   return row;
@@ -183,7 +183,7 @@ std::string time_plot(const std::vector<SimulateRow>& rows) {
 
 std::string memory_plot(const std::vector<SimulateRow>& rows) {
   return growth_svg(plot_of(rows, "Peak memory by the length of the path", "MiB",
-                            {{"memory", [](const SimulateRow& row) { return row.peak_memory_mb; }}}));
+                            {{"memory", [](const SimulateRow& row) { return row.peak_memory_mib; }}}));
 }
 
 }  // namespace psi_slam

@@ -187,7 +187,7 @@ TEST_F(BenchApp, simulates_drives_and_writes_one_as_a_log_with_its_truth) {
   const Json drive = Json::parse(read_file(json_file))["drives"][0];
   EXPECT_EQ(drive["false_loops"], 0);
   EXPECT_LT(drive["error_mean_m"], 0.3);
-  EXPECT_GT(drive["peak_memory_mb"], 10);
+  EXPECT_GT(drive["peak_memory_mib"], 10);
 
   const Trajectory truth = read_trajectory(folder_.path() / "drive.tum");
   EXPECT_EQ(truth.size(), drive["scans"]);

@@ -35,11 +35,11 @@ TEST(ForkedWork, tells_the_memory_of_each_child_alone) {
                  return std::string(1, held.back());
                },
                [](const std::string&) {})
-        .peak_memory_mb;
+        .peak_memory_mib;
   };
-  const double much_mb = holding(200'000'000);
-  EXPECT_GT(much_mb, 190);
-  EXPECT_LT(holding(1000), much_mb - 150);
+  const double much_mib = holding(200'000'000);
+  EXPECT_GT(much_mib, 190);
+  EXPECT_LT(holding(1000), much_mib - 150);
 }
 
 TEST(ForkedWork, its_errors_are_thrown_here) {

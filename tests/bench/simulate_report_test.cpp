@@ -29,7 +29,7 @@ SimulateRow row() {
   row.scan_ms = {0.99, 8.42};
   row.add_s = 9.9;
   row.finish_s = 5.5;
-  row.peak_memory_mb = 210;
+  row.peak_memory_mib = 210;
   row.stages_s = {{"match", 2.5}, {"close loops", 1.25}};
   return row;
 }

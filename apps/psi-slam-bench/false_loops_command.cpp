@@ -69,7 +69,9 @@ void add_false_loops_command(CLI::App& app, const Streams& streams) {
       ->check(CLI::Range(0.0, 10'000.0))
       ->capture_default_str()
       ->type_name("PERCENTS");
-  command->add_option("--seed", arguments->options.seed, "Of the false loops")->capture_default_str();
+  command->add_option("--seed", arguments->options.seed, "Of the false loops")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command
       ->add_option("--json", arguments->json, "Write the figures to this file; one that is there is replaced")
       ->type_name("FILE");

@@ -21,6 +21,18 @@ SeedSpread spread_of(const std::vector<double>& values) {
   return spread;
 }
 
+namespace {
+
+std::optional<SeedSpread> recall_of(const std::vector<FreiburgFigures>& runs) {
+  std::vector<double> recalls;
+  for (const FreiburgFigures& run : runs)
+    if (run.loop_recall) recalls.push_back(*run.loop_recall);
+  if (recalls.empty()) return std::nullopt;
+  return spread_of(recalls);
+}
+
+}  // namespace
+
 std::optional<CellFigures> figures_of(const FreiburgCell& cell) {
   std::vector<FreiburgFigures> runs;
   for (const FreiburgResult& run : cell.runs)
@@ -45,6 +57,9 @@ std::optional<CellFigures> figures_of(const FreiburgCell& cell) {
   figures.relations_skipped =
       over_seeds([](const FreiburgFigures& run) { return run.relations_skipped; }).mean;
   figures.loops_accepted = over_seeds([](const FreiburgFigures& run) { return run.loops_accepted; });
+  figures.loops_judged = over_seeds([](const FreiburgFigures& run) { return run.loops_judged; });
+  figures.loops_false = over_seeds([](const FreiburgFigures& run) { return run.loops_false; });
+  figures.loop_recall = recall_of(runs);
   figures.wall_s = over_seeds([](const FreiburgFigures& run) { return run.wall_s; });
   figures.cpu_s = over_seeds([](const FreiburgFigures& run) { return run.cpu_s; });
   figures.real_time_factor = over_seeds([](const FreiburgFigures& run) { return run.real_time_factor(); });

@@ -30,6 +30,9 @@ struct CellFigures {
   double relations_used = 0;                           ///< means over the seeds, all that follow
   double relations_skipped = 0;
   SeedSpread loops_accepted;
+  SeedSpread loops_judged;
+  SeedSpread loops_false;
+  std::optional<SeedSpread> loop_recall;  ///< of the runs that have one; none when no run has
   SeedSpread wall_s;
   SeedSpread cpu_s;
   SeedSpread real_time_factor;

@@ -49,12 +49,19 @@ std::string repeated(const std::string& text, std::size_t times) {
   return all;
 }
 
+/// "0.2 of 512.0 | 93.1": two cells.
+std::string judged_text(const CellFigures& figures) {
+  return fixed_text(figures.loops_false.mean, 1) + " of " + fixed_text(figures.loops_judged.mean, 1) + " | " +
+         (figures.loop_recall ? fixed_text(100 * figures.loop_recall->mean, 1) : "–");
+}
+
 std::string matchers_table(const FreiburgBenchmark& benchmark) {
   std::string text = "| log | matcher | runs |";
   for (const PathFigure& figure : kPathFigures) text += ' ' + std::string(figure.name) + " |";
-  constexpr std::size_t kOthers = 6;
+  constexpr std::size_t kOthers = 8;
   text +=
-      " relations used | loops accepted | wall [s] | CPU [s] | × real time | peak [MiB] |\n|---|---|---|" +
+      " relations used | loops accepted | false of judged | recall % | wall [s] | CPU [s] | × real time | "
+      "peak [MiB] |\n|---|---|---|" +
       repeated("---:|", kPathFigures.size() + kOthers) + '\n';
   for (const FreiburgCell& cell : benchmark.cells) {
     const auto figures = figures_of(cell);
@@ -65,8 +72,8 @@ std::string matchers_table(const FreiburgBenchmark& benchmark) {
     text += "| " + cell.log + " | " + cell.matcher + " | " + runs_text(cell, *figures);
     for (const PathFigure& figure : kPathFigures) text += " | " + errors_text(figures->errors.*figure.errors);
     text += " | " + fixed_text(figures->relations_used, 0) + " | " +
-            fixed_text(figures->loops_accepted.mean, 1) + " | " + fixed_text(figures->wall_s.mean, 2) +
-            " | " + fixed_text(figures->cpu_s.mean, 2) + " | " +
+            fixed_text(figures->loops_accepted.mean, 1) + " | " + judged_text(*figures) + " | " +
+            fixed_text(figures->wall_s.mean, 2) + " | " + fixed_text(figures->cpu_s.mean, 2) + " | " +
             fixed_text(figures->real_time_factor.mean, 0) + " | " +
             fixed_text(figures->peak_memory_mib.mean, 0) + " |\n";
   }
@@ -161,6 +168,9 @@ Json cell_json(const FreiburgCell& cell) {
   json["relations_used"] = figures->relations_used;
   json["relations_skipped"] = figures->relations_skipped;
   json["loops_accepted"] = spread_json(figures->loops_accepted);
+  json["loops_judged"] = spread_json(figures->loops_judged);
+  json["loops_false"] = spread_json(figures->loops_false);
+  json["loop_recall"] = figures->loop_recall ? spread_json(*figures->loop_recall) : Json(nullptr);
   json["wall_s"] = spread_json(figures->wall_s);
   json["cpu_s"] = spread_json(figures->cpu_s);
   json["real_time_factor"] = spread_json(figures->real_time_factor);
@@ -199,6 +209,9 @@ std::string freiburg_markdown(const FreiburgBenchmark& benchmark, const Freiburg
       "- errors: metric of Kümmerle et al. 2009 over all true relations, mean ± standard deviation over the "
       "relations; means over the seeds, never the best seed\n"
       "- Cartographer's variant of the translational error is what the tool of Hess et al. computes\n"
+      "- false of judged: of the accepted loops, those that the true relations contradict, of those that a "
+      "relation speaks of; recall: of the relations that join two passes of a place, those whose "
+      "neighbourhoods a loop joins; means over the seeds\n"
       "- times and memory: of the whole process that reads the log, maps it and evaluates the path; no map "
       "is "
       "drawn; × real time: the recording's length over wall time\n\n";

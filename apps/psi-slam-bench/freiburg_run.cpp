@@ -6,6 +6,7 @@
 
 #include "benchmark_logs.h"
 #include "psi_slam/base/user_error.h"
+#include "psi_slam/results/loop_judgement.h"
 #include "psi_slam/session/mapping_session.h"
 
 namespace psi_slam {
@@ -83,6 +84,10 @@ FreiburgFigures map_and_evaluate(const FreiburgRun& run) {
   figures.scans = result.frames.size();
   figures.duration_s = duration_s(result.frames);
   figures.loops_accepted = loops_accepted(result);
+  const LoopJudgement judgement = judge_loops(result, relations);
+  figures.loops_judged = judgement.judged.size();
+  figures.loops_false = judgement.false_ones.size();
+  figures.loop_recall = judgement.recall();
   return figures;
 }
 
@@ -98,6 +103,9 @@ std::string figures_json(const FreiburgFigures& figures) {
               {"scans", figures.scans},
               {"duration_s", figures.duration_s},
               {"loops_accepted", figures.loops_accepted},
+              {"loops_judged", figures.loops_judged},
+              {"loops_false", figures.loops_false},
+              {"loop_recall", figures.loop_recall ? Json(*figures.loop_recall) : Json(nullptr)},
               {"wall_s", figures.wall_s},
               {"cpu_s", figures.cpu_s},
               {"peak_memory_mib", figures.peak_memory_mib}}
@@ -117,6 +125,10 @@ std::optional<FreiburgFigures> read_figures(const std::string& text) {
     json.at("scans").get_to(figures.scans);
     json.at("duration_s").get_to(figures.duration_s);
     json.at("loops_accepted").get_to(figures.loops_accepted);
+    json.at("loops_judged").get_to(figures.loops_judged);
+    json.at("loops_false").get_to(figures.loops_false);
+    const Json& recall = json.at("loop_recall");
+    if (!recall.is_null()) figures.loop_recall = recall.get<double>();
     json.at("wall_s").get_to(figures.wall_s);
     json.at("cpu_s").get_to(figures.cpu_s);
     json.at("peak_memory_mib").get_to(figures.peak_memory_mib);

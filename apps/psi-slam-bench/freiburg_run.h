@@ -79,6 +79,9 @@ struct FreiburgFigures {
   std::size_t scans = 0;
   double duration_s = 0;  ///< of the recording
   std::size_t loops_accepted = 0;
+  std::size_t loops_judged = 0;       ///< of those, the ones of which a true relation speaks,
+  std::size_t loops_false = 0;        ///< and of those, the ones that it contradicts: see loop_judgement.h
+  std::optional<double> loop_recall;  ///< none when no relation joins two passes of a place
 
   // Of the whole process, from its start to its end; 0 until it is measured.
   double wall_s = 0;

@@ -65,6 +65,7 @@ void add_match_command(CLI::App& app, const Streams& streams) {
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   match->add_option("--seed", arguments->options.seed, "Of the cases and of the random matchers")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   match->add_flag("--windows", arguments->options.windows,
                   "Also compare over window sizes and sizes of local maps");

@@ -61,7 +61,9 @@ void add_robustness_command(CLI::App& app, const Streams& streams) {
   command->add_option("--logs", arguments->logs, "Only these, by name, commas in between")
       ->delimiter(',')
       ->type_name("NAMES");
-  command->add_option("--seed", arguments->seed, "Of the noise")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Of the noise")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command
       ->add_option("--json", arguments->json, "Write the figures to this file; one that is there is replaced")
       ->type_name("FILE");

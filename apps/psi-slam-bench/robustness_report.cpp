@@ -68,7 +68,9 @@ std::string robustness_markdown(const RobustnessBenchmark& benchmark, std::uint6
       "with "
       "the way and the turn.\n"
       "- no odometry: the robot is predicted to go on at its speed\n"
-      "- scans kept: the others are not there at all\n"
+      "- scans kept: the others are not there at all; relations of their times are answered by "
+      "interpolation, "
+      "whose errors count\n"
       "- field of view: beams beside it are no returns\n"
       "- precision, recall: of the accepted loops, by the true relations\n"
       "- unmatched: scans that the front end could not match with its local map\n\n";

@@ -80,7 +80,9 @@ void add_simulate_command(CLI::App& app, const Streams& streams) {
       ->delimiter(',')
       ->check(CLI::Range(20.0, 100'000.0))
       ->capture_default_str();
-  simulate->add_option("--seed", options.seed, "Of buildings, drives and noise")->capture_default_str();
+  simulate->add_option("--seed", options.seed, "Of buildings, drives and noise")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   simulate->add_option("--people", options.people, "Who walk the corridors, for every 500 m of path")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();

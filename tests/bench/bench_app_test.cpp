@@ -8,10 +8,10 @@
 
 #include "../session/room_log.h"
 #include "bench_progress.h"
-#include "room_benchmark.h"
 #include "psi_slam/base/time_stamp.h"
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/results/relations_metric.h"
+#include "room_benchmark.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
 #include "test_files.h"
@@ -145,6 +145,7 @@ TEST_F(BenchApp, commands_on_chosen_logs_name_what_is_missing) {
   };
   EXPECT_THAT(refused({"--logs", "room,hall"}), HasSubstr("no log called hall"));
   EXPECT_THAT(refused({"--shares", "-1"}), HasSubstr("--shares"));
+  EXPECT_THAT(refused({"--seed", "-1"}), HasSubstr("--seed"));
   fs::remove(data_ / "room.relations");
   EXPECT_THAT(refused({}), HasSubstr("room.relations"));
 }
@@ -157,6 +158,7 @@ TEST_F(BenchApp, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
   EXPECT_THAT(refusal({"--bogus"}), HasSubstr("--bogus"));
   EXPECT_THAT(refusal({"--cases", "0"}), HasSubstr("--cases"));
   EXPECT_THAT(refusal({"--cases", "many"}), HasSubstr("--cases"));
+  EXPECT_THAT(refusal({"--seed", "-1"}), HasSubstr("--seed"));
   EXPECT_THAT(refusal({"--json", folder_.path().string()}), HasSubstr("is a folder"));
   EXPECT_THAT(refusal({"--json", (folder_.path() / "no" / "a.json").string()}), HasSubstr("does not exist"));
   EXPECT_THAT(refusal({"-o", (data_ / "other.log").string()}), HasSubstr("other.log"));
@@ -208,6 +210,7 @@ TEST_F(BenchApp, refuses_simulations_that_make_no_sense) {
       {"--path-m", "far"},
       {"--glass", "1.5"},
       {"--people", "-1"},
+      {"--path-m", "40", "--seed", "-1"},
       {"--write-log", (folder_.path() / "a.clf.gz").string()},
       {"--path-m", "40", "--write-log", (folder_.path() / "a.log").string()},
       {"--path-m", "40", "--json", folder_.path().string()}};

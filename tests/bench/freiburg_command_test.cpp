@@ -58,6 +58,7 @@ class FreiburgCommand : public testing::Test {
 
 TEST_F(FreiburgCommand, maps_the_logs_and_writes_page_figures_and_plots) {
   write_room_benchmark(data_, ini_);
+  write_room_passes(data_);
   write_lines(data_ / "unknown.log", room_log_lines(2));
   write_file(ini_ / "unknown.ini", "[log]\n");
   const fs::path json_file = folder_.path() / "freiburg.json";
@@ -76,6 +77,13 @@ TEST_F(FreiburgCommand, maps_the_logs_and_writes_page_figures_and_plots) {
   EXPECT_LT(json["cells"][1]["translation_abs_m"]["mean"], 0.1);
   EXPECT_GE(json["cells"][1]["translation_abs_m"]["over_seeds"]["max"],
             json["cells"][1]["translation_abs_m"]["over_seeds"]["min"]);
+  EXPECT_EQ(json["cells"][0]["loops_false"]["mean"], 0);
+  EXPECT_GT(json["cells"][0]["loops_judged"]["min"], 10);
+  EXPECT_GT(json["cells"][0]["loop_recall"]["mean"], 0.8);
+  EXPECT_THAT(end.out,
+              AllOf(HasSubstr("| false of judged | recall % |"),
+                    HasSubstr("| 0.0 of " +
+                              std::to_string(json["cells"][0]["loops_judged"]["min"].get<int>()) + ".0 | ")));
   EXPECT_EQ(json["logs"][0]["sha256"].get<std::string>().size(), 64U);
   EXPECT_THAT(end.out, HasSubstr(json["logs"][0]["sha256"].get<std::string>()));
   EXPECT_NE(json["commit"], "");

@@ -35,12 +35,28 @@ TEST_F(FreiburgRuns, gives_the_figures_of_the_whole_log) {
   EXPECT_EQ(figures.relations_used, 17U);
   EXPECT_EQ(figures.relations_skipped, 0U);
   EXPECT_GT(figures.loops_accepted, 0U);
+  EXPECT_LE(figures.loops_judged, figures.loops_accepted);
   EXPECT_LT(figures.errors.translation_abs_m.mean, 0.1);
   EXPECT_GT(figures.errors.translation_abs_m.mean, 0);
   const MeanAndStd& absolute = figures.errors.translation_abs_m;
   EXPECT_NEAR(figures.errors.translation_sq_m2.mean,
               absolute.mean * absolute.mean + absolute.std * absolute.std, 1e-12)
       << "the mean of squares is the square of the mean and the variance";
+}
+
+TEST_F(FreiburgRuns, judges_the_loops_by_the_relations) {
+  const FreiburgFigures no_passes = map_and_evaluate(run("csm"));
+  EXPECT_FALSE(no_passes.loop_recall) << "its relations join no two passes";
+  write_room_passes(folder_.path());
+  const FreiburgFigures figures = map_and_evaluate(run("csm"));
+  EXPECT_GT(figures.loops_judged, 10U);
+  EXPECT_EQ(figures.loops_false, 0U);
+  EXPECT_GT(figures.loop_recall.value(), 0.8);
+  write_room_passes(folder_.path(), 1);
+  const FreiburgFigures moved = map_and_evaluate(run("csm"));
+  EXPECT_EQ(moved.loops_judged, figures.loops_judged);
+  EXPECT_EQ(moved.loops_false, figures.loops_judged) << "the map is the same, the relations are a metre off";
+  EXPECT_EQ(moved.loop_recall, figures.loop_recall);
 }
 
 TEST_F(FreiburgRuns, csm_draws_no_random_numbers) {
@@ -66,10 +82,17 @@ TEST_F(FreiburgRuns, figures_are_read_back_to_the_last_bit) {
   figures.wall_s = 1.0 / 3;
   figures.cpu_s = 2.0 / 3;
   figures.peak_memory_mib = 1.1;
+  EXPECT_FALSE(read_figures(figures_json(figures)).value().loop_recall);
+  figures.loops_judged = 30;
+  figures.loops_false = 2;
+  figures.loop_recall = 5.0 / 7;
   const auto again = read_figures(figures_json(figures));
   ASSERT_TRUE(again);
   EXPECT_EQ(figures_json(*again), figures_json(figures));
   EXPECT_EQ(again->wall_s, figures.wall_s);
+  EXPECT_EQ(again->loops_judged, 30U);
+  EXPECT_EQ(again->loops_false, 2U);
+  EXPECT_EQ(again->loop_recall, 5.0 / 7);
   EXPECT_NEAR(again->real_time_factor(), 3 * 189 * 0.2, 1e-9);
   EXPECT_FALSE(read_figures("{}"));
   EXPECT_FALSE(read_figures("no JSON"));

@@ -12,6 +12,13 @@
 
 namespace psi_slam {
 
+/// A relation from pose to pose of the drive, by the numbers of its scans.
+inline std::string room_relation(int from, int to, const mrpt::math::TPose2D& motion) {
+  return format_seconds(1'000'000'000 + 200'000 * from) + ' ' + format_seconds(1'000'000'000 + 200'000 * to) +
+         ' ' + std::to_string(motion.x) + ' ' + std::to_string(motion.y) + " 0 0 0 " +
+         std::to_string(motion.phi) + '\n';
+}
+
 /// A drive of almost two rounds, and where the robot truly was; `stretch` 1 is the truth.
 inline void write_room_benchmark(const std::filesystem::path& data, const std::filesystem::path& ini,
                                  double stretch = 1) {
@@ -21,9 +28,19 @@ inline void write_room_benchmark(const std::filesystem::path& data, const std::f
   std::string relations;
   for (int i = 20; i < kScans; i += 10) {
     const mrpt::math::TPose2D motion = room_pose(2 * M_PI * i / 100) - room_pose(2 * M_PI * (i - 20) / 100);
-    relations += format_seconds(1'000'000'000 + 200'000 * (i - 20)) + ' ' +
-                 format_seconds(1'000'000'000 + 200'000 * i) + ' ' + std::to_string(stretch * motion.x) +
-                 ' ' + std::to_string(stretch * motion.y) + " 0 0 0 " + std::to_string(motion.phi) + '\n';
+    relations += room_relation(i - 20, i, {stretch * motion.x, stretch * motion.y, motion.phi});
+  }
+  write_file(data / "room.relations", relations);
+}
+
+/// Other true relations for it: of the second round with the first, a round earlier or a little less; those
+/// of a lie are `lie_m` off.
+inline void write_room_passes(const std::filesystem::path& data, double lie_m = 0) {
+  std::string relations;
+  for (int i = 100; i < 190; i += 3) {
+    mrpt::math::TPose2D motion = room_pose(2 * M_PI * i / 100) - room_pose(2 * M_PI * (i - 98) / 100);
+    motion.x += lie_m;
+    relations += room_relation(i - 98, i, motion);
   }
   write_file(data / "room.relations", relations);
 }

@@ -2,9 +2,11 @@
 #include "psi_slam/logs/degraded_source.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/math/wrap2pi.h>
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "psi_slam/base/random_draws.h"
@@ -14,9 +16,12 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// Steps of 0.1 m; every tenth is a turn of 0.3 rad on the spot instead.
+constexpr std::size_t kStepsAhead = 30;
+constexpr std::size_t kStepsInAll = 40;
+
+/// By turns, 3 m ahead and 3 rad on the spot.
 TPose2D step(std::size_t i) {
-  return i % 10 == 9 ? TPose2D(0, 0, 0.3) : TPose2D(0.1, 0, 0);
+  return i % kStepsInAll < kStepsAhead ? TPose2D(0.1, 0, 0) : TPose2D(0, 0, 0.3);
 }
 
 class HandMadeSource : public FrameSource {
@@ -103,31 +108,62 @@ TEST(DegradedSource, frames_without_odometry_say_so) {
   }
 }
 
-TEST(DegradedSource, odometry_gets_as_many_times_its_natural_error) {
-  constexpr std::size_t kFrames = 60'000;
-  DegradationOptions as_it_is;
-  const std::vector<TPose2D> odometry = odometry_of(frames_of(as_it_is, kFrames));
-  const OdometryNoise natural{0.01, 0.02, 0.03};
-  std::vector<TPose2D> truth{odometry.front()};  // odometry's natural error turned round
+/// Root mean squares of odometry's errors, end to end, over the stretches of one kind.
+struct StretchErrors {
+  double way_m = 0;
+  double turn_rad = 0;
+};
+
+/// Over the stretches of so many steps that begin with each `first` of kStepsInAll.
+StretchErrors errors_over(const std::vector<TPose2D>& odometry, const std::vector<TPose2D>& truth,
+                          std::size_t first, std::size_t steps) {
+  StretchErrors squares;
+  double stretches = 0;
+  for (std::size_t begin = first; begin + steps < truth.size(); begin += kStepsInAll) {
+    const std::size_t end = begin + steps;
+    const TPose2D off = (odometry[end] - odometry[begin]) - (truth[end] - truth[begin]);
+    squares.way_m += off.x * off.x + off.y * off.y;
+    squares.turn_rad += std::pow(mrpt::math::wrapToPi(off.phi), 2);
+    ++stretches;
+  }
+  return {std::sqrt(squares.way_m / stretches), std::sqrt(squares.turn_rad / stretches)};
+}
+
+/// Where the robot was, if odometry is that noisy.
+std::vector<TPose2D> truth_of(const std::vector<TPose2D>& odometry, const OdometryNoise& noise) {
+  std::vector<TPose2D> truth{odometry.front()};
   RandomDraws draws(5, "truth", 0);
-  for (std::size_t i = 1; i < kFrames; ++i) {
+  for (std::size_t i = 1; i < odometry.size(); ++i) {
     const TPose2D moved = step(i);
     const double root_m = std::sqrt(std::hypot(moved.x, moved.y));
-    const double sigma_rad = std::hypot(natural.sigma_rad_per_root_m * root_m,
-                                        natural.sigma_rad_per_root_rad * std::sqrt(moved.phi));
-    const double sigma_m = natural.sigma_m_per_root_m * root_m;
+    const double sigma_rad =
+        std::hypot(noise.sigma_rad_per_root_m * root_m, noise.sigma_rad_per_root_rad * std::sqrt(moved.phi));
+    const double sigma_m = noise.sigma_m_per_root_m * root_m;
     truth.push_back(truth.back() + TPose2D(moved.x + sigma_m * draws.normal(), sigma_m * draws.normal(),
                                            moved.phi + sigma_rad * draws.normal()));
   }
-  const OdometryNoise measured = measure_odometry_noise(odometry, truth);
-  for (const double scale : {1.0, 2.0, 4.0}) {
-    DegradationOptions options;
-    options.odometry_noise_scale = scale;
-    options.natural_noise = measured;
-    const OdometryNoise noise = measure_odometry_noise(odometry_of(frames_of(options, kFrames)), truth);
-    EXPECT_NEAR(noise.sigma_m_per_root_m / measured.sigma_m_per_root_m, scale, 0.1 * scale);
-    EXPECT_NEAR(noise.sigma_rad_per_root_m / measured.sigma_rad_per_root_m, scale, 0.15 * scale);
-    EXPECT_NEAR(noise.sigma_rad_per_root_rad / measured.sigma_rad_per_root_rad, scale, 0.15 * scale);
+  return truth;
+}
+
+TEST(DegradedSource, odometry_gets_as_many_times_its_natural_error) {
+  constexpr std::size_t kFrames = 60'000;
+  const std::vector<TPose2D> odometry = odometry_of(frames_of({}, kFrames));
+  const std::vector<TPose2D> truth = truth_of(odometry, {0.01, 0.02, 0.03});
+  DegradationOptions options;
+  options.natural_noise = measure_odometry_noise(odometry, truth);
+  // Pose i is reached by step i: stretches ahead, turns, and both with what the turns do to the way.
+  constexpr std::size_t kLast = kStepsInAll - 1;
+  for (const auto& [first, steps] :
+       {std::pair(kLast, kStepsAhead), std::pair(kStepsAhead - 1, std::size_t{10}),
+        std::pair(std::size_t{19}, kStepsInAll)}) {
+    const StretchErrors natural = errors_over(odometry, truth, first, steps);
+    for (const double scale : {1.0, 2.0, 4.0}) {
+      SCOPED_TRACE("steps " + std::to_string(first) + " and on, x " + std::to_string(scale));
+      options.odometry_noise_scale = scale;
+      const StretchErrors errors = errors_over(odometry_of(frames_of(options, kFrames)), truth, first, steps);
+      EXPECT_NEAR(errors.way_m, scale * natural.way_m, 0.1 * scale * natural.way_m + 1e-9);
+      EXPECT_NEAR(errors.turn_rad, scale * natural.turn_rad, 0.1 * scale * natural.turn_rad);
+    }
   }
 }
 

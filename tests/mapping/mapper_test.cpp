@@ -316,7 +316,7 @@ TEST(Mapper, searches_loops_by_the_matcher_that_psi_chooses_in_the_last_pass_too
 TEST(Mapper, contradicted_loops_are_switched_off_without_a_last_pass_too) {
   MapperOptions options;
   options.last_pass.passes = 0;
-  options.max_loop_chi = 0.7;
+  options.max_loop_chi = 1.0;
   const MappingResult result = map_of(office_drive().frames, options);
   expect_consistent(result, office_drive().frames.size());
   std::size_t off = 0;

@@ -15,31 +15,51 @@ using mrpt::math::TPose2D;
 constexpr double kStretch_m = 1;
 constexpr double kStretch_rad = 1;
 
-/// What odometry makes of a stretch.
+/// How far odometry is off over a stretch.
 struct StretchError {
-  double way_m = 0;
+  double way_m = 0;     // by odometry, which does not tremble while the robot stands
   double turn_rad = 0;  // back and forth added up
   double squared_m2 = 0;
   double squared_rad2 = 0;
 };
 
+/// The errors of the steps added up, turned by the map's headings: what a wrong heading makes of the way
+/// after it is no error of the way.
+class Stretch {
+ public:
+  void add(const TPose2D& odometry_motion, const TPose2D& map_motion, double map_heading_rad) {
+    way_m_ += std::hypot(odometry_motion.x, odometry_motion.y);
+    turn_rad_ += std::abs(mrpt::math::wrapToPi(odometry_motion.phi));
+    const TPose2D off = TPose2D(0, 0, map_heading_rad) +
+                        TPose2D(odometry_motion.x - map_motion.x, odometry_motion.y - map_motion.y, 0);
+    off_x_m_ += off.x;
+    off_y_m_ += off.y;
+    off_rad_ += mrpt::math::wrapToPi(odometry_motion.phi - map_motion.phi);
+  }
+
+  bool complete() const { return way_m_ >= kStretch_m || turn_rad_ >= kStretch_rad; }
+  StretchError error() const {
+    return {way_m_, turn_rad_, off_x_m_ * off_x_m_ + off_y_m_ * off_y_m_, off_rad_ * off_rad_};
+  }
+
+ private:
+  double way_m_ = 0;
+  double turn_rad_ = 0;
+  double off_x_m_ = 0;
+  double off_y_m_ = 0;
+  double off_rad_ = 0;
+};
+
 std::vector<StretchError> stretch_errors(const std::vector<TPose2D>& odom_T_robot,
                                          const std::vector<TPose2D>& map_T_robot) {
   std::vector<StretchError> errors;
-  StretchError stretch;
-  std::size_t begin = 0;
+  Stretch stretch;
   for (std::size_t i = 1; i < map_T_robot.size(); ++i) {
-    const TPose2D step = map_T_robot[i] - map_T_robot[i - 1];
-    stretch.way_m += std::hypot(step.x, step.y);
-    stretch.turn_rad += std::abs(mrpt::math::wrapToPi(step.phi));
-    if (stretch.way_m < kStretch_m && stretch.turn_rad < kStretch_rad) continue;
-    const TPose2D off = (odom_T_robot[i] - odom_T_robot[begin]) - (map_T_robot[i] - map_T_robot[begin]);
-    const double off_rad = mrpt::math::wrapToPi(off.phi);
-    stretch.squared_m2 = off.x * off.x + off.y * off.y;
-    stretch.squared_rad2 = off_rad * off_rad;
-    errors.push_back(stretch);
+    stretch.add(odom_T_robot[i] - odom_T_robot[i - 1], map_T_robot[i] - map_T_robot[i - 1],
+                map_T_robot[i - 1].phi);
+    if (!stretch.complete()) continue;
+    errors.push_back(stretch.error());
     stretch = {};
-    begin = i;
   }
   return errors;
 }

@@ -70,10 +70,10 @@ struct FrontEndOptions {
   double odometry_sigma_per_metre = 0.05;
   double odometry_sigma_per_radian = 0.05;
 
-  double node_distance_m = 0.2;  ///< a scan becomes a node when the robot moved this far
-  double node_rotation_rad = radians_from_degrees(8.5L);  ///< or turned this much since the last node
+  double node_distance_m = 0.15;  ///< a scan becomes a node when the robot moved this far
+  double node_rotation_rad = radians_from_degrees(6.0L);  ///< or turned this much since the last node
   std::size_t nodes_per_local_map =
-      60;                            ///< a local map ends after these many, the next begins at half of them,
+      80;                            ///< a local map ends after these many, the next begins at half of them,
   double local_map_travel_m = 15.0;  ///< or when the robot has travelled this far in it
   /// All local maps end when at least two scans in a row were not matched and the robot has travelled this
   /// far meanwhile: what is drawn after such a stretch is out of place by odometry's error, and would bend

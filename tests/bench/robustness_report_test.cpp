@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robustness_report.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "../results/well_formed.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+RobustnessRow row(const std::string& log, const std::string& series, const std::string& name,
+                  double error_m) {
+  RobustnessRow row;
+  row.log = log;
+  row.degraded.series = series;
+  row.degraded.name = name;
+  row.translation_error_m = error_m;
+  row.rotation_error_deg = 0.5;
+  row.relations = 100;
+  row.scans = 3600;
+  row.unmatched = 2;
+  row.loops = 1000;
+  row.loop_precision = 0.995;
+  return row;
+}
+
+RobustnessBenchmark two_logs() {
+  RobustnessBenchmark benchmark;
+  for (const char* log : {"aces", "<intel>"}) {
+    benchmark.logs.push_back({log, {0.05, M_PI / 180, M_PI / 90}});
+    benchmark.rows.push_back(row(log, "scans kept", "1 of 1", 0.0412));
+    benchmark.rows.push_back(row(log, "scans kept", "1 of 2", 0.2));
+    benchmark.rows.push_back(row(log, "field of view", "full", 0.0412));
+  }
+  return benchmark;
+}
+
+TEST(RobustnessReport, markdown_has_the_figures) {
+  const std::string page = robustness_markdown(two_logs(), 7, "a machine");
+  EXPECT_THAT(page, HasSubstr("a machine; seed 7"));
+  EXPECT_THAT(page, HasSubstr("| aces | 0.0500 | 1.000 | 2.000 |\n"));
+  EXPECT_THAT(
+      page,
+      HasSubstr("| aces | scans kept | 1 of 1 | 0.0412 | 0.500 | 100 | 1000 | 99.5 | – | 2 of 3600 |\n"));
+}
+
+TEST(RobustnessReport, json_tells_where_it_comes_from_and_what_is_not_known) {
+  const Json json = Json::parse(robustness_json(two_logs(), 7, "a machine"));
+  EXPECT_EQ(json["schema"], "psi-slam-robustness");
+  EXPECT_EQ(json["machine"], "a machine");
+  EXPECT_EQ(json["seed"], 7);
+  EXPECT_NEAR(json["logs"][1]["natural_odometry_noise"]["deg_per_root_rad"].get<double>(), 2, 1e-12);
+  ASSERT_EQ(json["rows"].size(), 6U);
+  EXPECT_EQ(json["rows"][1]["case"], "1 of 2");
+  EXPECT_EQ(json["rows"][1]["translation_error_m"], 0.2);
+  EXPECT_EQ(json["rows"][1]["unmatched_scans"], 2);
+  EXPECT_EQ(json["rows"][1]["loop_precision"], 0.995);
+  EXPECT_TRUE(json["rows"][1]["loop_recall"].is_null());
+}
+
+TEST(RobustnessReport, draws_a_plot_for_each_series_with_a_line_for_each_log) {
+  const std::vector<RobustnessPlot> plots = robustness_plots(two_logs());
+  ASSERT_EQ(plots.size(), 2U);
+  EXPECT_EQ(plots[0].file, "robustness-scans-kept.svg");
+  EXPECT_EQ(plots[1].series, "field of view");
+  for (const RobustnessPlot& plot : plots) {
+    EXPECT_EQ(complaint_about(plot.svg), "");
+    EXPECT_THAT(plot.svg,
+                testing::AllOf(HasSubstr(">aces<"), HasSubstr(">&lt;intel&gt;<"), HasSubstr(" m<")));
+  }
+  EXPECT_THAT(plots[0].svg, HasSubstr(">1 of 2<"));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -166,6 +166,37 @@ TEST(FrontEnd, in_a_bare_corridor_odometry_tells_the_way_along_it) {
   EXPECT_NEAR(last.x, 0.98 * 25, 0.6) << "what odometry says of the length";
 }
 
+// Eight or so of each scan's beams meet a person who stays three metres ahead.
+TEST(FrontEnd, a_person_who_walks_ahead_along_a_bare_corridor_does_not_hold_the_robot_back) {
+  SimulatedWalls corridor;
+  corridor.add_wall(-100, 0, 140, 0);
+  corridor.add_wall(-100, 2.4, 140, 2.4);
+  std::vector<TPose2D> path;  // weaves, so that beams do not meet the walls at the same places again
+  for (double x = 0; x < 25; x += 0.11)
+    path.emplace_back(x, 1.2 + 0.2 * std::sin(x), std::atan(0.2 * std::cos(x)));
+  SimulatedDrive drive = drive_along(corridor, path, {}, 11);
+  const double noise_m[] = {0.004, -0.007, 0.011, -0.002, -0.012, 0.008, 0.001};
+  for (std::size_t i = 0; i < drive.frames.size(); ++i) {
+    LaserScan& scan = drive.frames[i].scan;
+    for (std::size_t k = 0; k < scan.ranges_m.size(); ++k) {
+      constexpr double kRadius_m = 0.2;
+      constexpr double kAhead_m = 3.0;
+      const auto bearing = static_cast<double>((*scan.bearings_rad)[k]);
+      const double aside_m = kAhead_m * std::sin(bearing);
+      if (std::cos(bearing) <= 0 || std::abs(aside_m) >= kRadius_m) continue;
+      scan.ranges_m[k] =
+          static_cast<float>(kAhead_m * std::cos(bearing) -
+                             std::sqrt(kRadius_m * kRadius_m - aside_m * aside_m) + noise_m[(i + k) % 7]);
+    }
+  }
+  FrontEndOptions options;
+  options.scan.max_range_m = 8;  // as above
+  EXPECT_LT(errors_of(follow(drive, options), drive).largest_m, 1.5) << "of 25 m";
+  options.held_share = 1;
+  options.max_strain_m = 100;
+  EXPECT_GT(errors_of(follow(drive, options), drive).largest_m, 5) << "what it guards against";
+}
+
 TEST(FrontEnd, scans_without_returns_are_placed_by_odometry) {
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 8);
   drive.frames.resize(120);

@@ -33,6 +33,7 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
   FrontEndStep step;
   step.points = std::make_shared<const ScanPoints>(matching_points(frame.scan, options_.scan));
   const Motion motion = motion_to(frame);
+  strain_m_ *= std::exp(-motion.length_m / options_.strain_travel_m);
   step.local_T_robot = last_local_T_robot_ + motion.odometry;
   step.window = search_extent(motion);
   // A blind scan, or one that a turn would not move, cannot be matched (see make_search_window).
@@ -68,6 +69,7 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
 FrontEnd::Motion FrontEnd::steady_motion(TimeUs time_us) const {
   const PredictedMotion predicted = steady_robot_.predict(time_us);
   Motion motion;
+  motion.measured = false;
   motion.odometry = predicted.motion;
   motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
   motion.turn_rad = std::abs(motion.odometry.phi);
@@ -122,12 +124,41 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   step.information = best->information;
   step.local_T_robot = older.local_T_map + best->map_T_robot;
 
+  RefinedPose chosen = {best->map_T_robot, best->refined_response, best->information, 0};
   const RefinedPose predicted =
       refine(older.map->scores(), *step.points, best_prior.map_T_robot, options_.refinement, best_prior);
-  if (predicted.mean_score >= options_.prediction_share * best->refined_response) {
-    step.information = predicted.information;
-    step.local_T_robot = older.local_T_map + predicted.map_T_robot;
+  if (predicted.mean_score >= options_.prediction_share * best->refined_response) chosen = predicted;
+  if (motion.measured && motion.length_m > 0)  // odometry that stands still may be stalled
+    if (const auto held = held_to_odometry(older.map->scores(), *step.points, chosen, best_prior))
+      chosen = *held;
+  step.information = chosen.information;
+  step.local_T_robot = older.local_T_map + chosen.map_T_robot;
+}
+
+// Along a bare corridor nothing but a handful of points, a person's who walks ahead, decides the position.
+// Each scan's pull by them is small; in sum they hold the robot back.
+std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, const ScanPoints& scan,
+                                                      const RefinedPose& matched, const PosePrior& prior) {
+  constexpr double kLeastPull_m = 1e-3;
+  constexpr double kHeldSigma_m = 5e-3;
+  const TPose2D& pose = matched.map_T_robot;
+  const Eigen::Vector2d pull(pose.x - prior.map_T_robot.x, pose.y - prior.map_T_robot.y);
+  if (pull.norm() < kLeastPull_m) return {};
+  const Eigen::Vector2d along = pull.normalized();
+  PosePrior tight = prior;
+  tight.information.topLeftCorner<2, 2>() += along * along.transpose() / (kHeldSigma_m * kHeldSigma_m);
+  RefinedPose held = refine(grid, scan, TPose2D(prior.map_T_robot.x, prior.map_T_robot.y, pose.phi),
+                            options_.refinement, tight);
+  if (held.mean_score < options_.held_share * matched.mean_score) return {};  // most of the scan asks for it
+  const Eigen::Vector2d strain = strain_m_ + Eigen::Rotation2Dd(-pose.phi).toRotationMatrix() * pull;
+  if (strain.norm() <= std::max(options_.max_strain_m, strain_m_.norm())) {
+    strain_m_ = strain;
+    return {};
   }
+  Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
+  across.topLeftCorner<2, 2>() -= along * along.transpose();
+  held.information = Eigen::Matrix3d(across * held.information * across);
+  return held;
 }
 
 // A Kalman filter's covariance, for each active map: the motion adds odometry's noise, the match takes away

@@ -85,6 +85,12 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
               "added to both for each metre or degree that odometry differs from a steady motion")
       .number("prediction_share", front_end.prediction_share, between(0, 1), "",
               "the prediction, refined, is preferred if it scores this share of the searched pose")
+      .number("held_share", front_end.held_share, between(0, 1), "",
+              "a pull away from odometry is in doubt if the pose without it scores this share of the match")
+      .number("max_strain_m", front_end.max_strain_m, at_least(0).at_most(100), "m",
+              "pulls in doubt (by a person who walks ahead) that add up to more than this are not followed")
+      .number("strain_travel_m", front_end.strain_travel_m, above(0).at_most(1000), "m",
+              "pulls in doubt are forgotten over this much travel")
       .number("odometry_sigma_m", front_end.odometry_sigma_m, above(0).at_most(10), "m",
               "odometry's noise from scan to scan, for the covariance of the poses")
       .angle_deg("odometry_sigma_theta_deg", front_end.odometry_sigma_rad, above(0).at_most(180),

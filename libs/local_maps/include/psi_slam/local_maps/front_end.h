@@ -54,6 +54,15 @@ struct FrontEndOptions {
   /// preferred: along a corridor the search's best is decided by noise.
   double prediction_share = 0.95;
 
+  // A match that contradicts odometry in position for long needs to be supported by enough of the scan, else
+  // a person who walks ahead along a bare corridor holds the robot back. A pull away from odometry is
+  // supported when the pose held to odometry scores less than `held_share` of the match. Pulls that are not
+  // add up to the strain, which is forgotten over `strain_travel_m` of travel; those that would raise it
+  // beyond `max_strain_m` are not followed. Odometry's scale may so be off by max_strain_m / strain_travel_m.
+  double held_share = 0.9;
+  double max_strain_m = 0.15;
+  double strain_travel_m = 3.0;
+
   // Odometry's noise a step, for the covariance of the poses: where scans determine the pose it hardly
   // matters.
   double odometry_sigma_m = 0.01;
@@ -112,6 +121,7 @@ class FrontEnd {
   /// all show there. The steady robot is believed the less, the more time has passed.
   struct Motion {
     mrpt::math::TPose2D odometry;
+    bool measured = true;  ///< false: there is no odometry
     double length_m = 0;
     double turn_rad = 0;
     double surprise_m = 0;
@@ -123,6 +133,11 @@ class FrontEnd {
   SearchExtent search_extent(const Motion& motion) const;
   PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
   void match(FrontEndStep& step, const Motion& motion);
+  /// The pose held to the prediction in the direction of the match's pull, when too few points support that
+  /// pull and it adds up to too much (see FrontEndOptions::max_strain_m); none: the match stands. Its
+  /// information has nothing in that direction. Adds up strain_m_.
+  std::optional<RefinedPose> held_to_odometry(const ScoreGrid& grid, const ScanPoints& scan,
+                                              const RefinedPose& matched, const PosePrior& prior);
   void propagate_covariances(const FrontEndStep& step, const Motion& motion);
   void end_local_maps(FrontEndStep& step, std::size_t count);
   bool moved_enough(const mrpt::math::TPose2D& local_T_robot) const;
@@ -138,7 +153,8 @@ class FrontEnd {
   SteadyRobot steady_robot_;
   mrpt::math::TPose2D last_local_T_robot_;
   mrpt::math::TPose2D last_motion_;
-  int misses_ = 0;                 ///< scans in a row that were not matched
+  Eigen::Vector2d strain_m_ = Eigen::Vector2d::Zero();  ///< in the robot's axes
+  int misses_ = 0;                                      ///< scans in a row that were not matched
   double unmatched_travel_m_ = 0;  ///< since the last match, or since the newest local map began
   mrpt::math::TPose2D last_node_local_T_robot_;
 };

@@ -122,6 +122,19 @@ TEST(FrontEnd, follows_a_slow_robot_without_any_odometry) {
   EXPECT_LT(off.largest_rad, 0.02);
 }
 
+TEST(FrontEnd, what_stands_in_frames_without_odometry_does_not_matter) {
+  const auto path = path_along({{2, 1.5}, {6, 1.6}, {2, 1.4}}, 0.03, 0.03);
+  SimulatedDrive drive = drive_along(office_floor(), path, {}, 5);
+  for (std::size_t i = 0; i < drive.frames.size(); ++i) {
+    if (i / 10 % 2 == 0) continue;  // now it is there, now it is not
+    drive.frames[i].has_odometry = false;
+    drive.frames[i].odom_T_robot = {7, -3, 0.5};
+  }
+  const PoseErrors off = errors_of(follow(drive), drive);
+  EXPECT_LT(off.largest_m, 0.1);
+  EXPECT_LT(off.largest_rad, 0.02);
+}
+
 TEST(FrontEnd, a_robot_that_stands_still_stays_and_makes_no_more_nodes) {
   const std::vector<TPose2D> path(100, TPose2D(5, 1.5, 0.3));
   const Outcome outcome = follow(drive_along(office_floor(), path, {}, 6));
@@ -194,7 +207,7 @@ TEST(FrontEnd, a_person_who_walks_ahead_along_a_bare_corridor_does_not_hold_the_
   EXPECT_LT(errors_of(follow(drive, options), drive).largest_m, 1.5) << "of 25 m";
   options.held_share = 1;
   options.max_strain_m = 100;
-  EXPECT_GT(errors_of(follow(drive, options), drive).largest_m, 5) << "what it guards against";
+  EXPECT_GT(errors_of(follow(drive, options), drive).largest_m, 4) << "what it guards against";
 }
 
 TEST(FrontEnd, scans_without_returns_are_placed_by_odometry) {

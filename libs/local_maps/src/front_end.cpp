@@ -40,7 +40,8 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
   const bool blind =
       step.points->points.empty() || step.points->farthest_m <= options_.local_map.resolution_m;
   if (!active_.empty() && !blind) match(step, motion);
-  unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + motion.length_m;
+  const double travel_m = motion.measured ? motion.length_m : std::max(motion.length_m, motion.sigma_m);
+  unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + travel_m;
   propagate_covariances(step, motion);
   if (active_.empty() || moved_enough(step.local_T_robot)) insert(step, frame);
   last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}, frame.has_odometry};
@@ -53,11 +54,15 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
 
 FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   Motion motion;
+  motion.sigma_m = options_.odometry_sigma_m;
+  motion.sigma_rad = options_.odometry_sigma_rad;
   if (!last_) return motion;
-  if (!frame.has_odometry) return steady_motion(frame.time_us);
+  if (!frame.has_odometry || !last_->has_odometry) return steady_motion(frame.time_us);
   motion.odometry = frame.odom_T_robot - last_->odom_T_robot;
   motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
   motion.turn_rad = std::abs(mrpt::math::wrapToPi(motion.odometry.phi));
+  motion.sigma_m = options_.odometry_sigma_m + options_.odometry_sigma_per_metre * motion.length_m;
+  motion.sigma_rad = options_.odometry_sigma_rad + options_.odometry_sigma_per_radian * motion.turn_rad;
   const double passed_s = std::max(0.0, seconds(frame.time_us - last_->time_us)) / kSteadyTime_s;
   const double belief = 1 / (1 + passed_s * passed_s);
   motion.surprise_m =
@@ -75,6 +80,8 @@ FrontEnd::Motion FrontEnd::steady_motion(TimeUs time_us) const {
   motion.turn_rad = std::abs(motion.odometry.phi);
   motion.surprise_m = predicted.sigma_m;
   motion.surprise_rad = predicted.sigma_rad;
+  motion.sigma_m = options_.odometry_sigma_m + predicted.sigma_m;
+  motion.sigma_rad = options_.odometry_sigma_rad + predicted.sigma_rad;
   return motion;
 }
 
@@ -164,8 +171,6 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
 // A Kalman filter's covariance, for each active map: the motion adds odometry's noise, the match takes away
 // what it determines. So a pose known only by odometry along a corridor is passed on as just that.
 void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& motion) {
-  const double sigma_m = options_.odometry_sigma_m + options_.odometry_sigma_per_metre * motion.length_m;
-  const double sigma_rad = options_.odometry_sigma_rad + options_.odometry_sigma_per_radian * motion.turn_rad;
   for (PlacedLocalMap& active : active_) {
     const TPose2D before = last_local_T_robot_ - active.local_T_map;
     const TPose2D after = step.local_T_robot - active.local_T_map;
@@ -173,7 +178,8 @@ void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& mot
     moved(0, 2) = -(after.y - before.y);
     moved(1, 2) = after.x - before.x;
     Eigen::Matrix3d covariance = moved * active.covariance * moved.transpose();
-    covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
+    covariance.diagonal() += Eigen::Vector3d(motion.sigma_m * motion.sigma_m, motion.sigma_m * motion.sigma_m,
+                                             motion.sigma_rad * motion.sigma_rad);
     if (step.matched) {
       Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  // from the matched map's axes to this one's
       turn.topLeftCorner<2, 2>() =

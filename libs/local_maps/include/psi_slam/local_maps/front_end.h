@@ -45,7 +45,7 @@ struct FrontEndOptions {
 
   // The standard deviations of the prediction, which hold the pose where the scan does not (along corridors):
   // of a robot that stands still, and how they grow with the motion and with the disagreement above.
-  double prior_sigma_m = 0.03;
+  double prior_sigma_m = 0.02;
   double prior_sigma_rad = radians_from_degrees(6.0L);
   double prior_per_metre = 0.1;
   double prior_per_radian = 0.5;
@@ -60,7 +60,7 @@ struct FrontEndOptions {
   // add up to the strain, which is forgotten over `strain_travel_m` of travel; those that would raise it
   // beyond `max_strain_m` are not followed. Odometry's scale may so be off by max_strain_m / strain_travel_m.
   double held_share = 0.9;
-  double max_strain_m = 0.15;
+  double max_strain_m = 0.2;
   double strain_travel_m = 3.0;
 
   // Odometry's noise a step, for the covariance of the poses: where scans determine the pose it hardly
@@ -126,6 +126,8 @@ class FrontEnd {
     double turn_rad = 0;
     double surprise_m = 0;
     double surprise_rad = 0;
+    double sigma_m = 0;  ///< its noise, for the covariance of the poses
+    double sigma_rad = 0;
   };
   Motion motion_to(const Frame& frame) const;
   /// Without odometry: the motion of a steady robot, as uncertain as its speed.

@@ -15,7 +15,7 @@
 
 namespace psi_slam {
 
-/// Of the loops that are on, the share from which on worst-first is not relied on.
+/// Of the loops that are on, the share above which worst-first is not relied on.
 inline constexpr double kDoubtfulShare = 0.2;
 
 /// Optimises the graph and switches the constraints `loops`, on or off before, so that none that is on is

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "psi_slam/local_maps/front_end.h"
+
 namespace psi_slam {
 namespace {
 
@@ -97,7 +99,7 @@ TEST(MatchReport, sizes_have_tables_and_plots) {
   const Json json = Json::parse(match_json(result, {}, "a machine"));
   EXPECT_EQ(json["windows"][1]["window_m"], 4.0);
   EXPECT_EQ(json["windows"][1]["matchers"][0]["time_ms"]["mean"], 40.0);
-  EXPECT_EQ(json["local_maps"][0]["nodes_per_local_map"], 60);
+  EXPECT_EQ(json["local_maps"][0]["nodes_per_local_map"], FrontEndOptions().nodes_per_local_map);
   const std::string svg = window_plot(result);
   EXPECT_THAT(svg, AllOf(HasSubstr("±2 m</text>"), HasSubstr(">csm</text>"), HasSubstr(">ga</text>"),
                          HasSubstr("0.1 ms"), HasSubstr("100 ms"), Not(HasSubstr("nan"))));

@@ -13,6 +13,39 @@ namespace psi_slam {
 
 namespace fs = std::filesystem;
 
+void add_data_options(CLI::App& command, DataArguments& arguments) {
+  command.add_option("--data", arguments.data, "Folder of the logs: NAME.clf.gz with NAME.relations")
+      ->required()
+      ->type_name("DIR");
+  command.add_option("--ini", arguments.ini, "Folder of their settings NAME.ini; default: those of psi-slam")
+      ->type_name("DIR");
+}
+
+std::vector<BenchmarkLog> logs_of(const DataArguments& arguments) {
+  return find_benchmark_logs(arguments.data, ini_folder(arguments.ini));
+}
+
+void add_output_options(CLI::App& command, OutputArguments& arguments, const std::string& content) {
+  command
+      .add_option("--json", arguments.json, "Write the figures to this file; one that is there is replaced")
+      ->type_name("FILE");
+  command
+      .add_option("-o,--output", arguments.output,
+                  "Folder for " + content + "; those that are there are replaced")
+      ->type_name("DIR");
+}
+
+void check_outputs(const OutputArguments& arguments, const std::string& page) {
+  if (!arguments.json.empty()) check_writable(arguments.json);
+  if (!arguments.output.empty()) prepare_folder(arguments.output, page);
+}
+
+void add_logs_option(CLI::App& command, std::vector<std::string>& names) {
+  command.add_option("--logs", names, "Only these, by name, commas in between")
+      ->delimiter(',')
+      ->type_name("NAMES");
+}
+
 void check_writable(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (fs::is_directory(file)) throw UserError(file.string() + " is a folder: name a file");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_progress.h"
 #include "benchmark_logs.h"
 #include "psi_slam_app.h"
 
@@ -19,6 +20,37 @@ void add_match_command(CLI::App& app, const Streams& streams);
 void add_simulate_command(CLI::App& app, const Streams& streams);
 void add_false_loops_command(CLI::App& app, const Streams& streams);
 void add_robustness_command(CLI::App& app, const Streams& streams);
+
+/// What the commands that work on real logs are given: the options --data and --ini.
+struct DataArguments {
+  std::string data;
+  std::string ini;
+};
+void add_data_options(CLI::App& command, DataArguments& arguments);
+
+/// As find_benchmark_logs().
+std::vector<BenchmarkLog> logs_of(const DataArguments& arguments);
+
+/// Where a command leaves its results: the options --json and -o; empty where it is not asked to.
+struct OutputArguments {
+  std::string json;
+  std::string output;
+};
+/// `content` is what the folder is for: "match.md and the plots".
+void add_output_options(CLI::App& command, OutputArguments& arguments, const std::string& content);
+
+/// As check_writable() and prepare_folder(), for `page` in the folder.
+void check_outputs(const OutputArguments& arguments, const std::string& page);
+
+/// The option --logs, for chosen_logs().
+void add_logs_option(CLI::App& command, std::vector<std::string>& names);
+
+/// The result of `work`, which is given what it is to report its progress to.
+template <class Work>
+auto with_progress(const Streams& streams, const Work& work) {
+  BenchProgress progress(streams.err_is_terminal ? &streams.err : nullptr);
+  return work([&](const std::string& doing, double done, double all) { progress.show(doing, done, all); });
+}
 
 /// Throws UserError when `file` cannot be written: told before the work, which is long.
 void check_writable(const std::filesystem::path& file);

@@ -4,8 +4,6 @@
 #include <ostream>
 
 #include "bench_command.h"
-#include "bench_progress.h"
-#include "benchmark_logs.h"
 #include "freiburg_comparison.h"
 #include "freiburg_report.h"
 #include "interrupt_signals.h"
@@ -22,8 +20,7 @@ namespace fs = std::filesystem;
 constexpr const char* kPage = "freiburg.md";
 
 struct FreiburgArguments {
-  std::string data;
-  std::string ini;
+  DataArguments data;
   std::string json;
   std::string output = "out/freiburg";
   std::vector<std::string> names;  ///< of logs; empty: all
@@ -86,30 +83,24 @@ std::size_t failed_runs(const FreiburgBenchmark& benchmark) {
 
 void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
   check_once(arguments.options.matchers, "--matchers");
-  const ChosenLogs chosen =
-      choose(find_benchmark_logs(arguments.data, ini_folder(arguments.ini)), arguments.names, arguments.data);
+  const ChosenLogs chosen = choose(logs_of(arguments.data), arguments.names, arguments.data.data);
   for (const BenchmarkLog& log : chosen.logs)
     benchmark_settings(log.ini);  // wrong ones are told before the work
   if (!arguments.json.empty()) check_writable(arguments.json);
   prepare_folder(arguments.output, kPage);
   prepare_folder(fs::path(arguments.output) / "runs", "any.json");
   arguments.options.output = arguments.output;
-  FreiburgBenchmark benchmark;
-  {
+  FreiburgBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
     const InterruptSignals signals;
-    BenchProgress progress(streams.err_is_terminal ? &streams.err : nullptr);
-    benchmark = run_freiburg_benchmark(
-        chosen.logs, arguments.options, signals.came(),
-        [&](const std::string& doing, double done, double all) { progress.show(doing, done, all); });
-  }
+    return run_freiburg_benchmark(chosen.logs, arguments.options, signals.came(), progress);
+  });
   benchmark.without_relations = chosen.without_relations;
   benchmark.left_out = chosen.left_out;
 
   const std::string machine = machine_text();
   const std::string page = freiburg_markdown(benchmark, arguments.options, machine);
   write_files(arguments, benchmark, page, machine);
-  streams.out << page << std::flush;
-  if (!streams.out) throw SystemFailure("cannot write to standard output");
+  print_page(page, streams);
   if (const std::size_t failed = failed_runs(benchmark); failed > 0)
     throw SystemFailure(std::to_string(failed) + (failed == 1 ? " run" : " runs") +
                         " failed: the page says which and why");
@@ -164,12 +155,7 @@ void add_freiburg_command(CLI::App& app, const Streams& streams) {
   const auto arguments = std::make_shared<FreiburgArguments>();
   CLI::App* const freiburg = app.add_subcommand(
       "freiburg", "Map the logs of the Freiburg benchmark, and compare with what others reached");
-  freiburg->add_option("--data", arguments->data, "Folder of the logs: NAME.clf.gz with NAME.relations")
-      ->required()
-      ->type_name("DIR");
-  freiburg
-      ->add_option("--ini", arguments->ini, "Folder of their settings NAME.ini; default: those of psi-slam")
-      ->type_name("DIR");
+  add_data_options(*freiburg, arguments->data);
   freiburg
       ->add_option("--json", arguments->json, "Write the figures to this file; one that is there is replaced")
       ->type_name("FILE");

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark_logs.h"
+#include "mapped_run.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/results/loop_judgement.h"
 #include "psi_slam/session/mapping_session.h"
@@ -20,12 +21,6 @@ double duration_s(const std::vector<FrameRecord>& frames) {
         return a.time_us < b.time_us;  // stamps may go back
       });
   return first == frames.end() ? 0 : seconds(last->time_us - first->time_us);
-}
-
-std::size_t loops_accepted(const MappingResult& result) {
-  return static_cast<std::size_t>(
-      std::count_if(result.loops.begin(), result.loops.end(),
-                    [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
 }
 
 }  // namespace
@@ -74,9 +69,7 @@ FreiburgFigures map_and_evaluate(const FreiburgRun& run) {
   session.finish();
 
   const MappingResult& result = session.result();
-  Trajectory trajectory;
-  for (const FrameRecord& frame : result.frames) trajectory.push_back({frame.time_us, frame.map_T_robot});
-  const RelationsMetric metric = evaluate_relations(std::move(trajectory), relations);
+  const RelationsMetric metric = error_of(result.frames, relations);
   FreiburgFigures figures;
   figures.errors = path_errors(metric);
   figures.relations_used = metric.exact + metric.interpolated;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapped_run.h"
 
+#include <algorithm>
 #include <utility>
+
+#include "psi_slam/results/mapped_trajectory.h"
 
 namespace psi_slam {
 
@@ -18,10 +21,14 @@ MappedRun map_source(FrameSource& source, const MapperOptions& options,
   return run;
 }
 
+std::size_t loops_accepted(const MappingResult& result) {
+  return static_cast<std::size_t>(
+      std::count_if(result.loops.begin(), result.loops.end(),
+                    [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
+}
+
 RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations) {
-  Trajectory trajectory;
-  for (const FrameRecord& frame : frames) trajectory.push_back({frame.time_us, frame.map_T_robot});
-  return evaluate_relations(std::move(trajectory), relations);
+  return evaluate_relations(trajectory_of(frames), relations);
 }
 
 }  // namespace psi_slam

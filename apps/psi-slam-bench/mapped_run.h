@@ -21,6 +21,9 @@ struct MappedRun {
 MappedRun map_source(FrameSource& source, const MapperOptions& options,
                      const std::function<void(double)>& progress);
 
+/// That are in the finished graph.
+std::size_t loops_accepted(const MappingResult& result);
+
 /// Of where the map has the frames.
 RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations);
 

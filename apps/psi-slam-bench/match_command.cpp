@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "bench_command.h"
-#include "bench_progress.h"
 #include "benchmark_logs.h"
 #include "match_benchmark.h"
 #include "match_report.h"
@@ -14,29 +13,23 @@ namespace {
 namespace fs = std::filesystem;
 
 struct MatchArguments {
-  std::string data;
-  std::string ini;
-  std::string json;
-  std::string output;
+  DataArguments data;
+  OutputArguments output;
   MatchBenchmarkOptions options;
 };
 
 void run_match(const MatchArguments& arguments, const Streams& streams) {
-  const std::vector<BenchmarkLog> logs = find_benchmark_logs(arguments.data, ini_folder(arguments.ini));
-  if (!arguments.json.empty()) check_writable(arguments.json);
-  if (!arguments.output.empty()) prepare_folder(arguments.output, "match.md");
-  BenchProgress progress(streams.err_is_terminal ? &streams.err : nullptr);
-  const MatchBenchmark benchmark = run_match_benchmark(
-      logs, arguments.options,
-      [&](const std::string& doing, double done, double all) { progress.show(doing, done, all); });
-  progress.clear();
+  const std::vector<BenchmarkLog> logs = logs_of(arguments.data);
+  check_outputs(arguments.output, "match.md");
+  const MatchBenchmark benchmark = with_progress(
+      streams, [&](const auto& progress) { return run_match_benchmark(logs, arguments.options, progress); });
 
   const std::string machine = machine_text();
   const std::string page = match_markdown(benchmark, arguments.options, machine);
-  if (!arguments.json.empty())
-    write_text_atomically(arguments.json, match_json(benchmark, arguments.options, machine));
-  if (!arguments.output.empty()) {
-    const fs::path folder = arguments.output;
+  if (!arguments.output.json.empty())
+    write_text_atomically(arguments.output.json, match_json(benchmark, arguments.options, machine));
+  if (!arguments.output.output.empty()) {
+    const fs::path folder = arguments.output.output;
     write_text_atomically(folder / "match.md", page);
     if (arguments.options.windows) {
       write_text_atomically(folder / "match-windows.svg", window_plot(benchmark));
@@ -51,14 +44,7 @@ void run_match(const MatchArguments& arguments, const Streams& streams) {
 void add_match_command(CLI::App& app, const Streams& streams) {
   const auto arguments = std::make_shared<MatchArguments>();
   CLI::App* const match = app.add_subcommand("match", "Compare the matchers on loops drawn from real logs");
-  match->add_option("--data", arguments->data, "Folder of the logs: NAME.clf.gz with NAME.relations")
-      ->required()
-      ->type_name("DIR");
-  match->add_option("--ini", arguments->ini, "Folder of their settings NAME.ini; default: those of psi-slam")
-      ->type_name("DIR");
-  match
-      ->add_option("--json", arguments->json, "Write the figures to this file; one that is there is replaced")
-      ->type_name("FILE");
+  add_data_options(*match, arguments->data);
   match
       ->add_option("--cases", arguments->options.cases,
                    "Positive cases from each log, and as many negative ones")
@@ -69,10 +55,7 @@ void add_match_command(CLI::App& app, const Streams& streams) {
       ->capture_default_str();
   match->add_flag("--windows", arguments->options.windows,
                   "Also compare over window sizes and sizes of local maps");
-  match
-      ->add_option("-o,--output", arguments->output,
-                   "Folder for match.md and the plots; those that are there are replaced")
-      ->type_name("DIR");
+  add_output_options(*match, arguments->output, "match.md and the plots");
   match->callback([arguments, &streams] { run_match(*arguments, streams); });
 }
 

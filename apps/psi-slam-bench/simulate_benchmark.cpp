@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "forked_work.h"
+#include "mapped_run.h"
 #include "psi_slam/mapping/mapper.h"
 #include "psi_slam/session/settings.h"
 #include "psi_slam/simulation/simulation_random.h"
@@ -29,23 +30,18 @@ void compare_with_truth(const MappingResult& result, const Trajectory& truth, st
                         SimulateRow& row) {
   std::vector<TPose2D> mapped;
   std::vector<TPose2D> odometry;
-  Trajectory trajectory;
   for (const FrameRecord& frame : result.frames) {
     mapped.push_back(frame.map_T_robot);
     odometry.push_back(frame.odom_T_robot);
-    trajectory.push_back({frame.time_us, frame.map_T_robot});
   }
   const ErrorSummary error = trajectory_error_m(mapped, truth);
   row.error_mean_m = error.mean;
   row.error_max_m = error.max;
   row.odometry_error_mean_m = trajectory_error_m(odometry, truth).mean;
-  const RelationsMetric metric =
-      evaluate_relations(std::move(trajectory), draw_relations(truth, kRelations, seed));
+  const RelationsMetric metric = error_of(result.frames, draw_relations(truth, kRelations, seed));
   row.relation_mean_m = metric.translation_abs_m.mean;
   row.relation_mean_deg = metric.rotation_abs_deg.mean;
-  row.loops = static_cast<std::size_t>(
-      std::count_if(result.loops.begin(), result.loops.end(),
-                    [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
+  row.loops = loops_accepted(result);
   row.false_loops = count_false_loops(result, truth);
 }
 
@@ -71,8 +67,8 @@ std::vector<Relation> draw_relations(const Trajectory& truth, std::size_t count,
   SimulationRandom random(seed, SimulationRandom::Stream::kRelations);
   std::vector<Relation> relations;
   while (relations.size() < count) {
-    const StampedPose& first = truth[random.below(truth.size())];
-    const StampedPose& second = truth[random.below(truth.size())];
+    const StampedPose& first = truth[random.index(truth.size())];
+    const StampedPose& second = truth[random.index(truth.size())];
     relations.push_back({first.time_us, second.time_us, second.pose - first.pose});
   }
   return relations;

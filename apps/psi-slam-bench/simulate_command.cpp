@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <memory>
-#include <ostream>
 
 #include "bench_command.h"
-#include "bench_progress.h"
 #include "match_report.h"
 #include "plan_picture.h"
 #include "psi_slam/base/atomic_file.h"
@@ -19,8 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SimulateArguments {
-  std::string json;
-  std::string output;
+  OutputArguments output;
   std::string log;
   SimulateOptions options;
 };
@@ -36,8 +33,7 @@ std::string plan_of_shortest(const SimulateOptions& options) {
 }
 
 void check(const SimulateArguments& arguments) {
-  if (!arguments.json.empty()) check_writable(arguments.json);
-  if (!arguments.output.empty()) prepare_folder(arguments.output, "simulate.md");
+  check_outputs(arguments.output, "simulate.md");
   if (arguments.log.empty()) return;
   if (arguments.options.path_m.size() != 1)
     throw UserError("--write-log takes one drive: name one length with --path-m");
@@ -47,16 +43,15 @@ void check(const SimulateArguments& arguments) {
 void run_simulate(const SimulateArguments& arguments, const Streams& streams) {
   check(arguments);
   const SimulateOptions& options = arguments.options;
-  BenchProgress progress(streams.err_is_terminal ? &streams.err : nullptr);
-  const std::vector<SimulateRow> rows = run_simulate_benchmark(
-      options, [&](const std::string& doing, double done, double all) { progress.show(doing, done, all); });
-  progress.clear();
+  const std::vector<SimulateRow> rows =
+      with_progress(streams, [&](const auto& progress) { return run_simulate_benchmark(options, progress); });
 
   const std::string machine = machine_text();
   const std::string page = simulate_markdown(rows, options, machine);
-  if (!arguments.json.empty()) write_text_atomically(arguments.json, simulate_json(rows, options, machine));
-  if (!arguments.output.empty()) {
-    const fs::path folder = arguments.output;
+  if (!arguments.output.json.empty())
+    write_text_atomically(arguments.output.json, simulate_json(rows, options, machine));
+  if (!arguments.output.output.empty()) {
+    const fs::path folder = arguments.output.output;
     write_text_atomically(folder / "simulate.md", page);
     write_text_atomically(folder / "simulate-error.svg", error_plot(rows));
     write_text_atomically(folder / "simulate-time.svg", time_plot(rows));
@@ -66,8 +61,7 @@ void run_simulate(const SimulateArguments& arguments, const Streams& streams) {
   // Only now: a child that is forked while this process holds a drive would count that memory as its own.
   if (!arguments.log.empty())
     write_simulated_log(arguments.log, simulated_drive_options(options, options.path_m.front()));
-  streams.out << page << std::flush;
-  if (!streams.out) throw SystemFailure("cannot write to standard output");
+  print_page(page, streams);
 }
 
 }  // namespace
@@ -94,15 +88,8 @@ void add_simulate_command(CLI::App& app, const Streams& streams) {
   simulate->add_option("--threads", options.threads, "That match loops; only times depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  simulate
-      ->add_option("--json", arguments->json, "Write the figures to this file; one that is there is replaced")
-      ->type_name("FILE");
-  simulate
-      ->add_option(
-          "-o,--output", arguments->output,
-          "Folder for simulate.md, the plots and a picture of the shortest drive's floor plan; those "
-          "that are there are replaced")
-      ->type_name("DIR");
+  add_output_options(*simulate, arguments->output,
+                     "simulate.md, the plots and a picture of the shortest drive's floor plan");
   simulate
       ->add_option("--write-log", arguments->log,
                    "Also write the drive as FILE, NAME.clf.gz, with its truth in NAME.relations and NAME.tum")

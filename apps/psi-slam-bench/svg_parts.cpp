@@ -1,31 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "svg_parts.h"
 
+#include "psi_slam/results/html_text.h"
 #include "psi_slam/results/number_text.h"
 
 namespace psi_slam {
-namespace {
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else
-      safe += c;
-  }
-  return safe;
-}
-
-}  // namespace
 
 std::string svg_text(double x, double y, const std::string& attributes, const std::string& content) {
   return "<text x=\"" + fixed_text(x, 1) + "\" y=\"" + fixed_text(y, 1) + "\" " + attributes + '>' +
-         escaped(content) + "</text>\n";
+         escape_html(content) + "</text>\n";
 }
 
 std::string svg_page(double width, double height, const std::string& content) {

@@ -61,8 +61,8 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   motion.odometry = frame.odom_T_robot - last_->odom_T_robot;
   motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
   motion.turn_rad = std::abs(mrpt::math::wrapToPi(motion.odometry.phi));
-  motion.sigma_m = options_.odometry_sigma_m + options_.odometry_sigma_per_metre * motion.length_m;
-  motion.sigma_rad = options_.odometry_sigma_rad + options_.odometry_sigma_per_radian * motion.turn_rad;
+  motion.sigma_m += options_.odometry_sigma_per_metre * motion.length_m;
+  motion.sigma_rad += options_.odometry_sigma_per_radian * motion.turn_rad;
   const double passed_s = std::max(0.0, seconds(frame.time_us - last_->time_us)) / kSteadyTime_s;
   const double belief = 1 / (1 + passed_s * passed_s);
   motion.surprise_m =

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/matching/genetic_operators.h"
 
+#include "psi_slam/base/mixed_bits.h"
+
 #include <algorithm>
 
 namespace psi_slam {
@@ -8,18 +10,10 @@ namespace {
 
 __extension__ using Wide = unsigned __int128;
 
-// The finaliser of SplitMix64 (Steele et al. 2014): neighbouring numbers become unlike ones.
-std::uint64_t mixed(std::uint64_t number) {
-  number += 0x9e3779b97f4a7c15;
-  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9;
-  number = (number ^ (number >> 27)) * 0x94d049bb133111eb;
-  return number ^ (number >> 31);
-}
-
 }  // namespace
 
 Random random_for(const MatchSeed& seed) {
-  return Random(mixed(mixed(mixed(seed.run) + seed.scan) + seed.local_map));
+  return Random(mixed_bits(mixed_bits(mixed_bits(seed.run) + seed.scan) + seed.local_map));
 }
 
 // Lemire, "Fast random integer generation in an interval", 2019.

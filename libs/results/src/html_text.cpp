@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "html_text.h"
+#include "psi_slam/results/html_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -13,6 +13,7 @@
 #include "psi_slam/results/loops_csv.h"
 #include "psi_slam/results/map_image.h"
 #include "psi_slam/results/map_server_pair.h"
+#include "psi_slam/results/mapped_trajectory.h"
 #include "psi_slam/results/mrpt_maps.h"
 #include "psi_slam/results/report_html.h"
 #include "psi_slam/results/summary_json.h"
@@ -33,13 +34,6 @@ void check_no_file_in_the_way(const fs::path& path) {
       throw UserError("cannot write to the folder " + path.string() + ": " + part.string() +
                       " is a file, not a folder");
   }
-}
-
-Trajectory trajectory_of(const MappingResult& result) {
-  Trajectory trajectory;
-  trajectory.reserve(result.frames.size());
-  for (const FrameRecord& frame : result.frames) trajectory.push_back({frame.time_us, frame.map_T_robot});
-  return trajectory;
 }
 
 }  // namespace
@@ -64,7 +58,7 @@ OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
 void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
                     const OutputFolder& folder) {
   const auto file = [&](const char* name) { return folder.path() / name; };
-  write_tum(file("trajectory.tum"), trajectory_of(result));
+  write_tum(file("trajectory.tum"), trajectory_of(result.frames));
   write_corrected_log(file("trajectory.carmen"), result.log, mapped_poses(result));
   write_frames_csv(file("frames.csv"), result.frames);
   write_loops_csv(file("loops.csv"), result.loops);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/results/report_html.h"
 
-#include "html_text.h"
+#include "psi_slam/results/html_text.h"
 #include "psi_slam/results/number_text.h"
 #include "report_map.h"
 #include "report_plot.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "html_text.h"
+#include "psi_slam/results/html_text.h"
 #include "psi_slam/results/map_image.h"
 #include "psi_slam/results/number_text.h"
 

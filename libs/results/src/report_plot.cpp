@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "html_text.h"
+#include "psi_slam/results/html_text.h"
 #include "psi_slam/results/number_text.h"
 
 namespace psi_slam {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "html_text.h"
+#include "psi_slam/results/html_text.h"
 #include "psi_slam/results/number_text.h"
 #include "verdict_text.h"
 

@@ -178,7 +178,7 @@ class Draughtsman {
   void furnish(const RoomRow& room, double door_x) {
     const double y_low = std::min(room.y_front, room.y_back) + kHalfWall_m;
     const double y_high = std::max(room.y_front, room.y_back) - kHalfWall_m;
-    const std::size_t pieces = 3 + random_.below(6);
+    const std::size_t pieces = 3 + random_.index(6);
     for (std::size_t piece = 0; piece < pieces; ++piece) {
       const double width = random_.between(0.4, 1.6);
       const double depth = random_.between(0.35, 0.8);

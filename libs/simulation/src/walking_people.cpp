@@ -18,7 +18,7 @@ constexpr double kFromWall_m = 0.3;  // from the wall to the person's side
 WalkingPeople::WalkingPeople(const FloorPlan& plan, std::size_t count, std::uint64_t seed) {
   SimulationRandom random(seed, SimulationRandom::Stream::kPeople);
   for (std::size_t i = 0; i < count; ++i) {
-    const Corridor& corridor = plan.corridors[random.below(plan.corridors.size())];
+    const Corridor& corridor = plan.corridors[random.index(plan.corridors.size())];
     const mrpt::math::TPoint2D way = corridor.to - corridor.from;
     const double length = std::hypot(way.x, way.y);
     const double aside =

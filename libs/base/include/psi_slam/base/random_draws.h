@@ -25,7 +25,7 @@ class RandomDraws {
   /// In [0, 1).
   double share() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
   double plus_minus(double most) { return (2 * share() - 1) * most; }
-  /// In [0, count).
+  /// In [0, count); `count` is not 0.
   std::size_t index(std::size_t count) {
     return static_cast<std::size_t>(share() * static_cast<double>(count));
   }
@@ -34,6 +34,10 @@ class RandomDraws {
     const double radius = std::sqrt(-2 * std::log(1 - share()));
     return radius * std::cos(2 * M_PI * share());
   }
+
+ protected:
+  /// For a stream that is told from others in a way of its own.
+  explicit RandomDraws(std::uint64_t stream) : random_(stream) {}
 
  private:
   std::mt19937_64 random_;

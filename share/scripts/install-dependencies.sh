@@ -8,7 +8,7 @@ packages=(
   build-essential cmake ninja-build pkg-config
   libmrpt-dev mrpt-common libeigen3-dev libopencv-dev libwxgtk3.2-dev
   libcli11-dev nlohmann-json3-dev zlib1g-dev
-  libssl-dev libgtest-dev libgmock-dev libbenchmark-dev python3
+  libssl-dev libnanoflann-dev libgtest-dev libgmock-dev libbenchmark-dev python3
 )
 
 fail() {

@@ -215,20 +215,34 @@ void Mapper::count_accepted_loops() {
   }
 }
 
+// Of all frames, and of the graph's nodes with them.
+void Mapper::refine_poses(const std::function<bool(double)>& progress) {
+  RefinedScans scans;
+  for (const FrameRecord& frame : result_.frames) scans.map_T_frame.push_back(frame.map_T_robot);
+  scans.node_frames = result_.node_frames;
+  scans.points = [&](std::size_t frame) {
+    return matching_points(result_.log[frame].scan, options_.front_end.scan);
+  };
+  refine_jointly(scans, options_.joint_refinement, pool_, progress);
+  for (std::size_t i = 0; i < result_.frames.size(); ++i)
+    result_.frames[i].map_T_robot = scans.map_T_frame[i];
+  for (std::size_t node = 0; node < result_.node_frames.size(); ++node)
+    graph_.set_pose(node, scans.map_T_frame[result_.node_frames[node]]);
+}
+
 MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
   for (const PlacedLocalMap& finished : front_end_.finish()) remember(finished);
   refuse_pending_loops();
+  const int steps = options_.last_pass.passes + 1;
+  const auto go_on = [&](double done) {
+    const bool wanted = !progress || progress(done / steps);
+    result_.last_pass_cut_short = !wanted && done < steps;
+    return wanted;
+  };
   if (options_.close_loops && !memory_.nodes.empty()) {
     graph_clock_.time([&] { settle_loops(); });
     for (int pass = 0; pass < options_.last_pass.passes && !result_.last_pass_cut_short; ++pass) {
-      last_pass_clock_.time([&] {
-        run_last_pass([&](double share) {
-          const double all_share = (pass + share) / options_.last_pass.passes;
-          const bool go_on = !progress || progress(all_share);
-          result_.last_pass_cut_short = !go_on && all_share < 1;
-          return go_on;
-        });
-      });
+      last_pass_clock_.time([&] { run_last_pass([&](double share) { return go_on(pass + share); }); });
       graph_clock_.time([&] { settle_loops(); });
     }
     refuse_pending_loops();
@@ -236,8 +250,11 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
   result_.interrupted = result_.last_pass_cut_short;
   count_accepted_loops();
   carry_frames_along(graph_.poses(), result_.node_frames, result_.frames);
+  if (options_.close_loops && !result_.last_pass_cut_short)
+    refinement_clock_.time([&] { refine_poses([&](double share) { return go_on(steps - 1 + share); }); });
   result_.graph = graph_.to_mrpt();
-  for (const StageClock* clock : {&front_end_clock_, &loop_clock_, &graph_clock_, &last_pass_clock_})
+  for (const StageClock* clock :
+       {&front_end_clock_, &loop_clock_, &graph_clock_, &last_pass_clock_, &refinement_clock_})
     result_.stages.push_back(clock->timing());
   return std::move(result_);
 }

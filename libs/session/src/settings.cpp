@@ -324,6 +324,33 @@ void describe_last_pass(OptionTable& table, LastPassOptions& last_pass) {
               "of all nodes in so much travel one is matched; 0: every node");
 }
 
+void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refinement) {
+  SurfaceAlignmentOptions& alignment = refinement.alignment;
+  table
+      .section("joint_refinement",
+               "At the very end: every scan laid on the surfaces that the scans near it saw")
+      .integer("rounds", refinement.rounds, between(0, 100), "rounds", "how often; 0 leaves it out")
+      .integer("references", refinement.references, between(1, 1000), "nodes",
+               "whose scans one scan is laid on, at most; those nearest to it")
+      .number("reach_m", refinement.reach_m, above(0).at_most(100), "m", "how far they may be")
+      .angle_deg("max_turn_deg", refinement.max_turn_rad, above(0).at_most(180), "how far turned")
+      .integer("neighbours", alignment.neighbours, between(1, 100), "points",
+               "of those surfaces, nearest to a point of the scan, whose mean it is compared with")
+      .number("max_distance_m", alignment.max_distance_m, above(0).at_most(10), "m",
+              "points farther apart are of two surfaces")
+      .angle_deg("max_normal_turn_deg", alignment.max_turn_rad, above(0).at_most(180),
+                 "as are those whose normals differ by more")
+      .number("kernel_m", alignment.kernel_m, above(0).at_most(10), "m",
+              "residual at which a point has lost three quarters of its weight")
+      .number("prior_sigma_m", alignment.prior_sigma_m, above(0).at_most(10), "m",
+              "how far the optimised pose may be off")
+      .angle_deg("prior_sigma_theta_deg", alignment.prior_sigma_rad, above(0).at_most(180),
+                 "the same in heading")
+      .integer("iterations", alignment.iterations, between(1, 100), "iterations", "of Gauss-Newton, a scan")
+      .integer("min_points", alignment.min_points, between(1, 1000000), "points",
+               "of a scan near surfaces; with fewer it stays where it was");
+}
+
 void describe_map(OptionTable& table, GridMapOptions& map) {
   table.section("map", "The map that is written")
       .number("resolution_m", map.resolution_m, between(0.005, 10), "m", "side of a cell")
@@ -355,6 +382,7 @@ void describe(OptionTable& table, Settings& settings) {
   describe_consensus(table, settings.mapper.loop_consensus);
   describe_pose_graph(table, settings.mapper);
   describe_last_pass(table, settings.mapper.last_pass);
+  describe_joint_refinement(table, settings.mapper.joint_refinement);
   describe_map(table, settings.map);
   describe_run(table, settings.run);
 }

@@ -17,6 +17,7 @@
 #include "psi_slam/loop_closure/loop_closure_factor.h"
 #include "psi_slam/loop_closure/loop_consensus.h"
 #include "psi_slam/loop_closure/matcher_policy.h"
+#include "psi_slam/mapping/joint_refinement.h"
 #include "psi_slam/mapping/mapping_result.h"
 #include "psi_slam/mapping/stage_clock.h"
 #include "psi_slam/pose_graph/pose_graph.h"
@@ -33,6 +34,7 @@ struct MapperOptions {
   LoopClosureOptions loop_closure;
   LoopConsensusOptions loop_consensus;
   LastPassOptions last_pass;
+  JointRefinementOptions joint_refinement;
   PoseAdjustmentOptions pose_graph;
 
   bool close_loops = true;
@@ -78,6 +80,7 @@ class Mapper {
   void settle_loops();
   void refuse_pending_loops();
   void count_accepted_loops();
+  void refine_poses(const std::function<bool(double)>& progress);
 
   MapperOptions options_;
   FrontEnd front_end_;
@@ -98,6 +101,7 @@ class Mapper {
   StageClock loop_clock_{"close loops"};
   StageClock graph_clock_{"optimise pose graph"};
   StageClock last_pass_clock_{"last global pass"};
+  StageClock refinement_clock_{"refine all scans jointly"};
 };
 
 }  // namespace psi_slam

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/matching/point_index.h"
+
+#include <algorithm>
+#include <nanoflann.hpp>
+#include <utility>
+
+namespace psi_slam {
+namespace {
+
+using Point = mrpt::math::TPoint2Df;
+
+/// As nanoflann reads points.
+struct PointSource {
+  const Point* first = nullptr;
+  std::size_t count = 0;
+  // NOLINTBEGIN: the names are nanoflann's
+  std::size_t kdtree_get_point_count() const { return count; }
+  float kdtree_get_pt(std::size_t index, std::size_t axis) const {
+    return axis == 0 ? first[index].x : first[index].y;
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+  // NOLINTEND
+};
+
+}  // namespace
+
+struct PointIndex::Tree {
+  explicit Tree(const std::vector<Point>& points) : source{points.data(), points.size()} {}
+
+  PointSource source;  // points into the vector's heap, which stays where it is when the vector moves
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointSource>, PointSource, 2,
+                                      std::size_t>
+      index{2, source};
+};
+
+PointIndex::PointIndex(std::vector<Point> points)
+    : points_(std::move(points)), tree_(std::make_unique<Tree>(points_)) {}
+PointIndex::~PointIndex() = default;
+PointIndex::PointIndex(PointIndex&&) noexcept = default;
+PointIndex& PointIndex::operator=(PointIndex&&) noexcept = default;
+
+void PointIndex::nearest(const Point& at, std::size_t count, float max_distance_m,
+                         std::vector<std::size_t>& found) const {
+  found.resize(count);
+  thread_local std::vector<float> squares;
+  squares.resize(count);
+  const float query[2] = {at.x, at.y};
+  std::size_t size = points_.empty() ? 0 : tree_->index.knnSearch(query, count, found.data(), squares.data());
+  while (size > 0 && squares[size - 1] > max_distance_m * max_distance_m) --size;
+  found.resize(size);
+}
+
+std::vector<std::size_t> PointIndex::within(const Point& at, float radius_m) const {
+  std::vector<std::pair<std::size_t, float>> matches;
+  const float query[2] = {at.x, at.y};
+  if (!points_.empty())
+    tree_->index.radiusSearch(query, radius_m * radius_m, matches, nanoflann::SearchParams());
+  std::vector<std::size_t> found;
+  for (const auto& [index, square] : matches) found.push_back(index);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/matching/point_index.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "psi_slam/base/random_draws.h"
+
+namespace psi_slam {
+namespace {
+
+using Point = mrpt::math::TPoint2Df;
+
+std::vector<Point> drawn_points(std::size_t count) {
+  RandomDraws random(5, "points", 0);
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < count; ++i)
+    points.emplace_back(static_cast<float>(random.plus_minus(4)), static_cast<float>(random.plus_minus(4)));
+  return points;
+}
+
+float distance_m(const Point& a, const Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+std::vector<std::size_t> slow_within(const std::vector<Point>& points, const Point& at, float radius_m) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (distance_m(points[i], at) <= radius_m) found.push_back(i);
+  return found;
+}
+
+std::vector<std::size_t> slow_nearest(const std::vector<Point>& points, const Point& at, std::size_t count,
+                                      float max_distance_m) {
+  std::vector<std::size_t> found = slow_within(points, at, max_distance_m);
+  std::sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
+    return distance_m(points[a], at) < distance_m(points[b], at);
+  });
+  found.resize(std::min(found.size(), count));
+  return found;
+}
+
+TEST(PointIndex, finds_what_looking_at_every_point_finds) {
+  const std::vector<Point> points = drawn_points(700);
+  const PointIndex index(points);
+  std::vector<std::size_t> near;
+  for (const Point& at : drawn_points(60)) {
+    const Point query = at + Point(0.01F, 0.02F);
+    for (const float reach : {0.05F, 0.4F, 20.0F}) {
+      EXPECT_EQ(index.within(query, reach), slow_within(points, query, reach));
+      for (const std::size_t count : {1U, 6U, 900U}) {
+        index.nearest(query, count, reach, near);
+        EXPECT_EQ(near, slow_nearest(points, query, count, reach)) << count << " within " << reach;
+      }
+    }
+  }
+}
+
+TEST(PointIndex, finds_nothing_where_there_is_none) {
+  const PointIndex index(std::vector<Point>{});
+  std::vector<std::size_t> near = {1, 2};
+  index.nearest({0, 0}, 3, 10, near);
+  EXPECT_TRUE(near.empty());
+  EXPECT_TRUE(index.within({0, 0}, 10).empty());
+}
+
+TEST(PointIndex, still_finds_after_it_was_moved) {
+  PointIndex first(drawn_points(50));
+  const PointIndex second(std::move(first));
+  EXPECT_EQ(second.within({0, 0}, 2), slow_within(drawn_points(50), {0, 0}, 2));
+}
+
+}  // namespace
+}  // namespace psi_slam

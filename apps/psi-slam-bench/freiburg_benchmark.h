@@ -16,6 +16,8 @@
 
 #include "benchmark_logs.h"
 #include "freiburg_run.h"
+#include "rival_program.h"
+#include "rival_run.h"
 
 namespace psi_slam {
 
@@ -53,6 +55,8 @@ struct FreiburgBenchmark {
   std::vector<FreiburgCell> cells;             ///< by log, then in the order of the matchers
   std::vector<std::string> without_relations;  ///< logs of the folder that cannot be evaluated
   std::vector<std::string> left_out;           ///< logs of the folder that were not asked for
+  FoundRivals rivals;                          ///< mappers of others, where they were asked for
+  std::vector<RivalResult> rival_results;      ///< of run_rivals()
 };
 
 /// Makes the runs that are not there yet. `logs` need their relations. A run that fails does not stop the

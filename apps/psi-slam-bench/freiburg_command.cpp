@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <ostream>
 
@@ -11,6 +12,7 @@
 #include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
 #include "published_figures.h"
+#include "rival_benchmark.h"
 
 namespace psi_slam {
 namespace {
@@ -25,6 +27,8 @@ struct FreiburgArguments {
   std::string output = "out/freiburg";
   std::vector<std::string> names;  ///< of logs; empty: all
   FreiburgOptions options;
+  bool rivals = false;
+  double rival_limit_s = RivalOptions().time_limit_s;
 };
 
 /// What can be evaluated of the logs, and which cannot or is not asked for.
@@ -81,6 +85,25 @@ std::size_t failed_runs(const FreiburgBenchmark& benchmark) {
   return failed;
 }
 
+/// Those that were asked for; the missing ones are told. Throws UserError when all are missing.
+FoundRivals rivals_of(const FreiburgArguments& arguments, const Streams& streams) {
+  if (!arguments.rivals) return {};
+  const char* const search_path = std::getenv("PATH");
+  FoundRivals rivals = find_rivals(search_path != nullptr ? search_path : "");
+  if (rivals.programs.empty()) {
+    std::string why;
+    for (const std::string& missing : rivals.missing) why += (why.empty() ? "" : ", ") + missing;
+    throw UserError("--rivals: " + why + "; Debian's package mrpt-apps has them");
+  }
+  for (const std::string& missing : rivals.missing)
+    streams.err << "psi-slam-bench: warning: --rivals: " << missing << '\n';
+  return rivals;
+}
+
+RivalOptions rival_options(const FreiburgArguments& arguments) {
+  return {arguments.rival_limit_s, arguments.options.processes, arguments.options.output};
+}
+
 void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
   check_once(arguments.options.matchers, "--matchers");
   const ChosenLogs chosen = choose(logs_of(arguments.data), arguments.names, arguments.data.data);
@@ -90,10 +113,16 @@ void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
   prepare_folder(arguments.output, kPage);
   prepare_folder(fs::path(arguments.output) / "runs", "any.json");
   arguments.options.output = arguments.output;
+  const FoundRivals rivals = rivals_of(arguments, streams);
   FreiburgBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
     const InterruptSignals signals;
-    return run_freiburg_benchmark(chosen.logs, arguments.options, signals.came(), progress);
+    FreiburgBenchmark ours =
+        run_freiburg_benchmark(chosen.logs, arguments.options, signals.came(), progress);
+    ours.rival_results =
+        run_rivals(rivals.programs, chosen.logs, rival_options(arguments), signals.came(), progress);
+    return ours;
   });
+  benchmark.rivals = rivals;
   benchmark.without_relations = chosen.without_relations;
   benchmark.left_out = chosen.left_out;
 
@@ -149,6 +178,17 @@ void add_work_options(CLI::App& freiburg, FreiburgArguments& arguments) {
       ->capture_default_str();
 }
 
+void add_rival_options(CLI::App& freiburg, FreiburgArguments& arguments) {
+  CLI::Option* const rivals = freiburg.add_flag(
+      "--rivals", arguments.rivals,
+      "Run MRPT's icp-slam and rbpf-slam too, where they are on PATH, with the settings that they ship with");
+  constexpr double kMost_s = 1e6;
+  freiburg.add_option("--rival-limit-s", arguments.rival_limit_s, "Seconds after which a rival is stopped")
+      ->needs(rivals)
+      ->check(CLI::Range(0.1, kMost_s))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_freiburg_command(CLI::App& app, const Streams& streams) {
@@ -165,6 +205,7 @@ void add_freiburg_command(CLI::App& app, const Streams& streams) {
       ->type_name("DIR")
       ->capture_default_str();
   add_work_options(*freiburg, *arguments);
+  add_rival_options(*freiburg, *arguments);
   freiburg->callback([arguments, &streams] { run_freiburg(*arguments, streams); });
   add_run_command(app, streams);
 }

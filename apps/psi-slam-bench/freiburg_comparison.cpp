@@ -36,6 +36,38 @@ std::optional<PathErrors> our_errors(const FreiburgBenchmark& benchmark, const s
   return std::nullopt;
 }
 
+std::string column_name(const RivalProgram& rival) {
+  return "MRPT " + rival.kind.name + " (run here)";
+}
+
+std::string source_of(const RivalProgram& rival) {
+  return rival.version + ", run here on the same log, every scan, with " +
+         rival.config.filename().string() + " as it ships; set otherwise: " + changes_text(rival.kind) +
+         ". " + rival.kind.remark;
+}
+
+PublishedErrors errors_of(const RunFigures& figures) {
+  PublishedErrors errors;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const MeanAndStd& one = figures.errors.*kPathFigures[i].errors;
+    errors[i] = PublishedFigure{one.mean, one.std};
+  }
+  return errors;
+}
+
+/// The rivals that were run here, as systems like the others.
+std::vector<PublishedSystem> rival_systems(const FreiburgBenchmark& benchmark) {
+  std::vector<PublishedSystem> systems;
+  for (const RivalProgram& rival : benchmark.rivals.programs) {
+    PublishedSystem system{column_name(rival), source_of(rival), {}};
+    for (const RivalResult& result : benchmark.rival_results)
+      if (result.rival == rival.kind.name && result.figures)
+        system.logs.push_back({benchmark_log_name(result.log), errors_of(*result.figures)});
+    systems.push_back(std::move(system));
+  }
+  return systems;
+}
+
 void mark_best(ComparisonRow& row) {
   std::optional<double> least;
   for (const auto& value : row.values)
@@ -55,7 +87,9 @@ Comparison compare_with_others(const FreiburgBenchmark& benchmark) {
   const std::string matcher = our_matcher(benchmark);
   Comparison comparison;
   comparison.columns.push_back({"psi-slam, " + matcher, "this run: means over the seeds.", true});
-  for (const PublishedSystem& system : published_systems())
+  std::vector<PublishedSystem> others = rival_systems(benchmark);
+  others.insert(others.end(), published_systems().begin(), published_systems().end());
+  for (const PublishedSystem& system : others)
     comparison.columns.push_back({system.name, system.source, false});
   for (const BenchmarkLogTitle& log : logs_of(benchmark)) {
     const auto ours = our_errors(benchmark, matcher, log.log);
@@ -66,7 +100,7 @@ Comparison compare_with_others(const FreiburgBenchmark& benchmark) {
         const MeanAndStd& errors = (*ours).*kPathFigures[figure].errors;
         row.values.back() = PublishedFigure{errors.mean, errors.std};
       }
-      for (const PublishedSystem& system : published_systems()) {
+      for (const PublishedSystem& system : others) {
         const PublishedErrors* errors = system.errors_of(log.log);
         row.values.push_back(errors != nullptr ? (*errors)[figure] : std::nullopt);
       }

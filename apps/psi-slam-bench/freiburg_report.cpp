@@ -6,6 +6,8 @@
 
 #include "freiburg_comparison.h"
 #include "freiburg_figures.h"
+#include "freiburg_rivals.h"
+#include "markdown_cells.h"
 #include "program_identity.h"
 #include "psi_slam/results/number_text.h"
 
@@ -13,10 +15,6 @@ namespace psi_slam {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string errors_text(const MeanAndStd& errors) {
-  return fixed_text(errors.mean, 4) + " ± " + fixed_text(errors.std, 4);
-}
 
 std::string spread_text(const SeedSpread& spread) {
   return fixed_text(spread.std, 5) + " (" + fixed_text(spread.min, 4) + " – " + fixed_text(spread.max, 4) +
@@ -31,22 +29,9 @@ std::string runs_text(const FreiburgCell& cell, const CellFigures& figures) {
   return text;
 }
 
-/// Whole logs are told by what fits a table's cell.
-std::string cell_text(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  std::replace(text.begin(), text.end(), '|', '/');
-  return text;
-}
-
 /// The reason if it is the same for all runs.
 std::string failed_row(const FreiburgCell& cell) {
   return "| " + cell.log + " | " + cell.matcher + " | failed: " + cell_text(cell.runs.front().failure);
-}
-
-std::string repeated(const std::string& text, std::size_t times) {
-  std::string all;
-  for (std::size_t i = 0; i < times; ++i) all += text;
-  return all;
 }
 
 /// "0.2 of 512.0 | 93.1": two cells.
@@ -56,8 +41,7 @@ std::string judged_text(const CellFigures& figures) {
 }
 
 std::string matchers_table(const FreiburgBenchmark& benchmark) {
-  std::string text = "| log | matcher | runs |";
-  for (const PathFigure& figure : kPathFigures) text += ' ' + std::string(figure.name) + " |";
+  std::string text = "| log | matcher | runs |" + path_figure_heads();
   constexpr std::size_t kOthers = 8;
   text +=
       " relations used | loops accepted | false of judged | recall % | wall [s] | CPU [s] | × real time | "
@@ -218,6 +202,7 @@ std::string freiburg_markdown(const FreiburgBenchmark& benchmark, const Freiburg
   text += "## Ours beside the others\n\n" + comparison_table(comparison) +
           "\nBold is the least mean of each row. Where the figures come from:\n\n" +
           sources_text(comparison) + '\n' + missing_text(benchmark);
+  text += rivals_markdown(benchmark);
   text += "## Every matcher on every log\n\n" + matchers_table(benchmark) + '\n';
   text += "## Spread of the means over the seeds\n\nStandard deviation (least – most).\n\n" +
           spread_table(benchmark) + '\n';
@@ -244,6 +229,7 @@ std::string freiburg_json(const FreiburgBenchmark& benchmark, const FreiburgOpti
                      {"threads", options.threads},
                      {"logs", logs},
                      {"cells", cells},
+                     {"rivals", rivals_json(benchmark)},
                      {"comparison", comparison_json(compare_with_others(benchmark))}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }

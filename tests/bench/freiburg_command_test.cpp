@@ -7,6 +7,7 @@
 #include "../results/well_formed.h"
 #include "bench_app.h"
 #include "child_process.h"
+#include "rival_files.h"
 #include "room_benchmark.h"
 #include "temporary_folder.h"
 
@@ -36,7 +37,7 @@ class FreiburgCommand : public testing::Test {
   ChildEnd run(const std::vector<std::string>& options) const {
     ChildProcess program;
     program.words = words(options);
-    program.words.insert(program.words.begin(), PSI_SLAM_BENCH_PROGRAM);
+    program.words.insert(program.words.begin(), {"/usr/bin/env", "PATH=" + path_, PSI_SLAM_BENCH_PROGRAM});
     return run_child(program);
   }
 
@@ -54,6 +55,7 @@ class FreiburgCommand : public testing::Test {
   fs::path data_ = folder_.path() / "data";
   fs::path ini_ = folder_.path() / "ini";
   fs::path output_ = folder_.path() / "out" / "freiburg";
+  std::string path_ = (folder_.path() / "bin").string() + ":/usr/bin:/bin";
 };
 
 TEST_F(FreiburgCommand, maps_the_logs_and_writes_page_figures_and_plots) {
@@ -98,12 +100,48 @@ TEST_F(FreiburgCommand, says_by_its_code_that_a_run_failed) {
   EXPECT_THAT(end.out, HasSubstr("| room | csm | failed: "));
 }
 
+TEST_F(FreiburgCommand, shows_the_rivals_that_are_installed_beside_ours) {
+  write_room_benchmark(data_, ini_);
+  install_rival(folder_.path(), rival_kinds()[0], standing_still(190));
+  install_rival(folder_.path(), rival_kinds()[1], "exec sleep 600");
+  const fs::path json_file = folder_.path() / "freiburg.json";
+  const ChildEnd end =
+      run({"--matchers", "csm", "--rivals", "--rival-limit-s", "1", "--json", json_file.string()});
+  ASSERT_EQ(end.code, 0) << end.err;
+  EXPECT_THAT(end.out, AllOf(HasSubstr("MRPT icp-slam (run here)"), HasSubstr("MRPT 9.9.9 - Sources"),
+                             HasSubstr("| room | icp-slam | "),
+                             HasSubstr("| room | rbpf-slam | not finished in 1 s | –")));
+  const Json json = Json::parse(read_file(json_file));
+  ASSERT_EQ(json["rivals"]["runs"].size(), 2U);
+  EXPECT_EQ(json["rivals"]["runs"][0]["figures"]["scans"], 190);
+  EXPECT_EQ(json["rivals"]["runs"][1]["not_finished_in_s"], 1);
+  EXPECT_THAT(read_file(output_ / "freiburg-room.svg"), HasSubstr("MRPT icp-slam (run here)"));
+}
+
+TEST_F(FreiburgCommand, says_which_rivals_are_missing) {
+  write_room_benchmark(data_, ini_);
+  path_ = (folder_.path() / "bin").string();
+  const ChildEnd none = run({"--matchers", "csm", "--rivals"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, AllOf(HasSubstr("icp-slam is not on PATH, rbpf-slam is not on PATH"),
+                              HasSubstr("mrpt-apps")));
+  install_rival(folder_.path(), rival_kinds()[1], "exit 3");
+  write_file(folder_.path() / "bin" / "icp-slam", "no program");
+  const ChildEnd one = run({"--matchers", "csm", "--rivals"});
+  EXPECT_EQ(one.code, 0) << one.err;
+  EXPECT_THAT(one.err, HasSubstr("warning: --rivals: icp-slam is not on PATH"));
+  EXPECT_THAT(one.out, HasSubstr("- not run: icp-slam is not on PATH"));
+  EXPECT_THAT(one.out, HasSubstr("| room | rbpf-slam | failed: ended with code 3 | –"));
+}
+
 TEST_F(FreiburgCommand, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
   EXPECT_THAT(refusal({}), HasSubstr("there is no log in " + data_.string()));
   write_room_benchmark(data_, ini_);
   EXPECT_THAT(refusal({"--bogus"}), HasSubstr("--bogus"));
   EXPECT_THAT(refusal({"--seeds", "0"}), HasSubstr("--seeds"));
   EXPECT_THAT(refusal({"--seeds", "-1"}), HasSubstr("--seeds"));
+  EXPECT_THAT(refusal({"--rival-limit-s", "5"}), HasSubstr("--rivals"));
+  EXPECT_THAT(refusal({"--rivals", "--rival-limit-s", "0"}), HasSubstr("--rival-limit-s"));
   EXPECT_THAT(refusal({"--processes", "0"}), HasSubstr("--processes"));
   EXPECT_THAT(refusal({"--threads", "some"}), HasSubstr("--threads"));
   EXPECT_THAT(refusal({"--matchers", "csm,icp"}), AllOf(HasSubstr("--matchers"), HasSubstr("icp")));

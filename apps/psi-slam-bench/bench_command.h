@@ -62,9 +62,17 @@ void prepare_folder(const std::filesystem::path& folder, const std::string& file
 /// UserError when there is none.
 std::filesystem::path ini_folder(const std::string& given);
 
-/// Those of the logs that have these names, in the logs' order; all of them when there are no names. Throws
-/// UserError when a name is not among them, or a chosen log has no relations to measure its error by.
-std::vector<BenchmarkLog> chosen_logs(std::vector<BenchmarkLog> logs, const std::vector<std::string>& names);
+/// The logs that a command works on, and the names of the others in the folder.
+struct ChosenLogs {
+  std::vector<BenchmarkLog> logs;              ///< each with its relations
+  std::vector<std::string> without_relations;  ///< that cannot be evaluated
+  std::vector<std::string> left_out;           ///< that were not asked for
+};
+
+/// The logs of the folder that have these names, in the folder's order; when there are no names, all that
+/// have relations. Throws UserError as logs_of(), when a name is not there, when a log that was named has no
+/// relations, and when no log remains.
+ChosenLogs chosen_logs(const DataArguments& arguments, const std::vector<std::string>& names);
 
 /// Writes the page to standard output. Throws SystemFailure when it cannot.
 void print_page(const std::string& page, const Streams& streams);

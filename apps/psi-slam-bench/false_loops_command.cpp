@@ -20,10 +20,10 @@ struct FalseLoopsArguments {
 };
 
 void run_false_loops(const FalseLoopsArguments& arguments, const Streams& streams) {
-  const std::vector<BenchmarkLog> logs = chosen_logs(logs_of(arguments.data), arguments.logs);
+  const ChosenLogs chosen = chosen_logs(arguments.data, arguments.logs);
   check_outputs(arguments.output, "false-loops.md");
   const FalseLoopBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
-    return run_false_loop_benchmark(logs, arguments.options, progress);
+    return run_false_loop_benchmark(chosen.logs, arguments.options, progress);
   });
 
   const std::string machine = machine_text();

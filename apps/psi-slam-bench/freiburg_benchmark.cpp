@@ -6,6 +6,7 @@
 #include "child_process.h"
 #include "file_checksum.h"
 #include "kept_run.h"
+#include "match_report.h"
 #include "program_identity.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/base/worker_pool.h"
@@ -24,15 +25,15 @@ struct Task {
   FreiburgRun run;
   std::string name;  // "intel-csm-1"
   fs::path file;     // what it came to
-  std::string key;   // of all that its figures depend on
-  double work = 0;   // in a unit that is proportional to its time
+  RunKey key;
+  double work = 0;  // in a unit that is proportional to its time
   const FreiburgLog* log = nullptr;
   FreiburgResult* result = nullptr;
 };
 
 std::string key_of(const FreiburgRun& run, const FreiburgLog& log, const std::string& program_sha256) {
-  return sha256_of_text(log.sha256 + '\n' + log.relations_sha256 + '\n' + program_version() + '\n' +
-                        program_sha256 + '\n' + settings_text(settings_of(run)));
+  return sha256_of_text(machine_text() + '\n' + log.sha256 + '\n' + log.relations_sha256 + '\n' +
+                        program_version() + '\n' + program_sha256 + '\n' + settings_text(settings_of(run)));
 }
 
 /// The figures of a run made before, if its file is there and of this key.
@@ -53,6 +54,7 @@ void keep_figures(const Task& task, const FreiburgFigures& figures) {
             {"matcher", task.run.matcher},
             {"seed", task.run.seed},
             {"threads", task.run.threads},
+            {"machine", machine_text()},
             {"program_version", program_version()},
             {"commit", program_commit()},
             {"figures", Json::parse(figures_json(figures))},
@@ -127,7 +129,7 @@ std::vector<Task> tasks_of(FreiburgBenchmark& benchmark, const std::vector<Bench
       task.run = run_of(logs[log], benchmark.cells[i].matcher, result.seed, options.threads);
       task.name = logs[log].name + '-' + task.run.matcher + '-' + std::to_string(result.seed);
       task.file = options.output / "runs" / (task.name + ".json");
-      task.key = key_of(task.run, benchmark.logs[log], program_sha256);
+      task.key = {key_of(task.run, benchmark.logs[log], program_sha256), options.processes};
       task.work = static_cast<double>(fs::file_size(logs[log].log));
       task.log = &benchmark.logs[log];
       task.result = &result;

@@ -31,38 +31,11 @@ struct FreiburgArguments {
   double rival_limit_s = RivalOptions().time_limit_s;
 };
 
-/// What can be evaluated of the logs, and which cannot or is not asked for.
-struct ChosenLogs {
-  std::vector<BenchmarkLog> logs;
-  std::vector<std::string> without_relations;
-  std::vector<std::string> left_out;
-};
-
 /// Throws UserError when a name is there twice.
 void check_once(const std::vector<std::string>& names, const std::string& option) {
   for (auto name = names.begin(); name != names.end(); ++name)
     if (std::find(names.begin(), name, *name) != name)
       throw UserError(option + ": " + *name + " is named twice");
-}
-
-ChosenLogs choose(const std::vector<BenchmarkLog>& all, const std::vector<std::string>& names,
-                  const std::string& data) {
-  for (const std::string& name : names)
-    if (std::none_of(all.begin(), all.end(), [&](const BenchmarkLog& log) { return log.name == name; }))
-      throw UserError("--logs: there is no log " + name + " in " + data);
-  ChosenLogs chosen;
-  for (const BenchmarkLog& log : all) {
-    const bool asked = names.empty() || std::find(names.begin(), names.end(), log.name) != names.end();
-    if (!asked)
-      chosen.left_out.push_back(log.name);
-    else if (!log.relations)
-      chosen.without_relations.push_back(log.name);
-    else
-      chosen.logs.push_back(log);
-  }
-  if (chosen.logs.empty())
-    throw UserError("no log can be evaluated: expected NAME.relations in " + data + " beside its log");
-  return chosen;
 }
 
 void write_files(const FreiburgArguments& arguments, const FreiburgBenchmark& benchmark,
@@ -106,7 +79,7 @@ RivalOptions rival_options(const FreiburgArguments& arguments) {
 
 void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
   check_once(arguments.options.matchers, "--matchers");
-  const ChosenLogs chosen = choose(logs_of(arguments.data), arguments.names, arguments.data.data);
+  const ChosenLogs chosen = chosen_logs(arguments.data, arguments.names);
   for (const BenchmarkLog& log : chosen.logs)
     benchmark_settings(log.ini);  // wrong ones are told before the work
   if (!arguments.json.empty()) check_writable(arguments.json);
@@ -116,8 +89,7 @@ void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
   const FoundRivals rivals = rivals_of(arguments, streams);
   FreiburgBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
     const InterruptSignals signals;
-    FreiburgBenchmark ours =
-        run_freiburg_benchmark(chosen.logs, arguments.options, signals.came(), progress);
+    FreiburgBenchmark ours = run_freiburg_benchmark(chosen.logs, arguments.options, signals.came(), progress);
     ours.rival_results =
         run_rivals(rivals.programs, chosen.logs, rival_options(arguments), signals.came(), progress);
     return ours;
@@ -166,9 +138,7 @@ void add_work_options(CLI::App& freiburg, FreiburgArguments& arguments) {
       ->delimiter(',')
       ->check(CLI::IsMember(freiburg_matchers()))
       ->type_name("NAME,...");
-  freiburg.add_option("--logs", arguments.names, "Which logs; default: all that have relations")
-      ->delimiter(',')
-      ->type_name("NAME,...");
+  add_logs_option(freiburg, arguments.names);
   freiburg
       .add_option("--processes", arguments.options.processes, "Runs at a time; more than 1 spoils the times")
       ->check(CLI::Range(1, 1024))

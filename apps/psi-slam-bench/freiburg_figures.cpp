@@ -11,10 +11,11 @@ SeedSpread spread_of(const std::vector<double>& values) {
   if (values.empty()) return {};
   const auto count = static_cast<double>(values.size());
   SeedSpread spread;
+  spread.count = values.size();
   spread.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
   double squares = 0;
   for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
-  spread.std = std::sqrt(squares / count);
+  if (values.size() > 1) spread.std = std::sqrt(squares / (count - 1));
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   spread.min = *least;
   spread.max = *most;

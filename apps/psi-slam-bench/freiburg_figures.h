@@ -13,8 +13,9 @@
 namespace psi_slam {
 
 struct SeedSpread {
+  std::size_t count = 0;  ///< of the values
   double mean = 0;
-  double std = 0;  ///< of the population
+  double std = 0;  ///< of a sample: divided by n - 1; 0 of one value, which does not spread
   double min = 0;
   double max = 0;
 };

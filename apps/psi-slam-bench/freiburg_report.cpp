@@ -17,15 +17,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string spread_text(const SeedSpread& spread) {
+  if (spread.count < 2) return "–";
   return fixed_text(spread.std, 5) + " (" + fixed_text(spread.min, 4) + " – " + fixed_text(spread.max, 4) +
          ')';
 }
 
-/// "10", "8, 2 failed", "1, draws no random numbers".
+/// "10", "8, 2 failed", "1 run: draws no random numbers".
 std::string runs_text(const FreiburgCell& cell, const CellFigures& figures) {
   std::string text = std::to_string(figures.runs);
   if (figures.failed > 0) text += ", " + std::to_string(figures.failed) + " failed";
-  if (!draws_random_numbers(cell.matcher)) text += ", draws no random numbers";
+  if (!draws_random_numbers(cell.matcher)) text += " run: draws no random numbers";
   return text;
 }
 
@@ -70,9 +71,11 @@ std::string spread_table(const FreiburgBenchmark& benchmark) {
   text += "\n|---|---|---:|" + repeated("---:|", kPaperFigures) + '\n';
   for (const FreiburgCell& cell : benchmark.cells) {
     const auto figures = figures_of(cell);
-    if (!figures || !draws_random_numbers(cell.matcher)) continue;
-    text += "| " + cell.log + " | " + cell.matcher + " | " + std::to_string(figures->runs);
-    for (std::size_t i = 0; i < kPaperFigures; ++i) text += " | " + spread_text(figures->spread[i]);
+    if (!figures) continue;
+    const bool random = draws_random_numbers(cell.matcher);
+    text += "| " + cell.log + " | " + cell.matcher + " | " + runs_text(cell, *figures);
+    for (std::size_t i = 0; i < kPaperFigures; ++i)
+      text += " | " + (random ? spread_text(figures->spread[i]) : "0 by construction");
     text += " |\n";
   }
   return text;
@@ -172,6 +175,8 @@ Json comparison_json(const Comparison& comparison) {
       systems.push_back({{"system", comparison.columns[i].name},
                          {"mean", value.mean},
                          {"std", value.std ? Json(*value.std) : Json(nullptr)},
+                         {"unchecked", value.unchecked},
+                         {"failed_runs", comparison.columns[i].ours ? row.failed : 0},
                          {"best", static_cast<bool>(row.best[i])}});
     }
     rows.push_back({{"log", row.log}, {"figure", kPathFigures[row.figure].key}, {"systems", systems}});
@@ -186,8 +191,8 @@ std::string freiburg_markdown(const FreiburgBenchmark& benchmark, const Freiburg
   const Comparison comparison = compare_with_others(benchmark);
   std::string text = "# Freiburg benchmark\n\n";
   text += "psi-slam " + program_version() + ", commit " + program_commit() + ", " + machine + ", " +
-          std::to_string(options.processes) + (options.processes == 1 ? " run" : " runs") +
-          " at a time with " + std::to_string(options.threads) +
+          (options.processes == 1 ? "" : "at most ") + std::to_string(options.processes) +
+          (options.processes == 1 ? " run" : " runs") + " at a time with " + std::to_string(options.threads) +
           (options.threads == 1 ? " thread" : " threads") + " each, " + seeds_text(options) + ".\n\n";
   text +=
       "- errors: metric of Kümmerle et al. 2009 over all true relations, mean ± standard deviation over the "
@@ -200,12 +205,15 @@ std::string freiburg_markdown(const FreiburgBenchmark& benchmark, const Freiburg
       "is "
       "drawn; × real time: the recording's length over wall time\n\n";
   text += "## Ours beside the others\n\n" + comparison_table(comparison) +
-          "\nBold is the least mean of each row. Where the figures come from:\n\n" +
+          "\nBold is the least mean of each row. Systems marked live or run here were mapped on these "
+          "logs; maps that were lost keep their figures. Where the figures come from:\n\n" +
           sources_text(comparison) + '\n' + missing_text(benchmark);
   text += rivals_markdown(benchmark);
   text += "## Every matcher on every log\n\n" + matchers_table(benchmark) + '\n';
-  text += "## Spread of the means over the seeds\n\nStandard deviation (least – most).\n\n" +
-          spread_table(benchmark) + '\n';
+  text +=
+      "## Spread of the means over the seeds\n\nStandard deviation of the sample (least – most); – where a "
+      "single run tells nothing of it.\n\n" +
+      spread_table(benchmark) + '\n';
   text += failures_text(benchmark) + "## Logs\n\n" + logs_table(benchmark);
   for (const std::string& log : benchmark.without_relations)
     text += "\n" + log + " has no relations and was left out.\n";

@@ -6,6 +6,7 @@
 #include "file_checksum.h"
 #include "freiburg_run.h"
 #include "kept_run.h"
+#include "match_report.h"
 #include "program_identity.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/base/worker_pool.h"
@@ -21,7 +22,7 @@ constexpr const char* kUnfinished = "not_finished_in_s";
 struct Task {
   RivalRun run;
   fs::path file;
-  std::string key;
+  RunKey key;
   double work = 0;
   RivalResult* result = nullptr;
 };
@@ -29,8 +30,9 @@ struct Task {
 /// The rival is given what our reader makes of the log, so the reader's settings count too. Another build of
 /// this program is no reason to let the rivals run again.
 std::string key_of(const RivalRun& run) {
-  std::string text = sha256_of_file(run.log.log) + '\n' + sha256_of_file(run.log.relations.value()) + '\n' +
-                     program_version() + '\n' + settings_text(benchmark_settings(run.log.ini));
+  std::string text = machine_text() + '\n' + sha256_of_file(run.log.log) + '\n' +
+                     sha256_of_file(run.log.relations.value()) + '\n' + program_version() + '\n' +
+                     settings_text(benchmark_settings(run.log.ini));
   text += run.rival.version + '\n' + run.rival.sha256 + '\n' + rival_settings(run.rival, "output");
   return sha256_of_text(text);
 }
@@ -60,7 +62,8 @@ void keep(const Task& task, const RivalResult& result) {
                   {"schema_version", 1},
                   {"log", result.log},
                   {"rival", result.rival},
-                  {"version", task.run.rival.version}};
+                  {"version", task.run.rival.version},
+                  {"machine", machine_text()}};
   if (result.figures) content["figures"] = run_figures_json(*result.figures);
   if (result.not_finished_in_s) content[kUnfinished] = *result.not_finished_in_s;
   keep_run(task.file, task.key, content);
@@ -78,7 +81,7 @@ std::vector<Task> tasks_of(const std::vector<RivalProgram>& rivals, const std::v
       Task task;
       task.run = {rival, log, options.output / "rivals" / name, options.time_limit_s};
       task.file = options.output / "runs" / (name + ".json");
-      task.key = key_of(task.run);
+      task.key = {key_of(task.run), options.processes};
       task.work = static_cast<double>(fs::file_size(log.log));
       task.result = &*result++;
       task.result->log = log.name;

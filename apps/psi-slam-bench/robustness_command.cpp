@@ -20,10 +20,10 @@ struct RobustnessArguments {
 };
 
 void run_robustness(const RobustnessArguments& arguments, const Streams& streams) {
-  const std::vector<BenchmarkLog> logs = chosen_logs(logs_of(arguments.data), arguments.logs);
+  const ChosenLogs chosen = chosen_logs(arguments.data, arguments.logs);
   check_outputs(arguments.output, "robustness.md");
   const RobustnessBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
-    return run_robustness_benchmark(logs, arguments.seed, progress);
+    return run_robustness_benchmark(chosen.logs, arguments.seed, progress);
   });
 
   const std::string machine = machine_text();

@@ -147,7 +147,8 @@ TEST_F(BenchApp, commands_on_chosen_logs_name_what_is_missing) {
   EXPECT_THAT(refused({"--shares", "-1"}), HasSubstr("--shares"));
   EXPECT_THAT(refused({"--seed", "-1"}), HasSubstr("--seed"));
   fs::remove(data_ / "room.relations");
-  EXPECT_THAT(refused({}), HasSubstr("room.relations"));
+  EXPECT_THAT(refused({}), HasSubstr("NAME.relations"));
+  EXPECT_THAT(refused({"--logs", "room"}), HasSubstr("expected room.relations"));
 }
 
 TEST_F(BenchApp, wrong_usage_and_wrong_input_are_one_sentence_and_2) {

@@ -92,6 +92,18 @@ TEST_F(FreiburgBenchmarks, a_run_that_is_there_is_not_made_again) {
   EXPECT_EQ(made(run()), 2U);
 }
 
+TEST_F(FreiburgBenchmarks, runs_of_a_quieter_machine_stand_and_those_of_a_busier_one_do_not) {
+  options_.matchers = {"csm"};
+  options_.processes = 2;
+  run();
+  options_.processes = 1;
+  EXPECT_EQ(made(run()), 1U) << "its times were measured beside others";
+  options_.processes = 2;
+  const FreiburgBenchmark again = run();
+  EXPECT_EQ(made(again), 0U);
+  EXPECT_THAT(freiburg_markdown(again, options_, "m"), HasSubstr("at most 2 runs at a time"));
+}
+
 TEST_F(FreiburgBenchmarks, other_inputs_are_other_runs) {
   options_.matchers = {"csm"};
   run();

@@ -67,7 +67,8 @@ TEST_F(FreiburgCommand, maps_the_logs_and_writes_page_figures_and_plots) {
   const ChildEnd end = run({"--seeds", "2", "--matchers", "csm,adaptive", "--json", json_file.string()});
   ASSERT_EQ(end.code, 0) << end.err;
   EXPECT_EQ(end.out, read_file(output_ / "freiburg.md"));
-  EXPECT_THAT(end.out, AllOf(HasSubstr("| room | csm | 1, draws no random numbers | 0.0"),
+  EXPECT_THAT(end.out, AllOf(HasSubstr("| room | csm | 1 run: draws no random numbers | 0.0"),
+                             HasSubstr("| room | csm | 1 run: draws no random numbers | 0 by construction |"),
                              HasSubstr("| room | adaptive | 2 | 0.0"), HasSubstr("seeds 1 to 2"),
                              HasSubstr("Freiburg hospital: its log is not in the folder"),
                              HasSubstr("unknown has no relations"), HasSubstr("Hess")));
@@ -123,8 +124,8 @@ TEST_F(FreiburgCommand, says_which_rivals_are_missing) {
   path_ = (folder_.path() / "bin").string();
   const ChildEnd none = run({"--matchers", "csm", "--rivals"});
   EXPECT_EQ(none.code, 2);
-  EXPECT_THAT(none.err, AllOf(HasSubstr("icp-slam is not on PATH, rbpf-slam is not on PATH"),
-                              HasSubstr("mrpt-apps")));
+  EXPECT_THAT(none.err,
+              AllOf(HasSubstr("icp-slam is not on PATH, rbpf-slam is not on PATH"), HasSubstr("mrpt-apps")));
   install_rival(folder_.path(), rival_kinds()[1], "exit 3");
   write_file(folder_.path() / "bin" / "icp-slam", "no program");
   const ChildEnd one = run({"--matchers", "csm", "--rivals"});
@@ -146,12 +147,14 @@ TEST_F(FreiburgCommand, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
   EXPECT_THAT(refusal({"--threads", "some"}), HasSubstr("--threads"));
   EXPECT_THAT(refusal({"--matchers", "csm,icp"}), AllOf(HasSubstr("--matchers"), HasSubstr("icp")));
   EXPECT_THAT(refusal({"--matchers", "csm,ga,csm"}), HasSubstr("csm is named twice"));
-  EXPECT_THAT(refusal({"--logs", "intel"}), AllOf(HasSubstr("no log intel"), HasSubstr(data_.string())));
+  EXPECT_THAT(refusal({"--logs", "intel"}),
+              AllOf(HasSubstr("no log called intel"), HasSubstr(data_.string())));
   EXPECT_THAT(refusal({"--json", folder_.path().string()}), HasSubstr("is a folder"));
   write_file(ini_ / "room.ini", "[log]\nbogus = 1\n");
   EXPECT_THAT(refusal({}), HasSubstr("bogus"));
   fs::remove(data_ / "room.relations");
   EXPECT_THAT(refusal({}), HasSubstr("expected NAME.relations"));
+  EXPECT_THAT(refusal({"--logs", "room"}), HasSubstr("expected room.relations"));
 }
 
 TEST_F(FreiburgCommand, an_output_folder_that_cannot_be_made_is_told_before_the_work) {

@@ -119,7 +119,8 @@ TEST_F(RobustnessCommand, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
   write_file(ini_ / "room.ini", "[log]\nbogus = 1\n");
   EXPECT_THAT(refusal({}), HasSubstr("bogus"));
   fs::remove(data_ / "room.relations");
-  EXPECT_THAT(refusal({}), HasSubstr("room.relations"));
+  EXPECT_THAT(refusal({}), HasSubstr("NAME.relations"));
+  EXPECT_THAT(refusal({"--logs", "room"}), HasSubstr("expected room.relations"));
 }
 
 }  // namespace

@@ -47,6 +47,15 @@ void add_logs_option(CLI::App& command, std::vector<std::string>& names) {
       ->type_name("NAMES");
 }
 
+void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose) {
+  command
+      .add_option_function<std::string>(
+          "--seeds", [&seeds](const std::string& text) { seeds = parse_seeds(text); },
+          purpose + ": N for 1 to N, or FIRST-LAST")
+      ->default_str(std::to_string(seeds.last))
+      ->type_name("SEEDS");
+}
+
 void check_writable(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (fs::is_directory(file)) throw UserError(file.string() + " is a folder: name a file");

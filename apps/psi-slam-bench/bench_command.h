@@ -10,6 +10,7 @@
 #include "bench_progress.h"
 #include "benchmark_logs.h"
 #include "psi_slam_app.h"
+#include "seed_range.h"
 
 namespace psi_slam {
 
@@ -44,6 +45,9 @@ void check_outputs(const OutputArguments& arguments, const std::string& page);
 
 /// The option --logs, for chosen_logs().
 void add_logs_option(CLI::App& command, std::vector<std::string>& names);
+
+/// The option --seeds; `purpose` says what they are for.
+void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose);
 
 /// The result of `work`, which is given what it is to report its progress to.
 template <class Work>

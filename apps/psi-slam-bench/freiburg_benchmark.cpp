@@ -27,11 +27,11 @@ struct Task {
   fs::path file;     // what it came to
   RunKey key;
   double work = 0;  // in a unit that is proportional to its time
-  const FreiburgLog* log = nullptr;
+  const LogIdentity* log = nullptr;
   FreiburgResult* result = nullptr;
 };
 
-std::string key_of(const FreiburgRun& run, const FreiburgLog& log, const std::string& program_sha256) {
+std::string key_of(const FreiburgRun& run, const LogIdentity& log, const std::string& program_sha256) {
   return sha256_of_text(machine_text() + '\n' + log.sha256 + '\n' + log.relations_sha256 + '\n' +
                         program_version() + '\n' + program_sha256 + '\n' + settings_text(settings_of(run)));
 }
@@ -44,7 +44,7 @@ std::optional<FreiburgFigures> kept_figures(const Task& task) {
 }
 
 void keep_figures(const Task& task, const FreiburgFigures& figures) {
-  const FreiburgLog& log = *task.log;
+  const LogIdentity& log = *task.log;
   keep_run(task.file, task.key,
            {{"schema", "psi-slam-freiburg-run"},
             {"schema_version", 1},
@@ -105,12 +105,12 @@ FreiburgRun run_of(const BenchmarkLog& log, const std::string& matcher, std::uin
 /// All cells, their runs not made yet.
 FreiburgBenchmark plan(const std::vector<BenchmarkLog>& logs, const FreiburgOptions& options) {
   FreiburgBenchmark benchmark;
+  benchmark.logs = identities_of(logs);
   for (const BenchmarkLog& log : logs) {
-    benchmark.logs.push_back({log.name, sha256_of_file(log.log), sha256_of_file(log.relations.value())});
     for (const std::string& matcher : options.matchers) {
       FreiburgCell cell{log.name, matcher, {}};
-      cell.runs.resize(draws_random_numbers(matcher) ? options.seeds : 1);
-      for (std::size_t i = 0; i < cell.runs.size(); ++i) cell.runs[i].seed = i + 1;
+      cell.runs.resize(draws_random_numbers(matcher) ? options.seeds.count() : 1);
+      for (std::size_t i = 0; i < cell.runs.size(); ++i) cell.runs[i].seed = options.seeds.first + i;
       benchmark.cells.push_back(std::move(cell));
     }
   }

@@ -45,7 +45,7 @@ void write_files(const FreiburgArguments& arguments, const FreiburgBenchmark& be
     write_text_atomically(arguments.json, freiburg_json(benchmark, arguments.options, machine));
   write_text_atomically(folder / kPage, page);
   const Comparison comparison = compare_with_others(benchmark);
-  for (const FreiburgLog& log : benchmark.logs) {
+  for (const LogIdentity& log : benchmark.logs) {
     const std::string plot = comparison_plot(comparison, benchmark_log_title(log.name));
     if (!plot.empty()) write_text_atomically(folder / ("freiburg-" + log.name + ".svg"), plot);
   }
@@ -127,11 +127,7 @@ void add_run_command(CLI::App& app, const Streams& streams) {
 }
 
 void add_work_options(CLI::App& freiburg, FreiburgArguments& arguments) {
-  constexpr std::uint64_t kMostSeeds = 1'000'000;
-  freiburg
-      .add_option("--seeds", arguments.options.seeds, "Runs of each random matcher, with seeds 1, 2, ...")
-      ->check(CLI::Range(std::uint64_t{1}, kMostSeeds))
-      ->capture_default_str();
+  add_seeds_option(freiburg, arguments.options.seeds, "Of the runs of each random matcher");
   freiburg
       .add_option("--matchers", arguments.options.matchers,
                   "Which of csm, csm_ga, ga, adaptive and adaptive_paper; default: all")

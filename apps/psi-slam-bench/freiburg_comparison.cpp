@@ -20,7 +20,7 @@ std::string our_matcher(const FreiburgBenchmark& benchmark) {
 /// The benchmark's logs by its own order, then what else was mapped.
 std::vector<BenchmarkLogTitle> logs_of(const FreiburgBenchmark& benchmark) {
   std::vector<BenchmarkLogTitle> logs = benchmark_log_titles();
-  for (const FreiburgLog& log : benchmark.logs) {
+  for (const LogIdentity& log : benchmark.logs) {
     const std::string name = benchmark_log_name(log.name);
     if (std::none_of(logs.begin(), logs.end(), [&](const auto& known) { return known.log == name; }))
       logs.push_back({name, name});

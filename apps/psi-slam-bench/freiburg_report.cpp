@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string spread_text(const SeedSpread& spread) {
+std::string range_text(const SeedSpread& spread) {
   if (spread.count < 2) return "–";
   return fixed_text(spread.std, 5) + " (" + fixed_text(spread.min, 4) + " – " + fixed_text(spread.max, 4) +
          ')';
@@ -75,7 +75,7 @@ std::string spread_table(const FreiburgBenchmark& benchmark) {
     const bool random = draws_random_numbers(cell.matcher);
     text += "| " + cell.log + " | " + cell.matcher + " | " + runs_text(cell, *figures);
     for (std::size_t i = 0; i < kPaperFigures; ++i)
-      text += " | " + (random ? spread_text(figures->spread[i]) : "0 by construction");
+      text += " | " + (random ? range_text(figures->spread[i]) : "0 by construction");
     text += " |\n";
   }
   return text;
@@ -104,7 +104,7 @@ std::string missing_text(const FreiburgBenchmark& benchmark) {
   for (const BenchmarkLogTitle& title : benchmark_log_titles()) {
     const auto is_it = [&](const std::string& name) { return benchmark_log_name(name) == title.log; };
     if (std::any_of(benchmark.logs.begin(), benchmark.logs.end(),
-                    [&](const FreiburgLog& log) { return is_it(log.name); }))
+                    [&](const LogIdentity& log) { return is_it(log.name); }))
       continue;
     const bool unrelated =
         std::any_of(benchmark.without_relations.begin(), benchmark.without_relations.end(), is_it);
@@ -116,21 +116,6 @@ std::string missing_text(const FreiburgBenchmark& benchmark) {
             '\n';
   }
   return text.empty() ? text : text + '\n';
-}
-
-std::string logs_table(const FreiburgBenchmark& benchmark) {
-  std::string text = "| log | SHA-256 of the log | SHA-256 of its relations |\n|---|---|---|\n";
-  for (const FreiburgLog& log : benchmark.logs)
-    text += "| " + log.name + " | `" + log.sha256 + "` | `" + log.relations_sha256 + "` |\n";
-  return text;
-}
-
-std::string seeds_text(const FreiburgOptions& options) {
-  return options.seeds == 1 ? "seed 1" : "seeds 1 to " + std::to_string(options.seeds);
-}
-
-Json spread_json(const SeedSpread& spread) {
-  return {{"mean", spread.mean}, {"std", spread.std}, {"min", spread.min}, {"max", spread.max}};
 }
 
 Json cell_json(const FreiburgCell& cell) {
@@ -190,10 +175,10 @@ std::string freiburg_markdown(const FreiburgBenchmark& benchmark, const Freiburg
                               const std::string& machine) {
   const Comparison comparison = compare_with_others(benchmark);
   std::string text = "# Freiburg benchmark\n\n";
-  text += "psi-slam " + program_version() + ", commit " + program_commit() + ", " + machine + ", " +
-          (options.processes == 1 ? "" : "at most ") + std::to_string(options.processes) +
-          (options.processes == 1 ? " run" : " runs") + " at a time with " + std::to_string(options.threads) +
-          (options.threads == 1 ? " thread" : " threads") + " each, " + seeds_text(options) + ".\n\n";
+  text += measured_by(machine) + ", " + (options.processes == 1 ? "" : "at most ") +
+          std::to_string(options.processes) + (options.processes == 1 ? " run" : " runs") +
+          " at a time with " + std::to_string(options.threads) +
+          (options.threads == 1 ? " thread" : " threads") + " each, " + seeds_text(options.seeds) + ".\n\n";
   text +=
       "- errors: metric of Kümmerle et al. 2009 over all true relations, mean ± standard deviation over the "
       "relations; means over the seeds, never the best seed\n"
@@ -214,17 +199,14 @@ std::string freiburg_markdown(const FreiburgBenchmark& benchmark, const Freiburg
       "## Spread of the means over the seeds\n\nStandard deviation of the sample (least – most); – where a "
       "single run tells nothing of it.\n\n" +
       spread_table(benchmark) + '\n';
-  text += failures_text(benchmark) + "## Logs\n\n" + logs_table(benchmark);
-  for (const std::string& log : benchmark.without_relations)
-    text += "\n" + log + " has no relations and was left out.\n";
+  text += failures_text(benchmark) + logs_markdown(benchmark.logs, benchmark.without_relations);
   return text;
 }
 
 std::string freiburg_json(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
                           const std::string& machine) {
   Json logs = Json::array();
-  for (const FreiburgLog& log : benchmark.logs)
-    logs.push_back({{"name", log.name}, {"sha256", log.sha256}, {"relations_sha256", log.relations_sha256}});
+  for (const LogIdentity& log : benchmark.logs) logs.push_back(log_json(log));
   Json cells = Json::array();
   for (const FreiburgCell& cell : benchmark.cells) cells.push_back(cell_json(cell));
   const Json json = {{"schema", "psi-slam-freiburg-benchmark"},
@@ -232,7 +214,7 @@ std::string freiburg_json(const FreiburgBenchmark& benchmark, const FreiburgOpti
                      {"program_version", program_version()},
                      {"commit", program_commit()},
                      {"machine", machine},
-                     {"seeds", options.seeds},
+                     {"seeds", options.seeds.all()},
                      {"processes", options.processes},
                      {"threads", options.threads},
                      {"logs", logs},

@@ -118,7 +118,7 @@ TEST_F(BenchApp, adds_false_loops_to_the_graph_of_a_log) {
   const fs::path json_file = folder_.path() / "false.json";
   const fs::path output = folder_.path() / "out";
   ASSERT_EQ(run({"false-loops", "--data", data_.string(), "--ini", ini_.string(), "--shares", "50,200",
-                 "--json", json_file.string(), "-o", output.string()},
+                 "--seeds", "2", "--json", json_file.string(), "-o", output.string()},
                 true),
             0)
       << err_.str();
@@ -127,11 +127,13 @@ TEST_F(BenchApp, adds_false_loops_to_the_graph_of_a_log) {
   for (const char* kind : {"scattered", "groups", "nearby"})
     EXPECT_THAT(read_file(output / ("false-loops-" + std::string(kind) + ".svg")), HasSubstr("</svg>"));
   const Json json = Json::parse(read_file(json_file));
+  EXPECT_THAT(out_.str(), HasSubstr(json["files"][0]["sha256"].get<std::string>()));
   ASSERT_EQ(json["rows"].size(), 6U);
   EXPECT_GT(json["logs"][0]["loops"], 10);
   for (const Json& row : json["rows"]) {
-    EXPECT_EQ(row["undefended"]["false_kept"], row["false_loops"]);
-    EXPECT_LT(row["defended"]["translation_error_m"], 0.1);
+    EXPECT_EQ(row["seeds"], Json({1, 2}));
+    EXPECT_EQ(row["undefended"]["false_kept"]["min"], row["false_loops"]);
+    EXPECT_LT(row["defended"]["translation_error_m"]["max"], 0.1);
   }
 }
 
@@ -145,7 +147,7 @@ TEST_F(BenchApp, commands_on_chosen_logs_name_what_is_missing) {
   };
   EXPECT_THAT(refused({"--logs", "room,hall"}), HasSubstr("no log called hall"));
   EXPECT_THAT(refused({"--shares", "-1"}), HasSubstr("--shares"));
-  EXPECT_THAT(refused({"--seed", "-1"}), HasSubstr("--seed"));
+  EXPECT_THAT(refused({"--seeds", "0"}), HasSubstr("--seeds"));
   fs::remove(data_ / "room.relations");
   EXPECT_THAT(refused({}), HasSubstr("NAME.relations"));
   EXPECT_THAT(refused({"--logs", "room"}), HasSubstr("expected room.relations"));

@@ -58,11 +58,5 @@ TEST(FreiburgFigures, leave_out_runs_that_failed_and_count_them) {
   EXPECT_FALSE(figures_of({"room", "ga", {{}}}));
 }
 
-TEST(FreiburgFigures, one_value_does_not_spread) {
-  EXPECT_EQ(spread_of({3}).std, 0);
-  EXPECT_EQ(spread_of({3}).mean, 3);
-  EXPECT_EQ(spread_of({}).count, 0U);
-}
-
 }  // namespace
 }  // namespace psi_slam

@@ -5,9 +5,9 @@
 //     psi-slam-bench simulate [--path-m M,M,...] [--people N] [--glass SHARE] [--seed S] [--json FILE] [-o
 //     DIR]
 //                             [--write-log NAME.clf.gz]
-//     psi-slam-bench false-loops --data DIR [--ini DIR] [--logs NAMES] [--shares PERCENTS] [--seed S]
+//     psi-slam-bench false-loops --data DIR [--ini DIR] [--logs NAMES] [--shares PERCENTS] [--seeds SEEDS]
 //                                [--json FILE] [-o DIR]
-//     psi-slam-bench robustness --data DIR [--ini DIR] [--logs NAMES] [--seed S] [--json FILE] [-o DIR]
+//     psi-slam-bench robustness --data DIR [--ini DIR] [--logs NAMES] [--seeds SEEDS] [--json FILE] [-o DIR]
 #pragma once
 
 #include <string>

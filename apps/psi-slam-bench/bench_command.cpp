@@ -41,9 +41,19 @@ void check_outputs(const OutputArguments& arguments, const std::string& page) {
 }
 
 void add_logs_option(CLI::App& command, std::vector<std::string>& names) {
-  command.add_option("--logs", names, "Only these, by name, commas in between")
+  command
+      .add_option("--logs", names, "Only these, by name, commas in between; default: all that have relations")
       ->delimiter(',')
       ->type_name("NAMES");
+}
+
+void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose) {
+  command
+      .add_option_function<std::string>(
+          "--seeds", [&seeds](const std::string& text) { seeds = parse_seeds(text); },
+          purpose + ": N for 1 to N, or FIRST-LAST")
+      ->default_str(std::to_string(seeds.last))
+      ->type_name("SEEDS");
 }
 
 void check_writable(const fs::path& file) {
@@ -67,18 +77,27 @@ fs::path ini_folder(const std::string& given) {
   throw UserError("name the folder of the logs' settings: --ini DIR");
 }
 
-std::vector<BenchmarkLog> chosen_logs(std::vector<BenchmarkLog> logs, const std::vector<std::string>& names) {
-  std::vector<BenchmarkLog> chosen;
-  for (BenchmarkLog& log : logs) {
-    if (!names.empty() && std::find(names.begin(), names.end(), log.name) == names.end()) continue;
-    if (!log.relations)
+ChosenLogs chosen_logs(const DataArguments& arguments, const std::vector<std::string>& names) {
+  const std::vector<BenchmarkLog> all = logs_of(arguments);
+  for (const std::string& name : names)
+    if (std::none_of(all.begin(), all.end(), [&](const BenchmarkLog& log) { return log.name == name; }))
+      throw UserError("--logs: there is no log called " + name + " in " + arguments.data);
+  ChosenLogs chosen;
+  for (const BenchmarkLog& log : all) {
+    const bool named = std::find(names.begin(), names.end(), log.name) != names.end();
+    if (named && !log.relations)
       throw UserError(log.log.string() + " has no relations to measure its error by: expected " + log.name +
                       ".relations beside it");
-    chosen.push_back(std::move(log));
+    if (!named && !names.empty())
+      chosen.left_out.push_back(log.name);
+    else if (!log.relations)
+      chosen.without_relations.push_back(log.name);
+    else
+      chosen.logs.push_back(log);
   }
-  for (const std::string& name : names)
-    if (std::none_of(chosen.begin(), chosen.end(), [&](const BenchmarkLog& log) { return log.name == name; }))
-      throw UserError("there is no log called " + name + " in the folder");
+  if (chosen.logs.empty())
+    throw UserError("no log can be evaluated: expected NAME.relations in " + arguments.data +
+                    " beside its log");
   return chosen;
 }
 

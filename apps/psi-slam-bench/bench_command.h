@@ -10,6 +10,7 @@
 #include "bench_progress.h"
 #include "benchmark_logs.h"
 #include "psi_slam_app.h"
+#include "seed_range.h"
 
 namespace psi_slam {
 
@@ -45,6 +46,9 @@ void check_outputs(const OutputArguments& arguments, const std::string& page);
 /// The option --logs, for chosen_logs().
 void add_logs_option(CLI::App& command, std::vector<std::string>& names);
 
+/// The option --seeds; `purpose` says what they are for.
+void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose);
+
 /// The result of `work`, which is given what it is to report its progress to.
 template <class Work>
 auto with_progress(const Streams& streams, const Work& work) {
@@ -62,9 +66,17 @@ void prepare_folder(const std::filesystem::path& folder, const std::string& file
 /// UserError when there is none.
 std::filesystem::path ini_folder(const std::string& given);
 
-/// Those of the logs that have these names, in the logs' order; all of them when there are no names. Throws
-/// UserError when a name is not among them, or a chosen log has no relations to measure its error by.
-std::vector<BenchmarkLog> chosen_logs(std::vector<BenchmarkLog> logs, const std::vector<std::string>& names);
+/// The logs that a command works on, and the names of the others in the folder.
+struct ChosenLogs {
+  std::vector<BenchmarkLog> logs;              ///< each with its relations
+  std::vector<std::string> without_relations;  ///< that cannot be evaluated
+  std::vector<std::string> left_out;           ///< that were not asked for
+};
+
+/// The logs of the folder that have these names, in the folder's order; when there are no names, all that
+/// have relations. Throws UserError as logs_of(), when a name is not there, when a log that was named has no
+/// relations, and when no log remains.
+ChosenLogs chosen_logs(const DataArguments& arguments, const std::vector<std::string>& names);
 
 /// Writes the page to standard output. Throws SystemFailure when it cannot.
 void print_page(const std::string& page, const Streams& streams);

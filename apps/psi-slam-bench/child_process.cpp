@@ -4,17 +4,16 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstring>
 
 #include "psi_slam/base/user_error.h"
+#include "running_child.h"
 
 namespace psi_slam {
 namespace {
@@ -29,41 +28,12 @@ constexpr std::size_t kMostErr = std::size_t{64} << 10;
   throw SystemFailure(doing + ": " + std::strerror(error));
 }
 
-/// Closes itself, here and in every program that is started meanwhile.
-class Pipe {
- public:
-  Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) fail("cannot make a pipe", errno);
-  }
-  ~Pipe() {
-    close_end(0);
-    close_end(1);
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-
-  int reading() const { return ends_[0]; }
-  int writing() const { return ends_[1]; }
-  void close_writing() { close_end(1); }
-
-  /// Takes what is there, of which the last `most` bytes are kept. False at the end.
-  bool read_to(std::string& text, std::size_t most) {
-    std::array<char, 1 << 14> block{};
-    const ssize_t count = ::read(ends_[0], block.data(), block.size());
-    if (count < 0) return errno == EINTR || errno == EAGAIN;
-    text.append(block.data(), static_cast<std::size_t>(count));
-    if (text.size() > 2 * most) text.erase(0, text.size() - most);
-    return count > 0;
-  }
-
- private:
-  void close_end(std::size_t end) {
-    if (ends_[end] >= 0) ::close(ends_[end]);
-    ends_[end] = -1;
-  }
-
-  std::array<int, 2> ends_{-1, -1};
-};
+/// Takes what is there, of which the last `most` bytes are kept. False at the end.
+bool take(Pipe& pipe, std::string& text, std::size_t most) {
+  const bool more = pipe.read_to(text);
+  if (text.size() > 2 * most) text.erase(0, text.size() - most);
+  return more;
+}
 
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
   std::vector<char*> pointers;
@@ -85,10 +55,6 @@ pid_t start(const ChildProcess& child, const Pipe& out, const Pipe& err) {
   posix_spawn_file_actions_destroy(&files);
   if (error != 0) fail("cannot start " + child.words[0], error);
   return pid;
-}
-
-double seconds_of(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 /// The last line that says something.
@@ -114,28 +80,28 @@ ChildEnd run_child(const ChildProcess& child) {
   ChildEnd end;
   const Clock::time_point began = Clock::now();
   const auto elapsed_s = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
-  const pid_t pid = start(child, out, err);
+  RunningChild running(start(child, out, err));
   out.close_writing();
   err.close_writing();
   std::array<pollfd, 2> ends{{{out.reading(), POLLIN, 0}, {err.reading(), POLLIN, 0}}};
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {
-    ::poll(ends.data(), ends.size(), kBetweenLooks_ms);
-    if (ends[0].revents != 0 && !out.read_to(end.out, kMostOut)) ends[0].fd = -1;  // poll() passes it over
-    if (ends[1].revents != 0 && !err.read_to(end.err, kMostErr)) ends[1].fd = -1;
+    const int ready = ::poll(ends.data(), ends.size(), kBetweenLooks_ms);
+    if (ready < 0 && errno != EINTR) fail("cannot wait for the words of " + child.words[0], errno);
+    if (ready > 0) {  // else what the ends say is of the time before
+      if (ends[0].revents != 0 && !take(out, end.out, kMostOut)) ends[0].fd = -1;  // poll() passes it over
+      if (ends[1].revents != 0 && !take(err, end.err, kMostErr)) ends[1].fd = -1;
+    }
     if (end.over_time || end.stopped) continue;
     end.over_time = child.time_limit_s > 0 && elapsed_s() > child.time_limit_s;
     end.stopped = child.stop && child.stop();
-    if (end.over_time || end.stopped) ::kill(pid, SIGKILL);
+    if (end.over_time || end.stopped) running.kill();
   }
-  int status = 0;
-  rusage usage{};
-  while (::wait4(pid, &status, 0, &usage) < 0)
-    if (errno != EINTR) fail("cannot wait for " + child.words[0], errno);
+  const EndedChild ended = running.wait();
   end.wall_s = elapsed_s();
-  end.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
-  end.peak_memory_mib = static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts kibibytes
-  if (WIFEXITED(status)) end.code = WEXITSTATUS(status);
-  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  end.cpu_s = ended.cpu_s;
+  end.peak_memory_mib = ended.peak_memory_mib;
+  if (WIFEXITED(ended.status)) end.code = WEXITSTATUS(ended.status);
+  if (WIFSIGNALED(ended.status)) end.signal = WTERMSIG(ended.status);
   return end;
 }
 

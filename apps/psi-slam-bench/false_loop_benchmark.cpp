@@ -99,6 +99,7 @@ FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double s
   FalseLoopRow row;
   row.kind = kind;
   row.share_percent = share_percent;
+  row.seed = seed;
   row.true_loops = spoilt.true_loops();
   row.false_loops = spoilt.false_loops();
   row.undefended = spoilt.settled(trial.unlooped, optimize_only);
@@ -112,7 +113,9 @@ FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& log
                                             const FalseLoopBenchmarkOptions& options,
                                             const FalseLoopObserver& observer) {
   FalseLoopBenchmark benchmark;
-  const auto trials = static_cast<double>(options.kinds.size() * options.shares_percent.size());
+  benchmark.identities = identities_of(logs);
+  const auto trials =
+      static_cast<double>(options.kinds.size() * options.shares_percent.size() * options.seeds.count());
   const double work = 2 * trials;  // of a log: its mapping takes about as long as the trials
   const double all = work * static_cast<double>(logs.size());
   double done = 0;
@@ -129,10 +132,12 @@ FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& log
                               trial.error(trial.graph.poses()), trial.error(trial.unlooped)});
     for (const FalseLoopKind kind : options.kinds) {
       for (const double share_percent : options.shares_percent) {
-        observer(log.name + ", " + name_of(kind), done, all);
-        benchmark.rows.push_back(run_loop_trial(trial, kind, share_percent, options.seed));
-        benchmark.rows.back().log = log.name;
-        ++done;
+        for (const std::uint64_t seed : options.seeds.all()) {
+          observer(log.name + ", " + name_of(kind), done, all);
+          benchmark.rows.push_back(run_loop_trial(trial, kind, share_percent, seed));
+          benchmark.rows.back().log = log.name;
+          ++done;
+        }
       }
     }
   }

@@ -12,14 +12,16 @@
 
 #include "benchmark_logs.h"
 #include "false_loops.h"
+#include "log_identity.h"
 #include "psi_slam/pose_graph/sparse_pose_adjustment.h"
+#include "seed_range.h"
 
 namespace psi_slam {
 
 struct FalseLoopBenchmarkOptions {
   std::vector<double> shares_percent{10, 20, 50, 100, 200, 500};  ///< of the loops that the run accepted
   std::vector<FalseLoopKind> kinds{FalseLoopKind::kScattered, FalseLoopKind::kGroups, FalseLoopKind::kNearby};
-  std::uint64_t seed = 1;
+  SeedRange seeds;
 };
 
 /// A graph with loops known to be true, and how good poses of its nodes are.
@@ -47,6 +49,7 @@ struct FalseLoopRow {
   std::string log;
   FalseLoopKind kind = FalseLoopKind::kScattered;
   double share_percent = 0;
+  std::uint64_t seed = 1;  ///< of the false loops
   std::size_t true_loops = 0;
   std::size_t false_loops = 0;
   LoopTrialOutcome undefended;   ///< optimised with all loops on, from the poses before any loop
@@ -64,8 +67,10 @@ struct FalseLoopLog {
 };
 
 struct FalseLoopBenchmark {
+  std::vector<LogIdentity> identities;
+  std::vector<std::string> without_relations;  ///< logs of the folder that cannot be evaluated
   std::vector<FalseLoopLog> logs;
-  std::vector<FalseLoopRow> rows;  ///< by log, kind, share
+  std::vector<FalseLoopRow> rows;  ///< by log, kind, share, seed
 };
 
 /// Is told what is being done, and how much of all the work is done.
@@ -75,7 +80,8 @@ using FalseLoopObserver = std::function<void(const std::string& doing, double do
 FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double share_percent,
                             std::uint64_t seed);
 
-/// Maps each log once. Throws UserError as open_log() and read_relations() do.
+/// Maps each log once, and tries each share of each kind with each seed. Throws UserError as open_log() and
+/// read_relations() do.
 FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& logs,
                                             const FalseLoopBenchmarkOptions& options,
                                             const FalseLoopObserver& observer);

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "growth_plot.h"
+#include "program_identity.h"
 #include "psi_slam/results/number_text.h"
+#include "seed_spread.h"
 
 namespace psi_slam {
 namespace {
@@ -15,18 +17,54 @@ std::string cell(const std::string& text) {
   return ' ' + text + " |";
 }
 
-std::string counts(const LoopTrialOutcome& outcome) {
-  return std::to_string(outcome.false_kept) + " / " + std::to_string(outcome.true_lost);
+/// The trials of a share of a kind on a log, one a seed.
+using Trials = std::vector<FalseLoopRow>;
+
+std::vector<Trials> cases_of(const FalseLoopBenchmark& benchmark) {
+  return by_case(benchmark.rows, [](const FalseLoopRow& a, const FalseLoopRow& b) {
+    return a.log == b.log && a.kind == b.kind && a.share_percent == b.share_percent;
+  });
 }
 
-std::string row_text(const FalseLoopRow& row) {
-  return '|' + cell(row.log) + cell(name_of(row.kind)) + cell(fixed_text(row.share_percent, 0)) +
-         cell(std::to_string(row.false_loops)) + cell(fixed_text(row.undefended.error.translation_m, 3)) +
-         cell(fixed_text(row.worst_first.error.translation_m, 4)) + cell(counts(row.worst_first)) +
-         cell(fixed_text(row.defended.error.translation_m, 4)) +
-         cell(fixed_text(row.defended.error.rotation_deg, 3)) + cell(counts(row.defended)) +
-         cell(fixed_text(row.defended.milliseconds, 0)) +
-         cell(fixed_text(row.from_map.error.translation_m, 4)) + cell(counts(row.from_map)) + '\n';
+/// What was made of the false loops in one way, over the seeds.
+struct Outcomes {
+  Outcomes(const Trials& trials, LoopTrialOutcome FalseLoopRow::*way)
+      : translation_m(over(trials, way, [](const auto& one) { return one.error.translation_m; })),
+        rotation_deg(over(trials, way, [](const auto& one) { return one.error.rotation_deg; })),
+        false_kept(over(trials, way, [](const auto& one) { return one.false_kept; })),
+        true_lost(over(trials, way, [](const auto& one) { return one.true_lost; })),
+        milliseconds(over(trials, way, [](const auto& one) { return one.milliseconds; })) {}
+
+  std::string counts() const {
+    const int decimals = false_kept.count > 1 ? 1 : 0;
+    return fixed_text(false_kept.mean, decimals) + " / " + fixed_text(true_lost.mean, decimals);
+  }
+
+  SeedSpread translation_m;
+  SeedSpread rotation_deg;
+  SeedSpread false_kept;
+  SeedSpread true_lost;
+  SeedSpread milliseconds;
+
+ private:
+  template <class ValueOf>
+  static SeedSpread over(const Trials& trials, LoopTrialOutcome FalseLoopRow::*way, const ValueOf& value_of) {
+    return spread_over(trials, [&](const FalseLoopRow& trial) { return value_of(trial.*way); });
+  }
+};
+
+std::string row_text(const Trials& trials) {
+  const FalseLoopRow& first = trials.front();
+  const Outcomes undefended(trials, &FalseLoopRow::undefended);
+  const Outcomes worst_first(trials, &FalseLoopRow::worst_first);
+  const Outcomes defended(trials, &FalseLoopRow::defended);
+  const Outcomes from_map(trials, &FalseLoopRow::from_map);
+  return '|' + cell(first.log) + cell(name_of(first.kind)) + cell(fixed_text(first.share_percent, 0)) +
+         cell(std::to_string(first.false_loops)) + cell(spread_text(undefended.translation_m, 3)) +
+         cell(spread_text(worst_first.translation_m, 4)) + cell(worst_first.counts()) +
+         cell(spread_text(defended.translation_m, 4)) + cell(spread_text(defended.rotation_deg, 3)) +
+         cell(defended.counts()) + cell(fixed_text(defended.milliseconds.mean, 0)) +
+         cell(spread_text(from_map.translation_m, 4)) + cell(from_map.counts()) + '\n';
 }
 
 std::string logs_text(const std::vector<FalseLoopLog>& logs) {
@@ -45,12 +83,26 @@ Json error_json(const LoopTrial::Error& error) {
   return {{"translation_error_m", error.translation_m}, {"rotation_error_deg", error.rotation_deg}};
 }
 
-Json outcome_json(const LoopTrialOutcome& outcome) {
-  Json json = error_json(outcome.error);
-  json["false_kept"] = outcome.false_kept;
-  json["true_lost"] = outcome.true_lost;
-  json["time_ms"] = outcome.milliseconds;
-  return json;
+Json outcomes_json(const Outcomes& outcomes) {
+  return {{"translation_error_m", spread_json(outcomes.translation_m)},
+          {"rotation_error_deg", spread_json(outcomes.rotation_deg)},
+          {"false_kept", spread_json(outcomes.false_kept)},
+          {"true_lost", spread_json(outcomes.true_lost)},
+          {"time_ms", spread_json(outcomes.milliseconds)}};
+}
+
+Json row_json(const Trials& trials) {
+  const FalseLoopRow& first = trials.front();
+  return {{"log", first.log},
+          {"kind", name_of(first.kind)},
+          {"share_percent", first.share_percent},
+          {"seeds", seeds_of(trials)},
+          {"true_loops", first.true_loops},
+          {"false_loops", first.false_loops},
+          {"undefended", outcomes_json({trials, &FalseLoopRow::undefended})},
+          {"worst_first", outcomes_json({trials, &FalseLoopRow::worst_first})},
+          {"defended", outcomes_json({trials, &FalseLoopRow::defended})},
+          {"from_map", outcomes_json({trials, &FalseLoopRow::from_map})}};
 }
 
 }  // namespace
@@ -58,8 +110,8 @@ Json outcome_json(const LoopTrialOutcome& outcome) {
 std::string false_loop_markdown(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
                                 const std::string& machine) {
   const FalseLoopOptions how;
-  std::string text = "# False loops survived\n\npsi-slam " PSI_SLAM_VERSION ", " + machine + "; seed " +
-                     std::to_string(options.seed) + ". Errors are means over the true relations.\n\n";
+  std::string text = "# False loops survived\n\n" + measured_by(machine) + "; " + seeds_text(options.seeds) +
+                     " of the false loops. Errors are means over the true relations.\n\n";
   text +=
       "- share: false loops added to the finished graph, in percent of the loops that the run accepted\n"
       "- scattered: between random nodes and local maps, at a random place and heading within " +
@@ -72,7 +124,9 @@ std::string false_loop_markdown(const FalseLoopBenchmark& benchmark, const False
       "- undefended: optimised with all of them; worst first: the worst are switched off until none is "
       "contradicted; defended: as psi-slam does it. All begin at the poses before any loop was closed; "
       "\"from the map\" begins at the finished map.\n"
-      "- kept / lost: false loops that stay on / true ones that are switched off\n\n";
+      "- kept / lost: false loops that stay on / true ones that are switched off\n"
+      "- of several seeds errors are mean ± standard deviation of the sample [worst], the other figures "
+      "means; the logs are mapped once\n\n";
   text += logs_text(benchmark.logs);
   text +=
       "\n| log | kind | share % | false loops | undefended [m] | worst first [m] | kept / lost | defended "
@@ -80,8 +134,8 @@ std::string false_loop_markdown(const FalseLoopBenchmark& benchmark, const False
       "[deg] | kept / lost | ms | from the map [m] | kept / lost |\n|---|---|";
   for (int column = 0; column < 11; ++column) text += "---:|";
   text += '\n';
-  for (const FalseLoopRow& row : benchmark.rows) text += row_text(row);
-  return text;
+  for (const Trials& trials : cases_of(benchmark)) text += row_text(trials);
+  return text + '\n' + logs_markdown(benchmark.identities, benchmark.without_relations);
 }
 
 std::string false_loop_json(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
@@ -93,22 +147,17 @@ std::string false_loop_json(const FalseLoopBenchmark& benchmark, const FalseLoop
                     {"loops", log.loops},
                     {"map", error_json(log.map)},
                     {"without_loops", error_json(log.front_end)}});
+  Json files = Json::array();
+  for (const LogIdentity& log : benchmark.identities) files.push_back(log_json(log));
   Json rows = Json::array();
-  for (const FalseLoopRow& row : benchmark.rows)
-    rows.push_back({{"log", row.log},
-                    {"kind", name_of(row.kind)},
-                    {"share_percent", row.share_percent},
-                    {"true_loops", row.true_loops},
-                    {"false_loops", row.false_loops},
-                    {"undefended", outcome_json(row.undefended)},
-                    {"worst_first", outcome_json(row.worst_first)},
-                    {"defended", outcome_json(row.defended)},
-                    {"from_map", outcome_json(row.from_map)}});
+  for (const Trials& trials : cases_of(benchmark)) rows.push_back(row_json(trials));
   const Json json = {{"schema", "psi-slam-false-loops"},
                      {"schema_version", 1},
-                     {"program_version", PSI_SLAM_VERSION},
+                     {"program_version", program_version()},
+                     {"commit", program_commit()},
                      {"machine", machine},
-                     {"seed", options.seed},
+                     {"seeds", options.seeds.all()},
+                     {"files", files},
                      {"logs", logs},
                      {"rows", rows}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -120,13 +169,21 @@ std::string false_loop_plot(const FalseLoopBenchmark& benchmark, FalseLoopKind k
   plot.unit = "m";
   plot.labels = {"0 %"};
   for (const FalseLoopLog& log : benchmark.logs) {
-    GrowthPlot::Line defended{log.name, {log.map.translation_m}};
-    GrowthPlot::Line undefended{"", {log.map.translation_m}, true};
-    for (const FalseLoopRow& row : benchmark.rows) {
-      if (row.log != log.name || row.kind != kind) continue;
-      if (plot.lines.empty()) plot.labels.push_back(fixed_text(row.share_percent, 0) + " %");
-      defended.values.push_back(row.defended.error.translation_m);
-      undefended.values.push_back(row.undefended.error.translation_m);
+    GrowthPlot::Line defended;
+    defended.name = log.name;
+    GrowthPlot::Line undefended;
+    undefended.faint = true;
+    for (std::vector<double>* values : {&defended.values, &defended.low, &defended.high, &undefended.values})
+      values->push_back(log.map.translation_m);
+    for (const Trials& trials : cases_of(benchmark)) {
+      const FalseLoopRow& first = trials.front();
+      if (first.log != log.name || first.kind != kind) continue;
+      if (plot.lines.empty()) plot.labels.push_back(fixed_text(first.share_percent, 0) + " %");
+      const SeedSpread errors = Outcomes(trials, &FalseLoopRow::defended).translation_m;
+      defended.values.push_back(errors.mean);
+      defended.low.push_back(errors.min);
+      defended.high.push_back(errors.max);
+      undefended.values.push_back(Outcomes(trials, &FalseLoopRow::undefended).translation_m.mean);
     }
     plot.lines.push_back(std::move(defended));
     plot.lines.push_back(std::move(undefended));

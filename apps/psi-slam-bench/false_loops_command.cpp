@@ -20,11 +20,12 @@ struct FalseLoopsArguments {
 };
 
 void run_false_loops(const FalseLoopsArguments& arguments, const Streams& streams) {
-  const std::vector<BenchmarkLog> logs = chosen_logs(logs_of(arguments.data), arguments.logs);
+  const ChosenLogs chosen = chosen_logs(arguments.data, arguments.logs);
   check_outputs(arguments.output, "false-loops.md");
-  const FalseLoopBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
-    return run_false_loop_benchmark(logs, arguments.options, progress);
+  FalseLoopBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
+    return run_false_loop_benchmark(chosen.logs, arguments.options, progress);
   });
+  benchmark.without_relations = chosen.without_relations;
 
   const std::string machine = machine_text();
   const std::string page = false_loop_markdown(benchmark, arguments.options, machine);
@@ -55,9 +56,7 @@ void add_false_loops_command(CLI::App& app, const Streams& streams) {
       ->check(CLI::Range(0.0, 10'000.0))
       ->capture_default_str()
       ->type_name("PERCENTS");
-  command->add_option("--seed", arguments->options.seed, "Of the false loops")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_seeds_option(*command, arguments->options.seeds, "Of the false loops");
   add_output_options(*command, arguments->output, "false-loops.md and the plots");
   command->callback([arguments, &streams] { run_false_loops(*arguments, streams); });
 }

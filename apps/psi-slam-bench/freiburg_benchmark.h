@@ -16,22 +16,20 @@
 
 #include "benchmark_logs.h"
 #include "freiburg_run.h"
+#include "log_identity.h"
+#include "rival_program.h"
+#include "rival_run.h"
+#include "seed_range.h"
 
 namespace psi_slam {
 
 struct FreiburgOptions {
   std::vector<std::string> matchers = freiburg_matchers();
-  std::uint64_t seeds = 10;      ///< 1 .. seeds; a matcher that draws no random numbers runs once, with 1
+  SeedRange seeds{1, 10};        ///< a matcher that draws no random numbers runs once, with the first
   int processes = 1;             ///< at a time
   int threads = 1;               ///< of each
   std::filesystem::path output;  ///< the runs' files are output/runs/LOG-MATCHER-SEED.json
   std::filesystem::path program = "/proc/self/exe";  ///< psi-slam-bench, which does the runs
-};
-
-struct FreiburgLog {
-  std::string name;
-  std::string sha256;            ///< of the log's file
-  std::string relations_sha256;  ///< of its relations
 };
 
 struct FreiburgResult {
@@ -49,10 +47,12 @@ struct FreiburgCell {
 };
 
 struct FreiburgBenchmark {
-  std::vector<FreiburgLog> logs;
+  std::vector<LogIdentity> logs;
   std::vector<FreiburgCell> cells;             ///< by log, then in the order of the matchers
   std::vector<std::string> without_relations;  ///< logs of the folder that cannot be evaluated
   std::vector<std::string> left_out;           ///< logs of the folder that were not asked for
+  FoundRivals rivals;                          ///< mappers of others, where they were asked for
+  std::vector<RivalResult> rival_results;      ///< of run_rivals()
 };
 
 /// Makes the runs that are not there yet. `logs` need their relations. A run that fails does not stop the

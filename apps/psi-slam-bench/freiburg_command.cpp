@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <ostream>
 
@@ -11,6 +12,7 @@
 #include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
 #include "published_figures.h"
+#include "rival_benchmark.h"
 
 namespace psi_slam {
 namespace {
@@ -25,13 +27,8 @@ struct FreiburgArguments {
   std::string output = "out/freiburg";
   std::vector<std::string> names;  ///< of logs; empty: all
   FreiburgOptions options;
-};
-
-/// What can be evaluated of the logs, and which cannot or is not asked for.
-struct ChosenLogs {
-  std::vector<BenchmarkLog> logs;
-  std::vector<std::string> without_relations;
-  std::vector<std::string> left_out;
+  bool rivals = false;
+  double rival_limit_s = RivalOptions().time_limit_s;
 };
 
 /// Throws UserError when a name is there twice.
@@ -41,26 +38,6 @@ void check_once(const std::vector<std::string>& names, const std::string& option
       throw UserError(option + ": " + *name + " is named twice");
 }
 
-ChosenLogs choose(const std::vector<BenchmarkLog>& all, const std::vector<std::string>& names,
-                  const std::string& data) {
-  for (const std::string& name : names)
-    if (std::none_of(all.begin(), all.end(), [&](const BenchmarkLog& log) { return log.name == name; }))
-      throw UserError("--logs: there is no log " + name + " in " + data);
-  ChosenLogs chosen;
-  for (const BenchmarkLog& log : all) {
-    const bool asked = names.empty() || std::find(names.begin(), names.end(), log.name) != names.end();
-    if (!asked)
-      chosen.left_out.push_back(log.name);
-    else if (!log.relations)
-      chosen.without_relations.push_back(log.name);
-    else
-      chosen.logs.push_back(log);
-  }
-  if (chosen.logs.empty())
-    throw UserError("no log can be evaluated: expected NAME.relations in " + data + " beside its log");
-  return chosen;
-}
-
 void write_files(const FreiburgArguments& arguments, const FreiburgBenchmark& benchmark,
                  const std::string& page, const std::string& machine) {
   const fs::path folder = arguments.output;
@@ -68,7 +45,7 @@ void write_files(const FreiburgArguments& arguments, const FreiburgBenchmark& be
     write_text_atomically(arguments.json, freiburg_json(benchmark, arguments.options, machine));
   write_text_atomically(folder / kPage, page);
   const Comparison comparison = compare_with_others(benchmark);
-  for (const FreiburgLog& log : benchmark.logs) {
+  for (const LogIdentity& log : benchmark.logs) {
     const std::string plot = comparison_plot(comparison, benchmark_log_title(log.name));
     if (!plot.empty()) write_text_atomically(folder / ("freiburg-" + log.name + ".svg"), plot);
   }
@@ -81,19 +58,43 @@ std::size_t failed_runs(const FreiburgBenchmark& benchmark) {
   return failed;
 }
 
+/// Those that were asked for; the missing ones are told. Throws UserError when all are missing.
+FoundRivals rivals_of(const FreiburgArguments& arguments, const Streams& streams) {
+  if (!arguments.rivals) return {};
+  const char* const search_path = std::getenv("PATH");
+  FoundRivals rivals = find_rivals(search_path != nullptr ? search_path : "");
+  if (rivals.programs.empty()) {
+    std::string why;
+    for (const std::string& missing : rivals.missing) why += (why.empty() ? "" : ", ") + missing;
+    throw UserError("--rivals: " + why + "; Debian's package mrpt-apps has them");
+  }
+  for (const std::string& missing : rivals.missing)
+    streams.err << "psi-slam-bench: warning: --rivals: " << missing << '\n';
+  return rivals;
+}
+
+RivalOptions rival_options(const FreiburgArguments& arguments) {
+  return {arguments.rival_limit_s, arguments.options.processes, arguments.options.output};
+}
+
 void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
   check_once(arguments.options.matchers, "--matchers");
-  const ChosenLogs chosen = choose(logs_of(arguments.data), arguments.names, arguments.data.data);
+  const ChosenLogs chosen = chosen_logs(arguments.data, arguments.names);
   for (const BenchmarkLog& log : chosen.logs)
     benchmark_settings(log.ini);  // wrong ones are told before the work
   if (!arguments.json.empty()) check_writable(arguments.json);
   prepare_folder(arguments.output, kPage);
   prepare_folder(fs::path(arguments.output) / "runs", "any.json");
   arguments.options.output = arguments.output;
+  const FoundRivals rivals = rivals_of(arguments, streams);
   FreiburgBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
     const InterruptSignals signals;
-    return run_freiburg_benchmark(chosen.logs, arguments.options, signals.came(), progress);
+    FreiburgBenchmark ours = run_freiburg_benchmark(chosen.logs, arguments.options, signals.came(), progress);
+    ours.rival_results =
+        run_rivals(rivals.programs, chosen.logs, rival_options(arguments), signals.came(), progress);
+    return ours;
   });
+  benchmark.rivals = rivals;
   benchmark.without_relations = chosen.without_relations;
   benchmark.left_out = chosen.left_out;
 
@@ -126,26 +127,31 @@ void add_run_command(CLI::App& app, const Streams& streams) {
 }
 
 void add_work_options(CLI::App& freiburg, FreiburgArguments& arguments) {
-  constexpr std::uint64_t kMostSeeds = 1'000'000;
-  freiburg
-      .add_option("--seeds", arguments.options.seeds, "Runs of each random matcher, with seeds 1, 2, ...")
-      ->check(CLI::Range(std::uint64_t{1}, kMostSeeds))
-      ->capture_default_str();
+  add_seeds_option(freiburg, arguments.options.seeds, "Of the runs of each random matcher");
   freiburg
       .add_option("--matchers", arguments.options.matchers,
                   "Which of csm, csm_ga, ga, adaptive and adaptive_paper; default: all")
       ->delimiter(',')
       ->check(CLI::IsMember(freiburg_matchers()))
       ->type_name("NAME,...");
-  freiburg.add_option("--logs", arguments.names, "Which logs; default: all that have relations")
-      ->delimiter(',')
-      ->type_name("NAME,...");
+  add_logs_option(freiburg, arguments.names);
   freiburg
       .add_option("--processes", arguments.options.processes, "Runs at a time; more than 1 spoils the times")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   freiburg.add_option("--threads", arguments.options.threads, "Threads of each run")
       ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+}
+
+void add_rival_options(CLI::App& freiburg, FreiburgArguments& arguments) {
+  CLI::Option* const rivals = freiburg.add_flag(
+      "--rivals", arguments.rivals,
+      "Run MRPT's icp-slam and rbpf-slam too, where they are on PATH, with the settings that they ship with");
+  constexpr double kMost_s = 1e6;
+  freiburg.add_option("--rival-limit-s", arguments.rival_limit_s, "Seconds after which a rival is stopped")
+      ->needs(rivals)
+      ->check(CLI::Range(0.1, kMost_s))
       ->capture_default_str();
 }
 
@@ -165,6 +171,7 @@ void add_freiburg_command(CLI::App& app, const Streams& streams) {
       ->type_name("DIR")
       ->capture_default_str();
   add_work_options(*freiburg, *arguments);
+  add_rival_options(*freiburg, *arguments);
   freiburg->callback([arguments, &streams] { run_freiburg(*arguments, streams); });
   add_run_command(app, streams);
 }

@@ -20,7 +20,7 @@ std::string our_matcher(const FreiburgBenchmark& benchmark) {
 /// The benchmark's logs by its own order, then what else was mapped.
 std::vector<BenchmarkLogTitle> logs_of(const FreiburgBenchmark& benchmark) {
   std::vector<BenchmarkLogTitle> logs = benchmark_log_titles();
-  for (const FreiburgLog& log : benchmark.logs) {
+  for (const LogIdentity& log : benchmark.logs) {
     const std::string name = benchmark_log_name(log.name);
     if (std::none_of(logs.begin(), logs.end(), [&](const auto& known) { return known.log == name; }))
       logs.push_back({name, name});
@@ -28,12 +28,42 @@ std::vector<BenchmarkLogTitle> logs_of(const FreiburgBenchmark& benchmark) {
   return logs;
 }
 
-std::optional<PathErrors> our_errors(const FreiburgBenchmark& benchmark, const std::string& matcher,
-                                     const std::string& log) {
+std::optional<CellFigures> our_figures(const FreiburgBenchmark& benchmark, const std::string& matcher,
+                                       const std::string& log) {
   for (const FreiburgCell& cell : benchmark.cells)
-    if (cell.matcher == matcher && benchmark_log_name(cell.log) == log)
-      if (const auto figures = figures_of(cell)) return figures->errors;
+    if (cell.matcher == matcher && benchmark_log_name(cell.log) == log) return figures_of(cell);
   return std::nullopt;
+}
+
+std::string column_name(const RivalProgram& rival) {
+  return "MRPT " + rival.kind.name + " (run here)";
+}
+
+std::string source_of(const RivalProgram& rival) {
+  return rival.version + ", run here on the same log, every scan, with " + rival.config.filename().string() +
+         " as it ships; set otherwise: " + changes_text(rival.kind) + ". " + rival.kind.remark;
+}
+
+PublishedErrors errors_of(const RunFigures& figures) {
+  PublishedErrors errors;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const MeanAndStd& one = figures.errors.*kPathFigures[i].errors;
+    errors[i] = PublishedFigure{one.mean, one.std};
+  }
+  return errors;
+}
+
+/// The rivals that were run here, as systems like the others.
+std::vector<PublishedSystem> rival_systems(const FreiburgBenchmark& benchmark) {
+  std::vector<PublishedSystem> systems;
+  for (const RivalProgram& rival : benchmark.rivals.programs) {
+    PublishedSystem system{column_name(rival), source_of(rival), {}};
+    for (const RivalResult& result : benchmark.rival_results)
+      if (result.rival == rival.kind.name && result.figures)
+        system.logs.push_back({benchmark_log_name(result.log), errors_of(*result.figures)});
+    systems.push_back(std::move(system));
+  }
+  return systems;
 }
 
 void mark_best(ComparisonRow& row) {
@@ -43,10 +73,30 @@ void mark_best(ComparisonRow& row) {
   for (const auto& value : row.values) row.best.push_back(value && value->mean == *least);
 }
 
-std::string value_text(const std::optional<PublishedFigure>& value) {
-  if (!value) return "–";
+constexpr const char* kUncheckedMark = " †";
+constexpr const char* kFailedMark = " ‡";
+
+std::string value_text(const PublishedFigure& value) {
   constexpr int kDecimals = 4;
-  return fixed_text(value->mean, kDecimals) + (value->std ? " ± " + fixed_text(*value->std, kDecimals) : "");
+  return fixed_text(value.mean, kDecimals) + (value.std ? " ± " + fixed_text(*value.std, kDecimals) : "") +
+         (value.unchecked ? kUncheckedMark : "");
+}
+
+std::string cell_of(const Comparison& comparison, const ComparisonRow& row, std::size_t column) {
+  if (!row.values[column]) return " – |";
+  const bool some_failed = comparison.columns[column].ours && row.failed > 0;
+  const std::string bold = row.best[column] ? "**" : "";
+  return ' ' + bold + value_text(*row.values[column]) + (some_failed ? kFailedMark : "") + bold + " |";
+}
+
+/// To the marks of the table.
+std::string footnotes(const std::string& table) {
+  std::string text;
+  if (table.find(kUncheckedMark) != std::string::npos)
+    text += "\n† quoted from memory of the source and not compared with it: unchecked.\n";
+  if (table.find(kFailedMark) != std::string::npos)
+    text += "\n‡ some of these runs failed: the mean is that of the others.\n";
+  return text;
 }
 
 }  // namespace
@@ -55,18 +105,20 @@ Comparison compare_with_others(const FreiburgBenchmark& benchmark) {
   const std::string matcher = our_matcher(benchmark);
   Comparison comparison;
   comparison.columns.push_back({"psi-slam, " + matcher, "this run: means over the seeds.", true});
-  for (const PublishedSystem& system : published_systems())
+  std::vector<PublishedSystem> others = rival_systems(benchmark);
+  others.insert(others.end(), published_systems().begin(), published_systems().end());
+  for (const PublishedSystem& system : others)
     comparison.columns.push_back({system.name, system.source, false});
   for (const BenchmarkLogTitle& log : logs_of(benchmark)) {
-    const auto ours = our_errors(benchmark, matcher, log.log);
+    const auto ours = our_figures(benchmark, matcher, log.log);
     for (std::size_t figure = 0; figure < kPaperFigures; ++figure) {
-      ComparisonRow row{log.title, figure, {}, {}};
+      ComparisonRow row{log.title, figure, {}, {}, ours ? ours->failed : 0};
       row.values.emplace_back();
       if (ours) {
-        const MeanAndStd& errors = (*ours).*kPathFigures[figure].errors;
+        const MeanAndStd& errors = ours->errors.*kPathFigures[figure].errors;
         row.values.back() = PublishedFigure{errors.mean, errors.std};
       }
-      for (const PublishedSystem& system : published_systems()) {
+      for (const PublishedSystem& system : others) {
         const PublishedErrors* errors = system.errors_of(log.log);
         row.values.push_back(errors != nullptr ? (*errors)[figure] : std::nullopt);
       }
@@ -87,13 +139,10 @@ std::string comparison_table(const Comparison& comparison) {
   text += '\n' + rule + '\n';
   for (const ComparisonRow& row : comparison.rows) {
     text += "| " + row.log + " | " + kPathFigures[row.figure].name + " |";
-    for (std::size_t i = 0; i < row.values.size(); ++i) {
-      const std::string mark = row.best[i] ? "**" : "";
-      text += ' ' + mark + value_text(row.values[i]) + mark + " |";
-    }
+    for (std::size_t i = 0; i < row.values.size(); ++i) text += cell_of(comparison, row, i);
     text += '\n';
   }
-  return text;
+  return text + footnotes(text);
 }
 
 std::string comparison_plot(const Comparison& comparison, const std::string& log) {

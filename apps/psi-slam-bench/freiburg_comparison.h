@@ -22,6 +22,7 @@ struct ComparisonRow {
   std::size_t figure;                                  ///< of kPathFigures
   std::vector<std::optional<PublishedFigure>> values;  ///< by column
   std::vector<bool> best;  ///< by column: of the least mean of the row; several when they are equal
+  std::size_t failed = 0;  ///< of our runs: ours is the mean of the others
 };
 
 struct Comparison {
@@ -32,7 +33,8 @@ struct Comparison {
 /// Ours is the adaptive matcher, or the first of those that ran if it did not.
 Comparison compare_with_others(const FreiburgBenchmark& benchmark);
 
-/// A Markdown table, the best of each row bold.
+/// A Markdown table, the best of each row bold. Ours is marked where some of its runs failed, and so are the
+/// figures of others that are unchecked; the footnotes to the marks that are there follow the table.
 std::string comparison_table(const Comparison& comparison);
 
 /// A page of bars of the mean translational error for a log by title ("Intel"); empty where no run of ours

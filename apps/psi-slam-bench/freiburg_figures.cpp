@@ -1,25 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "freiburg_figures.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 namespace psi_slam {
-
-SeedSpread spread_of(const std::vector<double>& values) {
-  if (values.empty()) return {};
-  const auto count = static_cast<double>(values.size());
-  SeedSpread spread;
-  spread.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-  double squares = 0;
-  for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
-  spread.std = std::sqrt(squares / count);
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  spread.min = *least;
-  spread.max = *most;
-  return spread;
-}
 
 namespace {
 
@@ -38,11 +20,7 @@ std::optional<CellFigures> figures_of(const FreiburgCell& cell) {
   for (const FreiburgResult& run : cell.runs)
     if (run.figures) runs.push_back(*run.figures);
   if (runs.empty()) return std::nullopt;
-  const auto over_seeds = [&runs](const auto& value_of) {
-    std::vector<double> values;
-    for (const FreiburgFigures& run : runs) values.push_back(static_cast<double>(value_of(run)));
-    return spread_of(values);
-  };
+  const auto over_seeds = [&runs](const auto& value_of) { return spread_over(runs, value_of); };
   CellFigures figures;
   figures.runs = runs.size();
   figures.failed = cell.runs.size() - runs.size();

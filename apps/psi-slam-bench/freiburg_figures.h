@@ -9,18 +9,9 @@
 #include <vector>
 
 #include "freiburg_benchmark.h"
+#include "seed_spread.h"
 
 namespace psi_slam {
-
-struct SeedSpread {
-  double mean = 0;
-  double std = 0;  ///< of the population
-  double min = 0;
-  double max = 0;
-};
-
-/// All 0 where there are no values.
-SeedSpread spread_of(const std::vector<double>& values);
 
 struct CellFigures {
   std::size_t runs = 0;    ///< that did not fail

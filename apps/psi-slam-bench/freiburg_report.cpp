@@ -6,6 +6,8 @@
 
 #include "freiburg_comparison.h"
 #include "freiburg_figures.h"
+#include "freiburg_rivals.h"
+#include "markdown_cells.h"
 #include "program_identity.h"
 #include "psi_slam/results/number_text.h"
 
@@ -14,39 +16,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string errors_text(const MeanAndStd& errors) {
-  return fixed_text(errors.mean, 4) + " ± " + fixed_text(errors.std, 4);
-}
-
-std::string spread_text(const SeedSpread& spread) {
+std::string range_text(const SeedSpread& spread) {
+  if (spread.count < 2) return "–";
   return fixed_text(spread.std, 5) + " (" + fixed_text(spread.min, 4) + " – " + fixed_text(spread.max, 4) +
          ')';
 }
 
-/// "10", "8, 2 failed", "1, draws no random numbers".
+/// "10", "8, 2 failed", "1 run: draws no random numbers".
 std::string runs_text(const FreiburgCell& cell, const CellFigures& figures) {
   std::string text = std::to_string(figures.runs);
   if (figures.failed > 0) text += ", " + std::to_string(figures.failed) + " failed";
-  if (!draws_random_numbers(cell.matcher)) text += ", draws no random numbers";
-  return text;
-}
-
-/// Whole logs are told by what fits a table's cell.
-std::string cell_text(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  std::replace(text.begin(), text.end(), '|', '/');
+  if (!draws_random_numbers(cell.matcher)) text += " run: draws no random numbers";
   return text;
 }
 
 /// The reason if it is the same for all runs.
 std::string failed_row(const FreiburgCell& cell) {
   return "| " + cell.log + " | " + cell.matcher + " | failed: " + cell_text(cell.runs.front().failure);
-}
-
-std::string repeated(const std::string& text, std::size_t times) {
-  std::string all;
-  for (std::size_t i = 0; i < times; ++i) all += text;
-  return all;
 }
 
 /// "0.2 of 512.0 | 93.1": two cells.
@@ -56,8 +42,7 @@ std::string judged_text(const CellFigures& figures) {
 }
 
 std::string matchers_table(const FreiburgBenchmark& benchmark) {
-  std::string text = "| log | matcher | runs |";
-  for (const PathFigure& figure : kPathFigures) text += ' ' + std::string(figure.name) + " |";
+  std::string text = "| log | matcher | runs |" + path_figure_heads();
   constexpr std::size_t kOthers = 8;
   text +=
       " relations used | loops accepted | false of judged | recall % | wall [s] | CPU [s] | × real time | "
@@ -86,9 +71,11 @@ std::string spread_table(const FreiburgBenchmark& benchmark) {
   text += "\n|---|---|---:|" + repeated("---:|", kPaperFigures) + '\n';
   for (const FreiburgCell& cell : benchmark.cells) {
     const auto figures = figures_of(cell);
-    if (!figures || !draws_random_numbers(cell.matcher)) continue;
-    text += "| " + cell.log + " | " + cell.matcher + " | " + std::to_string(figures->runs);
-    for (std::size_t i = 0; i < kPaperFigures; ++i) text += " | " + spread_text(figures->spread[i]);
+    if (!figures) continue;
+    const bool random = draws_random_numbers(cell.matcher);
+    text += "| " + cell.log + " | " + cell.matcher + " | " + runs_text(cell, *figures);
+    for (std::size_t i = 0; i < kPaperFigures; ++i)
+      text += " | " + (random ? range_text(figures->spread[i]) : "0 by construction");
     text += " |\n";
   }
   return text;
@@ -117,7 +104,7 @@ std::string missing_text(const FreiburgBenchmark& benchmark) {
   for (const BenchmarkLogTitle& title : benchmark_log_titles()) {
     const auto is_it = [&](const std::string& name) { return benchmark_log_name(name) == title.log; };
     if (std::any_of(benchmark.logs.begin(), benchmark.logs.end(),
-                    [&](const FreiburgLog& log) { return is_it(log.name); }))
+                    [&](const LogIdentity& log) { return is_it(log.name); }))
       continue;
     const bool unrelated =
         std::any_of(benchmark.without_relations.begin(), benchmark.without_relations.end(), is_it);
@@ -129,21 +116,6 @@ std::string missing_text(const FreiburgBenchmark& benchmark) {
             '\n';
   }
   return text.empty() ? text : text + '\n';
-}
-
-std::string logs_table(const FreiburgBenchmark& benchmark) {
-  std::string text = "| log | SHA-256 of the log | SHA-256 of its relations |\n|---|---|---|\n";
-  for (const FreiburgLog& log : benchmark.logs)
-    text += "| " + log.name + " | `" + log.sha256 + "` | `" + log.relations_sha256 + "` |\n";
-  return text;
-}
-
-std::string seeds_text(const FreiburgOptions& options) {
-  return options.seeds == 1 ? "seed 1" : "seeds 1 to " + std::to_string(options.seeds);
-}
-
-Json spread_json(const SeedSpread& spread) {
-  return {{"mean", spread.mean}, {"std", spread.std}, {"min", spread.min}, {"max", spread.max}};
 }
 
 Json cell_json(const FreiburgCell& cell) {
@@ -188,6 +160,8 @@ Json comparison_json(const Comparison& comparison) {
       systems.push_back({{"system", comparison.columns[i].name},
                          {"mean", value.mean},
                          {"std", value.std ? Json(*value.std) : Json(nullptr)},
+                         {"unchecked", value.unchecked},
+                         {"failed_runs", comparison.columns[i].ours ? row.failed : 0},
                          {"best", static_cast<bool>(row.best[i])}});
     }
     rows.push_back({{"log", row.log}, {"figure", kPathFigures[row.figure].key}, {"systems", systems}});
@@ -201,10 +175,10 @@ std::string freiburg_markdown(const FreiburgBenchmark& benchmark, const Freiburg
                               const std::string& machine) {
   const Comparison comparison = compare_with_others(benchmark);
   std::string text = "# Freiburg benchmark\n\n";
-  text += "psi-slam " + program_version() + ", commit " + program_commit() + ", " + machine + ", " +
+  text += measured_by(machine) + ", " + (options.processes == 1 ? "" : "at most ") +
           std::to_string(options.processes) + (options.processes == 1 ? " run" : " runs") +
           " at a time with " + std::to_string(options.threads) +
-          (options.threads == 1 ? " thread" : " threads") + " each, " + seeds_text(options) + ".\n\n";
+          (options.threads == 1 ? " thread" : " threads") + " each, " + seeds_text(options.seeds) + ".\n\n";
   text +=
       "- errors: metric of Kümmerle et al. 2009 over all true relations, mean ± standard deviation over the "
       "relations; means over the seeds, never the best seed\n"
@@ -216,22 +190,23 @@ std::string freiburg_markdown(const FreiburgBenchmark& benchmark, const Freiburg
       "is "
       "drawn; × real time: the recording's length over wall time\n\n";
   text += "## Ours beside the others\n\n" + comparison_table(comparison) +
-          "\nBold is the least mean of each row. Where the figures come from:\n\n" +
+          "\nBold is the least mean of each row. Systems marked live or run here were mapped on these "
+          "logs; maps that were lost keep their figures. Where the figures come from:\n\n" +
           sources_text(comparison) + '\n' + missing_text(benchmark);
+  text += rivals_markdown(benchmark);
   text += "## Every matcher on every log\n\n" + matchers_table(benchmark) + '\n';
-  text += "## Spread of the means over the seeds\n\nStandard deviation (least – most).\n\n" +
-          spread_table(benchmark) + '\n';
-  text += failures_text(benchmark) + "## Logs\n\n" + logs_table(benchmark);
-  for (const std::string& log : benchmark.without_relations)
-    text += "\n" + log + " has no relations and was left out.\n";
+  text +=
+      "## Spread of the means over the seeds\n\nStandard deviation of the sample (least – most); – where a "
+      "single run tells nothing of it.\n\n" +
+      spread_table(benchmark) + '\n';
+  text += failures_text(benchmark) + logs_markdown(benchmark.logs, benchmark.without_relations);
   return text;
 }
 
 std::string freiburg_json(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
                           const std::string& machine) {
   Json logs = Json::array();
-  for (const FreiburgLog& log : benchmark.logs)
-    logs.push_back({{"name", log.name}, {"sha256", log.sha256}, {"relations_sha256", log.relations_sha256}});
+  for (const LogIdentity& log : benchmark.logs) logs.push_back(log_json(log));
   Json cells = Json::array();
   for (const FreiburgCell& cell : benchmark.cells) cells.push_back(cell_json(cell));
   const Json json = {{"schema", "psi-slam-freiburg-benchmark"},
@@ -239,11 +214,12 @@ std::string freiburg_json(const FreiburgBenchmark& benchmark, const FreiburgOpti
                      {"program_version", program_version()},
                      {"commit", program_commit()},
                      {"machine", machine},
-                     {"seeds", options.seeds},
+                     {"seeds", options.seeds.all()},
                      {"processes", options.processes},
                      {"threads", options.threads},
                      {"logs", logs},
                      {"cells", cells},
+                     {"rivals", rivals_json(benchmark)},
                      {"comparison", comparison_json(compare_with_others(benchmark))}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }

@@ -36,11 +36,12 @@ Decades decades_of(const GrowthPlot& plot) {
   double least = std::numeric_limits<double>::infinity();
   double most = 0;
   for (const GrowthPlot::Line& line : plot.lines)
-    for (const double value : line.values) {
-      if (!(value > 0)) continue;
-      least = std::min(least, value);
-      most = std::max(most, value);
-    }
+    for (const std::vector<double>* values : {&line.values, &line.low, &line.high})
+      for (const double value : *values) {
+        if (!(value > 0)) continue;
+        least = std::min(least, value);
+        most = std::max(most, value);
+      }
   if (!(most > 0)) return {};
   Decades decades{std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most)))};
   if (decades.high <= decades.low) decades.high = 10 * decades.low;
@@ -85,6 +86,20 @@ std::vector<double> name_places(const GrowthPlot& plot, const Decades& decades) 
   return places;
 }
 
+/// From the least to the greatest, with a dash at each end; empty where the value does not spread.
+std::string spread_svg(const GrowthPlot::Line& line, std::size_t place, const char* colour,
+                       const Decades& decades) {
+  if (line.low.empty() || !(line.low[place] > 0) || !(line.high[place] > line.low[place])) return {};
+  constexpr double kDash = 4;
+  const double x = x_of(place, line.values.size());
+  const std::string low = fixed_text(decades.y(line.low[place]), 1);
+  const std::string high = fixed_text(decades.y(line.high[place]), 1);
+  const std::string dash = fixed_text(x - kDash, 1) + ',';
+  const std::string to = 'H' + fixed_text(x + kDash, 1);
+  return "<path class=\"spread\" d=\"M" + fixed_text(x, 1) + ',' + low + 'V' + high + 'M' + dash + low + to +
+         'M' + dash + high + to + "\" stroke=\"" + colour + "\" fill=\"none\"/>\n";
+}
+
 std::string line_svg(const GrowthPlot::Line& line, const char* colour, const Decades& decades,
                      double name_y) {
   std::string path;
@@ -94,7 +109,8 @@ std::string line_svg(const GrowthPlot::Line& line, const char* colour, const Dec
     const std::string x = fixed_text(x_of(i, line.values.size()), 1);
     const std::string y = fixed_text(decades.y(line.values[i]), 1);
     path += (path.empty() ? 'M' : 'L') + x + ',' + y;
-    dots += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"3.5\" fill=\"" + colour + "\"/>\n";
+    dots += spread_svg(line, i, colour, decades) + "<circle cx=\"" + x + "\" cy=\"" + y +
+            "\" r=\"3.5\" fill=\"" + colour + "\"/>\n";
   }
   const std::string stroke = "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour + '"';
   if (line.faint) return stroke + " stroke-width=\"1\" stroke-opacity=\"0.5\" stroke-dasharray=\"4 3\"/>\n";

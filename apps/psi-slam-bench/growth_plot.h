@@ -15,7 +15,9 @@ struct GrowthPlot {
   struct Line {
     std::string name;
     std::vector<double> values;  ///< one a label; what is not positive is left out
-    bool faint = false;          ///< thin and light, in the colour of the line before
+    std::vector<double> low{};   ///< one a value, or none: from where to where it spreads
+    std::vector<double> high{};
+    bool faint = false;  ///< thin and light, in the colour of the line before
   };
   std::vector<Line> lines;
 };

@@ -13,4 +13,8 @@ std::string program_commit() {
   return PSI_SLAM_COMMIT;
 }
 
+std::string measured_by(const std::string& machine) {
+  return "psi-slam " + program_version() + ", commit " + program_commit() + ", " + machine;
+}
+
 }  // namespace psi_slam

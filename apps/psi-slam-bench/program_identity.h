@@ -12,4 +12,7 @@ std::string program_version();
 /// git knows were changed; "unknown" where it was built from no git clone.
 std::string program_commit();
 
+/// What made the figures of a page: "psi-slam 0.1.0, commit bf09480d1c2e, AMD EPYC, 2 processors".
+std::string measured_by(const std::string& machine);
+
 }  // namespace psi_slam

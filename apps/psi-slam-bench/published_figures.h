@@ -16,6 +16,7 @@ namespace psi_slam {
 struct PublishedFigure {
   double mean = 0;
   std::optional<double> std;
+  bool unchecked = false;  ///< quoted from memory of its source, not compared with it
 };
 
 /// In the order of kPathFigures; what was not published is empty.

@@ -67,6 +67,7 @@ class LogRuns {
             ? as_it_is_
             : row_of(map(degraded.degradation, degraded.series + ' ' + degraded.name), relations_);
     row.log = log_.name;
+    row.seed = degraded.degradation.seed;
     row.degraded = std::move(degraded);
     return row;
   }
@@ -86,6 +87,18 @@ class LogRuns {
   OdometryNoise natural_;
   RobustnessRow as_it_is_;
 };
+
+/// The cases in their order, with each seed if they draw random numbers, else with the first.
+std::vector<RobustnessCase> runs_of(const SeedRange& seeds) {
+  std::vector<RobustnessCase> runs;
+  for (RobustnessCase degraded : robustness_cases(seeds.first))
+    for (const std::uint64_t seed : seeds.all()) {
+      if (seed > seeds.first && !draws_random_numbers(degraded)) break;
+      degraded.degradation.seed = seed;
+      runs.push_back(degraded);
+    }
+  return runs;
+}
 
 }  // namespace
 
@@ -109,22 +122,27 @@ std::vector<RobustnessCase> robustness_cases(std::uint64_t seed) {
   return cases;
 }
 
-RobustnessBenchmark run_robustness_benchmark(const std::vector<BenchmarkLog>& logs, std::uint64_t seed,
+bool draws_random_numbers(const RobustnessCase& degraded) {
+  return degraded.degradation.odometry_noise_scale > 1;
+}
+
+RobustnessBenchmark run_robustness_benchmark(const std::vector<BenchmarkLog>& logs, const SeedRange& seeds,
                                              const RobustnessObserver& observer) {
-  const std::vector<RobustnessCase> cases = robustness_cases(seed);
-  const auto own = std::count_if(cases.begin(), cases.end(), [](const RobustnessCase& degraded) {
+  const std::vector<RobustnessCase> runs = runs_of(seeds);
+  const auto own = std::count_if(runs.begin(), runs.end(), [](const RobustnessCase& degraded) {
     return !is_the_log_itself(degraded.degradation);
   });
   const double all = static_cast<double>(logs.size()) * static_cast<double>(own + 1);
   double done = 0;
   const auto progress = [&](const std::string& doing, double share) { observer(doing, done + share, all); };
   RobustnessBenchmark benchmark;
+  benchmark.identities = identities_of(logs);
   for (const BenchmarkLog& log : logs) {
-    const LogRuns runs(log, progress);
+    const LogRuns log_runs(log, progress);
     ++done;
-    benchmark.logs.push_back({log.name, runs.natural()});
-    for (const RobustnessCase& degraded : cases) {
-      benchmark.rows.push_back(runs.run(degraded));
+    benchmark.logs.push_back({log.name, log_runs.natural()});
+    for (const RobustnessCase& degraded : runs) {
+      benchmark.rows.push_back(log_runs.run(degraded));
       if (!is_the_log_itself(degraded.degradation)) ++done;
     }
   }

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "benchmark_logs.h"
+#include "log_identity.h"
 #include "psi_slam/logs/degraded_source.h"
+#include "seed_range.h"
 
 namespace psi_slam {
 
@@ -22,12 +24,16 @@ struct RobustnessCase {
   DegradationOptions degradation;
 };
 
+/// True when the case draws random numbers, so that another seed makes another log.
+bool draws_random_numbers(const RobustnessCase& degraded);
+
 /// Each series begins with the log as it is. The odometry noise is of scale 1 until the log is known.
 std::vector<RobustnessCase> robustness_cases(std::uint64_t seed);
 
 struct RobustnessRow {
   std::string log;
   RobustnessCase degraded;
+  std::uint64_t seed = 1;          ///< of the noise
   double translation_error_m = 0;  ///< means over the true relations
   double rotation_error_deg = 0;
   std::size_t relations = 0;  ///< that could be answered: those in gaps too long are not
@@ -44,15 +50,18 @@ struct RobustnessLog {
 };
 
 struct RobustnessBenchmark {
+  std::vector<LogIdentity> identities;
+  std::vector<std::string> without_relations;  ///< logs of the folder that cannot be evaluated
   std::vector<RobustnessLog> logs;
-  std::vector<RobustnessRow> rows;  ///< by log, then case
+  std::vector<RobustnessRow> rows;  ///< by log, then case, then seed
 };
 
 /// Is told what is being done, and how much of all the work is done.
 using RobustnessObserver = std::function<void(const std::string& doing, double done, double all)>;
 
-/// Maps each log once for each case that differs. Throws UserError as open_log() and read_relations() do.
-RobustnessBenchmark run_robustness_benchmark(const std::vector<BenchmarkLog>& logs, std::uint64_t seed,
+/// Maps each log once for each case that differs, and once for each seed where the case draws random numbers.
+/// Throws UserError as open_log() and read_relations() do.
+RobustnessBenchmark run_robustness_benchmark(const std::vector<BenchmarkLog>& logs, const SeedRange& seeds,
                                              const RobustnessObserver& observer);
 
 }  // namespace psi_slam

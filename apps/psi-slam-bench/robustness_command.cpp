@@ -16,20 +16,21 @@ struct RobustnessArguments {
   DataArguments data;
   OutputArguments output;
   std::vector<std::string> logs;
-  std::uint64_t seed = 1;
+  SeedRange seeds;
 };
 
 void run_robustness(const RobustnessArguments& arguments, const Streams& streams) {
-  const std::vector<BenchmarkLog> logs = chosen_logs(logs_of(arguments.data), arguments.logs);
+  const ChosenLogs chosen = chosen_logs(arguments.data, arguments.logs);
   check_outputs(arguments.output, "robustness.md");
-  const RobustnessBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
-    return run_robustness_benchmark(logs, arguments.seed, progress);
+  RobustnessBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
+    return run_robustness_benchmark(chosen.logs, arguments.seeds, progress);
   });
+  benchmark.without_relations = chosen.without_relations;
 
   const std::string machine = machine_text();
-  const std::string page = robustness_markdown(benchmark, arguments.seed, machine);
+  const std::string page = robustness_markdown(benchmark, arguments.seeds, machine);
   if (!arguments.output.json.empty())
-    write_text_atomically(arguments.output.json, robustness_json(benchmark, arguments.seed, machine));
+    write_text_atomically(arguments.output.json, robustness_json(benchmark, arguments.seeds, machine));
   if (!arguments.output.output.empty()) {
     const fs::path folder = arguments.output.output;
     write_text_atomically(folder / "robustness.md", page);
@@ -47,9 +48,7 @@ void add_robustness_command(CLI::App& app, const Streams& streams) {
       app.add_subcommand("robustness", "Make real logs worse, and see what is made of them");
   add_data_options(*command, arguments->data);
   add_logs_option(*command, arguments->logs);
-  command->add_option("--seed", arguments->seed, "Of the noise")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_seeds_option(*command, arguments->seeds, "Of the noise");
   add_output_options(*command, arguments->output, "robustness.md and the plots");
   command->callback([arguments, &streams] { run_robustness(*arguments, streams); });
 }

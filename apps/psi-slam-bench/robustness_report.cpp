@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "growth_plot.h"
+#include "program_identity.h"
 #include "psi_slam/results/number_text.h"
+#include "seed_spread.h"
 
 namespace psi_slam {
 namespace {
@@ -15,12 +17,39 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kDegrees = 180 / M_PI;
 
-std::string percent(const std::optional<double>& share) {
-  return share ? fixed_text(100 * *share, 1) : "–";
+/// The rows of a case on a log, one a seed.
+using Runs = std::vector<RobustnessRow>;
+
+std::vector<Runs> cases_of(const RobustnessBenchmark& benchmark) {
+  return by_case(benchmark.rows, [](const RobustnessRow& a, const RobustnessRow& b) {
+    return a.log == b.log && a.degraded.series == b.degraded.series && a.degraded.name == b.degraded.name;
+  });
 }
 
-Json number_or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
+/// Of the runs that have one; none when no run has.
+SeedSpread spread_of_known(const Runs& runs, std::optional<double> RobustnessRow::*share) {
+  std::vector<double> known;
+  for (const RobustnessRow& run : runs)
+    if (run.*share) known.push_back(*(run.*share));
+  return spread_of(known);
+}
+
+std::string percent(const SeedSpread& share) {
+  return share.count > 0 ? fixed_text(100 * share.mean, 1) : "–";
+}
+
+Json json_or_null(const SeedSpread& share) {
+  return share.count > 0 ? spread_json(share) : Json(nullptr);
+}
+
+template <class Figure>
+SeedSpread over_seeds(const Runs& runs, Figure RobustnessRow::*figure) {
+  return spread_over(runs, [figure](const RobustnessRow& run) { return run.*figure; });
+}
+
+/// The mean, without decimals where there is one run.
+std::string count_text(const SeedSpread& counts) {
+  return fixed_text(counts.mean, counts.count > 1 ? 1 : 0);
 }
 
 std::string logs_text(const std::vector<RobustnessLog>& logs) {
@@ -33,12 +62,34 @@ std::string logs_text(const std::vector<RobustnessLog>& logs) {
   return text;
 }
 
-std::string row_text(const RobustnessRow& row) {
-  return "| " + row.log + " | " + row.degraded.series + " | " + row.degraded.name + " | " +
-         fixed_text(row.translation_error_m, 4) + " | " + fixed_text(row.rotation_error_deg, 3) + " | " +
-         std::to_string(row.relations) + " | " + std::to_string(row.loops) + " | " +
-         percent(row.loop_precision) + " | " + percent(row.loop_recall) + " | " +
-         std::to_string(row.unmatched) + " of " + std::to_string(row.scans) + " |\n";
+std::string row_text(const Runs& runs) {
+  const RobustnessRow& first = runs.front();
+  return "| " + first.log + " | " + first.degraded.series + " | " + first.degraded.name + " | " +
+         std::to_string(runs.size()) + " | " +
+         spread_text(over_seeds(runs, &RobustnessRow::translation_error_m), 4) + " | " +
+         spread_text(over_seeds(runs, &RobustnessRow::rotation_error_deg), 3) + " | " +
+         count_text(over_seeds(runs, &RobustnessRow::relations)) + " | " +
+         count_text(over_seeds(runs, &RobustnessRow::loops)) + " | " +
+         percent(spread_of_known(runs, &RobustnessRow::loop_precision)) + " | " +
+         percent(spread_of_known(runs, &RobustnessRow::loop_recall)) + " | " +
+         count_text(over_seeds(runs, &RobustnessRow::unmatched)) + " of " +
+         count_text(over_seeds(runs, &RobustnessRow::scans)) + " |\n";
+}
+
+Json row_json(const Runs& runs) {
+  const RobustnessRow& first = runs.front();
+  return {{"log", first.log},
+          {"series", first.degraded.series},
+          {"case", first.degraded.name},
+          {"seeds", seeds_of(runs)},
+          {"translation_error_m", spread_json(over_seeds(runs, &RobustnessRow::translation_error_m))},
+          {"rotation_error_deg", spread_json(over_seeds(runs, &RobustnessRow::rotation_error_deg))},
+          {"relations", spread_json(over_seeds(runs, &RobustnessRow::relations))},
+          {"scans", spread_json(over_seeds(runs, &RobustnessRow::scans))},
+          {"unmatched_scans", spread_json(over_seeds(runs, &RobustnessRow::unmatched))},
+          {"loops", spread_json(over_seeds(runs, &RobustnessRow::loops))},
+          {"loop_precision", json_or_null(spread_of_known(runs, &RobustnessRow::loop_precision))},
+          {"loop_recall", json_or_null(spread_of_known(runs, &RobustnessRow::loop_recall))}};
 }
 
 /// The series of the rows, each once, in their order.
@@ -57,10 +108,10 @@ std::string file_of(std::string series) {
 
 }  // namespace
 
-std::string robustness_markdown(const RobustnessBenchmark& benchmark, std::uint64_t seed,
+std::string robustness_markdown(const RobustnessBenchmark& benchmark, const SeedRange& seeds,
                                 const std::string& machine) {
-  std::string text = "# Logs made worse\n\npsi-slam " PSI_SLAM_VERSION ", " + machine + "; seed " +
-                     std::to_string(seed) + ". Errors are means over the true relations.\n\n";
+  std::string text = "# Logs made worse\n\n" + measured_by(machine) + "; " + seeds_text(seeds) +
+                     " of the noise. Errors are means over the true relations.\n\n";
   text +=
       "- odometry noise × k: to each step of odometry normal noise of √(k² - 1) times its natural noise is "
       "added, so that its error is about k times what it was. The natural noise is odometry's error against "
@@ -73,16 +124,19 @@ std::string robustness_markdown(const RobustnessBenchmark& benchmark, std::uint6
       "whose errors count\n"
       "- field of view: beams beside it are no returns\n"
       "- precision, recall: of the accepted loops, by the true relations\n"
-      "- unmatched: scans that the front end could not match with its local map\n\n";
+      "- unmatched: scans that the front end could not match with its local map\n"
+      "- runs: one for each seed where the case draws random numbers, else one; of several, errors are mean "
+      "± "
+      "standard deviation of the sample [worst], the other figures means\n\n";
   text += logs_text(benchmark.logs);
   text +=
-      "\n| log | | | error [m] | [deg] | relations | loops | precision % | recall % | unmatched |\n"
-      "|---|---|---|---:|---:|---:|---:|---:|---:|---:|\n";
-  for (const RobustnessRow& row : benchmark.rows) text += row_text(row);
-  return text;
+      "\n| log | | | runs | error [m] | [deg] | relations | loops | precision % | recall % | unmatched |\n"
+      "|---|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+  for (const Runs& runs : cases_of(benchmark)) text += row_text(runs);
+  return text + '\n' + logs_markdown(benchmark.identities, benchmark.without_relations);
 }
 
-std::string robustness_json(const RobustnessBenchmark& benchmark, std::uint64_t seed,
+std::string robustness_json(const RobustnessBenchmark& benchmark, const SeedRange& seeds,
                             const std::string& machine) {
   Json logs = Json::array();
   for (const RobustnessLog& log : benchmark.logs)
@@ -91,24 +145,17 @@ std::string robustness_json(const RobustnessBenchmark& benchmark, std::uint64_t 
                      {{"m_per_root_m", log.natural.sigma_m_per_root_m},
                       {"deg_per_root_m", kDegrees * log.natural.sigma_rad_per_root_m},
                       {"deg_per_root_rad", kDegrees * log.natural.sigma_rad_per_root_rad}}}});
+  Json files = Json::array();
+  for (const LogIdentity& log : benchmark.identities) files.push_back(log_json(log));
   Json rows = Json::array();
-  for (const RobustnessRow& row : benchmark.rows)
-    rows.push_back({{"log", row.log},
-                    {"series", row.degraded.series},
-                    {"case", row.degraded.name},
-                    {"translation_error_m", row.translation_error_m},
-                    {"rotation_error_deg", row.rotation_error_deg},
-                    {"relations", row.relations},
-                    {"scans", row.scans},
-                    {"unmatched_scans", row.unmatched},
-                    {"loops", row.loops},
-                    {"loop_precision", number_or_null(row.loop_precision)},
-                    {"loop_recall", number_or_null(row.loop_recall)}});
+  for (const Runs& runs : cases_of(benchmark)) rows.push_back(row_json(runs));
   const Json json = {{"schema", "psi-slam-robustness"},
                      {"schema_version", 1},
-                     {"program_version", PSI_SLAM_VERSION},
+                     {"program_version", program_version()},
+                     {"commit", program_commit()},
                      {"machine", machine},
-                     {"seed", seed},
+                     {"seeds", seeds.all()},
+                     {"files", files},
                      {"logs", logs},
                      {"rows", rows}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -121,11 +168,16 @@ std::vector<RobustnessPlot> robustness_plots(const RobustnessBenchmark& benchmar
     plot.title = "Error by " + series;
     plot.unit = "m";
     for (const RobustnessLog& log : benchmark.logs) {
-      GrowthPlot::Line line{log.name, {}};
-      for (const RobustnessRow& row : benchmark.rows) {
-        if (row.log != log.name || row.degraded.series != series) continue;
-        if (plot.lines.empty()) plot.labels.push_back(row.degraded.name);
-        line.values.push_back(row.translation_error_m);
+      GrowthPlot::Line line;
+      line.name = log.name;
+      for (const Runs& runs : cases_of(benchmark)) {
+        const RobustnessRow& first = runs.front();
+        if (first.log != log.name || first.degraded.series != series) continue;
+        if (plot.lines.empty()) plot.labels.push_back(first.degraded.name);
+        const SeedSpread errors = over_seeds(runs, &RobustnessRow::translation_error_m);
+        line.values.push_back(errors.mean);
+        line.low.push_back(errors.min);
+        line.high.push_back(errors.max);
       }
       plot.lines.push_back(std::move(line));
     }

@@ -33,7 +33,7 @@ std::string closing_text(const RunSummary& summary, const std::string& log_name,
            counted(summary.nodes, "node") + ", " + counted(summary.loops.accepted, "loop") + " closed.\n";
   lines += text("It took %.1f s", summary.wall_s);
   if (summary.real_time_factor > 0) lines += text(", real-time factor %.1f", summary.real_time_factor);
-  return lines + text(", and %.0f MB of memory.\n", summary.peak_memory_mb);
+  return lines + text(", and %.0f MiB of memory.\n", summary.peak_memory_mib);
 }
 
 std::string stages_text(const MappingResult& result) {

@@ -56,7 +56,7 @@ print("|", " | ".join([
     mean_and_deviation(evaluation["rotation_abs_deg"], 2),
     karto,
     f"{summary['real_time_factor']:.0f}",
-    f"{summary['peak_memory_mb'] / 1024:.2f} GiB",
+    f"{summary['peak_memory_mib'] / 1024:.2f} GiB",
 ]), "|")
 END
 }

@@ -55,7 +55,7 @@ TEST_P(BenchmarkLog, a_benchmark_log_is_mapped_within_its_limits) {
   EXPECT_EQ(metric.skipped, 0U);
   EXPECT_LE(metric.translation_abs_m.mean, benchmark.max_error_m);
   const auto summary = nlohmann::json::parse(bytes_of(output / "summary.json"));
-  EXPECT_LT(summary["peak_memory_mb"], 1024);
+  EXPECT_LT(summary["peak_memory_mib"], 1024);
 }
 
 INSTANTIATE_TEST_SUITE_P(EachIni, BenchmarkLog,

@@ -29,12 +29,12 @@ TEST_F(ClosingText, says_where_the_map_is_and_what_it_is_made_of) {
   summary_.loops.accepted = 1;
   summary_.wall_s = 20.25;
   summary_.real_time_factor = 132.9;
-  summary_.peak_memory_mb = 305;
+  summary_.peak_memory_mib = 305;
   const std::string folder = (folder_.path() / "out").string();
   EXPECT_EQ(text(), "The map is " + folder + "/map.png; " + folder +
                         "/report.html tells how it was made.\n"
                         "13631 scans of my.log over 44:51 and 503 m: 3463 nodes, 1 loop closed.\n"
-                        "It took 20.2 s, real-time factor 132.9, and 305 MB of memory.\n");
+                        "It took 20.2 s, real-time factor 132.9, and 305 MiB of memory.\n");
 }
 
 TEST_F(ClosingText, leaves_out_a_factor_that_cannot_be_said) {

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench_app.h"
 
-#include <gmock/gmock.h>
-
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "../session/room_log.h"
 #include "bench_progress.h"
+#include "command_fixture.h"
 #include "psi_slam/base/time_stamp.h"
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/results/relations_metric.h"
-#include "room_benchmark.h"
 #include "shared_logs.h"
-#include "temporary_folder.h"
-#include "test_files.h"
 
 namespace psi_slam {
 namespace {
@@ -25,46 +19,16 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using Json = nlohmann::json;
 
-class BenchApp : public testing::Test {
+class BenchApp : public BenchCommand {
  protected:
-  BenchApp() {
-    fs::create_directory(data_);
-    fs::create_directory(ini_);
-  }
-
-  int run(const std::vector<std::string>& arguments, bool terminal = false) {
-    out_.str("");
-    err_.str("");
-    return run_bench_app(arguments, {out_, err_, terminal});
-  }
-
-  int match(std::vector<std::string> options, bool terminal = false) {
-    options.insert(options.begin(), {"match", "--data", data_.string(), "--ini", ini_.string()});
-    return run(options, terminal);
-  }
-
-  /// The sentence with which it is refused as the user's fault.
-  std::string refusal(const std::vector<std::string>& options) {
-    EXPECT_EQ(match(options), 2);
-    EXPECT_EQ(out_.str(), "");
-    EXPECT_THAT(err_.str(), MatchesRegex("psi-slam-bench: [^\n]+\n")) << "one line";
-    return err_.str();
-  }
-
-  void write_room(double stretch = 1) const { write_room_benchmark(data_, ini_, stretch); }
-
-  TemporaryFolder folder_;
-  fs::path data_ = folder_.path() / "data";
-  fs::path ini_ = folder_.path() / "ini";
-  std::ostringstream out_;
-  std::ostringstream err_;
+  BenchApp() : BenchCommand("match") {}
 };
 
 TEST_F(BenchApp, compares_the_matchers_on_a_log) {
   write_room();
   const fs::path json_file = folder_.path() / "match.json";
   const fs::path output = folder_.path() / "out" / "bench";
-  ASSERT_EQ(match({"--cases", "1", "--json", json_file.string(), "-o", output.string()}, true), 0)
+  ASSERT_EQ(run({"--cases", "1", "--json", json_file.string(), "-o", output.string()}, true), 0)
       << err_.str();
   EXPECT_THAT(err_.str(), AllOf(HasSubstr("mapping room"), HasSubstr(" left")));
   EXPECT_EQ(out_.str(), read_file(output / "match.md"));
@@ -79,7 +43,7 @@ TEST_F(BenchApp, compares_the_matchers_on_a_log) {
 }
 
 TEST_F(BenchApp, leaves_out_logs_whose_truth_cannot_be_trusted) {
-  write_room(1.5);
+  write_room_benchmark(data_, ini_, 1.5);
   EXPECT_THAT(refusal({}), AllOf(HasSubstr("no log can be used: room"), HasSubstr("off the true relations")));
   fs::remove(data_ / "room.relations");
   EXPECT_THAT(refusal({}), HasSubstr("there are no relations"));
@@ -90,7 +54,7 @@ TEST_F(BenchApp, gives_the_same_figures_again_but_for_the_times) {
   std::vector<Json> runs;
   for (const char* name : {"first.json", "again.json"}) {
     const fs::path file = folder_.path() / name;
-    ASSERT_EQ(match({"--cases", "3", "--seed", "5", "--json", file.string()}), 0) << err_.str();
+    ASSERT_EQ(run({"--cases", "3", "--seed", "5", "--json", file.string()}), 0) << err_.str();
     Json json = Json::parse(read_file(file));
     for (Json* rows : {&json["matchers"], &json["context"]["matchers"]})
       for (Json& row : *rows) row.erase("time_ms");
@@ -105,7 +69,7 @@ TEST_F(BenchApp, draws_both_kinds_from_a_benchmark_log_with_the_settings_that_co
   for (const char* name : {"mit-csail.clf.gz", "mit-csail.relations"})
     fs::create_symlink(shared_file(name).value(), data_ / name);
   const fs::path file = folder_.path() / "csail.json";
-  ASSERT_EQ(run({"match", "--data", data_.string(), "--cases", "1", "--json", file.string()}), 0)
+  ASSERT_EQ(run_program({"match", "--data", data_.string(), "--cases", "1", "--json", file.string()}), 0)
       << err_.str();
   const Json json = Json::parse(read_file(file));
   EXPECT_EQ(json["matchers"][0]["cases"], 2);
@@ -117,9 +81,9 @@ TEST_F(BenchApp, adds_false_loops_to_the_graph_of_a_log) {
   write_room();
   const fs::path json_file = folder_.path() / "false.json";
   const fs::path output = folder_.path() / "out";
-  ASSERT_EQ(run({"false-loops", "--data", data_.string(), "--ini", ini_.string(), "--shares", "50,200",
-                 "--json", json_file.string(), "-o", output.string()},
-                true),
+  ASSERT_EQ(run_program({"false-loops", "--data", data_.string(), "--ini", ini_.string(), "--shares",
+                         "50,200", "--seeds", "2", "--json", json_file.string(), "-o", output.string()},
+                        true),
             0)
       << err_.str();
   EXPECT_THAT(err_.str(), HasSubstr("mapping room"));
@@ -127,27 +91,27 @@ TEST_F(BenchApp, adds_false_loops_to_the_graph_of_a_log) {
   for (const char* kind : {"scattered", "groups", "nearby"})
     EXPECT_THAT(read_file(output / ("false-loops-" + std::string(kind) + ".svg")), HasSubstr("</svg>"));
   const Json json = Json::parse(read_file(json_file));
+  EXPECT_THAT(out_.str(), HasSubstr(json["files"][0]["sha256"].get<std::string>()));
   ASSERT_EQ(json["rows"].size(), 6U);
   EXPECT_GT(json["logs"][0]["loops"], 10);
   for (const Json& row : json["rows"]) {
-    EXPECT_EQ(row["undefended"]["false_kept"], row["false_loops"]);
-    EXPECT_LT(row["defended"]["translation_error_m"], 0.1);
+    EXPECT_EQ(row["seeds"], Json({1, 2}));
+    EXPECT_EQ(row["undefended"]["false_kept"]["min"], row["false_loops"]);
+    EXPECT_LT(row["defended"]["translation_error_m"]["max"], 0.1);
   }
 }
 
 TEST_F(BenchApp, commands_on_chosen_logs_name_what_is_missing) {
   write_room();
-  const auto refused = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"false-loops", "--data", data_.string(), "--ini", ini_.string()};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    EXPECT_EQ(run(arguments), 2);
-    return err_.str();
+  const auto refused = [&](const std::vector<std::string>& options) {
+    return refusal_of(words("false-loops", options));
   };
   EXPECT_THAT(refused({"--logs", "room,hall"}), HasSubstr("no log called hall"));
   EXPECT_THAT(refused({"--shares", "-1"}), HasSubstr("--shares"));
-  EXPECT_THAT(refused({"--seed", "-1"}), HasSubstr("--seed"));
+  EXPECT_THAT(refused({"--seeds", "0"}), HasSubstr("--seeds"));
   fs::remove(data_ / "room.relations");
-  EXPECT_THAT(refused({}), HasSubstr("room.relations"));
+  EXPECT_THAT(refused({}), HasSubstr("NAME.relations"));
+  EXPECT_THAT(refused({"--logs", "room"}), HasSubstr("expected room.relations"));
 }
 
 TEST_F(BenchApp, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
@@ -162,12 +126,12 @@ TEST_F(BenchApp, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
   EXPECT_THAT(refusal({"--json", folder_.path().string()}), HasSubstr("is a folder"));
   EXPECT_THAT(refusal({"--json", (folder_.path() / "no" / "a.json").string()}), HasSubstr("does not exist"));
   EXPECT_THAT(refusal({"-o", (data_ / "other.log").string()}), HasSubstr("other.log"));
-  EXPECT_EQ(run({"match", "--data", (folder_.path() / "no").string()}), 2);
+  EXPECT_EQ(run_program({"match", "--data", (folder_.path() / "no").string()}), 2);
   EXPECT_THAT(err_.str(), HasSubstr("is no folder"));
-  EXPECT_EQ(run({}), 2);
-  EXPECT_EQ(run({"match"}), 2);
-  EXPECT_EQ(run({"--help"}), 0);
-  EXPECT_EQ(run({"match", "--help"}), 0);
+  EXPECT_EQ(run_program({}), 2);
+  EXPECT_EQ(run_program({"match"}), 2);
+  EXPECT_EQ(run_program({"--help"}), 0);
+  EXPECT_EQ(run_program({"match", "--help"}), 0);
   EXPECT_THAT(out_.str(), HasSubstr("--windows"));
 }
 
@@ -175,9 +139,9 @@ TEST_F(BenchApp, simulates_drives_and_writes_one_as_a_log_with_its_truth) {
   const fs::path json_file = folder_.path() / "simulate.json";
   const fs::path output = folder_.path() / "out";
   const fs::path log = folder_.path() / "drive.clf.gz";
-  ASSERT_EQ(run({"simulate", "--path-m", "40", "--seed", "3", "--json", json_file.string(), "-o",
-                 output.string(), "--write-log", log.string()},
-                true),
+  ASSERT_EQ(run_program({"simulate", "--path-m", "40", "--seed", "3", "--json", json_file.string(), "-o",
+                         output.string(), "--write-log", log.string()},
+                        true),
             0)
       << err_.str();
   EXPECT_THAT(err_.str(), HasSubstr("40 m"));
@@ -216,7 +180,7 @@ TEST_F(BenchApp, refuses_simulations_that_make_no_sense) {
       {"--path-m", "40", "--json", folder_.path().string()}};
   for (std::vector<std::string> options : wrong) {
     options.insert(options.begin(), "simulate");
-    EXPECT_EQ(run(options), 2) << options[1] << ' ' << options[2];
+    EXPECT_EQ(run_program(options), 2) << options[1] << ' ' << options[2];
     EXPECT_THAT(err_.str(), MatchesRegex("psi-slam-bench: [^\n]+\n")) << "one line";
   }
 }

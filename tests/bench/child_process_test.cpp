@@ -55,6 +55,21 @@ TEST(ChildProcess, is_ended_by_its_time_limit_and_on_request) {
   EXPECT_EQ(run_child(stopped).failure(), "interrupted");
 }
 
+TEST(ChildProcess, a_signal_that_comes_meanwhile_is_nothing) {
+  static volatile std::sig_atomic_t came = 0;
+  struct sigaction count {};
+  count.sa_handler = [](int) { came = came + 1; };  // and no SA_RESTART: poll() returns with EINTR
+  struct sigaction before {};
+  ASSERT_EQ(sigaction(SIGUSR1, &count, &before), 0);
+  EXPECT_EQ(run_child(shell("echo first; sleep 0.05; kill -USR1 $PPID; sleep 0.05; echo last")).out,
+            "first\nlast\n");
+  ChildProcess slow = shell("echo first; sleep 0.05; kill -USR1 $PPID; exec sleep 30");
+  slow.time_limit_s = 0.3;
+  EXPECT_TRUE(run_child(slow).over_time) << "it went on looking at its time";
+  sigaction(SIGUSR1, &before, nullptr);
+  EXPECT_GE(came, 1);
+}
+
 TEST(ChildProcess, a_program_that_is_not_there_is_a_failure) {
   ChildProcess none;
   none.words = {"/no/such/program"};

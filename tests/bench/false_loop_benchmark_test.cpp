@@ -66,16 +66,28 @@ TEST(FalseLoopBenchmark, is_reported_for_people_and_programs) {
   row.false_loops = 20;
   row.undefended.error.translation_m = 7;
   row.defended = {{0.0213, 0.6}, 3, 4, 12};
-  benchmark.rows = {row};
-  EXPECT_THAT(false_loop_markdown(benchmark, {}, "a machine"),
-              testing::AllOf(HasSubstr("| office | groups | 50 | 20 | 7.000 |"),
-                             HasSubstr("| 0.0213 | 0.600 | 3 / 4 | 12 |"), HasSubstr("a machine; seed 1")));
-  const auto json = nlohmann::json::parse(false_loop_json(benchmark, {}, "a machine"));
+  FalseLoopRow other = row;
+  other.seed = 2;
+  other.defended = {{0.0413, 0.8}, 5, 4, 14};
+  benchmark.rows = {row, other};
+  benchmark.identities = {{"office", "a0a0", "b0b0"}};
+  FalseLoopBenchmarkOptions options;
+  options.seeds = {1, 2};
+  EXPECT_THAT(
+      false_loop_markdown(benchmark, options, "a machine"),
+      testing::AllOf(HasSubstr("| office | groups | 50 | 20 | 7.000 ± 0.000 [7.000] |"),
+                     HasSubstr("| office | `a0a0` | `b0b0` |"),
+                     HasSubstr("| 0.0313 ± 0.0141 [0.0413] | 0.700 ± 0.141 [0.800] | 4.0 / 4.0 | 13 |"),
+                     HasSubstr("a machine; seeds 1 to 2")));
+  const auto json = nlohmann::json::parse(false_loop_json(benchmark, options, "a machine"));
   EXPECT_EQ(json["rows"][0]["kind"], "groups");
-  EXPECT_EQ(json["rows"][0]["defended"]["true_lost"], 4);
+  EXPECT_EQ(json["rows"][0]["defended"]["true_lost"]["mean"], 4);
+  EXPECT_EQ(json["rows"].size(), 1U);
+  EXPECT_EQ(json["files"][0]["sha256"], "a0a0");
   EXPECT_EQ(json["logs"][0]["without_loops"]["translation_error_m"], 0.3);
   const std::string plot = false_loop_plot(benchmark, FalseLoopKind::kGroups);
-  EXPECT_THAT(plot, testing::AllOf(HasSubstr(">50 %<"), HasSubstr(">office<"), HasSubstr("10 m<")));
+  EXPECT_THAT(plot, testing::AllOf(HasSubstr(">50 %<"), HasSubstr(">office<"), HasSubstr("10 m<"),
+                                   HasSubstr("class=\"spread\"")));
   EXPECT_EQ(std::count(plot.begin(), plot.end(), '<') - std::count(plot.begin(), plot.end(), '>'), 0);
 }
 

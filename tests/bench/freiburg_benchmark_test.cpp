@@ -21,7 +21,7 @@ class FreiburgBenchmarks : public testing::Test {
     for (const fs::path& folder : {data_, ini_, output_ / "runs"}) fs::create_directories(folder);
     write_room_benchmark(data_, ini_);
     options_.matchers = {"csm", "ga"};
-    options_.seeds = 2;
+    options_.seeds = {1, 2};
     options_.output = output_;
     options_.program = PSI_SLAM_BENCH_PROGRAM;
   }
@@ -85,11 +85,23 @@ TEST_F(FreiburgBenchmarks, a_run_that_is_there_is_not_made_again) {
   EXPECT_EQ(made(again), 0U);
   EXPECT_EQ(freiburg_markdown(again, options_, "m"), freiburg_markdown(first, options_, "m"))
       << "the times of the first runs stand";
-  options_.seeds = 3;
+  options_.seeds = {1, 3};
   EXPECT_EQ(made(run()), 1U) << "the new seed";
   fs::remove(output_ / "runs" / "room-ga-2.json");
   write_file(output_ / "runs" / "room-ga-3.json", "{ cut short");
   EXPECT_EQ(made(run()), 2U);
+}
+
+TEST_F(FreiburgBenchmarks, runs_of_a_quieter_machine_stand_and_those_of_a_busier_one_do_not) {
+  options_.matchers = {"csm"};
+  options_.processes = 2;
+  run();
+  options_.processes = 1;
+  EXPECT_EQ(made(run()), 1U) << "its times were measured beside others";
+  options_.processes = 2;
+  const FreiburgBenchmark again = run();
+  EXPECT_EQ(made(again), 0U);
+  EXPECT_THAT(freiburg_markdown(again, options_, "m"), HasSubstr("at most 2 runs at a time"));
 }
 
 TEST_F(FreiburgBenchmarks, other_inputs_are_other_runs) {

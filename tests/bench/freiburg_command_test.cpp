@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gmock/gmock.h>
-
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "../results/well_formed.h"
-#include "bench_app.h"
-#include "child_process.h"
-#include "room_benchmark.h"
-#include "temporary_folder.h"
+#include "command_fixture.h"
+#include "rival_files.h"
 
 namespace psi_slam {
 namespace {
@@ -16,48 +11,32 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::MatchesRegex;
 using Json = nlohmann::json;
 
-class FreiburgCommand : public testing::Test {
+class FreiburgCommand : public BenchCommand {
  protected:
-  FreiburgCommand() {
-    for (const fs::path& folder : {data_, ini_}) fs::create_directories(folder);
+  FreiburgCommand() : BenchCommand("freiburg") {}
+
+  /// The built program, since it starts itself.
+  ChildEnd run(std::vector<std::string> options) const {
+    return run_process(words("freiburg", with_output(std::move(options))), path_);
   }
 
-  std::vector<std::string> words(const std::vector<std::string>& options) const {
-    std::vector<std::string> all{"freiburg",    "--data", data_.string(),  "--ini",
-                                 ini_.string(), "-o",     output_.string()};
-    all.insert(all.end(), options.begin(), options.end());
-    return all;
+  std::string refusal(std::vector<std::string> options) {
+    return BenchCommand::refusal(with_output(std::move(options)));
   }
 
-  /// The built program, as a process of its own.
-  ChildEnd run(const std::vector<std::string>& options) const {
-    ChildProcess program;
-    program.words = words(options);
-    program.words.insert(program.words.begin(), PSI_SLAM_BENCH_PROGRAM);
-    return run_child(program);
+  std::vector<std::string> with_output(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"-o", output_.string()});
+    return options;
   }
 
-  /// The sentence with which it is refused as the user's fault.
-  std::string refusal(const std::vector<std::string>& options) const {
-    std::ostringstream out;
-    std::ostringstream err;
-    EXPECT_EQ(run_bench_app(words(options), {out, err, false}), 2);
-    EXPECT_EQ(out.str(), "");
-    EXPECT_THAT(err.str(), MatchesRegex("psi-slam-bench: [^\n]+\n")) << "one line";
-    return err.str();
-  }
-
-  TemporaryFolder folder_;
-  fs::path data_ = folder_.path() / "data";
-  fs::path ini_ = folder_.path() / "ini";
   fs::path output_ = folder_.path() / "out" / "freiburg";
+  std::string path_ = (folder_.path() / "bin").string() + ":/usr/bin:/bin";
 };
 
 TEST_F(FreiburgCommand, maps_the_logs_and_writes_page_figures_and_plots) {
-  write_room_benchmark(data_, ini_);
+  write_room();
   write_room_passes(data_);
   write_lines(data_ / "unknown.log", room_log_lines(2));
   write_file(ini_ / "unknown.ini", "[log]\n");
@@ -65,7 +44,8 @@ TEST_F(FreiburgCommand, maps_the_logs_and_writes_page_figures_and_plots) {
   const ChildEnd end = run({"--seeds", "2", "--matchers", "csm,adaptive", "--json", json_file.string()});
   ASSERT_EQ(end.code, 0) << end.err;
   EXPECT_EQ(end.out, read_file(output_ / "freiburg.md"));
-  EXPECT_THAT(end.out, AllOf(HasSubstr("| room | csm | 1, draws no random numbers | 0.0"),
+  EXPECT_THAT(end.out, AllOf(HasSubstr("| room | csm | 1 run: draws no random numbers | 0.0"),
+                             HasSubstr("| room | csm | 1 run: draws no random numbers | 0 by construction |"),
                              HasSubstr("| room | adaptive | 2 | 0.0"), HasSubstr("seeds 1 to 2"),
                              HasSubstr("Freiburg hospital: its log is not in the folder"),
                              HasSubstr("unknown has no relations"), HasSubstr("Hess")));
@@ -90,7 +70,7 @@ TEST_F(FreiburgCommand, maps_the_logs_and_writes_page_figures_and_plots) {
 }
 
 TEST_F(FreiburgCommand, says_by_its_code_that_a_run_failed) {
-  write_room_benchmark(data_, ini_);
+  write_room();
   write_file(data_ / "room.relations", "1 2 0 0 0 0 0 0\n");  // long before the log
   const ChildEnd end = run({"--matchers", "csm"});
   EXPECT_EQ(end.code, 1);
@@ -98,26 +78,64 @@ TEST_F(FreiburgCommand, says_by_its_code_that_a_run_failed) {
   EXPECT_THAT(end.out, HasSubstr("| room | csm | failed: "));
 }
 
+TEST_F(FreiburgCommand, shows_the_rivals_that_are_installed_beside_ours) {
+  write_room();
+  install_rival(folder_.path(), rival_kinds()[0], standing_still(190));
+  install_rival(folder_.path(), rival_kinds()[1], "exec sleep 600");
+  const fs::path json_file = folder_.path() / "freiburg.json";
+  const ChildEnd end =
+      run({"--matchers", "csm", "--rivals", "--rival-limit-s", "1", "--json", json_file.string()});
+  ASSERT_EQ(end.code, 0) << end.err;
+  EXPECT_THAT(end.out, AllOf(HasSubstr("MRPT icp-slam (run here)"), HasSubstr("MRPT 9.9.9 - Sources"),
+                             HasSubstr("| room | icp-slam | "),
+                             HasSubstr("| room | rbpf-slam | not finished in 1 s | –")));
+  const Json json = Json::parse(read_file(json_file));
+  ASSERT_EQ(json["rivals"]["runs"].size(), 2U);
+  EXPECT_EQ(json["rivals"]["runs"][0]["figures"]["scans"], 190);
+  EXPECT_EQ(json["rivals"]["runs"][1]["not_finished_in_s"], 1);
+  EXPECT_THAT(read_file(output_ / "freiburg-room.svg"), HasSubstr("MRPT icp-slam (run here)"));
+}
+
+TEST_F(FreiburgCommand, says_which_rivals_are_missing) {
+  write_room();
+  path_ = (folder_.path() / "bin").string();
+  const ChildEnd none = run({"--matchers", "csm", "--rivals"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err,
+              AllOf(HasSubstr("icp-slam is not on PATH, rbpf-slam is not on PATH"), HasSubstr("mrpt-apps")));
+  install_rival(folder_.path(), rival_kinds()[1], "exit 3");
+  write_file(folder_.path() / "bin" / "icp-slam", "no program");
+  const ChildEnd one = run({"--matchers", "csm", "--rivals"});
+  EXPECT_EQ(one.code, 0) << one.err;
+  EXPECT_THAT(one.err, HasSubstr("warning: --rivals: icp-slam is not on PATH"));
+  EXPECT_THAT(one.out, HasSubstr("- not run: icp-slam is not on PATH"));
+  EXPECT_THAT(one.out, HasSubstr("| room | rbpf-slam | failed: ended with code 3 | –"));
+}
+
 TEST_F(FreiburgCommand, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
   EXPECT_THAT(refusal({}), HasSubstr("there is no log in " + data_.string()));
-  write_room_benchmark(data_, ini_);
+  write_room();
   EXPECT_THAT(refusal({"--bogus"}), HasSubstr("--bogus"));
   EXPECT_THAT(refusal({"--seeds", "0"}), HasSubstr("--seeds"));
   EXPECT_THAT(refusal({"--seeds", "-1"}), HasSubstr("--seeds"));
+  EXPECT_THAT(refusal({"--rival-limit-s", "5"}), HasSubstr("--rivals"));
+  EXPECT_THAT(refusal({"--rivals", "--rival-limit-s", "0"}), HasSubstr("--rival-limit-s"));
   EXPECT_THAT(refusal({"--processes", "0"}), HasSubstr("--processes"));
   EXPECT_THAT(refusal({"--threads", "some"}), HasSubstr("--threads"));
   EXPECT_THAT(refusal({"--matchers", "csm,icp"}), AllOf(HasSubstr("--matchers"), HasSubstr("icp")));
   EXPECT_THAT(refusal({"--matchers", "csm,ga,csm"}), HasSubstr("csm is named twice"));
-  EXPECT_THAT(refusal({"--logs", "intel"}), AllOf(HasSubstr("no log intel"), HasSubstr(data_.string())));
+  EXPECT_THAT(refusal({"--logs", "intel"}),
+              AllOf(HasSubstr("no log called intel"), HasSubstr(data_.string())));
   EXPECT_THAT(refusal({"--json", folder_.path().string()}), HasSubstr("is a folder"));
   write_file(ini_ / "room.ini", "[log]\nbogus = 1\n");
   EXPECT_THAT(refusal({}), HasSubstr("bogus"));
   fs::remove(data_ / "room.relations");
   EXPECT_THAT(refusal({}), HasSubstr("expected NAME.relations"));
+  EXPECT_THAT(refusal({"--logs", "room"}), HasSubstr("expected room.relations"));
 }
 
 TEST_F(FreiburgCommand, an_output_folder_that_cannot_be_made_is_told_before_the_work) {
-  write_room_benchmark(data_, ini_);
+  write_room();
   output_ = data_ / "room.log";
   EXPECT_THAT(refusal({}), HasSubstr("room.log"));
 }

@@ -51,8 +51,36 @@ TEST(FreiburgComparison, the_table_shows_the_best_in_bold_and_has_every_log_of_t
   const std::string table = comparison_table(compare_with_others(benchmark_with("intel", 0.02)));
   EXPECT_THAT(table, HasSubstr("| Intel | translation [m] | **0.0200 ± 0.5000** | 0.1650 ± 0.4700 |"));
   EXPECT_THAT(table, HasSubstr("| Intel | rotation [deg] | 1.0000 ± 1.0000 |"));
-  EXPECT_THAT(table, HasSubstr("**0.4530**"));
+  EXPECT_THAT(table, HasSubstr("**0.3880**"));
   EXPECT_THAT(table, HasSubstr("| Freiburg hospital | translation [m] | – | 0.5750 ± 0.8360 |"));
+}
+
+TEST(FreiburgComparison, marks_what_is_unchecked_and_means_of_which_some_runs_failed) {
+  FreiburgBenchmark benchmark = benchmark_with("intel", 0.02);
+  const std::string whole = comparison_table(compare_with_others(benchmark));
+  EXPECT_THAT(whole, HasSubstr("0.4530 † |"));
+  EXPECT_THAT(whole, HasSubstr("\n† quoted from memory"));
+  EXPECT_THAT(whole, testing::Not(HasSubstr("‡")));
+  benchmark.cells[1].runs.emplace_back().failure = "no memory";
+  const std::string some = comparison_table(compare_with_others(benchmark));
+  EXPECT_THAT(some, HasSubstr("**0.0200 ± 0.5000 ‡**"));
+  EXPECT_THAT(some, HasSubstr("\n‡ some of these runs failed"));
+}
+
+TEST(FreiburgComparison, rivals_that_were_run_here_are_columns_like_the_others) {
+  FreiburgBenchmark benchmark = benchmark_with("intel", 0.02);
+  benchmark.rivals.programs.push_back(
+      {rival_kinds()[0], "/usr/bin/icp-slam", "/some/icp.ini", "MRPT 9", "c"});
+  RivalResult result;
+  result.log = "intel";
+  result.rival = "icp-slam";
+  result.figures.emplace().errors.translation_abs_m = {0.01, 0.02};
+  benchmark.rival_results = {result};
+  const Comparison comparison = compare_with_others(benchmark);
+  EXPECT_EQ(best_of(comparison, row_of(comparison, "Intel", 0)).front(), "MRPT icp-slam (run here)");
+  EXPECT_THAT(comparison.columns[1].source,
+              testing::AllOf(HasSubstr("MRPT 9"), HasSubstr("icp.ini"), HasSubstr("SAVE_3D_SCENE = 0")));
+  EXPECT_FALSE(row_of(comparison, "ACES", 0).values[1]);
 }
 
 TEST(FreiburgComparison, a_log_of_somebody_else_has_our_figures_only) {

@@ -23,7 +23,7 @@ TEST(PublishedFigures, each_row_is_of_a_known_log_and_has_a_mean_and_a_source) {
       EXPECT_TRUE(std::any_of(benchmark_log_titles().begin(), benchmark_log_titles().end(),
                               [&](const BenchmarkLogTitle& title) { return title.log == log.log; }));
       ASSERT_TRUE(log.errors[0]);
-      ASSERT_TRUE(log.errors[0]->std);
+      EXPECT_TRUE(log.errors[0]->std || system.name == "Cartographer (its paths)");
       for (const auto& figure : log.errors) EXPECT_GT(figure.value_or(*log.errors[0]).mean, 0);
     }
   }
@@ -46,6 +46,16 @@ TEST(PublishedFigures, the_paper_has_all_four_of_each_log) {
     }
   }
   EXPECT_EQ(rivals, benchmark_log_titles().size()) << "each log has one of the paper's two rivals";
+}
+
+TEST(PublishedFigures, what_is_quoted_from_memory_is_said_to_be) {
+  for (const PublishedLog& log : system_of("Cartographer").logs) {
+    EXPECT_FALSE(log.errors[0]->unchecked);
+    EXPECT_TRUE(log.errors[2].value().unchecked) << log.log;
+  }
+  for (const char* name : {"Karto (live)", "slam_toolbox (live)", "Cartographer (its paths)"})
+    for (const PublishedLog& log : system_of(name).logs)
+      for (const auto& figure : log.errors) EXPECT_FALSE(figure && figure->unchecked) << name;
 }
 
 TEST(PublishedFigures, the_hospital_goes_by_two_names) {

@@ -32,34 +32,53 @@ RobustnessRow row(const std::string& log, const std::string& series, const std::
 RobustnessBenchmark two_logs() {
   RobustnessBenchmark benchmark;
   for (const char* log : {"aces", "<intel>"}) {
+    benchmark.identities.push_back({log, "a0a0", "b0b0"});
     benchmark.logs.push_back({log, {0.05, M_PI / 180, M_PI / 90}});
     benchmark.rows.push_back(row(log, "scans kept", "1 of 1", 0.0412));
     benchmark.rows.push_back(row(log, "scans kept", "1 of 2", 0.2));
+    benchmark.rows.push_back(row(log, "scans kept", "1 of 2", 0.4));
+    benchmark.rows.back().seed = 8;
+    benchmark.rows.back().loop_precision.reset();
     benchmark.rows.push_back(row(log, "field of view", "full", 0.0412));
   }
   return benchmark;
 }
 
 TEST(RobustnessReport, markdown_has_the_figures) {
-  const std::string page = robustness_markdown(two_logs(), 7, "a machine");
-  EXPECT_THAT(page, HasSubstr("a machine; seed 7"));
+  const std::string page = robustness_markdown(two_logs(), {7, 8}, "a machine");
+  EXPECT_THAT(page, HasSubstr("a machine; seeds 7 to 8"));
   EXPECT_THAT(page, HasSubstr("| aces | 0.0500 | 1.000 | 2.000 |\n"));
   EXPECT_THAT(
       page,
-      HasSubstr("| aces | scans kept | 1 of 1 | 0.0412 | 0.500 | 100 | 1000 | 99.5 | – | 2 of 3600 |\n"));
+      HasSubstr("| aces | scans kept | 1 of 1 | 1 | 0.0412 | 0.500 | 100 | 1000 | 99.5 | – | 2 of 3600 |\n"));
+}
+
+TEST(RobustnessReport, markdown_has_mean_deviation_and_worst_of_the_seeds_and_the_files) {
+  RobustnessBenchmark benchmark = two_logs();
+  benchmark.without_relations = {"hall"};
+  const std::string page = robustness_markdown(benchmark, {7, 8}, "a machine");
+  EXPECT_THAT(page, HasSubstr("| aces | scans kept | 1 of 2 | 2 | 0.3000 ± 0.1414 [0.4000] | 0.500 ± 0.000 "
+                              "[0.500] | 100.0 | 1000.0 | 99.5 | – | 2.0 of 3600.0 |\n"));
+  EXPECT_THAT(page, HasSubstr("| aces | `a0a0` | `b0b0` |"));
+  EXPECT_THAT(page, HasSubstr("hall has no relations"));
+  EXPECT_THAT(page, HasSubstr(", commit "));
 }
 
 TEST(RobustnessReport, json_tells_where_it_comes_from_and_what_is_not_known) {
-  const Json json = Json::parse(robustness_json(two_logs(), 7, "a machine"));
+  const Json json = Json::parse(robustness_json(two_logs(), {7, 8}, "a machine"));
   EXPECT_EQ(json["schema"], "psi-slam-robustness");
   EXPECT_EQ(json["machine"], "a machine");
-  EXPECT_EQ(json["seed"], 7);
+  EXPECT_EQ(json["seeds"], Json({7, 8}));
   EXPECT_NEAR(json["logs"][1]["natural_odometry_noise"]["deg_per_root_rad"].get<double>(), 2, 1e-12);
   ASSERT_EQ(json["rows"].size(), 6U);
   EXPECT_EQ(json["rows"][1]["case"], "1 of 2");
-  EXPECT_EQ(json["rows"][1]["translation_error_m"], 0.2);
-  EXPECT_EQ(json["rows"][1]["unmatched_scans"], 2);
-  EXPECT_EQ(json["rows"][1]["loop_precision"], 0.995);
+  EXPECT_EQ(json["rows"][1]["seeds"], Json({1, 8}));
+  EXPECT_NEAR(json["rows"][1]["translation_error_m"]["mean"].get<double>(), 0.3, 1e-12);
+  EXPECT_EQ(json["rows"][1]["translation_error_m"]["max"], 0.4);
+  EXPECT_EQ(json["rows"][1]["unmatched_scans"]["mean"], 2);
+  EXPECT_EQ(json["rows"][1]["loop_precision"]["mean"], 0.995) << "of the run that has one";
+  EXPECT_NE(json["commit"], "");
+  EXPECT_EQ(json["files"][0]["sha256"], "a0a0");
   EXPECT_TRUE(json["rows"][1]["loop_recall"].is_null());
 }
 
@@ -74,6 +93,8 @@ TEST(RobustnessReport, draws_a_plot_for_each_series_with_a_line_for_each_log) {
                 testing::AllOf(HasSubstr(">aces<"), HasSubstr(">&lt;intel&gt;<"), HasSubstr(" m<")));
   }
   EXPECT_THAT(plots[0].svg, HasSubstr(">1 of 2<"));
+  EXPECT_THAT(plots[0].svg, HasSubstr("class=\"spread\"")) << "two seeds";
+  EXPECT_THAT(plots[1].svg, testing::Not(HasSubstr("class=\"spread\""))) << "one seed";
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(RunSummary, a_loop_still_pending_when_the_run_was_stopped_counts_as_refused
 TEST(RunSummary, tells_speed_memory_and_map) {
   const RunSummary summary = summary_of(walk_around_the_room());
   EXPECT_NEAR(summary.real_time_factor, 9.8 / 0.5, 1e-9);
-  EXPECT_GT(summary.peak_memory_mb, 1);
+  EXPECT_GT(summary.peak_memory_mib, 1);
   EXPECT_EQ(summary.nodes, 10U);
   EXPECT_EQ(summary.local_maps, 2U);
   EXPECT_NEAR(summary.map.x_min_m, -2, 0.11);

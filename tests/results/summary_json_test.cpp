@@ -19,7 +19,7 @@ RunSummary some_figures() {
   summary.loops.accepted = 1;
   summary.loops.reasons = {{"response … is below …", 7}};
   summary.real_time_factor = 19.6;
-  summary.peak_memory_mb = 123.4;
+  summary.peak_memory_mib = 123.4;
   summary.last_pass_cut_short = true;
   summary.broken_off = "room.clf:41: expected a number";
   return summary;

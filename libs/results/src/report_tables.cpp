@@ -82,7 +82,7 @@ std::string key_figures(const RunSummary& summary) {
                    (loops.switched_off > 0 ? ", " + whole(loops.switched_off) + " switched off" : ""));
   html += tile("Real-time factor", summary.real_time_factor > 0 ? speed_text(summary.real_time_factor) : "–",
                "", duration_text(summary.wall_s) + " of work");
-  html += tile("Peak memory", grouped(summary.peak_memory_mb, 0), "MB", "of the whole process");
+  html += tile("Peak memory", grouped(summary.peak_memory_mib, 0), "MiB", "of the whole process");
   return html + "</section>\n";
 }
 

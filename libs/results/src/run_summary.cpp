@@ -100,7 +100,7 @@ MapExtent map_extent(const mrpt::maps::COccupancyGridMap2D& grid) {
   return extent;
 }
 
-double peak_memory_mb() {
+double peak_memory_mib() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts kibibytes
@@ -146,7 +146,7 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
   summary.map.asked_resolution_m = asked.resolution_m;
   summary.wall_s = result.wall_s;
   if (result.wall_s > 0) summary.real_time_factor = summary.log.duration_s / result.wall_s;
-  summary.peak_memory_mb = peak_memory_mb();
+  summary.peak_memory_mib = peak_memory_mib();
   summary.interrupted = result.interrupted;
   summary.last_pass_cut_short = result.last_pass_cut_short;
   summary.broken_off = result.broken_off;

@@ -107,7 +107,7 @@ std::string summary_json(const MappingResult& result, const RunInfo& info, const
                      {"map", map_json(summary.map)},
                      {"wall_s", number(summary.wall_s)},
                      {"real_time_factor", number(summary.real_time_factor, 3)},
-                     {"peak_memory_mb", number(summary.peak_memory_mb, 1)},
+                     {"peak_memory_mib", number(summary.peak_memory_mib, 1)},
                      {"stages", stages_json(result.stages)},
                      {"loop_counts", loop_counts_json(summary.loops)},
                      {"loop_matchers", loop_matchers_json(result.loop_matchers)},

@@ -81,7 +81,7 @@ struct RunSummary {
   MapExtent map;
   double wall_s = 0;
   double real_time_factor = 0;  ///< seconds of the log in a second of work; 0 where that cannot be said
-  double peak_memory_mb = 0;    ///< of this process so far
+  double peak_memory_mib = 0;    ///< of this process so far
   bool interrupted = false;
   bool last_pass_cut_short = false;
   std::optional<std::string> broken_off;  ///< what is wrong with the log behind its last scan

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every rival that is installed here on every log, each run in a process of its own. What one came to is kept
+// and not made again as long as the log, its relations, how it is read, the rival and its settings are the
+// same; one that did not finish is tried again only with more time.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "benchmark_logs.h"
+#include "rival_program.h"
+#include "rival_run.h"
+#include "task_progress.h"
+
+namespace psi_slam {
+
+struct RivalOptions {
+  double time_limit_s = 600;  ///< of each run
+  int processes = 1;          ///< at a time
+  std::filesystem::path
+      output;  ///< what is kept is output/runs/LOG-RIVAL.json, the rest output/rivals/LOG-RIVAL
+};
+
+/// Results by log, then rival. `logs` need their relations. Once `stop` is true no more runs are begun and
+/// those under way are ended; then, and when a file cannot be written, throws SystemFailure.
+std::vector<RivalResult> run_rivals(const std::vector<RivalProgram>& rivals,
+                                    const std::vector<BenchmarkLog>& logs, const RivalOptions& options,
+                                    const std::atomic<bool>& stop, const TaskProgress::Observer& observer);
+
+}  // namespace psi_slam

@@ -217,7 +217,8 @@ TEST(PathCovariance, a_search_with_targets_finds_what_one_of_the_whole_graph_fin
       EXPECT_EQ(found.previous, all[node].previous);
       EXPECT_EQ(found.constraint, all[node].constraint);
     }
-    known.graph.set_pose(source, {0.1 * static_cast<double>(source), 1, 0.5});  // nothing is kept of the poses
+    // Nothing is kept of the poses.
+    known.graph.set_pose(source, {0.1 * static_cast<double>(source), 1, 0.5});
   }
 }
 

@@ -22,7 +22,8 @@ std::uint32_t find_set(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   return i;
 }
 
-// Block products of one factorisation over what it would take had the order stayed as good as when it was found.
+// Block products of one factorisation over what it would take had the order stayed as good as when it was
+// found.
 double wasted_products(std::size_t products, std::size_t variables, double ordered_products,
                        std::size_t ordered_variables) {
   const double growth =

@@ -10,8 +10,9 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-SimulateRow map(double path_m, std::size_t people, double glass_share) {
+SimulateRow map(double path_m, std::size_t people, double glass_share, std::uint64_t seed = 1) {
   SimulateOptions options;
+  options.seed = seed;
   options.people = people;
   options.glass_share = glass_share;
   return map_simulated_drive(simulated_drive_options(options, path_m), 1, [](double) {});
@@ -29,6 +30,16 @@ TEST(SimulateBenchmark, glass_and_people_do_not_break_it) {
   const SimulateRow row = map(150, 30, 0.3);
   EXPECT_LT(row.error_mean_m, 0.25);
   EXPECT_EQ(row.false_loops, 0U);
+}
+
+TEST(SimulateBenchmark, other_buildings_are_mapped_as_well) {
+  for (const std::uint64_t seed : {2U, 3U, 4U, 5U}) {
+    const SimulateRow row = map(80, 30, 0.2, seed);
+    EXPECT_LT(row.error_mean_m, 0.2) << "seed " << seed;
+    EXPECT_LT(row.error_mean_m, row.odometry_error_mean_m / 5) << "seed " << seed;
+    EXPECT_GT(row.loops, 100U) << "seed " << seed;
+    EXPECT_EQ(row.false_loops, 0U) << "seed " << seed;
+  }
 }
 
 TEST(SimulateBenchmark, p99_is_the_least_value_that_99_of_100_do_not_exceed) {

@@ -6,6 +6,7 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <random>
 #include <utility>
@@ -240,6 +241,38 @@ TEST(LocalMap, finishing_freezes_the_scores_and_frees_memory) {
         ASSERT_EQ(after.finest().at(x - static_cast<int>(left), y - static_cast<int>(below)),
                   before.finest().at(x, y));
     map.finish();
+  }
+}
+
+TEST(LocalMap, packed_and_unpacked_it_is_what_it_was) {
+  const auto filled = [] {
+    LocalMap map({});
+    for (int i = 0; i < 5; ++i) map.insert(square_room_scan(4, {0.1 * i, 0, 0.1 * i}));
+    map.pack();
+    EXPECT_FALSE(map.packed()) << "it is not finished";
+    map.finish();
+    return map;
+  };
+  const LocalMap never = filled();
+  LocalMap map = filled();
+  const ScanPoints scan = points_at({{1, 1}, {4, 0}, {3.9, 2}, {20, 20}});
+  for (int again = 0; again < 2; ++again) {
+    map.pack();
+    EXPECT_TRUE(map.packed());
+    EXPECT_LT(map.memory_bytes(), never.memory_bytes() / 20);
+    map.unpack();
+    EXPECT_FALSE(map.packed());
+    const auto expect_same = [](const ScoreLevel& a, const ScoreLevel& b) {
+      ASSERT_EQ(a.memory_bytes(), b.memory_bytes());
+      const int margin = ScoreLevel::kMargin;
+      EXPECT_EQ(std::memcmp(a.cell(-margin, -margin), b.cell(-margin, -margin), a.memory_bytes()), 0);
+    };
+    expect_same(map.scores().finest(), never.scores().finest());
+    ASSERT_TRUE(map.scores().has_pyramid());
+    for (std::size_t i = 0; i < ScoreGrid::kStrides.size(); ++i)
+      expect_same(map.scores().pyramid(i), never.scores().pyramid(i));
+    EXPECT_EQ(map.agreement(scan, {0.1, 0, 0}).observed, never.agreement(scan, {0.1, 0, 0}).observed);
+    EXPECT_EQ(map.agreement(scan, {0.1, 0, 0}).hits, never.agreement(scan, {0.1, 0, 0}).hits);
   }
 }
 

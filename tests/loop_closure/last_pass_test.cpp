@@ -54,6 +54,31 @@ TEST(LastPass, finds_true_loops_and_nothing_else) {
   EXPECT_GT(accepted, 10U);
 }
 
+// Every pair, with nothing left out early.
+TEST(LastPass, matches_all_pairs_near_each_other) {
+  const TwoRounds& rounds = two_rounds();
+  const PoseGraph graph = rounds.graph();
+  std::size_t near_pairs = 0;
+  LastPassOptions options;
+  options.reach_m = 1.5;
+  for (const PlacedLocalMap& local_map : rounds.memory.local_maps) {
+    for (std::size_t node = 0; node < rounds.memory.nodes.size(); ++node) {
+      if (node >= local_map.first_node && node <= local_map.last_node) continue;
+      bool near = false;
+      for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other)
+        near = near || std::hypot(graph.pose(node).x - graph.pose(other).x,
+                                  graph.pose(node).y - graph.pose(other).y) <= options.reach_m;
+      near_pairs += near ? 1 : 0;
+    }
+  }
+  WorkerPool pool(1);
+  const LastPassOutcome outcome = last_pass(
+      rounds.memory, graph, [](std::size_t) -> const Matcher& { return kEarly; }, {}, options,
+      [](std::size_t, std::size_t) { return false; }, 1, pool, [](double) { return true; });
+  EXPECT_EQ(outcome.effort.at("early").attempts, near_pairs);
+  EXPECT_LT(near_pairs, rounds.memory.nodes.size() * rounds.memory.local_maps.size() / 2);
+}
+
 TEST(LastPass, each_node_is_matched_by_its_own_matcher_and_counted_there) {
   const LastPassOutcome outcome = pass(2);
   ASSERT_EQ(outcome.effort.size(), 2U);

@@ -66,6 +66,27 @@ TEST(LoopCandidates, an_uncertain_node_may_see_farther_local_maps) {
   EXPECT_EQ(drive.local_maps(59, {1000, 0.001}), Maps({0, 1, 4})) << "never beyond 13 m";
 }
 
+TEST(LoopCandidates, none_is_out_of_reach_however_uncertain_the_node) {
+  const ThereAndBack drive;
+  LoopCandidateOptions oblong;
+  oblong.max_window = {2, 7, 0.5};
+  for (const LoopCandidateOptions& options : {LoopCandidateOptions(), oblong}) {
+    for (std::size_t node = 0; node < 60; ++node) {
+      const Maps in_reach = local_maps_in_reach(node, drive.memory, drive.graph, options);
+      EXPECT_EQ(in_reach, drive.local_maps(node, {1000, 10}, options)) << "with the largest window";
+      for (const double sigma : {0.01, 0.5, 1.0, 2.0}) {
+        // Of what is out of reach nothing needs to be known.
+        std::vector<PositionSigma> known(6, {std::numeric_limits<double>::infinity(), 1});
+        for (const std::size_t m : in_reach) known[m] = {sigma, 0.001};
+        Maps candidates;
+        for (const auto& candidate : loop_candidates(node, drive.memory, drive.graph, known, options))
+          candidates.push_back(candidate.local_map);
+        EXPECT_EQ(candidates, drive.local_maps(node, {sigma, 0.001}, options)) << node << ' ' << sigma;
+      }
+    }
+  }
+}
+
 TEST(LoopCandidates, each_local_map_has_its_own_uncertainty) {
   const ThereAndBack drive;
   std::vector<PositionSigma> sigma(6, {0.01, 0.001});

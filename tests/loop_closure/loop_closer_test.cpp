@@ -88,7 +88,7 @@ TEST(LoopCloser, a_blind_scan_is_not_searched_for) {
 TEST(LoopCloser, only_the_first_node_of_a_stretch_is_searched_for) {
   const AskedMatcher matcher;
   WorkerPool pool(1);
-  const LoopCloser closer(near_maps_too(), 5);
+  LoopCloser closer(near_maps_too(), 5);
   const TwoRounds& rounds = two_rounds();
   const auto attempts = [&](std::size_t node) {
     return closer.close(node, rounds.memory, rounds.graph(), matcher, pool).effort.attempts;

@@ -155,6 +155,27 @@ TEST(NormalEquations, take_constraints_that_are_switched_off_and_on) {
   EXPECT_FALSE(equations.restructured()) << "a block of zeros does no harm";
 }
 
+// As after the last pass: no node more, but loops all over the graph, of which some are switched off then.
+TEST(NormalEquations, an_order_that_does_not_suit_many_new_loops_is_not_used_once) {
+  PoseGraph graph = building(1500, 2, 3).graph;
+  const std::size_t nodes = graph.num_nodes();
+  NormalEquations kept;
+  kept.prepare(graph);
+  Constraint constraint;
+  for (std::size_t i = 0; i < 3 * nodes; ++i) {
+    constraint.from = i % nodes;
+    constraint.to = (constraint.from + 600 + 7 * (i / nodes)) % nodes;
+    constraint.from_T_to = relative_pose(graph.pose(constraint.from), graph.pose(constraint.to));
+    graph.add_constraint(constraint);
+  }
+  kept.prepare(graph);
+  NormalEquations fresh;
+  fresh.prepare(graph);
+  EXPECT_TRUE(kept.reordered());
+  EXPECT_EQ(kept.factor().num_products(), fresh.factor().num_products());
+  EXPECT_LT((step_by_node(kept, graph) - step_by_node(fresh, graph)).norm(), 1e-9);
+}
+
 TEST(NormalEquations, take_in_another_graph_as_new) {
   const KnownGraph first = building(120, 2, 2, 1);
   const KnownGraph second = ring(60, 2, 1);

@@ -200,6 +200,53 @@ TEST(PathCovariance, stops_at_a_bound_or_when_all_targets_are_reached) {
   EXPECT_LT(num_some, 400U);
 }
 
+TEST(PathCovariance, a_search_with_targets_finds_what_one_of_the_whole_graph_finds) {
+  KnownGraph known = building(500, 2, 3);
+  PathCovarianceSearch search;  // the same for all, so that what it keeps is used
+  for (std::size_t source = 0; source < 500; source += 7) {
+    const std::vector<RelativeUncertainty> all = path_covariances(known.graph, source);
+    PathCovarianceOptions options;
+    for (const std::size_t target : {source + 3, source + 40, 2 * source + 11})
+      options.targets.push_back(target % 500);
+    search.run(known.graph, source, options);
+    for (const std::size_t target : options.targets) EXPECT_TRUE(search.of(target).reached);
+    for (std::size_t node = 0; node < 500; ++node) {
+      const RelativeUncertainty found = search.of(node);
+      if (!found.reached) continue;
+      EXPECT_EQ(found.covariance, all[node].covariance);
+      EXPECT_EQ(found.previous, all[node].previous);
+      EXPECT_EQ(found.constraint, all[node].constraint);
+    }
+    // Nothing is kept of the poses.
+    known.graph.set_pose(source, {0.1 * static_cast<double>(source), 1, 0.5});
+  }
+}
+
+TEST(PathCovariance, what_is_near_costs_the_same_in_a_graph_of_any_size) {
+  std::vector<std::size_t> seen;
+  for (const int nodes : {100, 1000, 10000}) {
+    PoseGraph graph;
+    Constraint constraint;
+    for (int i = 0; i < nodes; ++i) {
+      graph.add_node({1.0 * i, 0, 0});
+      if (i == 0) continue;
+      constraint.from = static_cast<std::size_t>(i - 1);
+      constraint.to = static_cast<std::size_t>(i);
+      constraint.from_T_to = {1, 0, 0};
+      graph.add_constraint(constraint);
+    }
+    PathCovarianceOptions options;
+    options.targets = {60};
+    PathCovarianceSearch search;
+    search.run(graph, 50, options);
+    EXPECT_TRUE(search.of(60).reached);
+    seen.push_back(search.nodes_seen());
+  }
+  EXPECT_LT(seen[0], 30U);
+  EXPECT_EQ(seen[0], seen[1]);
+  EXPECT_EQ(seen[0], seen[2]);
+}
+
 TEST(PathCovariance, leaves_nodes_out_that_nothing_tight_leads_to) {
   PoseGraph graph;
   for (int i = 0; i < 4; ++i) graph.add_node({1.0 * i, 0, 0});

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pull_support.h"
+
 namespace psi_slam {
 namespace {
 
@@ -156,7 +158,10 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
   tight.information.topLeftCorner<2, 2>() += along * along.transpose() / (kHeldSigma_m * kHeldSigma_m);
   RefinedPose held = refine(grid, scan, TPose2D(prior.map_T_robot.x, prior.map_T_robot.y, pose.phi),
                             options_.refinement, tight);
-  if (held.mean_score < options_.held_share * matched.mean_score) return {};  // most of the scan asks for it
+  if (held.mean_score < options_.held_share * matched.mean_score) {
+    const PullScores rest = scores_without_best_spot(grid, scan, pose, held.map_T_robot);
+    if (rest.held < options_.held_share * rest.matched) return {};  // enough of the scan asks for it
+  }
   const Eigen::Vector2d strain = strain_m_ + Eigen::Rotation2Dd(-pose.phi).toRotationMatrix() * pull;
   if (strain.norm() <= std::max(options_.max_strain_m, strain_m_.norm())) {
     strain_m_ = strain;

@@ -19,16 +19,16 @@ constexpr double kGrowthStep_m = 5.0;  // grids grow in steps this large, so tha
 
 LocalMap::LocalMap(const LocalMapOptions& options)
     : options_(options),
-      grid_(-kGrowthStep_m, kGrowthStep_m, -kGrowthStep_m, kGrowthStep_m,
+      grid_(std::in_place, -kGrowthStep_m, kGrowthStep_m, -kGrowthStep_m, kGrowthStep_m,
             static_cast<float>(options.resolution_m)) {
-  last_scan_.assign(grid_.getRawMap().size(), 0);
+  last_scan_.assign(grid_->getRawMap().size(), 0);
 }
 
 void LocalMap::grow_to_hold(const Beams& beams) {
-  double x_min = static_cast<double>(grid_.getXMin());
-  double x_max = static_cast<double>(grid_.getXMax());
-  double y_min = static_cast<double>(grid_.getYMin());
-  double y_max = static_cast<double>(grid_.getYMax());
+  double x_min = static_cast<double>(grid_->getXMin());
+  double x_max = static_cast<double>(grid_->getXMax());
+  double y_min = static_cast<double>(grid_->getYMin());
+  double y_max = static_cast<double>(grid_->getYMax());
   const double margin = 4 * options_.resolution_m;
   bool grow = false;
   const auto hold = [&](const mrpt::math::TPoint2D& p) {
@@ -40,9 +40,9 @@ void LocalMap::grow_to_hold(const Beams& beams) {
   hold(beams.origin);
   for (const auto& end : beams.ends) hold(end);
   if (!grow) return;
-  grid_.resizeGrid(static_cast<float>(x_min), static_cast<float>(x_max), static_cast<float>(y_min),
-                   static_cast<float>(y_max), 0.5F, false);
-  last_scan_.assign(grid_.getRawMap().size(), 0);
+  grid_->resizeGrid(static_cast<float>(x_min), static_cast<float>(x_max), static_cast<float>(y_min),
+                    static_cast<float>(y_max), 0.5F, false);
+  last_scan_.assign(grid_->getRawMap().size(), 0);
   scan_ = 0;
   scores_fit_ = false;
 }
@@ -60,11 +60,11 @@ void LocalMap::add_to_dirty(const Region& region) {
 
 void LocalMap::draw_hit(int x, int y) {
   static_assert(Grid::OCCGRID_CELLTYPE_MIN < 0);
-  const std::size_t cell = static_cast<std::size_t>(x) + static_cast<std::size_t>(y) * grid_.getSizeX();
+  const std::size_t cell = static_cast<std::size_t>(x) + static_cast<std::size_t>(y) * grid_->getSizeX();
   if (last_scan_[cell] == scan_) return;
   last_scan_[cell] = scan_;
   const Grid::cellType hit = Grid::p2l(static_cast<float>(options_.hit_probability));
-  Grid::updateCell_fast_occupied(grid_.getRow(y) + x, hit,
+  Grid::updateCell_fast_occupied(grid_->getRow(y) + x, hit,
                                  static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MIN + hit));
 }
 
@@ -72,8 +72,8 @@ void LocalMap::draw_hit(int x, int y) {
 void LocalMap::draw_way(int x0, int y0, int x1, int y1) {
   const Grid::cellType miss = Grid::p2l(static_cast<float>(1 - options_.miss_probability));
   const auto threshold = static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MAX - miss);
-  const auto size_x = static_cast<std::ptrdiff_t>(grid_.getSizeX());
-  Grid::cellType* cells = grid_.getRow(0);
+  const auto size_x = static_cast<std::ptrdiff_t>(grid_->getSizeX());
+  Grid::cellType* cells = grid_->getRow(0);
   std::uint16_t* scans = last_scan_.data();
   const int dx = std::abs(x1 - x0);
   const int dy = std::abs(y1 - y0);
@@ -98,14 +98,14 @@ void LocalMap::insert(const Beams& beams) {
     std::fill(last_scan_.begin(), last_scan_.end(), std::uint16_t{0});
     scan_ = 1;
   }
-  const int origin_x = grid_.x2idx(beams.origin.x);
-  const int origin_y = grid_.y2idx(beams.origin.y);
+  const int origin_x = grid_->x2idx(beams.origin.x);
+  const int origin_y = grid_->y2idx(beams.origin.y);
   Region touched = {origin_x, origin_y, origin_x + 1, origin_y + 1};
   std::vector<std::pair<int, int>> ends;
   ends.reserve(beams.ends.size());
   for (std::size_t i = 0; i < beams.ends.size(); ++i) {
-    const int x = grid_.x2idx(beams.ends[i].x);
-    const int y = grid_.y2idx(beams.ends[i].y);
+    const int x = grid_->x2idx(beams.ends[i].x);
+    const int y = grid_->y2idx(beams.ends[i].y);
     ends.emplace_back(x, y);
     touched.x = std::min(touched.x, x);
     touched.y = std::min(touched.y, y);
@@ -119,10 +119,10 @@ void LocalMap::insert(const Beams& beams) {
 
 const ScoreGrid& LocalMap::scores() {
   if (finished_) return scores_;
-  const int width = static_cast<int>(grid_.getSizeX());
-  const int height = static_cast<int>(grid_.getSizeY());
+  const int width = static_cast<int>(grid_->getSizeX());
+  const int height = static_cast<int>(grid_->getSizeY());
   if (!scores_fit_) {
-    scores_ = ScoreGrid(static_cast<double>(grid_.getXMin()), static_cast<double>(grid_.getYMin()),
+    scores_ = ScoreGrid(static_cast<double>(grid_->getXMin()), static_cast<double>(grid_->getYMin()),
                         options_.resolution_m, width, height);
     scores_fit_ = true;
     dirty_ = {0, 0, width, height};
@@ -130,7 +130,7 @@ const ScoreGrid& LocalMap::scores() {
   if (dirty_.x_end > dirty_.x) {
     ScorePainter painter(options_.smoothing_sigma_m, options_.resolution_m);
     const int reach = painter.reach_cells();
-    painter.paint(grid_, std::max(0, dirty_.x - reach), std::max(0, dirty_.y - reach),
+    painter.paint(*grid_, std::max(0, dirty_.x - reach), std::max(0, dirty_.y - reach),
                   std::min(width, dirty_.x_end + reach), std::min(height, dirty_.y_end + reach),
                   scores_.finest());
     dirty_ = {};
@@ -140,11 +140,11 @@ const ScoreGrid& LocalMap::scores() {
 
 // All observed cells, and around them what their smoothing reaches.
 LocalMap::Region LocalMap::observed_region() const {
-  const int width = static_cast<int>(grid_.getSizeX());
-  const int height = static_cast<int>(grid_.getSizeY());
+  const int width = static_cast<int>(grid_->getSizeX());
+  const int height = static_cast<int>(grid_->getSizeY());
   Region region = {width, height, 0, 0};
   for (int y = 0; y < height; ++y) {
-    const Grid::cellType* row = grid_.getRow(y);
+    const Grid::cellType* row = grid_->getRow(y);
     for (int x = 0; x < width; ++x) {
       if (row[x] == 0) continue;
       region = {std::min(region.x, x), std::min(region.y, y), std::max(region.x_end, x + 1), y + 1};
@@ -165,22 +165,43 @@ void LocalMap::finish() {
   scores_ = scores_.cropped(region.x, region.y, width, height);
   scores_.build_pyramid();
   const int half_width = (width + 1) / 2;
-  observed_.assign(static_cast<std::size_t>(half_width) * static_cast<std::size_t>((height + 1) / 2), false);
+  observed_.assign(static_cast<std::size_t>(half_width) * static_cast<std::size_t>((height + 1) / 2),
+                   std::uint8_t{0});
   for (int y = 0; y < height; ++y) {
-    const Grid::cellType* row = std::as_const(grid_).getRow(region.y + y) + region.x;
+    const Grid::cellType* row = std::as_const(*grid_).getRow(region.y + y) + region.x;
     for (int x = 0; x < width; ++x)
-      if (row[x] != 0) observed_[static_cast<std::size_t>(y / 2 * half_width + x / 2)] = true;
+      if (row[x] != 0) observed_[static_cast<std::size_t>(y / 2 * half_width + x / 2)] = 1;
   }
   finished_ = true;
-  last_scan_ = {};
-  grid_.setSize(0, 1, 0, 1, 1);
+  last_scan_ = std::vector<std::uint16_t>();  // "= {}" would keep its memory
+  grid_.reset();
+}
+
+void LocalMap::pack() {
+  if (!finished_ || packed_) return;
+  std::vector<std::uint8_t> cells = scores_.finest().take_bytes();
+  if (packed_scores_.size() == 0) {
+    packed_scores_ = PackedBytes(cells);
+    packed_observed_ = PackedBytes(observed_);
+  }
+  scores_.drop_pyramid();
+  observed_ = std::vector<std::uint8_t>();
+  packed_ = true;
+}
+
+void LocalMap::unpack() {
+  if (!packed_) return;
+  scores_.finest().give_bytes(packed_scores_.unpacked());
+  scores_.build_pyramid();
+  observed_ = packed_observed_.unpacked();
+  packed_ = false;
 }
 
 bool LocalMap::observed(int x, int y) const {
   const int width = scores_.finest().width();
   if (x < 0 || y < 0 || x >= width || y >= scores_.finest().height()) return false;
-  if (finished_) return observed_[static_cast<std::size_t>(y / 2 * ((width + 1) / 2) + x / 2)];
-  return grid_.getRow(y)[x] != 0;
+  if (finished_) return observed_[static_cast<std::size_t>(y / 2 * ((width + 1) / 2) + x / 2)] != 0;
+  return grid_->getRow(y)[x] != 0;
 }
 
 LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
@@ -209,8 +230,9 @@ LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
 }
 
 std::size_t LocalMap::memory_bytes() const {
-  return grid_.getRawMap().size() + last_scan_.size() * sizeof(std::uint16_t) + scores_.memory_bytes() +
-         observed_.size() / 8;
+  const std::size_t grid = grid_ ? grid_->getRawMap().capacity() * sizeof(Grid::cellType) : 0;
+  return grid + last_scan_.capacity() * sizeof(std::uint16_t) + scores_.memory_bytes() +
+         observed_.capacity() + packed_scores_.memory_bytes() + packed_observed_.memory_bytes();
 }
 
 }  // namespace psi_slam

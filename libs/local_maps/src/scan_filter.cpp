@@ -76,6 +76,8 @@ ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& optio
     farthest_squared = std::max(farthest_squared, x * x + y * y);
     result.points.emplace_back(static_cast<float>(x), static_cast<float>(y));
   }
+  result.points.shrink_to_fit();  // nodes keep theirs
+  result.normals.reserve(result.points.size());
   for (std::size_t i = 0; i < result.points.size(); ++i)
     result.normals.push_back(normal_at(result.points, i));
   result.farthest_m = std::sqrt(farthest_squared);

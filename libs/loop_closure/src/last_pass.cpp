@@ -13,6 +13,30 @@ namespace {
 // Pairs matched between two reports of the progress.
 constexpr std::size_t kBatch = 64;
 
+/// Where the nodes of a local map lie: what is farther from it than the reach is so from all of them.
+struct Box {
+  double x_min, y_min, x_max, y_max;
+
+  Box(const PlacedLocalMap& local_map, const PoseGraph& graph)
+      : x_min(graph.pose(local_map.first_node).x),
+        y_min(graph.pose(local_map.first_node).y),
+        x_max(x_min),
+        y_max(y_min) {
+    for (std::size_t node = local_map.first_node + 1; node <= local_map.last_node; ++node) {
+      const mrpt::math::TPose2D& pose = graph.pose(node);
+      x_min = std::min(x_min, pose.x);
+      y_min = std::min(y_min, pose.y);
+      x_max = std::max(x_max, pose.x);
+      y_max = std::max(y_max, pose.y);
+    }
+  }
+
+  bool is_near(const mrpt::math::TPose2D& here, double reach_m) const {
+    return x_min - here.x <= reach_m && here.x - x_max <= reach_m && y_min - here.y <= reach_m &&
+           here.y - y_max <= reach_m;
+  }
+};
+
 bool is_near(std::size_t node, const PlacedLocalMap& local_map, const PoseGraph& graph, double reach_m) {
   const mrpt::math::TPose2D& here = graph.pose(node);
   for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other) {
@@ -33,7 +57,9 @@ std::vector<Pair> pairs_near_each_other(
   std::vector<Pair> pairs;
   for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = memory.local_maps[m];
+    const Box box(local_map, graph);
     for (std::size_t node = 0; node < memory.nodes.size(); ++node) {
+      if (!box.is_near(graph.pose(node), options.reach_m)) continue;
       if (node >= local_map.first_node && node <= local_map.last_node) continue;
       if (!begins_stretch(node, memory.nodes, options.travel_m) || known(node, m) ||
           !is_near(node, local_map, graph, options.reach_m))
@@ -60,6 +86,9 @@ LastPassOutcome last_pass(const PlaceMemory& memory, const PoseGraph& graph,
   LastPassOutcome outcome;
   for (std::size_t begin = 0; begin < pairs.size(); begin += kBatch) {
     const std::size_t end = std::min(begin + kBatch, pairs.size());
+    std::vector<std::size_t> local_maps;
+    for (std::size_t i = begin; i < end; ++i) local_maps.push_back(pairs[i].candidate.local_map);
+    take_off_shelf(memory, local_maps, pool);
     auto attempts = map_in_parallel<LoopAttempt>(pool, end - begin, [&](std::size_t index) {
       const auto& [node, candidate] = pairs[begin + index];
       return attempt_loop(node, *memory.nodes[node].points, candidate, memory, matcher_of(node), verification,

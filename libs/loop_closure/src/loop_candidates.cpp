@@ -29,6 +29,20 @@ double travel_between_m(std::size_t node, const PlacedLocalMap& local_map, const
 
 }  // namespace
 
+std::vector<std::size_t> local_maps_in_reach(std::size_t node, const PlaceMemory& memory,
+                                             const PoseGraph& graph, const LoopCandidateOptions& options) {
+  const double reach_m =
+      options.reach_m + std::max({options.max_window.x_m, options.max_window.y_m, options.min_window_m});
+  std::vector<std::size_t> in_reach;
+  for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
+    const PlacedLocalMap& local_map = memory.local_maps[m];
+    if (travel_between_m(node, local_map, memory) >= options.min_travel_m &&
+        nearest_node_m(local_map, graph.pose(node), graph) <= reach_m)
+      in_reach.push_back(m);
+  }
+  return in_reach;
+}
+
 std::vector<LoopCandidate> loop_candidates(std::size_t node, const PlaceMemory& memory,
                                            const PoseGraph& graph,
                                            const std::vector<PositionSigma>& sigma_of_anchor,

@@ -7,27 +7,30 @@
 #include <utility>
 
 #include "loop_attempt.h"
-#include "psi_slam/pose_graph/path_covariance.h"
 
 namespace psi_slam {
 namespace {
 
 // The node's uncertainty seen from each local map's anchor: heading errors at the node count with the
-// distance.
+// distance. Of those that are out of reach it is infinite, which leaves them out of reach.
 std::vector<PositionSigma> sigma_of_anchors(std::size_t node, const PlaceMemory& memory,
-                                            const PoseGraph& graph) {
-  const std::vector<RelativeUncertainty> uncertainties = path_covariances(graph, node);
-  std::vector<PositionSigma> sigma;
-  for (const PlacedLocalMap& local_map : memory.local_maps) {
-    const RelativeUncertainty& anchor = uncertainties[local_map.anchor];
-    if (!anchor.reached) {  // nothing is known of where the one lies from the other
-      sigma.push_back({std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
-      continue;
-    }
-    const double heading = std::sqrt(anchor.covariance(2, 2));
-    const mrpt::math::TPose2D between = graph.pose(node) - graph.pose(local_map.anchor);
-    sigma.push_back(
-        {std::hypot(anchor.position_sigma_m(), heading * std::hypot(between.x, between.y)), heading});
+                                            const PoseGraph& graph, const LoopCandidateOptions& options,
+                                            PathCovarianceSearch& search) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  std::vector<PositionSigma> sigma(memory.local_maps.size(), {kUnknown, kUnknown});
+  const std::vector<std::size_t> in_reach = local_maps_in_reach(node, memory, graph, options);
+  if (in_reach.empty()) return sigma;
+  PathCovarianceOptions to_anchors;
+  for (const std::size_t m : in_reach) to_anchors.targets.push_back(memory.local_maps[m].anchor);
+  search.run(graph, node, to_anchors);
+  for (const std::size_t m : in_reach) {
+    const std::size_t anchor = memory.local_maps[m].anchor;
+    const RelativeUncertainty uncertainty = search.of(anchor);
+    if (!uncertainty.reached) continue;  // nothing is known of where the one lies from the other
+    const double heading = std::sqrt(uncertainty.covariance(2, 2));
+    const mrpt::math::TPose2D between = graph.pose(node) - graph.pose(anchor);
+    sigma[m] = {std::hypot(uncertainty.position_sigma_m(), heading * std::hypot(between.x, between.y)),
+                heading};
   }
   return sigma;
 }
@@ -35,11 +38,15 @@ std::vector<PositionSigma> sigma_of_anchors(std::size_t node, const PlaceMemory&
 }  // namespace
 
 LoopCloser::Outcome LoopCloser::close(std::size_t node, const PlaceMemory& memory, const PoseGraph& graph,
-                                      const Matcher& matcher, WorkerPool& pool) const {
+                                      const Matcher& matcher, WorkerPool& pool) {
   Outcome outcome;
   if (!begins_stretch(node, memory.nodes, options_.attempt_distance_m)) return outcome;
-  const std::vector<LoopCandidate> candidates =
-      loop_candidates(node, memory, graph, sigma_of_anchors(node, memory, graph), options_.candidates);
+  const std::vector<LoopCandidate> candidates = loop_candidates(
+      node, memory, graph, sigma_of_anchors(node, memory, graph, options_.candidates, search_),
+      options_.candidates);
+  std::vector<std::size_t> local_maps;
+  for (const LoopCandidate& candidate : candidates) local_maps.push_back(candidate.local_map);
+  take_off_shelf(memory, local_maps, pool);
   const auto wide = [&](const LoopCandidate& candidate) {
     return is_wide(candidate.extent, options_.verification);
   };

@@ -29,14 +29,18 @@ std::vector<double> path_chi(const PoseGraph& graph, const std::vector<std::size
   std::map<std::size_t, std::vector<std::size_t>> by_start;  // indices of `loops`; one walk for each start
   for (std::size_t i = 0; i < loops.size(); ++i) by_start[graph.constraint(loops[i]).from].push_back(i);
   std::vector<double> chi(loops.size());
+  PathCovarianceSearch search;
   for (const auto& [start, indices] : by_start) {
-    const std::vector<RelativeUncertainty> uncertainties = path_covariances(graph, start);
+    PathCovarianceOptions to_ends;
+    for (const std::size_t i : indices) to_ends.targets.push_back(graph.constraint(loops[i]).to);
+    search.run(graph, start, to_ends);
     for (const std::size_t i : indices) {
       const Constraint& loop = graph.constraint(loops[i]);
-      if (!uncertainties[loop.to].reached) continue;  // nothing is known of it: it contradicts nothing
+      const RelativeUncertainty uncertainty = search.of(loop.to);
+      if (!uncertainty.reached) continue;  // nothing is known of it: it contradicts nothing
       const Eigen::Vector3d error = constraint_error(loop.from_T_to, RotatedPose(graph.pose(loop.from)),
                                                      RotatedPose(graph.pose(loop.to)));
-      const Eigen::Matrix3d covariance = uncertainties[loop.to].covariance + loop.information.inverse();
+      const Eigen::Matrix3d covariance = uncertainty.covariance + loop.information.inverse();
       chi[i] = std::sqrt(std::max(0.0, error.dot(covariance.ldlt().solve(error))));
     }
   }

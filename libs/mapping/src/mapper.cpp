@@ -15,6 +15,15 @@ namespace {
 
 using mrpt::math::TPose2D;
 
+// So many local maps stay unpacked: those that the robot comes by again within a few metres.
+constexpr std::size_t kUnpackedLocalMaps = 48;
+
+// The graph is optimised at once where a loop says by this many standard deviations of loops that it is
+// wrong; where less, only after it has grown by this share of itself: however large, a node costs about the
+// same then.
+constexpr double kUrgentNews = 5;
+constexpr double kGrowthForSmallNews = 1e-3;
+
 // The inverse of a covariance with the noise of local maps themselves added.
 Eigen::Matrix3d information_of(const Eigen::Matrix3d& covariance, double sigma_m, double sigma_rad) {
   Eigen::Matrix3d sum = covariance;
@@ -35,6 +44,7 @@ Mapper::Mapper(const MapperOptions& options)
       pool_(options.threads),
       solver_(options.pose_graph) {
   result_.psi = options.psi;
+  memory_.shelf = std::make_shared<LocalMapShelf>(kUnpackedLocalMaps);
 }
 
 const FrameRecord& Mapper::add(Frame frame) {
@@ -106,6 +116,7 @@ void Mapper::add_node(const FrontEndStep& step, std::size_t frame) {
 
 void Mapper::remember(const PlacedLocalMap& finished) {
   memory_.local_maps.push_back(finished);
+  memory_.shelf->add(finished.map);
   result_.local_maps.push_back({finished.anchor, finished.first_node, finished.last_node});
 }
 
@@ -113,7 +124,6 @@ void Mapper::close_loops(std::size_t node, FrameRecord& record) {
   matcher_of_node_.push_back(matcher_policy_.kind(record.psi));
   const Matcher& matcher = matcher_policy_.matcher(matcher_of_node_.back());
   record.matcher = matcher.name();
-  bool news = false;
   record.loop_closing_ms = loop_clock_.time([&] {
     LoopCloser::Outcome outcome = loop_closer_.close(node, memory_, graph_, matcher, pool_);
     record.loops_tried = static_cast<int>(outcome.effort.attempts);
@@ -126,12 +136,23 @@ void Mapper::close_loops(std::size_t node, FrameRecord& record) {
       result_.loops.push_back(std::move(loop));
       for (const std::size_t confirmed : confirmed_by(result_.loops.size() - 1)) {
         ++record.loops_accepted;
-        news = accept(confirmed) || pending || news;
+        news_ = std::max(news_, accept(confirmed));
+        if (pending) news_ = kUrgentNews;
       }
     }
   });
   loop_closure_factor_.add_frame(record.loops_accepted);
-  if (news) record.pose_graph_ms = graph_clock_.time([&] { solver_.optimize(graph_); });
+  if (!is_time_to_optimize()) return;
+  record.pose_graph_ms = graph_clock_.time([&] { solver_.optimize(graph_); });
+  optimized_nodes_ = graph_.num_nodes();
+  news_ = 0;
+}
+
+bool Mapper::is_time_to_optimize() const {
+  if (news_ >= kUrgentNews) return true;
+  const std::size_t grown_by = graph_.num_nodes() - optimized_nodes_;
+  return news_ > 1 &&
+         static_cast<double>(grown_by) >= kGrowthForSmallNews * static_cast<double>(graph_.num_nodes());
 }
 
 // The loops that are to become constraints now that this one was found: itself when verification accepted it;
@@ -145,8 +166,8 @@ std::vector<std::size_t> Mapper::confirmed_by(std::size_t index) {
       {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity}, graph_);
 }
 
-// Makes a constraint of a loop; true when it tells the graph something new.
-bool Mapper::accept(std::size_t index) {
+// Makes a constraint of a loop; returns by how many standard deviations of loops the graph contradicts it.
+double Mapper::accept(std::size_t index) {
   LoopRecord& loop = result_.loops[index];
   loop.verdict = LoopVerdict::kAccepted;
   Constraint constraint;
@@ -157,7 +178,8 @@ bool Mapper::accept(std::size_t index) {
   constraint.kind = Constraint::Kind::kLoop;
   loop_of_constraint_.emplace_back(graph_.add_constraint(constraint), index);
   const TPose2D off = loop.anchor_T_node - (graph_.pose(loop.node) - graph_.pose(loop.anchor));
-  return std::hypot(off.x, off.y) > options_.loop_sigma_m || std::abs(off.phi) > options_.loop_sigma_rad;
+  return std::max(std::hypot(off.x, off.y) / options_.loop_sigma_m,
+                  std::abs(off.phi) / options_.loop_sigma_rad);
 }
 
 void Mapper::run_last_pass(const std::function<bool(double)>& progress) {

@@ -22,6 +22,15 @@ std::uint32_t find_set(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   return i;
 }
 
+// Block products of one factorisation over what it would take had the order stayed as good as when it was
+// found.
+double wasted_products(std::size_t products, std::size_t variables, double ordered_products,
+                       std::size_t ordered_variables) {
+  const double growth =
+      static_cast<double>(variables) / std::max(1.0, static_cast<double>(ordered_variables));
+  return std::max(0.0, static_cast<double>(products) - growth * ordered_products);
+}
+
 Eigen::Index row(std::uint32_t variable) {
   return 3 * static_cast<Eigen::Index>(variable);
 }
@@ -84,10 +93,17 @@ void NormalEquations::prepare(const PoseGraph& graph) {
 
   restructured_ = true;
   const auto variables = static_cast<double>(node_of_.size());
-  const bool must_order = variables * (1 - kMaxAppendedShare) > static_cast<double>(ordered_variables_) ||
-                          wasted_products_ > kProductsOfOrderingPerLink * static_cast<double>(ends_.size());
+  const double worth_an_order = kProductsOfOrderingPerLink * static_cast<double>(ends_.size());
+  bool must_order = variables * (1 - kMaxAppendedShare) > static_cast<double>(ordered_variables_) ||
+                    wasted_products_ > worth_an_order;
   if (must_order) find_order(graph);
   lay_out(graph);
+  if (!must_order && wasted_products(factor_.num_products(), node_of_.size(), ordered_products_,
+                                     ordered_variables_) > worth_an_order) {
+    must_order = true;
+    find_order(graph);
+    lay_out(graph);
+  }
   if (must_order) {
     ordered_variables_ = node_of_.size();
     ordered_products_ = static_cast<double>(factor_.num_products());
@@ -222,9 +238,8 @@ void NormalEquations::hold(int coordinate) {
 }
 
 bool NormalEquations::factorize(double lambda) {
-  const double growth =
-      static_cast<double>(node_of_.size()) / std::max(1.0, static_cast<double>(ordered_variables_));
-  wasted_products_ += std::max(0.0, static_cast<double>(factor_.num_products()) - growth * ordered_products_);
+  wasted_products_ +=
+      wasted_products(factor_.num_products(), node_of_.size(), ordered_products_, ordered_variables_);
   return factor_.factorize(hessian_, lambda);
 }
 

@@ -56,8 +56,9 @@ struct FrontEndOptions {
 
   // A match that contradicts odometry in position for long needs to be supported by enough of the scan, else
   // a person who walks ahead along a bare corridor holds the robot back. A pull away from odometry is
-  // supported when the pose held to odometry scores less than `held_share` of the match. Pulls that are not
-  // add up to the strain, which is forgotten over `strain_travel_m` of travel; those that would raise it
+  // supported when the pose held to odometry scores less than `held_share` of the match, and still does
+  // without the one spot of the scan, no larger than a person, that speaks most for the match. Pulls that are
+  // not add up to the strain, which is forgotten over `strain_travel_m` of travel; those that would raise it
   // beyond `max_strain_m` are not followed. Odometry's scale may so be off by max_strain_m / strain_travel_m.
   double held_share = 0.9;
   double max_strain_m = 0.2;

@@ -4,7 +4,8 @@
 //
 // Its frame is the pose of its first node, the anchor. While it is active, scans are inserted and the score
 // grid follows; once finished it never changes again: its pyramid is built and the occupancy grid is given
-// back.
+// back. A finished one that is not needed for a while can be packed: it then takes a small part of the
+// memory, and unpacked it is what it was.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -13,8 +14,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "psi_slam/base/packed_bytes.h"
 #include "psi_slam/matching/scan_points.h"
 #include "psi_slam/matching/score_grid.h"
 
@@ -52,6 +55,12 @@ class LocalMap {
   void finish();
   bool finished() const { return finished_; }
 
+  /// Packs a finished map, or unpacks it; nothing happens where it is so already. A packed map has no scores
+  /// and agrees with nothing: unpack it first. Not to be called while another thread looks at the map.
+  void pack();
+  void unpack();
+  bool packed() const { return packed_; }
+
   /// How well points drawn at a pose agree with what the map saw there.
   struct Agreement {
     std::size_t observed = 0;  ///< points in space that the map has observed, free or occupied
@@ -80,12 +89,18 @@ class LocalMap {
   void draw_way(int x0, int y0, int x1, int y1);
 
   LocalMapOptions options_;
-  mrpt::maps::COccupancyGridMap2D grid_;
+  /// Until it is finished. MRPT's grid keeps its memory when it is made smaller, so that it must go
+  /// altogether.
+  std::optional<mrpt::maps::COccupancyGridMap2D> grid_;
   std::vector<std::uint16_t> last_scan_;  ///< for each cell, the scan that last touched it
   std::uint16_t scan_ = 0;
   Region dirty_;
   ScoreGrid scores_;
-  std::vector<bool> observed_;  ///< of a finished map: of each 2 x 2 cells, whether any was observed
+  std::vector<std::uint8_t>
+      observed_;               ///< of a finished map: of each 2 x 2 cells, 1 when any was observed, else 0
+  PackedBytes packed_scores_;  ///< both made when it is packed first, then kept
+  PackedBytes packed_observed_;
+  bool packed_ = false;
   bool scores_fit_ = false;     ///< the score grid has the occupancy grid's size
   bool finished_ = false;
 };

@@ -34,6 +34,11 @@ struct LoopCandidate {
   double distance_m = 0;  ///< from the predicted position to the nearest node of the local map
 };
 
+/// The local maps that may be candidates however uncertain the node is, ascending: near in the graph, though
+/// not along the path. What is not among them is not worth a look at the uncertainty.
+std::vector<std::size_t> local_maps_in_reach(std::size_t node, const PlaceMemory& memory,
+                                             const PoseGraph& graph, const LoopCandidateOptions& options);
+
 /// How far the pose of a node seen from another one can be trusted.
 struct PositionSigma {
   double metres = 0;

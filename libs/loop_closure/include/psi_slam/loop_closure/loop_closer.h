@@ -13,6 +13,7 @@
 #include "psi_slam/loop_closure/place_memory.h"
 #include "psi_slam/loop_closure/scan_context.h"
 #include "psi_slam/matching/matcher.h"
+#include "psi_slam/pose_graph/path_covariance.h"
 #include "psi_slam/pose_graph/pose_graph.h"
 
 namespace psi_slam {
@@ -37,11 +38,12 @@ class LoopCloser {
   };
   /// Matches `node` with every local map it may see again, several at a time.
   Outcome close(std::size_t node, const PlaceMemory& memory, const PoseGraph& graph, const Matcher& matcher,
-                WorkerPool& pool) const;
+                WorkerPool& pool);
 
  private:
   LoopClosureOptions options_;
   std::uint64_t run_seed_;
+  PathCovarianceSearch search_;
 };
 
 }  // namespace psi_slam

@@ -9,7 +9,9 @@
 #include <memory>
 #include <vector>
 
+#include "psi_slam/base/worker_pool.h"
 #include "psi_slam/local_maps/front_end.h"
+#include "psi_slam/loop_closure/local_map_shelf.h"
 #include "psi_slam/matching/scan_points.h"
 
 namespace psi_slam {
@@ -24,7 +26,11 @@ struct NodeScan {
 struct PlaceMemory {
   std::vector<NodeScan> nodes;             ///< by node number
   std::vector<PlacedLocalMap> local_maps;  ///< finished ones, in the order of their ids
+  std::shared_ptr<LocalMapShelf> shelf;  ///< that all of them lie on, in this order; none: nothing is packed
 };
+
+/// Before local maps are looked at: unpacks them, where there is a shelf.
+void take_off_shelf(const PlaceMemory& memory, const std::vector<std::size_t>& local_maps, WorkerPool& pool);
 
 /// Whether `node` is the first in its stretch, when the path is cut into stretches of `stretch_m`. Loops are
 /// looked for at such nodes only, whichever were found before: one match more or less does not shift all that

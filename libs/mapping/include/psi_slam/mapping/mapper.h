@@ -75,7 +75,8 @@ class Mapper {
   void remember(const PlacedLocalMap& finished);
   void close_loops(std::size_t node, FrameRecord& record);
   std::vector<std::size_t> confirmed_by(std::size_t loop);
-  bool accept(std::size_t loop);
+  double accept(std::size_t loop);
+  bool is_time_to_optimize() const;
   void run_last_pass(const std::function<bool(double)>& progress);
   void settle_loops();
   void refuse_pending_loops();
@@ -96,6 +97,8 @@ class Mapper {
   std::vector<std::pair<std::size_t, std::size_t>>
       loop_of_constraint_;           ///< constraint, index in result_.loops
   mrpt::math::TPose2D map_T_local_;  ///< the front end's frame, as the newest node says
+  double news_ = 0;                  ///< of accept(), the most since the graph was optimised
+  std::size_t optimized_nodes_ = 0;  ///< in the graph then
   MappingResult result_;
   StageClock front_end_clock_{"match and insert scan"};
   StageClock loop_clock_{"close loops"};

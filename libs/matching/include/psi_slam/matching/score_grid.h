@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace psi_slam {
@@ -51,6 +52,10 @@ class ScoreLevel {
   std::uint8_t* cell(int x, int y) { return bytes_.data() + index(x, y); }
   std::size_t memory_bytes() const { return bytes_.size(); }
 
+  /// All cells, margin and padding included; take_bytes() leaves none, until give_bytes() gives them back.
+  std::vector<std::uint8_t> take_bytes() { return std::move(bytes_); }
+  void give_bytes(std::vector<std::uint8_t> bytes) { bytes_ = std::move(bytes); }
+
  private:
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>((y + kMargin) * row_bytes_ + x + kMargin);
@@ -84,6 +89,7 @@ class ScoreGrid {
   /// Builds the levels above the finest. To be called when the finest grid is final; a matcher that needs the
   /// pyramid refuses a grid without it.
   void build_pyramid();
+  void drop_pyramid() { pyramid_.clear(); }
   bool has_pyramid() const { return !pyramid_.empty(); }
   /// Level i has stride kStrides[i].
   const ScoreLevel& pyramid(std::size_t i) const { return pyramid_[i]; }

@@ -43,6 +43,7 @@ void compare_with_truth(const MappingResult& result, const Trajectory& truth, st
   row.relation_mean_deg = metric.rotation_abs_deg.mean;
   row.loops = loops_accepted(result);
   row.false_loops = count_false_loops(result, truth);
+  row.covariances = check_covariances(result, truth, seed);
 }
 
 }  // namespace

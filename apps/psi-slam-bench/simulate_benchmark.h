@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "covariance_check.h"
 #include "psi_slam/mapping/mapping_result.h"
 #include "psi_slam/results/relations_metric.h"
 #include "psi_slam/simulation/simulated_log.h"
@@ -46,6 +47,8 @@ struct SimulateRow {
 
   std::size_t loops = 0;        ///< constraints that the finished graph keeps
   std::size_t false_loops = 0;  ///< of these, those that the truth contradicts
+
+  std::vector<NormalisedErrors> covariances;  ///< see check_covariances()
 
   MeanAndP99 scan_ms;   ///< of Mapper::add
   double add_s = 0;     ///< of all scans

@@ -14,9 +14,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json json_of(const NormalisedErrors& errors) {
+  return {{"of", errors.of},
+          {"count", errors.count},
+          {"mean", errors.mean},
+          {"median", errors.median},
+          {"beyond_95", errors.beyond_95}};
+}
+
+NormalisedErrors normalised_errors_of(const Json& json) {
+  return {json.at("of"), json.at("count"), json.at("mean"), json.at("median"), json.at("beyond_95")};
+}
+
 Json json_of(const SimulateRow& row) {
   Json stages = Json::object();
   for (const auto& [stage, time_s] : row.stages_s) stages[stage] = time_s;
+  Json covariances = Json::array();
+  for (const NormalisedErrors& errors : row.covariances) covariances.push_back(json_of(errors));
   return {{"path_m", row.path_m},
           {"scans", row.scans},
           {"rooms", row.rooms},
@@ -30,6 +44,7 @@ Json json_of(const SimulateRow& row) {
           {"odometry_error_mean_m", row.odometry_error_mean_m},
           {"loops", row.loops},
           {"false_loops", row.false_loops},
+          {"covariances", covariances},
           {"scan_ms", {{"mean", row.scan_ms.mean}, {"p99", row.scan_ms.p99}}},
           {"add_s", row.add_s},
           {"finish_s", row.finish_s},
@@ -74,6 +89,23 @@ std::string cost_text(const std::vector<SimulateRow>& rows) {
   return text;
 }
 
+std::string covariances_text(const std::vector<SimulateRow>& rows) {
+  std::string text =
+      "Normalised errors: squared errors over their covariances, which follow the chi-square distribution of "
+      "three "
+      "degrees of freedom where the covariances are right. Mean and median are given over those of that "
+      "distribution, and should be 1; of all, 5 % should lie beyond its 95 % point. More is too sure, less "
+      "too "
+      "careful.\n\n"
+      "| path | of | poses | mean | median | beyond 95 % point |\n|---:|---|---:|---:|---:|---:|\n";
+  for (const SimulateRow& row : rows)
+    for (const NormalisedErrors& errors : row.covariances)
+      text += "| " + metres_text(row.path_m) + " | " + errors.of + " | " + std::to_string(errors.count) +
+              " | " + fixed_text(errors.mean, 2) + " | " + fixed_text(errors.median, 2) + " | " +
+              fixed_text(100 * errors.beyond_95, 1) + " % |\n";
+  return text;
+}
+
 GrowthPlot plot_of(
     const std::vector<SimulateRow>& rows, std::string title, std::string unit,
     const std::vector<std::pair<std::string, std::function<double(const SimulateRow&)>>>& lines) {
@@ -114,7 +146,7 @@ std::string simulate_markdown(const std::vector<SimulateRow>& rows, const Simula
       fixed_text(kFalseLoop_m, 1) + " m or " + fixed_text(kFalseLoop_deg, 0) +
       " degrees off the truth\n"
       "- times are the mapper's alone; making the scans is not counted\n\n";
-  return text + drives_text(rows) + '\n' + cost_text(rows);
+  return text + drives_text(rows) + '\n' + cost_text(rows) + '\n' + covariances_text(rows);
 }
 
 std::string simulate_json(const std::vector<SimulateRow>& rows, const SimulateOptions& options,
@@ -153,6 +185,7 @@ SimulateRow row_of_json(const std::string& text) {
   json.at("odometry_error_mean_m").get_to(row.odometry_error_mean_m);
   json.at("loops").get_to(row.loops);
   json.at("false_loops").get_to(row.false_loops);
+  for (const Json& errors : json.at("covariances")) row.covariances.push_back(normalised_errors_of(errors));
   json.at("scan_ms").at("mean").get_to(row.scan_ms.mean);
   json.at("scan_ms").at("p99").get_to(row.scan_ms.p99);
   json.at("add_s").get_to(row.add_s);

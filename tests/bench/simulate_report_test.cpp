@@ -26,6 +26,7 @@ SimulateRow row() {
   row.odometry_error_mean_m = 12.3;
   row.loops = 700;
   row.false_loops = 2;
+  row.covariances = {{"loops", 700, 1.5, 0.9, 0.072}};
   row.scan_ms = {0.99, 8.42};
   row.add_s = 9.9;
   row.finish_s = 5.5;
@@ -55,6 +56,7 @@ TEST(SimulateReport, markdown_has_the_figures) {
   EXPECT_THAT(
       page,
       HasSubstr("| 1000 m | 10001 | 334 | 36 | 2464 | 83 | 0.333 | 0.700 | 0.120 | 0.50 | 12.3 | 700 | 2 |"));
+  EXPECT_THAT(page, HasSubstr("| 1000 m | loops | 700 | 1.50 | 0.90 | 7.2 % |"));
   EXPECT_THAT(page, HasSubstr("| 1000 m | 0.99 | 8.42 | 9.9 | 5.5 | 210 | 2.5 | 1.2 |"));
 }
 

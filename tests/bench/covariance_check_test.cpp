@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "covariance_check.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "psi_slam/base/random_draws.h"
+#include "psi_slam/pose_graph/pose_graph.h"
+#include "psi_slam/pose_graph/sparse_pose_adjustment.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+Eigen::Matrix3d some_covariance() {
+  Eigen::Matrix3d covariance;
+  covariance << 4e-4, 1e-4, 1e-5,  //
+      1e-4, 9e-4, -2e-5,           //
+      1e-5, -2e-5, 1e-5;
+  return covariance;
+}
+
+TPose2D measured(const TPose2D& truth, const Eigen::Matrix3d& covariance, RandomDraws& random) {
+  const Eigen::Vector3d unit(random.normal(), random.normal(), random.normal());
+  const Eigen::Vector3d error = covariance.llt().matrixL() * unit;
+  return {truth.x + error.x(), truth.y + error.y(), truth.phi + error.z()};
+}
+
+std::vector<double> drawn_squares(double believed_share_of_sigma) {
+  RandomDraws random(4, "covariances", 0);
+  const Eigen::Matrix3d information =
+      (some_covariance() * believed_share_of_sigma * believed_share_of_sigma).inverse();
+  std::vector<double> squares;
+  for (int i = 0; i < 20000; ++i) {
+    const TPose2D truth(random.plus_minus(5), random.plus_minus(5), random.plus_minus(3.2));
+    squares.push_back(normalised_square(measured(truth, some_covariance(), random), truth, information));
+  }
+  return squares;
+}
+
+TEST(CovarianceCheck, finds_right_covariances_right) {
+  const NormalisedErrors errors = normalised_errors("x", drawn_squares(1));
+  EXPECT_EQ(errors.of, "x");
+  EXPECT_EQ(errors.count, 20000U);
+  EXPECT_NEAR(errors.mean, 1, 0.03);
+  EXPECT_NEAR(errors.median, 1, 0.03);
+  EXPECT_NEAR(errors.beyond_95, 0.05, 0.006);
+}
+
+TEST(CovarianceCheck, finds_deviations_taken_for_half) {
+  const NormalisedErrors errors = normalised_errors("x", drawn_squares(0.5));
+  EXPECT_NEAR(errors.mean, 4, 0.1);
+  EXPECT_NEAR(errors.median, 4, 0.1);
+  EXPECT_NEAR(errors.beyond_95, 0.58, 0.02);  // P(chi-square of 3 > 7.815 / 4)
+}
+
+TEST(CovarianceCheck, of_nothing_is_zeros) {
+  const NormalisedErrors errors = normalised_errors("x", {});
+  EXPECT_EQ(errors.count, 0U);
+  EXPECT_EQ(errors.mean, 0);
+  EXPECT_EQ(errors.beyond_95, 0);
+}
+
+// A chain of nodes measured with noise of just its covariance, and one loop.
+TEST(CovarianceCheck, tells_constraints_loops_and_pairs_apart) {
+  RandomDraws random(9, "chain", 0);
+  constexpr std::size_t kNodes = 400;
+  MappingResult result;
+  Trajectory truth;
+  PoseGraph graph;
+  TPose2D pose(0, 0, 0);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    if (i > 0) pose = pose + TPose2D(0.5, 0, 2 * M_PI / kNodes);
+    truth.push_back({static_cast<TimeUs>(i), pose});
+    result.node_frames.push_back(i);
+    graph.add_node(pose);
+  }
+  const auto link = [&](std::size_t from, std::size_t to) {
+    Constraint constraint;
+    constraint.from = from;
+    constraint.to = to;
+    constraint.from_T_to = measured(truth[to].pose - truth[from].pose, some_covariance(), random);
+    constraint.information = some_covariance().inverse();
+    graph.add_constraint(constraint);
+  };
+  for (std::size_t i = 1; i < kNodes; ++i) link(i - 1, i);
+  link(0, kNodes - 1);
+  LoopRecord loop;
+  loop.anchor = 0;
+  loop.node = kNodes - 1;
+  loop.verdict = LoopVerdict::kAccepted;
+  result.loops.push_back(loop);
+  SparsePoseAdjustment({}).optimize(graph);
+  result.graph = graph.to_mrpt();
+
+  const std::vector<NormalisedErrors> errors = check_covariances(result, truth, 1);
+  ASSERT_EQ(errors.size(), 3U);
+  EXPECT_EQ(errors[0].count, kNodes - 1);
+  EXPECT_NEAR(errors[0].mean, 1, 0.2);
+  EXPECT_EQ(errors[1].count, 1U);
+  EXPECT_EQ(errors[2].count, 600U);
+  EXPECT_GT(errors[2].mean, 0.2);  // one graph is one draw: its pairs err together
+  EXPECT_LT(errors[2].mean, 4);
+}
+
+}  // namespace
+}  // namespace psi_slam

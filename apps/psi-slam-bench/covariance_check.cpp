@@ -10,6 +10,7 @@
 #include "psi_slam/base/random_draws.h"
 #include "psi_slam/pose_graph/constraint_error.h"
 #include "psi_slam/pose_graph/marginal_covariance.h"
+#include "psi_slam/pose_graph/path_covariance.h"
 #include "psi_slam/pose_graph/pose_graph.h"
 
 namespace psi_slam {
@@ -34,20 +35,32 @@ class TrueNodes {
   const Trajectory& truth_;
 };
 
-std::vector<double> squares_of_pairs(const PoseGraph& graph, const TrueNodes& truth, std::uint64_t seed) {
-  MarginalCovariance covariance;
-  covariance.update(graph);
+struct PairSquares {
+  std::vector<double> whole_graph;
+  std::vector<double> best_path;
+};
+
+PairSquares squares_of_pairs(const PoseGraph& graph, const TrueNodes& truth, std::uint64_t seed) {
+  MarginalCovariance of_graph;
+  of_graph.update(graph);
+  PathCovarianceSearch of_path;
   RandomDraws random(seed, "pairs of nodes", 0);
-  std::vector<double> squares;
+  PairSquares squares;
   for (std::size_t i = 0; i < kFirsts; ++i) {
     const std::size_t a = random.index(graph.num_nodes());
     std::vector<std::size_t> others;
     while (others.size() < kOthers)
       if (const std::size_t b = random.index(graph.num_nodes()); b != a) others.push_back(b);
-    const std::vector<Eigen::Matrix3d> covariances = covariance.relative(a, others);
-    for (std::size_t k = 0; k < others.size(); ++k)
-      squares.push_back(normalised_square(graph.pose(others[k]) - graph.pose(a), truth.a_T_b(a, others[k]),
-                                          covariances[k].inverse()));
+    const std::vector<Eigen::Matrix3d> covariances = of_graph.relative(a, others);
+    of_path.run(graph, a);
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      const TPose2D found = graph.pose(others[k]) - graph.pose(a);
+      const TPose2D true_pose = truth.a_T_b(a, others[k]);
+      squares.whole_graph.push_back(normalised_square(found, true_pose, covariances[k].inverse()));
+      const RelativeUncertainty along_path = of_path.of(others[k]);
+      if (along_path.reached)
+        squares.best_path.push_back(normalised_square(found, true_pose, along_path.covariance.inverse()));
+    }
   }
   return squares;
 }
@@ -92,9 +105,11 @@ std::vector<NormalisedErrors> check_covariances(const MappingResult& result, con
   }
   std::vector<NormalisedErrors> errors = {normalised_errors("scans in local maps", std::move(of_maps)),
                                           normalised_errors("loops", std::move(of_loops))};
-  if (graph.num_nodes() > 1)
-    errors.push_back(
-        normalised_errors("any two nodes in the finished graph", squares_of_pairs(graph, true_nodes, seed)));
+  if (graph.num_nodes() > 1) {
+    PairSquares squares = squares_of_pairs(graph, true_nodes, seed);
+    errors.push_back(normalised_errors("any two nodes, by the best path", std::move(squares.best_path)));
+    errors.push_back(normalised_errors("any two nodes, by the whole graph", std::move(squares.whole_graph)));
+  }
   return errors;
 }
 

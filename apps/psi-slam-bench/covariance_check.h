@@ -38,7 +38,8 @@ double normalised_square(const mrpt::math::TPose2D& measured, const mrpt::math::
 NormalisedErrors normalised_errors(std::string of, std::vector<double> squares);
 
 /// Of the constraints in the finished graph, local maps' and loops' apart, and of the poses of pairs of nodes
-/// drawn at random as the whole graph knows them. `truth` has a pose for each frame.
+/// drawn at random, by the best path, which loops are looked for by, and by the whole graph. `truth` has a
+/// pose for each frame.
 std::vector<NormalisedErrors> check_covariances(const MappingResult& result, const Trajectory& truth,
                                                 std::uint64_t seed);
 

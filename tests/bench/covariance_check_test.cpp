@@ -94,17 +94,19 @@ TEST(CovarianceCheck, tells_constraints_loops_and_pairs_apart) {
   loop.node = kNodes - 1;
   loop.verdict = LoopVerdict::kAccepted;
   result.loops.push_back(loop);
-  SparsePoseAdjustment({}).optimize(graph);
+  SparsePoseAdjustment().optimize(graph);
   result.graph = graph.to_mrpt();
 
   const std::vector<NormalisedErrors> errors = check_covariances(result, truth, 1);
-  ASSERT_EQ(errors.size(), 3U);
+  ASSERT_EQ(errors.size(), 4U);
   EXPECT_EQ(errors[0].count, kNodes - 1);
   EXPECT_NEAR(errors[0].mean, 1, 0.2);
   EXPECT_EQ(errors[1].count, 1U);
   EXPECT_EQ(errors[2].count, 600U);
-  EXPECT_GT(errors[2].mean, 0.2);  // one graph is one draw: its pairs err together
-  EXPECT_LT(errors[2].mean, 4);
+  EXPECT_EQ(errors[3].count, 600U);
+  EXPECT_GT(errors[3].mean, 0.2);  // one graph is one draw: its pairs err together
+  EXPECT_LT(errors[3].mean, 4);
+  EXPECT_LT(errors[2].mean, errors[3].mean);  // a path knows less than the graph
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "psi_slam/pose_graph/marginal_covariance.h"
 #include "psi_slam/pose_graph/path_covariance.h"
 #include "psi_slam/pose_graph/pose_graph.h"
+#include "psi_slam/pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {
 namespace {
@@ -90,7 +91,7 @@ NormalisedErrors normalised_errors(std::string of, std::vector<double> squares) 
 
 std::vector<NormalisedErrors> check_covariances(const MappingResult& result, const Trajectory& truth,
                                                 std::uint64_t seed) {
-  const PoseGraph graph = PoseGraph::from_mrpt(result.graph);
+  PoseGraph graph = PoseGraph::from_mrpt(result.graph);
   const TrueNodes true_nodes(result, truth);
   std::set<std::pair<std::size_t, std::size_t>> loops;
   for (const LoopRecord& loop : result.loops)
@@ -106,6 +107,7 @@ std::vector<NormalisedErrors> check_covariances(const MappingResult& result, con
   std::vector<NormalisedErrors> errors = {normalised_errors("scans in local maps", std::move(of_maps)),
                                           normalised_errors("loops", std::move(of_loops))};
   if (graph.num_nodes() > 1) {
+    SparsePoseAdjustment().optimize(graph);  // covariances are those of the optimum
     PairSquares squares = squares_of_pairs(graph, true_nodes, seed);
     errors.push_back(normalised_errors("any two nodes, by the best path", std::move(squares.best_path)));
     errors.push_back(normalised_errors("any two nodes, by the whole graph", std::move(squares.whole_graph)));

@@ -37,9 +37,9 @@ double normalised_square(const mrpt::math::TPose2D& measured, const mrpt::math::
 /// Zeros for no squares.
 NormalisedErrors normalised_errors(std::string of, std::vector<double> squares);
 
-/// Of the constraints in the finished graph, local maps' and loops' apart, and of the poses of pairs of nodes
-/// drawn at random, by the best path, which loops are looked for by, and by the whole graph. `truth` has a
-/// pose for each frame.
+/// Of the graph at its optimum, not of the poses refined after it: of the constraints in the finished graph,
+/// local maps' and loops' apart, and of the poses of pairs of nodes drawn at random, by the best path, which
+/// loops are looked for by, and by the whole graph. `truth` has a pose for each frame.
 std::vector<NormalisedErrors> check_covariances(const MappingResult& result, const Trajectory& truth,
                                                 std::uint64_t seed);
 

@@ -36,6 +36,7 @@ class RivalFiles {
       : log(folder / "log.rawlog"), settings(folder / "settings.ini"), output(folder / "output") {
     std::error_code failed;
     fs::remove_all(output, failed);
+    if (failed) throw SystemFailure("cannot remove " + output.string() + ": " + failed.message());
     fs::create_directories(folder, failed);
     if (failed) throw SystemFailure("cannot make the folder " + folder.string() + ": " + failed.message());
   }

@@ -9,6 +9,7 @@
 #include "forked_work.h"
 #include "mapped_run.h"
 #include "psi_slam/mapping/mapper.h"
+#include "psi_slam/results/run_summary.h"
 #include "psi_slam/session/settings.h"
 #include "psi_slam/simulation/simulation_random.h"
 #include "simulate_report.h"
@@ -119,6 +120,7 @@ SimulateRow map_simulated_drive(const SimulatedLogOptions& drive, int threads,
 
   SimulateRow row;
   row.finish_s = seconds_since(begin);
+  row.peak_memory_mib = peak_memory_mib();
   row.path_m = log.travelled_m();
   row.scans = truth.size();
   row.rooms = log.plan().rooms();
@@ -157,7 +159,6 @@ std::vector<SimulateRow> run_simulate_benchmark(
           observer(doing, done_m + path_m * std::stoi(per_mille) / 1000, all_m);
         });
     rows.push_back(row_of_json(child.text));
-    rows.back().peak_memory_mib = child.peak_memory_mib;
     done_m += path_m;
   }
   return rows;

@@ -50,10 +50,10 @@ struct SimulateRow {
 
   std::vector<NormalisedErrors> covariances;  ///< see check_covariances()
 
-  MeanAndP99 scan_ms;   ///< of Mapper::add
-  double add_s = 0;     ///< of all scans
-  double finish_s = 0;  ///< of the last pass
-  double peak_memory_mib = 0;
+  MeanAndP99 scan_ms;          ///< of Mapper::add
+  double add_s = 0;            ///< of all scans
+  double finish_s = 0;         ///< of all that comes after the last scan
+  double peak_memory_mib = 0;  ///< of the process that made and mapped the drive, up to the finished map
   std::vector<std::pair<std::string, double>> stages_s;  ///< the mapper's own account of its time
 };
 
@@ -79,7 +79,7 @@ ErrorSummary trajectory_error_m(const std::vector<mrpt::math::TPose2D>& path, co
 /// The loops that the graph keeps and the truth contradicts.
 std::size_t count_false_loops(const MappingResult& result, const Trajectory& truth);
 
-/// Makes and maps one drive in this process with the default settings; the memory is left 0. `progress` is
+/// Makes and maps one drive in this process with the default settings. `progress` is
 /// called with the share done, in [0, 1].
 SimulateRow map_simulated_drive(const SimulatedLogOptions& drive, int threads,
                                 const std::function<void(double)>& progress);

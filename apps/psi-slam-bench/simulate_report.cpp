@@ -70,7 +70,7 @@ std::string drives_text(const std::vector<SimulateRow>& rows) {
 
 std::string cost_text(const std::vector<SimulateRow>& rows) {
   std::string text =
-      "| path | a scan, mean [ms] | a scan, p99 [ms] | all scans [s] | last pass [s] | "
+      "| path | a scan, mean [ms] | a scan, p99 [ms] | all scans [s] | after the last [s] | "
       "memory [MiB] |";
   std::string rule = "|---:|---:|---:|---:|---:|---:|";
   if (!rows.empty())
@@ -211,7 +211,7 @@ std::string time_plot(const std::vector<SimulateRow>& rows) {
   return growth_svg(plot_of(rows, "Time of a scan by the length of the path", "ms",
                             {{"p99", [](const SimulateRow& row) { return row.scan_ms.p99; }},
                              {"mean", [](const SimulateRow& row) { return row.scan_ms.mean; }},
-                             {"with last pass", whole}}));
+                             {"mean, all work", whole}}));
 }
 
 std::string memory_plot(const std::vector<SimulateRow>& rows) {

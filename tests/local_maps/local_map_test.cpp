@@ -260,6 +260,7 @@ TEST(LocalMap, packed_and_unpacked_it_is_what_it_was) {
     map.pack();
     EXPECT_TRUE(map.packed());
     EXPECT_LT(map.memory_bytes(), never.memory_bytes() / 20);
+    EXPECT_THROW(map.agreement(scan, {0.1, 0, 0}), std::logic_error);
     map.unpack();
     EXPECT_FALSE(map.packed());
     const auto expect_same = [](const ScoreLevel& a, const ScoreLevel& b) {

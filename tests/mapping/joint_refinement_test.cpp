@@ -36,7 +36,8 @@ struct NoisyPoses {
 };
 
 struct Errors {
-  double across_m = 0;  // the corridor lies along x
+  double along_m = 0;  // the corridor lies along x
+  double across_m = 0;
   double rad = 0;
 };
 
@@ -46,6 +47,7 @@ Errors errors_of(const std::vector<TPose2D>& poses, const std::vector<TPose2D>& 
   const std::size_t count = poses.size() - 5;
   for (std::size_t i = 0; i < count; ++i) {
     const TPose2D off = (poses[i + 5] - poses[i]) - (truth[i + 5] - truth[i]);
+    errors.along_m += std::abs(off.x) / static_cast<double>(count);
     errors.across_m += std::abs(off.y) / static_cast<double>(count);
     errors.rad += std::abs(mrpt::math::wrapToPi(off.phi)) / static_cast<double>(count);
   }
@@ -60,6 +62,7 @@ TEST(JointRefinement, takes_the_noise_out_of_poses) {
   WorkerPool pool(1);
   refine_jointly(noisy.scans, {}, pool, kGoOn);
   const Errors after = errors_of(noisy.scans.map_T_frame, noisy.drive.map_T_robot);
+  EXPECT_LT(after.along_m, before.along_m);
   EXPECT_LT(after.across_m, 0.5 * before.across_m);
   EXPECT_LT(after.rad, 0.5 * before.rad);
 }
@@ -69,6 +72,7 @@ TEST(JointRefinement, does_not_spoil_poses_that_are_right) {
   WorkerPool pool(1);
   refine_jointly(exact.scans, {}, pool, kGoOn);
   const Errors after = errors_of(exact.scans.map_T_frame, exact.drive.map_T_robot);
+  EXPECT_LT(after.along_m, 0.006);
   EXPECT_LT(after.across_m, 0.004);
   EXPECT_LT(after.rad, 0.0015);
 }
@@ -104,6 +108,17 @@ TEST(JointRefinement, leaves_everything_when_it_is_stopped_or_asked_for_no_round
   none.rounds = 0;
   refine_jointly(noisy.scans, none, pool, kGoOn);
   EXPECT_EQ(noisy.scans.map_T_frame, before);
+}
+
+TEST(JointRefinement, keeps_the_rounds_that_were_finished_when_it_is_stopped) {
+  NoisyPoses once;
+  NoisyPoses stopped;
+  WorkerPool pool(1);
+  refine_jointly(once.scans, {}, pool, kGoOn);
+  JointRefinementOptions twice;
+  twice.rounds = 2;
+  refine_jointly(stopped.scans, twice, pool, [](double share) { return share < 0.5; });
+  EXPECT_EQ(stopped.scans.map_T_frame, once.scans.map_T_frame);
 }
 
 TEST(JointRefinement, tells_how_far_it_is) {

@@ -377,6 +377,39 @@ TEST(Mapper, finishing_reports_its_progress_up_to_the_end) {
   EXPECT_GT(shares.front(), 0);
   EXPECT_EQ(shares.back(), 1);
   EXPECT_FALSE(result.interrupted) << "a stop when all is done stops nothing";
+  for (std::size_t i = 0; i < result.frames.size(); ++i)
+    EXPECT_EQ(result.frames[i].map_T_robot, office_map().frames[i].map_T_robot) << "frame " << i;
+}
+
+TEST(Mapper, refines_all_scans_at_the_end_and_keeps_the_frame_of_the_first) {
+  const SimulatedDrive& drive = office_drive();
+  MapperOptions unrefined;
+  unrefined.joint_refinement.rounds = 0;
+  const MappingResult before = map_of(drive.frames, unrefined);
+  const MappingResult& after = office_map();
+  expect_consistent(before, drive.frames.size());
+  EXPECT_EQ(after.frames.front().map_T_robot, before.frames.front().map_T_robot);
+  const auto turn_error_rad = [&](const MappingResult& result) {
+    double sum = 0;
+    for (std::size_t i = 0; i + 5 < result.frames.size(); ++i) {
+      const TPose2D off = (result.frames[i + 5].map_T_robot - result.frames[i].map_T_robot) -
+                          (drive.map_T_robot[i + 5] - drive.map_T_robot[i]);
+      sum += std::abs(mrpt::math::wrapToPi(off.phi));
+    }
+    return sum / static_cast<double>(result.frames.size());
+  };
+  EXPECT_LT(turn_error_rad(after), 0.8 * turn_error_rad(before));
+}
+
+TEST(Mapper, refinement_can_be_cut_short) {
+  MapperOptions options;
+  options.last_pass.passes = 0;
+  Mapper mapper(options);
+  for (const Frame& frame : office_drive().frames) mapper.add(frame);
+  const MappingResult result = mapper.finish([](double) { return false; });
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_TRUE(result.last_pass_cut_short);
+  expect_consistent(result, office_drive().frames.size());
 }
 
 TEST(Mapper, the_last_pass_can_be_cut_short) {

@@ -68,6 +68,11 @@ TEST(PointIndex, finds_nothing_where_there_is_none) {
   EXPECT_TRUE(index.within({0, 0}, 10).empty());
 }
 
+TEST(PointIndex, finds_what_is_just_at_the_radius) {
+  const PointIndex index({{0, 0}, {0.5F, 0}, {0, -0.5F}, {0.5625F, 0}});
+  EXPECT_EQ(index.within({0, 0}, 0.5F), (std::vector<std::size_t>{0, 1, 2}));
+}
+
 TEST(PointIndex, still_finds_after_it_was_moved) {
   PointIndex first(drawn_points(50));
   const PointIndex second(std::move(first));

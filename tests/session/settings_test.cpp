@@ -51,15 +51,16 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   const std::size_t loops = member_count<LoopClosureOptions>() - 3 + member_count<LoopCandidateOptions>() -
                             1 + member_count<SearchExtent>() + member_count<LoopVerificationOptions>() +
                             member_count<ScanContextOptions>() + member_count<LoopConsensusOptions>() +
-                            member_count<LastPassOptions>();
+                            member_count<LastPassOptions>() + member_count<JointRefinementOptions>() - 1 +
+                            member_count<SurfaceAlignmentOptions>();
   // The mapper makes no constraints of odometry.
   const std::size_t solver = member_count<PoseAdjustmentOptions>() - 3 + 2 * member_count<RobustKernel>();
   const std::size_t choice = member_count<PsiOptions>() + member_count<GeneticOptions>() - 3 +
                              member_count<PaperGeneticOptions>() + member_count<MemeticGeneticOptions>() +
                              member_count<CoarseCellOptions>();
-  // Of MapperOptions eight are structs, and the seed and the threads are those of RunOptions.
+  // Of MapperOptions nine are structs, and the seed and the threads are those of RunOptions.
   const std::size_t mapper =
-      member_count<MapperOptions>() - 10 + choice + front_end + matcher + loops + solver;
+      member_count<MapperOptions>() - 11 + choice + front_end + matcher + loops + solver;
   const std::size_t others = member_count<GridMapOptions>() + member_count<RunOptions>();
   EXPECT_EQ(described(), log + mapper + others)
       << "a struct of options has a member that describe() of settings.cpp does not know";

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <stdexcept>
 #include <utility>
 
 #include "psi_slam/local_maps/score_painter.h"
@@ -207,6 +208,7 @@ bool LocalMap::observed(int x, int y) const {
 LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
                                         const mrpt::math::TPose2D& map_T_robot) const {
   constexpr int kHitScore = 64;  // a quarter: about one and a half sigma from a wall
+  if (packed_) throw std::logic_error("a packed local map was compared with a scan");
   Agreement agreement;
   const ScoreLevel& finest = scores_.finest();
   const double c = std::cos(map_T_robot.phi);

@@ -99,10 +99,11 @@ void refine_jointly(RefinedScans& scans, const JointRefinementOptions& options, 
     for (std::size_t begin = 0; begin < nodes.size(); begin += kBatch) {
       const std::size_t count = std::min(kBatch, nodes.size() - begin);
       pool.run(count, [&](std::size_t index) { refine_stretch(begin + index); });
-      const double share = static_cast<double>(begin + count) / static_cast<double>(nodes.size());
+      const std::size_t end = begin + count;
+      if (end == nodes.size()) scans.map_T_frame = refined;
+      const double share = static_cast<double>(end) / static_cast<double>(nodes.size());
       if (!progress((done + share) / options.rounds)) return;
     }
-    scans.map_T_frame = std::move(refined);
   }
 }
 

@@ -246,6 +246,9 @@ void Mapper::refine_poses(const std::function<bool(double)>& progress) {
     return matching_points(result_.log[frame].scan, options_.front_end.scan);
   };
   refine_jointly(scans, options_.joint_refinement, pool_, progress);
+  // The map's frame stays that of the first node, as the graph has it.
+  const TPose2D first = scans.map_T_frame[result_.node_frames.front()];
+  for (TPose2D& pose : scans.map_T_frame) pose = graph_.pose(0) + (pose - first);
   for (std::size_t i = 0; i < result_.frames.size(); ++i)
     result_.frames[i].map_T_robot = scans.map_T_frame[i];
   for (std::size_t node = 0; node < result_.node_frames.size(); ++node)
@@ -255,7 +258,7 @@ void Mapper::refine_poses(const std::function<bool(double)>& progress) {
 MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
   for (const PlacedLocalMap& finished : front_end_.finish()) remember(finished);
   refuse_pending_loops();
-  const int steps = options_.last_pass.passes + 1;
+  const int steps = options_.last_pass.passes + (options_.joint_refinement.rounds > 0 ? 1 : 0);
   const auto go_on = [&](double done) {
     const bool wanted = !progress || progress(done / steps);
     result_.last_pass_cut_short = !wanted && done < steps;
@@ -269,11 +272,12 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
     }
     refuse_pending_loops();
   }
-  result_.interrupted = result_.last_pass_cut_short;
   count_accepted_loops();
   carry_frames_along(graph_.poses(), result_.node_frames, result_.frames);
-  if (options_.close_loops && !result_.last_pass_cut_short)
-    refinement_clock_.time([&] { refine_poses([&](double share) { return go_on(steps - 1 + share); }); });
+  if (options_.close_loops && !memory_.nodes.empty() && !result_.last_pass_cut_short)
+    refinement_clock_.time(
+        [&] { refine_poses([&](double share) { return go_on(options_.last_pass.passes + share); }); });
+  result_.interrupted = result_.last_pass_cut_short;
   result_.graph = graph_.to_mrpt();
   for (const StageClock* clock :
        {&front_end_clock_, &loop_clock_, &graph_clock_, &last_pass_clock_, &refinement_clock_})

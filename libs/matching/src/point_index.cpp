@@ -2,6 +2,8 @@
 #include "psi_slam/matching/point_index.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nanoflann.hpp>
 #include <utility>
 
@@ -24,6 +26,26 @@ struct PointSource {
     return false;
   }
   // NOLINTEND
+};
+
+/// What nanoflann puts points into: all that are at most so far.
+class Within {
+ public:
+  explicit Within(float square) : square_(square) {}
+  std::vector<std::size_t> found;
+
+  // NOLINTBEGIN: the names are nanoflann's
+  std::size_t size() const { return found.size(); }
+  bool full() const { return true; }
+  float worstDist() const { return std::nextafter(square_, std::numeric_limits<float>::infinity()); }
+  bool addPoint(float square, std::size_t index) {
+    if (square <= square_) found.push_back(index);
+    return true;
+  }
+  // NOLINTEND
+
+ private:
+  float square_;
 };
 
 }  // namespace
@@ -55,14 +77,11 @@ void PointIndex::nearest(const Point& at, std::size_t count, float max_distance_
 }
 
 std::vector<std::size_t> PointIndex::within(const Point& at, float radius_m) const {
-  std::vector<std::pair<std::size_t, float>> matches;
+  Within result(radius_m * radius_m);
   const float query[2] = {at.x, at.y};
-  if (!points_.empty())
-    tree_->index.radiusSearch(query, radius_m * radius_m, matches, nanoflann::SearchParams());
-  std::vector<std::size_t> found;
-  for (const auto& [index, square] : matches) found.push_back(index);
-  std::sort(found.begin(), found.end());
-  return found;
+  if (!points_.empty()) tree_->index.findNeighbors(result, query, {});
+  std::sort(result.found.begin(), result.found.end());
+  return std::move(result.found);
 }
 
 }  // namespace psi_slam

@@ -63,7 +63,7 @@ class SurfaceSearch {
       ++count;
     }
     if (count == 0) return std::nullopt;
-    const float length = std::hypot(sum.normal.x, sum.normal.y);
+    const float length = std::hypot(sum.normal.x, sum.normal.y);  // not 0: all face `facing`
     return Surface{{sum.point.x / count, sum.point.y / count},
                    {sum.normal.x / length, sum.normal.y / length}};
   }

@@ -48,7 +48,9 @@ std::string stop_text(const RunSummary& summary) {
   if (!summary.last_pass_cut_short)
     return "The run was stopped before the end of the log: all below is of its first " + scans + '.';
   return "The run was stopped: all below is of the " + scans +
-         " read until then, and the last search for loops was cut short.";
+         " read until then, and what comes after the last of them, the last search for loops and the "
+         "refinement of all "
+         "scans, was cut short.";
 }
 
 /// "Mapped by psi-slam 0.1.0 in 51.3 s, 52 times faster than it was recorded."

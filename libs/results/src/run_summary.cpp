@@ -100,13 +100,13 @@ MapExtent map_extent(const mrpt::maps::COccupancyGridMap2D& grid) {
   return extent;
 }
 
+}  // namespace
+
 double peak_memory_mib() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts kibibytes
 }
-
-}  // namespace
 
 double path_length_m(const std::vector<TPose2D>& poses) {
   constexpr double kStep_m = 0.1;

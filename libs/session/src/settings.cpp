@@ -328,7 +328,8 @@ void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refin
   SurfaceAlignmentOptions& alignment = refinement.alignment;
   table
       .section("joint_refinement",
-               "At the very end: every scan laid on the surfaces that the scans near it saw")
+               "At the very end, where loops are closed: every scan laid on the surfaces that the scans near "
+               "it saw")
       .integer("rounds", refinement.rounds, between(0, 100), "rounds", "how often; 0 leaves it out")
       .integer("references", refinement.references, between(1, 1000), "nodes",
                "whose scans one scan is laid on, at most; those nearest to it")
@@ -338,7 +339,7 @@ void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refin
                "of those surfaces, nearest to a point of the scan, whose mean it is compared with")
       .number("max_distance_m", alignment.max_distance_m, above(0).at_most(10), "m",
               "points farther apart are of two surfaces")
-      .angle_deg("max_normal_turn_deg", alignment.max_turn_rad, above(0).at_most(180),
+      .angle_deg("max_normal_turn_deg", alignment.max_turn_rad, above(0).at_most(80),
                  "as are those whose normals differ by more")
       .number("kernel_m", alignment.kernel_m, above(0).at_most(10), "m",
               "residual at which a point has lost three quarters of its weight")

@@ -56,7 +56,8 @@ class LocalMap {
   bool finished() const { return finished_; }
 
   /// Packs a finished map, or unpacks it; nothing happens where it is so already. A packed map has no scores
-  /// and agrees with nothing: unpack it first. Not to be called while another thread looks at the map.
+  /// and cannot be compared with (std::logic_error): unpack it first. Not to be called while another thread
+  /// looks at the map.
   void pack();
   void unpack();
   bool packed() const { return packed_; }
@@ -101,7 +102,7 @@ class LocalMap {
   PackedBytes packed_scores_;  ///< both made when it is packed first, then kept
   PackedBytes packed_observed_;
   bool packed_ = false;
-  bool scores_fit_ = false;     ///< the score grid has the occupancy grid's size
+  bool scores_fit_ = false;  ///< the score grid has the occupancy grid's size
   bool finished_ = false;
 };
 

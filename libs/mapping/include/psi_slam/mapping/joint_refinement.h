@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The last step to the map: every scan is laid anew on the surfaces that the scans near it saw, all at their
-// optimised poses, in several rounds. The graph has brought the scans to within a few centimetres of where
-// they belong, and bends no more; what is left is the noise of single poses, which local maps of whole cells
-// cannot resolve.
+// optimised poses, once or in several rounds. The graph has brought the scans to within a few centimetres of
+// where they belong, and bends no more; what is left is the noise of single poses, which local maps of whole
+// cells cannot resolve.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "psi_slam/base/degrees.h"

@@ -56,10 +56,11 @@ class Mapper {
   /// The per-scan step. Frames come in the log's order; returns what became of this one so far.
   const FrameRecord& add(Frame frame);
 
-  /// The last loop search over all pairs near each other and the last optimisation; then the result. The
-  /// mapper can be asked for its graph afterwards, but not go on. `progress` is called with the share done, in [0, 1];
-  /// when it returns false, the search ends there: the map is of the loops found until then, and the result
-  /// says that it was cut short.
+  /// The last loop search over all pairs near each other and the last optimisation; then, where loops are
+  /// closed and nothing is cut short, the refinement of all scans; then the result. The
+  /// mapper can be asked for its graph afterwards, but not go on. `progress` is called with the share done,
+  /// in [0, 1]; when it returns false, the search ends there: the map is of the loops found until then, and
+  /// the result says that it was cut short.
   MappingResult finish(const std::function<bool(double)>& progress = {});
 
   /// The robot now, in the global map.

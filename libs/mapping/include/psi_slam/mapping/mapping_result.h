@@ -26,8 +26,9 @@ struct FrameRecord {
   TimeUs time_us = 0;
   mrpt::math::TPose2D odom_T_robot;       ///< raw odometry; without any, the front end's pose
   mrpt::math::TPose2D front_end_T_robot;  ///< the front end's own pose, before any loop was closed
-  mrpt::math::TPose2D map_T_robot;        ///< the result: its node's pose, or its matched pose carried along
-  std::optional<std::size_t> node;        ///< its node in the graph, if it became one
+  mrpt::math::TPose2D
+      map_T_robot;  ///< the result: refined on what the scans near it saw, see refine_jointly()
+  std::optional<std::size_t> node;  ///< its node in the graph, if it became one
 
   double response = 0;    ///< of the front end's match, in [0, 1]; 0 where there was nothing to match with
   SearchExtent window;    ///< the front end's search window (half-widths)
@@ -66,8 +67,9 @@ struct LocalMapRecord {
 struct MappingResult {
   std::vector<Frame> log;  ///< the scans themselves, same order and count as `frames`
   std::vector<FrameRecord> frames;
-  mrpt::graphs::CNetworkOfPoses2DInf graph;  ///< optimised; node ids are 0 .. N-1
-  std::vector<std::size_t> node_frames;      ///< the frame of each node
+  mrpt::graphs::CNetworkOfPoses2DInf graph;  ///< node ids are 0 .. N-1; optimised, then refined with the
+                                             ///< scans: no longer the optimum of the constraints alone
+  std::vector<std::size_t> node_frames;  ///< the frame of each node
   std::vector<LocalMapRecord> local_maps;
   std::vector<LoopRecord> loops;
   PsiOptions psi;                                          ///< its thresholds are drawn beside the factor
@@ -75,7 +77,7 @@ struct MappingResult {
   std::vector<StageTiming> stages;
   double wall_s = 0;         ///< of the whole run so far, loading included
   bool interrupted = false;  ///< true when the user stopped it before the log's end, or cut the last pass
-  bool last_pass_cut_short = false;       ///< some of its pairs were not tried
+  bool last_pass_cut_short = false;       ///< not all pairs were tried, or scans not refined
   std::optional<std::string> broken_off;  ///< what is wrong with the log behind its last scan, as a sentence
 };
 

@@ -3,7 +3,7 @@
 // poses that are right to a few centimetres already. No grid stands in between: what a grid's cells round off
 // is what this can still win.
 //
-//     minimise over the pose:  sum_j rho(n_j . (T p_j - q_j)) / s^2  +  |x - x_start|^2 / sigma_prior^2
+//     minimise over the pose:  sum_j rho(n_j . (T p_j - q_j)) / s^2  +  |x - x_held|^2 / sigma_prior^2
 //
 // over the points p_j of the scan; q_j and n_j are the mean point and the mean normal of the surface points
 // nearest to it, rho is the kernel of Geman and McClure, and s the noise of one point, taken from the
@@ -51,7 +51,7 @@ class SurfaceMap {
 struct SurfaceAlignmentOptions {
   std::size_t neighbours = 8;    ///< surface points whose mean each point of the scan is compared with
   double max_distance_m = 0.12;  ///< points farther apart are of two surfaces,
-  double max_turn_rad = radians_from_degrees(30.0L);  ///< and those whose normals differ by more
+  double max_turn_rad = radians_from_degrees(30.0L);  ///< and those whose normals differ by more; below pi/2
   double kernel_m = 0.03;       ///< residual at which a point has lost three quarters of its weight
   double prior_sigma_m = 0.01;  ///< how far the start may be off: along a corridor nothing else holds
   double prior_sigma_rad = radians_from_degrees(0.25L);

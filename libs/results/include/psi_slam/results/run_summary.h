@@ -81,7 +81,7 @@ struct RunSummary {
   MapExtent map;
   double wall_s = 0;
   double real_time_factor = 0;  ///< seconds of the log in a second of work; 0 where that cannot be said
-  double peak_memory_mib = 0;    ///< of this process so far
+  double peak_memory_mib = 0;   ///< of this process so far
   bool interrupted = false;
   bool last_pass_cut_short = false;
   std::optional<std::string> broken_off;  ///< what is wrong with the log behind its last scan
@@ -93,6 +93,9 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
 
 /// Where the map has coarser cells than asked for: a sentence without its full stop that says so and why.
 std::optional<std::string> coarser_cells_text(const MapExtent& map);
+
+/// The most that this process has ever held in memory.
+double peak_memory_mib();
 
 /// The length of a path, walked in steps of at least 0.1 m so that the jitter of a robot at rest does not add
 /// up.

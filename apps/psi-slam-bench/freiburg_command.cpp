@@ -58,6 +58,13 @@ std::size_t failed_runs(const FreiburgBenchmark& benchmark) {
   return failed;
 }
 
+/// How many rivals came to no path, in the time that they had.
+std::size_t failed_rivals(const FreiburgBenchmark& benchmark) {
+  return static_cast<std::size_t>(std::count_if(benchmark.rival_results.begin(),
+                                                benchmark.rival_results.end(),
+                                                [](const RivalResult& rival) { return !rival.figures; }));
+}
+
 /// Those that were asked for; the missing ones are told. Throws UserError when all are missing.
 FoundRivals rivals_of(const FreiburgArguments& arguments, const Streams& streams) {
   if (!arguments.rivals) return {};
@@ -102,6 +109,9 @@ void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
   const std::string page = freiburg_markdown(benchmark, arguments.options, machine);
   write_files(arguments, benchmark, page, machine);
   print_page(page, streams);
+  if (const std::size_t failed = failed_rivals(benchmark); failed > 0)
+    streams.err << "psi-slam-bench: of the rivals' runs " << failed
+                << " came to nothing: the page says which and why\n";
   if (const std::size_t failed = failed_runs(benchmark); failed > 0)
     throw SystemFailure(std::to_string(failed) + (failed == 1 ? " run" : " runs") +
                         " failed: the page says which and why");

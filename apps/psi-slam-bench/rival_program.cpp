@@ -56,8 +56,7 @@ const std::vector<RivalKind>& rival_kinds() {
        "icp-slam/icp-slam_demo_classic.ini",
        {{"SHOW_PROGRESS_3D_REAL_TIME", "0"}, {"SAVE_3D_SCENE", "0"}},
        "Where it goes astray hangs on trifles, so its one figure is one of many: begun one, two or three "
-       "scans "
-       "later it came to 0.68, 0.42 and 1.96 m on MIT CSAIL.",
+       "scans later it came to 0.68, 0.42 and 1.96 m on MIT CSAIL.",
        kPlaneYaw},
       {"rbpf-slam",
        "rbpf-slam/gridmapping_RBPF_grid_ICPbased_malaga.ini",

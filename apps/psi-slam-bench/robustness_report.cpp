@@ -116,8 +116,7 @@ std::string robustness_markdown(const RobustnessBenchmark& benchmark, const Seed
       "- odometry noise × k: to each step of odometry normal noise of √(k² - 1) times its natural noise is "
       "added, so that its error is about k times what it was. The natural noise is odometry's error against "
       "the map of the log as it is, over stretches of 1 m or 1 rad, as a random walk: its variance grows "
-      "with "
-      "the way and the turn.\n"
+      "with the way and the turn.\n"
       "- no odometry: the robot is predicted to go on at its speed\n"
       "- scans kept: the others are not there at all; relations of their times are answered by "
       "interpolation, "
@@ -126,8 +125,7 @@ std::string robustness_markdown(const RobustnessBenchmark& benchmark, const Seed
       "- precision, recall: of the accepted loops, by the true relations\n"
       "- unmatched: scans that the front end could not match with its local map\n"
       "- runs: one for each seed where the case draws random numbers, else one; of several, errors are mean "
-      "± "
-      "standard deviation of the sample [worst], the other figures means\n\n";
+      "± standard deviation of the sample [worst], the other figures means\n\n";
   text += logs_text(benchmark.logs);
   text +=
       "\n| log | | | runs | error [m] | [deg] | relations | loops | precision % | recall % | unmatched |\n"

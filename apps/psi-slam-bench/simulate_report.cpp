@@ -92,11 +92,10 @@ std::string cost_text(const std::vector<SimulateRow>& rows) {
 std::string covariances_text(const std::vector<SimulateRow>& rows) {
   std::string text =
       "Normalised errors: squared errors over their covariances, which follow the chi-square distribution of "
-      "three "
-      "degrees of freedom where the covariances are right. Mean and median are given over those of that "
+      "three degrees of freedom where the covariances are right. Mean and median are given over those of "
+      "that "
       "distribution, and should be 1; of all, 5 % should lie beyond its 95 % point. More is too sure, less "
-      "too "
-      "careful.\n\n"
+      "too careful.\n\n"
       "| path | of | poses | mean | median | beyond 95 % point |\n|---:|---|---:|---:|---:|---:|\n";
   for (const SimulateRow& row : rows)
     for (const NormalisedErrors& errors : row.covariances)

@@ -155,8 +155,10 @@ TEST(ReportHtml, tells_that_the_last_pass_was_cut_short) {
   MappingResult result = walk_around_the_room();
   EXPECT_THAT(report_of(result, {}), Not(HasSubstr("cut short")));
   result.interrupted = result.last_pass_cut_short = true;
-  EXPECT_THAT(report_of(result, {}),
-              HasSubstr("of the 50 scans read until then, and the last search for loops was cut short."));
+  EXPECT_THAT(
+      report_of(result, {}),
+      HasSubstr("of the 50 scans read until then, and what comes after the last of them, the last search "
+                "for loops and the refinement of all scans, was cut short."));
 }
 
 }  // namespace

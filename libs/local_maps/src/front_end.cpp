@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pull_support.h"
+#include "psi_slam/local_maps/pull_support.h"
 
 namespace psi_slam {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pull_support.h"
+#include "psi_slam/local_maps/pull_support.h"
 
 #include <cmath>
 #include <vector>

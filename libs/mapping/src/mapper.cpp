@@ -19,8 +19,8 @@ using mrpt::math::TPose2D;
 constexpr std::size_t kUnpackedLocalMaps = 48;
 
 // The graph is optimised at once where a loop says by this many standard deviations of loops that it is
-// wrong; where less, only after it has grown by this share of itself: however large, a node costs about the
-// same then.
+// wrong; where less, only after it has grown by this share of itself: such news costs a node about the same
+// then, however large the graph.
 constexpr double kUrgentNews = 5;
 constexpr double kGrowthForSmallNews = 1e-3;
 

@@ -29,12 +29,12 @@ class PullSupport : public testing::Test {
   }
 
  private:
-  // A patch, so that interpolation between cells gives the full score.
+  // A patch, since interpolation looks at several cells around.
   void mark(float x, float y) {
     const int column = static_cast<int>((static_cast<double>(x) + 5) / 0.05);
     const int row = static_cast<int>((static_cast<double>(y) + 5) / 0.05);
-    for (int j = -1; j <= 1; ++j)
-      for (int i = -1; i <= 1; ++i) *grid_.finest().cell(column + i, row + j) = 255;
+    for (int j = -3; j <= 3; ++j)
+      for (int i = -3; i <= 3; ++i) *grid_.finest().cell(column + i, row + j) = 255;
   }
 
   ScoreGrid grid_{-5, -5, 0.05, 200, 200};

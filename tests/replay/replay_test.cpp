@@ -149,6 +149,8 @@ TEST_F(ReplayTest, snapshots_hold_together) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(scans, 150U);
+  EXPECT_GT(replay.snapshot()->local_maps.size(), 1U);
+  EXPECT_EQ(replay.snapshot()->local_maps.back().last_node, replay.snapshot()->nodes.size() - 1);
   EXPECT_TRUE(replay.snapshot()->active_local_maps.empty());
 }
 

@@ -129,6 +129,7 @@ void Replay::work() {
   session_ = &session;
   if (!map_scans(session)) return;
   phase_ = ReplayPhase::kLastPass;
+  publish();  // all scans, as long as the mapper can be followed
   session.finish(cut_last_pass_);
   session_ = nullptr;
   maker_->note_warnings(session);
@@ -226,6 +227,8 @@ void Replay::observe(const SessionProgress& progress) {
     stale_ = true;
     const std::lock_guard lock(mutex_);
     scans_ = progress.scans;
+  } else if (session_ != nullptr) {
+    maker_->follow_local_maps(session_->mapper());
   }
   if (Clock::now() >= next_publication()) publish();
 }

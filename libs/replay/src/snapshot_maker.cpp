@@ -31,7 +31,7 @@ void SnapshotMaker::follow(const Mapper& mapper) {
   catch_up(log_, mapper.log());
   catch_up(frames_, mapper.frames());
   catch_up(nodes_, mapper.memory().nodes);
-  catch_up(local_maps_, mapper.memory().local_maps);
+  follow_local_maps(mapper);
   now_.map_T_robot = mapper.map_T_robot();
   if (!same_poses(*now_.map_T_node, mapper.graph().poses()))
     now_.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(mapper.graph().poses());
@@ -40,6 +40,10 @@ void SnapshotMaker::follow(const Mapper& mapper) {
   if (verdicts_may_change || now_.loops->size() != mapper.loops().size())
     now_.loops = std::make_shared<std::vector<LoopRecord>>(mapper.loops());
   copy_active(mapper);
+}
+
+void SnapshotMaker::follow_local_maps(const Mapper& mapper) {
+  catch_up(local_maps_, mapper.memory().local_maps);
 }
 
 void SnapshotMaker::copy_active(const Mapper& mapper) {

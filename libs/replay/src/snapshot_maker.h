@@ -23,6 +23,8 @@ class SnapshotMaker {
 
   /// Takes over what is new, before the session is finished.
   void follow(const Mapper& mapper);
+  /// The last local maps end when the last pass begins.
+  void follow_local_maps(const Mapper& mapper);
   /// Takes over the result, once it is.
   void take(const MappingResult& result);
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "psi_slam/view/palette.h"
 #include "wx_text.h"
@@ -15,7 +17,8 @@
 namespace psi_slam {
 namespace {
 
-constexpr double kAround_m = 1.5;  // of the local map, around the scan
+constexpr double kAround_m = 1.5;    // of the local map, around the scan
+constexpr std::size_t kFarOut = 12;  // one of so many points on either side may lie outside the picture
 
 /// What of the ground is drawn, and how large.
 struct Frame2D {
@@ -29,18 +32,25 @@ struct Frame2D {
   double y(double y_m) const { return top_px + (y_max_m - y_m) * px_per_m; }
 };
 
+/// The least and the largest of the values, but for the few that lie far out.
+std::pair<double, double> bulk(std::vector<double> values) {
+  if (values.empty()) return {0, 0};
+  std::sort(values.begin(), values.end());
+  const std::size_t out = values.size() / kFarOut;
+  return {values[out], values[values.size() - 1 - out]};
+}
+
 /// Both scans with some ground around them, in the middle of the area.
 Frame2D frame_for(const LoopPicture& picture, const wxRect& area) {
-  double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
-  bool any = false;
+  std::vector<double> x_m;
+  std::vector<double> y_m;
   for (const auto* scan : {&picture.before, &picture.after})
     for (const mrpt::math::TPoint2D& point : *scan) {
-      x_min = any ? std::min(x_min, point.x) : point.x;
-      x_max = any ? std::max(x_max, point.x) : point.x;
-      y_min = any ? std::min(y_min, point.y) : point.y;
-      y_max = any ? std::max(y_max, point.y) : point.y;
-      any = true;
+      x_m.push_back(point.x);
+      y_m.push_back(point.y);
     }
+  const auto [x_min, x_max] = bulk(std::move(x_m));
+  const auto [y_min, y_max] = bulk(std::move(y_m));
   const double width_m = x_max - x_min + 2 * kAround_m;
   const double height_m = y_max - y_min + 2 * kAround_m;
   Frame2D frame;

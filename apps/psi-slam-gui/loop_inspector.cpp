@@ -62,8 +62,8 @@ LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<
   auto* splitter = new wxSplitterWindow(this, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxSP_LIVE_UPDATE);
   list_ = new LoopList(splitter);
   canvas_ = new LoopCanvas(splitter);
-  splitter->SetMinimumPaneSize(FromDIP(200));
-  splitter->SplitVertically(list_, canvas_, FromDIP(720));
+  splitter->SetMinimumPaneSize(FromDIP(340));
+  splitter->SplitVertically(list_, canvas_, FromDIP(640));
   splitter->SetSashGravity(0.6);
   auto* column = new wxBoxSizer(wxVERTICAL);
   column->Add(actions_, 0, wxEXPAND);

@@ -104,7 +104,7 @@ wxWindow* MainFrame::build_middle() {
   middle_->AddPage(canvas_, "");
   TransportBar::Actions actions;
   actions.play_or_pause = [this] { play_or_pause(); };
-  actions.step = [this] { ProcessWindowEvent(*std::make_unique<wxCommandEvent>(wxEVT_MENU, kStep)); };
+  actions.step = [this] { step(); };
   actions.finish = [this] { finish(); };
   actions.set_speed = [this](double speed) { set_speed(speed); };
   actions.go_to = [this](std::size_t scan) { go_to(scan); };
@@ -150,6 +150,7 @@ void MainFrame::open_log(const std::filesystem::path& log) {
   told_failure_.clear();
   told_warnings_.clear();
   told_export_ = 0;
+  remembered_ = false;
   exported_ = false;
   close_asked_ = false;
   loops_->show_nothing();
@@ -195,17 +196,16 @@ void MainFrame::take_news(const ReplaySnapshot& snapshot) {
     told_warnings_ = snapshot.warnings;
     messages_->say(Kind::kWarning, snapshot.warnings.front());
   }
-  if (snapshot.phase == ReplayPhase::kFinished && told_failure_.empty()) {
-    told_failure_ = "finished";
+  if (!remembered_ && snapshot.phase != ReplayPhase::kOpening && snapshot.phase != ReplayPhase::kFailed) {
+    remembered_ = true;
     remember(replay_->log());
   }
   if (!snapshot.exported || snapshot.exported->number == told_export_) return;
   const ExportOutcome& outcome = *snapshot.exported;
   told_export_ = outcome.number;
   exported_ = exported_ || outcome.failure.empty();
-  const std::filesystem::path folder = outcome.folder;
   if (outcome.failure.empty())
-    messages_->say(Kind::kNote, "All results are in " + folder.string() + ": begin with report.html");
+    messages_->say(Kind::kNote, "All results are in " + outcome.folder.string() + ": begin with report.html");
   else
     messages_->say(Kind::kError, outcome.failure);
   if (close_when_written_) Close();
@@ -231,6 +231,11 @@ void MainFrame::play_or_pause() {
   if (!replay_ || !snapshot_) return;
   shown_frame_.reset();
   snapshot_->phase == ReplayPhase::kPlaying ? replay_->pause() : replay_->play();
+}
+
+void MainFrame::step() {
+  shown_frame_.reset();
+  if (replay_) replay_->step();
 }
 
 void MainFrame::finish() {

@@ -62,6 +62,8 @@ class MainFrame : public wxFrame {
   void bind_view_commands();
   void on(int command, const std::function<void()>& action);
 
+  void press_key(wxKeyEvent& event);
+
   void refresh();
   void take_news(const ReplaySnapshot& snapshot);
   void enable_commands(const ReplaySnapshot* snapshot);
@@ -73,6 +75,7 @@ class MainFrame : public wxFrame {
   void ask_for_export();
   void ask_for_picture();
   void play_or_pause();
+  void step();
   void finish();
   void restart();
   void set_speed(double speed);
@@ -90,6 +93,7 @@ class MainFrame : public wxFrame {
   std::string told_failure_;     ///< what was said of this run already
   std::vector<std::string> told_warnings_;
   int told_export_ = 0;
+  bool remembered_ = false;  // among the recent logs
   bool exported_ = false;
   bool close_asked_ = false;
   bool close_when_written_ = false;

@@ -4,6 +4,7 @@
 #include <wx/dirdlg.h>
 #include <wx/filedlg.h>
 #include <wx/log.h>
+#include <wx/textentry.h>
 #include <wx/toolbar.h>
 
 #include "about_box.h"
@@ -37,16 +38,26 @@ void MainFrame::bind_commands() {
   bind_file_commands();
   bind_view_commands();
   on(kPlayOrPause, [this] { play_or_pause(); });
-  on(kStep, [this] {
-    shown_frame_.reset();
-    if (replay_) replay_->step();
-  });
+  on(kStep, [this] { step(); });
   on(kFinish, [this] { finish(); });
   on(kRestart, [this] { restart(); });
   for (std::size_t i = 0; i < TransportBar::speeds().size(); ++i)
     on(kSpeed + static_cast<int>(i), [this, i] { set_speed(TransportBar::speeds()[i]); });
+  Bind(wxEVT_CHAR_HOOK, [this](wxKeyEvent& event) { press_key(event); });
   on(kShortcuts, [this] { messages_->say(MessageBar::Kind::kNote, shortcuts_text()); });
   on(kAbout, [this] { wxAboutBox(about_info(), this); });
+}
+
+void MainFrame::press_key(wxKeyEvent& event) {
+  const bool types = dynamic_cast<wxTextEntry*>(wxWindow::FindFocus()) != nullptr;
+  const int command = types || event.HasAnyModifiers() ? wxID_NONE : command_of_key(event.GetKeyCode());
+  if (command == wxID_NONE || !GetMenuBar()->IsEnabled(command)) {
+    event.Skip();
+    return;
+  }
+  wxCommandEvent chosen(wxEVT_MENU, command);
+  chosen.SetEventObject(this);
+  ProcessWindowEvent(chosen);
 }
 
 void MainFrame::bind_file_commands() {

@@ -30,8 +30,8 @@ wxMenu* file_menu(wxMenu* recent) {
 
 wxMenu* run_menu() {
   auto* menu = new wxMenu;
-  menu->Append(kPlayOrPause, "&Play or pause\tSpace");
-  menu->Append(kStep, "&Step one scan\t.");
+  menu->Append(kPlayOrPause, "&Play or pause (Space)");
+  menu->Append(kStep, "&Step one scan (.)");
   menu->Append(kFinish, "&Finish here\tCtrl+Return");
   menu->Append(kRestart, "&Map again from the start\tCtrl+R");
   menu->AppendSeparator();
@@ -48,10 +48,10 @@ wxMenu* run_menu() {
 
 wxMenu* view_menu() {
   auto* menu = new wxMenu;
-  menu->Append(kShowAll, "Show &all of the map\tHome");
-  menu->Append(kFromAbove, "From a&bove\tT");
-  menu->AppendCheckItem(kFollow, "&Follow the robot\tF");
-  menu->AppendCheckItem(kMeasure, "&Measure a distance\tM");
+  menu->Append(kShowAll, "Show &all of the map (Home)");
+  menu->Append(kFromAbove, "From a&bove (T)");
+  menu->AppendCheckItem(kFollow, "&Follow the robot (F)");
+  menu->AppendCheckItem(kMeasure, "&Measure a distance (M)");
   menu->AppendSeparator();
   for (std::size_t i = 0; i < kMapLayers; ++i) {
     const auto layer = static_cast<MapLayer>(i);
@@ -81,6 +81,25 @@ wxMenuBar* make_menu_bar(wxMenu* recent) {
   help->Append(kAbout, "&About psi-slam");
   bar->Append(help, "&Help");
   return bar;
+}
+
+int command_of_key(int key) {
+  switch (key) {
+    case WXK_SPACE:
+      return kPlayOrPause;
+    case '.':
+      return kStep;
+    case WXK_HOME:
+      return kShowAll;
+    case 'T':
+      return kFromAbove;
+    case 'F':
+      return kFollow;
+    case 'M':
+      return kMeasure;
+    default:
+      return wxID_NONE;
+  }
 }
 
 const char* shortcuts_text() {

@@ -39,6 +39,10 @@ enum Command : int {
 /// `recent` is filled and kept by whoever remembers the files.
 wxMenuBar* make_menu_bar(wxMenu* recent);
 
+/// What a key alone stands for, where nobody is typing a text; wxID_NONE for others. (As keys of the menu
+/// they would be taken from text fields, too.)
+int command_of_key(int key);
+
 /// What the keys do, for a person.
 const char* shortcuts_text();
 

@@ -21,6 +21,8 @@ constexpr double kTurnPerPixel_deg = 0.4;
 constexpr double kLowest_deg = 10;       // of the eye above the ground
 constexpr double kFromAbove_deg = 89.9;  // straight above, MRPT's camera does not know where up is
 constexpr double kFollowDistance_m = 25;
+constexpr double kNearShare = 0.2;  // of the eye's distance: nothing nearer is drawn,
+constexpr double kFarShare = 8;     // nor farther
 
 }  // namespace
 
@@ -29,7 +31,6 @@ MapCanvas::MapCanvas(wxWindow* parent) : CWxGLCanvasBase(parent, wxID_ANY) {
   setOpenGLSceneRef(map_scene_.scene());
   setMinimumZoom(static_cast<float>(kNearest_m));
   setMaximumZoom(static_cast<float>(kFarthest_m));
-  map_scene_.scene()->getViewport()->setViewportClipDistances(0.1F, static_cast<float>(2 * kFarthest_m));
   set_camera(MapCamera{});
   bind_mouse();
 }
@@ -141,6 +142,10 @@ void MapCanvas::set_camera(const MapCamera& camera) {
   setAzimuthDegrees(static_cast<float>(camera.azimuth_deg));
   setElevationDegrees(static_cast<float>(std::clamp(camera.elevation_deg, kLowest_deg, kFromAbove_deg)));
   setCameraFOV(static_cast<float>(camera.field_of_view_deg));
+  // Layers are centimetres apart: the depths that OpenGL tells apart lie around the ground.
+  const double distance_m = static_cast<double>(getZoomDistance());
+  map_scene_.scene()->getViewport()->setViewportClipDistances(static_cast<float>(distance_m * kNearShare),
+                                                              static_cast<float>(distance_m * kFarShare));
 }
 
 PictureSize MapCanvas::picture_size() const {
@@ -243,6 +248,12 @@ void MapCanvas::key(wxKeyEvent& event) {
 void MapCanvas::take_picture(std::function<void(const wxImage&)> taken) {
   picture_taken_ = std::move(taken);
   Refresh(false);
+}
+
+/// In pixels of the screen, of which there are several to one of wx's where the desktop is scaled.
+double MapCanvas::renderCanvas(int, int) {
+  const wxSize size = GetClientSize() * GetContentScaleFactor();
+  return CWxGLCanvasBase::renderCanvas(size.GetWidth(), size.GetHeight());
 }
 
 void MapCanvas::OnPostRender() {

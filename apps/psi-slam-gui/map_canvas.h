@@ -50,6 +50,7 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   void on_failure(std::function<void(const std::string&)> told) { told_failure_ = std::move(told); }
 
  private:
+  double renderCanvas(int width, int height) override;
   void OnPostRender() override;
   void OnRenderError(const wxString& text) override;
 

@@ -41,6 +41,7 @@ TransportBar::TransportBar(wxWindow* parent, Actions actions)
     : wxPanel(parent), actions_(std::move(actions)) {
   play_ = button(this, Icon::kPlay, "Play or pause (Space)", actions_.play_or_pause);
   step_ = button(this, Icon::kStep, "Map one more scan (.)", actions_.step);
+  play_->SetName("play");
   finish_ = button(this, Icon::kFinish, "Stop here and finish the map (Ctrl+Return)", actions_.finish);
   speed_ = new wxChoice(this, wxID_ANY);
   speed_->SetToolTip("Speed of the replay, times that of the recording");

@@ -6,11 +6,14 @@
 #include <gtest/gtest.h>
 #include <wx/image.h>
 #include <wx/timer.h>
+#include <wx/uiaction.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -73,6 +76,35 @@ class GuiRun {
       EXPECT_TRUE(image.SaveFile((pictures() / (name + ".png")).string(), wxBITMAP_TYPE_PNG));
     });
   }
+  /// With a real mouse: to a window's point, in shares of its size.
+  GuiRun& mouse_to(const std::string& window, double x_share, double y_share) {
+    then([=](MainFrame& frame) {
+      const wxWindow* const target = wxWindow::FindWindowByName(window, &frame);
+      const wxRect area = target->GetScreenRect();
+      wxUIActionSimulator().MouseMove(area.x + static_cast<long>(area.width * x_share),
+                                      area.y + static_cast<long>(area.height * y_share));
+    });
+    return pause(100);
+  }
+  GuiRun& mouse_down() {
+    then([](MainFrame&) { wxUIActionSimulator().MouseDown(); });
+    return pause(100);
+  }
+  GuiRun& mouse_up() {
+    then([](MainFrame&) { wxUIActionSimulator().MouseUp(); });
+    return pause(100);
+  }
+  /// A key that the window gets before whoever has the focus; without a window manager there is no focus to
+  /// type to.
+  GuiRun& key(int code) {
+    then([code](MainFrame& frame) {
+      wxKeyEvent event(wxEVT_CHAR_HOOK);
+      event.m_keyCode = code;
+      event.SetEventObject(&frame);
+      frame.GetEventHandler()->ProcessEvent(event);
+    });
+    return pause(100);
+  }
   GuiRun& pause(int milliseconds) {
     const auto until = std::make_shared<std::chrono::steady_clock::time_point>();
     then([until, milliseconds](MainFrame&) {
@@ -100,6 +132,9 @@ class GuiRun {
       began_ = std::chrono::steady_clock::now();
     });
     EXPECT_EQ(err.str(), "");
+    const auto gap_ms = std::chrono::duration_cast<std::chrono::milliseconds>(longest_gap_).count();
+    testing::Test::RecordProperty("longest_gap_between_events_ms", static_cast<int>(gap_ms));
+    std::cout << "longest gap between two events: " << gap_ms << " ms\n";
     return code;
   }
 
@@ -124,6 +159,7 @@ class GuiRun {
     if (frame_ == nullptr || busy_) return;
     busy_ = true;
     const auto now = std::chrono::steady_clock::now();
+    if (ticked_.time_since_epoch().count() > 0) longest_gap_ = std::max(longest_gap_, now - ticked_);
     if (next_ < steps_.size() && steps_[next_].condition(*frame_)) {
       ++next_;
       began_ = now;
@@ -131,6 +167,7 @@ class GuiRun {
       ADD_FAILURE() << "step " << next_ << " does not come true: " << steps_[next_].what;
       next_ = steps_.size();
     }
+    ticked_ = std::chrono::steady_clock::now();  // what the step itself took is not the window's
     busy_ = false;
     if (next_ >= steps_.size() && frame_ != nullptr && !closing_) {
       closing_ = true;
@@ -144,6 +181,8 @@ class GuiRun {
   bool busy_ = false;
   bool closing_ = false;
   std::chrono::steady_clock::time_point began_;
+  std::chrono::steady_clock::time_point ticked_;
+  std::chrono::steady_clock::duration longest_gap_{};
   MainFrame* frame_ = nullptr;
   std::unique_ptr<Timer> timer_;
 };

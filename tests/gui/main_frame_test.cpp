@@ -2,6 +2,8 @@
 #include "main_frame.h"
 
 #include <gmock/gmock.h>
+#include <wx/dnd.h>
+#include <wx/statusbr.h>
 
 #include <fstream>
 
@@ -14,6 +16,7 @@
 #include "psi_slam/session/mapping_session.h"
 #include "same_results.h"
 #include "settings_panel.h"
+#include "shared_logs.h"
 
 namespace psi_slam {
 namespace {
@@ -199,6 +202,110 @@ TEST_F(MainFrameTest, the_map_is_looked_at_from_all_sides_and_saved_as_a_picture
   const wxImage image(picture.string());
   ASSERT_TRUE(image.IsOk());
   EXPECT_GT(image.CountColours(), 10UL) << "something is drawn";
+}
+
+TEST_F(MainFrameTest, mouse_and_keys_play_measure_move_and_zoom) {
+  MapCamera before;
+  gui_.when_phase(ReplayPhase::kPaused)
+      .mouse_to("play", 0.5, 0.5)
+      .mouse_down()
+      .mouse_up()
+      .when_phase(ReplayPhase::kFinished)
+      .when("the map is drawn", [](MainFrame& frame) { return frame.replay()->drawn_map() != nullptr; })
+      .key('M')
+      .mouse_to("map", 0.4, 0.5)
+      .mouse_down()
+      .mouse_to("map", 0.6, 0.5)
+      .mouse_up()
+      .screenshot("measured")
+      .then([&](MainFrame& frame) {
+        ASSERT_TRUE(frame.map().measure().has_value());
+        const Measure measure = *frame.map().measure();
+        EXPECT_GT(measure.distance_m(), 1);
+        EXPECT_NEAR(measure.from.y, measure.to.y, 0.1) << "from left to right";
+        EXPECT_THAT(frame.GetStatusBar()->GetStatusText().utf8_string(), HasSubstr(" m"));
+        before = frame.map().camera();
+      })
+      .key('M')
+      .mouse_to("map", 0.5, 0.5)
+      .mouse_down()
+      .mouse_to("map", 0.6, 0.5)
+      .mouse_up()
+      .then([&](MainFrame& frame) {
+        EXPECT_LT(frame.map().camera().target.x, before.target.x) << "the map was moved to the right";
+        EXPECT_NEAR(frame.map().camera().target.y, before.target.y, 0.1);
+      })
+      .then([&](MainFrame& frame) {
+        wxKeyEvent plus(wxEVT_KEY_DOWN);
+        plus.m_keyCode = '+';
+        frame.map().GetEventHandler()->ProcessEvent(plus);
+        EXPECT_LT(frame.map().camera().distance_m, before.distance_m);
+      });
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, a_log_is_dropped_and_found_again_among_the_recent_ones) {
+  const std::string log = room_log(20);
+  gui_.then([=](MainFrame& frame) {
+        auto* const target = dynamic_cast<wxFileDropTarget*>(frame.GetDropTarget());
+        ASSERT_NE(target, nullptr);
+        wxArrayString names;
+        names.Add(log);
+        EXPECT_TRUE(target->OnDropFiles(0, 0, names));
+      })
+      .when_phase(ReplayPhase::kPaused)
+      .command(kStep)
+      .when("one scan", [](MainFrame& frame) { return scans(frame) == 1; })
+      .command(wxID_FILE1)
+      .when("the log anew", [](MainFrame& frame) { return scans(frame) == 0; })
+      .when_phase(ReplayPhase::kPaused);
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
+TEST_F(MainFrameTest, an_earlier_scan_is_looked_at) {
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .then([](MainFrame& frame) { frame.go_to(30); })
+      .command(kLayer + static_cast<int>(MapLayer::kNodes))
+      .screenshot("earlier_scan")
+      .then([](MainFrame& frame) {
+        EXPECT_EQ(scans(frame), 150U);
+        EXPECT_TRUE(frame.map().map_scene().visible(MapLayer::kNodes));
+      });
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, at_twice_the_scaling_all_of_it_is_twice_as_large) {
+  setenv("GDK_SCALE", "2", 1);
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .when("the map is drawn", [](MainFrame& frame) { return frame.replay()->drawn_map() != nullptr; })
+      .then([](MainFrame& frame) { frame.SetSize(1400, 880); })
+      .screenshot("scaling_200")
+      .then([](MainFrame& frame) { EXPECT_EQ(frame.GetContentScaleFactor(), 2); });
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, a_benchmark_log_is_watched) {
+  const auto log = shared_file("fr079.clf.gz");
+  if (!log) GTEST_SKIP() << kNeedsData;
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kLayer + static_cast<int>(MapLayer::kLocalMaps))
+      .command(kPlayOrPause)
+      .when("half of it", [](MainFrame& frame) { return scans(frame) > 2500; })
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kPaused)
+      .pause(1500)
+      .then([](MainFrame& frame) { EXPECT_GT(frame.replay()->snapshot()->loops->size(), 10U); })
+      .then([](MainFrame& frame) { frame.loops().select(frame.loops().table().loop_of(5)); })
+      .screenshot("benchmark_loop")
+      .command(kShowAll)
+      .screenshot("benchmark_log")
+      .command(kFollow)
+      .screenshot("benchmark_follow");
+  EXPECT_EQ(gui_.run({log->string()}), 0);
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ TEST_F(LoopPictureTest, where_it_was_matched_the_scan_lies_on_the_walls_of_the_l
     ASSERT_TRUE(picture.has_value());
     EXPECT_EQ(picture->before.size(), picture->after.size());
     const double after = mean_darkness(picture->local_map, picture->after);
-    EXPECT_GT(after, loop.response * 7 / 8 - 0.1) << "the response is the mean score under the points";
-    EXPECT_GE(after, mean_darkness(picture->local_map, picture->before) - 0.02);
+    EXPECT_GT(after, 0.5 * loop.response) << "what responds is where the local map's scans hit something";
+    EXPECT_GE(after, mean_darkness(picture->local_map, picture->before) - 0.05);
     const auto moved = picture->after.front() - picture->before.front();
     EXPECT_LT(moved.norm(), 2.0);
   }

@@ -38,6 +38,7 @@ class MapSceneTest : public ReplayedRoom {
 };
 
 TEST_F(MapSceneTest, draws_a_finished_run) {
+  scene_.set_visible(MapLayer::kNodes, true);
   EXPECT_TRUE(scene_.show(finished_, map_));
   float x_min = 0, x_max = 0, y_min = 0, y_max = 0;
   first<mrpt::opengl::CTexturedPlane>(MapLayer::kGrid)->getPlaneCorners(x_min, x_max, y_min, y_max);
@@ -94,6 +95,14 @@ TEST_F(MapSceneTest, layers_go_on_and_off) {
     scene_.set_visible(layer, !shown_at_first(layer));
     EXPECT_NE(scene_.visible(layer), shown_at_first(layer)) << name_of(layer);
   }
+}
+
+TEST_F(MapSceneTest, a_layer_that_is_switched_on_is_up_to_date) {
+  scene_.show(finished_, map_);
+  EXPECT_EQ(objects(MapLayer::kConstraints), 0U);
+  scene_.set_visible(MapLayer::kConstraints, true);
+  EXPECT_TRUE(scene_.show(finished_, map_));
+  EXPECT_GT(first<mrpt::opengl::CSetOfLines>(MapLayer::kConstraints)->size(), 50U);
 }
 
 }  // namespace

@@ -43,7 +43,9 @@ void SnapshotMaker::follow(const Mapper& mapper) {
 }
 
 void SnapshotMaker::follow_local_maps(const Mapper& mapper) {
-  catch_up(local_maps_, mapper.memory().local_maps);
+  const std::vector<PlacedLocalMap>& all = mapper.memory().local_maps;
+  for (std::size_t i = local_maps_.size(); i < all.size(); ++i)
+    local_maps_.push_back({all[i].anchor, all[i].first_node, all[i].last_node});
 }
 
 void SnapshotMaker::copy_active(const Mapper& mapper) {
@@ -54,10 +56,10 @@ void SnapshotMaker::copy_active(const Mapper& mapper) {
   copied_active_at_ = time;
   now_.active_local_maps.clear();
   for (const PlacedLocalMap& active : mapper.active_local_maps())
-    if (!active.map->finished())
+    if (active.map->occupancy())
       now_.active_local_maps.push_back(
           {active.id, active.anchor,
-           std::make_shared<mrpt::maps::COccupancyGridMap2D>(active.map->occupancy())});
+           std::make_shared<mrpt::maps::COccupancyGridMap2D>(*active.map->occupancy())});
 }
 
 void SnapshotMaker::take(const MappingResult& result) {

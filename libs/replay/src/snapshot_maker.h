@@ -42,7 +42,7 @@ class SnapshotMaker {
   SharedHistory<FrameRecord> frames_;
   SharedHistory<double> shares_;
   SharedHistory<NodeScan> nodes_;
-  SharedHistory<PlacedLocalMap> local_maps_;
+  SharedHistory<LocalMapRecord> local_maps_;
   std::size_t frames_copied_active_ = 0;
   std::chrono::steady_clock::time_point copied_active_at_;
   bool finished_ = false;

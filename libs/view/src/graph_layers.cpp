@@ -17,12 +17,13 @@ namespace {
 using mrpt::math::TPose2D;
 using mrpt::opengl::CSetOfLines;
 
-constexpr double kConstraintHeight_m = 0.04;
-constexpr double kNodeHeight_m = 0.06;
-constexpr double kLoopHeight_m = 0.08;
-constexpr double kChosenHeight_m = 0.1;
+constexpr double kConstraintHeight_m = 0.1;
+constexpr double kNodeHeight_m = 0.25;
+constexpr double kLoopHeight_m = 0.15;
+constexpr double kChosenHeight_m = 0.4;
 constexpr int kResidualShades = 8;
-constexpr std::uint8_t kFaint = 60;
+constexpr std::uint8_t kFaint = 45;
+constexpr std::uint8_t kClear = 140;  // what lies below is to be seen, too
 
 CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
   auto lines = CSetOfLines::Create();
@@ -60,7 +61,7 @@ void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot) {
   auto lines = lines_of(palette::kConstraint, 1);
   const std::vector<TPose2D>& nodes = *snapshot.map_T_node;
   for (std::size_t i = 0; i < snapshot.local_maps.size(); ++i) {
-    const PlacedLocalMap& map = snapshot.local_maps[i];
+    const LocalMapRecord& map = snapshot.local_maps[i];
     for (std::size_t node = map.first_node; node <= map.last_node && node < nodes.size(); ++node)
       if (node != map.anchor) join(*lines, nodes[map.anchor], nodes[node], kConstraintHeight_m);
   }
@@ -75,9 +76,9 @@ void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopSty
     if (loop.verdict == LoopVerdict::kRefused && !style.refused) continue;
     mrpt::img::TColor colour = colour_of(loop, snapshot, style);
     const bool faint = loop.in_last_pass || loop.verdict == LoopVerdict::kRefused;  // there are so many
-    if (faint) colour.A = kFaint;
+    colour.A = faint ? kFaint : kClear;
     CSetOfLines::Ptr& lines = by_colour[{!faint, colour.R, colour.G, colour.B}];
-    if (!lines) lines = lines_of(colour, faint ? 1.0F : 2.0F);
+    if (!lines) lines = lines_of(colour, faint ? 1.0F : 1.5F);
     join(*lines, snapshot.map_T_node->at(loop.anchor), snapshot.map_T_node->at(loop.node), kLoopHeight_m);
   }
   for (const auto& [key, lines] : by_colour) layer.insert(lines);

@@ -10,7 +10,7 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 
-constexpr double kHeight_m = 0.01;
+constexpr double kHeight_m = 0.03;
 constexpr double kMostOpaque = 200;  // of a wall, out of 255
 constexpr double kFreeOpaque = 70;   // of free space
 

@@ -51,6 +51,7 @@ const mrpt::opengl::CSetOfObjects& MapScene::layer(MapLayer layer) const {
 
 void MapScene::set_visible(MapLayer layer, bool visible) {
   of(layer).setVisibility(visible);
+  if (visible) shown_.snapshot.reset();  // large layers are not drawn while nobody sees them
 }
 
 bool MapScene::visible(MapLayer layer) const {
@@ -93,8 +94,8 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
   if (maps_changed) draw_local_maps(of(MapLayer::kLocalMaps), snapshot);
   if (maps_changed || poses_changed) place_local_maps(of(MapLayer::kLocalMaps), snapshot);
   if (poses_changed) {
-    draw_nodes(of(MapLayer::kNodes), snapshot);
-    draw_constraints(of(MapLayer::kConstraints), snapshot);
+    if (visible(MapLayer::kNodes)) draw_nodes(of(MapLayer::kNodes), snapshot);
+    if (visible(MapLayer::kConstraints)) draw_constraints(of(MapLayer::kConstraints), snapshot);
   }
   const bool loops_changed =
       poses_changed || snapshot.loops != shown_.snapshot->loops || !(loop_style_ == shown_.loop_style);

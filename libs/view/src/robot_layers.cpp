@@ -19,10 +19,10 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPoint3Df;
 using mrpt::math::TPose2D;
 
-constexpr double kScanHeight_m = 0.12;
-constexpr double kRobotHeight_m = 0.14;
-constexpr double kWindowHeight_m = 0.13;
-constexpr double kMeasureHeight_m = 0.16;
+constexpr double kScanHeight_m = 0.3;
+constexpr double kRobotHeight_m = 0.35;
+constexpr double kWindowHeight_m = 0.32;
+constexpr double kMeasureHeight_m = 0.45;
 constexpr double kNose_m = 0.45;  // of the arrow that stands for the robot
 constexpr double kTail_m = -0.25;
 constexpr double kHalfWidth_m = 0.25;

@@ -10,8 +10,8 @@ namespace {
 using mrpt::math::TPoint3D;
 using mrpt::opengl::CSetOfLines;
 
-constexpr double kOdometryHeight_m = 0.03;
-constexpr double kPathHeight_m = 0.05;
+constexpr double kOdometryHeight_m = 0.05;
+constexpr double kPathHeight_m = 0.2;
 constexpr double kShortestLine_m = 0.05;
 
 /// A line through points that come one by one; those next to each other are left out.

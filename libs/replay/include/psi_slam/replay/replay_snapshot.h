@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/local_maps/placed_local_map.h"
 #include "psi_slam/logs/frame.h"
 #include "psi_slam/loop_closure/place_memory.h"
 #include "psi_slam/mapping/mapping_result.h"
@@ -56,7 +55,9 @@ struct ReplaySnapshot {
   HistoryView<FrameRecord> frames;
   HistoryView<double> shares;  ///< of the log that had been read with each of them, in [0, 1]
   HistoryView<NodeScan> nodes;
-  HistoryView<PlacedLocalMap> local_maps;  ///< finished ones
+  /// Finished ones, by number; of what they hold there are the nodes' points. (The engine packs and unpacks
+  /// the maps themselves: nobody else may look at them.)
+  HistoryView<LocalMapRecord> local_maps;
   std::vector<ActiveLocalMap> active_local_maps;
   mrpt::math::TPose2D map_T_robot;
 

@@ -15,7 +15,7 @@
 namespace psi_slam {
 
 struct LoopPicture {
-  MapRaster local_map;                       ///< its scores, dark where walls are; in its own frame
+  MapRaster local_map;                       ///< dark where its scans hit something; in its own frame
   std::vector<mrpt::math::TPoint2D> before;  ///< the scan as predicted, in the local map's frame
   std::vector<mrpt::math::TPoint2D> after;   ///< as matched
 };

@@ -79,6 +79,18 @@ TEST_F(MapSceneTest, colours_loops_by_their_matcher_or_their_residual) {
   EXPECT_EQ(colour().G, heat_colour(0).G) << "loops of a clean simulation fit";
 }
 
+TEST_F(MapSceneTest, draws_the_window_of_the_scan_and_of_the_loops_tried_there) {
+  const auto first_loop = std::find_if(finished_->loops->begin(), finished_->loops->end(),
+                                       [](const LoopRecord& loop) { return !loop.in_last_pass; });
+  ASSERT_NE(first_loop, finished_->loops->end());
+  const auto lines = [&](std::size_t frame) {
+    scene_.show(finished_, map_, frame);
+    return first<mrpt::opengl::CSetOfLines>(MapLayer::kWindows)->size();
+  };
+  EXPECT_EQ(lines(1), 6U) << "four sides, and how far the heading is searched";
+  EXPECT_GE(lines(first_loop->frame), 12U);
+}
+
 TEST_F(MapSceneTest, redraws_nothing_when_nothing_has_changed) {
   scene_.show(finished_, map_);
   const auto grid = *scene_.layer(MapLayer::kGrid).begin();

@@ -17,10 +17,6 @@ namespace {
 using mrpt::math::TPose2D;
 using mrpt::opengl::CSetOfLines;
 
-constexpr double kConstraintHeight_m = 0.1;
-constexpr double kNodeHeight_m = 0.25;
-constexpr double kLoopHeight_m = 0.15;
-constexpr double kChosenHeight_m = 0.4;
 constexpr int kResidualShades = 8;
 constexpr std::uint8_t kFaint = 45;
 constexpr std::uint8_t kClear = 140;  // what lies below is to be seen, too
@@ -32,12 +28,12 @@ CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
   return lines;
 }
 
-void join(CSetOfLines& lines, const TPose2D& a, const TPose2D& b, double height_m) {
-  lines.appendLine(a.x, a.y, height_m, b.x, b.y, height_m);
+void join(CSetOfLines& lines, const TPose2D& a, const TPose2D& b, double z_m) {
+  lines.appendLine(a.x, a.y, z_m, b.x, b.y, z_m);
 }
 
-mrpt::math::TPoint3Df raised(const TPose2D& pose, double height_m) {
-  return {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(height_m)};
+mrpt::math::TPoint3Df raised(const TPose2D& pose, double z_m) {
+  return {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(z_m)};
 }
 
 mrpt::img::TColor colour_of(const LoopRecord& loop, const ReplaySnapshot& snapshot, const LoopStyle& style) {
@@ -52,7 +48,7 @@ mrpt::img::TColor colour_of(const LoopRecord& loop, const ReplaySnapshot& snapsh
 void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot) {
   layer.clear();
   std::vector<mrpt::math::TPoint3Df> points;
-  for (const TPose2D& node : *snapshot.map_T_node) points.push_back(raised(node, kNodeHeight_m));
+  for (const TPose2D& node : *snapshot.map_T_node) points.push_back(raised(node, height_m::kNodes));
   layer.insert(dots_of(points, palette::kNode, 4));
 }
 
@@ -63,7 +59,7 @@ void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot) {
   for (std::size_t i = 0; i < snapshot.local_maps.size(); ++i) {
     const LocalMapRecord& map = snapshot.local_maps[i];
     for (std::size_t node = map.first_node; node <= map.last_node && node < nodes.size(); ++node)
-      if (node != map.anchor) join(*lines, nodes[map.anchor], nodes[node], kConstraintHeight_m);
+      if (node != map.anchor) join(*lines, nodes[map.anchor], nodes[node], height_m::kConstraints);
   }
   layer.insert(lines);
 }
@@ -79,7 +75,7 @@ void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopSty
     colour.A = faint ? kFaint : kClear;
     CSetOfLines::Ptr& lines = by_colour[{!faint, colour.R, colour.G, colour.B}];
     if (!lines) lines = lines_of(colour, faint ? 1.0F : 1.5F);
-    join(*lines, snapshot.map_T_node->at(loop.anchor), snapshot.map_T_node->at(loop.node), kLoopHeight_m);
+    join(*lines, snapshot.map_T_node->at(loop.anchor), snapshot.map_T_node->at(loop.node), height_m::kLoops);
   }
   for (const auto& [key, lines] : by_colour) layer.insert(lines);
 }
@@ -90,10 +86,10 @@ void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::si
   const TPose2D& anchor = snapshot.map_T_node->at(loop.anchor);
   const TPose2D& node = snapshot.map_T_node->at(loop.node);
   auto lines = lines_of(palette::kChosen, 4);
-  join(*lines, anchor, node, kChosenHeight_m);
+  join(*lines, anchor, node, height_m::kChosenLoop);
   layer.insert(lines);
-  layer.insert(
-      dots_of({raised(anchor, kChosenHeight_m), raised(node, kChosenHeight_m)}, palette::kChosen, 10));
+  layer.insert(dots_of({raised(anchor, height_m::kChosenLoop), raised(node, height_m::kChosenLoop)},
+                       palette::kChosen, 10));
 }
 
 }  // namespace psi_slam

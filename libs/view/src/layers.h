@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn into each layer of a map's scene: a layer is emptied and filled anew. Heights keep one layer
-// above the other.
+// What is drawn into each layer of a map's scene: a layer is emptied and filled anew.
 #pragma once
 
 #include <mrpt/opengl/CSetOfObjects.h>
@@ -15,6 +14,21 @@
 namespace psi_slam {
 
 using SceneLayer = mrpt::opengl::CSetOfObjects;
+
+/// Of the layers above the ground, so that none hides in another; low, or perspective would shift them.
+namespace height_m {
+inline constexpr double kLocalMaps = 0.005;
+inline constexpr double kOdometry = 0.01;
+inline constexpr double kConstraints = 0.015;
+inline constexpr double kLoops = 0.02;
+inline constexpr double kTrajectory = 0.025;
+inline constexpr double kNodes = 0.03;
+inline constexpr double kScan = 0.035;
+inline constexpr double kWindows = 0.04;
+inline constexpr double kRobot = 0.045;
+inline constexpr double kChosenLoop = 0.05;
+inline constexpr double kMeasure = 0.055;
+}  // namespace height_m
 
 void draw_grid(SceneLayer& layer, const DrawnMap& map);
 

@@ -10,7 +10,6 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 
-constexpr double kHeight_m = 0.03;
 constexpr double kMostOpaque = 200;  // of a wall, out of 255
 constexpr double kFreeOpaque = 70;   // of free space
 
@@ -48,7 +47,7 @@ void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot) {
   auto plane = layer.begin();
   for (const ActiveLocalMap& active : snapshot.active_local_maps) {
     const mrpt::math::TPose2D pose = snapshot.map_T_node->at(active.anchor);
-    (*plane)->setPose(mrpt::math::TPose3D(pose.x, pose.y, kHeight_m, pose.phi, 0, 0));
+    (*plane)->setPose(mrpt::math::TPose3D(pose.x, pose.y, height_m::kLocalMaps, pose.phi, 0, 0));
     ++plane;
   }
 }

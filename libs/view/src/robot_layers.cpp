@@ -10,6 +10,7 @@
 #include "dots.h"
 #include "layers.h"
 #include "psi_slam/local_maps/scan_filter.h"
+#include "psi_slam/view/frame_pose.h"
 #include "psi_slam/view/palette.h"
 
 namespace psi_slam {
@@ -19,16 +20,12 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPoint3Df;
 using mrpt::math::TPose2D;
 
-constexpr double kScanHeight_m = 0.3;
-constexpr double kRobotHeight_m = 0.35;
-constexpr double kWindowHeight_m = 0.32;
-constexpr double kMeasureHeight_m = 0.45;
 constexpr double kNose_m = 0.45;  // of the arrow that stands for the robot
 constexpr double kTail_m = -0.25;
 constexpr double kHalfWidth_m = 0.25;
 
-TPoint3Df raised(const TPoint2D& point, double height_m) {
-  return {static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(height_m)};
+TPoint3Df raised(const TPoint2D& point, double z_m) {
+  return {static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(z_m)};
 }
 
 /// A rectangle of these half-widths around a pose, along its axes, with the pose's heading and how far it may
@@ -38,7 +35,7 @@ void add_window(mrpt::opengl::CSetOfLines& lines, const TPose2D& map_T_middle, c
                                         TPoint2D(-extent.x_m, -extent.y_m),
                                         TPoint2D(extent.x_m, -extent.y_m)};
   const auto line = [&](const TPoint2D& a, const TPoint2D& b) {
-    lines.appendLine(a.x, a.y, kWindowHeight_m, b.x, b.y, kWindowHeight_m);
+    lines.appendLine(a.x, a.y, height_m::kWindows, b.x, b.y, height_m::kWindows);
   };
   for (std::size_t i = 0; i < corners.size(); ++i)
     line(map_T_middle.composePoint(corners[i]), map_T_middle.composePoint(corners[(i + 1) % corners.size()]));
@@ -54,9 +51,9 @@ void draw_robot(SceneLayer& layer, const TPose2D& map_T_robot) {
   layer.clear();
   auto triangles = mrpt::opengl::CSetOfTriangles::Create();
   triangles->enableLight(false);
-  mrpt::opengl::TTriangle arrow(raised(map_T_robot.composePoint({kNose_m, 0}), kRobotHeight_m),
-                                raised(map_T_robot.composePoint({kTail_m, kHalfWidth_m}), kRobotHeight_m),
-                                raised(map_T_robot.composePoint({kTail_m, -kHalfWidth_m}), kRobotHeight_m));
+  mrpt::opengl::TTriangle arrow(raised(map_T_robot.composePoint({kNose_m, 0}), height_m::kRobot),
+                                raised(map_T_robot.composePoint({kTail_m, kHalfWidth_m}), height_m::kRobot),
+                                raised(map_T_robot.composePoint({kTail_m, -kHalfWidth_m}), height_m::kRobot));
   arrow.setColor(mrpt::img::TColor(palette::kRobot));
   triangles->insertTriangle(arrow);
   layer.insert(triangles);
@@ -71,7 +68,7 @@ void draw_scan(SceneLayer& layer, const Frame& frame, const TPose2D& map_T_robot
   for (const mrpt::math::TPoint2Df& point : matching_points(frame.scan, all).points) {
     const TPoint2D at =
         map_T_robot.composePoint({static_cast<double>(point.x), static_cast<double>(point.y)});
-    points.push_back(raised(at, kScanHeight_m));
+    points.push_back(raised(at, height_m::kScan));
   }
   layer.insert(dots_of(points, palette::kScan, 3));
 }
@@ -81,6 +78,11 @@ void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t
   auto lines = mrpt::opengl::CSetOfLines::Create();
   lines->setColor_u8(palette::kWindow);
   lines->setLineWidth(1.5F);
+  if (frame > 0) {  // the front end searches where odometry predicts the robot
+    const FrameRecord& record = snapshot.frames[frame];
+    const TPose2D motion = record.odom_T_robot - snapshot.frames[frame - 1].odom_T_robot;
+    add_window(*lines, map_T_frame(snapshot, frame - 1) + motion, record.window);
+  }
   for (const LoopRecord& loop : *snapshot.loops)
     if (loop.frame == frame && !loop.in_last_pass)
       add_window(*lines, snapshot.map_T_node->at(loop.anchor) + loop.anchor_T_predicted, loop.window);
@@ -92,10 +94,10 @@ void draw_measure(SceneLayer& layer, const Measure& measure) {
   auto lines = mrpt::opengl::CSetOfLines::Create();
   lines->setColor_u8(palette::kMeasure);
   lines->setLineWidth(2);
-  lines->appendLine(measure.from.x, measure.from.y, kMeasureHeight_m, measure.to.x, measure.to.y,
-                    kMeasureHeight_m);
+  lines->appendLine(measure.from.x, measure.from.y, height_m::kMeasure, measure.to.x, measure.to.y,
+                    height_m::kMeasure);
   layer.insert(lines);
-  layer.insert(dots_of({raised(measure.from, kMeasureHeight_m), raised(measure.to, kMeasureHeight_m)},
+  layer.insert(dots_of({raised(measure.from, height_m::kMeasure), raised(measure.to, height_m::kMeasure)},
                        palette::kMeasure, 8));
 }
 

@@ -26,6 +26,7 @@ namespace {
 constexpr int kBetweenLooks_ms = 50;
 constexpr int kEmptyPage = 0;
 constexpr int kMapPage = 1;
+constexpr const char* kNotExported = "The map has not been exported. Close the window nevertheless?";
 constexpr double kLoopDistance_m = 20;  // of the eye that looks at a chosen loop
 
 class LogDrop : public wxFileDropTarget {
@@ -152,7 +153,7 @@ void MainFrame::open_log(const std::filesystem::path& log) {
   told_export_ = 0;
   remembered_ = false;
   exported_ = false;
-  close_asked_ = false;
+  closes_without_export_ = false;
   loops_->show_nothing();
   plots_->show_nothing();
   settings_of_run_ = settings_file_text(settings_.table);
@@ -294,11 +295,12 @@ void MainFrame::close(wxCloseEvent& event) {
     event.Veto();
     return;
   }
-  if (event.CanVeto() && has_unsaved_map() && !close_asked_ && !close_when_written_) {
-    close_asked_ = true;
-    messages_->say(MessageBar::Kind::kWarning,
-                   "The map has not been exported. Close the window nevertheless?",
-                   {{"Close without exporting", [this] { Close(); }}});
+  const bool asked = messages_->sentence() == kNotExported || closes_without_export_;
+  if (event.CanVeto() && has_unsaved_map() && !asked && !close_when_written_) {
+    messages_->say(MessageBar::Kind::kWarning, kNotExported, {{"Close without exporting", [this] {
+                                                                 closes_without_export_ = true;
+                                                                 Close();
+                                                               }}});
     event.Veto();
     return;
   }

@@ -95,7 +95,7 @@ class MainFrame : public wxFrame {
   int told_export_ = 0;
   bool remembered_ = false;  // among the recent logs
   bool exported_ = false;
-  bool close_asked_ = false;
+  bool closes_without_export_ = false;
   bool close_when_written_ = false;
 
   wxAuiManager panes_;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "background_thread.h"
 #include "psi_slam/logs/open_log.h"
 
 namespace psi_slam {
@@ -23,6 +24,7 @@ std::shared_ptr<const std::vector<TimeUs>> LogOutline::stamps_us() const {
 }
 
 void LogOutline::read(const std::filesystem::path& log, const LogOptions& options) {
+  give_way();
   auto stamps_us = std::make_shared<std::vector<TimeUs>>();
   try {
     const auto source = open_log(log, options);

@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "background_thread.h"
+
 namespace psi_slam {
 namespace {
 
@@ -55,6 +57,7 @@ std::shared_ptr<const DrawnMap> MapPainter::drawn() const {
 }
 
 void MapPainter::work() {
+  give_way();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stop_ || wanted_; });

@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "background_thread.h"
 #include "psi_slam/base/user_error.h"
 #include "snapshot_maker.h"
 
@@ -113,6 +114,7 @@ std::shared_ptr<const ReplaySnapshot> Replay::snapshot() const {
 }
 
 void Replay::run() noexcept {
+  give_way();
   try {
     work();
   } catch (const std::bad_alloc&) {

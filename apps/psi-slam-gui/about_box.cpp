@@ -12,12 +12,12 @@ wxAboutDialogInfo about_info() {
   wxAboutDialogInfo info;
   info.SetName("psi-slam");
   info.SetVersion(PSI_SLAM_VERSION);
-  info.SetDescription(wxString::FromUTF8(
-      std::string() +
+  const wxString what = wxString::FromUTF8(
       "Floor plans from the scans of a 2D lidar and wheel odometry:\n"
       "graph SLAM with genetic loop matching, and the factor \xCE\xA8 that picks the matcher.\n\n"
-      "Built with " +
-      mrpt::system::MRPT_getVersion() + " and " wxVERSION_STRING "."));
+      "Built with ");
+  info.SetDescription(what + wxString::FromUTF8(mrpt::system::MRPT_getVersion()) + " and " +
+                      wxString(wxVERSION_STRING) + ".");
   info.SetLicence("BSD 3-Clause");
   info.SetIcon(program_icon().GetIcon(wxSize(64, 64)));
   return info;

@@ -66,10 +66,8 @@ std::string text_of_value(const Option& option, const wxVariant& value) {
 
 SettingsPanel::SettingsPanel(wxWindow* parent, BoundSettings& settings, Actions actions)
     : wxPanel(parent), settings_(settings), actions_(std::move(actions)) {
-  grid_ = new wxPropertyGrid(this, wxID_ANY, wxDefaultPosition, wxDefaultSize,
-                             wxPG_SPLITTER_AUTO_CENTER | wxPG_TOOLTIPS);
+  grid_ = new wxPropertyGrid(this, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxPG_SPLITTER_AUTO_CENTER);
   grid_->SetName("settings");
-  grid_->SetExtraStyle(wxPG_EX_HELP_AS_TOOLTIPS);
   help_ = new wxStaticText(this, wxID_ANY, kNothingSelected, wxDefaultPosition,
                            FromDIP(wxSize(-1, kHelpHeight)), wxST_NO_AUTORESIZE);
   pending_ = new wxStaticText(this, wxID_ANY, "The map on show has other settings.");

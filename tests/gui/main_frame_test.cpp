@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "../session/room_log.h"
+#include "about_box.h"
 #include "gui_run.h"
 #include "loop_canvas.h"
 #include "loop_inspector.h"
@@ -286,6 +287,17 @@ TEST_F(MainFrameTest, at_twice_the_scaling_all_of_it_is_twice_as_large) {
       .screenshot("scaling_200")
       .then([](MainFrame& frame) { EXPECT_EQ(frame.GetContentScaleFactor(), 2); });
   EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, options_are_explained_and_the_program_says_who_it_is) {
+  gui_.mouse_to("settings", 0.3, 0.25)
+      .mouse_down()
+      .mouse_up()
+      .screenshot("option")
+      .command(kAbout)
+      .screenshot("about");
+  EXPECT_THAT(about_info().GetDescription().utf8_string(), HasSubstr("graph SLAM"));
+  EXPECT_EQ(gui_.run({}), 0);
 }
 
 TEST_F(MainFrameTest, a_benchmark_log_is_watched) {

@@ -15,33 +15,16 @@ constexpr const char* kExamples =
     "  psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0.025\n"
     "  psi-slam --dump-config > my.ini          settings to begin with\n";
 
-void add_settings(CLI::App& app, CommandLine& line) {
-  app.add_option("-c,--config", line.config, "Settings file; without it, the built-in defaults")
-      ->type_name("INI");
-  app.add_option_function<std::vector<std::string>>(
-         "--set",
-         [&line](const std::vector<std::string>& given) {
-           line.settings.insert(line.settings.end(), given.begin(), given.end());
-         },
-         "Change one option; may be given again")
-      ->type_name("SECTION.KEY=VALUE")
-      ->allow_extra_args(false);
+bool is_option(const std::string& argument) {
+  return argument.size() > 1 && argument.front() == '-';
 }
 
 /// Complains about the first argument that is neither the log nor a known option.
 [[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
-  const auto ask = [](const std::optional<std::string>& name) {
-    return name ? "; did you mean \"" + *name + "\"?" : kSeeHelp;
-  };
-  if (argument.size() > 1 && argument.front() == '-') {
-    std::vector<std::string> options;
-    for (const CLI::Option* option : app.get_options())
-      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
-    throw UserError("there is no option \"" + argument + '"' + ask(nearest_name(argument, options)));
-  }
   const auto command = nearest_name(line.log, {"check", "options"});
-  if (command) throw UserError("there is no command \"" + line.log + '"' + ask(command));
-  throw UserError("\"" + argument + "\" is one argument too many" + kSeeHelp);
+  if (command && !is_option(argument))
+    throw UserError("there is no command \"" + line.log + "\"; did you mean \"" + *command + "\"?");
+  throw UserError(unknown_argument_text(argument, app, "psi-slam"));
 }
 
 void check_together(const CommandLine& line, const std::string& log_to_map) {
@@ -60,6 +43,29 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
 
 }  // namespace
 
+void add_settings_options(CLI::App& app, std::string& config, std::vector<std::string>& settings) {
+  app.add_option("-c,--config", config, "Settings file; without it, the built-in defaults")->type_name("INI");
+  app.add_option_function<std::vector<std::string>>(
+         "--set",
+         [&settings](const std::vector<std::string>& given) {
+           settings.insert(settings.end(), given.begin(), given.end());
+         },
+         "Change one option; may be given again")
+      ->type_name("SECTION.KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+std::string unknown_argument_text(const std::string& argument, const CLI::App& app,
+                                  const std::string& program) {
+  const std::string see_help = " (see " + program + " --help)";
+  if (!is_option(argument)) return "\"" + argument + "\" is one argument too many" + see_help;
+  std::vector<std::string> options;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  const auto near = nearest_name(argument, options);
+  return "there is no option \"" + argument + '"' + (near ? "; did you mean \"" + *near + "\"?" : see_help);
+}
+
 CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::App& app) {
   CommandLine line;
   std::string log_to_map;
@@ -67,7 +73,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   app.add_option("LOG", log_to_map, "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped")
       ->type_name("");
   app.add_option("-o,--output", line.output, "Folder for the results, new or empty")->type_name("DIR");
-  add_settings(app, line);
+  add_settings_options(app, line.config, line.settings);
   app.add_option("--seed", line.seed, "The same as --set run.seed=N")->type_name("N");
   app.add_option("--threads", line.threads, "The same as --set run.threads=N")->type_name("N");
   app.add_flag("--force", line.force, "Replace the results in a folder that is not empty");
@@ -82,7 +88,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
       "Tell what a log holds and what looks wrong, with the remedy (exit code 2 when the log breaks off)");
   std::string log_to_check;
   check->add_option("LOG", log_to_check, "Log to look over")->type_name("");
-  add_settings(*check, line);
+  add_settings_options(*check, line.config, line.settings);
   check->add_flag("--json", line.json, "Print the findings as JSON");
 
   CLI::App* const options = app.add_subcommand("options", "Explain every option of the settings files");

@@ -30,4 +30,11 @@ struct CommandLine {
 /// unknown options, and UserError for arguments that do not go together.
 CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::App& app);
 
+/// Adds -c and --set, which fill `config` and `settings`.
+void add_settings_options(CLI::App& app, std::string& config, std::vector<std::string>& settings);
+
+/// What the program says of the first of several arguments that `app` does not know; `program` is its name.
+std::string unknown_argument_text(const std::string& argument, const CLI::App& app,
+                                  const std::string& program);
+
 }  // namespace psi_slam

@@ -12,13 +12,11 @@
 #include "log_check.h"
 #include "progress_line.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/config/apply_settings.h"
-#include "psi_slam/config/ini_file.h"
 #include "psi_slam/config/option_listing.h"
 #include "psi_slam/results/output_folder.h"
 #include "psi_slam/results/summary_json.h"
+#include "psi_slam/session/bound_settings.h"
 #include "psi_slam/session/mapping_session.h"
-#include "psi_slam/session/settings.h"
 
 namespace psi_slam {
 namespace {
@@ -27,20 +25,9 @@ constexpr int kDone = 0;
 constexpr int kFailed = 1;
 constexpr int kWrongUsageOrInput = 2;
 
-/// Settings bound to their table: the two stay where they are.
-struct BoundSettings {
-  BoundSettings() { describe(table, settings); }
-  BoundSettings(const BoundSettings&) = delete;
-  BoundSettings& operator=(const BoundSettings&) = delete;
-
-  Settings settings;
-  OptionTable table;
-};
-
 /// The file's values, overridden by those of the command line.
 void load(const CommandLine& line, BoundSettings& bound) {
-  if (!line.config.empty()) apply(read_ini(line.config), bound.table);
-  for (const std::string& assignment : line.settings) apply_override(assignment, bound.table);
+  bound.load(line.config, line.settings);
   if (line.seed) bound.table.set("run.seed", *line.seed, "--seed");
   if (line.threads) bound.table.set("run.threads", *line.threads, "--threads");
   check(bound.settings);
@@ -100,10 +87,7 @@ int map(const CommandLine& line, const Streams& streams) {
 void dump_config(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
   load(line, bound);
-  streams.out << "; Settings of psi-slam " PSI_SLAM_VERSION
-                 ". Lines that begin with a semicolon are comments.\n"
-              << "; Whatever a file does not set has its default.\n\n"
-              << dump(bound.table);
+  streams.out << settings_file_text(bound.table);
 }
 
 void explain_options(const CommandLine& line, const Streams& streams) {

@@ -7,6 +7,7 @@ cd "$(dirname "$0")/../.."
 packages=(
   build-essential cmake ninja-build pkg-config
   libmrpt-dev mrpt-common libeigen3-dev libopencv-dev libwxgtk3.2-dev
+  libgl1-mesa-dri xauth xvfb
   libcli11-dev nlohmann-json3-dev zlib1g-dev
   libssl-dev libnanoflann-dev libgtest-dev libgmock-dev libbenchmark-dev python3
 )

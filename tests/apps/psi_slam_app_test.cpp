@@ -18,6 +18,7 @@
 #include "psi_slam/base/time_stamp.h"
 #include "psi_slam/pose_graph/g2o_file.h"
 #include "psi_slam/results/trajectory_file.h"
+#include "same_results.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
 
@@ -53,12 +54,7 @@ class PsiSlamApp : public testing::Test {
 
   /// All results of two runs but those that tell times.
   void expect_same_bytes(const std::string& a, const std::string& b) const {
-    for (const char* name : {"trajectory.tum", "trajectory.carmen", "graph.g2o", "map.pgm", "map.yaml",
-                             "map.png", "map.gridmap.gz", "map.simplemap.gz"}) {
-      const std::string bytes = bytes_of(output(a) / name);
-      EXPECT_FALSE(bytes.empty()) << name;
-      EXPECT_TRUE(bytes_of(output(b) / name) == bytes) << name << " of " << b << " differs from " << a;
-    }
+    expect_same_results(output(a), output(b));
   }
 
   std::string room_log(int scans = 60) {

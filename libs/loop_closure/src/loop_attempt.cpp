@@ -42,6 +42,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   loop.local_map = candidate.local_map;
   loop.anchor = local_map.anchor;
   loop.matcher = matcher.name();
+  loop.anchor_T_predicted = candidate.anchor_T_node;
   loop.anchor_T_node = match.map_T_robot;
   loop.covariance = match.covariance;
   loop.window = candidate.extent;

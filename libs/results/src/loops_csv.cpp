@@ -6,7 +6,7 @@
 #include "csv_text.h"
 #include "psi_slam/base/atomic_file.h"
 #include "psi_slam/results/number_text.h"
-#include "verdict_text.h"
+#include "psi_slam/results/verdict_text.h"
 
 namespace psi_slam {
 namespace {

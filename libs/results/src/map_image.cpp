@@ -66,6 +66,11 @@ Pixel colour(const Block& block, int side, const Pixel& unknown) {
   return mixed(ground, kWall, std::min(1.0, static_cast<double>(block.occupied) / side));
 }
 
+/// The raster's own pixels.
+cv::Mat image_of(MapRaster& raster) {
+  return {raster.height_px, raster.width_px, CV_8UC4, raster.pixels.data()};
+}
+
 /// 1, 2 or 5 times a power of ten, at most `length_m`.
 double round_length(double length_m) {
   const double power = std::pow(10, std::floor(std::log10(length_m)));
@@ -125,7 +130,7 @@ SeenCells seen_cells(const COccupancyGridMap2D& grid) {
   return seen;
 }
 
-MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions& options) {
+MapRaster map_raster(const COccupancyGridMap2D& grid, const MapPictureOptions& options) {
   const auto cell_m = static_cast<double>(grid.getResolution());
   const SeenCells seen = seen_cells(grid);
   const int margin = static_cast<int>(std::lround(options.margin_m / cell_m));
@@ -133,14 +138,19 @@ MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions&
   const int y_end = seen.y_end + margin;
   const int width = seen.x_end + margin - x_begin;
   const int height = y_end - (seen.y_begin - margin);
-  const int longer = std::max(width, height);
   const int cells_a_pixel =
-      std::max(1, (longer + options.max_side_px - 1) / std::max(1, options.max_side_px));
-  const int pixels_a_cell = cells_a_pixel > 1 ? 1 : std::max(1, (options.min_side_px + longer - 1) / longer);
+      std::max(1, (std::max(width, height) + options.max_side_px - 1) / std::max(1, options.max_side_px));
 
   const Pixel& unknown = options.transparent_unknown ? kTransparent : kUnknown;
-  cv::Mat image((height + cells_a_pixel - 1) / cells_a_pixel, (width + cells_a_pixel - 1) / cells_a_pixel,
-                CV_8UC4);
+  MapRaster raster;
+  raster.width_px = (width + cells_a_pixel - 1) / cells_a_pixel;
+  raster.height_px = (height + cells_a_pixel - 1) / cells_a_pixel;
+  raster.resolution_m = cell_m * cells_a_pixel;
+  raster.x_min_m = static_cast<double>(grid.getXMin()) + x_begin * cell_m;
+  raster.y_max_m = static_cast<double>(grid.getYMin()) + y_end * cell_m;
+  raster.pixels.resize(sizeof(Pixel) * static_cast<std::size_t>(raster.width_px) *
+                       static_cast<std::size_t>(raster.height_px));
+  cv::Mat image = image_of(raster);
   for (int row = 0; row < image.rows; ++row) {
     auto* pixels = image.ptr<Pixel>(row);
     for (int column = 0; column < image.cols; ++column)
@@ -148,16 +158,26 @@ MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions&
           block_at(grid, x_begin + column * cells_a_pixel, y_end - (row + 1) * cells_a_pixel, cells_a_pixel),
           cells_a_pixel, unknown);
   }
+  return raster;
+}
+
+MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions& options) {
+  MapRaster raster = map_raster(grid, options);
+  cv::Mat image = image_of(raster);
+  const int longer = std::max(image.cols, image.rows);
+  const bool reduced = raster.resolution_m > 1.5 * static_cast<double>(grid.getResolution());
+  const int pixels_a_cell = reduced ? 1 : std::max(1, (options.min_side_px + longer - 1) / longer);
   if (pixels_a_cell > 1) cv::resize(image, image, {}, pixels_a_cell, pixels_a_cell, cv::INTER_NEAREST);
 
   MapPicture picture;
-  picture.resolution_m = cell_m * cells_a_pixel / pixels_a_cell;
+  picture.resolution_m = raster.resolution_m / pixels_a_cell;
+  const Pixel& unknown = options.transparent_unknown ? kTransparent : kUnknown;
   if (options.scale_bar) add_scale_bar(image, picture.resolution_m, unknown);
   picture.png = png_bytes(image, options.transparent_unknown);
   picture.width_px = image.cols;
   picture.height_px = image.rows;
-  picture.x_min_m = static_cast<double>(grid.getXMin()) + x_begin * cell_m;
-  picture.y_max_m = static_cast<double>(grid.getYMin()) + y_end * cell_m;
+  picture.x_min_m = raster.x_min_m;
+  picture.y_max_m = raster.y_max_m;
   return picture;
 }
 

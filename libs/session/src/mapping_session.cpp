@@ -102,6 +102,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
   result_.interrupted = result_.interrupted || scans_left;
   result_.broken_off = broken_off_;
+  stages_of_mapping_ = result_.stages.size();
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {
@@ -113,6 +114,7 @@ void MappingSession::run(const std::atomic<bool>& stop) {
 RunSummary MappingSession::export_to(const OutputFolder& folder) {
   begin(SessionProgress::Phase::kWriting);
   WorkClock clock(work_s_);
+  result_.stages.resize(stages_of_mapping_);
   StageClock drawing_clock("draw map");
   StageClock writing_clock("write results");
   mrpt::maps::COccupancyGridMap2D::Ptr grid;

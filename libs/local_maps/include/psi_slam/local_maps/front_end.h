@@ -116,6 +116,9 @@ class FrontEnd {
   /// Ends the local maps that are still active and returns them, older first.
   std::vector<PlacedLocalMap> finish();
 
+  /// The local maps that scans are inserted into, older first, at most two.
+  const std::vector<PlacedLocalMap>& active() const { return active_; }
+
  private:
   /// The motion since the last scan as odometry reports it, and how far it is from that of a steady robot,
   /// the last step's again: a wheel that slips, an encoder that stalls or catches up, a stamp that is late

@@ -47,6 +47,9 @@ class LocalMap {
   /// scan and ends before ways. Must not be called after finish().
   void insert(const Beams& beams);
 
+  /// What was inserted so far; none once finished.
+  const std::optional<mrpt::maps::COccupancyGridMap2D>& occupancy() const { return grid_; }
+
   /// The score grid of all that was inserted so far.
   const ScoreGrid& scores();
   const ScoreGrid& scores() const { return scores_; }  ///< of a finished map

@@ -28,7 +28,8 @@ struct LoopRecord {
   std::string matcher;        ///< "csm", ...
   bool in_last_pass = false;  ///< by the global pass after the last scan
 
-  mrpt::math::TPose2D anchor_T_node;  ///< as matched
+  mrpt::math::TPose2D anchor_T_predicted;  ///< the node as the graph had it: the middle of the window
+  mrpt::math::TPose2D anchor_T_node;       ///< as matched
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  ///< of anchor_T_node, along the anchor's axes: m, m, rad
   SearchExtent window;          ///< half-widths searched

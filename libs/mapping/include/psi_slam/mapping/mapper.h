@@ -69,6 +69,8 @@ class Mapper {
   const std::vector<Frame>& log() const { return result_.log; }
   const std::vector<FrameRecord>& frames() const { return result_.frames; }
   const std::vector<LoopRecord>& loops() const { return result_.loops; }
+  const PlaceMemory& memory() const { return memory_; }
+  const std::vector<PlacedLocalMap>& active_local_maps() const { return front_end_.active(); }
 
  private:
   void record_factor(FrameRecord& record, const FrontEndStep& step);

@@ -4,8 +4,10 @@
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace psi_slam {
 
@@ -26,6 +28,21 @@ struct MapPicture {
   double y_max_m = 0;
   double resolution_m = 0;  ///< a pixel's side in the map
 };
+
+/// The same as plain pixels, for textures: four bytes each (blue, green, red, opacity), row by row from the
+/// upper left.
+struct MapRaster {
+  int width_px = 0;
+  int height_px = 0;
+  double x_min_m = 0;
+  double y_max_m = 0;
+  double resolution_m = 0;  ///< a pixel's side in the map
+  std::vector<std::uint8_t> pixels;
+};
+
+/// The part of the grid that was seen, with its margin, reduced to `max_side_px` but not enlarged, without
+/// scale bar.
+MapRaster map_raster(const mrpt::maps::COccupancyGridMap2D& grid, const MapPictureOptions& options);
 
 /// Draws the part of the grid that was seen. The same grid gives the same bytes.
 MapPicture map_picture(const mrpt::maps::COccupancyGridMap2D& grid, const MapPictureOptions& options = {});

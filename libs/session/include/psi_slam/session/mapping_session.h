@@ -73,9 +73,9 @@ class MappingSession {
   /// Steps to the end of the log, or, from the first scan on, until `stop` is true; and finishes.
   void run(const std::atomic<bool>& stop);
 
-  /// Draws the map and writes all results. Needs finish(). Throws SystemFailure when the disk does not take
-  /// them. The figures returned are those of summary.json and report.html; their times include all but the
-  /// writing of these two.
+  /// Draws the map and writes all results. Needs finish(); may be called again for another folder. Throws
+  /// SystemFailure when the disk does not take them. The figures returned are those of summary.json and
+  /// report.html; their times include all but the writing of these two.
   RunSummary export_to(const OutputFolder& folder);
 
   /// Until finish(): the poses, the graph and the loops so far.
@@ -106,6 +106,7 @@ class MappingSession {
   double phase_began_s_ = 0;  // of the work
   double work_s_ = 0;         // as of now, pauses between calls left out
   std::size_t scans_ = 0;
+  std::size_t stages_of_mapping_ = 0;  // in result_.stages; those of an export come behind
   bool any_return_ = false;
   bool at_end_ = false;
 };

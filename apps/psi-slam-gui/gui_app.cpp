@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gui_app.h"
+
+#include <wx/app.h>
+#include <wx/cmdline.h>
+#include <wx/fileconf.h>
+#include <wx/filename.h>
+#include <wx/image.h>
+#include <wx/init.h>
+#include <wx/log.h>
+#include <wx/stdpaths.h>
+
+#include <array>
+#include <ostream>
+
+#include "gui_command_line.h"
+#include "main_frame.h"
+#include "psi_slam/base/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kFailed = 1;
+constexpr int kWrongUsageOrInput = 2;
+
+class GuiApp : public wxApp {
+ public:
+  GuiApp(GuiCommandLine line, std::function<void(MainFrame&)> when_shown)
+      : line_(std::move(line)), when_shown_(std::move(when_shown)) {
+    SetAppName("psi-slam-gui");
+    SetAppDisplayName("psi-slam");
+  }
+
+  bool OnInit() override {
+    wxInitAllImageHandlers();
+    wxStandardPaths::Get().SetFileLayout(wxStandardPathsBase::FileLayout_XDG);
+    keep_choices();
+    auto* frame = new MainFrame();  // wx deletes it when it is closed
+    frame->Show();
+    frame->start(line_.log, line_.config, line_.settings);
+    if (when_shown_) frame->CallAfter([this, frame] { when_shown_(*frame); });
+    return true;
+  }
+
+  // Arguments were read before there was any window.
+  void OnInitCmdLine(wxCmdLineParser& parser) override { parser.SetCmdLine(wxString()); }
+
+ private:
+  /// Recent files and the like go where the desktop keeps such things; without that place they are forgotten.
+  static void keep_choices() {
+    const wxLogNull quiet;
+    const wxString folder = wxStandardPaths::Get().GetUserConfigDir();
+    wxFileName::Mkdir(folder, wxS_DIR_DEFAULT, wxPATH_MKDIR_FULL);
+    wxConfigBase::Set(new wxFileConfig("psi-slam-gui", "", folder + "/psi-slam-gui.conf"));
+  }
+
+  GuiCommandLine line_;
+  std::function<void(MainFrame&)> when_shown_;
+};
+
+int run_window(const GuiCommandLine& line, std::ostream& err,
+               const std::function<void(MainFrame&)>& when_shown) {
+  wxApp::SetInstance(new GuiApp(line, when_shown));  // wx deletes it
+  std::string name = "psi-slam-gui";
+  std::array<char*, 2> argv{name.data(), nullptr};
+  int argc = 1;
+  if (!wxEntryStart(argc, argv.data())) {
+    err << "psi-slam-gui: there is no display to open a window on; psi-slam maps without one\n";
+    return kFailed;
+  }
+  int code = kFailed;
+  if (wxTheApp->CallOnInit()) code = wxTheApp->OnRun();
+  wxTheApp->OnExit();
+  delete wxConfigBase::Set(nullptr);
+  wxEntryCleanup();
+  return code;
+}
+
+}  // namespace
+
+int run_gui(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err,
+            const std::function<void(MainFrame&)>& when_shown) {
+  CLI::App app("psi-slam-gui replays a log and shows the map being made.", "psi-slam-gui");
+  try {
+    const GuiCommandLine line = parse_gui_command_line(arguments, app);
+    BoundSettings().load(line.config, line.settings);  // what is wrong with them is told here and now
+    return run_window(line, err, when_shown);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    app.exit(asked, out, err);
+    return kDone;
+  } catch (const CLI::ParseError& error) {
+    err << "psi-slam-gui: " << error.what() << " (see psi-slam-gui --help)\n";
+    return kWrongUsageOrInput;
+  } catch (const UserError& error) {
+    err << "psi-slam-gui: " << error.what() << '\n';
+    return kWrongUsageOrInput;
+  } catch (const std::exception& error) {
+    err << "psi-slam-gui: " << error.what() << '\n';
+    return kFailed;
+  }
+}
+
+}  // namespace psi_slam

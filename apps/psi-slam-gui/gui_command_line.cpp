@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gui_command_line.h"
+
+#include "command_line.h"
+#include "psi_slam/base/user_error.h"
+
+namespace psi_slam {
+
+GuiCommandLine parse_gui_command_line(const std::vector<std::string>& arguments, CLI::App& app) {
+  GuiCommandLine line;
+  app.add_option("LOG", line.log, "Log to open: an MRPT rawlog or a CARMEN log, plain or gzipped")
+      ->type_name("");
+  add_settings_options(app, line.config, line.settings);
+  app.set_version_flag("--version", "psi-slam-gui " PSI_SLAM_VERSION, "Print the version, and exit");
+  app.allow_extras();
+  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+  if (const std::vector<std::string> unknown = app.remaining(); !unknown.empty())
+    throw UserError(unknown_argument_text(unknown.front(), app, "psi-slam-gui"));
+  return line;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_canvas.h"
+
+#include <wx/dcbuffer.h>
+#include <wx/graphics.h>
+#include <wx/settings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "psi_slam/view/palette.h"
+#include "wx_text.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr double kAround_m = 1.5;    // of the local map, around the scan
+constexpr std::size_t kFarOut = 12;  // one of so many points on either side may lie outside the picture
+
+/// What of the ground is drawn, and how large.
+struct Frame2D {
+  double x_min_m = 0;
+  double y_max_m = 0;
+  double px_per_m = 1;
+  double left_px = 0;
+  double top_px = 0;
+
+  double x(double x_m) const { return left_px + (x_m - x_min_m) * px_per_m; }
+  double y(double y_m) const { return top_px + (y_max_m - y_m) * px_per_m; }
+};
+
+/// The least and the largest of the values, but for the few that lie far out.
+std::pair<double, double> bulk(std::vector<double> values) {
+  if (values.empty()) return {0, 0};
+  std::sort(values.begin(), values.end());
+  const std::size_t out = values.size() / kFarOut;
+  return {values[out], values[values.size() - 1 - out]};
+}
+
+/// Both scans with some ground around them, in the middle of the area.
+Frame2D frame_for(const LoopPicture& picture, const wxRect& area) {
+  std::vector<double> x_m;
+  std::vector<double> y_m;
+  for (const auto* scan : {&picture.before, &picture.after})
+    for (const mrpt::math::TPoint2D& point : *scan) {
+      x_m.push_back(point.x);
+      y_m.push_back(point.y);
+    }
+  const auto [x_min, x_max] = bulk(std::move(x_m));
+  const auto [y_min, y_max] = bulk(std::move(y_m));
+  const double width_m = x_max - x_min + 2 * kAround_m;
+  const double height_m = y_max - y_min + 2 * kAround_m;
+  Frame2D frame;
+  frame.px_per_m = std::min(area.width / width_m, area.height / height_m);
+  frame.x_min_m = x_min - kAround_m;
+  frame.y_max_m = y_max + kAround_m;
+  frame.left_px = area.x + (area.width - width_m * frame.px_per_m) / 2;
+  frame.top_px = area.y + (area.height - height_m * frame.px_per_m) / 2;
+  return frame;
+}
+
+wxBitmap bitmap_of(const MapRaster& raster) {
+  wxImage image(raster.width_px, raster.height_px, false);
+  unsigned char* to = image.GetData();
+  for (std::size_t i = 0; i + 3 < raster.pixels.size(); i += 4)
+    for (const std::size_t channel : {2U, 1U, 0U}) *to++ = raster.pixels[i + channel];
+  return wxBitmap(image);
+}
+
+}  // namespace
+
+LoopCanvas::LoopCanvas(wxWindow* parent) : wxPanel(parent) {
+  SetName("loop picture");
+  SetBackgroundStyle(wxBG_STYLE_PAINT);
+  SetMinSize(FromDIP(wxSize(240, 130)));
+  Bind(wxEVT_PAINT, [this](wxPaintEvent&) { paint(); });
+  Bind(wxEVT_SIZE, [this](wxSizeEvent& event) {
+    Refresh();
+    event.Skip();
+  });
+}
+
+void LoopCanvas::show(std::optional<LoopPicture> picture) {
+  picture_ = std::move(picture);
+  local_map_ = picture_ ? bitmap_of(picture_->local_map) : wxBitmap();
+  Refresh();
+}
+
+void LoopCanvas::paint() {
+  wxAutoBufferedPaintDC dc(this);
+  dc.SetBackground(wxBrush(wxSystemSettings::GetColour(wxSYS_COLOUR_WINDOW)));
+  dc.Clear();
+  const wxSize size = GetClientSize();
+  if (!picture_) {
+    dc.SetFont(GetFont());
+    dc.SetTextForeground(wxSystemSettings::GetColour(wxSYS_COLOUR_GRAYTEXT));
+    dc.DrawLabel("Select a loop in the table\nto see its scan on the local map", wxRect(size),
+                 wxALIGN_CENTRE);
+    return;
+  }
+  const std::unique_ptr<wxGraphicsContext> context(wxGraphicsContext::Create(dc));
+  const int half = size.GetWidth() / 2;
+  draw_half(*context, wxRect(0, 0, half, size.GetHeight()), picture_->before, colour_of(palette::kBefore),
+            "Predicted");
+  draw_half(*context, wxRect(half, 0, size.GetWidth() - half, size.GetHeight()), picture_->after,
+            colour_of(palette::kAfter), "Matched");
+  context->SetPen(wxPen(wxSystemSettings::GetColour(wxSYS_COLOUR_BTNSHADOW)));
+  context->StrokeLine(half, 0, half, size.GetHeight());
+}
+
+void LoopCanvas::draw_half(wxGraphicsContext& context, const wxRect& area,
+                           const std::vector<mrpt::math::TPoint2D>& scan, const wxColour& colour,
+                           const wxString& title) const {
+  context.Clip(area.x, area.y, area.width, area.height);
+  const Frame2D frame = frame_for(*picture_, area);
+  const MapRaster& map = picture_->local_map;
+  context.DrawBitmap(local_map_, frame.x(map.x_min_m), frame.y(map.y_max_m),
+                     map.width_px * map.resolution_m * frame.px_per_m,
+                     map.height_px * map.resolution_m * frame.px_per_m);
+  context.SetPen(*wxTRANSPARENT_PEN);
+  context.SetBrush(wxBrush(colour));
+  const double radius = FromDIP(15) / 10.0;
+  for (const mrpt::math::TPoint2D& point : scan)
+    context.DrawEllipse(frame.x(point.x) - radius, frame.y(point.y) - radius, 2 * radius, 2 * radius);
+  context.SetFont(GetFont().Bold(), colour);
+  context.DrawText(title, area.x + FromDIP(6), area.y + FromDIP(4));
+  context.ResetClip();
+}
+
+}  // namespace psi_slam

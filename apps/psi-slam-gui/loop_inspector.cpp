@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_inspector.h"
+
+#include <wx/choice.h>
+#include <wx/sizer.h>
+#include <wx/splitter.h>
+#include <wx/stattext.h>
+
+#include <array>
+#include <utility>
+
+#include "loop_canvas.h"
+#include "psi_slam/results/verdict_text.h"
+#include "psi_slam/view/palette.h"
+#include "wx_text.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr std::array<int, LoopTable::kColumns> kWidths{58, 54, 78, 128, 78, 84, 84, 94, 90, 420};
+constexpr std::array<LoopVerdict, 4> kVerdicts{LoopVerdict::kAccepted, LoopVerdict::kPending,
+                                               LoopVerdict::kRefused, LoopVerdict::kSwitchedOff};
+
+}  // namespace
+
+LoopList::LoopList(wxWindow* parent)
+    : wxListCtrl(parent, wxID_ANY, wxDefaultPosition, wxDefaultSize,
+                 wxLC_REPORT | wxLC_VIRTUAL | wxLC_SINGLE_SEL | wxLC_HRULES) {
+  SetName("loops");
+  for (std::size_t column = 0; column < LoopTable::kColumns; ++column) {
+    const bool is_text = column == LoopTable::kMatcher || column >= LoopTable::kVerdict;
+    AppendColumn(LoopTable::title(column), is_text ? wxLIST_FORMAT_LEFT : wxLIST_FORMAT_RIGHT,
+                 FromDIP(kWidths[column]));
+  }
+}
+
+wxString LoopList::OnGetItemText(long row, long column) const {
+  if (row < 0 || static_cast<std::size_t>(row) >= table.rows()) return "";
+  return text_of(table.text(static_cast<std::size_t>(row), static_cast<std::size_t>(column)));
+}
+
+wxListItemAttr* LoopList::OnGetItemAttr(long row) const {
+  if (row < 0 || static_cast<std::size_t>(row) >= table.rows()) return nullptr;
+  attribute_.SetTextColour(colour_of(verdict_colour(table.loop(static_cast<std::size_t>(row)).verdict)));
+  return &attribute_;
+}
+
+LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<std::size_t>)> chosen)
+    : wxPanel(parent), told_chosen_(std::move(chosen)) {
+  const int gap = FromDIP(4);
+  filter_ = new wxChoice(this, wxID_ANY);
+  filter_->Append("All");
+  for (const LoopVerdict verdict : kVerdicts) filter_->Append(wxString(verdict_text(verdict)).Capitalize());
+  filter_->SetSelection(0);
+  filter_->SetToolTip("Which loops are listed");
+  filter_->Bind(wxEVT_CHOICE, [this](wxCommandEvent&) { filter(); });
+  summary_ = new wxStaticText(this, wxID_ANY, "");
+  actions_ = new wxBoxSizer(wxHORIZONTAL);
+  actions_->Add(filter_, 0, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
+  actions_->Add(summary_, 1, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
+
+  auto* splitter = new wxSplitterWindow(this, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxSP_LIVE_UPDATE);
+  list_ = new LoopList(splitter);
+  canvas_ = new LoopCanvas(splitter);
+  splitter->SetMinimumPaneSize(FromDIP(340));
+  splitter->SplitVertically(list_, canvas_, FromDIP(640));
+  splitter->SetSashGravity(0.6);
+  auto* column = new wxBoxSizer(wxVERTICAL);
+  column->Add(actions_, 0, wxEXPAND);
+  column->Add(splitter, 1, wxEXPAND);
+  SetSizer(column);
+
+  list_->Bind(wxEVT_LIST_ITEM_SELECTED, [this](wxListEvent& event) {
+    if (!selecting_) choose(list_->table.loop_of(static_cast<std::size_t>(event.GetIndex())));
+  });
+  list_->Bind(wxEVT_LIST_COL_CLICK, [this](wxListEvent& event) { sort(event.GetColumn()); });
+  show_nothing();
+}
+
+void LoopInspector::show(const std::shared_ptr<const ReplaySnapshot>& snapshot) {
+  snapshot_ = snapshot;
+  if (list_->table.show(snapshot)) refresh_rows();
+}
+
+void LoopInspector::show_nothing() {
+  choose(std::nullopt);
+  show(std::make_shared<ReplaySnapshot>());
+}
+
+void LoopInspector::choose(std::optional<std::size_t> loop) {
+  selected_ = loop;
+  canvas_->show(loop && snapshot_ ? loop_picture(*snapshot_, *loop) : std::nullopt);
+  told_chosen_(loop);
+}
+
+void LoopInspector::select(std::optional<std::size_t> loop) {
+  choose(loop);
+  refresh_rows();
+  const auto row = loop ? list_->table.row_of(*loop) : std::nullopt;
+  if (row) list_->EnsureVisible(static_cast<long>(*row));
+}
+
+void LoopInspector::sort(int column) {
+  if (column < 0) return;
+  const auto by = static_cast<std::size_t>(column);
+  const bool ascending = list_->table.sorted_by() != by || !list_->table.ascending();
+  list_->table.sort_by(by, ascending);
+  list_->ShowSortIndicator(column, ascending);
+  refresh_rows();
+}
+
+void LoopInspector::filter() {
+  const int choice = filter_->GetSelection();
+  list_->table.set_filter(choice <= 0 ? std::nullopt
+                                      : std::optional(kVerdicts.at(static_cast<std::size_t>(choice - 1))));
+  refresh_rows();
+}
+
+/// The selection stays with its loop, wherever that is now.
+void LoopInspector::refresh_rows() {
+  selecting_ = true;
+  list_->SetItemCount(static_cast<long>(list_->table.rows()));
+  const long before = list_->GetNextItem(-1, wxLIST_NEXT_ALL, wxLIST_STATE_SELECTED);
+  const auto row = selected_ ? list_->table.row_of(*selected_) : std::nullopt;
+  if (before >= 0 && (!row || before != static_cast<long>(*row)))
+    list_->SetItemState(before, 0, wxLIST_STATE_SELECTED);
+  if (row) list_->SetItemState(static_cast<long>(*row), wxLIST_STATE_SELECTED, wxLIST_STATE_SELECTED);
+  selecting_ = false;
+  list_->Refresh();
+  const wxString summary = text_of(list_->table.summary());
+  if (summary_->GetLabel() != summary) summary_->SetLabel(summary);
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every match that loop closing made, in a table, and the one selected as a picture. Room for what can be
+// done with a loop is left in actions().
+#pragma once
+
+#include <wx/listctrl.h>
+#include <wx/panel.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "loop_table.h"
+
+class wxBoxSizer;
+class wxChoice;
+class wxStaticText;
+
+namespace psi_slam {
+
+class LoopCanvas;
+
+/// The table itself: rows are asked for as they come into sight.
+class LoopList : public wxListCtrl {
+ public:
+  explicit LoopList(wxWindow* parent);
+  LoopTable table;
+
+ private:
+  wxString OnGetItemText(long row, long column) const override;
+  wxListItemAttr* OnGetItemAttr(long row) const override;
+  mutable wxListItemAttr attribute_;
+};
+
+class LoopInspector : public wxPanel {
+ public:
+  /// `chosen` is told the index in ReplaySnapshot::loops, or none.
+  LoopInspector(wxWindow* parent, std::function<void(std::optional<std::size_t>)> chosen);
+
+  void show(const std::shared_ptr<const ReplaySnapshot>& snapshot);
+  void show_nothing();
+  void select(std::optional<std::size_t> loop);
+  std::optional<std::size_t> selected() const { return selected_; }
+
+  const LoopTable& table() const { return list_->table; }
+  const LoopCanvas& canvas() const { return *canvas_; }
+  /// The row above the table, for more to do with loops.
+  wxBoxSizer& actions() { return *actions_; }
+
+ private:
+  void choose(std::optional<std::size_t> loop);
+  void sort(int column);
+  void filter();
+  void refresh_rows();
+
+  std::function<void(std::optional<std::size_t>)> told_chosen_;
+  std::shared_ptr<const ReplaySnapshot> snapshot_;
+  std::optional<std::size_t> selected_;
+  bool selecting_ = false;
+  wxBoxSizer* actions_;
+  wxChoice* filter_;
+  wxStaticText* summary_;
+  LoopList* list_;
+  LoopCanvas* canvas_;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_table.h"
+
+#include <algorithm>
+
+#include "psi_slam/results/number_text.h"
+#include "psi_slam/results/verdict_text.h"
+#include "psi_slam/view/loop_residual.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr std::array<const char*, LoopTable::kColumns> kTitles{
+    "Frame",     "Node",      "Local map",    "Matcher", "Response",
+    "Ambiguity", "Moved [m]", "Residual [m]", "Verdict", "Reason"};
+
+}  // namespace
+
+const char* LoopTable::title(std::size_t column) {
+  return kTitles.at(column);
+}
+
+bool LoopTable::show(const std::shared_ptr<const ReplaySnapshot>& snapshot) {
+  const bool same =
+      snapshot_ && snapshot_->loops == snapshot->loops && snapshot_->map_T_node == snapshot->map_T_node;
+  snapshot_ = snapshot;
+  if (!same) arrange();
+  return !same;
+}
+
+void LoopTable::set_filter(std::optional<LoopVerdict> verdict) {
+  filter_ = verdict;
+  arrange();
+}
+
+void LoopTable::sort_by(std::size_t column, bool ascending) {
+  column_ = column;
+  ascending_ = ascending;
+  arrange();
+}
+
+double LoopTable::residual_m(const LoopRecord& loop) const {
+  return loop_residual(loop, *snapshot_->map_T_node).distance_m;
+}
+
+void LoopTable::arrange() {
+  order_.clear();
+  if (!snapshot_) return;
+  const std::vector<LoopRecord>& loops = *snapshot_->loops;
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    if (!filter_ || loops[i].verdict == *filter_) order_.push_back(i);
+  const auto sort = [&](const auto& key) {
+    std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+      return ascending_ ? key(loops[a]) < key(loops[b]) : key(loops[b]) < key(loops[a]);
+    });
+  };
+  switch (column_) {
+    case kFrame:
+      return sort([](const LoopRecord& loop) { return loop.frame; });
+    case kNode:
+      return sort([](const LoopRecord& loop) { return loop.node; });
+    case kLocalMap:
+      return sort([](const LoopRecord& loop) { return loop.local_map; });
+    case kMatcher:
+      return sort([](const LoopRecord& loop) -> const std::string& { return loop.matcher; });
+    case kResponse:
+      return sort([](const LoopRecord& loop) { return loop.response; });
+    case kAmbiguity:
+      return sort([](const LoopRecord& loop) { return loop.ambiguity; });
+    case kMoved:
+      return sort([](const LoopRecord& loop) { return loop.moved_m; });
+    case kResidual:
+      return sort([this](const LoopRecord& loop) { return residual_m(loop); });
+    case kVerdict:
+      return sort([](const LoopRecord& loop) { return std::string(verdict_text(loop.verdict)); });
+    case kReason:
+      return sort([](const LoopRecord& loop) -> const std::string& { return loop.reason; });
+    default:
+      return;
+  }
+}
+
+std::optional<std::size_t> LoopTable::row_of(std::size_t loop) const {
+  const auto found = std::find(order_.begin(), order_.end(), loop);
+  if (found == order_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - order_.begin());
+}
+
+std::string LoopTable::text(std::size_t row, std::size_t column) const {
+  const LoopRecord& loop = this->loop(row);
+  switch (column) {
+    case kFrame:
+      return std::to_string(loop.frame);
+    case kNode:
+      return std::to_string(loop.node);
+    case kLocalMap:
+      return std::to_string(loop.local_map);
+    case kMatcher:
+      return loop.matcher + (loop.in_last_pass ? ", last pass" : "");
+    case kResponse:
+      return fixed_text(loop.response, 3);
+    case kAmbiguity:
+      return fixed_text(loop.ambiguity, 3);
+    case kMoved:
+      return fixed_text(loop.moved_m, 2);
+    case kResidual:
+      return loop.verdict == LoopVerdict::kAccepted ? fixed_text(residual_m(loop), 3) : "";
+    case kVerdict:
+      return verdict_text(loop.verdict);
+    case kReason:
+      return loop.reason;
+    default:
+      return "";
+  }
+}
+
+std::string LoopTable::summary() const {
+  if (!snapshot_ || snapshot_->loops->empty()) return "No place has been seen again yet";
+  std::string text = std::to_string(snapshot_->loops->size()) + " matches:";
+  const char* comma = " ";
+  for (const LoopVerdict verdict :
+       {LoopVerdict::kAccepted, LoopVerdict::kPending, LoopVerdict::kRefused, LoopVerdict::kSwitchedOff}) {
+    const auto count = std::count_if(snapshot_->loops->begin(), snapshot_->loops->end(),
+                                     [&](const LoopRecord& loop) { return loop.verdict == verdict; });
+    if (count == 0) continue;
+    text += comma + std::to_string(count) + ' ' + verdict_text(verdict);
+    comma = ", ";
+  }
+  return text;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The window: the map in the middle with the transport below it, settings on the right, plots and loops
+// below. It looks at the run twenty times a second and never waits for it.
+#pragma once
+
+#include <wx/aui/framemanager.h>
+#include <wx/filehistory.h>
+#include <wx/frame.h>
+#include <wx/timer.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "psi_slam/session/bound_settings.h"
+#include "replay_slot.h"
+
+class wxSimplebook;
+
+namespace psi_slam {
+
+class LoopInspector;
+class MapCanvas;
+class MessageBar;
+class PlotPanel;
+class SettingsPanel;
+class TransportBar;
+
+class MainFrame : public wxFrame {
+ public:
+  MainFrame();
+  ~MainFrame() override;
+
+  /// What the command line asks for; empty names ask for nothing.
+  void start(const std::string& log, const std::string& config, const std::vector<std::string>& settings);
+
+  void open_log(const std::filesystem::path& log);
+  void open_settings(const std::filesystem::path& file);
+  void save_settings(const std::filesystem::path& file);
+  void export_to(const std::filesystem::path& folder, bool replace);
+  void save_picture(const std::filesystem::path& file);
+  /// Shows a scan that was mapped already, or maps up to it.
+  void go_to(std::size_t scan);
+
+  // For those who drive the window.
+  const ReplaySlot& replay() const { return replay_; }
+  BoundSettings& settings() { return settings_; }
+  MapCanvas& map() { return *canvas_; }
+  MessageBar& messages() { return *messages_; }
+  LoopInspector& loops() { return *loops_; }
+  SettingsPanel& settings_panel() { return *settings_panel_; }
+
+ private:
+  void build();
+  wxWindow* build_middle();
+  void build_toolbar();
+  void bind_commands();
+  void bind_file_commands();
+  void bind_view_commands();
+  void on(int command, const std::function<void()>& action);
+
+  void press_key(wxKeyEvent& event);
+
+  void refresh();
+  void take_news(const ReplaySnapshot& snapshot);
+  void enable_commands(const ReplaySnapshot* snapshot);
+  void close(wxCloseEvent& event);
+  bool has_unsaved_map() const;
+
+  void ask_for_log();
+  void ask_for_settings(bool save);
+  void ask_for_export();
+  void ask_for_picture();
+  void play_or_pause();
+  void step();
+  void finish();
+  void restart();
+  void set_speed(double speed);
+  void choose_loop(std::optional<std::size_t> loop);
+  void toggle_pane(wxWindow* window, bool shown);
+  void remember(const std::filesystem::path& log);
+  void tell(const std::string& text);  ///< in the status bar
+
+  BoundSettings settings_;
+  ReplaySlot replay_;
+  std::shared_ptr<const ReplaySnapshot> snapshot_;
+  std::optional<std::size_t> shown_frame_;  ///< looked at instead of the newest
+  double speed_ = 0;
+  std::string settings_of_run_;  ///< as text: to see whether they have changed since
+  std::string told_failure_;     ///< what was said of this run already
+  std::vector<std::string> told_warnings_;
+  int told_export_ = 0;
+  bool remembered_ = false;  // among the recent logs
+  bool exported_ = false;
+  bool closes_without_export_ = false;
+  bool close_when_written_ = false;
+
+  wxAuiManager panes_;
+  wxFileHistory recent_;
+  wxTimer timer_;
+  wxSimplebook* middle_ = nullptr;
+  MessageBar* messages_ = nullptr;
+  MapCanvas* canvas_ = nullptr;
+  TransportBar* transport_ = nullptr;
+  SettingsPanel* settings_panel_ = nullptr;
+  LoopInspector* loops_ = nullptr;
+  PlotPanel* plots_ = nullptr;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the menus and keys of the window do.
+#include <wx/aboutdlg.h>
+#include <wx/dirdlg.h>
+#include <wx/filedlg.h>
+#include <wx/log.h>
+#include <wx/textentry.h>
+#include <wx/toolbar.h>
+
+#include "about_box.h"
+#include "loop_inspector.h"
+#include "main_frame.h"
+#include "main_menu.h"
+#include "map_canvas.h"
+#include "message_bar.h"
+#include "plot_panel.h"
+#include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/results/number_text.h"
+#include "settings_panel.h"
+#include "transport_bar.h"
+#include "wx_text.h"
+
+namespace psi_slam {
+namespace {
+
+const char* const kLogFiles = "Logs (*.log;*.clf;*.rawlog;*.gz)|*.log;*.clf;*.rawlog;*.gz|All files|*";
+const char* const kSettingsFiles = "Settings (*.ini)|*.ini|All files|*";
+
+}  // namespace
+
+void MainFrame::on(int command, const std::function<void()>& action) {
+  Bind(
+      wxEVT_MENU, [action](wxCommandEvent&) { action(); }, command);
+}
+
+void MainFrame::bind_commands() {
+  bind_file_commands();
+  bind_view_commands();
+  on(kPlayOrPause, [this] { play_or_pause(); });
+  on(kStep, [this] { step(); });
+  on(kFinish, [this] { finish(); });
+  on(kRestart, [this] { restart(); });
+  for (std::size_t i = 0; i < TransportBar::speeds().size(); ++i)
+    on(kSpeed + static_cast<int>(i), [this, i] { set_speed(TransportBar::speeds()[i]); });
+  Bind(wxEVT_CHAR_HOOK, [this](wxKeyEvent& event) { press_key(event); });
+  on(kShortcuts, [this] { messages_->say(MessageBar::Kind::kNote, shortcuts_text()); });
+  on(kAbout, [this] { wxAboutBox(about_info(), this); });
+}
+
+void MainFrame::press_key(wxKeyEvent& event) {
+  const bool types = dynamic_cast<wxTextEntry*>(wxWindow::FindFocus()) != nullptr;
+  const int command = types || event.HasAnyModifiers() ? wxID_NONE : command_of_key(event.GetKeyCode());
+  if (command == wxID_NONE || !GetMenuBar()->IsEnabled(command)) {
+    event.Skip();
+    return;
+  }
+  wxCommandEvent chosen(wxEVT_MENU, command);
+  chosen.SetEventObject(this);
+  ProcessWindowEvent(chosen);
+}
+
+void MainFrame::bind_file_commands() {
+  on(kOpenLog, [this] { ask_for_log(); });
+  on(kOpenSettings, [this] { ask_for_settings(false); });
+  on(kSaveSettings, [this] { ask_for_settings(true); });
+  on(kResetSettings, [this] { settings_panel_->reset_all(); });
+  on(kExport, [this] { ask_for_export(); });
+  on(kSavePicture, [this] { ask_for_picture(); });
+  on(kQuit, [this] { Close(); });
+  Bind(
+      wxEVT_MENU,
+      [this](wxCommandEvent& event) {
+        const auto index = static_cast<std::size_t>(event.GetId() - recent_.GetBaseId());
+        if (index < recent_.GetCount()) open_log(path_of(recent_.GetHistoryFile(index)));
+      },
+      recent_.GetBaseId(), recent_.GetBaseId() + recent_.GetMaxFiles());
+}
+
+void MainFrame::bind_view_commands() {
+  on(kShowAll, [this] { canvas_->show_all(); });
+  on(kFromAbove, [this] { canvas_->look_from_above(); });
+  on(kFollow, [this] { canvas_->set_follow(!canvas_->follows()); });
+  on(kMeasure, [this] {
+    canvas_->set_measuring(!canvas_->measuring());
+    GetMenuBar()->Check(kMeasure, canvas_->measuring());
+    GetToolBar()->ToggleTool(kMeasure, canvas_->measuring());
+    tell(canvas_->measuring() ? "Drag in the map to measure" : shortcuts_text());
+  });
+  canvas_->on_followed([this](bool follows) {
+    GetMenuBar()->Check(kFollow, follows);
+    GetToolBar()->ToggleTool(kFollow, follows);
+  });
+  canvas_->on_measured([this](const Measure& measure) { tell(fixed_text(measure.distance_m(), 2) + " m"); });
+  canvas_->on_failure(
+      [this](const std::string& sentence) { messages_->say(MessageBar::Kind::kError, sentence); });
+  for (std::size_t i = 0; i < kMapLayers; ++i)
+    on(kLayer + static_cast<int>(i), [this, i] {
+      const auto layer = static_cast<MapLayer>(i);
+      canvas_->map_scene().set_visible(layer, GetMenuBar()->IsChecked(kLayer + static_cast<int>(i)));
+      canvas_->Refresh(false);
+    });
+  for (const int command : {kRefusedLoops, kLoopsByMatcher, kLoopsByResidual})
+    on(command, [this] {
+      LoopStyle style;
+      style.refused = GetMenuBar()->IsChecked(kRefusedLoops);
+      if (GetMenuBar()->IsChecked(kLoopsByResidual)) style.colour = LoopStyle::Colour::kResidual;
+      canvas_->map_scene().set_loop_style(style);
+    });
+  on(kPaneSettings, [this] { toggle_pane(settings_panel_, GetMenuBar()->IsChecked(kPaneSettings)); });
+  on(kPaneLoops, [this] { toggle_pane(loops_, GetMenuBar()->IsChecked(kPaneLoops)); });
+  on(kPanePlots, [this] { toggle_pane(plots_, GetMenuBar()->IsChecked(kPanePlots)); });
+  panes_.Bind(wxEVT_AUI_PANE_CLOSE, [this](wxAuiManagerEvent& event) {
+    for (const auto& [window, command] : std::initializer_list<std::pair<wxWindow*, int>>{
+             {settings_panel_, kPaneSettings}, {loops_, kPaneLoops}, {plots_, kPanePlots}})
+      if (event.GetPane()->window == window) GetMenuBar()->Check(command, false);
+  });
+}
+
+void MainFrame::ask_for_log() {
+  wxFileDialog dialog(this, "Open a log", "", "", kLogFiles, wxFD_OPEN | wxFD_FILE_MUST_EXIST);
+  if (dialog.ShowModal() == wxID_OK) open_log(path_of(dialog.GetPath()));
+}
+
+void MainFrame::ask_for_settings(bool save) {
+  wxFileDialog dialog(this, save ? "Save the settings" : "Open settings", "", save ? "my.ini" : "",
+                      kSettingsFiles,
+                      save ? wxFD_SAVE | wxFD_OVERWRITE_PROMPT : wxFD_OPEN | wxFD_FILE_MUST_EXIST);
+  if (dialog.ShowModal() != wxID_OK) return;
+  save ? save_settings(path_of(dialog.GetPath())) : open_settings(path_of(dialog.GetPath()));
+}
+
+void MainFrame::ask_for_export() {
+  wxDirDialog dialog(this, "Folder for the results, new or empty");
+  if (dialog.ShowModal() == wxID_OK) export_to(path_of(dialog.GetPath()), false);
+}
+
+void MainFrame::ask_for_picture() {
+  wxFileDialog dialog(this, "Save a picture of the view", "", "view.png", "PNG (*.png)|*.png",
+                      wxFD_SAVE | wxFD_OVERWRITE_PROMPT);
+  if (dialog.ShowModal() == wxID_OK) save_picture(path_of(dialog.GetPath()));
+}
+
+void MainFrame::open_settings(const std::filesystem::path& file) {
+  try {
+    BoundSettings fresh;  // what the file does not set has its default
+    fresh.load(file, {});
+    settings_.settings = fresh.settings;
+    settings_panel_->refresh();
+    messages_->say(MessageBar::Kind::kNote, "The settings are those of " + file.string());
+    if (replay_) settings_panel_->show_pending(settings_file_text(settings_.table) != settings_of_run_);
+  } catch (const UserError& error) {
+    messages_->say(MessageBar::Kind::kError, error.what());
+  }
+}
+
+void MainFrame::save_settings(const std::filesystem::path& file) {
+  try {
+    write_text_atomically(file, settings_file_text(settings_.table));
+    messages_->say(MessageBar::Kind::kNote, "The settings are in " + file.string());
+  } catch (const SystemFailure& failure) {
+    messages_->say(MessageBar::Kind::kError, failure.what());
+  }
+}
+
+void MainFrame::save_picture(const std::filesystem::path& file) {
+  canvas_->take_picture([this, file](const wxImage& picture) {
+    try {
+      write_atomically(file, [&](const std::filesystem::path& path) {
+        const wxLogNull quiet;  // what goes wrong is told in the bar
+        picture.SaveFile(text_of(path), wxBITMAP_TYPE_PNG);
+      });
+      messages_->say(MessageBar::Kind::kNote, "The picture is " + file.string());
+    } catch (const SystemFailure& failure) {
+      messages_->say(MessageBar::Kind::kError, failure.what());
+    }
+  });
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The window's menus, with their keys.
+#pragma once
+
+#include <wx/menu.h>
+
+#include "psi_slam/view/map_scene.h"
+
+namespace psi_slam {
+
+enum Command : int {
+  kOpenLog = wxID_OPEN,
+  kExport = wxID_SAVE,
+  kQuit = wxID_EXIT,
+  kAbout = wxID_ABOUT,
+  kOpenSettings = wxID_HIGHEST + 100,
+  kSaveSettings,
+  kResetSettings,
+  kSavePicture,
+  kPlayOrPause,
+  kStep,
+  kFinish,
+  kRestart,
+  kSpeed,                // and one more for each of the speeds
+  kLayer = kSpeed + 20,  // and one more for each layer
+  kLoopsByMatcher = kLayer + 20,
+  kLoopsByResidual,
+  kRefusedLoops,
+  kShowAll,
+  kFromAbove,
+  kFollow,
+  kMeasure,
+  kPaneSettings,
+  kPaneLoops,
+  kPanePlots,
+  kShortcuts,
+};
+
+/// `recent` is filled and kept by whoever remembers the files.
+wxMenuBar* make_menu_bar(wxMenu* recent);
+
+/// What a key alone stands for, where nobody is typing a text; wxID_NONE for others. (As keys of the menu
+/// they would be taken from text fields, too.)
+int command_of_key(int key);
+
+/// What the keys do, for a person.
+const char* shortcuts_text();
+
+}  // namespace psi_slam

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_canvas.h"
+
+#include <GL/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "psi_slam/view/frame_pose.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr double kZoomPerNotch = 1.25;
+constexpr double kNearest_m = 1;
+constexpr double kFarthest_m = 5000;
+constexpr double kTurnPerPixel_deg = 0.4;
+constexpr double kLowest_deg = 10;       // of the eye above the ground
+constexpr double kFromAbove_deg = 89.9;  // straight above, MRPT's camera does not know where up is
+constexpr double kFollowDistance_m = 25;
+constexpr double kNearShare = 0.2;  // of the eye's distance: nothing nearer is drawn,
+constexpr double kFarShare = 8;     // nor farther
+
+}  // namespace
+
+MapCanvas::MapCanvas(wxWindow* parent) : CWxGLCanvasBase(parent, wxID_ANY) {
+  SetName("map");
+  setOpenGLSceneRef(map_scene_.scene());
+  setMinimumZoom(static_cast<float>(kNearest_m));
+  setMaximumZoom(static_cast<float>(kFarthest_m));
+  set_camera(MapCamera{});
+  bind_mouse();
+}
+
+void MapCanvas::bind_mouse() {
+  Bind(wxEVT_LEFT_DOWN, [this](wxMouseEvent& event) { press(event, true); });
+  Bind(wxEVT_RIGHT_DOWN, [this](wxMouseEvent& event) { press(event, false); });
+  Bind(wxEVT_MIDDLE_DOWN, [this](wxMouseEvent& event) { press(event, false); });
+  for (const auto& up : {wxEVT_LEFT_UP, wxEVT_RIGHT_UP, wxEVT_MIDDLE_UP})
+    Bind(up, [this](wxMouseEvent&) { release(); });
+  Bind(wxEVT_MOTION, [this](wxMouseEvent& event) { move(event); });
+  Bind(wxEVT_MOUSEWHEEL, [this](wxMouseEvent& event) { zoom(event); });
+  Bind(wxEVT_MOUSE_CAPTURE_LOST, [this](wxMouseCaptureLostEvent&) { drag_ = Drag::kNone; });
+  Bind(wxEVT_KEY_DOWN, [this](wxKeyEvent& event) { key(event); });
+  Bind(wxEVT_CHAR, [](wxKeyEvent& event) { event.Skip(false); });  // MRPT's own keys stay out of it
+}
+
+void MapCanvas::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
+                     const std::shared_ptr<const DrawnMap>& map, std::optional<std::size_t> frame) {
+  const bool changed = map_scene_.show(snapshot, map, frame);
+  if (!changed) return;
+  map_ = map;
+  robot_.reset();
+  if (!snapshot->frames.empty()) {
+    const std::size_t last = snapshot->frames.size() - 1;
+    const mrpt::math::TPose2D pose = map_T_frame(*snapshot, std::min(frame.value_or(last), last));
+    robot_ = mrpt::math::TPoint2D(pose.x, pose.y);
+  }
+  if (follow_ && robot_) {
+    setCameraPointing(static_cast<float>(robot_->x), static_cast<float>(robot_->y), 0);
+  } else if (fit_) {
+    fit();
+  }
+  Refresh(false);
+}
+
+void MapCanvas::show_all() {
+  set_follow(false);
+  fit_ = true;
+  fit();
+  Refresh(false);
+}
+
+void MapCanvas::fit() {
+  if (!map_ || map_->raster.width_px == 0) {
+    if (robot_) setCameraPointing(static_cast<float>(robot_->x), static_cast<float>(robot_->y), 0);
+    return;
+  }
+  const MapRaster& raster = map_->raster;
+  GroundRectangle all;
+  all.min = {raster.x_min_m, raster.y_max_m - raster.height_px * raster.resolution_m};
+  all.max = {raster.x_min_m + raster.width_px * raster.resolution_m, raster.y_max_m};
+  set_camera(camera_above(all, picture_size()));
+}
+
+void MapCanvas::look_from_above() {
+  MapCamera camera = this->camera();
+  camera.azimuth_deg = -90;
+  camera.elevation_deg = 90;
+  set_camera(camera);
+  Refresh(false);
+}
+
+void MapCanvas::set_follow(bool follow) {
+  if (follow == follow_) return;
+  follow_ = follow;
+  fit_ = false;
+  if (follow) {
+    MapCamera camera = this->camera();
+    if (robot_) camera.target = *robot_;
+    camera.distance_m = std::min(camera.distance_m, kFollowDistance_m);
+    set_camera(camera);
+  }
+  if (told_follow_) told_follow_(follow);
+  Refresh(false);
+}
+
+void MapCanvas::set_measuring(bool measuring) {
+  measuring_ = measuring;
+  if (!measuring) measure_.reset();
+  map_scene_.set_measure(measure_);
+  SetCursor(wxCursor(measuring ? wxCURSOR_CROSS : wxCURSOR_ARROW));
+  Refresh(false);
+}
+
+void MapCanvas::look_at(const mrpt::math::TPoint2D& place, double distance_m) {
+  set_follow(false);
+  fit_ = false;
+  MapCamera camera = this->camera();
+  camera.target = place;
+  camera.distance_m = distance_m;
+  set_camera(camera);
+  Refresh(false);
+}
+
+MapCamera MapCanvas::camera() const {
+  MapCamera camera;
+  camera.target = {static_cast<double>(getCameraPointingX()), static_cast<double>(getCameraPointingY())};
+  camera.distance_m = static_cast<double>(getZoomDistance());
+  camera.azimuth_deg = static_cast<double>(getAzimuthDegrees());
+  camera.elevation_deg = static_cast<double>(getElevationDegrees());
+  camera.field_of_view_deg = static_cast<double>(cameraFOV());
+  return camera;
+}
+
+void MapCanvas::set_camera(const MapCamera& camera) {
+  setCameraPointing(static_cast<float>(camera.target.x), static_cast<float>(camera.target.y), 0);
+  setZoomDistance(static_cast<float>(std::clamp(camera.distance_m, kNearest_m, kFarthest_m)));
+  setAzimuthDegrees(static_cast<float>(camera.azimuth_deg));
+  setElevationDegrees(static_cast<float>(std::clamp(camera.elevation_deg, kLowest_deg, kFromAbove_deg)));
+  setCameraFOV(static_cast<float>(camera.field_of_view_deg));
+  // Layers are centimetres apart: the depths that OpenGL tells apart lie around the ground.
+  const double distance_m = static_cast<double>(getZoomDistance());
+  map_scene_.scene()->getViewport()->setViewportClipDistances(static_cast<float>(distance_m * kNearShare),
+                                                              static_cast<float>(distance_m * kFarShare));
+}
+
+PictureSize MapCanvas::picture_size() const {
+  const wxSize size = GetClientSize();
+  return {std::max(1, size.GetWidth()), std::max(1, size.GetHeight())};
+}
+
+std::optional<mrpt::math::TPoint2D> MapCanvas::ground(const wxMouseEvent& event) const {
+  return ground_at(camera(), picture_size(), event.GetX(), event.GetY());
+}
+
+void MapCanvas::press(wxMouseEvent& event, bool left) {
+  SetFocus();
+  dragged_from_ = event.GetPosition();
+  drag_ = left ? Drag::kMove : Drag::kTurn;
+  if (left && measuring_) {
+    drag_ = Drag::kMeasure;
+    if (const auto place = ground(event)) measure_ = Measure{*place, *place};
+  }
+  if (!HasCapture()) CaptureMouse();
+}
+
+void MapCanvas::release() {
+  drag_ = Drag::kNone;
+  if (HasCapture()) ReleaseMouse();
+}
+
+void MapCanvas::move(wxMouseEvent& event) {
+  if (drag_ == Drag::kNone) return;
+  const std::optional<mrpt::math::TPoint2D> place = ground(event);
+  MapCamera camera = this->camera();
+  const wxPoint from = dragged_from_;
+  if (drag_ == Drag::kMeasure && place && measure_) {
+    measure_->to = *place;
+    map_scene_.set_measure(measure_);
+    if (told_measure_) told_measure_(*measure_);
+  } else if (drag_ == Drag::kMove) {
+    const auto before = ground_at(camera, picture_size(), from.x, from.y);
+    if (before && place) move_target(*before - *place);
+  } else if (drag_ == Drag::kTurn) {
+    fit_ = false;
+    camera.azimuth_deg -= kTurnPerPixel_deg * (event.GetX() - from.x);
+    camera.elevation_deg += kTurnPerPixel_deg * (event.GetY() - from.y);
+    set_camera(camera);
+  }
+  dragged_from_ = event.GetPosition();
+  Refresh(false);
+}
+
+void MapCanvas::move_target(const mrpt::math::TPoint2D& by) {
+  set_follow(false);
+  fit_ = false;
+  MapCamera camera = this->camera();
+  camera.target = camera.target + by;
+  set_camera(camera);
+}
+
+void MapCanvas::zoom(wxMouseEvent& event) {
+  const double notches = static_cast<double>(event.GetWheelRotation()) / std::max(1, event.GetWheelDelta());
+  const auto before = ground(event);
+  MapCamera camera = this->camera();
+  camera.distance_m *= std::pow(kZoomPerNotch, -notches);
+  fit_ = false;
+  set_camera(camera);
+  const auto after = ground(event);
+  if (!follow_ && before && after) move_target(*before - *after);
+  Refresh(false);
+}
+
+void MapCanvas::key(wxKeyEvent& event) {
+  MapCamera camera = this->camera();
+  const double step = camera.distance_m / 20;
+  switch (event.GetKeyCode()) {
+    case WXK_LEFT:
+      return move_target({-step, 0}), Refresh(false);
+    case WXK_RIGHT:
+      return move_target({step, 0}), Refresh(false);
+    case WXK_UP:
+      return move_target({0, step}), Refresh(false);
+    case WXK_DOWN:
+      return move_target({0, -step}), Refresh(false);
+    case '+':
+    case '=':
+    case WXK_NUMPAD_ADD:
+      camera.distance_m /= kZoomPerNotch;
+      break;
+    case '-':
+    case WXK_NUMPAD_SUBTRACT:
+      camera.distance_m *= kZoomPerNotch;
+      break;
+    default:
+      event.Skip();
+      return;
+  }
+  fit_ = false;
+  set_camera(camera);
+  Refresh(false);
+}
+
+void MapCanvas::take_picture(std::function<void(const wxImage&)> taken) {
+  picture_taken_ = std::move(taken);
+  Refresh(false);
+}
+
+/// In pixels of the screen, of which there are several to one of wx's where the desktop is scaled.
+double MapCanvas::renderCanvas(int, int) {
+  const wxSize size = GetClientSize() * GetContentScaleFactor();
+  return CWxGLCanvasBase::renderCanvas(size.GetWidth(), size.GetHeight());
+}
+
+void MapCanvas::OnPostRender() {
+  if (!picture_taken_) return;
+  std::array<GLint, 4> viewport{};
+  glGetIntegerv(GL_VIEWPORT, viewport.data());
+  const int width = viewport[2];
+  const int height = viewport[3];
+  std::vector<unsigned char> pixels(std::size_t{3} * static_cast<std::size_t>(width * height));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+  wxImage image(width, height, false);
+  std::copy(pixels.begin(), pixels.end(), image.GetData());
+  CallAfter([taken = std::exchange(picture_taken_, {}), picture = image.Mirror(false)] { taken(picture); });
+}
+
+void MapCanvas::OnRenderError(const wxString& text) {
+  if (told_of_failure_ || !told_failure_) return;
+  told_of_failure_ = true;
+  told_failure_("OpenGL cannot draw the map: " + text.utf8_string());
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The run that the window shows. Another one takes its place at once, however busy the one before still is.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "psi_slam/replay/replay.h"
+
+namespace psi_slam {
+
+class ReplaySlot {
+ public:
+  /// Null as long as no log is open.
+  Replay* operator->() const { return replay_.get(); }
+  explicit operator bool() const { return replay_ != nullptr; }
+
+  void open(const std::filesystem::path& log, const Settings& settings);
+  void close();
+
+  /// Lets go of closed runs whose threads have ended; to be called now and then.
+  void tidy();
+
+ private:
+  std::unique_ptr<Replay> replay_;
+  std::vector<std::unique_ptr<Replay>> closing_;
+};
+
+}  // namespace psi_slam

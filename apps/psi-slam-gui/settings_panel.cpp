@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "settings_panel.h"
+
+#include <wx/button.h>
+#include <wx/menu.h>
+#include <wx/propgrid/propgrid.h>
+#include <wx/sizer.h>
+#include <wx/stattext.h>
+
+#include <utility>
+
+#include "psi_slam/base/user_error.h"
+#include "wx_text.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr const char* kWhere = "Settings";  // where a refused value stands
+
+constexpr const char* kNothingSelected = "Select an option to read what it means. Right-click resets it.";
+constexpr int kHelpHeight = 72;
+
+std::string help_of(const Option& option) {
+  return option.name() + ": " + option.help + ".\n" + option.values() + "; default " +
+         (option.default_text.empty() ? "empty" : option.default_text) + '.';
+}
+
+/// "window" of the key "window_m", with its unit behind.
+wxString label_of(const Option& option) {
+  return text_of(option.unit.empty() ? option.key : option.key + "  [" + option.unit + ']');
+}
+
+/// A property whose value is the option's text, exactly as in a settings file.
+wxPGProperty* property_for(const Option& option) {
+  const wxString label = label_of(option);
+  const wxString name = text_of(option.name());
+  if (option.type == OptionType::kFlag) {
+    auto* flag = new wxBoolProperty(label, name, option.text() == "true");
+    flag->SetAttribute(wxPG_BOOL_USE_CHECKBOX, true);
+    return flag;
+  }
+  if (option.type == OptionType::kChoice) {
+    wxPGChoices choices;
+    for (const std::string& choice : option.choices) choices.Add(text_of(choice));
+    return new wxEnumProperty(label, name, choices);
+  }
+  return new wxStringProperty(label, name, text_of(option.text()));
+}
+
+wxVariant value_of(const Option& option) {
+  if (option.type == OptionType::kFlag) return {option.text() == "true"};
+  if (option.type != OptionType::kChoice) return {text_of(option.text())};
+  const std::string text = option.text();
+  for (std::size_t i = 0; i < option.choices.size(); ++i)
+    if (option.choices[i] == text) return {static_cast<long>(i)};
+  return {0L};
+}
+
+std::string text_of_value(const Option& option, const wxVariant& value) {
+  if (option.type == OptionType::kFlag) return value.GetBool() ? "true" : "false";
+  if (option.type == OptionType::kChoice) return option.choices.at(static_cast<std::size_t>(value.GetLong()));
+  return value.GetString().utf8_string();
+}
+
+}  // namespace
+
+SettingsPanel::SettingsPanel(wxWindow* parent, BoundSettings& settings, Actions actions)
+    : wxPanel(parent), settings_(settings), actions_(std::move(actions)) {
+  grid_ = new wxPropertyGrid(this, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxPG_SPLITTER_AUTO_CENTER);
+  grid_->SetName("settings");
+  help_ = new wxStaticText(this, wxID_ANY, kNothingSelected, wxDefaultPosition,
+                           FromDIP(wxSize(-1, kHelpHeight)), wxST_NO_AUTORESIZE);
+  pending_ = new wxStaticText(this, wxID_ANY, "The map on show has other settings.");
+  restart_ = new wxButton(this, wxID_ANY, "Map again");
+  restart_->SetToolTip("Start over with these settings (Ctrl+R)");
+  restart_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { actions_.restart(); });
+  const int gap = FromDIP(4);
+  auto* row = new wxBoxSizer(wxHORIZONTAL);
+  row->Add(pending_, 1, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
+  row->Add(restart_, 0, wxALL, gap);
+  auto* column = new wxBoxSizer(wxVERTICAL);
+  column->Add(grid_, 1, wxEXPAND);
+  column->Add(help_, 0, wxEXPAND | wxALL, 2 * gap);
+  column->Add(row, 0, wxEXPAND);
+  SetSizer(column);
+  add_options();
+  grid_->Bind(wxEVT_PG_SELECTED, [this](wxPropertyGridEvent& event) {
+    const wxPGProperty* const property = event.GetProperty();
+    help_->SetLabel(property == nullptr ? wxString(kNothingSelected) : property->GetHelpString());
+    help_->Wrap(GetClientSize().GetWidth() - FromDIP(16));
+  });
+  grid_->Bind(wxEVT_PG_CHANGING, [this](wxPropertyGridEvent& event) { changing(event); });
+  grid_->Bind(wxEVT_PG_RIGHT_CLICK, [this](wxPropertyGridEvent& event) { show_context_menu(event); });
+  show_pending(false);
+}
+
+void SettingsPanel::add_options() {
+  for (const OptionSection& section : settings_.table.sections()) {
+    auto* heading = new wxPropertyCategory(text_of("[" + section.name + "]"), text_of(section.name));
+    heading->SetHelpString(text_of(section.title));
+    grid_->Append(heading);
+    for (const Option& option : section.options) {
+      wxPGProperty* property = grid_->Append(property_for(option));
+      property->SetHelpString(text_of(help_of(option)));
+    }
+  }
+  refresh();
+}
+
+void SettingsPanel::refresh() {
+  grid_->ClearSelection(false);
+  for (const OptionSection& section : settings_.table.sections())
+    for (const Option& option : section.options) {
+      wxPGProperty* property = grid_->GetPropertyByName(text_of(option.name()));
+      property->SetValue(value_of(option));
+      mark(*property, option);
+    }
+  grid_->Refresh();
+}
+
+/// Options that are not as by default stand out.
+void SettingsPanel::mark(wxPGProperty& property, const Option& option) {
+  const bool changed = option.text() != option.default_text;
+  grid_->SetPropertyTextColour(&property, changed ? wxColour(31, 97, 171) : grid_->GetCellTextColour(),
+                               wxPG_DONT_RECURSE);
+}
+
+void SettingsPanel::show_pending(bool pending) {
+  if (pending == restart_->IsShown()) return;
+  pending_->Show(pending);
+  restart_->Show(pending);
+  Layout();
+}
+
+/// Takes the text, or tells why not.
+bool SettingsPanel::take(const std::string& name, const std::string& text) {
+  try {
+    settings_.table.set(name, text, kWhere);
+    actions_.changed();
+    return true;
+  } catch (const UserError& error) {
+    actions_.refuse(error.what());
+    return false;
+  }
+}
+
+void SettingsPanel::changing(wxPropertyGridEvent& event) {
+  const std::string name = event.GetPropertyName().utf8_string();
+  const Option& option = settings_.table.option(name, kWhere);
+  if (take(name, text_of_value(option, event.GetValue()))) {
+    mark(*event.GetProperty(), option);
+    return;
+  }
+  event.SetValidationFailureBehavior(0);  // the sentence is in the bar, no box or beep beside
+  event.Veto();
+}
+
+bool SettingsPanel::enter(const std::string& name, const std::string& text) {
+  const Option& option = settings_.table.option(name, kWhere);
+  wxPGProperty* const property = grid_->GetPropertyByName(text_of(name));
+  if (option.type == OptionType::kFlag || option.type == OptionType::kChoice) {
+    const bool taken = take(name, text);
+    refresh();
+    return taken;
+  }
+  grid_->SelectProperty(property, true);
+  return grid_->ChangePropertyValue(property, text_of(text));
+}
+
+std::string SettingsPanel::shown(const std::string& name) const {
+  return grid_->GetPropertyValueAsString(text_of(name)).utf8_string();
+}
+
+void SettingsPanel::reset(const std::string& name) {
+  take(name, settings_.table.option(name, kWhere).default_text);
+  refresh();
+}
+
+void SettingsPanel::reset_all() {
+  for (const OptionSection& section : settings_.table.sections())
+    for (const Option& option : section.options) option.assign(option.default_text);
+  refresh();
+  actions_.changed();
+}
+
+void SettingsPanel::show_context_menu(wxPropertyGridEvent& event) {
+  const wxPGProperty* const property = event.GetProperty();
+  if (property == nullptr || property->IsCategory()) return;
+  const std::string name = property->GetName().utf8_string();
+  const Option& option = settings_.table.option(name, kWhere);
+  wxMenu menu;
+  const int one = menu.Append(wxID_ANY, text_of("Reset to " + option.default_text))->GetId();
+  const int all = menu.Append(wxID_ANY, "Reset all settings")->GetId();
+  const int chosen = GetPopupMenuSelectionFromUser(menu);
+  if (chosen == one) reset(name);
+  if (chosen == all) reset_all();
+}
+
+}  // namespace psi_slam

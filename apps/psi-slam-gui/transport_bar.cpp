@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transport_bar.h"
+
+#include <wx/bmpbuttn.h>
+#include <wx/choice.h>
+#include <wx/settings.h>
+#include <wx/sizer.h>
+#include <wx/slider.h>
+#include <wx/stattext.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "icons.h"
+#include "progress_line.h"
+
+namespace psi_slam {
+namespace {
+
+wxBitmapButton* button(wxWindow* parent, Icon icon, const char* tip, const std::function<void()>& action) {
+  const wxColour ink = wxSystemSettings::GetColour(wxSYS_COLOUR_BTNTEXT);
+  auto* made = new wxBitmapButton(parent, wxID_ANY, icon_of(icon, ink));
+  made->SetToolTip(wxString::FromUTF8(tip));
+  made->Bind(wxEVT_BUTTON, [action](wxCommandEvent&) { action(); });
+  return made;
+}
+
+wxString speed_text(double speed) {
+  if (speed <= 0) return "as fast as possible";
+  return wxString::Format("%g", speed) + wxString::FromUTF8("×");
+}
+
+}  // namespace
+
+const std::vector<double>& TransportBar::speeds() {
+  static const std::vector<double> kSpeeds{1, 5, 20, 0};
+  return kSpeeds;
+}
+
+TransportBar::TransportBar(wxWindow* parent, Actions actions)
+    : wxPanel(parent), actions_(std::move(actions)) {
+  play_ = button(this, Icon::kPlay, "Play or pause (Space)", actions_.play_or_pause);
+  step_ = button(this, Icon::kStep, "Map one more scan (.)", actions_.step);
+  play_->SetName("play");
+  finish_ = button(this, Icon::kFinish, "Stop here and finish the map (Ctrl+Return)", actions_.finish);
+  speed_ = new wxChoice(this, wxID_ANY);
+  speed_->SetToolTip("Speed of the replay, times that of the recording");
+  for (const double speed : speeds()) speed_->Append(speed_text(speed));
+  speed_->SetSelection(static_cast<int>(speeds().size()) - 1);
+  speed_->Bind(wxEVT_CHOICE, [this](wxCommandEvent&) { actions_.set_speed(speed()); });
+  slider_ = new wxSlider(this, wxID_ANY, 0, 0, 1);
+  slider_->SetToolTip("The log: drag back to look at an earlier scan, forward to map up to there");
+  const auto dragged = [this](wxScrollEvent&) {
+    actions_.go_to(static_cast<std::size_t>(slider_->GetValue()));
+  };
+  slider_->Bind(wxEVT_SCROLL_THUMBRELEASE, dragged);
+  slider_->Bind(wxEVT_SCROLL_CHANGED, dragged);
+  time_ = new wxStaticText(this, wxID_ANY, "");
+  progress_ = new wxStaticText(this, wxID_ANY, "");
+
+  auto* row = new wxBoxSizer(wxHORIZONTAL);
+  const int gap = FromDIP(4);
+  for (wxWindow* left : std::initializer_list<wxWindow*>{play_, step_, finish_, speed_})
+    row->Add(left, 0, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
+  row->Add(slider_, 1, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
+  row->Add(time_, 0, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
+  auto* column = new wxBoxSizer(wxVERTICAL);
+  column->Add(row, 0, wxEXPAND);
+  column->Add(progress_, 0, wxEXPAND | wxLEFT | wxRIGHT | wxBOTTOM, 2 * gap);
+  SetSizer(column);
+  show_nothing();
+}
+
+double TransportBar::speed() const {
+  return speeds()[static_cast<std::size_t>(std::max(0, speed_->GetSelection()))];
+}
+
+void TransportBar::set_speed(double speed) {
+  const auto found = std::find(speeds().begin(), speeds().end(), speed);
+  if (found != speeds().end()) speed_->SetSelection(static_cast<int>(found - speeds().begin()));
+}
+
+void TransportBar::show_nothing() {
+  for (wxWindow* child : std::initializer_list<wxWindow*>{play_, step_, finish_, slider_}) child->Disable();
+  slider_->SetValue(0);
+  time_->SetLabel("");
+  progress_->SetLabel("No log is open");
+}
+
+void TransportBar::show(const ReplaySnapshot& snapshot,
+                        const std::shared_ptr<const std::vector<TimeUs>>& stamps_us,
+                        std::optional<std::size_t> shown) {
+  enable(snapshot);
+  const std::size_t mapped = snapshot.frames.size();
+  const std::size_t count = stamps_us ? std::max(stamps_us->size(), mapped) : mapped;
+  const std::size_t at = shown.value_or(mapped == 0 ? 0 : mapped - 1);
+  show_slider(at, count);
+  const std::string time = stamps_us ? log_time_text(*stamps_us, at) : std::string();
+  if (time_->GetLabel() != time) {
+    time_->SetLabel(time);
+    Layout();
+  }
+  std::string words = progress_words(snapshot);
+  if (shown) words += "   (scan " + std::to_string(*shown + 1) + " is shown)";
+  const wxString label = wxString::FromUTF8(words);
+  if (progress_->GetLabel() != label) progress_->SetLabel(label);
+}
+
+void TransportBar::enable(const ReplaySnapshot& snapshot) {
+  const bool mapping = snapshot.phase == ReplayPhase::kPaused || snapshot.phase == ReplayPhase::kPlaying;
+  play_->Enable(mapping || snapshot.phase == ReplayPhase::kOpening);
+  step_->Enable(mapping);
+  finish_->Enable((mapping && !snapshot.frames.empty()) || snapshot.phase == ReplayPhase::kLastPass);
+  slider_->Enable(mapping || !snapshot.frames.empty());
+  const bool plays = snapshot.phase == ReplayPhase::kPlaying;
+  if (plays == plays_) return;
+  plays_ = plays;
+  play_->SetBitmap(
+      icon_of(plays ? Icon::kPause : Icon::kPlay, wxSystemSettings::GetColour(wxSYS_COLOUR_BTNTEXT)));
+}
+
+void TransportBar::show_slider(std::size_t at, std::size_t count) {
+  const int last = std::max(1, static_cast<int>(count) - 1);
+  if (slider_->GetMax() != last) slider_->SetRange(0, last);
+  const bool dragged = slider_->HasCapture() || wxGetMouseState().LeftIsDown();
+  if (!dragged) slider_->SetValue(std::min(static_cast<int>(at), last));
+}
+
+std::string log_time_text(const std::vector<TimeUs>& stamps_us, std::size_t scan) {
+  if (stamps_us.empty()) return "";
+  const auto since = [&](std::size_t index) {
+    return minutes_text(
+        std::max(0.0, seconds(stamps_us[std::min(index, stamps_us.size() - 1)] - stamps_us[0])));
+  };
+  return since(scan) + " of " + since(stamps_us.size() - 1);
+}
+
+std::string progress_words(const ReplaySnapshot& snapshot) {
+  const std::string scans = std::to_string(snapshot.frames.size()) + " scans";
+  switch (snapshot.phase) {
+    case ReplayPhase::kOpening:
+      return "Opening the log";
+    case ReplayPhase::kPaused:
+      return snapshot.frames.empty() ? "Ready: press play" : "Paused after " + scans;
+    case ReplayPhase::kPlaying:
+      return "Mapping: " + progress_text(snapshot.progress);
+    case ReplayPhase::kLastPass:
+      return "Finishing: " + progress_text(snapshot.progress);
+    case ReplayPhase::kFinished:
+      return "The map is finished: " + scans + (snapshot.interrupted ? ", stopped before the end" : "");
+    case ReplayPhase::kExporting:
+      return "Writing the results";
+    case ReplayPhase::kFailed:
+      return "Stopped: see the message above";
+  }
+  return "";
+}
+
+}  // namespace psi_slam

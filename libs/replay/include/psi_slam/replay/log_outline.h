@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How many scans a log holds and when each was taken, found out ahead of the mapping in a thread of its own:
+// what a time slider needs.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "psi_slam/base/time_stamp.h"
+#include "psi_slam/logs/log_options.h"
+
+namespace psi_slam {
+
+class LogOutline {
+ public:
+  LogOutline(std::filesystem::path log, const LogOptions& options);
+  ~LogOutline();
+  LogOutline(const LogOutline&) = delete;
+  LogOutline& operator=(const LogOutline&) = delete;
+
+  /// The stamps of all scans that can be read, in the log's order; null until they are known. Called by any
+  /// thread.
+  std::shared_ptr<const std::vector<TimeUs>> stamps_us() const;
+
+ private:
+  void read(const std::filesystem::path& log, const LogOptions& options);
+
+  std::atomic<bool> stop_{false};
+  mutable std::mutex mutex_;  // of what follows
+  std::shared_ptr<const std::vector<TimeUs>> stamps_us_;
+
+  std::thread thread_;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mapping run that can be watched: a MappingSession in a thread of its own, which is told to play, pause or
+// step, and publishes snapshots of what it does.
+//
+//     Replay replay("my.log", settings);      // opens in its thread, and waits
+//     replay.set_speed(5);
+//     replay.play();
+//     view.show(*replay.snapshot());          // now and then
+//     replay.export_to("out", false);         // once it is finished
+//
+// All functions may be called by any thread and return at once; what they ask for shows in later snapshots.
+// The results are those of the headless program to the last bit, however the run was played.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "psi_slam/replay/log_outline.h"
+#include "psi_slam/replay/log_pace.h"
+#include "psi_slam/replay/map_painter.h"
+#include "psi_slam/replay/replay_snapshot.h"
+#include "psi_slam/session/settings.h"
+
+namespace psi_slam {
+
+class SnapshotMaker;
+
+class Replay {
+ public:
+  Replay(std::filesystem::path log, const Settings& settings);
+  /// Closes, and waits for it.
+  ~Replay();
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
+
+  const std::filesystem::path& log() const { return log_; }
+  const Settings& settings() const { return settings_; }
+
+  /// Maps scan after scan, at the speed set. At the end of the log the last pass follows by itself.
+  void play();
+  void pause();
+  /// Maps one more scan, and pauses.
+  void step();
+  /// Times the speed of the recording; 0: as fast as possible. It is 1 at first.
+  void set_speed(double times);
+  /// Goes on as fast as possible until so many scans were mapped, and then as before.
+  void hurry_to(std::size_t scans);
+  /// Reads no further: the last pass follows, and the map is of the scans mapped until then.
+  void finish();
+  /// The last pass ends where it is.
+  void cut_last_pass();
+
+  /// Writes all results once the run is finished; a request before waits for that. See
+  /// ReplaySnapshot::exported.
+  void export_to(std::filesystem::path folder, bool replace);
+
+  /// Ends the thread as soon as may be, mapping or not; an export under way is written to its end.
+  void close();
+  /// The thread has come to its end: the destructor will not wait.
+  bool ended() const { return ended_; }
+
+  /// Never null.
+  std::shared_ptr<const ReplaySnapshot> snapshot() const;
+  /// The gridmap as it was drawn last, or null.
+  std::shared_ptr<const DrawnMap> drawn_map() const { return painter_.drawn(); }
+  /// When each scan of the whole log was taken, or null as long as that is not known.
+  std::shared_ptr<const std::vector<TimeUs>> stamps_us() const { return outline_.stamps_us(); }
+
+ private:
+  enum class Turn { kStep, kFinish, kClose };
+  struct ExportWish {
+    std::filesystem::path folder;
+    bool replace = false;
+  };
+
+  void run() noexcept;
+  void work();
+  bool map_scans(MappingSession& session);
+  Turn next_turn();
+  void wait_for_due_scan(std::unique_lock<std::mutex>& lock);
+  void serve_exports(MappingSession& session);
+  void export_once(MappingSession& session, const ExportWish& wish);
+  void observe(const SessionProgress& progress);
+  void publish();
+  LogPace::Clock::time_point next_publication() const;
+  void fail(const std::string& sentence);
+
+  const std::filesystem::path log_;
+  const Settings settings_;
+  LogOutline outline_;
+  MapPainter painter_;
+
+  // The engine's thread only.
+  std::unique_ptr<SnapshotMaker> maker_;
+  MappingSession* session_ = nullptr;  // while its mapper can be followed
+  ReplayPhase phase_ = ReplayPhase::kOpening;
+  bool stale_ = false;  // something happened since the last snapshot
+  LogPace::Clock::time_point published_at_;
+  LogPace::Clock::duration publishing_took_{};
+  int exports_ = 0;
+
+  mutable std::mutex snapshot_mutex_;
+  std::shared_ptr<const ReplaySnapshot> snapshot_;
+
+  std::mutex mutex_;  // of what is wished for
+  std::condition_variable changed_;
+  bool playing_ = false;
+  std::size_t steps_ = 0;
+  std::size_t hurry_to_ = 0;  // scans
+  LogPace pace_;
+  LogPace::Clock::time_point due_;  // the next scan, when playing
+  bool finish_ = false;
+  bool close_ = false;
+  std::optional<ExportWish> export_;
+  std::size_t scans_ = 0;  // mapped
+
+  std::atomic<bool> cut_last_pass_{false};
+  std::atomic<bool> ended_{false};
+  std::thread thread_;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run looks like at one moment, for views: plain values that never change once they are published.
+#pragma once
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "psi_slam/logs/frame.h"
+#include "psi_slam/loop_closure/place_memory.h"
+#include "psi_slam/mapping/mapping_result.h"
+#include "psi_slam/replay/shared_history.h"
+#include "psi_slam/results/run_summary.h"
+#include "psi_slam/session/mapping_session.h"
+
+namespace psi_slam {
+
+enum class ReplayPhase {
+  kOpening,
+  kPaused,    ///< waits to be told to go on
+  kPlaying,   ///< maps scans
+  kLastPass,  ///< the last search for loops
+  kFinished,  ///< the map is ready to be exported
+  kExporting,
+  kFailed,  ///< see ReplaySnapshot::failure; nothing goes on from here
+};
+
+/// A local map that scans are inserted into at the moment, as it is.
+struct ActiveLocalMap {
+  std::size_t id = 0;
+  std::size_t anchor = 0;  ///< the node whose pose is its frame
+  std::shared_ptr<const mrpt::maps::COccupancyGridMap2D> occupancy;
+};
+
+/// What became of the last export.
+struct ExportOutcome {
+  int number = 0;  ///< they count from 1
+  std::filesystem::path folder;
+  std::string failure;  ///< a sentence; empty: all was written
+};
+
+struct ReplaySnapshot {
+  ReplayPhase phase = ReplayPhase::kOpening;
+  SessionProgress progress;
+  std::string failure;                ///< a sentence, where the phase is kFailed
+  std::vector<std::string> warnings;  ///< what is wrong with the log, a sentence each
+
+  HistoryView<Frame> log;  ///< the scans mapped so far
+  HistoryView<FrameRecord> frames;
+  HistoryView<double> shares;  ///< of the log that had been read with each of them, in [0, 1]
+  HistoryView<NodeScan> nodes;
+  /// Finished ones, by number; of what they hold there are the nodes' points. (The engine packs and unpacks
+  /// the maps themselves: nobody else may look at them.)
+  HistoryView<LocalMapRecord> local_maps;
+  std::vector<ActiveLocalMap> active_local_maps;
+  mrpt::math::TPose2D map_T_robot;
+
+  /// Of the graph as it was optimised last; never null.
+  std::shared_ptr<const std::vector<mrpt::math::TPose2D>> map_T_node =
+      std::make_shared<std::vector<mrpt::math::TPose2D>>();
+  /// Never null. Views may tell by the pointer whether anything has changed.
+  std::shared_ptr<const std::vector<LoopRecord>> loops = std::make_shared<std::vector<LoopRecord>>();
+
+  PsiOptions psi;
+  std::vector<StageTiming> stages;  ///< once finished
+  bool interrupted = false;         ///< once finished: not all of the log was mapped, or its last pass cut
+  std::optional<ExportOutcome> exported;  ///< the last export that has ended
+};
+
+}  // namespace psi_slam

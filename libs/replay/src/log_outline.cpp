@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/replay/log_outline.h"
+
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "background_thread.h"
+#include "psi_slam/logs/open_log.h"
+
+namespace psi_slam {
+
+LogOutline::LogOutline(std::filesystem::path log, const LogOptions& options)
+    : thread_([this, path = std::move(log), options] { read(path, options); }) {}
+
+LogOutline::~LogOutline() {
+  stop_ = true;
+  thread_.join();
+}
+
+std::shared_ptr<const std::vector<TimeUs>> LogOutline::stamps_us() const {
+  const std::lock_guard lock(mutex_);
+  return stamps_us_;
+}
+
+void LogOutline::read(const std::filesystem::path& log, const LogOptions& options) {
+  give_way();
+  auto stamps_us = std::make_shared<std::vector<TimeUs>>();
+  try {
+    const auto source = open_log(log, options);
+    for (std::optional<Frame> frame; !stop_ && (frame = source->next());)
+      stamps_us->push_back(frame->time_us);
+  } catch (const std::exception&) {  // who maps the log meets the same, and tells it
+  }
+  const std::lock_guard lock(mutex_);
+  stamps_us_ = std::move(stamps_us);
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/replay/replay.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "background_thread.h"
+#include "psi_slam/base/user_error.h"
+#include "snapshot_maker.h"
+
+namespace psi_slam {
+namespace {
+
+using Clock = LogPace::Clock;
+
+constexpr std::chrono::milliseconds kBetweenSnapshots{100};
+constexpr int kWorkPerPublishing = 20;  // snapshots cost the engine at most a twentieth of its time
+
+}  // namespace
+
+Replay::Replay(std::filesystem::path log, const Settings& settings)
+    : log_(std::move(log)),
+      settings_(settings),
+      outline_(log_, log_options(settings)),
+      painter_(settings.map),
+      maker_(std::make_unique<SnapshotMaker>(settings.mapper.psi)),
+      snapshot_(maker_->snapshot(phase_)),
+      thread_([this] { run(); }) {}
+
+Replay::~Replay() {
+  close();
+  thread_.join();
+}
+
+void Replay::play() {
+  {
+    const std::lock_guard lock(mutex_);
+    playing_ = true;
+    pace_.restart();
+    due_ = Clock::now();
+  }
+  changed_.notify_all();
+}
+
+void Replay::pause() {
+  {
+    const std::lock_guard lock(mutex_);
+    playing_ = false;
+    steps_ = 0;
+    hurry_to_ = 0;
+  }
+  changed_.notify_all();
+}
+
+void Replay::step() {
+  {
+    const std::lock_guard lock(mutex_);
+    playing_ = false;
+    ++steps_;
+  }
+  changed_.notify_all();
+}
+
+void Replay::set_speed(double times) {
+  {
+    const std::lock_guard lock(mutex_);
+    pace_.set_speed(times);
+    due_ = Clock::now();
+  }
+  changed_.notify_all();
+}
+
+void Replay::hurry_to(std::size_t scans) {
+  {
+    const std::lock_guard lock(mutex_);
+    hurry_to_ = scans;
+  }
+  changed_.notify_all();
+}
+
+void Replay::finish() {
+  {
+    const std::lock_guard lock(mutex_);
+    finish_ = true;
+  }
+  changed_.notify_all();
+}
+
+void Replay::cut_last_pass() {
+  cut_last_pass_ = true;
+}
+
+void Replay::export_to(std::filesystem::path folder, bool replace) {
+  {
+    const std::lock_guard lock(mutex_);
+    export_ = ExportWish{std::move(folder), replace};
+  }
+  changed_.notify_all();
+}
+
+void Replay::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    close_ = true;
+  }
+  cut_last_pass_ = true;
+  changed_.notify_all();
+}
+
+std::shared_ptr<const ReplaySnapshot> Replay::snapshot() const {
+  const std::lock_guard lock(snapshot_mutex_);
+  return snapshot_;
+}
+
+void Replay::run() noexcept {
+  give_way();
+  try {
+    work();
+  } catch (const std::bad_alloc&) {
+    fail("there is not enough memory");
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+  ended_ = true;
+}
+
+void Replay::work() {
+  MappingSession session(log_, settings_);
+  session.set_observer([&](const SessionProgress& progress) { observe(progress); });
+  session_ = &session;
+  if (!map_scans(session)) return;
+  phase_ = ReplayPhase::kLastPass;
+  publish();  // all scans, as long as the mapper can be followed
+  session.finish(cut_last_pass_);
+  session_ = nullptr;
+  maker_->note_warnings(session);
+  maker_->take(session.result());
+  painter_.request(maker_->sketch());
+  serve_exports(session);
+}
+
+/// Until the end of the log, or until told to; false when told to close.
+bool Replay::map_scans(MappingSession& session) {
+  while (true) {
+    const Turn turn = next_turn();
+    if (turn == Turn::kClose) return false;
+    if (turn == Turn::kFinish || !session.step()) return true;
+    const std::lock_guard lock(mutex_);
+    due_ = pace_.due_after(session.mapper().frames().back().time_us, Clock::now());
+  }
+}
+
+Replay::Turn Replay::next_turn() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    if (close_) return Turn::kClose;
+    if (finish_) return Turn::kFinish;
+    if (hurry_to_ > 0 && scans_ >= hurry_to_) {
+      hurry_to_ = 0;
+      pace_.restart();
+    }
+    const bool hurries = hurry_to_ > 0 || (playing_ && Clock::now() >= due_);
+    if (steps_ > 0 || hurries || playing_) {
+      phase_ = ReplayPhase::kPlaying;
+      if (steps_ > 0) {
+        --steps_;
+        return Turn::kStep;
+      }
+      if (hurries) return Turn::kStep;
+      wait_for_due_scan(lock);
+      continue;
+    }
+    if (phase_ != ReplayPhase::kPaused || stale_) {
+      phase_ = ReplayPhase::kPaused;
+      lock.unlock();
+      publish();
+      lock.lock();
+      continue;
+    }
+    changed_.wait(lock);
+  }
+}
+
+/// Shows meanwhile what has not been shown.
+void Replay::wait_for_due_scan(std::unique_lock<std::mutex>& lock) {
+  if (stale_ && Clock::now() >= next_publication()) {
+    lock.unlock();
+    publish();
+    lock.lock();
+    return;
+  }
+  changed_.wait_until(lock, stale_ ? std::min(due_, next_publication()) : due_);
+}
+
+void Replay::serve_exports(MappingSession& session) {
+  while (true) {
+    phase_ = ReplayPhase::kFinished;
+    publish();
+    ExportWish wish;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return close_ || export_; });
+      if (close_) return;
+      wish = *std::exchange(export_, std::nullopt);
+    }
+    export_once(session, wish);
+  }
+}
+
+void Replay::export_once(MappingSession& session, const ExportWish& wish) {
+  phase_ = ReplayPhase::kExporting;
+  publish();
+  ExportOutcome outcome{++exports_, wish.folder, ""};
+  try {
+    session.export_to(OutputFolder::prepare(wish.folder, wish.replace));
+  } catch (const std::bad_alloc&) {
+    outcome.failure = "there is not enough memory to write the results";
+  } catch (const std::exception& error) {
+    outcome.failure = error.what();
+  }
+  maker_->note_export(std::move(outcome));
+}
+
+void Replay::observe(const SessionProgress& progress) {
+  maker_->note_progress(progress);
+  if (progress.phase == SessionProgress::Phase::kMapping) {
+    maker_->note_scan(progress.share);
+    stale_ = true;
+    const std::lock_guard lock(mutex_);
+    scans_ = progress.scans;
+  } else if (session_ != nullptr) {
+    maker_->follow_local_maps(session_->mapper());
+  }
+  if (Clock::now() >= next_publication()) publish();
+}
+
+Clock::time_point Replay::next_publication() const {
+  return published_at_ + std::max<Clock::duration>(kBetweenSnapshots, kWorkPerPublishing * publishing_took_);
+}
+
+void Replay::publish() {
+  const auto start = Clock::now();
+  if (session_ != nullptr) {
+    maker_->follow(session_->mapper());
+    maker_->note_warnings(*session_);
+    if (stale_) painter_.request(maker_->sketch());
+  }
+  auto snapshot = maker_->snapshot(phase_);
+  {
+    const std::lock_guard lock(snapshot_mutex_);
+    snapshot_ = std::move(snapshot);
+  }
+  stale_ = false;
+  published_at_ = Clock::now();
+  publishing_took_ = published_at_ - start;
+}
+
+void Replay::fail(const std::string& sentence) {
+  session_ = nullptr;
+  phase_ = ReplayPhase::kFailed;
+  maker_->note_failure(sentence);
+  const std::lock_guard lock(snapshot_mutex_);
+  snapshot_ = maker_->snapshot(phase_);
+}
+
+}  // namespace psi_slam

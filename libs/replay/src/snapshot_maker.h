@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Follows a session in the engine's thread and makes snapshots of it, copying only what is new.
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "psi_slam/replay/map_painter.h"
+#include "psi_slam/replay/replay_snapshot.h"
+
+namespace psi_slam {
+
+class SnapshotMaker {
+ public:
+  explicit SnapshotMaker(const PsiOptions& psi) { now_.psi = psi; }
+
+  /// A scan was mapped, with this much of the log read.
+  void note_scan(double share) { shares_.push_back(share); }
+  void note_progress(const SessionProgress& progress) { now_.progress = progress; }
+  void note_warnings(const MappingSession& session);
+  void note_export(ExportOutcome outcome) { now_.exported = std::move(outcome); }
+  void note_failure(std::string sentence) { now_.failure = std::move(sentence); }
+
+  /// Takes over what is new, before the session is finished.
+  void follow(const Mapper& mapper);
+  /// The last local maps end when the last pass begins.
+  void follow_local_maps(const Mapper& mapper);
+  /// Takes over the result, once it is.
+  void take(const MappingResult& result);
+
+  std::shared_ptr<const ReplaySnapshot> snapshot(ReplayPhase phase);
+
+  /// The map as it is known: of the nodes' scans, after take() of all scans.
+  MapSketch sketch() const;
+  bool has_scans() const { return frames_.size() > 0; }
+
+ private:
+  void copy_active(const Mapper& mapper);
+
+  ReplaySnapshot now_;
+  SharedHistory<Frame> log_;
+  SharedHistory<FrameRecord> frames_;
+  SharedHistory<double> shares_;
+  SharedHistory<NodeScan> nodes_;
+  SharedHistory<LocalMapRecord> local_maps_;
+  std::size_t frames_copied_active_ = 0;
+  std::chrono::steady_clock::time_point copied_active_at_;
+  bool finished_ = false;
+};
+
+}  // namespace psi_slam

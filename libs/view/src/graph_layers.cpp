@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/opengl/CSetOfLines.h>
+
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "dots.h"
+#include "layers.h"
+#include "psi_slam/view/loop_residual.h"
+#include "psi_slam/view/palette.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+using mrpt::opengl::CSetOfLines;
+
+constexpr int kResidualShades = 8;
+constexpr std::uint8_t kFaint = 45;
+constexpr std::uint8_t kClear = 140;  // what lies below is to be seen, too
+
+CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
+  auto lines = CSetOfLines::Create();
+  lines->setColor_u8(colour);
+  lines->setLineWidth(width);
+  return lines;
+}
+
+void join(CSetOfLines& lines, const TPose2D& a, const TPose2D& b, double z_m) {
+  lines.appendLine(a.x, a.y, z_m, b.x, b.y, z_m);
+}
+
+mrpt::math::TPoint3Df raised(const TPose2D& pose, double z_m) {
+  return {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(z_m)};
+}
+
+mrpt::img::TColor colour_of(const LoopRecord& loop, const ReplaySnapshot& snapshot, const LoopStyle& style) {
+  if (loop.verdict != LoopVerdict::kAccepted) return verdict_colour(loop.verdict);
+  if (style.colour == LoopStyle::Colour::kMatcher) return matcher_colour(loop.matcher);
+  const double share = loop_residual(loop, *snapshot.map_T_node).distance_m / kWorstResidual_m;
+  return heat_colour(std::round(share * kResidualShades) / kResidualShades);
+}
+
+}  // namespace
+
+void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+  layer.clear();
+  std::vector<mrpt::math::TPoint3Df> points;
+  for (const TPose2D& node : *snapshot.map_T_node) points.push_back(raised(node, height_m::kNodes));
+  layer.insert(dots_of(points, palette::kNode, 4));
+}
+
+void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+  layer.clear();
+  auto lines = lines_of(palette::kConstraint, 1);
+  const std::vector<TPose2D>& nodes = *snapshot.map_T_node;
+  for (std::size_t i = 0; i < snapshot.local_maps.size(); ++i) {
+    const LocalMapRecord& map = snapshot.local_maps[i];
+    for (std::size_t node = map.first_node; node <= map.last_node && node < nodes.size(); ++node)
+      if (node != map.anchor) join(*lines, nodes[map.anchor], nodes[node], height_m::kConstraints);
+  }
+  layer.insert(lines);
+}
+
+void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style) {
+  layer.clear();
+  using Key = std::tuple<bool, std::uint8_t, std::uint8_t, std::uint8_t>;
+  std::map<Key, CSetOfLines::Ptr> by_colour;
+  for (const LoopRecord& loop : *snapshot.loops) {
+    if (loop.verdict == LoopVerdict::kRefused && !style.refused) continue;
+    mrpt::img::TColor colour = colour_of(loop, snapshot, style);
+    const bool faint = loop.in_last_pass || loop.verdict == LoopVerdict::kRefused;  // there are so many
+    colour.A = faint ? kFaint : kClear;
+    CSetOfLines::Ptr& lines = by_colour[{!faint, colour.R, colour.G, colour.B}];
+    if (!lines) lines = lines_of(colour, faint ? 1.0F : 1.5F);
+    join(*lines, snapshot.map_T_node->at(loop.anchor), snapshot.map_T_node->at(loop.node), height_m::kLoops);
+  }
+  for (const auto& [key, lines] : by_colour) layer.insert(lines);
+}
+
+void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t index) {
+  layer.clear();
+  const LoopRecord& loop = (*snapshot.loops)[index];
+  const TPose2D& anchor = snapshot.map_T_node->at(loop.anchor);
+  const TPose2D& node = snapshot.map_T_node->at(loop.node);
+  auto lines = lines_of(palette::kChosen, 4);
+  join(*lines, anchor, node, height_m::kChosenLoop);
+  layer.insert(lines);
+  layer.insert(dots_of({raised(anchor, height_m::kChosenLoop), raised(node, height_m::kChosenLoop)},
+                       palette::kChosen, 10));
+}
+
+}  // namespace psi_slam

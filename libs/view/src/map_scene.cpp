@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/view/map_scene.h"
+
+#include "layers.h"
+#include "psi_slam/view/frame_pose.h"
+#include "psi_slam/view/palette.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr std::array<const char*, kMapLayers> kNames{"Gridmap",
+                                                     "Active local maps",
+                                                     "Odometry alone",
+                                                     "Corrected path",
+                                                     "Constraints of local maps",
+                                                     "Nodes",
+                                                     "Loops",
+                                                     "Scan",
+                                                     "Robot",
+                                                     "Search windows"};
+
+}  // namespace
+
+const char* name_of(MapLayer layer) {
+  return kNames[static_cast<std::size_t>(layer)];
+}
+
+bool shown_at_first(MapLayer layer) {
+  return layer != MapLayer::kConstraints && layer != MapLayer::kNodes && layer != MapLayer::kLocalMaps;
+}
+
+MapScene::MapScene() {
+  scene_->getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(palette::kBackground));
+  for (std::size_t i = 0; i < kMapLayers; ++i) {
+    layers_[i] = mrpt::opengl::CSetOfObjects::Create();
+    layers_[i]->setName(kNames[i]);
+    layers_[i]->setVisibility(shown_at_first(static_cast<MapLayer>(i)));
+    scene_->insert(layers_[i]);
+  }
+  scene_->insert(chosen_layer_);
+  scene_->insert(measure_layer_);
+}
+
+mrpt::opengl::CSetOfObjects& MapScene::of(MapLayer layer) {
+  return *layers_[static_cast<std::size_t>(layer)];
+}
+
+const mrpt::opengl::CSetOfObjects& MapScene::layer(MapLayer layer) const {
+  return *layers_[static_cast<std::size_t>(layer)];
+}
+
+void MapScene::set_visible(MapLayer layer, bool visible) {
+  of(layer).setVisibility(visible);
+  if (visible) shown_.snapshot.reset();  // large layers are not drawn while nobody sees them
+}
+
+bool MapScene::visible(MapLayer layer) const {
+  return this->layer(layer).isVisible();
+}
+
+void MapScene::set_measure(const std::optional<Measure>& measure) {
+  measure_layer_->clear();
+  if (measure) draw_measure(*measure_layer_, *measure);
+}
+
+bool MapScene::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
+                    const std::shared_ptr<const DrawnMap>& map, std::optional<std::size_t> frame) {
+  const bool first = shown_.snapshot == nullptr;
+  bool changed = false;
+  if (map != shown_.map) {
+    of(MapLayer::kGrid).clear();
+    if (map) draw_grid(of(MapLayer::kGrid), *map);
+    changed = true;
+  }
+  const bool poses_changed = first || snapshot->map_T_node != shown_.snapshot->map_T_node;
+  const bool frames_changed = first || snapshot->frames.size() != shown_.snapshot->frames.size() ||
+                              snapshot->phase != shown_.snapshot->phase;
+  if (frames_changed) draw_odometry(of(MapLayer::kOdometry), *snapshot);
+  if (poses_changed || frames_changed) draw_trajectory(of(MapLayer::kTrajectory), *snapshot);
+  changed = show_graph(*snapshot, poses_changed) || changed;
+  changed = show_robot(*snapshot, frame, poses_changed || frames_changed || frame != shown_.frame) || changed;
+  shown_ = {snapshot, map, frame, loop_style_, chosen_loop_};
+  return changed || poses_changed || frames_changed;
+}
+
+bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
+  const bool first = shown_.snapshot == nullptr;
+  const auto active_changed = [&] {
+    const auto& before = shown_.snapshot->active_local_maps;
+    const auto& now = snapshot.active_local_maps;
+    return before.size() != now.size() || (!now.empty() && before.front().occupancy != now.front().occupancy);
+  };
+  const bool maps_changed = first || active_changed();
+  if (maps_changed) draw_local_maps(of(MapLayer::kLocalMaps), snapshot);
+  if (maps_changed || poses_changed) place_local_maps(of(MapLayer::kLocalMaps), snapshot);
+  if (poses_changed) {
+    if (visible(MapLayer::kNodes)) draw_nodes(of(MapLayer::kNodes), snapshot);
+    if (visible(MapLayer::kConstraints)) draw_constraints(of(MapLayer::kConstraints), snapshot);
+  }
+  const bool loops_changed =
+      poses_changed || snapshot.loops != shown_.snapshot->loops || !(loop_style_ == shown_.loop_style);
+  if (loops_changed) draw_loops(of(MapLayer::kLoops), snapshot, loop_style_);
+  const bool chosen_changed = loops_changed || chosen_loop_ != shown_.chosen_loop;
+  if (chosen_changed) {
+    chosen_layer_->clear();
+    if (chosen_loop_ && *chosen_loop_ < snapshot.loops->size())
+      draw_chosen_loop(*chosen_layer_, snapshot, *chosen_loop_);
+  }
+  return maps_changed || loops_changed || chosen_changed;
+}
+
+bool MapScene::show_robot(const ReplaySnapshot& snapshot, std::optional<std::size_t> frame, bool changed) {
+  if (!changed) return false;
+  for (const MapLayer layer : {MapLayer::kScan, MapLayer::kRobot, MapLayer::kWindows}) of(layer).clear();
+  if (snapshot.frames.empty()) return true;
+  const std::size_t index = std::min(frame.value_or(snapshot.frames.size() - 1), snapshot.frames.size() - 1);
+  const mrpt::math::TPose2D map_T_robot = map_T_frame(snapshot, index);
+  draw_scan(of(MapLayer::kScan), snapshot.log[index], map_T_robot);
+  draw_robot(of(MapLayer::kRobot), map_T_robot);
+  draw_windows(of(MapLayer::kWindows), snapshot, index);
+  return true;
+}
+
+}  // namespace psi_slam

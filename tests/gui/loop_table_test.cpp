@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_table.h"
+
+#include <gmock/gmock.h>
+
+namespace psi_slam {
+namespace {
+
+using testing::ElementsAre;
+
+LoopRecord loop(std::size_t frame, double response, LoopVerdict verdict) {
+  LoopRecord record;
+  record.frame = frame;
+  record.node = 1;
+  record.matcher = "ga";
+  record.response = response;
+  record.verdict = verdict;
+  if (verdict != LoopVerdict::kAccepted) record.reason = "the response is too low";
+  return record;
+}
+
+class LoopTableTest : public testing::Test {
+ protected:
+  LoopTableTest() {
+    auto snapshot = std::make_shared<ReplaySnapshot>();
+    snapshot->map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(2);
+    snapshot->loops = std::make_shared<std::vector<LoopRecord>>(
+        std::vector<LoopRecord>{loop(7, 0.5, LoopVerdict::kAccepted), loop(3, 0.3, LoopVerdict::kRefused),
+                                loop(5, 0.9, LoopVerdict::kAccepted)});
+    snapshot_ = snapshot;
+    table_.show(snapshot_);
+  }
+  std::vector<std::size_t> order() const {
+    std::vector<std::size_t> loops;
+    for (std::size_t row = 0; row < table_.rows(); ++row) loops.push_back(table_.loop_of(row));
+    return loops;
+  }
+
+  std::shared_ptr<const ReplaySnapshot> snapshot_;
+  LoopTable table_;
+};
+
+TEST_F(LoopTableTest, lists_loops_by_frame_at_first_and_by_any_column_if_asked) {
+  EXPECT_THAT(order(), ElementsAre(1, 2, 0));
+  table_.sort_by(LoopTable::kResponse, false);
+  EXPECT_THAT(order(), ElementsAre(2, 0, 1));
+  for (std::size_t column = 0; column < LoopTable::kColumns; ++column) {
+    table_.sort_by(column, true);
+    EXPECT_EQ(table_.rows(), 3U) << LoopTable::title(column);
+  }
+}
+
+TEST_F(LoopTableTest, lists_those_of_one_verdict_alone) {
+  table_.set_filter(LoopVerdict::kAccepted);
+  EXPECT_THAT(order(), ElementsAre(2, 0));
+  EXPECT_EQ(table_.row_of(0), 1U);
+  EXPECT_FALSE(table_.row_of(1).has_value());
+}
+
+TEST_F(LoopTableTest, says_what_is_known_of_a_loop) {
+  EXPECT_EQ(table_.text(0, LoopTable::kFrame), "3");
+  EXPECT_EQ(table_.text(0, LoopTable::kMatcher), "ga");
+  EXPECT_EQ(table_.text(0, LoopTable::kResponse), "0.300");
+  EXPECT_EQ(table_.text(0, LoopTable::kVerdict), "refused");
+  EXPECT_EQ(table_.text(0, LoopTable::kReason), "the response is too low");
+  EXPECT_EQ(table_.text(0, LoopTable::kResidual), "") << "of a constraint only";
+  EXPECT_EQ(table_.text(1, LoopTable::kResidual), "0.000");
+  EXPECT_EQ(table_.summary(), "3 matches: 2 accepted, 1 refused");
+}
+
+TEST_F(LoopTableTest, knows_whether_anything_has_changed) {
+  EXPECT_FALSE(table_.show(snapshot_));
+  EXPECT_TRUE(table_.show(std::make_shared<ReplaySnapshot>()));
+  EXPECT_EQ(table_.rows(), 0U);
+}
+
+}  // namespace
+}  // namespace psi_slam

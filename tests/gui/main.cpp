@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The window's tests start themselves anew on a display of their own, with OpenGL in software, so that they
+// run on machines without any. Each needs a process of its own: run them by ctest.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr const char* kOnDisplay = "PSI_SLAM_GUI_TEST_DISPLAY";
+
+bool lists_tests_only(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (std::string(argv[i]).rfind("--gtest_list_tests", 0) == 0) return true;
+  return false;
+}
+
+void start_on_own_display(int argc, char** argv) {
+  setenv(kOnDisplay, "1", 1);
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  setenv("GDK_BACKEND", "x11", 1);
+  setenv("NO_AT_BRIDGE", "1", 1);
+  setenv("GTK_THEME", "Adwaita", 1);
+  unsetenv("WAYLAND_DISPLAY");
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+  std::vector<std::string> words{"xvfb-run", "-a", "-s", "-screen 0 2880x1800x24", self};
+  words.insert(words.end(), argv + 1, argv + argc);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execvp(pointers[0], pointers.data());  // comes back where there is no xvfb-run: the tests skip then
+  unsetenv(kOnDisplay);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (!lists_tests_only(argc, argv) && std::getenv(kOnDisplay) == nullptr) start_on_own_display(argc, argv);
+  testing::InitGoogleMock(&argc, argv);
+  return RUN_ALL_TESTS();
+}

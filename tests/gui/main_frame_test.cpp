@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "main_frame.h"
+
+#include <gmock/gmock.h>
+#include <wx/dnd.h>
+#include <wx/statusbr.h>
+
+#include <fstream>
+
+#include "../session/room_log.h"
+#include "about_box.h"
+#include "gui_run.h"
+#include "loop_canvas.h"
+#include "loop_inspector.h"
+#include "map_canvas.h"
+#include "message_bar.h"
+#include "psi_slam/session/mapping_session.h"
+#include "same_results.h"
+#include "settings_panel.h"
+#include "shared_logs.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+
+class MainFrameTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run, of Debian's package xvfb";
+  }
+  std::string room_log(int scans = 150) {
+    return write_lines(gui_.folder() / "room.log", room_log_lines(scans)).string();
+  }
+  static std::size_t scans(MainFrame& frame) {
+    return frame.replay() ? frame.replay()->snapshot()->frames.size() : 0;
+  }
+  GuiRun& when_says(const std::string& words) {
+    return gui_.when("\"" + words + "\" in the bar", [words](MainFrame& frame) {
+      return frame.messages().sentence().find(words) != std::string::npos;
+    });
+  }
+
+  GuiRun gui_;
+};
+
+TEST_F(MainFrameTest, without_a_log_it_says_what_to_do) {
+  gui_.screenshot("empty");
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
+TEST_F(MainFrameTest, a_log_is_opened_played_paused_stepped_and_exported_as_the_headless_program_does) {
+  const std::string log = room_log();
+  MappingSession session(log, {});
+  session.run(std::atomic<bool>(false));
+  session.export_to(OutputFolder::prepare(gui_.folder() / "headless", false));
+
+  std::size_t paused_at = 0;
+  gui_.when_phase(ReplayPhase::kPaused)
+      .screenshot("opened")
+      .command(kSpeed + 2)  // 20 times
+      .command(kPlayOrPause)
+      .when("40 scans", [](MainFrame& frame) { return scans(frame) >= 40; })
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kPaused)
+      .then([&](MainFrame& frame) { paused_at = scans(frame); })
+      .command(kStep)
+      .when("one more scan", [&](MainFrame& frame) { return scans(frame) == paused_at + 1; })
+      .screenshot("paused")
+      .then([](MainFrame& frame) { frame.go_to(110); })
+      .when("scan 110", [](MainFrame& frame) { return scans(frame) >= 111; })
+      .command(kSpeed + 3)  // as fast as possible
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .then([&](MainFrame& frame) { frame.export_to(gui_.folder() / "gui", false); })
+      .close();  // is put off until all is written
+  EXPECT_EQ(gui_.run({log}), 0);
+  EXPECT_EQ(paused_at < 150, true);
+  expect_same_results(gui_.folder() / "headless", gui_.folder() / "gui");
+}
+
+TEST_F(MainFrameTest, loops_are_inspected) {
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .when("the map is drawn",
+            [](MainFrame& frame) {
+              return frame.replay()->drawn_map() && frame.replay()->drawn_map()->scans == 150;
+            })
+      .when("loops are listed", [](MainFrame& frame) { return frame.loops().table().rows() > 3; })
+      .screenshot("finished")
+      .then([](MainFrame& frame) { frame.loops().select(frame.loops().table().loop_of(2)); })
+      .screenshot("loop")
+      .then([](MainFrame& frame) {
+        EXPECT_FALSE(frame.loops().canvas().empty());
+        EXPECT_FALSE(frame.map().measure().has_value());
+      });
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, what_goes_wrong_is_a_sentence_in_the_bar) {
+  const std::string corrupt = write_lines(gui_.folder() / "corrupt.log", {"FLASER 181 1.0 2.0"}).string();
+  auto lines = room_log_lines(40);
+  const std::string broken = write_lines(gui_.folder() / "broken.log", lines).string();
+  std::ofstream(broken, std::ios::app) << "FLASER 181 1.0 2.0";
+  when_says("missing.log does not exist")
+      .screenshot("missing")
+      .then([=](MainFrame& frame) { frame.open_log(corrupt); })
+      .when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause);
+  when_says("corrupt.log:1:");
+  gui_.then([=](MainFrame& frame) { frame.open_log(broken); })
+      .when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished);
+  when_says("broken.log:41:");
+  gui_.then([&](MainFrame& frame) { frame.export_to(gui_.folder(), false); });
+  when_says(gui_.folder().string());
+  gui_.screenshot("not_empty").then([](MainFrame& frame) {
+    EXPECT_TRUE(frame.messages().answer("Replace the results there"));
+  });
+  when_says("All results are in");
+  EXPECT_EQ(gui_.run({(gui_.folder() / "missing.log").string()}), 0);
+  EXPECT_TRUE(std::filesystem::exists(gui_.folder() / "report.html"));
+}
+
+TEST_F(MainFrameTest, a_log_deleted_while_it_is_open_does_no_harm) {
+  const std::string log = room_log();
+  gui_.when_phase(ReplayPhase::kPaused)
+      .then([=](MainFrame&) { std::filesystem::remove(log); })
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .command(kRestart);
+  when_says("does not exist");
+  EXPECT_EQ(gui_.run({log}), 0);
+}
+
+TEST_F(MainFrameTest, closed_in_the_middle_it_asks_once_and_ends) {
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kSpeed)
+      .command(kPlayOrPause)
+      .when("some scans", [](MainFrame& frame) { return scans(frame) >= 2; })
+      .close();
+  when_says("has not been exported");
+  gui_.close();
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, another_log_replaces_one_under_way) {
+  const std::string log = room_log();
+  gui_.when_phase(ReplayPhase::kPaused);
+  for (int i = 0; i < 3; ++i)
+    gui_.command(kPlayOrPause)
+        .then([=](MainFrame& frame) { frame.open_log(log); })
+        .when_phase(ReplayPhase::kPaused);
+  EXPECT_EQ(gui_.run({log}), 0);
+}
+
+TEST_F(MainFrameTest, settings_are_edited_refused_saved_and_used) {
+  const std::filesystem::path ini = gui_.folder() / "my.ini";
+  gui_.when_phase(ReplayPhase::kPaused).then([](MainFrame& frame) {
+    SettingsPanel& panel = frame.settings_panel();
+    EXPECT_EQ(panel.shown("front_end.window_m"), "0.2") << "of the command line";
+    EXPECT_TRUE(panel.enter("front_end.window_m", "0.3"));
+    EXPECT_FALSE(panel.enter("front_end.window_m", "abc"));
+    EXPECT_EQ(frame.settings().settings.mapper.front_end.window_m, 0.3);
+  });
+  when_says("front_end.window_m = abc: expected a number of metres");
+  gui_.screenshot("settings")
+      .then([&](MainFrame& frame) {
+        EXPECT_TRUE(frame.settings_panel().enter("front_end.window_theta_deg", "12"));
+        frame.save_settings(ini);
+        EXPECT_TRUE(frame.settings_panel().enter("loop_closure.enabled", "false"));
+        EXPECT_TRUE(frame.settings_panel().enter("loop_closure.matcher", "ga"));
+        frame.settings_panel().reset_all();
+        EXPECT_EQ(frame.settings_panel().shown("front_end.window_theta_deg"), "7");
+        frame.open_settings(ini);
+        EXPECT_EQ(frame.settings_panel().shown("front_end.window_m"), "0.3");
+      })
+      .command(kRestart)
+      .when_phase(ReplayPhase::kPaused)
+      .then([](MainFrame& frame) { EXPECT_EQ(frame.replay()->settings().mapper.front_end.window_m, 0.3); });
+  EXPECT_EQ(gui_.run({room_log(20), "--set", "front_end.window_m=0.2"}), 0);
+  EXPECT_THAT(read_file(ini), HasSubstr("window_theta_deg = 12"));
+}
+
+TEST_F(MainFrameTest, the_map_is_looked_at_from_all_sides_and_saved_as_a_picture) {
+  const std::filesystem::path picture = gui_.folder() / "view.png";
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .command(kFollow)
+      .then([](MainFrame& frame) { EXPECT_TRUE(frame.map().follows()); })
+      .command(kShowAll)
+      .then([](MainFrame& frame) { EXPECT_FALSE(frame.map().follows()); })
+      .pause(500)
+      .then([&](MainFrame& frame) { frame.save_picture(picture); });
+  when_says("The picture is");
+  gui_.then([](MainFrame& frame) { frame.save_picture("/missing/view.png"); });
+  when_says("/missing/view.png");
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+  wxImage::AddHandler(new wxPNGHandler);
+  const wxImage image(picture.string());
+  ASSERT_TRUE(image.IsOk());
+  EXPECT_GT(image.CountColours(), 10UL) << "something is drawn";
+}
+
+TEST_F(MainFrameTest, mouse_and_keys_play_measure_move_and_zoom) {
+  MapCamera before;
+  gui_.when_phase(ReplayPhase::kPaused)
+      .mouse_to("play", 0.5, 0.5)
+      .mouse_down()
+      .mouse_up()
+      .when_phase(ReplayPhase::kFinished)
+      .when("the map is drawn", [](MainFrame& frame) { return frame.replay()->drawn_map() != nullptr; })
+      .key('M')
+      .mouse_to("map", 0.4, 0.5)
+      .mouse_down()
+      .mouse_to("map", 0.6, 0.5)
+      .mouse_up()
+      .screenshot("measured")
+      .then([&](MainFrame& frame) {
+        ASSERT_TRUE(frame.map().measure().has_value());
+        const Measure measure = *frame.map().measure();
+        EXPECT_GT(measure.distance_m(), 1);
+        EXPECT_NEAR(measure.from.y, measure.to.y, 0.1) << "from left to right";
+        EXPECT_THAT(frame.GetStatusBar()->GetStatusText().utf8_string(), HasSubstr(" m"));
+        before = frame.map().camera();
+      })
+      .key('M')
+      .mouse_to("map", 0.5, 0.5)
+      .mouse_down()
+      .mouse_to("map", 0.6, 0.5)
+      .mouse_up()
+      .then([&](MainFrame& frame) {
+        EXPECT_LT(frame.map().camera().target.x, before.target.x) << "the map was moved to the right";
+        EXPECT_NEAR(frame.map().camera().target.y, before.target.y, 0.1);
+      })
+      .then([&](MainFrame& frame) {
+        wxKeyEvent plus(wxEVT_KEY_DOWN);
+        plus.m_keyCode = '+';
+        frame.map().GetEventHandler()->ProcessEvent(plus);
+        EXPECT_LT(frame.map().camera().distance_m, before.distance_m);
+      });
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, a_log_is_dropped_and_found_again_among_the_recent_ones) {
+  const std::string log = room_log(20);
+  gui_.then([=](MainFrame& frame) {
+        auto* const target = dynamic_cast<wxFileDropTarget*>(frame.GetDropTarget());
+        ASSERT_NE(target, nullptr);
+        wxArrayString names;
+        names.Add(log);
+        EXPECT_TRUE(target->OnDropFiles(0, 0, names));
+      })
+      .when_phase(ReplayPhase::kPaused)
+      .command(kStep)
+      .when("one scan", [](MainFrame& frame) { return scans(frame) == 1; })
+      .command(wxID_FILE1)
+      .when("the log anew", [](MainFrame& frame) { return scans(frame) == 0; })
+      .when_phase(ReplayPhase::kPaused);
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
+TEST_F(MainFrameTest, an_earlier_scan_is_looked_at) {
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .then([](MainFrame& frame) { frame.go_to(30); })
+      .command(kLayer + static_cast<int>(MapLayer::kNodes))
+      .screenshot("earlier_scan")
+      .then([](MainFrame& frame) {
+        EXPECT_EQ(scans(frame), 150U);
+        EXPECT_TRUE(frame.map().map_scene().visible(MapLayer::kNodes));
+      });
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, at_twice_the_scaling_all_of_it_is_twice_as_large) {
+  setenv("GDK_SCALE", "2", 1);
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .when("the map is drawn", [](MainFrame& frame) { return frame.replay()->drawn_map() != nullptr; })
+      .then([](MainFrame& frame) { frame.SetSize(1400, 880); })
+      .screenshot("scaling_200")
+      .then([](MainFrame& frame) { EXPECT_EQ(frame.GetContentScaleFactor(), 2); });
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, options_are_explained_and_the_program_says_who_it_is) {
+  gui_.mouse_to("settings", 0.3, 0.25)
+      .mouse_down()
+      .mouse_up()
+      .screenshot("option")
+      .command(kAbout)
+      .screenshot("about");
+  EXPECT_THAT(about_info().GetDescription().utf8_string(), HasSubstr("graph SLAM"));
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
+TEST_F(MainFrameTest, a_benchmark_log_is_watched) {
+  const auto log = shared_file("fr079.clf.gz");
+  if (!log) GTEST_SKIP() << kNeedsData;
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kLayer + static_cast<int>(MapLayer::kLocalMaps))
+      .command(kPlayOrPause)
+      .when("half of it", [](MainFrame& frame) { return scans(frame) > 2500; })
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kPaused)
+      .pause(1500)
+      .then([](MainFrame& frame) { EXPECT_GT(frame.replay()->snapshot()->loops->size(), 10U); })
+      .then([](MainFrame& frame) { frame.loops().select(frame.loops().table().loop_of(5)); })
+      .screenshot("benchmark_loop")
+      .command(kShowAll)
+      .screenshot("benchmark_log")
+      .command(kFollow)
+      .screenshot("benchmark_follow");
+  EXPECT_EQ(gui_.run({log->string()}), 0);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/replay/replay.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <set>
+#include <thread>
+
+#include "../session/room_log.h"
+#include "psi_slam/session/mapping_session.h"
+#include "same_results.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using SnapshotPtr = std::shared_ptr<const ReplaySnapshot>;
+
+/// The first snapshot that is as expected; a failed expectation when none is for long.
+SnapshotPtr wait_for(const Replay& replay, const std::function<bool(const ReplaySnapshot&)>& expected) {
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  SnapshotPtr snapshot = replay.snapshot();
+  while (!expected(*snapshot)) {
+    const bool over = snapshot->phase == ReplayPhase::kFailed;
+    if (over || std::chrono::steady_clock::now() > limit) {
+      ADD_FAILURE() << "phase " << static_cast<int>(snapshot->phase) << ", " << snapshot->frames.size()
+                    << " scans, failure \"" << snapshot->failure << '"';
+      break;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    snapshot = replay.snapshot();
+  }
+  return snapshot;
+}
+
+SnapshotPtr wait_for(const Replay& replay, ReplayPhase phase) {
+  return wait_for(replay, [phase](const ReplaySnapshot& snapshot) { return snapshot.phase == phase; });
+}
+
+SnapshotPtr wait_for_export(const Replay& replay, int number) {
+  return wait_for(replay, [number](const ReplaySnapshot& snapshot) {
+    return snapshot.exported && snapshot.exported->number == number;
+  });
+}
+
+class ReplayTest : public testing::Test {
+ protected:
+  std::filesystem::path log(const std::vector<std::string>& lines) {
+    return write_lines(folder_.path() / "room.log", lines);
+  }
+  std::filesystem::path out(const std::string& name) const { return folder_.path() / name; }
+
+  /// The results of the headless program.
+  void map_headless(const std::filesystem::path& log, const std::string& name) {
+    MappingSession session(log, settings_);
+    session.run(std::atomic<bool>(false));
+    session.export_to(OutputFolder::prepare(out(name), false));
+  }
+
+  TemporaryFolder folder_;
+  Settings settings_;
+};
+
+TEST_F(ReplayTest, opens_and_waits) {
+  const Replay replay(log(room_log_lines(20)), settings_);
+  const SnapshotPtr snapshot = wait_for(replay, ReplayPhase::kPaused);
+  EXPECT_EQ(snapshot->frames.size(), 0U);
+  EXPECT_TRUE(snapshot->failure.empty());
+}
+
+TEST_F(ReplayTest, steps_one_scan_at_a_time) {
+  Replay replay(log(room_log_lines(20)), settings_);
+  for (std::size_t scans = 1; scans <= 3; ++scans) {
+    replay.step();
+    const SnapshotPtr snapshot = wait_for(replay, [&](const ReplaySnapshot& now) {
+      return now.phase == ReplayPhase::kPaused && now.frames.size() == scans;
+    });
+    EXPECT_EQ(snapshot->log.size(), scans);
+    EXPECT_EQ(snapshot->shares.size(), scans);
+    EXPECT_EQ(snapshot->log.back().index, scans - 1);
+    EXPECT_EQ(snapshot->progress.scans, scans);
+  }
+}
+
+TEST_F(ReplayTest, played_it_writes_what_the_headless_program_writes) {
+  const auto path = log(room_log_lines());
+  map_headless(path, "headless");
+  Replay replay(path, settings_);
+  replay.set_speed(50);
+  replay.play();
+  wait_for(replay, [](const ReplaySnapshot& now) { return now.frames.size() > 20; });
+  replay.pause();
+  wait_for(replay, ReplayPhase::kPaused);
+  replay.step();
+  replay.step();
+  replay.hurry_to(90);
+  const SnapshotPtr hurried = wait_for(replay, [](const ReplaySnapshot& now) {
+    return now.phase == ReplayPhase::kPaused && now.frames.size() >= 90;
+  });
+  EXPECT_EQ(hurried->frames.size(), 90U) << "no farther than asked for";
+  while (replay.stamps_us() == nullptr) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(replay.stamps_us()->size(), 150U);
+  replay.set_speed(0);
+  replay.play();
+  const SnapshotPtr finished = wait_for(replay, ReplayPhase::kFinished);
+  EXPECT_EQ(finished->frames.size(), 150U);
+  EXPECT_FALSE(finished->interrupted);
+  EXPECT_FALSE(finished->loops->empty());
+  replay.export_to(out("played"), false);
+  EXPECT_EQ(wait_for_export(replay, 1)->exported->failure, "");
+  expect_same_results(out("headless"), out("played"));
+  replay.export_to(out("again"), false);
+  EXPECT_EQ(wait_for_export(replay, 2)->exported->failure, "");
+  expect_same_results(out("headless"), out("again"));
+}
+
+TEST_F(ReplayTest, plays_at_the_speed_of_the_log) {
+  Replay replay(log(room_log_lines(6)), settings_);  // five scans a second
+  replay.set_speed(20);
+  const auto start = std::chrono::steady_clock::now();
+  replay.play();
+  wait_for(replay, ReplayPhase::kFinished);
+  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(4 * 200 / 20));
+}
+
+TEST_F(ReplayTest, snapshots_hold_together) {
+  Replay replay(log(room_log_lines()), settings_);
+  replay.set_speed(0);
+  replay.play();
+  std::size_t scans = 0;
+  while (true) {
+    const SnapshotPtr now = replay.snapshot();
+    EXPECT_GE(now->frames.size(), scans);
+    scans = now->frames.size();
+    EXPECT_EQ(now->log.size(), scans);
+    EXPECT_EQ(now->nodes.size(), now->map_T_node->size());
+    for (std::size_t i = 0; i < now->nodes.size(); ++i) EXPECT_LT(now->nodes[i].frame, scans);
+    for (std::size_t i = 0; i < now->local_maps.size(); ++i)
+      EXPECT_LT(now->local_maps[i].last_node, now->nodes.size());
+    for (const LoopRecord& loop : *now->loops) EXPECT_LT(loop.local_map, now->local_maps.size());
+    for (const ActiveLocalMap& active : now->active_local_maps)
+      EXPECT_GT(active.occupancy->getSizeX(), 1U) << "it is not finished";
+    if (now->phase == ReplayPhase::kFinished) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(scans, 150U);
+  EXPECT_GT(replay.snapshot()->local_maps.size(), 1U);
+  EXPECT_EQ(replay.snapshot()->local_maps.back().last_node, replay.snapshot()->nodes.size() - 1);
+  EXPECT_TRUE(replay.snapshot()->active_local_maps.empty());
+}
+
+TEST_F(ReplayTest, draws_the_map_as_it_goes) {
+  Replay replay(log(room_log_lines()), settings_);
+  EXPECT_EQ(replay.drawn_map(), nullptr);
+  replay.set_speed(0);
+  replay.play();
+  wait_for(replay, ReplayPhase::kFinished);
+  while (replay.drawn_map() == nullptr || replay.drawn_map()->scans < 150)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  const std::shared_ptr<const DrawnMap> map = replay.drawn_map();
+  const int longer_px = std::max(map->raster.width_px, map->raster.height_px);
+  EXPECT_NEAR(longer_px * map->raster.resolution_m, 12 + 2 * 0.5, 0.5) << "the room is 12 m long";
+  EXPECT_EQ(map->raster.pixels.size(),
+            4U * static_cast<std::size_t>(map->raster.width_px * map->raster.height_px));
+}
+
+TEST_F(ReplayTest, finished_early_the_map_is_of_the_scans_until_then) {
+  Replay replay(log(room_log_lines()), settings_);
+  for (int i = 0; i < 30; ++i) replay.step();
+  wait_for(replay, [](const ReplaySnapshot& now) { return now.frames.size() == 30; });
+  replay.finish();
+  const SnapshotPtr finished = wait_for(replay, ReplayPhase::kFinished);
+  EXPECT_EQ(finished->frames.size(), 30U);
+  EXPECT_TRUE(finished->interrupted);
+}
+
+TEST_F(ReplayTest, a_log_that_breaks_off_is_mapped_up_to_there_and_told_of) {
+  const auto path = log(room_log_lines(40));
+  std::ofstream(path, std::ios::app) << "FLASER 181 1.0 2.0";
+  Replay replay(path, settings_);
+  replay.set_speed(0);
+  replay.play();
+  const SnapshotPtr finished = wait_for(replay, ReplayPhase::kFinished);
+  EXPECT_EQ(finished->frames.size(), 40U);
+  EXPECT_THAT(finished->warnings, ElementsAre(HasSubstr("room.log:41")));
+}
+
+TEST_F(ReplayTest, what_cannot_be_mapped_is_a_sentence) {
+  Replay missing(folder_.path() / "missing.log", settings_);
+  EXPECT_THAT(wait_for(missing, ReplayPhase::kFailed)->failure, HasSubstr("missing.log does not exist"));
+  Replay corrupt(log({"FLASER 181 1.0 2.0", "FLASER 181 1.0"}), settings_);
+  corrupt.play();
+  EXPECT_THAT(wait_for(corrupt, ReplayPhase::kFailed)->failure, HasSubstr("room.log:1:"));
+  settings_.mapper.loop_closure.candidates.min_window_m = 50;
+  const Replay contradicting(log(room_log_lines(5)), settings_);
+  EXPECT_THAT(wait_for(contradicting, ReplayPhase::kFailed)->failure, HasSubstr("loop_closure.min_window_m"));
+}
+
+TEST_F(ReplayTest, a_folder_that_holds_something_is_not_written_to_unless_asked) {
+  write_file(folder_.path() / "notes.txt", "mine");
+  Replay replay(log(room_log_lines(20)), settings_);
+  replay.export_to(folder_.path(), false);  // waits for the map
+  replay.set_speed(0);
+  replay.play();
+  EXPECT_THAT(wait_for_export(replay, 1)->exported->failure, HasSubstr(folder_.path().string()));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "map.png"));
+  replay.export_to(folder_.path(), true);
+  EXPECT_EQ(wait_for_export(replay, 2)->exported->failure, "");
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "map.png"));
+}
+
+TEST_F(ReplayTest, a_log_deleted_while_it_is_open_is_mapped_or_told_of) {
+  const auto path = log(room_log_lines());
+  Replay replay(path, settings_);
+  replay.step();
+  wait_for(replay, [](const ReplaySnapshot& now) { return now.frames.size() == 1; });
+  std::filesystem::remove(path);
+  replay.set_speed(0);
+  replay.play();
+  EXPECT_EQ(wait_for(replay, ReplayPhase::kFinished)->frames.size(), 150U);
+}
+
+TEST_F(ReplayTest, is_closed_at_any_moment) {
+  const auto path = log(room_log_lines());
+  for (const std::size_t scans : {0U, 1U, 70U, 149U}) {
+    Replay replay(path, settings_);
+    replay.set_speed(0);
+    if (scans > 0) replay.play();
+    wait_for(replay, [&](const ReplaySnapshot& now) { return now.frames.size() >= scans; });
+  }
+  Replay last_pass(path, settings_);
+  last_pass.set_speed(0);
+  last_pass.play();
+  wait_for(last_pass, [](const ReplaySnapshot& now) { return now.phase >= ReplayPhase::kLastPass; });
+  last_pass.close();
+  while (!last_pass.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+TEST_F(ReplayTest, an_export_under_way_is_written_to_its_end_before_it_closes) {
+  {
+    Replay replay(log(room_log_lines(30)), settings_);
+    replay.set_speed(0);
+    replay.play();
+    replay.export_to(out("whole"), false);
+    wait_for(replay, [](const ReplaySnapshot& now) {
+      return now.phase == ReplayPhase::kExporting || now.exported.has_value();
+    });
+  }
+  EXPECT_TRUE(std::filesystem::exists(out("whole") / "report.html")) << "which is written last";
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "test_files.h"
+
+namespace psi_slam {
+
+/// The result folders of two runs hold the same bytes; but for the files that tell times.
+inline void expect_same_results(const std::filesystem::path& a, const std::filesystem::path& b) {
+  for (const char* name : {"trajectory.tum", "trajectory.carmen", "graph.g2o", "map.pgm", "map.yaml",
+                           "map.png", "map.gridmap.gz", "map.simplemap.gz"}) {
+    const std::string bytes = read_file(a / name);
+    EXPECT_FALSE(bytes.empty()) << name;
+    EXPECT_TRUE(read_file(b / name) == bytes) << name << " of " << b << " differs from " << a;
+  }
+}
+
+}  // namespace psi_slam

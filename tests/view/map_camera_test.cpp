@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/view/map_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace psi_slam {
+namespace {
+
+constexpr PictureSize kSize{800, 400};
+
+TEST(MapCamera, from_above_x_points_right_and_y_up) {
+  MapCamera camera;
+  camera.target = {3, -2};
+  const double half_height_m = camera.distance_m * std::tan(camera.field_of_view_deg * M_PI / 360);
+  const auto middle = ground_at(camera, kSize, 400, 200);
+  ASSERT_TRUE(middle.has_value());
+  EXPECT_NEAR(middle->x, 3, 1e-9);
+  EXPECT_NEAR(middle->y, -2, 1e-9);
+  const auto corner = ground_at(camera, kSize, 800, 0);
+  ASSERT_TRUE(corner.has_value());
+  EXPECT_NEAR(corner->x, 3 + 2 * half_height_m, 1e-9);
+  EXPECT_NEAR(corner->y, -2 + half_height_m, 1e-9);
+}
+
+TEST(MapCamera, tilted_the_upper_edge_is_farther_away_and_the_sky_shows_no_ground) {
+  MapCamera camera;
+  camera.elevation_deg = 40;
+  const auto above = ground_at(camera, kSize, 400, 0);
+  const auto below = ground_at(camera, kSize, 400, 400);
+  ASSERT_TRUE(above && below);
+  EXPECT_GT(above->y, -below->y) << "perspective";
+  EXPECT_NEAR(above->x, 0, 1e-9);
+  camera.elevation_deg = 10;
+  EXPECT_FALSE(ground_at(camera, kSize, 400, 0).has_value());
+}
+
+TEST(MapCamera, sees_all_of_a_rectangle_from_above) {
+  for (const GroundRectangle& rectangle :
+       {GroundRectangle{{-10, 0}, {50, 5}}, GroundRectangle{{0, -30}, {4, 30}},
+        GroundRectangle{{1, 1}, {1, 1}}}) {
+    const MapCamera camera = camera_above(rectangle, kSize);
+    const auto upper_left = ground_at(camera, kSize, 0, 0);
+    const auto lower_right = ground_at(camera, kSize, kSize.width_px, kSize.height_px);
+    ASSERT_TRUE(upper_left && lower_right);
+    EXPECT_LT(upper_left->x, rectangle.min.x);
+    EXPECT_GT(upper_left->y, rectangle.max.y);
+    EXPECT_GT(lower_right->x, rectangle.max.x);
+    EXPECT_LT(lower_right->y, rectangle.min.y);
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

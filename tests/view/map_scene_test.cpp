@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/view/map_scene.h"
+
+#include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CTexturedPlane.h>
+
+#include <algorithm>
+
+#include "psi_slam/view/palette.h"
+#include "replayed_room.h"
+
+namespace psi_slam {
+namespace {
+
+class MapSceneTest : public ReplayedRoom {
+ protected:
+  template <class Object>
+  typename Object::Ptr first(MapLayer layer) const {
+    return std::dynamic_pointer_cast<Object>(*scene_.layer(layer).begin());
+  }
+  std::size_t objects(MapLayer layer) const {
+    return static_cast<std::size_t>(std::distance(scene_.layer(layer).begin(), scene_.layer(layer).end()));
+  }
+  std::size_t loop_lines() const {
+    std::size_t count = 0;
+    for (const auto& lines : scene_.layer(MapLayer::kLoops))
+      count += std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(lines)->size();
+    return count;
+  }
+  std::size_t loops(LoopVerdict verdict) const {
+    return static_cast<std::size_t>(
+        std::count_if(finished_->loops->begin(), finished_->loops->end(),
+                      [&](const LoopRecord& loop) { return loop.verdict == verdict; }));
+  }
+
+  MapScene scene_;
+};
+
+TEST_F(MapSceneTest, draws_a_finished_run) {
+  scene_.set_visible(MapLayer::kNodes, true);
+  EXPECT_TRUE(scene_.show(finished_, map_));
+  float x_min = 0, x_max = 0, y_min = 0, y_max = 0;
+  first<mrpt::opengl::CTexturedPlane>(MapLayer::kGrid)->getPlaneCorners(x_min, x_max, y_min, y_max);
+  EXPECT_NEAR(x_max - x_min, map_->raster.width_px * map_->raster.resolution_m, 1e-3);
+  EXPECT_NEAR(static_cast<double>(y_max), map_->raster.y_max_m, 1e-4);
+  EXPECT_EQ(first<mrpt::opengl::CPointCloud>(MapLayer::kNodes)->size(), finished_->map_T_node->size());
+  EXPECT_GT(first<mrpt::opengl::CPointCloud>(MapLayer::kScan)->size(), 100U);
+  EXPECT_GT(first<mrpt::opengl::CSetOfLines>(MapLayer::kTrajectory)->size(), 50U);
+  EXPECT_GT(first<mrpt::opengl::CSetOfLines>(MapLayer::kOdometry)->size(), 50U);
+  EXPECT_EQ(objects(MapLayer::kLocalMaps), 0U) << "none is active any more";
+}
+
+TEST_F(MapSceneTest, draws_the_active_local_maps_while_it_goes_on) {
+  scene_.show(paused_, nullptr);
+  EXPECT_EQ(objects(MapLayer::kLocalMaps), paused_->active_local_maps.size());
+  EXPECT_GT(objects(MapLayer::kLocalMaps), 0U);
+  EXPECT_EQ(objects(MapLayer::kGrid), 0U);
+}
+
+TEST_F(MapSceneTest, draws_the_loops_that_were_accepted_and_others_if_asked_for) {
+  scene_.show(finished_, map_);
+  ASSERT_GT(loops(LoopVerdict::kAccepted), 0U);
+  EXPECT_EQ(loop_lines(), finished_->loops->size() - loops(LoopVerdict::kRefused));
+  scene_.set_loop_style({LoopStyle::Colour::kMatcher, true});
+  EXPECT_TRUE(scene_.show(finished_, map_));
+  EXPECT_EQ(loop_lines(), finished_->loops->size());
+}
+
+TEST_F(MapSceneTest, colours_loops_by_their_matcher_or_their_residual) {
+  scene_.show(finished_, map_);
+  const auto colour = [&] { return first<mrpt::opengl::CSetOfLines>(MapLayer::kLoops)->getColor_u8(); };
+  const auto first_accepted =
+      std::find_if(finished_->loops->begin(), finished_->loops->end(),
+                   [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; });
+  EXPECT_EQ(colour().G, matcher_colour(first_accepted->matcher).G);
+  scene_.set_loop_style({LoopStyle::Colour::kResidual, false});
+  scene_.show(finished_, map_);
+  EXPECT_EQ(colour().G, heat_colour(0).G) << "loops of a clean simulation fit";
+}
+
+TEST_F(MapSceneTest, draws_the_window_of_the_scan_and_of_the_loops_tried_there) {
+  const auto first_loop = std::find_if(finished_->loops->begin(), finished_->loops->end(),
+                                       [](const LoopRecord& loop) { return !loop.in_last_pass; });
+  ASSERT_NE(first_loop, finished_->loops->end());
+  const auto lines = [&](std::size_t frame) {
+    scene_.show(finished_, map_, frame);
+    return first<mrpt::opengl::CSetOfLines>(MapLayer::kWindows)->size();
+  };
+  EXPECT_EQ(lines(1), 6U) << "four sides, and how far the heading is searched";
+  EXPECT_GE(lines(first_loop->frame), 12U);
+}
+
+TEST_F(MapSceneTest, redraws_nothing_when_nothing_has_changed) {
+  scene_.show(finished_, map_);
+  const auto grid = *scene_.layer(MapLayer::kGrid).begin();
+  EXPECT_FALSE(scene_.show(finished_, map_));
+  EXPECT_EQ(*scene_.layer(MapLayer::kGrid).begin(), grid);
+  EXPECT_TRUE(scene_.show(finished_, map_, 10)) << "another scan is looked at";
+  EXPECT_FALSE(scene_.show(finished_, map_, 10));
+}
+
+TEST_F(MapSceneTest, layers_go_on_and_off) {
+  for (std::size_t i = 0; i < kMapLayers; ++i) {
+    const auto layer = static_cast<MapLayer>(i);
+    EXPECT_EQ(scene_.visible(layer), shown_at_first(layer)) << name_of(layer);
+    scene_.set_visible(layer, !shown_at_first(layer));
+    EXPECT_NE(scene_.visible(layer), shown_at_first(layer)) << name_of(layer);
+  }
+}
+
+TEST_F(MapSceneTest, a_layer_that_is_switched_on_is_up_to_date) {
+  scene_.show(finished_, map_);
+  EXPECT_EQ(objects(MapLayer::kConstraints), 0U);
+  scene_.set_visible(MapLayer::kConstraints, true);
+  EXPECT_TRUE(scene_.show(finished_, map_));
+  EXPECT_GT(first<mrpt::opengl::CSetOfLines>(MapLayer::kConstraints)->size(), 50U);
+}
+
+}  // namespace
+}  // namespace psi_slam

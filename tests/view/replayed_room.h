@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "../session/room_log.h"
+#include "psi_slam/replay/replay.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+
+/// A finished run in the room with the pillar.
+class ReplayedRoom : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const TemporaryFolder folder;
+    Replay replay(write_lines(folder.path() / "room.log", room_log_lines()), {});
+    replay.set_speed(0);
+    while (replay.snapshot()->frames.size() < 1) {
+      replay.step();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    paused_ = replay.snapshot();
+    replay.play();
+    const auto ready = [&] {
+      return replay.snapshot()->phase == ReplayPhase::kFinished && replay.drawn_map() &&
+             replay.drawn_map()->scans == 150;
+    };
+    while (!ready()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    finished_ = replay.snapshot();
+    map_ = replay.drawn_map();
+  }
+  static void TearDownTestSuite() {
+    paused_.reset();
+    finished_.reset();
+    map_.reset();
+  }
+
+  static inline std::shared_ptr<const ReplaySnapshot> paused_;  // after the first scans
+  static inline std::shared_ptr<const ReplaySnapshot> finished_;
+  static inline std::shared_ptr<const DrawnMap> map_;
+};
+
+}  // namespace psi_slam

@@ -18,7 +18,8 @@ std::size_t node_before(const HistoryView<NodeScan>& nodes, std::size_t frame) {
 }  // namespace
 
 mrpt::math::TPose2D map_T_frame(const ReplaySnapshot& snapshot, std::size_t frame) {
-  if (snapshot.nodes.empty()) return snapshot.frames[frame].map_T_robot;
+  const bool finished = snapshot.phase == ReplayPhase::kFinished || snapshot.phase == ReplayPhase::kExporting;
+  if (finished || snapshot.nodes.empty()) return snapshot.frames[frame].map_T_robot;
   const std::size_t node = node_before(snapshot.nodes, frame);
   const mrpt::math::TPose2D node_T_frame =
       snapshot.frames[frame].front_end_T_robot - snapshot.nodes[node].local_T_robot;

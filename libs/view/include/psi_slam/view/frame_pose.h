@@ -9,7 +9,8 @@
 
 namespace psi_slam {
 
-/// Where the robot was at a scan, in the map as it is now: as the front end saw it from the node before.
+/// Where the robot was at a scan, in the map as it is now: as the result has it, and before that as the front
+/// end saw it from the node before.
 mrpt::math::TPose2D map_T_frame(const ReplaySnapshot& snapshot, std::size_t frame);
 
 }  // namespace psi_slam

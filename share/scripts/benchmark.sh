@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Maps the benchmark's logs, measures the paths against the true relations, and prints the table of README.md.
+# Maps the benchmark's logs with whole runs of the program, measures the paths against the true relations, and prints errors,
+# speed and memory beside what Karto reaches.
 #
 #     share/scripts/benchmark.sh FOLDER [OUTPUT]     # FOLDER is the one that fetch-benchmark-logs.sh has filled
 #

@@ -78,7 +78,7 @@ void MainFrame::build() {
       {[this](const std::string& sentence) { messages_->say(MessageBar::Kind::kError, sentence); },
        [this] {
          messages_->Dismiss();
-         if (replay_) settings_panel_->show_pending(settings_file_text(settings_.table) != settings_of_run_);
+         show_pending_settings();
        },
        [this] { restart(); }});
   loops_ = new LoopInspector(this, [this](std::optional<std::size_t> loop) { choose_loop(loop); });
@@ -164,6 +164,10 @@ void MainFrame::open_log(const std::filesystem::path& log) {
   canvas_->show_all();
   SetTitle(text_of(log.filename()) + wxString::FromUTF8(" — psi-slam"));
   refresh();
+}
+
+void MainFrame::show_pending_settings() {
+  if (replay_) settings_panel_->show_pending(settings_file_text(settings_.table) != settings_of_run_);
 }
 
 void MainFrame::restart() {

@@ -78,6 +78,8 @@ class MainFrame : public wxFrame {
   void step();
   void finish();
   void restart();
+  /// Whether the settings are other than those of the run under way.
+  void show_pending_settings();
   void set_speed(double speed);
   void choose_loop(std::optional<std::size_t> loop);
   void toggle_pane(wxWindow* window, bool shown);

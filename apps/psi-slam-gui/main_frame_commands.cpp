@@ -148,7 +148,7 @@ void MainFrame::open_settings(const std::filesystem::path& file) {
     settings_.settings = fresh.settings;
     settings_panel_->refresh();
     messages_->say(MessageBar::Kind::kNote, "The settings are those of " + file.string());
-    if (replay_) settings_panel_->show_pending(settings_file_text(settings_.table) != settings_of_run_);
+    show_pending_settings();
   } catch (const UserError& error) {
     messages_->say(MessageBar::Kind::kError, error.what());
   }

@@ -243,7 +243,9 @@ void Mapper::refine_poses(const std::function<bool(double)>& progress) {
   for (const FrameRecord& frame : result_.frames) scans.map_T_frame.push_back(frame.map_T_robot);
   scans.node_frames = result_.node_frames;
   scans.points = [&](std::size_t frame) {
-    return matching_points(result_.log[frame].scan, options_.front_end.scan);
+    const std::optional<std::size_t>& node = result_.frames[frame].node;
+    return node ? *memory_.nodes[*node].points
+                : matching_points(result_.log[frame].scan, options_.front_end.scan);
   };
   refine_jointly(scans, options_.joint_refinement, pool_, progress);
   // The map's frame stays that of the first node, as the graph has it.

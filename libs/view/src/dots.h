@@ -14,4 +14,10 @@ namespace psi_slam {
 mrpt::opengl::CPointCloud::Ptr dots_of(const std::vector<mrpt::math::TPoint3Df>& points,
                                        const mrpt::img::TColor& colour, float size_px);
 
+/// A point or pose of the plane, at a height.
+template <class Planar>
+mrpt::math::TPoint3Df raised(const Planar& at, double z_m) {
+  return {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(z_m)};
+}
+
 }  // namespace psi_slam

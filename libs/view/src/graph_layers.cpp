@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/opengl/CSetOfLines.h>
-
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -8,6 +6,7 @@
 
 #include "dots.h"
 #include "layers.h"
+#include "lines.h"
 #include "psi_slam/view/loop_residual.h"
 #include "psi_slam/view/palette.h"
 
@@ -20,21 +19,6 @@ using mrpt::opengl::CSetOfLines;
 constexpr int kResidualShades = 8;
 constexpr std::uint8_t kFaint = 45;
 constexpr std::uint8_t kClear = 140;  // what lies below is to be seen, too
-
-CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
-  auto lines = CSetOfLines::Create();
-  lines->setColor_u8(colour);
-  lines->setLineWidth(width);
-  return lines;
-}
-
-void join(CSetOfLines& lines, const TPose2D& a, const TPose2D& b, double z_m) {
-  lines.appendLine(a.x, a.y, z_m, b.x, b.y, z_m);
-}
-
-mrpt::math::TPoint3Df raised(const TPose2D& pose, double z_m) {
-  return {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(z_m)};
-}
 
 mrpt::img::TColor colour_of(const LoopRecord& loop, const ReplaySnapshot& snapshot, const LoopStyle& style) {
   if (loop.verdict != LoopVerdict::kAccepted) return verdict_colour(loop.verdict);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "dots.h"
 #include "layers.h"
+#include "lines.h"
 #include "psi_slam/local_maps/scan_filter.h"
 #include "psi_slam/view/frame_pose.h"
 #include "psi_slam/view/palette.h"
@@ -24,19 +24,13 @@ constexpr double kNose_m = 0.45;  // of the arrow that stands for the robot
 constexpr double kTail_m = -0.25;
 constexpr double kHalfWidth_m = 0.25;
 
-TPoint3Df raised(const TPoint2D& point, double z_m) {
-  return {static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(z_m)};
-}
-
 /// A rectangle of these half-widths around a pose, along its axes, with the pose's heading and how far it may
 /// turn.
 void add_window(mrpt::opengl::CSetOfLines& lines, const TPose2D& map_T_middle, const SearchExtent& extent) {
   const std::array<TPoint2D, 4> corners{TPoint2D(extent.x_m, extent.y_m), TPoint2D(-extent.x_m, extent.y_m),
                                         TPoint2D(-extent.x_m, -extent.y_m),
                                         TPoint2D(extent.x_m, -extent.y_m)};
-  const auto line = [&](const TPoint2D& a, const TPoint2D& b) {
-    lines.appendLine(a.x, a.y, height_m::kWindows, b.x, b.y, height_m::kWindows);
-  };
+  const auto line = [&](const TPoint2D& a, const TPoint2D& b) { join(lines, a, b, height_m::kWindows); };
   for (std::size_t i = 0; i < corners.size(); ++i)
     line(map_T_middle.composePoint(corners[i]), map_T_middle.composePoint(corners[(i + 1) % corners.size()]));
   const double reach_m = std::max(extent.x_m, extent.y_m);
@@ -75,9 +69,7 @@ void draw_scan(SceneLayer& layer, const Frame& frame, const TPose2D& map_T_robot
 
 void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t frame) {
   layer.clear();
-  auto lines = mrpt::opengl::CSetOfLines::Create();
-  lines->setColor_u8(palette::kWindow);
-  lines->setLineWidth(1.5F);
+  auto lines = lines_of(palette::kWindow, 1.5F);
   if (frame > 0) {  // the front end searches where odometry predicts the robot
     const FrameRecord& record = snapshot.frames[frame];
     const TPose2D motion = record.odom_T_robot - snapshot.frames[frame - 1].odom_T_robot;
@@ -91,11 +83,8 @@ void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t
 
 void draw_measure(SceneLayer& layer, const Measure& measure) {
   layer.clear();
-  auto lines = mrpt::opengl::CSetOfLines::Create();
-  lines->setColor_u8(palette::kMeasure);
-  lines->setLineWidth(2);
-  lines->appendLine(measure.from.x, measure.from.y, height_m::kMeasure, measure.to.x, measure.to.y,
-                    height_m::kMeasure);
+  auto lines = lines_of(palette::kMeasure, 2);
+  join(*lines, measure.from, measure.to, height_m::kMeasure);
   layer.insert(lines);
   layer.insert(dots_of({raised(measure.from, height_m::kMeasure), raised(measure.to, height_m::kMeasure)},
                        palette::kMeasure, 8));

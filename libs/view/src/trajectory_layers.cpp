@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/opengl/CSetOfLines.h>
-
 #include "layers.h"
+#include "lines.h"
 #include "psi_slam/view/palette.h"
 
 namespace psi_slam {
@@ -15,10 +14,7 @@ constexpr double kShortestLine_m = 0.05;
 /// A line through points that come one by one; those next to each other are left out.
 class Polyline {
  public:
-  explicit Polyline(const mrpt::img::TColor& colour, float width) : lines_(CSetOfLines::Create()) {
-    lines_->setColor_u8(colour);
-    lines_->setLineWidth(width);
-  }
+  explicit Polyline(const mrpt::img::TColor& colour, float width) : lines_(lines_of(colour, width)) {}
   void add(const mrpt::math::TPose2D& pose, double z_m) {
     const TPoint3D point(pose.x, pose.y, z_m);
     if (begun_ && (point - last_).norm() < kShortestLine_m) return;

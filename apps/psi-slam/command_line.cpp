@@ -37,6 +37,7 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
     throw UserError("name the folder for the results: -o DIR" + std::string(kSeeHelp));
   if (line.command != Command::kMap && !line.output.empty())
     throw UserError("-o goes with mapping only: nothing is written here");
+  if (line.command != Command::kMap && !line.edits.empty()) throw UserError("--edits goes with mapping only");
   if (line.command != Command::kMap && !log_to_map.empty())
     throw UserError("\"" + log_to_map + "\" is one argument too many" + kSeeHelp);
 }
@@ -74,6 +75,9 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
       ->type_name("");
   app.add_option("-o,--output", line.output, "Folder for the results, new or empty")->type_name("DIR");
   add_settings_options(app, line.config, line.settings);
+  app.add_option("--edits", line.edits,
+                 "Loops deleted, forced or matched by hand: a file as psi-slam-gui saves it")
+      ->type_name("FILE");
   app.add_option("--seed", line.seed, "The same as --set run.seed=N")->type_name("N");
   app.add_option("--threads", line.threads, "The same as --set run.threads=N")->type_name("N");
   app.add_flag("--force", line.force, "Replace the results in a folder that is not empty");

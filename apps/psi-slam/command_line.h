@@ -15,6 +15,7 @@ struct CommandLine {
   Command command = Command::kMap;
   std::string log;
   std::string output;
+  std::string edits;                  ///< empty: none
   std::string config;                 ///< empty: the built-in defaults
   std::vector<std::string> settings;  ///< "section.key=value", in the order given
   std::optional<std::string> seed;

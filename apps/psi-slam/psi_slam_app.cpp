@@ -61,6 +61,7 @@ int map(const CommandLine& line, const Streams& streams) {
   if (line.verbose) streams.err << changed_settings(bound.table);
   const InterruptSignals signals;
   MappingSession session(line.log, bound.settings);
+  if (!line.edits.empty()) session.set_edits(EditJournal::read(line.edits));
   const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
   std::optional<ProgressLine> progress_line;
   watch(session, signals, line, streams, progress_line);
@@ -77,6 +78,8 @@ int map(const CommandLine& line, const Streams& streams) {
     streams.out << closing_text(summary, info.log_name, folder);
   if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
     streams.err << "psi-slam: " << skipped.sentence() << '\n';
+  for (const std::string& unmet : session.unmet_edits())
+    streams.err << "psi-slam: an edit was not made: " << unmet << '\n';
   if (const auto coarser = coarser_cells_text(summary.map)) streams.err << "psi-slam: " << *coarser << '\n';
   if (!session.broken_off()) return kDone;
   streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "

@@ -195,5 +195,42 @@ TEST_F(PsiSlamApp, an_interrupt_ends_the_mapping_in_good_order) {
   EXPECT_EQ(read_trajectory(output("out") / "trajectory.tum").size(), scans);
 }
 
+TEST_F(PsiSlamApp, makes_the_edits_of_a_file) {
+  const std::string log = room_log(150);
+  ASSERT_EQ(map(log, "as_it_is").code, 0);
+  std::istringstream loops(bytes_of(output("as_it_is") / "loops.csv"));
+  std::string edits;
+  for (std::string row; std::getline(loops, row);) {
+    const auto comma = [&](std::size_t from) { return row.find(',', from) + 1; };
+    if (row.find(",accepted,") == std::string::npos) continue;
+    const std::string scan = row.substr(0, row.find(','));
+    const std::size_t map_at = comma(comma(0));
+    edits +=
+        "delete scan=" + scan + " local_map=" + row.substr(map_at, row.find(',', map_at) - map_at) + '\n';
+  }
+  ASSERT_FALSE(edits.empty());
+  const std::string file = (folder_.path() / "mine.edits").string();
+  write_bytes(file, edits + "force scan=149 local_map=99\n");
+  const AppRun run = map(log, "edited", {"--edits", file});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.err,
+              HasSubstr("psi-slam: an edit was not made: force the loop of scan 149 with local map 99"));
+  const Json summary = Json::parse(bytes_of(output("edited") / "summary.json"));
+  EXPECT_EQ(summary["loop_counts"]["accepted"], 0);
+  EXPECT_GT(summary["loop_counts"]["by_hand"], 0);
+  EXPECT_THAT(bytes_of(output("edited") / "loops.edits"), HasSubstr("delete scan="));
+  EXPECT_THAT(bytes_of(output("edited") / "report.html"), HasSubstr("settled by hand"));
+  EXPECT_NE(bytes_of(output("edited") / "graph.g2o"), bytes_of(output("as_it_is") / "graph.g2o"));
+}
+
+TEST_F(PsiSlamApp, refuses_a_file_that_holds_no_edits) {
+  const std::string file = (folder_.path() / "mine.edits").string();
+  write_bytes(file, "forget scan=1 local_map=0\n");
+  const AppRun run = map(room_log(), "out", {"--edits", file});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("mine.edits:1: \"forget\" is none of delete, force, match and restore"));
+  EXPECT_FALSE(fs::exists(output("out")));
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -51,11 +51,16 @@ LoopCloser::Outcome close(const PoseGraph& graph, const Matcher& matcher, int th
   return closer.close(two_rounds().node, memory, graph, matcher, pool);
 }
 
-TEST(LoopCloser, attempts_that_find_nothing_are_counted) {
+TEST(LoopCloser, attempts_that_find_nothing_are_listed_and_counted) {
   const AskedMatcher matcher;
   const LoopCloser::Outcome outcome = close(two_rounds().graph(), matcher);
-  EXPECT_TRUE(outcome.loops.empty());
   EXPECT_GT(outcome.effort.attempts, 1U);
+  EXPECT_EQ(outcome.loops.size(), outcome.effort.attempts);
+  for (const LoopRecord& loop : outcome.loops) {
+    EXPECT_EQ(loop.verdict, LoopVerdict::kNotFound);
+    EXPECT_EQ(loop.anchor_T_node, loop.anchor_T_predicted);
+    EXPECT_FALSE(loop.reason.empty());
+  }
   EXPECT_EQ(outcome.effort.attempts, matcher.questions().size());
   EXPECT_EQ(outcome.effort.found, 0U);
   EXPECT_EQ(outcome.effort.evaluations, 7 * static_cast<std::int64_t>(outcome.effort.attempts));

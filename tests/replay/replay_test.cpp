@@ -252,5 +252,125 @@ TEST_F(ReplayTest, an_export_under_way_is_written_to_its_end_before_it_closes) {
   EXPECT_TRUE(std::filesystem::exists(out("whole") / "report.html")) << "which is written last";
 }
 
+class ReplayEditsTest : public ReplayTest {
+ protected:
+  static SnapshotPtr wait_for_edit(const Replay& replay, int number) {
+    return wait_for(replay, [number](const ReplaySnapshot& snapshot) {
+      return snapshot.edited && snapshot.edited->number == number;
+    });
+  }
+  static SnapshotPtr wait_until_finished_after_edit(const Replay& replay, int number) {
+    return wait_for(replay, [number](const ReplaySnapshot& snapshot) {
+      return snapshot.edited && snapshot.edited->number == number && snapshot.phase == ReplayPhase::kFinished;
+    });
+  }
+
+  static LoopEdit delete_first_accepted(const ReplaySnapshot& snapshot) {
+    for (const LoopRecord& loop : *snapshot.loops)
+      if (loop.verdict == LoopVerdict::kAccepted)
+        return {LoopEdit::Kind::kDelete, loop.frame, loop.local_map};
+    throw std::logic_error("no loop was closed");
+  }
+  static LoopVerdict verdict_of(const ReplaySnapshot& snapshot, const LoopEdit& edit) {
+    for (const LoopRecord& loop : *snapshot.loops)
+      if (loop.frame == edit.frame && loop.local_map == edit.local_map) return loop.verdict;
+    throw std::logic_error("the two were never matched");
+  }
+};
+
+TEST_F(ReplayEditsTest, are_shown_at_once_undone_and_made_again) {
+  Replay replay(log(room_log_lines(150)), settings_);
+  replay.hurry_to(140);
+  const SnapshotPtr mapped = wait_for(replay, [](const ReplaySnapshot& now) {
+    return now.phase == ReplayPhase::kPaused && now.frames.size() == 140;
+  });
+  const LoopEdit edit = delete_first_accepted(*mapped);
+  replay.edit(edit);
+  const SnapshotPtr edited = wait_for_edit(replay, 1);
+  EXPECT_EQ(verdict_of(*edited, edit), LoopVerdict::kDeleted);
+  EXPECT_NE(edited->map_T_node->back(), mapped->map_T_node->back());
+  EXPECT_EQ(edited->edits->size(), 1U);
+  EXPECT_THAT(edited->undo_text, HasSubstr("delete the loop of scan"));
+  EXPECT_EQ(edited->redo_text, "");
+  replay.undo();
+  const SnapshotPtr undone = wait_for_edit(replay, 2);
+  EXPECT_EQ(verdict_of(*undone, edit), LoopVerdict::kAccepted);
+  EXPECT_EQ(undone->undo_text, "");
+  EXPECT_THAT(undone->redo_text, HasSubstr("delete the loop of scan"));
+  replay.undo();  // nothing is left
+  replay.redo();
+  EXPECT_EQ(verdict_of(*wait_for_edit(replay, 3), edit), LoopVerdict::kDeleted);
+  replay.set_speed(0);
+  replay.play();
+  EXPECT_EQ(verdict_of(*wait_for(replay, ReplayPhase::kFinished), edit), LoopVerdict::kDeleted)
+      << "it survives what is mapped later";
+}
+
+TEST_F(ReplayEditsTest, made_anywhere_they_give_what_the_headless_program_makes_of_their_file) {
+  const auto path = log(room_log_lines(200));
+  Replay replay(path, settings_);
+  replay.hurry_to(150);
+  const SnapshotPtr mapped = wait_for(replay, [](const ReplaySnapshot& now) {
+    return now.phase == ReplayPhase::kPaused && now.frames.size() == 150;
+  });
+  replay.edit(delete_first_accepted(*mapped));
+  wait_for_edit(replay, 1);
+  replay.set_speed(0);
+  replay.play();
+  wait_for(replay, ReplayPhase::kLastPass);
+  const LoopEdit during = delete_first_accepted(*replay.snapshot());
+  replay.edit(during);
+  const SnapshotPtr finished = wait_until_finished_after_edit(replay, 2);
+  EXPECT_FALSE(finished->interrupted) << "the last pass was begun anew, not cut";
+  LoopEdit again = delete_first_accepted(*finished);
+  again.kind = LoopEdit::Kind::kMatch;
+  again.matcher = MatcherKind::kCsm;
+  replay.edit(again);
+  replay.undo();
+  replay.redo();
+  wait_until_finished_after_edit(replay, 5);
+  replay.export_to(out("window"), false);
+  EXPECT_EQ(wait_for_export(replay, 1)->exported->failure, "");
+
+  MappingSession session(path, settings_);
+  session.set_edits(EditJournal::read(out("window") / "loops.edits"));
+  session.run(std::atomic<bool>(false));
+  session.export_to(OutputFolder::prepare(out("headless"), false));
+  expect_same_results(out("window"), out("headless"));
+}
+
+TEST_F(ReplayEditsTest, of_a_run_are_made_again_in_the_next) {
+  const auto path = log(room_log_lines(150));
+  EditJournal journal;
+  {
+    Replay replay(path, settings_);
+    replay.set_speed(0);
+    replay.play();
+    const LoopEdit edit = delete_first_accepted(*wait_for(replay, ReplayPhase::kFinished));
+    replay.edit(edit);
+    for (const TimedEdit& made : *wait_until_finished_after_edit(replay, 1)->edits) journal.add(made);
+  }
+  ASSERT_EQ(journal.edits().size(), 1U);
+  Replay replay(path, settings_, journal);
+  EXPECT_EQ(wait_for(replay, ReplayPhase::kPaused)->edits->size(), 1U);
+  replay.set_speed(0);
+  replay.play();
+  const SnapshotPtr finished = wait_for(replay, ReplayPhase::kFinished);
+  EXPECT_EQ(verdict_of(*finished, journal.edits()[0].edit), LoopVerdict::kDeleted);
+}
+
+TEST_F(ReplayEditsTest, says_what_cannot_be_done) {
+  Replay replay(log(room_log_lines(60)), settings_);
+  replay.set_speed(0);
+  replay.play();
+  wait_for(replay, ReplayPhase::kFinished);
+  replay.edit({LoopEdit::Kind::kForce, 0, 0});
+  const SnapshotPtr after = wait_until_finished_after_edit(replay, 1);
+  EXPECT_EQ(after->edited->outcome.state, LoopEditOutcome::State::kImpossible);
+  EXPECT_EQ(after->edited->outcome.reason, "scan 0 is part of local map 0");
+  EXPECT_TRUE(after->edits->empty());
+  EXPECT_EQ(after->undo_text, "");
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -25,9 +25,10 @@ TEST(LoopsCsv, has_a_row_for_each_attempt_with_its_verdict_and_reason) {
   std::getline(text, accepted);
   EXPECT_THAT(
       header,
-      StartsWith("frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,x_m,y_m,theta_rad,"));
-  EXPECT_THAT(refused, StartsWith("25,5,0,0,refused,\"too far, by \"\"1 m\"\"\",csm,0,"));
-  EXPECT_THAT(accepted, StartsWith("45,9,0,0,accepted,,csm,0,"));
+      StartsWith(
+          "frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,"));
+  EXPECT_THAT(refused, StartsWith("25,5,0,0,refused,\"too far, by \"\"1 m\"\"\",csm,0,0,"));
+  EXPECT_THAT(accepted, StartsWith("45,9,0,0,accepted,,csm,0,0,"));
   EXPECT_THAT(accepted, HasSubstr(",0.010000,0.010000,0.010000,"));
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(accepted.begin(), accepted.end(), ','));
   EXPECT_FALSE(std::getline(text, header));

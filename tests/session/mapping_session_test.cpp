@@ -14,6 +14,7 @@
 #include "psi_slam/results/summary_json.h"
 #include "psi_slam/results/trajectory_file.h"
 #include "room_log.h"
+#include "same_results.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 
@@ -22,6 +23,8 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
 using Phase = SessionProgress::Phase;
 
 class MappingSessionTest : public testing::Test {
@@ -240,6 +243,91 @@ TEST_F(MappingSessionTest, report_summary_and_caller_are_told_the_same_times) {
   EXPECT_EQ(read_file(out / "summary.json"), summary_json(result, session.run_info(), summary));
   EXPECT_TRUE(read_file(out / "report.html") == report_html(result, session.run_info(), summary, *grid));
   EXPECT_THAT(read_file(out / "report.html"), HasSubstr("<th>write results</th>"));
+}
+
+class MappingSessionEditsTest : public MappingSessionTest {
+ protected:
+  static LoopEdit delete_of(const LoopRecord& loop) {
+    return {LoopEdit::Kind::kDelete, loop.frame, loop.local_map};
+  }
+
+  static const LoopRecord& accepted(const std::vector<LoopRecord>& loops) {
+    for (const LoopRecord& loop : loops)
+      if (loop.verdict == LoopVerdict::kAccepted) return loop;
+    throw std::logic_error("no loop was closed");
+  }
+
+  /// The same log with the edits that the folder `like` holds.
+  std::filesystem::path mapped_by_file(const std::filesystem::path& path, const std::filesystem::path& like) {
+    MappingSession session(path, settings_);
+    session.set_edits(EditJournal::read(like / "loops.edits"));
+    session.run(go_on_);
+    EXPECT_THAT(session.unmet_edits(), IsEmpty());
+    session.export_to(OutputFolder::prepare(folder_.path() / "by_file", false));
+    return folder_.path() / "by_file";
+  }
+};
+
+TEST_F(MappingSessionEditsTest, made_on_the_way_and_after_the_end_they_give_the_map_that_their_file_gives) {
+  const auto path = log(room_log_lines(220));
+  MappingSession session(path, settings_);
+  session.stay_open();
+  while (session.step()) {
+    const std::size_t scans = session.mapper().frames().size();
+    if (scans == 150) session.edit(delete_of(accepted(session.mapper().loops())));
+    if (scans == 180) {
+      LoopEdit match{LoopEdit::Kind::kMatch, session.mapper().loops().back().frame,
+                     session.mapper().loops().back().local_map};
+      match.matcher = MatcherKind::kGa;
+      session.edit(match);
+    }
+  }
+  session.finish();
+  EXPECT_TRUE(session.finished());
+  const LoopEdit late = delete_of(accepted(session.result().loops));
+  EXPECT_EQ(session.edit(late).state, LoopEditOutcome::State::kDone);
+  EXPECT_FALSE(session.finished());
+  session.finish();
+  const LoopEdit later = delete_of(accepted(session.result().loops));
+  session.edit(later);
+  session.edit({LoopEdit::Kind::kRestore, late.frame, late.local_map});
+  session.finish();
+  EXPECT_FALSE(session.result().interrupted);
+  session.export_to(output());
+  const std::filesystem::path out = folder_.path() / "out";
+  EXPECT_THAT(EditJournal::read(out / "loops.edits").edits(), SizeIs(5));
+  expect_same_results(out, mapped_by_file(path, out));
+}
+
+TEST_F(MappingSessionEditsTest, change_the_map) {
+  const auto path = log(room_log_lines());
+  MappingSession untouched(path, settings_);
+  untouched.run(go_on_);
+  untouched.export_to(output());
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out" / "loops.edits")) << "there were none";
+  EditJournal edits;
+  for (const LoopRecord& loop : untouched.result().loops) edits.add({delete_of(loop), {}});
+  MappingSession edited(path, settings_);
+  edited.set_edits(edits);
+  edited.run(go_on_);
+  for (const LoopRecord& loop : edited.result().loops)
+    EXPECT_NE(loop.verdict, LoopVerdict::kAccepted) << loop.frame << ' ' << loop.local_map;
+  const RunSummary summary = edited.export_to(OutputFolder::prepare(folder_.path() / "edited", false));
+  EXPECT_EQ(summary.loops.accepted, 0U);
+  EXPECT_GT(summary.loops.by_hand, 0U);
+}
+
+TEST_F(MappingSessionEditsTest, tells_which_were_in_vain) {
+  EditJournal edits;
+  edits.add({{LoopEdit::Kind::kDelete, 5, 0}, {EditTime::Kind::kAfterScan, 1000}});
+  edits.add({{LoopEdit::Kind::kForce, 7, 99}, {}});
+  MappingSession session(log(room_log_lines(60)), settings_);
+  session.set_edits(edits);
+  session.run(go_on_);
+  EXPECT_THAT(session.unmet_edits(),
+              ElementsAre("delete the loop of scan 5 with local map 0: scan 5 is part of local map 0",
+                          HasSubstr("force the loop of scan 7 with local map 99: ")));
+  EXPECT_THAT(session.run_info().warnings, SizeIs(2)) << "the report tells it too";
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ LastPassOutcome last_pass(const PlaceMemory& memory, const PoseGraph& graph,
     });
     for (std::size_t i = 0; i < attempts.size(); ++i) {
       outcome.effort[matcher_of(pairs[begin + i].node).name()] += attempts[i].effort;
-      if (!attempts[i].loop) continue;
+      if (!attempts[i].loop || attempts[i].loop->verdict == LoopVerdict::kNotFound) continue;
       attempts[i].loop->in_last_pass = true;
       outcome.loops.push_back(*std::move(attempts[i].loop));
     }

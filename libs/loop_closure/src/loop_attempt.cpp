@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "two_decimals.h"
+
 namespace psi_slam {
 namespace {
 
@@ -34,7 +36,6 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   attempt.effort.found = match.found ? 1 : 0;
   attempt.effort.evaluations = match.evaluations;
   attempt.effort.milliseconds = std::chrono::duration<double, std::milli>(time).count();
-  if (!match.found) return attempt;
 
   LoopRecord& loop = attempt.loop.emplace();
   loop.frame = here.frame;
@@ -43,15 +44,21 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   loop.anchor = local_map.anchor;
   loop.matcher = matcher.name();
   loop.anchor_T_predicted = candidate.anchor_T_node;
+  loop.window = candidate.extent;
+  loop.evaluations = match.evaluations;
+  loop.milliseconds = attempt.effort.milliseconds;
+  if (!match.found) {
+    loop.anchor_T_node = candidate.anchor_T_node;
+    loop.verdict = LoopVerdict::kNotFound;
+    loop.reason = "nothing in its window scores " + two_decimals(problem.min_response);
+    return attempt;
+  }
   loop.anchor_T_node = match.map_T_robot;
   loop.covariance = match.covariance;
-  loop.window = candidate.extent;
   loop.response = match.response;
   loop.ambiguity = match.ambiguity.value_or(0);
   loop.moved_m = std::hypot(match.map_T_robot.x - candidate.anchor_T_node.x,
                             match.map_T_robot.y - candidate.anchor_T_node.y);
-  loop.evaluations = match.evaluations;
-  loop.milliseconds = attempt.effort.milliseconds;
   verify(loop, scan, memory, verification);
   return attempt;
 }

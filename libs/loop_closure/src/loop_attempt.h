@@ -13,8 +13,8 @@
 namespace psi_slam {
 
 struct LoopAttempt {
-  std::optional<LoopRecord> loop;  ///< none when no pose of the window scores near enough
-  LoopEffort effort;               ///< of no attempt when the scan is blind: it cannot be searched for
+  std::optional<LoopRecord> loop;  ///< none when the scan is blind: it cannot be searched for
+  LoopEffort effort;               ///< of no attempt then
 };
 
 /// Matches `scan`, the points of a node or its context, with one local map and verifies what was found.

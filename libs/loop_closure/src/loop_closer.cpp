@@ -66,4 +66,14 @@ LoopCloser::Outcome LoopCloser::close(std::size_t node, const PlaceMemory& memor
   return outcome;
 }
 
+std::optional<LoopRecord> LoopCloser::match(std::size_t node, const LoopCandidate& candidate,
+                                            const PlaceMemory& memory, const Matcher& matcher,
+                                            WorkerPool& pool) const {
+  take_off_shelf(memory, {candidate.local_map}, pool);
+  const bool wide = is_wide(candidate.extent, options_.verification);
+  return attempt_loop(node, wide ? scan_context(node, memory, options_.context) : *memory.nodes[node].points,
+                      candidate, memory, matcher, options_.verification, run_seed_)
+      .loop;
+}
+
 }  // namespace psi_slam

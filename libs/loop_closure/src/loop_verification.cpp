@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
 #include "psi_slam/loop_closure/range_image.h"
+#include "two_decimals.h"
 
 namespace psi_slam {
 namespace {
@@ -15,12 +15,6 @@ namespace {
 using mrpt::math::TPose2D;
 
 constexpr double kReverseTolerance_m = 0.25;
-
-std::string text(double value) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.2f", value);
-  return digits;
-}
 
 double largest_sigma_m(const Eigen::Matrix3d& covariance) {
   const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
@@ -79,32 +73,33 @@ RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const PlaceMemor
 std::string objection(LoopRecord& loop, const ScanPoints& scan, const PlaceMemory& memory,
                       const LoopVerificationOptions& options) {
   const double needed = min_response(loop.window, options);
-  if (loop.response < needed) return "the response " + text(loop.response) + " is below " + text(needed);
+  if (loop.response < needed)
+    return "the response " + two_decimals(loop.response) + " is below " + two_decimals(needed);
   if (!is_wide(loop.window, options) && loop.ambiguity > options.max_ambiguity)
-    return "another place fits as well: its response is " + text(loop.ambiguity) +
-           " of the best, more than " + text(options.max_ambiguity);
+    return "another place fits as well: its response is " + two_decimals(loop.ambiguity) +
+           " of the best, more than " + two_decimals(options.max_ambiguity);
   const double sigma_m = largest_sigma_m(loop.covariance);
   if (sigma_m > options.max_sigma_m)
-    return "the scan does not determine the position: its standard deviation is " + text(sigma_m) +
-           " m, more than " + text(options.max_sigma_m) + " m";
+    return "the scan does not determine the position: its standard deviation is " + two_decimals(sigma_m) +
+           " m, more than " + two_decimals(options.max_sigma_m) + " m";
 
   const LocalMap::Agreement own = memory.local_maps[loop.local_map].map->agreement(scan, loop.anchor_T_node);
   loop.observed_share = static_cast<double>(own.observed) / static_cast<double>(scan.points.size());
   if (!is_wide(loop.window, options) && loop.observed_share < options.min_observed_share)
-    return "only " + text(loop.observed_share) +
+    return "only " + two_decimals(loop.observed_share) +
            " of the scan lies in space the local map has observed, less than " +
-           text(options.min_observed_share);
+           two_decimals(options.min_observed_share);
 
   loop.neighbours_agree = neighbours_agreement(loop, memory, options.neighbourhood_m).share();
   if (loop.neighbours_agree < options.min_neighbours_agree)
-    return "only " + text(loop.neighbours_agree) +
+    return "only " + two_decimals(loop.neighbours_agree) +
            " of the neighbouring scans' points fit the local map, less than " +
-           text(options.min_neighbours_agree);
+           two_decimals(options.min_neighbours_agree);
 
   loop.reverse_agree = reverse_agreement(loop, memory).share();
   if (loop.reverse_agree < options.min_reverse_agree)
-    return "seen from the other side only " + text(loop.reverse_agree) + " of the points agree, less than " +
-           text(options.min_reverse_agree);
+    return "seen from the other side only " + two_decimals(loop.reverse_agree) +
+           " of the points agree, less than " + two_decimals(options.min_reverse_agree);
   return {};
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/mapping/mapper.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 
-#include "psi_slam/loop_closure/contradicted_loops.h"
+#include "constraint_information.h"
 #include "psi_slam/mapping/carried_frames.h"
 
 namespace psi_slam {
@@ -24,14 +24,6 @@ constexpr std::size_t kUnpackedLocalMaps = 48;
 constexpr double kUrgentNews = 5;
 constexpr double kGrowthForSmallNews = 1e-3;
 
-// The inverse of a covariance with the noise of local maps themselves added.
-Eigen::Matrix3d information_of(const Eigen::Matrix3d& covariance, double sigma_m, double sigma_rad) {
-  Eigen::Matrix3d sum = covariance;
-  sum.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
-  const Eigen::Matrix3d information = sum.inverse();
-  return 0.5 * (information + information.transpose());
-}
-
 }  // namespace
 
 Mapper::Mapper(const MapperOptions& options)
@@ -42,7 +34,8 @@ Mapper::Mapper(const MapperOptions& options)
       loop_closer_(options.loop_closure, options.seed),
       loop_consensus_(options.loop_consensus),
       pool_(options.threads),
-      solver_(options.pose_graph) {
+      solver_(options.pose_graph),
+      ledger_({options.loop_sigma_m, options.loop_sigma_rad}) {
   result_.psi = options.psi;
   memory_.shelf = std::make_shared<LocalMapShelf>(kUnpackedLocalMaps);
 }
@@ -66,11 +59,18 @@ const FrameRecord& Mapper::add(Frame frame) {
     add_node(step, result_.frames.size());
     for (const PlacedLocalMap& finished : step.finished) remember(finished);
     if (options_.close_loops) close_loops(*step.node, record);
-    map_T_local_ = graph_.pose(*step.node) + (TPose2D(0, 0, 0) - memory_.nodes[*step.node].local_T_robot);
+    follow_graph();
   }
   record.map_T_robot = map_T_local_ + step.local_T_robot;
   result_.frames.push_back(record);
+  if (step.node) serve_waiting_edits();
   return result_.frames.back();
+}
+
+// The front end's frame lies where the newest node puts it.
+void Mapper::follow_graph() {
+  const std::size_t newest = graph_.num_nodes() - 1;
+  map_T_local_ = graph_.pose(newest) + (TPose2D(0, 0, 0) - memory_.nodes[newest].local_T_robot);
 }
 
 // The robot is where the front end has it, corrected by the loops of the frames before: in the map, as its
@@ -133,17 +133,21 @@ void Mapper::close_loops(std::size_t node, FrameRecord& record) {
     result_.loop_matchers[matcher.name()].effort += outcome.effort;
     for (LoopRecord& loop : outcome.loops) {
       const bool pending = loop.verdict == LoopVerdict::kPending;
-      result_.loops.push_back(std::move(loop));
-      for (const std::size_t confirmed : confirmed_by(result_.loops.size() - 1)) {
+      for (const std::size_t confirmed : confirmed_by(ledger_.add(std::move(loop)))) {
+        const std::optional<double> news = ledger_.accept(confirmed, graph_);
+        if (!news) continue;
         ++record.loops_accepted;
-        news_ = std::max(news_, accept(confirmed));
-        if (pending) news_ = kUrgentNews;
+        news_ = std::max({news_, *news, pending ? kUrgentNews : 0});
       }
     }
   });
   loop_closure_factor_.add_frame(record.loops_accepted);
   if (!is_time_to_optimize()) return;
-  record.pose_graph_ms = graph_clock_.time([&] { solver_.optimize(graph_); });
+  record.pose_graph_ms = graph_clock_.time([&] { optimize(); });
+}
+
+void Mapper::optimize() {
+  solver_.optimize(graph_);
   optimized_nodes_ = graph_.num_nodes();
   news_ = 0;
 }
@@ -158,7 +162,7 @@ bool Mapper::is_time_to_optimize() const {
 // The loops that are to become constraints now that this one was found: itself when verification accepted it;
 // when it waits for others to agree, those that waited and it, if they now do.
 std::vector<std::size_t> Mapper::confirmed_by(std::size_t index) {
-  const LoopRecord& loop = result_.loops[index];
+  const LoopRecord& loop = ledger_.loops()[index];
   if (loop.verdict == LoopVerdict::kAccepted) return {index};
   if (loop.verdict != LoopVerdict::kPending) return {};
   const NodeScan& here = memory_.nodes[loop.node];
@@ -166,26 +170,8 @@ std::vector<std::size_t> Mapper::confirmed_by(std::size_t index) {
       {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity}, graph_);
 }
 
-// Makes a constraint of a loop; returns by how many standard deviations of loops the graph contradicts it.
-double Mapper::accept(std::size_t index) {
-  LoopRecord& loop = result_.loops[index];
-  loop.verdict = LoopVerdict::kAccepted;
-  Constraint constraint;
-  constraint.from = loop.anchor;
-  constraint.to = loop.node;
-  constraint.from_T_to = loop.anchor_T_node;
-  constraint.information = information_of(loop.covariance, options_.loop_sigma_m, options_.loop_sigma_rad);
-  constraint.kind = Constraint::Kind::kLoop;
-  loop_of_constraint_.emplace_back(graph_.add_constraint(constraint), index);
-  const TPose2D off = loop.anchor_T_node - (graph_.pose(loop.node) - graph_.pose(loop.anchor));
-  return std::max(std::hypot(off.x, off.y) / options_.loop_sigma_m,
-                  std::abs(off.phi) / options_.loop_sigma_rad);
-}
-
 void Mapper::run_last_pass(const std::function<bool(double)>& progress) {
-  std::set<std::pair<std::size_t, std::size_t>> known;
-  for (const LoopRecord& loop : result_.loops)
-    if (loop.verdict != LoopVerdict::kRefused || loop.in_last_pass) known.emplace(loop.node, loop.local_map);
+  const std::set<LoopPair> known = ledger_.searched_pairs();
   const auto is_known = [&](std::size_t node, std::size_t local_map) {
     return known.count({node, local_map}) != 0;
   };
@@ -199,38 +185,17 @@ void Mapper::run_last_pass(const std::function<bool(double)>& progress) {
     result_.loop_matchers[matcher].last_pass_effort += effort;
   }
   for (LoopRecord& loop : outcome.loops) {
-    const bool accepted = loop.verdict == LoopVerdict::kAccepted;
-    result_.loops.push_back(std::move(loop));
-    if (accepted) accept(result_.loops.size() - 1);
+    const std::size_t entered = ledger_.add(std::move(loop));
+    if (ledger_.loops()[entered].verdict == LoopVerdict::kAccepted) ledger_.accept(entered, graph_);
   }
 }
 
-// Optimises the graph, and switches off the loops that it contradicts.
 void Mapper::settle_loops() {
-  std::vector<std::size_t> constraints;
-  for (const auto& [constraint, index] : loop_of_constraint_) constraints.push_back(constraint);
-  const std::vector<double> chi =
-      switch_off_contradicted_loops(graph_, solver_, constraints, options_.max_loop_chi);
-  for (std::size_t i = 0; i < chi.size(); ++i) {
-    LoopRecord& loop = result_.loops[loop_of_constraint_[i].second];
-    const bool fits = graph_.enabled(constraints[i]);
-    loop.verdict = fits ? LoopVerdict::kAccepted : LoopVerdict::kSwitchedOff;
-    loop.reason = fits ? ""
-                       : "the other constraints contradict it by " + std::to_string(std::lround(chi[i])) +
-                             " standard deviations";
-  }
-}
-
-void Mapper::refuse_pending_loops() {
-  for (LoopRecord& loop : result_.loops) {
-    if (loop.verdict != LoopVerdict::kPending) continue;
-    loop.verdict = LoopVerdict::kRefused;
-    loop.reason = "found in a wide window, and too few other matches agree with it";
-  }
+  graph_clock_.time([&] { ledger_.settle(graph_, solver_, options_.max_loop_chi); });
 }
 
 void Mapper::count_accepted_loops() {
-  for (const LoopRecord& loop : result_.loops) {
+  for (const LoopRecord& loop : ledger_.loops()) {
     if (loop.verdict != LoopVerdict::kAccepted) continue;
     ++result_.loop_matchers[loop.matcher].accepted;
     if (loop.in_last_pass) ++result_.loop_matchers[loop.matcher].accepted_in_last_pass;
@@ -257,9 +222,15 @@ void Mapper::refine_poses(const std::function<bool(double)>& progress) {
     graph_.set_pose(node, scans.map_T_frame[result_.node_frames[node]]);
 }
 
-MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
+void Mapper::end_log() {
   for (const PlacedLocalMap& finished : front_end_.finish()) remember(finished);
-  refuse_pending_loops();
+  serve_waiting_edits();
+}
+
+MappingResult Mapper::finish(const std::function<bool(double)>& progress, AfterFinish after) {
+  end_log();
+  if (after == AfterFinish::kReopen) before_finish_ = {graph_, ledger_, solver_, result_.loop_matchers};
+  ledger_.refuse_pending();
   const int steps = options_.last_pass.passes + (options_.joint_refinement.rounds > 0 ? 1 : 0);
   const auto go_on = [&](double done) {
     const bool wanted = !progress || progress(done / steps);
@@ -267,13 +238,14 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
     return wanted;
   };
   if (options_.close_loops && !memory_.nodes.empty()) {
-    graph_clock_.time([&] { settle_loops(); });
+    settle_loops();
     for (int pass = 0; pass < options_.last_pass.passes && !result_.last_pass_cut_short; ++pass) {
       last_pass_clock_.time([&] { run_last_pass([&](double share) { return go_on(pass + share); }); });
-      graph_clock_.time([&] { settle_loops(); });
+      settle_loops();
     }
-    refuse_pending_loops();
+    ledger_.refuse_pending();
   }
+  result_.unmet_edits = unmet_edits();
   count_accepted_loops();
   carry_frames_along(graph_.poses(), result_.node_frames, result_.frames);
   if (options_.close_loops && !memory_.nodes.empty() && !result_.last_pass_cut_short)
@@ -281,6 +253,7 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
         [&] { refine_poses([&](double share) { return go_on(options_.last_pass.passes + share); }); });
   result_.interrupted = result_.last_pass_cut_short;
   result_.graph = graph_.to_mrpt();
+  result_.loops = after == AfterFinish::kReopen ? ledger_.loops() : ledger_.take_loops();
   for (const StageClock* clock :
        {&front_end_clock_, &loop_clock_, &graph_clock_, &last_pass_clock_, &refinement_clock_})
     result_.stages.push_back(clock->timing());
@@ -288,7 +261,7 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress) {
 }
 
 TPose2D Mapper::map_T_robot() const {
-  return result_.frames.empty() ? TPose2D(0, 0, 0) : result_.frames.back().map_T_robot;
+  return result_.frames.empty() ? TPose2D(0, 0, 0) : map_T_local_ + result_.frames.back().front_end_T_robot;
 }
 
 }  // namespace psi_slam

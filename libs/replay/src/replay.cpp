@@ -19,12 +19,13 @@ constexpr int kWorkPerPublishing = 20;  // snapshots cost the engine at most a t
 
 }  // namespace
 
-Replay::Replay(std::filesystem::path log, const Settings& settings)
+Replay::Replay(std::filesystem::path log, const Settings& settings, EditJournal edits)
     : log_(std::move(log)),
       settings_(settings),
       outline_(log_, log_options(settings)),
       painter_(settings.map),
       maker_(std::make_unique<SnapshotMaker>(settings.mapper.psi)),
+      first_edits_(std::move(edits)),
       snapshot_(maker_->snapshot(phase_)),
       thread_([this] { run(); }) {}
 
@@ -88,7 +89,30 @@ void Replay::finish() {
 }
 
 void Replay::cut_last_pass() {
+  const std::lock_guard lock(mutex_);
   cut_last_pass_ = true;
+  stop_last_pass_ = true;
+}
+
+void Replay::edit(const LoopEdit& edit) {
+  wish({EditKind::kEdit, edit});
+}
+
+void Replay::undo() {
+  wish({EditKind::kUndo});
+}
+
+void Replay::redo() {
+  wish({EditKind::kRedo});
+}
+
+void Replay::wish(const EditWish& edit) {
+  {
+    const std::lock_guard lock(mutex_);
+    edit_wishes_.push_back(edit);
+    stop_last_pass_ = true;
+  }
+  changed_.notify_all();
 }
 
 void Replay::export_to(std::filesystem::path folder, bool replace) {
@@ -103,8 +127,8 @@ void Replay::close() {
   {
     const std::lock_guard lock(mutex_);
     close_ = true;
+    stop_last_pass_ = true;
   }
-  cut_last_pass_ = true;
   changed_.notify_all();
 }
 
@@ -128,16 +152,28 @@ void Replay::run() noexcept {
 void Replay::work() {
   MappingSession session(log_, settings_);
   session.set_observer([&](const SessionProgress& progress) { observe(progress); });
+  session.stay_open();
+  session.set_edits(first_edits_);
   session_ = &session;
+  maker_->note_edits(session.edits().edits(), edit_history_);
   if (!map_scans(session)) return;
+  do {
+    finish_map(session);
+  } while (serve_finished(session));
+}
+
+void Replay::finish_map(MappingSession& session) {
   phase_ = ReplayPhase::kLastPass;
   publish();  // all scans, as long as the mapper can be followed
-  session.finish(cut_last_pass_);
+  {
+    const std::lock_guard lock(mutex_);
+    stop_last_pass_ = close_ || cut_last_pass_ || !edit_wishes_.empty();
+  }
+  session.finish(stop_last_pass_);
   session_ = nullptr;
   maker_->note_warnings(session);
   maker_->take(session.result());
   painter_.request(maker_->sketch());
-  serve_exports(session);
 }
 
 /// Until the end of the log, or until told to; false when told to close.
@@ -145,6 +181,10 @@ bool Replay::map_scans(MappingSession& session) {
   while (true) {
     const Turn turn = next_turn();
     if (turn == Turn::kClose) return false;
+    if (turn == Turn::kEdit) {
+      serve_edits(session);
+      continue;
+    }
     if (turn == Turn::kFinish || !session.step()) return true;
     const std::lock_guard lock(mutex_);
     due_ = pace_.due_after(session.mapper().frames().back().time_us, Clock::now());
@@ -155,6 +195,7 @@ Replay::Turn Replay::next_turn() {
   std::unique_lock lock(mutex_);
   while (true) {
     if (close_) return Turn::kClose;
+    if (!edit_wishes_.empty()) return Turn::kEdit;
     if (finish_) return Turn::kFinish;
     if (hurry_to_ > 0 && scans_ >= hurry_to_) {
       hurry_to_ = 0;
@@ -193,19 +234,54 @@ void Replay::wait_for_due_scan(std::unique_lock<std::mutex>& lock) {
   changed_.wait_until(lock, stale_ ? std::min(due_, next_publication()) : due_);
 }
 
-void Replay::serve_exports(MappingSession& session) {
+/// Exports and edits; true when the map is to be finished again, false when told to close.
+bool Replay::serve_finished(MappingSession& session) {
   while (true) {
-    phase_ = ReplayPhase::kFinished;
-    publish();
-    ExportWish wish;
+    std::optional<ExportWish> wish;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return close_ || export_; });
-      if (close_) return;
-      wish = *std::exchange(export_, std::nullopt);
+      if (!close_ && edit_wishes_.empty()) {
+        phase_ = ReplayPhase::kFinished;
+        lock.unlock();
+        publish();
+        lock.lock();
+      }
+      changed_.wait(lock, [this] { return close_ || export_ || !edit_wishes_.empty(); });
+      if (close_) return false;
+      if (edit_wishes_.empty()) wish = std::exchange(export_, std::nullopt);
     }
-    export_once(session, wish);
+    if (wish) {
+      export_once(session, *wish);
+      continue;
+    }
+    serve_edits(session);
+    if (!session.finished()) return true;
   }
+}
+
+void Replay::serve_edits(MappingSession& session) {
+  std::vector<EditWish> wishes;
+  {
+    const std::lock_guard lock(mutex_);
+    wishes.swap(edit_wishes_);
+    cut_last_pass_ = false;
+  }
+  for (const EditWish& wish : wishes) make_edit(session, wish);
+  if (session.finished()) return;  // there was nothing to undo or to redo
+  session_ = &session;
+  maker_->note_edits(session.edits().edits(), edit_history_);
+  publish();
+}
+
+void Replay::make_edit(MappingSession& session, const EditWish& wish) {
+  std::optional<LoopEdit> edit = wish.edit;
+  if (wish.kind == EditKind::kUndo) edit = edit_history_.undo();
+  if (wish.kind == EditKind::kRedo) edit = edit_history_.redo();
+  if (!edit) return;
+  const LoopEditOutcome outcome = session.edit(*edit);
+  const bool made = outcome.state != LoopEditOutcome::State::kImpossible;
+  if (made && wish.kind == EditKind::kEdit) edit_history_.note(*edit);
+  maker_->note_edited({++edits_made_, *edit, outcome});
 }
 
 void Replay::export_once(MappingSession& session, const ExportWish& wish) {

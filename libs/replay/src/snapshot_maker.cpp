@@ -37,9 +37,18 @@ void SnapshotMaker::follow(const Mapper& mapper) {
     now_.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(mapper.graph().poses());
   // While scans are mapped, a loop's verdict changes only when another loop comes.
   const bool verdicts_may_change = now_.progress.phase != SessionProgress::Phase::kMapping;
-  if (verdicts_may_change || now_.loops->size() != mapper.loops().size())
+  if (verdicts_may_change || std::exchange(loops_changed_, false) ||
+      now_.loops->size() != mapper.loops().size())
     now_.loops = std::make_shared<std::vector<LoopRecord>>(mapper.loops());
   copy_active(mapper);
+}
+
+void SnapshotMaker::note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history) {
+  now_.edits = std::make_shared<std::vector<TimedEdit>>(edits);
+  now_.undo_text = history.undo_text();
+  now_.redo_text = history.redo_text();
+  loops_changed_ = true;
+  finished_ = false;
 }
 
 void SnapshotMaker::follow_local_maps(const Mapper& mapper) {

@@ -7,6 +7,7 @@
 
 #include "psi_slam/replay/map_painter.h"
 #include "psi_slam/replay/replay_snapshot.h"
+#include "psi_slam/session/edit_history.h"
 
 namespace psi_slam {
 
@@ -19,6 +20,9 @@ class SnapshotMaker {
   void note_progress(const SessionProgress& progress) { now_.progress = progress; }
   void note_warnings(const MappingSession& session);
   void note_export(ExportOutcome outcome) { now_.exported = std::move(outcome); }
+  /// Loops, poses and edits are others now.
+  void note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history);
+  void note_edited(EditOutcome outcome) { now_.edited = std::move(outcome); }
   void note_failure(std::string sentence) { now_.failure = std::move(sentence); }
 
   /// Takes over what is new, before the session is finished.
@@ -45,6 +49,7 @@ class SnapshotMaker {
   SharedHistory<LocalMapRecord> local_maps_;
   std::size_t frames_copied_active_ = 0;
   std::chrono::steady_clock::time_point copied_active_at_;
+  bool loops_changed_ = false;
   bool finished_ = false;
 };
 

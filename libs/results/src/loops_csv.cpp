@@ -12,7 +12,8 @@ namespace psi_slam {
 namespace {
 
 constexpr const char* kHeader =
-    "frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,x_m,y_m,theta_rad,std_x_m,std_y_m,"
+    "frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,std_x_m,std_y_"
+    "m,"
     "std_theta_rad,window_x_m,window_y_m,window_theta_rad,response,ambiguity,observed_share,neighbours_agree,"
     "reverse_agree,moved_m,evaluations,milliseconds\n";
 
@@ -21,7 +22,8 @@ std::string row_of(const LoopRecord& loop) {
                     std::to_string(loop.local_map) + ',' + std::to_string(loop.anchor);
   row += std::string(",") + verdict_text(loop.verdict) + ',' + csv_field(loop.reason) + ',' +
          csv_field(loop.matcher);
-  row += std::string(loop.in_last_pass ? ",1," : ",0,") + csv_pose(loop.anchor_T_node);
+  row += std::string(loop.in_last_pass ? ",1," : ",0,") + (loop.by_hand ? "1," : "0,") +
+         csv_pose(loop.anchor_T_node);
   for (int i = 0; i < 3; ++i) row += ',' + fixed_text(std::sqrt(loop.covariance(i, i)), 6);
   for (const double value :
        {loop.window.x_m, loop.window.y_m, loop.window.theta_rad, loop.response, loop.ambiguity,

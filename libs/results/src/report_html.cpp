@@ -90,6 +90,7 @@ std::string loops_card(const MappingResult& result, const LoopCounts& loops) {
   if (loops.switched_off > 0)
     text +=
         " and " + counted(loops.switched_off, "was", "were") + " switched off, since the others contradict";
+  if (loops.by_hand > 0) text += "; " + counted(loops.by_hand, "was", "were") + " settled by hand";
   text += ".</p>\n";
   return card("Loops", "", text + loop_matchers_table(result) + reasons_table(loops) + loops_table(result));
 }

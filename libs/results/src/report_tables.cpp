@@ -160,11 +160,13 @@ std::string loop_matchers_table(const MappingResult& result) {
 }
 
 std::string loops_table(const MappingResult& result) {
-  if (result.loops.empty()) return "<p class=\"none\">No match was found.</p>\n";
+  if (std::all_of(result.loops.begin(), result.loops.end(),
+                  [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kNotFound; }))
+    return "<p class=\"none\">No match was found.</p>\n";
   std::string rows;
   std::size_t shown = 0;
-  for (const LoopVerdict verdict :
-       {LoopVerdict::kAccepted, LoopVerdict::kSwitchedOff, LoopVerdict::kPending, LoopVerdict::kRefused}) {
+  for (const LoopVerdict verdict : {LoopVerdict::kDeleted, LoopVerdict::kAccepted, LoopVerdict::kSwitchedOff,
+                                    LoopVerdict::kPending, LoopVerdict::kRefused}) {
     std::size_t of_verdict = 0;
     for (const LoopRecord& loop : result.loops) {
       if (loop.verdict != verdict || of_verdict == kLoopsShownOfAVerdict) continue;
@@ -183,8 +185,11 @@ std::string loops_table(const MappingResult& result) {
               "</td></tr>\n";
     }
   }
-  const std::size_t left = result.loops.size() - shown;
-  return "<details><summary>" + counted(result.loops.size(), "match found", "matches found") +
+  const auto found = static_cast<std::size_t>(
+      std::count_if(result.loops.begin(), result.loops.end(),
+                    [](const LoopRecord& loop) { return loop.verdict != LoopVerdict::kNotFound; }));
+  const std::size_t left = found - shown;
+  return "<details><summary>" + counted(found, "match found", "matches found") +
          "</summary><div class=\"wide tall\"><table "
          "class=\"rows\">\n<thead><tr><th>Verdict</th><th>scan</th><th>node</th>"
          "<th>local "

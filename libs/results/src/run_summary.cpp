@@ -71,11 +71,14 @@ LoopCounts loop_counts(const MappingResult& result) {
   }
   std::map<std::string, std::size_t> reasons;
   for (const LoopRecord& loop : result.loops) {
+    counts.by_hand += loop.by_hand ? 1 : 0;
+    if (loop.verdict == LoopVerdict::kNotFound) continue;
     if (loop.verdict == LoopVerdict::kAccepted) {
       ++counts.accepted;
       counts.accepted_in_last_pass += loop.in_last_pass ? 1 : 0;
       continue;
     }
+    if (loop.verdict == LoopVerdict::kDeleted) continue;
     ++(loop.verdict == LoopVerdict::kSwitchedOff ? counts.switched_off : counts.refused);
     ++reasons[without_figures(loop.reason.empty() ? "no reason given" : loop.reason)];
   }

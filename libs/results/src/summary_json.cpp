@@ -51,7 +51,7 @@ Json loop_counts_json(const LoopCounts& loops) {
   return {{"tried", loops.tried},       {"found", loops.found},
           {"accepted", loops.accepted}, {"accepted_in_last_pass", loops.accepted_in_last_pass},
           {"refused", loops.refused},   {"switched_off", loops.switched_off},
-          {"reasons", reasons}};
+          {"by_hand", loops.by_hand},   {"reasons", reasons}};
 }
 
 Json effort_json(const LoopEffort& effort, std::size_t accepted) {

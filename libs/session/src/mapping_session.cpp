@@ -64,7 +64,7 @@ bool MappingSession::step() {
     if (!frame) return false;
     any_return_ = any_return_ || has_return(frame->scan);
     mapper_->add(*std::move(frame));
-    ++scans_;
+    make_due_edits({EditTime::Kind::kAfterScan, scans_++});
   }
   tell(source_->progress());
   return true;
@@ -90,19 +90,58 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
                     (scans_ == 0 ? "no scan was read, there is nothing to map"
                                  : "none of its " + std::to_string(scans_) +
                                        " scans has a return between log.min_range_m and log.max_range_m"));
-  const bool scans_left = !at_end_ && !broken_off_ && read().has_value();
-  result_ = mapper_->finish([&](double share) {
-    const bool go_on = !stop;
-    clock.stop();
-    tell(share);
-    return go_on;
-  });
+  scans_left_ = scans_left_ || (!at_end_ && !broken_off_ && read().has_value());
+  at_end_ = true;
+  mapper_->end_log();
+  make_due_edits({EditTime::Kind::kEnd, 0});
+  result_ = mapper_->finish(
+      [&](double share) {
+        const bool go_on = !stop;
+        clock.stop();
+        tell(share);
+        return go_on;
+      },
+      stays_open_ ? Mapper::AfterFinish::kReopen : Mapper::AfterFinish::kNothing);
   graph_ = mapper_->graph();
-  mapper_.reset();
+  finished_ = true;
+  if (!stays_open_) mapper_.reset();
   result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
-  result_.interrupted = result_.interrupted || scans_left;
+  result_.interrupted = result_.interrupted || scans_left_;
   result_.broken_off = broken_off_;
   stages_of_mapping_ = result_.stages.size();
+}
+
+void MappingSession::set_edits(EditJournal edits) {
+  edits_ = std::move(edits);
+  edits_.rewind();
+  make_due_edits({});
+}
+
+void MappingSession::make_due_edits(EditTime now) {
+  for (const LoopEdit& edit : edits_.take_due(now)) {
+    const LoopEditOutcome outcome = mapper_->edit(edit);
+    if (outcome.state == LoopEditOutcome::State::kImpossible)
+      edit_complaints_.push_back(text_of(edit) + ": " + outcome.reason);
+  }
+}
+
+LoopEditOutcome MappingSession::edit(const LoopEdit& edit) {
+  const WorkClock clock(work_s_);
+  if (finished_) mapper_->reopen(std::move(result_));
+  finished_ = false;
+  const bool at_end = at_end_ || broken_off_;
+  if (at_end) mapper_->end_log();
+  const bool changes_later = edits_.forget_later(edit);
+  LoopEditOutcome outcome = mapper_->edit(edit);
+  if (outcome.state == LoopEditOutcome::State::kImpossible)
+    return changes_later ? LoopEditOutcome{} : outcome;
+  EditTime now{EditTime::Kind::kBegin, 0};
+  if (at_end)
+    now.kind = EditTime::Kind::kEnd;
+  else if (scans_ > 0)
+    now = {EditTime::Kind::kAfterScan, scans_ - 1};
+  edits_.enter({edit, now});
+  return outcome;
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {
@@ -122,6 +161,7 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   result_.stages.push_back(drawing_clock.timing());
   writing_clock.time([&] {
     write_g2o(graph_, folder.path() / "graph.g2o");
+    write_edits(folder.path() / "loops.edits");
     export_results(result_, *grid, folder);
   });
   result_.stages.push_back(writing_clock.timing());
@@ -130,6 +170,19 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   const RunSummary summary = summarize_run(result_, *grid, settings_.map);
   export_account(result_, run_info(), summary, *grid, folder);
   return summary;
+}
+
+// A folder without the file is one of a map without edits.
+void MappingSession::write_edits(const std::filesystem::path& file) const {
+  if (!edits_.empty()) return edits_.write(file);
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+}
+
+std::vector<std::string> MappingSession::unmet_edits() const {
+  std::vector<std::string> unmet = edit_complaints_;
+  unmet.insert(unmet.end(), result_.unmet_edits.begin(), result_.unmet_edits.end());
+  return unmet;
 }
 
 RunInfo MappingSession::run_info() const {
@@ -143,6 +196,8 @@ RunInfo MappingSession::run_info() const {
   if (broken_off_) info.warnings.push_back(*broken_off_);
   if (const SkippedLines skipped = skipped_lines(); skipped.count > 0)
     info.warnings.push_back(skipped.sentence());
+  for (const std::string& complaint : unmet_edits())
+    info.warnings.push_back("an edit was not made: " + complaint);
   return info;
 }
 

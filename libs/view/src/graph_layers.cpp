@@ -53,9 +53,11 @@ void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopSty
   using Key = std::tuple<bool, std::uint8_t, std::uint8_t, std::uint8_t>;
   std::map<Key, CSetOfLines::Ptr> by_colour;
   for (const LoopRecord& loop : *snapshot.loops) {
-    if (loop.verdict == LoopVerdict::kRefused && !style.refused) continue;
+    if (loop.verdict == LoopVerdict::kNotFound) continue;
+    const bool was_no_loop = loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kDeleted;
+    if (was_no_loop && !style.refused) continue;
     mrpt::img::TColor colour = colour_of(loop, snapshot, style);
-    const bool faint = loop.in_last_pass || loop.verdict == LoopVerdict::kRefused;  // there are so many
+    const bool faint = loop.in_last_pass || was_no_loop;  // there are so many
     colour.A = faint ? kFaint : kClear;
     CSetOfLines::Ptr& lines = by_colour[{!faint, colour.R, colour.G, colour.B}];
     if (!lines) lines = lines_of(colour, faint ? 1.0F : 1.5F);

@@ -27,6 +27,10 @@ TColor verdict_colour(LoopVerdict verdict) {
       return {120, 124, 130};
     case LoopVerdict::kSwitchedOff:
       return {196, 30, 40};
+    case LoopVerdict::kNotFound:
+      return {160, 164, 170};
+    case LoopVerdict::kDeleted:
+      return {150, 20, 110};
   }
   return {};
 }

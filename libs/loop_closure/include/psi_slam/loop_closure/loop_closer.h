@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "psi_slam/base/worker_pool.h"
@@ -33,12 +34,17 @@ class LoopCloser {
 
   struct Outcome {
     std::vector<LoopRecord>
-        loops;  ///< every match found, accepted or refused, in the order of the local maps
+        loops;  ///< every attempt, accepted, refused or without a match, in the order of the local maps
     LoopEffort effort;
   };
   /// Matches `node` with every local map it may see again, several at a time.
   Outcome close(std::size_t node, const PlaceMemory& memory, const PoseGraph& graph, const Matcher& matcher,
                 WorkerPool& pool);
+
+  /// Matches `node` with one local map in a window that somebody else chose, verified like the others. None
+  /// when the scan is blind.
+  std::optional<LoopRecord> match(std::size_t node, const LoopCandidate& candidate, const PlaceMemory& memory,
+                                  const Matcher& matcher, WorkerPool& pool) const;
 
  private:
   LoopClosureOptions options_;

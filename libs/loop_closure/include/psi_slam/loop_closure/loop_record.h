@@ -17,9 +17,12 @@ enum class LoopVerdict {
   kPending,      ///< found in a wide window: waits for other matches to agree; refused if none does
   kRefused,      ///< by verification: it never became a constraint
   kSwitchedOff,  ///< accepted first, but the rest of the graph contradicts it
+  kNotFound,     ///< no pose of the window scores near enough: anchor_T_node is the prediction
+  kDeleted,      ///< by a person
 };
 
-/// One attempt to close a loop that found a match, and what became of it.
+/// One attempt to close a loop, and what became of it. Of the last pass, which tries every pair of
+/// neighbours, those that found a match.
 struct LoopRecord {
   std::size_t frame = 0;      ///< in the log's order
   std::size_t node = 0;       ///< of the graph
@@ -43,7 +46,8 @@ struct LoopRecord {
   double milliseconds = 0;  ///< of matching
 
   LoopVerdict verdict = LoopVerdict::kRefused;
-  std::string reason;  ///< why refused or switched off, as a clause; empty when accepted
+  std::string reason;    ///< why it is no constraint, as a clause; empty when accepted
+  bool by_hand = false;  ///< a person deleted it, forced it or had it matched, see LoopEdit
 };
 
 }  // namespace psi_slam

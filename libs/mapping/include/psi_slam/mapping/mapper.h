@@ -5,8 +5,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "psi_slam/base/degrees.h"
@@ -16,8 +17,10 @@
 #include "psi_slam/loop_closure/loop_closer.h"
 #include "psi_slam/loop_closure/loop_closure_factor.h"
 #include "psi_slam/loop_closure/loop_consensus.h"
+#include "psi_slam/loop_closure/loop_edit.h"
 #include "psi_slam/loop_closure/matcher_policy.h"
 #include "psi_slam/mapping/joint_refinement.h"
+#include "psi_slam/mapping/loop_ledger.h"
 #include "psi_slam/mapping/mapping_result.h"
 #include "psi_slam/mapping/stage_clock.h"
 #include "psi_slam/pose_graph/pose_graph.h"
@@ -49,6 +52,17 @@ struct MapperOptions {
   int threads = 1;            ///< that match loops; no result depends on it
 };
 
+/// What became of an edit.
+struct LoopEditOutcome {
+  enum class State {
+    kDone,
+    kWaits,       ///< for what is still to come
+    kImpossible,  ///< and nothing was changed
+  };
+  State state = State::kDone;
+  std::string reason;  ///< why it is not done, as a clause
+};
+
 class Mapper {
  public:
   explicit Mapper(const MapperOptions& options);
@@ -56,33 +70,61 @@ class Mapper {
   /// The per-scan step. Frames come in the log's order; returns what became of this one so far.
   const FrameRecord& add(Frame frame);
 
+  /// Changes a loop by hand, and optimises the graph. An edit whose scan or local map is still to come, or a
+  /// match that is to be forced and has not been found yet, waits for it; the next edit of the same two
+  /// replaces it.
+  LoopEditOutcome edit(const LoopEdit& edit);
+
+  /// No scan comes any more: the last local maps are finished.
+  void end_log();
+
+  enum class AfterFinish {
+    kNothing,  ///< the mapper can be asked for its graph, but not go on
+    kReopen,   ///< costs the memory of a second graph
+  };
   /// The last loop search over all pairs near each other and the last optimisation; then, where loops are
-  /// closed and nothing is cut short, the refinement of all scans; then the result. The
-  /// mapper can be asked for its graph afterwards, but not go on. `progress` is called with the share done,
-  /// in [0, 1]; when it returns false, the search ends there: the map is of the loops found until then, and
-  /// the result says that it was cut short.
-  MappingResult finish(const std::function<bool(double)>& progress = {});
+  /// closed and nothing is cut short, the refinement of all scans; then the result. `progress` is called with
+  /// the share done, in [0, 1]; when it returns false, the search ends there: the map is of the loops found
+  /// until then, and the result says that it was cut short.
+  MappingResult finish(const std::function<bool(double)>& progress = {},
+                       AfterFinish after = AfterFinish::kNothing);
+
+  /// Takes back what finish() made, to be edited and finished again: all is as it was after end_log().
+  void reopen(MappingResult&& result);
 
   /// The robot now, in the global map.
   mrpt::math::TPose2D map_T_robot() const;
   const PoseGraph& graph() const { return graph_; }
   const std::vector<Frame>& log() const { return result_.log; }
   const std::vector<FrameRecord>& frames() const { return result_.frames; }
-  const std::vector<LoopRecord>& loops() const { return result_.loops; }
+  const std::vector<LoopRecord>& loops() const { return ledger_.loops(); }
   const PlaceMemory& memory() const { return memory_; }
   const std::vector<PlacedLocalMap>& active_local_maps() const { return front_end_.active(); }
 
  private:
   void record_factor(FrameRecord& record, const FrontEndStep& step);
+  /// What finish() changes and reopen() brings back.
+  struct Checkpoint {
+    PoseGraph graph;
+    LoopLedger ledger;
+    SparsePoseAdjustment solver;
+    std::map<std::string, LoopMatcherRecord> loop_matchers;
+  };
+
   void add_node(const FrontEndStep& step, std::size_t frame);
+  void follow_graph();
   void remember(const PlacedLocalMap& finished);
   void close_loops(std::size_t node, FrameRecord& record);
   std::vector<std::size_t> confirmed_by(std::size_t loop);
-  double accept(std::size_t loop);
   bool is_time_to_optimize() const;
+  void optimize();
+  LoopEditOutcome judge(const LoopEdit& edit) const;
+  LoopEditOutcome carry_out(const LoopEdit& edit);
+  LoopEditOutcome match_by_hand(const LoopEdit& edit, std::size_t node);
+  void serve_waiting_edits();
+  std::vector<std::string> unmet_edits() const;
   void run_last_pass(const std::function<bool(double)>& progress);
   void settle_loops();
-  void refuse_pending_loops();
   void count_accepted_loops();
   void refine_poses(const std::function<bool(double)>& progress);
 
@@ -97,8 +139,10 @@ class Mapper {
   PoseGraph graph_;
   PlaceMemory memory_;
   std::vector<MatcherKind> matcher_of_node_;  ///< that Psi chose there
-  std::vector<std::pair<std::size_t, std::size_t>>
-      loop_of_constraint_;           ///< constraint, index in result_.loops
+  LoopLedger ledger_;
+  std::vector<LoopEdit> waiting_edits_;
+  std::vector<std::string> impossible_edits_;  ///< of those that had waited, a sentence each
+  std::optional<Checkpoint> before_finish_;
   mrpt::math::TPose2D map_T_local_;  ///< the front end's frame, as the newest node says
   double news_ = 0;                  ///< of accept(), the most since the graph was optimised
   std::size_t optimized_nodes_ = 0;  ///< in the graph then

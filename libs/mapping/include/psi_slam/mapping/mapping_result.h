@@ -69,10 +69,11 @@ struct MappingResult {
   std::vector<FrameRecord> frames;
   mrpt::graphs::CNetworkOfPoses2DInf graph;  ///< node ids are 0 .. N-1; optimised, then refined with the
                                              ///< scans: no longer the optimum of the constraints alone
-  std::vector<std::size_t> node_frames;  ///< the frame of each node
+  std::vector<std::size_t> node_frames;      ///< the frame of each node
   std::vector<LocalMapRecord> local_maps;
   std::vector<LoopRecord> loops;
-  PsiOptions psi;                                          ///< its thresholds are drawn beside the factor
+  std::vector<std::string> unmet_edits;  ///< what a person asked for in vain, a sentence each
+  PsiOptions psi;                        ///< its thresholds are drawn beside the factor
   std::map<std::string, LoopMatcherRecord> loop_matchers;  ///< by name, those that were used
   std::vector<StageTiming> stages;
   double wall_s = 0;         ///< of the whole run so far, loading included

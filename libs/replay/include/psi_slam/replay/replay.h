@@ -27,6 +27,8 @@
 #include "psi_slam/replay/log_pace.h"
 #include "psi_slam/replay/map_painter.h"
 #include "psi_slam/replay/replay_snapshot.h"
+#include "psi_slam/session/edit_history.h"
+#include "psi_slam/session/edit_journal.h"
 #include "psi_slam/session/settings.h"
 
 namespace psi_slam {
@@ -35,7 +37,8 @@ class SnapshotMaker;
 
 class Replay {
  public:
-  Replay(std::filesystem::path log, const Settings& settings);
+  /// `edits` are made on the way, each at its time.
+  Replay(std::filesystem::path log, const Settings& settings, EditJournal edits = {});
   /// Closes, and waits for it.
   ~Replay();
   Replay(const Replay&) = delete;
@@ -58,6 +61,13 @@ class Replay {
   /// The last pass ends where it is.
   void cut_last_pass();
 
+  /// Changes a loop by hand, between two scans or after the last one: then the last pass follows again. What
+  /// became of it is ReplaySnapshot::edited.
+  void edit(const LoopEdit& edit);
+  /// The edits made here, not those that it began with.
+  void undo();
+  void redo();
+
   /// Writes all results once the run is finished; a request before waits for that. See
   /// ReplaySnapshot::exported.
   void export_to(std::filesystem::path folder, bool replace);
@@ -75,7 +85,12 @@ class Replay {
   std::shared_ptr<const std::vector<TimeUs>> stamps_us() const { return outline_.stamps_us(); }
 
  private:
-  enum class Turn { kStep, kFinish, kClose };
+  enum class Turn { kStep, kEdit, kFinish, kClose };
+  enum class EditKind { kEdit, kUndo, kRedo };
+  struct EditWish {
+    EditKind kind = EditKind::kEdit;
+    LoopEdit edit{};
+  };
   struct ExportWish {
     std::filesystem::path folder;
     bool replace = false;
@@ -86,7 +101,11 @@ class Replay {
   bool map_scans(MappingSession& session);
   Turn next_turn();
   void wait_for_due_scan(std::unique_lock<std::mutex>& lock);
-  void serve_exports(MappingSession& session);
+  void finish_map(MappingSession& session);
+  bool serve_finished(MappingSession& session);
+  void wish(const EditWish& edit);
+  void serve_edits(MappingSession& session);
+  void make_edit(MappingSession& session, const EditWish& wish);
   void export_once(MappingSession& session, const ExportWish& wish);
   void observe(const SessionProgress& progress);
   void publish();
@@ -100,6 +119,9 @@ class Replay {
 
   // The engine's thread only.
   std::unique_ptr<SnapshotMaker> maker_;
+  EditJournal first_edits_;
+  EditHistory edit_history_;
+  int edits_made_ = 0;
   MappingSession* session_ = nullptr;  // while its mapper can be followed
   ReplayPhase phase_ = ReplayPhase::kOpening;
   bool stale_ = false;  // something happened since the last snapshot
@@ -119,10 +141,12 @@ class Replay {
   LogPace::Clock::time_point due_;  // the next scan, when playing
   bool finish_ = false;
   bool close_ = false;
+  bool cut_last_pass_ = false;
+  std::vector<EditWish> edit_wishes_;
   std::optional<ExportWish> export_;
   std::size_t scans_ = 0;  // mapped
 
-  std::atomic<bool> cut_last_pass_{false};
+  std::atomic<bool> stop_last_pass_{false};  // cut, or to be begun anew
   std::atomic<bool> ended_{false};
   std::thread thread_;
 };

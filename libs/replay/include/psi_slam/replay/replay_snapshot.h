@@ -45,6 +45,13 @@ struct ExportOutcome {
   std::string failure;  ///< a sentence; empty: all was written
 };
 
+/// What became of the last edit.
+struct EditOutcome {
+  int number = 0;  ///< they count from 1
+  LoopEdit edit;
+  LoopEditOutcome outcome;
+};
+
 struct ReplaySnapshot {
   ReplayPhase phase = ReplayPhase::kOpening;
   SessionProgress progress;
@@ -66,6 +73,12 @@ struct ReplaySnapshot {
       std::make_shared<std::vector<mrpt::math::TPose2D>>();
   /// Never null. Views may tell by the pointer whether anything has changed.
   std::shared_ptr<const std::vector<LoopRecord>> loops = std::make_shared<std::vector<LoopRecord>>();
+
+  /// Those made and those to come, as they were taken up last; never null.
+  std::shared_ptr<const std::vector<TimedEdit>> edits = std::make_shared<std::vector<TimedEdit>>();
+  std::optional<EditOutcome> edited;  ///< the last that was asked for
+  std::string undo_text;              ///< what Replay::undo() would take back; empty: nothing
+  std::string redo_text;
 
   PsiOptions psi;
   std::vector<StageTiming> stages;  ///< once finished

@@ -5,6 +5,8 @@
 //     map.gridmap.gz  map.simplemap.gz      the gridmap, and the nodes with their scans, for MRPT
 //     trajectory.tum  trajectory.carmen     the trajectory of all scans, and the corrected log
 //     frames.csv  loops.csv  summary.json  report.html
+//
+// MappingSession adds graph.g2o, and loops.edits where loops were edited.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

@@ -50,11 +50,12 @@ struct ReasonCount {
 
 struct LoopCounts {
   std::size_t tried = 0;  ///< windows searched, whether anything was found in them or not
-  std::size_t found = 0;  ///< of those, with a match: each was accepted, refused or switched off
+  std::size_t found = 0;  ///< of those, with a match: each was accepted, refused, switched off or deleted
   std::size_t accepted = 0;
   std::size_t accepted_in_last_pass = 0;
   std::size_t refused = 0;  ///< with those still pending when the run was stopped
   std::size_t switched_off = 0;
+  std::size_t by_hand = 0;           ///< that a person deleted, forced or had matched
   std::vector<ReasonCount> reasons;  ///< of those refused or switched off, the most frequent first
 };
 

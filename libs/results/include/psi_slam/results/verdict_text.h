@@ -5,7 +5,7 @@
 
 namespace psi_slam {
 
-/// "accepted", "pending", "refused" or "switched off".
+/// "accepted", "pending", "refused", "switched off", "not found" or "deleted".
 inline const char* verdict_text(LoopVerdict verdict) {
   switch (verdict) {
     case LoopVerdict::kAccepted:
@@ -16,6 +16,10 @@ inline const char* verdict_text(LoopVerdict verdict) {
       return "refused";
     case LoopVerdict::kSwitchedOff:
       return "switched off";
+    case LoopVerdict::kNotFound:
+      return "not found";
+    case LoopVerdict::kDeleted:
+      return "deleted";
   }
   return "";
 }

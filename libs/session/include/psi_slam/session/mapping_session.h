@@ -17,10 +17,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "psi_slam/logs/frame_source.h"
 #include "psi_slam/mapping/mapper.h"
 #include "psi_slam/results/output_folder.h"
+#include "psi_slam/session/edit_journal.h"
 #include "psi_slam/session/settings.h"
 
 namespace psi_slam {
@@ -64,6 +66,24 @@ class MappingSession {
   /// What was left out of what the session has read.
   SkippedLines skipped_lines() const { return source_->skipped_lines(); }
 
+  /// Edits that are made on the way, each at its time. Call it before the first step().
+  void set_edits(EditJournal edits);
+
+  /// Changes a loop by hand, now. After finish(), which must have been told to stay open, the map is what it
+  /// was before, and finish() is to be called again.
+  LoopEditOutcome edit(const LoopEdit& edit);
+
+  /// What was changed until now and what is to be changed later: with it, the same log and the same settings
+  /// give the same map.
+  const EditJournal& edits() const { return edits_; }
+
+  /// After finish(): the edits that could not be made, a sentence each.
+  std::vector<std::string> unmet_edits() const;
+
+  /// After finish() edits are still taken. It costs memory.
+  void stay_open() { stays_open_ = true; }
+  bool finished() const { return finished_; }
+
   /// Ends the mapping. Once `stop` is true the last pass is cut short. The result is marked as interrupted,
   /// by the user, when readable scans of the log were left unread or the last pass was cut short. Throws
   /// UserError when no scan had a return.
@@ -78,7 +98,7 @@ class MappingSession {
   /// report.html; their times include all but the writing of these two.
   RunSummary export_to(const OutputFolder& folder);
 
-  /// Until finish(): the poses, the graph and the loops so far.
+  /// Until finish(), and when the session was opened again: the poses, the graph and the loops so far.
   const Mapper& mapper() const { return *mapper_; }
 
   /// After finish().
@@ -90,13 +110,17 @@ class MappingSession {
  private:
   class WorkClock;
   std::optional<Frame> read();
+  void make_due_edits(EditTime now);
+  void write_edits(const std::filesystem::path& file) const;
   void begin(SessionProgress::Phase phase);
   void tell(double share) const;
 
   std::filesystem::path path_;
   Settings settings_;
   std::unique_ptr<FrameSource> source_;
-  std::unique_ptr<Mapper> mapper_;  // gone after finish(): its local maps are the most of the memory
+  std::unique_ptr<Mapper> mapper_;  // gone after finish() unless the session stays open
+  EditJournal edits_;
+  std::vector<std::string> edit_complaints_;
   Observer observer_;
   MappingResult result_;
   PoseGraph graph_;  // of the result
@@ -107,6 +131,9 @@ class MappingSession {
   double work_s_ = 0;         // as of now, pauses between calls left out
   std::size_t scans_ = 0;
   std::size_t stages_of_mapping_ = 0;  // in result_.stages; those of an export come behind
+  bool stays_open_ = false;
+  bool finished_ = false;
+  bool scans_left_ = false;  // readable ones, behind the last that was mapped
   bool any_return_ = false;
   bool at_end_ = false;
 };

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/session/edit_journal.h"
+
+#include <algorithm>
+#include <string_view>
+#include <tuple>
+
+#include "edit_line.h"
+#include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/line_reader.h"
+#include "psi_slam/base/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr const char* kHeading = "# psi-slam loop edits 1\n";
+
+bool same_loop(const LoopEdit& a, const LoopEdit& b) {
+  return a.frame == b.frame && a.local_map == b.local_map;
+}
+
+bool earlier(const TimedEdit& a, const TimedEdit& b) {
+  return a.time < b.time;
+}
+
+}  // namespace
+
+bool operator<(const EditTime& a, const EditTime& b) {
+  return std::tie(a.kind, a.scan) < std::tie(b.kind, b.scan);
+}
+
+void EditJournal::add(const TimedEdit& edit) {
+  edits_.insert(std::upper_bound(edits_.begin(), edits_.end(), edit, earlier), edit);
+}
+
+std::vector<LoopEdit> EditJournal::take_due(EditTime now) {
+  std::vector<LoopEdit> due;
+  while (taken_ < edits_.size() && !(now < edits_[taken_].time)) due.push_back(edits_[taken_++].edit);
+  return due;
+}
+
+void EditJournal::enter(const TimedEdit& edit) {
+  forget_later(edit.edit);
+  edits_.insert(edits_.begin() + static_cast<std::ptrdiff_t>(taken_), edit);
+  ++taken_;
+}
+
+bool EditJournal::forget_later(const LoopEdit& same) {
+  const auto later = edits_.begin() + static_cast<std::ptrdiff_t>(taken_);
+  const auto kept =
+      std::remove_if(later, edits_.end(), [&](const TimedEdit& edit) { return same_loop(edit.edit, same); });
+  const bool any = kept != edits_.end();
+  edits_.erase(kept, edits_.end());
+  return any;
+}
+
+std::string EditJournal::text() const {
+  std::string text = kHeading;
+  for (const TimedEdit& edit : edits_) text += edit_line(edit) + '\n';
+  return text;
+}
+
+EditJournal EditJournal::read(const std::filesystem::path& file) {
+  EditJournal journal;
+  LineReader lines(file);
+  for (std::string_view line; lines.next(line);) {
+    line = line.substr(0, line.find('#'));
+    if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
+    try {
+      journal.add(parse_edit_line(line));
+    } catch (const UserError& error) {
+      throw UserError(lines.place() + ": " + error.what());
+    }
+  }
+  return journal;
+}
+
+void EditJournal::write(const std::filesystem::path& file) const {
+  write_text_atomically(file, text());
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "../local_maps/simulated_drive.h"
+#include "psi_slam/loop_closure/loop_edit.h"
+#include "psi_slam/mapping/mapper.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using State = LoopEditOutcome::State;
+using Kind = LoopEdit::Kind;
+
+// Once round a room and half a round more: the second time all is seen again.
+const SimulatedDrive& round_drive() {
+  static const SimulatedDrive drive = [] {
+    OdometryErrors errors;
+    errors.length_factor = 0.98;
+    errors.turn_factor = 1.03;
+    return drive_along(
+        office_floor(),
+        path_along({{1.6, 1.6}, {18.3, 1.6}, {18.3, 12.4}, {1.6, 12.4}, {1.6, 1.6}, {16, 1.6}}, 0.16, 0.12),
+        errors, 5);
+  }();
+  return drive;
+}
+
+std::string bytes_of(const MappingResult& result) {
+  std::string bytes;
+  for (const FrameRecord& frame : result.frames)
+    for (const double value : {frame.map_T_robot.x, frame.map_T_robot.y, frame.map_T_robot.phi})
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  for (const LoopRecord& loop : result.loops)
+    bytes += std::to_string(loop.frame) + ',' + std::to_string(loop.local_map) + ',' +
+             std::to_string(static_cast<int>(loop.verdict)) + loop.reason + '\n';
+  return bytes;
+}
+
+double error_m(const MappingResult& result) {
+  double worst = 0;
+  for (std::size_t i = 0; i < result.frames.size(); ++i) {
+    const TPose2D off = result.frames[i].map_T_robot - round_drive().map_T_robot[i];
+    worst = std::max(worst, std::hypot(off.x, off.y));
+  }
+  return worst;
+}
+
+class MapperEditsTest : public testing::Test {
+ protected:
+  void map_all() {
+    for (const Frame& frame : round_drive().frames) mapper_.add(frame);
+  }
+
+  const LoopRecord& first(LoopVerdict verdict) const {
+    const auto& loops = mapper_.loops();
+    const auto found = std::find_if(loops.begin(), loops.end(),
+                                    [&](const LoopRecord& loop) { return loop.verdict == verdict; });
+    if (found == loops.end()) throw std::logic_error("the drive has no such loop");
+    return *found;
+  }
+
+  const LoopRecord& attempt(const LoopEdit& edit) const {
+    const auto& loops = mapper_.loops();
+    const auto found = std::find_if(loops.rbegin(), loops.rend(), [&](const LoopRecord& loop) {
+      return loop.frame == edit.frame && loop.local_map == edit.local_map;
+    });
+    if (found == loops.rend()) throw std::logic_error("the two were never matched");
+    return *found;
+  }
+
+  static LoopEdit edit_of(Kind kind, const LoopRecord& loop) { return {kind, loop.frame, loop.local_map}; }
+
+  bool is_constraint(const LoopRecord& loop) const {
+    const PoseGraph& graph = mapper_.graph();
+    for (const std::uint32_t index : graph.constraints_of(loop.node)) {
+      const Constraint& constraint = graph.constraint(index);
+      if (graph.enabled(index) && constraint.kind == Constraint::Kind::kLoop &&
+          constraint.from == loop.anchor && constraint.to == loop.node)
+        return true;
+    }
+    return false;
+  }
+
+  Mapper mapper_{MapperOptions{}};
+};
+
+TEST_F(MapperEditsTest, a_deleted_loop_is_no_constraint_and_the_last_pass_does_not_bring_it_back) {
+  map_all();
+  const LoopRecord loop = first(LoopVerdict::kAccepted);
+  ASSERT_TRUE(is_constraint(loop));
+  const LoopEdit edit = edit_of(Kind::kDelete, loop);
+  EXPECT_EQ(mapper_.edit(edit).state, State::kDone);
+  EXPECT_FALSE(is_constraint(loop));
+  EXPECT_EQ(attempt(edit).verdict, LoopVerdict::kDeleted);
+  EXPECT_TRUE(attempt(edit).by_hand);
+  const MappingResult result = mapper_.finish();
+  for (const LoopRecord& end : result.loops) {
+    if (end.frame != loop.frame || end.local_map != loop.local_map) continue;
+    EXPECT_EQ(end.verdict, LoopVerdict::kDeleted);
+  }
+}
+
+TEST_F(MapperEditsTest, the_graph_is_optimised_at_once) {
+  map_all();
+  const std::vector<LoopRecord> loops = mapper_.loops();
+  const TPose2D closed = mapper_.graph().poses().back();
+  const auto for_accepted = [&](Kind kind) {
+    for (const LoopRecord& loop : loops)
+      if (loop.verdict == LoopVerdict::kAccepted) mapper_.edit(edit_of(kind, loop));
+    const TPose2D now = mapper_.graph().poses().back();
+    return std::hypot(now.x - closed.x, now.y - closed.y);
+  };
+  EXPECT_GT(for_accepted(Kind::kDelete), 0.05) << "without any loop the map drifts apart";
+  const TPose2D robot = mapper_.map_T_robot();
+  EXPECT_GT(std::hypot(robot.x - closed.x, robot.y - closed.y), 0.05) << "and the robot with it";
+  EXPECT_LT(for_accepted(Kind::kRestore), 0.01) << "with them it is closed again";
+}
+
+TEST_F(MapperEditsTest, what_was_deleted_before_it_was_found_is_never_a_constraint) {
+  map_all();
+  const LoopRecord loop = first(LoopVerdict::kAccepted);
+  Mapper early{MapperOptions{}};
+  EXPECT_EQ(early.edit(edit_of(Kind::kDelete, loop)).state, State::kWaits);
+  for (const Frame& frame : round_drive().frames) early.add(frame);
+  const MappingResult result = early.finish();
+  EXPECT_THAT(result.unmet_edits, IsEmpty());
+  std::size_t attempts = 0;
+  for (const LoopRecord& end : result.loops) {
+    if (end.frame != loop.frame || end.local_map != loop.local_map) continue;
+    ++attempts;
+    EXPECT_EQ(end.verdict, LoopVerdict::kDeleted);
+  }
+  EXPECT_EQ(attempts, 1U);
+}
+
+TEST_F(MapperEditsTest, a_refused_loop_can_be_forced_and_nothing_switches_it_off) {
+  map_all();
+  const LoopRecord loop = first(LoopVerdict::kRefused);
+  ASSERT_FALSE(is_constraint(loop));
+  const LoopEdit edit = edit_of(Kind::kForce, loop);
+  EXPECT_EQ(mapper_.edit(edit).state, State::kDone);
+  EXPECT_TRUE(is_constraint(loop));
+  EXPECT_EQ(attempt(edit).verdict, LoopVerdict::kAccepted);
+  const MappingResult result = mapper_.finish();
+  const auto kept = std::count_if(result.loops.begin(), result.loops.end(), [&](const LoopRecord& end) {
+    return end.frame == loop.frame && end.local_map == loop.local_map &&
+           end.verdict == LoopVerdict::kAccepted && end.by_hand;
+  });
+  EXPECT_EQ(kept, 1);
+}
+
+TEST_F(MapperEditsTest, a_loop_is_matched_again_by_any_matcher) {
+  map_all();
+  const LoopRecord loop = first(LoopVerdict::kAccepted);
+  for (const MatcherKind matcher : {MatcherKind::kGa, MatcherKind::kCsmGa, MatcherKind::kCsm}) {
+    LoopEdit edit = edit_of(Kind::kMatch, loop);
+    edit.matcher = matcher;
+    EXPECT_EQ(mapper_.edit(edit).state, State::kDone);
+    const LoopRecord& again = attempt(edit);
+    EXPECT_EQ(again.matcher, name(matcher));
+    EXPECT_EQ(again.verdict, LoopVerdict::kAccepted) << again.reason;
+    EXPECT_TRUE(is_constraint(again));
+    EXPECT_NEAR(again.anchor_T_node.x, loop.anchor_T_node.x, 0.05);
+    EXPECT_NEAR(again.anchor_T_node.y, loop.anchor_T_node.y, 0.05);
+  }
+}
+
+TEST_F(MapperEditsTest, a_match_is_looked_for_where_it_is_asked_for) {
+  map_all();
+  const LoopRecord loop = first(LoopVerdict::kAccepted);
+  LoopEdit edit = edit_of(Kind::kMatch, loop);
+  edit.place = LoopPlace{loop.anchor_T_node + TPose2D(0.8, -0.6, 0.2), {1.5, 1.5, 0.5}};
+  ASSERT_EQ(mapper_.edit(edit).state, State::kDone);
+  EXPECT_NEAR(attempt(edit).anchor_T_node.x, loop.anchor_T_node.x, 0.05);
+  EXPECT_EQ(attempt(edit).verdict, LoopVerdict::kAccepted) << "a person vouches for the wide window";
+  edit.place->anchor_T_node = loop.anchor_T_node + TPose2D(300, 0, 0);
+  ASSERT_EQ(mapper_.edit(edit).state, State::kDone);
+  EXPECT_EQ(attempt(edit).verdict, LoopVerdict::kNotFound);
+  EXPECT_FALSE(is_constraint(loop)) << "the match that it had no longer counts";
+}
+
+TEST_F(MapperEditsTest, restored_it_is_what_the_mapper_made_of_it) {
+  map_all();
+  for (const LoopVerdict verdict : {LoopVerdict::kAccepted, LoopVerdict::kRefused}) {
+    const LoopRecord loop = first(verdict);
+    for (const Kind kind : {Kind::kDelete, Kind::kForce, Kind::kMatch}) {
+      mapper_.edit(edit_of(kind, loop));
+      EXPECT_EQ(mapper_.edit(edit_of(Kind::kRestore, loop)).state, State::kDone);
+      const LoopRecord& again = attempt(edit_of(kind, loop));
+      EXPECT_EQ(again.verdict, verdict);
+      EXPECT_EQ(again.anchor_T_node, loop.anchor_T_node);
+      EXPECT_EQ(again.matcher, loop.matcher);
+      EXPECT_FALSE(again.by_hand);
+      EXPECT_EQ(is_constraint(again), verdict == LoopVerdict::kAccepted);
+    }
+    EXPECT_EQ(mapper_.edit(edit_of(Kind::kRestore, loop)).state, State::kImpossible);
+  }
+}
+
+TEST_F(MapperEditsTest, says_what_cannot_be_edited) {
+  map_all();
+  mapper_.end_log();
+  std::size_t between = 1;
+  while (mapper_.frames()[between].node) ++between;
+  const LoopEditOutcome no_node = mapper_.edit({Kind::kDelete, between, 0});
+  EXPECT_EQ(no_node.state, State::kImpossible);
+  EXPECT_THAT(no_node.reason, HasSubstr("is no node of the graph"));
+  const LoopEditOutcome itself = mapper_.edit({Kind::kForce, 0, 0});
+  EXPECT_EQ(itself.state, State::kImpossible);
+  EXPECT_THAT(itself.reason, HasSubstr("scan 0 is part of local map 0"));
+  EXPECT_EQ(mapper_.edit({Kind::kDelete, 0, 999}).state, State::kWaits);
+  EXPECT_THAT(mapper_.finish().unmet_edits,
+              ElementsAre("delete the loop of scan 0 with local map 999: local map 999 is not finished"));
+}
+
+TEST_F(MapperEditsTest, a_mapper_that_closes_no_loops_takes_no_edits) {
+  MapperOptions options;
+  options.close_loops = false;
+  Mapper mapper(options);
+  EXPECT_EQ(mapper.edit({Kind::kDelete, 0, 1}).state, State::kImpossible);
+}
+
+TEST_F(MapperEditsTest, opened_again_and_finished_it_is_what_it_was) {
+  map_all();
+  MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
+  const std::string first_time = bytes_of(result);
+  EXPECT_LT(error_m(result), 0.2);
+  mapper_.reopen(std::move(result));
+  EXPECT_EQ(bytes_of(mapper_.finish({}, Mapper::AfterFinish::kReopen)), first_time);
+}
+
+TEST_F(MapperEditsTest, edited_after_the_end_it_is_what_it_would_have_been_without_the_finish_before) {
+  map_all();
+  Mapper straight{MapperOptions{}};
+  for (const Frame& frame : round_drive().frames) straight.add(frame);
+  MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
+  const auto in_last_pass = std::find_if(
+      result.loops.begin(), result.loops.end(),
+      [](const LoopRecord& loop) { return loop.in_last_pass && loop.verdict == LoopVerdict::kAccepted; });
+  ASSERT_NE(in_last_pass, result.loops.end());
+  const LoopEdit edit = edit_of(Kind::kDelete, *in_last_pass);
+  mapper_.reopen(std::move(result));
+  straight.end_log();
+  EXPECT_EQ(mapper_.edit(edit).state, State::kDone);
+  EXPECT_EQ(straight.edit(edit).state, State::kDone);
+  const MappingResult edited = mapper_.finish({}, Mapper::AfterFinish::kReopen);
+  EXPECT_EQ(bytes_of(edited), bytes_of(straight.finish()));
+  const auto deleted = std::find_if(edited.loops.begin(), edited.loops.end(), [&](const LoopRecord& loop) {
+    return loop.frame == edit.frame && loop.local_map == edit.local_map;
+  });
+  ASSERT_NE(deleted, edited.loops.end()) << "it is still listed, to be taken back";
+  EXPECT_EQ(deleted->verdict, LoopVerdict::kDeleted);
+}
+
+}  // namespace
+}  // namespace psi_slam

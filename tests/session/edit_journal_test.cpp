@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/session/edit_journal.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "psi_slam/base/user_error.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using Kind = LoopEdit::Kind;
+
+EditTime after(std::size_t scan) {
+  return {EditTime::Kind::kAfterScan, scan};
+}
+
+const EditTime kEnd{EditTime::Kind::kEnd, 0};
+
+class EditJournalTest : public testing::Test {
+ protected:
+  std::filesystem::path file(const std::string& text) const {
+    std::ofstream(path_) << text;
+    return path_;
+  }
+
+  std::string complaint(const std::string& text) const {
+    try {
+      EditJournal::read(file(text));
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_.path() / "my.edits";
+};
+
+TEST_F(EditJournalTest, comes_back_from_its_file_to_the_last_bit) {
+  EditJournal journal;
+  journal.add({{Kind::kDelete, 812, 14}, after(1500)});
+  LoopEdit match{Kind::kMatch, 900, 3};
+  match.matcher = MatcherKind::kCsmGa;
+  match.place = LoopPlace{{1.0 / 3, -2e-9, M_PI / 7}, {2.1, 2.1, 0.1}};
+  journal.add({match, kEnd});
+  journal.add({{Kind::kForce, 1, 2}, {}});
+  journal.add({{Kind::kRestore, 812, 14}, after(1600)});
+  journal.write(path_);
+  const EditJournal back = EditJournal::read(path_);
+  EXPECT_EQ(back.text(), journal.text());
+  ASSERT_THAT(back.edits(), SizeIs(4));
+  const LoopEdit& read = back.edits()[3].edit;
+  EXPECT_EQ(read.kind, Kind::kMatch);
+  EXPECT_EQ(read.matcher, MatcherKind::kCsmGa);
+  ASSERT_TRUE(read.place.has_value());
+  EXPECT_EQ(read.place->anchor_T_node, match.place->anchor_T_node);
+  EXPECT_EQ(read.place->window.theta_rad, match.place->window.theta_rad);
+}
+
+TEST_F(EditJournalTest, reads_what_a_person_writes) {
+  const EditJournal journal =
+      EditJournal::read(file("# false: two equal doors\n\n  delete   local_map=3 scan=40   # here\nmatch "
+                             "scan=5 local_map=1 matcher=ga\n"));
+  ASSERT_THAT(journal.edits(), SizeIs(2));
+  EXPECT_EQ(journal.edits()[0].edit.frame, 40U);
+  EXPECT_EQ(journal.edits()[0].time.kind, EditTime::Kind::kBegin);
+  EXPECT_FALSE(journal.edits()[1].edit.place.has_value());
+}
+
+TEST_F(EditJournalTest, edits_are_taken_once_in_the_order_of_their_times) {
+  EditJournal journal;
+  journal.add({{Kind::kDelete, 3, 0}, kEnd});
+  journal.add({{Kind::kDelete, 2, 0}, after(7)});
+  journal.add({{Kind::kForce, 2, 0}, after(7)});
+  journal.add({{Kind::kDelete, 1, 0}, {}});
+  EXPECT_THAT(journal.take_due({}), SizeIs(1));
+  EXPECT_THAT(journal.take_due(after(6)), IsEmpty());
+  const std::vector<LoopEdit> due = journal.take_due(after(7));
+  ASSERT_THAT(due, SizeIs(2));
+  EXPECT_EQ(due[0].kind, Kind::kDelete) << "of the same time, the first first";
+  EXPECT_THAT(journal.take_due(after(1000000)), IsEmpty()) << "the end is later than any scan";
+  EXPECT_THAT(journal.take_due(kEnd), SizeIs(1));
+  journal.rewind();
+  EXPECT_THAT(journal.take_due(kEnd), SizeIs(4));
+}
+
+TEST_F(EditJournalTest, what_a_person_does_now_replaces_what_was_to_be_done_to_the_loop_later) {
+  EditJournal journal;
+  journal.add({{Kind::kDelete, 2, 0}, after(7)});
+  journal.add({{Kind::kForce, 2, 1}, after(9)});
+  journal.take_due(after(3));
+  journal.enter({{Kind::kForce, 2, 0}, after(3)});
+  EXPECT_EQ(journal.text(),
+            "# psi-slam loop edits 1\nforce scan=2 local_map=0 after=3\nforce scan=2 local_map=1 after=9\n");
+  EXPECT_FALSE(journal.forget_later({Kind::kRestore, 2, 0})) << "that was done";
+  EXPECT_TRUE(journal.forget_later({Kind::kRestore, 2, 1}));
+  EXPECT_THAT(journal.edits(), SizeIs(1));
+}
+
+TEST_F(EditJournalTest, says_where_a_line_is_no_edit_and_what_was_expected) {
+  EXPECT_THAT(complaint("delete scan=1 local_map=2\ndelte scan=1 local_map=2\n"),
+              AllOf(HasSubstr("my.edits:2: \"delte\" is none of"), HasSubstr("did you mean \"delete\"?")));
+  EXPECT_THAT(complaint("delete scan=1"), HasSubstr(":1: \"local_map\" is missing"));
+  EXPECT_THAT(complaint("delete scan=1.5 local_map=2"), HasSubstr("scan=1.5 is not a whole number"));
+  EXPECT_THAT(complaint("delete scan=-1 local_map=2"), HasSubstr("not a whole number of at least 0"));
+  EXPECT_THAT(complaint("delete scan=1 local_map=2 matcher=ga"), HasSubstr("no key \"matcher\" here"));
+  EXPECT_THAT(complaint("delete scan=1 locl_map=2"), HasSubstr("did you mean \"local_map\"?"));
+  EXPECT_THAT(complaint("delete scan=1 scan=1 local_map=2"), HasSubstr("\"scan\" is given twice"));
+  EXPECT_THAT(complaint("delete scan 1"), HasSubstr("\"scan\" is not KEY=VALUE"));
+  EXPECT_THAT(complaint("match scan=1 local_map=2"), HasSubstr("\"matcher\" is missing"));
+  EXPECT_THAT(complaint("match scan=1 local_map=2 matcher=csn"), HasSubstr("none of csm, csm_ga and ga"));
+  EXPECT_THAT(complaint("match scan=1 local_map=2 matcher=ga x_m=1"), HasSubstr("\"y_m\" is missing"));
+  EXPECT_THAT(complaint("match scan=1 local_map=2 matcher=ga x_m=1 y_m=2 yaw_deg=0 window_m=0 window_deg=5"),
+              HasSubstr("window_m=0 is not in (0, 1000]"));
+  EXPECT_THAT(complaint("delete scan=1 local_map=2 after=soon"), HasSubstr("after=soon"));
+  EXPECT_THROW(EditJournal::read(folder_.path() / "none"), UserError);
+}
+
+}  // namespace
+}  // namespace psi_slam

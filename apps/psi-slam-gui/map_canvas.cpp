@@ -142,10 +142,8 @@ void MapCanvas::set_camera(const MapCamera& camera) {
   setAzimuthDegrees(static_cast<float>(camera.azimuth_deg));
   setElevationDegrees(static_cast<float>(std::clamp(camera.elevation_deg, kLowest_deg, kFromAbove_deg)));
   setCameraFOV(static_cast<float>(camera.field_of_view_deg));
-  // Layers are centimetres apart: the depths that OpenGL tells apart lie around the ground.
   const double distance_m = static_cast<double>(getZoomDistance());
-  map_scene_.scene()->getViewport()->setViewportClipDistances(static_cast<float>(distance_m * kNearShare),
-                                                              static_cast<float>(distance_m * kFarShare));
+  map_scene_.set_clip_distances(distance_m * kNearShare, distance_m * kFarShare);
 }
 
 PictureSize MapCanvas::picture_size() const {

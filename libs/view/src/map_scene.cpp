@@ -19,6 +19,29 @@ constexpr std::array<const char*, kMapLayers> kNames{"Gridmap",
                                                      "Robot",
                                                      "Search windows"};
 
+constexpr const char* kMaps = "main";
+constexpr const char* kLines = "lines";
+constexpr const char* kMarks = "marks";
+
+const char* viewport_of(MapLayer layer) {
+  switch (layer) {
+    case MapLayer::kGrid:
+    case MapLayer::kLocalMaps:
+      return kMaps;
+    case MapLayer::kOdometry:
+    case MapLayer::kTrajectory:
+    case MapLayer::kConstraints:
+    case MapLayer::kLoops:
+      return kLines;
+    case MapLayer::kNodes:
+    case MapLayer::kScan:
+    case MapLayer::kRobot:
+    case MapLayer::kWindows:
+      return kMarks;
+  }
+  return kMaps;
+}
+
 }  // namespace
 
 const char* name_of(MapLayer layer) {
@@ -31,14 +54,24 @@ bool shown_at_first(MapLayer layer) {
 
 MapScene::MapScene() {
   scene_->getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(palette::kBackground));
+  for (const char* upper : {kLines, kMarks}) {
+    const auto viewport = scene_->createViewport(upper);
+    viewport->setTransparent(true);
+    viewport->setClonedCameraFrom(kMaps);
+  }
   for (std::size_t i = 0; i < kMapLayers; ++i) {
     layers_[i] = mrpt::opengl::CSetOfObjects::Create();
     layers_[i]->setName(kNames[i]);
     layers_[i]->setVisibility(shown_at_first(static_cast<MapLayer>(i)));
-    scene_->insert(layers_[i]);
+    scene_->insert(layers_[i], viewport_of(static_cast<MapLayer>(i)));
   }
-  scene_->insert(chosen_layer_);
-  scene_->insert(measure_layer_);
+  scene_->insert(chosen_layer_, kMarks);
+  scene_->insert(measure_layer_, kMarks);
+}
+
+void MapScene::set_clip_distances(double nearest_m, double farthest_m) {
+  for (const auto& viewport : scene_->viewports())
+    viewport->setViewportClipDistances(static_cast<float>(nearest_m), static_cast<float>(farthest_m));
 }
 
 mrpt::opengl::CSetOfObjects& MapScene::of(MapLayer layer) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run as one of MRPT's scenes: for windows, reports and tests. It holds a layer for each thing to be seen,
 // and redraws those alone whose matter has changed since it was shown last.
+//
+// Layers lie centimetres above each other, which OpenGL cannot always tell apart from far above; so the maps,
+// the lines on them and the marks on those are viewports, drawn one over the other whatever their depths. All
+// follow the camera of the first, "main".
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -61,6 +65,8 @@ class MapScene {
 
   /// The scene itself stays the same object.
   const mrpt::opengl::COpenGLScene::Ptr& scene() const { return scene_; }
+  /// Nothing nearer to the eye is drawn, and nothing farther.
+  void set_clip_distances(double nearest_m, double farthest_m);
 
   /// Brings all layers up to date. `frame` is the scan to show instead of the newest. True when anything has
   /// changed.

@@ -98,7 +98,7 @@ void MainFrame::bind_view_commands() {
     on(kLayer + static_cast<int>(i), [this, i] {
       const auto layer = static_cast<MapLayer>(i);
       canvas_->map_scene().set_visible(layer, GetMenuBar()->IsChecked(kLayer + static_cast<int>(i)));
-      canvas_->Refresh(false);
+      canvas_->restyle();
     });
   for (const int command : {kRefusedLoops, kLoopsByMatcher, kLoopsByResidual})
     on(command, [this] {
@@ -106,6 +106,7 @@ void MainFrame::bind_view_commands() {
       style.refused = GetMenuBar()->IsChecked(kRefusedLoops);
       if (GetMenuBar()->IsChecked(kLoopsByResidual)) style.colour = LoopStyle::Colour::kResidual;
       canvas_->map_scene().set_loop_style(style);
+      canvas_->restyle();
     });
   on(kPaneSettings, [this] { toggle_pane(settings_panel_, GetMenuBar()->IsChecked(kPaneSettings)); });
   on(kPaneLoops, [this] { toggle_pane(loops_, GetMenuBar()->IsChecked(kPaneLoops)); });

@@ -15,6 +15,7 @@
 #include "map_canvas.h"
 #include "message_bar.h"
 #include "psi_slam/session/mapping_session.h"
+#include "psi_slam/view/palette.h"
 #include "same_results.h"
 #include "settings_panel.h"
 #include "shared_logs.h"
@@ -96,6 +97,45 @@ TEST_F(MainFrameTest, loops_are_inspected) {
         EXPECT_FALSE(frame.map().measure().has_value());
       });
   EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, the_colours_of_loops_are_explained_while_loops_are_shown) {
+  wxImage with;
+  wxImage without;
+  const auto take = [this](wxImage& into) {
+    gui_.pause(300)
+        .then([&into](MainFrame& frame) {
+          frame.map().take_picture([&into](const wxImage& picture) { into = picture; });
+        })
+        .when("a picture is taken", [&into](MainFrame&) { return into.IsOk(); });
+  };
+  gui_.when_phase(ReplayPhase::kPaused)
+      .then([](MainFrame& frame) {
+        EXPECT_TRUE(frame.map().legend().entries.empty()) << "no loops, no legend";
+      })
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .when("a legend", [](MainFrame& frame) { return !frame.map().legend().entries.empty(); })
+      .command(kLoopsByResidual)
+      .then([](MainFrame& frame) {
+        EXPECT_EQ(frame.map().legend().title, "Loops, by residual");
+        EXPECT_EQ(frame.map().legend().entries.back().name, "0.25 m and more");
+      })
+      .screenshot("residuals");
+  take(with);
+  gui_.command(kLayer + static_cast<int>(MapLayer::kLoops)).then([](MainFrame& frame) {
+    EXPECT_TRUE(frame.map().legend().entries.empty());
+  });
+  take(without);
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+  const auto count = [](const wxImage& picture, const mrpt::img::TColor& colour) {
+    wxImageHistogram histogram;
+    picture.ComputeHistogram(histogram);
+    return histogram[wxImageHistogram::MakeKey(colour.R, colour.G, colour.B)].value;
+  };
+  const mrpt::img::TColor worst = heat_colour(1);
+  EXPECT_GT(count(with, worst), 20UL) << "no loop is as bad as that, but the legend says what would be";
+  EXPECT_EQ(count(without, worst), 0UL);
 }
 
 TEST_F(MainFrameTest, what_goes_wrong_is_a_sentence_in_the_bar) {

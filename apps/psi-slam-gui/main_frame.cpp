@@ -222,7 +222,7 @@ void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
   const bool has_scans = snapshot != nullptr && !snapshot->frames.empty();
   const bool finished = snapshot != nullptr && snapshot->phase == ReplayPhase::kFinished;
   wxMenuBar& menu = *GetMenuBar();
-  menu.Enable(kPlayOrPause, mapping);
+  menu.Enable(kPlayOrPause, mapping || (snapshot != nullptr && snapshot->phase == ReplayPhase::kLastPass));
   menu.Enable(kStep, mapping);
   menu.Enable(kFinish, has_scans && (mapping || snapshot->phase == ReplayPhase::kLastPass));
   menu.Enable(kRestart, snapshot != nullptr);
@@ -235,7 +235,7 @@ void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
 void MainFrame::play_or_pause() {
   if (!replay_ || !snapshot_) return;
   shown_frame_.reset();
-  snapshot_->phase == ReplayPhase::kPlaying ? replay_->pause() : replay_->play();
+  TransportBar::goes_on(*snapshot_) ? replay_->pause() : replay_->play();
 }
 
 void MainFrame::step() {

@@ -19,6 +19,7 @@ class SnapshotMaker {
   void note_progress(const SessionProgress& progress) { now_.progress = progress; }
   void note_warnings(const MappingSession& session);
   void note_export(ExportOutcome outcome) { now_.exported = std::move(outcome); }
+  void note_held(bool held) { now_.last_pass_held = held; }
   void note_failure(std::string sentence) { now_.failure = std::move(sentence); }
 
   /// Takes over what is new, before the session is finished.

@@ -47,6 +47,7 @@ struct ExportOutcome {
 
 struct ReplaySnapshot {
   ReplayPhase phase = ReplayPhase::kOpening;
+  bool last_pass_held = false;  ///< in the last pass: it waits to be told to play, to be cut or to close
   SessionProgress progress;
   std::string failure;                ///< a sentence, where the phase is kFailed
   std::vector<std::string> warnings;  ///< what is wrong with the log, a sentence each

@@ -11,10 +11,16 @@ namespace psi_slam {
 namespace {
 
 constexpr std::array<const char*, LoopTable::kColumns> kTitles{
-    "Frame",     "Node",      "Local map",    "Matcher", "Response",
+    "Frame",     "Node",      "Map",          "Matcher", "Response",
     "Ambiguity", "Moved [m]", "Residual [m]", "Verdict", "Reason"};
 
 }  // namespace
+
+std::string loop_words(const LoopRecord& loop) {
+  const std::string words = "Node " + std::to_string(loop.node) + " on local map " +
+                            std::to_string(loop.local_map) + ", " + verdict_text(loop.verdict);
+  return loop.reason.empty() ? words : words + ": " + loop.reason;
+}
 
 const char* LoopTable::title(std::size_t column) {
   return kTitles.at(column);

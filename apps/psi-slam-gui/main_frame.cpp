@@ -77,7 +77,7 @@ void MainFrame::build() {
       this, settings_,
       {[this](const std::string& sentence) { messages_->say(MessageBar::Kind::kError, sentence); },
        [this] {
-         messages_->Dismiss();
+         messages_->dismiss();
          show_pending_settings();
        },
        [this] { restart(); }});
@@ -145,7 +145,7 @@ void MainFrame::start(const std::string& log, const std::string& config,
 }
 
 void MainFrame::open_log(const std::filesystem::path& log) {
-  messages_->Dismiss();
+  messages_->dismiss();
   snapshot_.reset();
   shown_frame_.reset();
   told_failure_.clear();

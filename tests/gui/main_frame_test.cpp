@@ -99,6 +99,40 @@ TEST_F(MainFrameTest, loops_are_inspected) {
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
+TEST_F(MainFrameTest, all_columns_of_the_loops_are_legible_in_a_small_window) {
+  std::size_t refused = 0;
+  gui_.then([](MainFrame& frame) { frame.SetSize(frame.FromDIP(wxSize(1280, 800))); })
+      .when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .pause(200)
+      .then([&](MainFrame& frame) {
+        const LoopList& list = frame.loops().list();
+        int all = 0;
+        for (std::size_t column = 0; column < LoopTable::kColumns; ++column) {
+          const int width = list.GetColumnWidth(static_cast<int>(column));
+          all += width;
+          EXPECT_GE(width, list.GetTextExtent(LoopTable::title(column)).GetWidth() + 8) << column;
+          if (column == LoopTable::kReason) continue;
+          for (std::size_t row = 0; row < list.table.rows(); ++row)
+            EXPECT_GE(width, list.GetTextExtent(list.table.text(row, column)).GetWidth() + 8) << column;
+        }
+        EXPECT_LE(all, list.GetSize().GetWidth()) << "nothing to be scrolled to";
+        const auto& loops = *frame.replay()->snapshot()->loops;
+        while (refused < loops.size() && loops[refused].verdict != LoopVerdict::kRefused) ++refused;
+        ASSERT_LT(refused, loops.size());
+        EXPECT_THAT(frame.loops().details(), HasSubstr("Select a loop"));
+      })
+      .screenshot("small_window")
+      .then([&](MainFrame& frame) {
+        frame.loops().select(refused);
+        const LoopRecord& loop = (*frame.replay()->snapshot()->loops)[refused];
+        EXPECT_THAT(frame.loops().details(), HasSubstr("refused: " + loop.reason));
+      })
+      .screenshot("refused_loop");
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
 TEST_F(MainFrameTest, the_colours_of_loops_are_explained_while_loops_are_shown) {
   wxImage with;
   wxImage without;

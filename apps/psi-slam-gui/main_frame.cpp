@@ -53,6 +53,10 @@ MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "psi-slam"), recent_(9), tim
   build();
   bind_commands();
   enable_commands(nullptr);
+  ask_for_file_ = ask_in_dialogs(*this);
+  layout_.emplace(*this, panes_);
+  if (wxConfigBase* config = wxConfigBase::Get(false)) layout_->restore(*config, canvas_->map_scene());
+  check_choices();
   SetDropTarget(new LogDrop(*this));
   Bind(wxEVT_TIMER, [this](wxTimerEvent&) { refresh(); });
   Bind(wxEVT_CLOSE_WINDOW, [this](wxCloseEvent& event) { close(event); });
@@ -309,6 +313,7 @@ void MainFrame::close(wxCloseEvent& event) {
     return;
   }
   timer_.Stop();
+  if (wxConfigBase* config = wxConfigBase::Get(false)) layout_->save(*config, canvas_->map_scene());
   Hide();  // the engine may take a moment to end
   event.Skip();
 }

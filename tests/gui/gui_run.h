@@ -52,13 +52,15 @@ class GuiRun {
   GuiRun& command(int id) {
     when("command " + std::to_string(id) + " is enabled",
          [id](MainFrame& frame) { return frame.GetMenuBar()->IsEnabled(id); });
-    return then([id](MainFrame& frame) {
-      wxMenuItem* const item = frame.GetMenuBar()->FindItem(id);
-      if (item->IsCheckable()) item->Check(item->IsRadio() || !item->IsChecked());
-      wxCommandEvent event(wxEVT_MENU, id);
-      event.SetEventObject(&frame);
-      frame.GetEventHandler()->ProcessEvent(event);
-    });
+    return then([id](MainFrame& frame) { choose(frame, id); });
+  }
+  /// As a click on the menu's item does.
+  static void choose(MainFrame& frame, int id) {
+    wxMenuItem* const item = frame.GetMenuBar()->FindItem(id);
+    if (item->IsCheckable()) item->Check(item->IsRadio() || !item->IsChecked());
+    wxCommandEvent event(wxEVT_MENU, id);
+    event.SetEventObject(&frame);
+    frame.GetEventHandler()->ProcessEvent(event);
   }
   GuiRun& when_phase(ReplayPhase phase) {
     return when("phase " + std::to_string(static_cast<int>(phase)), [phase](MainFrame& frame) {

@@ -36,6 +36,16 @@ std::string shapes_of(Icon icon) {
       return "<path d=\"M10 2l6 15-6-4-6 4z\" " + line + "/>";
     case Icon::kMeasure:
       return "<path d=\"M2.5 13.5l11-11 4 4-11 11zM5.5 10.5l2 2M8.5 7.5l2 2M11.5 4.5l2 2\" " + line + "/>";
+    case Icon::kNote:
+      return "<circle cx=\"10\" cy=\"10\" r=\"7.5\" " + line + "/><path d=\"M10 9v5M10 6.2v.1\" " + line +
+             "/>";
+    case Icon::kWarning:
+      return "<path d=\"M10 2.5l8 14.5H2zM10 8v4.5M10 14.8v.1\" " + line + "/>";
+    case Icon::kError:
+      return "<circle cx=\"10\" cy=\"10\" r=\"7.5\" " + line + "/><path d=\"M7 7l6 6M13 7l-6 6\" " + line +
+             "/>";
+    case Icon::kClose:
+      return "<path d=\"M5.5 5.5l9 9M14.5 5.5l-9 9\" " + line + "/>";
   }
   return "";
 }

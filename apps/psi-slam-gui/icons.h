@@ -8,7 +8,23 @@
 
 namespace psi_slam {
 
-enum class Icon { kOpen, kPlay, kPause, kStep, kFinish, kExport, kRestart, kFit, kTop, kFollow, kMeasure };
+enum class Icon {
+  kOpen,
+  kPlay,
+  kPause,
+  kStep,
+  kFinish,
+  kExport,
+  kRestart,
+  kFit,
+  kTop,
+  kFollow,
+  kMeasure,
+  kNote,
+  kWarning,
+  kError,
+  kClose
+};
 
 /// 20 pixels a side at 100 %.
 wxBitmapBundle icon_of(Icon icon, const wxColour& colour);

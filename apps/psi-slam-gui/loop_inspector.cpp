@@ -6,6 +6,7 @@
 #include <wx/splitter.h>
 #include <wx/stattext.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -17,9 +18,14 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::array<int, LoopTable::kColumns> kWidths{58, 54, 78, 128, 78, 84, 84, 94, 90, 420};
-constexpr std::array<LoopVerdict, 4> kVerdicts{LoopVerdict::kAccepted, LoopVerdict::kPending,
-                                               LoopVerdict::kRefused, LoopVerdict::kSwitchedOff};
+/// The widest text that is usual in each column.
+constexpr std::array<const char*, LoopTable::kColumns> kWidest{
+    "00000", "0000", "000", "csm_ga, last pass", "0.000", "0.000", "00.00", "0.000", "switched off", ""};
+constexpr int kNarrowestReason = 150;
+constexpr int kPictureWidth = 330;
+constexpr int kScrollBar = 16;
+constexpr int kCellMargin = 14;  // of a cell beside its text
+constexpr const char* kNothingSelected = "Select a loop to see its scan on the local map.";
 
 }  // namespace
 
@@ -29,9 +35,39 @@ LoopList::LoopList(wxWindow* parent)
   SetName("loops");
   for (std::size_t column = 0; column < LoopTable::kColumns; ++column) {
     const bool is_text = column == LoopTable::kMatcher || column >= LoopTable::kVerdict;
+    const int width = std::max(GetTextExtent(LoopTable::title(column)).GetWidth(),
+                               GetTextExtent(kWidest[column]).GetWidth());
     AppendColumn(LoopTable::title(column), is_text ? wxLIST_FORMAT_LEFT : wxLIST_FORMAT_RIGHT,
-                 FromDIP(kWidths[column]));
+                 width + FromDIP(kCellMargin));
   }
+  Bind(wxEVT_SIZE, [this](wxSizeEvent& event) {
+    fit_columns();
+    event.Skip();
+  });
+  for (wxWindow* child : GetChildren())
+    child->Bind(wxEVT_MOTION, [this](wxMouseEvent& event) {
+      show_tip(event);
+      event.Skip();
+    });
+}
+
+void LoopList::fit_columns() {
+  int left = GetSize().GetWidth() - FromDIP(kScrollBar);
+  for (std::size_t column = 0; column + 1 < LoopTable::kColumns; ++column)
+    left -= GetColumnWidth(static_cast<int>(column));
+  const int width = std::max(left, FromDIP(kNarrowestReason));
+  if (width != GetColumnWidth(LoopTable::kReason)) SetColumnWidth(LoopTable::kReason, width);
+}
+
+void LoopList::show_tip(wxMouseEvent& event) {
+  auto* const target = static_cast<wxWindow*>(event.GetEventObject());
+  int flags = 0;
+  const long row = HitTest(event.GetPosition(), flags);
+  const wxString reason = OnGetItemText(row, LoopTable::kReason);
+  const bool cut =
+      GetTextExtent(reason).GetWidth() + FromDIP(kCellMargin) > GetColumnWidth(LoopTable::kReason);
+  const wxString tip = cut ? reason : wxString();
+  if (target->GetToolTipText() != tip) target->SetToolTip(tip);
 }
 
 wxString LoopList::OnGetItemText(long row, long column) const {
@@ -50,7 +86,7 @@ LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<
   const int gap = FromDIP(4);
   filter_ = new wxChoice(this, wxID_ANY);
   filter_->Append("All");
-  for (const LoopVerdict verdict : kVerdicts) filter_->Append(wxString(verdict_text(verdict)).Capitalize());
+  for (const LoopVerdict verdict : kLoopVerdicts) filter_->Append(wxString(verdict_text(verdict)).Capitalize());
   filter_->SetSelection(0);
   filter_->SetToolTip("Which loops are listed");
   filter_->Bind(wxEVT_CHOICE, [this](wxCommandEvent&) { filter(); });
@@ -59,15 +95,19 @@ LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<
   actions_->Add(filter_, 0, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
   actions_->Add(summary_, 1, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
 
-  auto* splitter = new wxSplitterWindow(this, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxSP_LIVE_UPDATE);
-  list_ = new LoopList(splitter);
-  canvas_ = new LoopCanvas(splitter);
-  splitter->SetMinimumPaneSize(FromDIP(340));
-  splitter->SplitVertically(list_, canvas_, FromDIP(640));
-  splitter->SetSashGravity(0.6);
+  splitter_ = new wxSplitterWindow(this, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxSP_LIVE_UPDATE);
+  list_ = new LoopList(splitter_);
+  canvas_ = new LoopCanvas(splitter_);
+  canvas_->Hide();
+  splitter_->SetMinimumPaneSize(FromDIP(240));
+  splitter_->Initialize(list_);
+  splitter_->SetSashGravity(1);
+  details_ = new wxStaticText(this, wxID_ANY, kNothingSelected, wxDefaultPosition, wxDefaultSize,
+                              wxST_NO_AUTORESIZE | wxST_ELLIPSIZE_END);
   auto* column = new wxBoxSizer(wxVERTICAL);
   column->Add(actions_, 0, wxEXPAND);
-  column->Add(splitter, 1, wxEXPAND);
+  column->Add(splitter_, 1, wxEXPAND);
+  column->Add(details_, 0, wxEXPAND | wxALL, gap);
   SetSizer(column);
 
   list_->Bind(wxEVT_LIST_ITEM_SELECTED, [this](wxListEvent& event) {
@@ -90,7 +130,30 @@ void LoopInspector::show_nothing() {
 void LoopInspector::choose(std::optional<std::size_t> loop) {
   selected_ = loop;
   canvas_->show(loop && snapshot_ ? loop_picture(*snapshot_, *loop) : std::nullopt);
+  show_picture(loop.has_value());
+  describe();
   told_chosen_(loop);
+}
+
+void LoopInspector::show_picture(bool shown) {
+  if (shown == splitter_->IsSplit()) return;
+  if (shown)
+    splitter_->SplitVertically(list_, canvas_, -FromDIP(kPictureWidth));
+  else
+    splitter_->Unsplit(canvas_);
+}
+
+void LoopInspector::describe() {
+  const bool known = selected_ && snapshot_ && *selected_ < snapshot_->loops->size();
+  const wxString text =
+      known ? text_of(loop_words((*snapshot_->loops)[*selected_])) : wxString(kNothingSelected);
+  if (details_->GetLabel() == text) return;
+  details_->SetLabel(text);
+  details_->SetToolTip(text);
+}
+
+std::string LoopInspector::details() const {
+  return details_->GetLabel().utf8_string();
 }
 
 void LoopInspector::select(std::optional<std::size_t> loop) {
@@ -112,7 +175,7 @@ void LoopInspector::sort(int column) {
 void LoopInspector::filter() {
   const int choice = filter_->GetSelection();
   list_->table.set_filter(choice <= 0 ? std::nullopt
-                                      : std::optional(kVerdicts.at(static_cast<std::size_t>(choice - 1))));
+                                      : std::optional(kLoopVerdicts.at(static_cast<std::size_t>(choice - 1))));
   refresh_rows();
 }
 
@@ -127,6 +190,7 @@ void LoopInspector::refresh_rows() {
   if (row) list_->SetItemState(static_cast<long>(*row), wxLIST_STATE_SELECTED, wxLIST_STATE_SELECTED);
   selecting_ = false;
   list_->Refresh();
+  describe();
   const wxString summary = text_of(list_->table.summary());
   if (summary_->GetLabel() != summary) summary_->SetLabel(summary);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every match that loop closing made, in a table, and the one selected as a picture. Room for what can be
-// done with a loop is left in actions().
+// Every match that loop closing made, in a table; the one selected in words below it, and as a picture that
+// takes its room from the table only then. Room for what can be done with a loop is left in actions().
 #pragma once
 
 #include <wx/listctrl.h>
@@ -9,11 +9,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "loop_table.h"
 
 class wxBoxSizer;
 class wxChoice;
+class wxSplitterWindow;
 class wxStaticText;
 
 namespace psi_slam {
@@ -27,6 +29,10 @@ class LoopList : public wxListCtrl {
   LoopTable table;
 
  private:
+  /// The last column takes what the others leave.
+  void fit_columns();
+  /// All of a text that its column cuts off.
+  void show_tip(wxMouseEvent& event);
   wxString OnGetItemText(long row, long column) const override;
   wxListItemAttr* OnGetItemAttr(long row) const override;
   mutable wxListItemAttr attribute_;
@@ -43,7 +49,10 @@ class LoopInspector : public wxPanel {
   std::optional<std::size_t> selected() const { return selected_; }
 
   const LoopTable& table() const { return list_->table; }
+  const LoopList& list() const { return *list_; }
   const LoopCanvas& canvas() const { return *canvas_; }
+  /// What is said of the loop selected.
+  std::string details() const;
   /// The row above the table, for more to do with loops.
   wxBoxSizer& actions() { return *actions_; }
 
@@ -52,6 +61,8 @@ class LoopInspector : public wxPanel {
   void sort(int column);
   void filter();
   void refresh_rows();
+  void describe();
+  void show_picture(bool shown);
 
   std::function<void(std::optional<std::size_t>)> told_chosen_;
   std::shared_ptr<const ReplaySnapshot> snapshot_;
@@ -60,6 +71,8 @@ class LoopInspector : public wxPanel {
   wxBoxSizer* actions_;
   wxChoice* filter_;
   wxStaticText* summary_;
+  wxStaticText* details_;
+  wxSplitterWindow* splitter_;
   LoopList* list_;
   LoopCanvas* canvas_;
 };

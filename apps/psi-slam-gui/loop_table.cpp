@@ -11,10 +11,16 @@ namespace psi_slam {
 namespace {
 
 constexpr std::array<const char*, LoopTable::kColumns> kTitles{
-    "Frame",     "Node",      "Local map",    "Matcher", "Response",
+    "Frame",     "Node",      "Map",          "Matcher", "Response",
     "Ambiguity", "Moved [m]", "Residual [m]", "Verdict", "Reason"};
 
 }  // namespace
+
+std::string loop_words(const LoopRecord& loop) {
+  const std::string words = "Node " + std::to_string(loop.node) + " on local map " +
+                            std::to_string(loop.local_map) + ", " + verdict_text(loop.verdict);
+  return loop.reason.empty() ? words : words + ": " + loop.reason;
+}
 
 const char* LoopTable::title(std::size_t column) {
   return kTitles.at(column);
@@ -96,7 +102,7 @@ std::string LoopTable::text(std::size_t row, std::size_t column) const {
     case kLocalMap:
       return std::to_string(loop.local_map);
     case kMatcher:
-      return loop.matcher + (loop.in_last_pass ? ", last pass" : "");
+      return loop.matcher + (loop.by_hand ? ", by hand" : loop.in_last_pass ? ", last pass" : "");
     case kResponse:
       return fixed_text(loop.response, 3);
     case kAmbiguity:
@@ -116,10 +122,9 @@ std::string LoopTable::text(std::size_t row, std::size_t column) const {
 
 std::string LoopTable::summary() const {
   if (!snapshot_ || snapshot_->loops->empty()) return "No place has been seen again yet";
-  std::string text = std::to_string(snapshot_->loops->size()) + " matches:";
+  std::string text = std::to_string(snapshot_->loops->size()) + " searches:";
   const char* comma = " ";
-  for (const LoopVerdict verdict :
-       {LoopVerdict::kAccepted, LoopVerdict::kPending, LoopVerdict::kRefused, LoopVerdict::kSwitchedOff}) {
+  for (const LoopVerdict verdict : kLoopVerdicts) {
     const auto count = std::count_if(snapshot_->loops->begin(), snapshot_->loops->end(),
                                      [&](const LoopRecord& loop) { return loop.verdict == verdict; });
     if (count == 0) continue;

@@ -14,6 +14,9 @@
 
 namespace psi_slam {
 
+/// "Node 12 on local map 3, refused: the response 0.31 is below 0.45".
+std::string loop_words(const LoopRecord& loop);
+
 class LoopTable {
  public:
   enum Column {

@@ -53,6 +53,10 @@ MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "psi-slam"), recent_(9), tim
   build();
   bind_commands();
   enable_commands(nullptr);
+  ask_for_file_ = ask_in_dialogs(*this);
+  layout_.emplace(*this, panes_);
+  if (wxConfigBase* config = wxConfigBase::Get(false)) layout_->restore(*config, canvas_->map_scene());
+  check_choices();
   SetDropTarget(new LogDrop(*this));
   Bind(wxEVT_TIMER, [this](wxTimerEvent&) { refresh(); });
   Bind(wxEVT_CLOSE_WINDOW, [this](wxCloseEvent& event) { close(event); });
@@ -77,7 +81,7 @@ void MainFrame::build() {
       this, settings_,
       {[this](const std::string& sentence) { messages_->say(MessageBar::Kind::kError, sentence); },
        [this] {
-         messages_->Dismiss();
+         messages_->dismiss();
          show_pending_settings();
        },
        [this] { restart(); }});
@@ -145,7 +149,7 @@ void MainFrame::start(const std::string& log, const std::string& config,
 }
 
 void MainFrame::open_log(const std::filesystem::path& log) {
-  messages_->Dismiss();
+  messages_->dismiss();
   snapshot_.reset();
   shown_frame_.reset();
   told_failure_.clear();
@@ -222,7 +226,7 @@ void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
   const bool has_scans = snapshot != nullptr && !snapshot->frames.empty();
   const bool finished = snapshot != nullptr && snapshot->phase == ReplayPhase::kFinished;
   wxMenuBar& menu = *GetMenuBar();
-  menu.Enable(kPlayOrPause, mapping);
+  menu.Enable(kPlayOrPause, mapping || (snapshot != nullptr && snapshot->phase == ReplayPhase::kLastPass));
   menu.Enable(kStep, mapping);
   menu.Enable(kFinish, has_scans && (mapping || snapshot->phase == ReplayPhase::kLastPass));
   menu.Enable(kRestart, snapshot != nullptr);
@@ -235,7 +239,7 @@ void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
 void MainFrame::play_or_pause() {
   if (!replay_ || !snapshot_) return;
   shown_frame_.reset();
-  snapshot_->phase == ReplayPhase::kPlaying ? replay_->pause() : replay_->play();
+  TransportBar::goes_on(*snapshot_) ? replay_->pause() : replay_->play();
 }
 
 void MainFrame::step() {
@@ -309,6 +313,7 @@ void MainFrame::close(wxCloseEvent& event) {
     return;
   }
   timer_.Stop();
+  if (wxConfigBase* config = wxConfigBase::Get(false)) layout_->save(*config, canvas_->map_scene());
   Hide();  // the engine may take a moment to end
   event.Skip();
 }

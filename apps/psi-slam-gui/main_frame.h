@@ -13,10 +13,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "file_questions.h"
 #include "psi_slam/session/bound_settings.h"
 #include "replay_slot.h"
+#include "window_layout.h"
 
 class wxSimplebook;
 
@@ -46,6 +49,8 @@ class MainFrame : public wxFrame {
   void go_to(std::size_t scan);
 
   // For those who drive the window.
+  void set_ask_for_file(AskForFile ask) { ask_for_file_ = std::move(ask); }
+  wxAuiManager& panes() { return panes_; }
   const ReplaySlot& replay() const { return replay_; }
   BoundSettings& settings() { return settings_; }
   MapCanvas& map() { return *canvas_; }
@@ -74,6 +79,8 @@ class MainFrame : public wxFrame {
   void ask_for_settings(bool save);
   void ask_for_export();
   void ask_for_picture();
+  /// Menus and tools say what is shown.
+  void check_choices();
   void play_or_pause();
   void step();
   void finish();
@@ -100,7 +107,9 @@ class MainFrame : public wxFrame {
   bool closes_without_export_ = false;
   bool close_when_written_ = false;
 
+  AskForFile ask_for_file_;
   wxAuiManager panes_;
+  std::optional<WindowLayout> layout_;
   wxFileHistory recent_;
   wxTimer timer_;
   wxSimplebook* middle_ = nullptr;

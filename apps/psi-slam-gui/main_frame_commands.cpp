@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the menus and keys of the window do.
 #include <wx/aboutdlg.h>
-#include <wx/dirdlg.h>
-#include <wx/filedlg.h>
 #include <wx/log.h>
 #include <wx/textentry.h>
 #include <wx/toolbar.h>
@@ -98,7 +96,7 @@ void MainFrame::bind_view_commands() {
     on(kLayer + static_cast<int>(i), [this, i] {
       const auto layer = static_cast<MapLayer>(i);
       canvas_->map_scene().set_visible(layer, GetMenuBar()->IsChecked(kLayer + static_cast<int>(i)));
-      canvas_->Refresh(false);
+      canvas_->restyle();
     });
   for (const int command : {kRefusedLoops, kLoopsByMatcher, kLoopsByResidual})
     on(command, [this] {
@@ -106,10 +104,15 @@ void MainFrame::bind_view_commands() {
       style.refused = GetMenuBar()->IsChecked(kRefusedLoops);
       if (GetMenuBar()->IsChecked(kLoopsByResidual)) style.colour = LoopStyle::Colour::kResidual;
       canvas_->map_scene().set_loop_style(style);
+      canvas_->restyle();
     });
   on(kPaneSettings, [this] { toggle_pane(settings_panel_, GetMenuBar()->IsChecked(kPaneSettings)); });
   on(kPaneLoops, [this] { toggle_pane(loops_, GetMenuBar()->IsChecked(kPaneLoops)); });
   on(kPanePlots, [this] { toggle_pane(plots_, GetMenuBar()->IsChecked(kPanePlots)); });
+  on(kDefaultLayout, [this] {
+    layout_->restore_default_panes();
+    check_choices();
+  });
   panes_.Bind(wxEVT_AUI_PANE_CLOSE, [this](wxAuiManagerEvent& event) {
     for (const auto& [window, command] : std::initializer_list<std::pair<wxWindow*, int>>{
              {settings_panel_, kPaneSettings}, {loops_, kPaneLoops}, {plots_, kPanePlots}})
@@ -117,28 +120,45 @@ void MainFrame::bind_view_commands() {
   });
 }
 
+void MainFrame::check_choices() {
+  wxMenuBar& menu = *GetMenuBar();
+  const MapScene& scene = canvas_->map_scene();
+  for (std::size_t i = 0; i < kMapLayers; ++i)
+    menu.Check(kLayer + static_cast<int>(i), scene.visible(static_cast<MapLayer>(i)));
+  menu.Check(kRefusedLoops, scene.loop_style().refused);
+  const bool residual = scene.loop_style().colour == LoopStyle::Colour::kResidual;
+  menu.Check(residual ? kLoopsByResidual : kLoopsByMatcher, true);
+  menu.Check(kPaneSettings, panes_.GetPane(settings_panel_).IsShown());
+  menu.Check(kPaneLoops, panes_.GetPane(loops_).IsShown());
+  menu.Check(kPanePlots, panes_.GetPane(plots_).IsShown());
+}
+
 void MainFrame::ask_for_log() {
-  wxFileDialog dialog(this, "Open a log", "", "", kLogFiles, wxFD_OPEN | wxFD_FILE_MUST_EXIST);
-  if (dialog.ShowModal() == wxID_OK) open_log(path_of(dialog.GetPath()));
+  if (const auto file = ask_for_file_({FileQuestion::Kind::kOpen, "Open a log", kLogFiles, ""}))
+    open_log(*file);
 }
 
 void MainFrame::ask_for_settings(bool save) {
-  wxFileDialog dialog(this, save ? "Save the settings" : "Open settings", "", save ? "my.ini" : "",
-                      kSettingsFiles,
-                      save ? wxFD_SAVE | wxFD_OVERWRITE_PROMPT : wxFD_OPEN | wxFD_FILE_MUST_EXIST);
-  if (dialog.ShowModal() != wxID_OK) return;
-  save ? save_settings(path_of(dialog.GetPath())) : open_settings(path_of(dialog.GetPath()));
+  if (save) {
+    const auto file =
+        ask_for_file_({FileQuestion::Kind::kSave, "Save the settings", kSettingsFiles, "my.ini"});
+    if (file) save_settings(*file);
+  } else if (const auto file =
+                 ask_for_file_({FileQuestion::Kind::kOpen, "Open settings", kSettingsFiles, ""})) {
+    open_settings(*file);
+  }
 }
 
 void MainFrame::ask_for_export() {
-  wxDirDialog dialog(this, "Folder for the results, new or empty");
-  if (dialog.ShowModal() == wxID_OK) export_to(path_of(dialog.GetPath()), false);
+  const auto folder =
+      ask_for_file_({FileQuestion::Kind::kFolder, "Folder for the results, new or empty", "", ""});
+  if (folder) export_to(*folder, false);
 }
 
 void MainFrame::ask_for_picture() {
-  wxFileDialog dialog(this, "Save a picture of the view", "", "view.png", "PNG (*.png)|*.png",
-                      wxFD_SAVE | wxFD_OVERWRITE_PROMPT);
-  if (dialog.ShowModal() == wxID_OK) save_picture(path_of(dialog.GetPath()));
+  const auto file = ask_for_file_(
+      {FileQuestion::Kind::kSave, "Save a picture of the view", "PNG (*.png)|*.png", "view.png"});
+  if (file) save_picture(*file);
 }
 
 void MainFrame::open_settings(const std::filesystem::path& file) {

@@ -66,6 +66,7 @@ wxMenu* view_menu() {
   menu->AppendCheckItem(kPaneSettings, "Settings\tF9")->Check();
   menu->AppendCheckItem(kPaneLoops, "Loops\tF10")->Check();
   menu->AppendCheckItem(kPanePlots, "Plots\tF11")->Check();
+  menu->Append(kDefaultLayout, "Restore &default layout");
   return menu;
 }
 

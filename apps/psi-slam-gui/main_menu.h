@@ -33,6 +33,7 @@ enum Command : int {
   kPaneSettings,
   kPaneLoops,
   kPanePlots,
+  kDefaultLayout,
   kShortcuts,
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "legend_picture.h"
 #include "psi_slam/view/frame_pose.h"
 
 namespace psi_slam {
@@ -21,6 +22,7 @@ constexpr double kTurnPerPixel_deg = 0.4;
 constexpr double kLowest_deg = 10;       // of the eye above the ground
 constexpr double kFromAbove_deg = 89.9;  // straight above, MRPT's camera does not know where up is
 constexpr double kFollowDistance_m = 25;
+constexpr int kLegendMargin = 10;
 constexpr double kNearShare = 0.2;  // of the eye's distance: nothing nearer is drawn,
 constexpr double kFarShare = 8;     // nor farther
 
@@ -50,8 +52,11 @@ void MapCanvas::bind_mouse() {
 
 void MapCanvas::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
                      const std::shared_ptr<const DrawnMap>& map, std::optional<std::size_t> frame) {
+  map_scene_.set_pixel_scale(static_cast<float>(GetContentScaleFactor()));
   const bool changed = map_scene_.show(snapshot, map, frame);
+  snapshot_ = snapshot;
   if (!changed) return;
+  show_legend();
   map_ = map;
   robot_.reset();
   if (!snapshot->frames.empty()) {
@@ -65,6 +70,22 @@ void MapCanvas::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
     fit();
   }
   Refresh(false);
+}
+
+void MapCanvas::restyle() {
+  show_legend();
+  Refresh(false);
+}
+
+void MapCanvas::show_legend() {
+  LoopLegend legend;
+  if (snapshot_ && map_scene_.visible(MapLayer::kLoops))
+    legend = loop_legend(*snapshot_, map_scene_.loop_style());
+  const double scale = GetContentScaleFactor();
+  if (legend == legend_ && scale == legend_scale_) return;
+  legend_ = std::move(legend);
+  legend_scale_ = scale;
+  map_scene_.set_legend(legend_picture(legend_, *this), static_cast<int>(FromDIP(kLegendMargin) * scale));
 }
 
 void MapCanvas::show_all() {
@@ -142,10 +163,8 @@ void MapCanvas::set_camera(const MapCamera& camera) {
   setAzimuthDegrees(static_cast<float>(camera.azimuth_deg));
   setElevationDegrees(static_cast<float>(std::clamp(camera.elevation_deg, kLowest_deg, kFromAbove_deg)));
   setCameraFOV(static_cast<float>(camera.field_of_view_deg));
-  // Layers are centimetres apart: the depths that OpenGL tells apart lie around the ground.
   const double distance_m = static_cast<double>(getZoomDistance());
-  map_scene_.scene()->getViewport()->setViewportClipDistances(static_cast<float>(distance_m * kNearShare),
-                                                              static_cast<float>(distance_m * kFarShare));
+  map_scene_.set_clip_distances(distance_m * kNearShare, distance_m * kFarShare);
 }
 
 PictureSize MapCanvas::picture_size() const {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "psi_slam/view/loop_legend.h"
 #include "psi_slam/view/map_camera.h"
 #include "psi_slam/view/map_scene.h"
 
@@ -25,6 +26,11 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   /// Shows the run as it is; the map is kept in sight until the user moves it.
   void show(const std::shared_ptr<const ReplaySnapshot>& snapshot, const std::shared_ptr<const DrawnMap>& map,
             std::optional<std::size_t> frame);
+
+  /// What is to be seen of the layers and the loops has changed.
+  void restyle();
+  /// Of the loops' colours, as it is on show; without entries where it is not.
+  const LoopLegend& legend() const { return legend_; }
 
   /// All of the map, from above, from now on.
   void show_all();
@@ -64,9 +70,13 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   void set_camera(const MapCamera& camera);
   void move_target(const mrpt::math::TPoint2D& by);
   void fit();
+  void show_legend();
 
   MapScene map_scene_;
+  std::shared_ptr<const ReplaySnapshot> snapshot_;
   std::shared_ptr<const DrawnMap> map_;
+  LoopLegend legend_;
+  double legend_scale_ = 0;
   std::optional<mrpt::math::TPoint2D> robot_;
   bool fit_ = true;
   bool follow_ = false;

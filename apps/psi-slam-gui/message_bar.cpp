@@ -1,65 +1,113 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "message_bar.h"
 
-#include <wx/artprov.h>
+#include <wx/bmpbuttn.h>
 #include <wx/sizer.h>
+#include <wx/statbmp.h>
+#include <wx/stattext.h>
+
+#include <algorithm>
+
+#include "icons.h"
+#include "wx_text.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr int kFirstAnswer = wxID_HIGHEST + 700;
+constexpr int kGap = 6;
+constexpr int kNarrowest = 120;  // the sentence is not wrapped narrower
+const wxColour kInk(40, 44, 52);
 
-int flags_of(MessageBar::Kind kind) {
+struct Look {
+  Icon icon;
+  wxColour paper;
+  wxColour ink;  // of the icon
+};
+
+Look look_of(MessageBar::Kind kind) {
   switch (kind) {
     case MessageBar::Kind::kNote:
-      return wxICON_INFORMATION;
+      return {Icon::kNote, {222, 235, 250}, {31, 97, 171}};
     case MessageBar::Kind::kWarning:
-      return wxICON_WARNING;
+      return {Icon::kWarning, {253, 240, 208}, {176, 112, 0}};
     case MessageBar::Kind::kError:
-      return wxICON_ERROR;
+      return {Icon::kError, {251, 224, 222}, {196, 30, 40}};
   }
-  return wxICON_NONE;
+  return {Icon::kNote, *wxWHITE, *wxBLACK};
 }
 
 }  // namespace
 
-MessageBar::MessageBar(wxWindow* parent) : wxInfoBar(parent) {
+MessageBar::MessageBar(wxWindow* parent) : wxPanel(parent) {
   SetName("messages");
-  Bind(wxEVT_BUTTON, [this](wxCommandEvent& event) {
-    const auto index = static_cast<std::size_t>(event.GetId() - kFirstAnswer);
-    if (index < answers_.size())
-      answer(std::string(answers_[index].label));
-    else
-      event.Skip();
+  icon_ = new wxStaticBitmap(this, wxID_ANY, icon_of(Icon::kNote, kInk));
+  text_ = new wxStaticText(this, wxID_ANY, "");
+  text_->SetForegroundColour(kInk);
+  close_ = new wxBitmapButton(this, wxID_ANY, icon_of(Icon::kClose, kInk), wxDefaultPosition, wxDefaultSize,
+                              wxBORDER_NONE);
+  close_->SetName("dismiss");
+  close_->SetToolTip("Dismiss");
+  close_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { dismiss(); });
+  buttons_ = new wxBoxSizer(wxHORIZONTAL);
+  auto* row = new wxBoxSizer(wxHORIZONTAL);
+  const int gap = FromDIP(kGap);
+  row->Add(icon_, 0, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
+  row->Add(text_, 1, wxALIGN_CENTRE_VERTICAL | wxTOP | wxBOTTOM, gap);
+  row->Add(buttons_, 0, wxALIGN_CENTRE_VERTICAL | wxLEFT, gap);
+  row->Add(close_, 0, wxALIGN_CENTRE_VERTICAL | wxRIGHT, gap);
+  SetSizer(row);
+  Hide();
+  Bind(wxEVT_SIZE, [this](wxSizeEvent& event) {
+    event.Skip();
+    if (IsShown() && event.GetSize().GetWidth() != wrapped_for_) CallAfter([this] { wrap(); });
   });
 }
 
 void MessageBar::say(Kind kind, const std::string& sentence, const std::vector<Answer>& answers) {
-  clear_answers();
   sentence_ = sentence;
-  for (const Answer& answer : answers) {
-    AddButton(kFirstAnswer + static_cast<int>(answers_.size()), wxString::FromUTF8(answer.label));
-    answers_.push_back(answer);
+  answers_ = answers;
+  const Look look = look_of(kind);
+  SetBackgroundColour(look.paper);
+  icon_->SetBitmap(icon_of(look.icon, look.ink));
+  buttons_->Clear(true);
+  for (const Answer& answer : answers_) {
+    auto* button = new wxButton(this, wxID_ANY, text_of(answer.label));
+    button->Bind(wxEVT_BUTTON, [this, label = answer.label](wxCommandEvent&) {
+      CallAfter([this, label] { this->answer(label); });  // which may replace this very button
+    });
+    buttons_->Add(button, 0, wxRIGHT, FromDIP(kGap));
   }
-  if (!answers_.empty()) AddButton(wxID_CLOSE, "Not now");
-  ShowMessage(wxString::FromUTF8(sentence), flags_of(kind));
+  Show();
+  wrap();
+  Refresh();
+}
+
+/// To the width that icon and buttons leave.
+void MessageBar::wrap() {
+  wrapped_for_ = GetParent()->GetClientSize().GetWidth();
+  const int beside = icon_->GetBestSize().GetWidth() + buttons_->CalcMin().GetWidth() +
+                     close_->GetBestSize().GetWidth() + 5 * FromDIP(kGap);
+  text_->SetLabelText(text_of(sentence_));
+  text_->Wrap(std::max(FromDIP(kNarrowest), wrapped_for_ - beside));
+  GetParent()->Layout();
 }
 
 bool MessageBar::answer(const std::string& label) {
   for (const Answer& answer : answers_) {
     if (answer.label != label) continue;
     const std::function<void()> action = answer.action;
-    Dismiss();
+    dismiss();
     action();
     return true;
   }
   return false;
 }
 
-void MessageBar::clear_answers() {
-  for (std::size_t i = 0; i < answers_.size(); ++i) RemoveButton(kFirstAnswer + static_cast<int>(i));
-  if (!answers_.empty()) RemoveButton(wxID_CLOSE);
+void MessageBar::dismiss() {
+  if (!IsShown()) return;
   answers_.clear();
+  Hide();
+  GetParent()->Layout();
 }
 
 }  // namespace psi_slam

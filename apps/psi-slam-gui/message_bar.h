@@ -2,15 +2,20 @@
 // Sentences for the user in a bar above the map, which never stop what he is doing.
 #pragma once
 
-#include <wx/infobar.h>
+#include <wx/panel.h>
 
 #include <functional>
 #include <string>
 #include <vector>
 
+class wxBoxSizer;
+class wxBitmapButton;
+class wxStaticBitmap;
+class wxStaticText;
+
 namespace psi_slam {
 
-class MessageBar : public wxInfoBar {
+class MessageBar : public wxPanel {
  public:
   enum class Kind { kNote, kWarning, kError };
   struct Answer {
@@ -26,12 +31,18 @@ class MessageBar : public wxInfoBar {
   std::string sentence() const { return IsShown() ? sentence_ : std::string(); }
   /// Does what a click on the answer does. False when there is no answer of that label.
   bool answer(const std::string& label);
+  void dismiss();
 
  private:
-  void clear_answers();
+  void wrap();
 
   std::string sentence_;
+  int wrapped_for_ = -1;  // the width of the bar
   std::vector<Answer> answers_;
+  wxBoxSizer* buttons_;
+  wxStaticBitmap* icon_;
+  wxStaticText* text_;
+  wxBitmapButton* close_;
 };
 
 }  // namespace psi_slam

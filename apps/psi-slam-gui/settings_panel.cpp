@@ -68,6 +68,9 @@ SettingsPanel::SettingsPanel(wxWindow* parent, BoundSettings& settings, Actions 
     : wxPanel(parent), settings_(settings), actions_(std::move(actions)) {
   grid_ = new wxPropertyGrid(this, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxPG_SPLITTER_AUTO_CENTER);
   grid_->SetName("settings");
+  grid_->SetColumnProportion(0, 2);  // names are longer than values
+  grid_->SetColumnProportion(1, 1);
+  grid_->ResetColumnSizes(true);
   help_ = new wxStaticText(this, wxID_ANY, kNothingSelected, wxDefaultPosition,
                            FromDIP(wxSize(-1, kHelpHeight)), wxST_NO_AUTORESIZE);
   pending_ = new wxStaticText(this, wxID_ANY, "The map on show has other settings.");

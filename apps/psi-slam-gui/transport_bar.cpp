@@ -108,15 +108,21 @@ void TransportBar::show(const ReplaySnapshot& snapshot,
 
 void TransportBar::enable(const ReplaySnapshot& snapshot) {
   const bool mapping = snapshot.phase == ReplayPhase::kPaused || snapshot.phase == ReplayPhase::kPlaying;
-  play_->Enable(mapping || snapshot.phase == ReplayPhase::kOpening);
+  const bool last_pass = snapshot.phase == ReplayPhase::kLastPass;
+  play_->Enable(mapping || last_pass || snapshot.phase == ReplayPhase::kOpening);
   step_->Enable(mapping);
-  finish_->Enable((mapping && !snapshot.frames.empty()) || snapshot.phase == ReplayPhase::kLastPass);
+  finish_->Enable((mapping && !snapshot.frames.empty()) || last_pass);
   slider_->Enable(mapping || !snapshot.frames.empty());
-  const bool plays = snapshot.phase == ReplayPhase::kPlaying;
+  const bool plays = goes_on(snapshot);
   if (plays == plays_) return;
   plays_ = plays;
   play_->SetBitmap(
       icon_of(plays ? Icon::kPause : Icon::kPlay, wxSystemSettings::GetColour(wxSYS_COLOUR_BTNTEXT)));
+}
+
+bool TransportBar::goes_on(const ReplaySnapshot& snapshot) {
+  return snapshot.phase == ReplayPhase::kPlaying ||
+         (snapshot.phase == ReplayPhase::kLastPass && !snapshot.last_pass_held);
 }
 
 void TransportBar::show_slider(std::size_t at, std::size_t count) {
@@ -145,7 +151,8 @@ std::string progress_words(const ReplaySnapshot& snapshot) {
     case ReplayPhase::kPlaying:
       return "Mapping: " + progress_text(snapshot.progress);
     case ReplayPhase::kLastPass:
-      return "Finishing: " + progress_text(snapshot.progress);
+      return (snapshot.last_pass_held ? "Finishing, paused: " : "Finishing: ") +
+             progress_text(snapshot.progress);
     case ReplayPhase::kFinished:
       return "The map is finished: " + scans + (snapshot.interrupted ? ", stopped before the end" : "");
     case ReplayPhase::kExporting:

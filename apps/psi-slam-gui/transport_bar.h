@@ -37,6 +37,9 @@ class TransportBar : public wxPanel {
             std::optional<std::size_t> shown);
   void show_nothing();
 
+  /// Whether it does something that can be paused.
+  static bool goes_on(const ReplaySnapshot& snapshot);
+
   double speed() const;
   /// The entries of the speed choice; 0: as fast as possible.
   static const std::vector<double>& speeds();

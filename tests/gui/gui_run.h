@@ -52,13 +52,15 @@ class GuiRun {
   GuiRun& command(int id) {
     when("command " + std::to_string(id) + " is enabled",
          [id](MainFrame& frame) { return frame.GetMenuBar()->IsEnabled(id); });
-    return then([id](MainFrame& frame) {
-      wxMenuItem* const item = frame.GetMenuBar()->FindItem(id);
-      if (item->IsCheckable()) item->Check(item->IsRadio() || !item->IsChecked());
-      wxCommandEvent event(wxEVT_MENU, id);
-      event.SetEventObject(&frame);
-      frame.GetEventHandler()->ProcessEvent(event);
-    });
+    return then([id](MainFrame& frame) { choose(frame, id); });
+  }
+  /// As a click on the menu's item does.
+  static void choose(MainFrame& frame, int id) {
+    wxMenuItem* const item = frame.GetMenuBar()->FindItem(id);
+    if (item->IsCheckable()) item->Check(item->IsRadio() || !item->IsChecked());
+    wxCommandEvent event(wxEVT_MENU, id);
+    event.SetEventObject(&frame);
+    frame.GetEventHandler()->ProcessEvent(event);
   }
   GuiRun& when_phase(ReplayPhase phase) {
     return when("phase " + std::to_string(static_cast<int>(phase)), [phase](MainFrame& frame) {
@@ -112,6 +114,18 @@ class GuiRun {
     });
     return when("a pause", [until](MainFrame&) { return std::chrono::steady_clock::now() >= *until; });
   }
+  /// From here on gaps between events are counted under this name; what the steps themselves do counts, too.
+  GuiRun& gauge(const std::string& name) {
+    return then([this, name](MainFrame&) {
+      gauges_.push_back({name, {}});
+      ticked_ = std::chrono::steady_clock::now();
+    });
+  }
+  /// A step may take that long to come true.
+  GuiRun& patience(std::chrono::minutes limit) {
+    limit_ = limit;
+    return *this;
+  }
   GuiRun& close() {
     return then([](MainFrame& frame) { frame.Close(); });
   }
@@ -135,6 +149,11 @@ class GuiRun {
     const auto gap_ms = std::chrono::duration_cast<std::chrono::milliseconds>(longest_gap_).count();
     testing::Test::RecordProperty("longest_gap_between_events_ms", static_cast<int>(gap_ms));
     std::cout << "longest gap between two events: " << gap_ms << " ms\n";
+    for (const Gauge& gauge : gauges_) {
+      const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(gauge.longest).count();
+      testing::Test::RecordProperty("longest_gap_ms_" + gauge.name, static_cast<int>(ms));
+      std::cout << "  " << gauge.name << ": " << ms << " ms\n";
+    }
     return code;
   }
 
@@ -145,6 +164,10 @@ class GuiRun {
   struct Step {
     std::string what;
     std::function<bool(MainFrame&)> condition;
+  };
+  struct Gauge {
+    std::string name;
+    std::chrono::steady_clock::duration longest{};
   };
   class Timer : public wxTimer {
    public:
@@ -159,20 +182,29 @@ class GuiRun {
     if (frame_ == nullptr || busy_) return;
     busy_ = true;
     const auto now = std::chrono::steady_clock::now();
-    if (ticked_.time_since_epoch().count() > 0) longest_gap_ = std::max(longest_gap_, now - ticked_);
+    if (ticked_.time_since_epoch().count() > 0) count_gap(now - ticked_);
     if (next_ < steps_.size() && steps_[next_].condition(*frame_)) {
       ++next_;
       began_ = now;
-    } else if (next_ < steps_.size() && now - began_ > std::chrono::minutes(1)) {
+    } else if (next_ < steps_.size() && now - began_ > limit_) {
       ADD_FAILURE() << "step " << next_ << " does not come true: " << steps_[next_].what;
       next_ = steps_.size();
     }
-    ticked_ = std::chrono::steady_clock::now();  // what the step itself took is not the window's
+    // What the step itself took is not the window's, unless it is gauged.
+    if (gauges_.empty())
+      ticked_ = std::chrono::steady_clock::now();
+    else
+      ticked_ = now;
     busy_ = false;
     if (next_ >= steps_.size() && frame_ != nullptr && !closing_) {
       closing_ = true;
       frame_->Close(true);
     }
+  }
+
+  void count_gap(std::chrono::steady_clock::duration gap) {
+    longest_gap_ = std::max(longest_gap_, gap);
+    if (!gauges_.empty()) gauges_.back().longest = std::max(gauges_.back().longest, gap);
   }
 
   TemporaryFolder folder_;
@@ -183,6 +215,8 @@ class GuiRun {
   std::chrono::steady_clock::time_point began_;
   std::chrono::steady_clock::time_point ticked_;
   std::chrono::steady_clock::duration longest_gap_{};
+  std::vector<Gauge> gauges_;
+  std::chrono::steady_clock::duration limit_ = std::chrono::minutes(1);
   MainFrame* frame_ = nullptr;
   std::unique_ptr<Timer> timer_;
 };

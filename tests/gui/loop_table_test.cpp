@@ -68,6 +68,11 @@ TEST_F(LoopTableTest, says_what_is_known_of_a_loop) {
   EXPECT_EQ(table_.summary(), "3 matches: 2 accepted, 1 refused");
 }
 
+TEST_F(LoopTableTest, says_in_words_what_became_of_a_loop) {
+  EXPECT_EQ(loop_words(table_.loop(0)), "Node 1 on local map 0, refused: the response is too low");
+  EXPECT_EQ(loop_words(table_.loop(1)), "Node 1 on local map 0, accepted");
+}
+
 TEST_F(LoopTableTest, knows_whether_anything_has_changed) {
   EXPECT_FALSE(table_.show(snapshot_));
   EXPECT_TRUE(table_.show(std::make_shared<ReplaySnapshot>()));

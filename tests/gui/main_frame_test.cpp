@@ -15,6 +15,7 @@
 #include "map_canvas.h"
 #include "message_bar.h"
 #include "psi_slam/session/mapping_session.h"
+#include "psi_slam/view/palette.h"
 #include "same_results.h"
 #include "settings_panel.h"
 #include "shared_logs.h"
@@ -96,6 +97,79 @@ TEST_F(MainFrameTest, loops_are_inspected) {
         EXPECT_FALSE(frame.map().measure().has_value());
       });
   EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, all_columns_of_the_loops_are_legible_in_a_small_window) {
+  std::size_t refused = 0;
+  gui_.then([](MainFrame& frame) { frame.SetSize(frame.FromDIP(wxSize(1280, 800))); })
+      .when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .pause(200)
+      .then([&](MainFrame& frame) {
+        const LoopList& list = frame.loops().list();
+        int all = 0;
+        for (std::size_t column = 0; column < LoopTable::kColumns; ++column) {
+          const int width = list.GetColumnWidth(static_cast<int>(column));
+          all += width;
+          EXPECT_GE(width, list.GetTextExtent(LoopTable::title(column)).GetWidth() + 8) << column;
+          if (column == LoopTable::kReason) continue;
+          for (std::size_t row = 0; row < list.table.rows(); ++row)
+            EXPECT_GE(width, list.GetTextExtent(list.table.text(row, column)).GetWidth() + 8) << column;
+        }
+        EXPECT_LE(all, list.GetSize().GetWidth()) << "nothing to be scrolled to";
+        const auto& loops = *frame.replay()->snapshot()->loops;
+        while (refused < loops.size() && loops[refused].verdict != LoopVerdict::kRefused) ++refused;
+        ASSERT_LT(refused, loops.size());
+        EXPECT_THAT(frame.loops().details(), HasSubstr("Select a loop"));
+      })
+      .screenshot("small_window")
+      .then([&](MainFrame& frame) {
+        frame.loops().select(refused);
+        const LoopRecord& loop = (*frame.replay()->snapshot()->loops)[refused];
+        EXPECT_THAT(frame.loops().details(), HasSubstr("refused: " + loop.reason));
+      })
+      .screenshot("refused_loop");
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, the_colours_of_loops_are_explained_while_loops_are_shown) {
+  wxImage with;
+  wxImage without;
+  const auto take = [this](wxImage& into) {
+    gui_.pause(300)
+        .then([&into](MainFrame& frame) {
+          frame.map().take_picture([&into](const wxImage& picture) { into = picture; });
+        })
+        .when("a picture is taken", [&into](MainFrame&) { return into.IsOk(); });
+  };
+  gui_.when_phase(ReplayPhase::kPaused)
+      .then([](MainFrame& frame) {
+        EXPECT_TRUE(frame.map().legend().entries.empty()) << "no loops, no legend";
+      })
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .when("a legend", [](MainFrame& frame) { return !frame.map().legend().entries.empty(); })
+      .command(kLoopsByResidual)
+      .then([](MainFrame& frame) {
+        EXPECT_EQ(frame.map().legend().title, "Loops, by residual");
+        EXPECT_EQ(frame.map().legend().entries.back().name, "0.25 m and more");
+      })
+      .screenshot("residuals");
+  take(with);
+  gui_.command(kLayer + static_cast<int>(MapLayer::kLoops)).then([](MainFrame& frame) {
+    EXPECT_TRUE(frame.map().legend().entries.empty());
+  });
+  take(without);
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+  const auto count = [](const wxImage& picture, const mrpt::img::TColor& colour) {
+    wxImageHistogram histogram;
+    picture.ComputeHistogram(histogram);
+    return histogram[wxImageHistogram::MakeKey(colour.R, colour.G, colour.B)].value;
+  };
+  const mrpt::img::TColor worst = heat_colour(1);
+  EXPECT_GT(count(with, worst), 20UL) << "no loop is as bad as that, but the legend says what would be";
+  EXPECT_EQ(count(without, worst), 0UL);
 }
 
 TEST_F(MainFrameTest, what_goes_wrong_is_a_sentence_in_the_bar) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <functional>
+#include <memory>
 #include <set>
 #include <thread>
 
@@ -237,6 +238,56 @@ TEST_F(ReplayTest, is_closed_at_any_moment) {
   wait_for(last_pass, [](const ReplaySnapshot& now) { return now.phase >= ReplayPhase::kLastPass; });
   last_pass.close();
   while (!last_pass.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+class HeldLastPass : public ReplayTest {
+ protected:
+  /// A run whose last pass is on and waits.
+  std::unique_ptr<Replay> held() {
+    auto replay = std::make_unique<Replay>(log(room_log_lines()), settings_);
+    replay->set_speed(0);
+    replay->play();
+    wait_for(*replay, [](const ReplaySnapshot& now) { return now.phase >= ReplayPhase::kLastPass; });
+    replay->pause();
+    wait_for(*replay, [](const ReplaySnapshot& now) { return now.last_pass_held; });
+    return replay;
+  }
+};
+
+TEST_F(HeldLastPass, waits_and_goes_on_to_the_same_results) {
+  const auto replay = held();
+  const SnapshotPtr held = replay->snapshot();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(replay->snapshot()->phase, ReplayPhase::kLastPass);
+  EXPECT_EQ(replay->snapshot()->progress.share, held->progress.share) << "nothing has gone on";
+  replay->play();
+  EXPECT_FALSE(wait_for(*replay, ReplayPhase::kFinished)->last_pass_held);
+  EXPECT_FALSE(replay->snapshot()->interrupted);
+  map_headless(folder_.path() / "room.log", "headless");
+  replay->export_to(out("held"), false);
+  EXPECT_EQ(wait_for_export(*replay, 1)->exported->failure, "");
+  expect_same_results(out("headless"), out("held"));
+}
+
+TEST_F(HeldLastPass, is_cut_at_once) {
+  const auto replay = held();
+  replay->cut_last_pass();
+  EXPECT_TRUE(wait_for(*replay, ReplayPhase::kFinished)->interrupted);
+}
+
+TEST_F(HeldLastPass, is_closed_at_once) {
+  const auto replay = held();
+  replay->close();
+  while (!replay->ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+TEST_F(ReplayTest, a_paused_run_that_is_told_to_finish_does_not_wait_in_the_last_pass) {
+  Replay replay(log(room_log_lines()), settings_);
+  for (int i = 0; i < 30; ++i) replay.step();
+  wait_for(replay, [](const ReplaySnapshot& now) { return now.frames.size() == 30; });
+  replay.pause();
+  replay.finish();
+  EXPECT_EQ(wait_for(replay, ReplayPhase::kFinished)->frames.size(), 30U);
 }
 
 TEST_F(ReplayTest, an_export_under_way_is_written_to_its_end_before_it_closes) {

@@ -110,6 +110,18 @@ TEST_F(MapSceneTest, layers_go_on_and_off) {
   }
 }
 
+TEST_F(MapSceneTest, lines_and_points_grow_with_the_scaling_of_the_desktop) {
+  scene_.show(finished_, map_);
+  const float width = first<mrpt::opengl::CSetOfLines>(MapLayer::kTrajectory)->getLineWidth();
+  const float dot = first<mrpt::opengl::CPointCloud>(MapLayer::kScan)->getPointSize();
+  scene_.set_pixel_scale(2);
+  EXPECT_TRUE(scene_.show(finished_, map_)) << "all is drawn anew";
+  EXPECT_EQ(first<mrpt::opengl::CSetOfLines>(MapLayer::kTrajectory)->getLineWidth(), 2 * width);
+  EXPECT_EQ(first<mrpt::opengl::CPointCloud>(MapLayer::kScan)->getPointSize(), 2 * dot);
+  scene_.show(finished_, map_, 10);
+  EXPECT_EQ(first<mrpt::opengl::CPointCloud>(MapLayer::kScan)->getPointSize(), 2 * dot) << "and not twice";
+}
+
 TEST_F(MapSceneTest, a_layer_that_is_switched_on_is_up_to_date) {
   scene_.show(finished_, map_);
   EXPECT_EQ(objects(MapLayer::kConstraints), 0U);

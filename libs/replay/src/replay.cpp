@@ -38,6 +38,7 @@ void Replay::play() {
   {
     const std::lock_guard lock(mutex_);
     playing_ = true;
+    held_ = false;
     pace_.restart();
     due_ = Clock::now();
   }
@@ -48,6 +49,7 @@ void Replay::pause() {
   {
     const std::lock_guard lock(mutex_);
     playing_ = false;
+    held_ = true;
     steps_ = 0;
     hurry_to_ = 0;
   }
@@ -58,6 +60,7 @@ void Replay::step() {
   {
     const std::lock_guard lock(mutex_);
     playing_ = false;
+    held_ = false;
     ++steps_;
   }
   changed_.notify_all();
@@ -75,6 +78,7 @@ void Replay::set_speed(double times) {
 void Replay::hurry_to(std::size_t scans) {
   {
     const std::lock_guard lock(mutex_);
+    held_ = false;
     hurry_to_ = scans;
   }
   changed_.notify_all();
@@ -83,15 +87,19 @@ void Replay::hurry_to(std::size_t scans) {
 void Replay::finish() {
   {
     const std::lock_guard lock(mutex_);
+    held_ = false;
     finish_ = true;
   }
   changed_.notify_all();
 }
 
 void Replay::cut_last_pass() {
-  const std::lock_guard lock(mutex_);
-  cut_last_pass_ = true;
-  stop_last_pass_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    cut_last_pass_ = true;
+    stop_last_pass_ = true;
+  }
+  changed_.notify_all();
 }
 
 void Replay::edit(const LoopEdit& edit) {
@@ -241,6 +249,7 @@ bool Replay::serve_finished(MappingSession& session) {
     {
       std::unique_lock lock(mutex_);
       if (!close_ && edit_wishes_.empty()) {
+        held_ = false;
         phase_ = ReplayPhase::kFinished;
         lock.unlock();
         publish();
@@ -309,6 +318,22 @@ void Replay::observe(const SessionProgress& progress) {
     maker_->follow_local_maps(session_->mapper());
   }
   if (Clock::now() >= next_publication()) publish();
+  if (progress.phase == SessionProgress::Phase::kLastPass) hold_last_pass();
+}
+
+/// As long as it is paused.
+void Replay::hold_last_pass() {
+  const auto goes_on = [this] { return !held_ || stop_last_pass_; };
+  std::unique_lock lock(mutex_);
+  if (goes_on()) return;
+  lock.unlock();
+  maker_->note_held(true);
+  publish();
+  lock.lock();
+  changed_.wait(lock, goes_on);
+  lock.unlock();
+  maker_->note_held(false);
+  publish();
 }
 
 Clock::time_point Replay::next_publication() const {

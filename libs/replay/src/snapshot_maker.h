@@ -20,6 +20,7 @@ class SnapshotMaker {
   void note_progress(const SessionProgress& progress) { now_.progress = progress; }
   void note_warnings(const MappingSession& session);
   void note_export(ExportOutcome outcome) { now_.exported = std::move(outcome); }
+  void note_held(bool held) { now_.last_pass_held = held; }
   /// Loops, poses and edits are others now.
   void note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history);
   void note_edited(EditOutcome outcome) { now_.edited = std::move(outcome); }

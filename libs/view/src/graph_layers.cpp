@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -7,7 +6,7 @@
 #include "dots.h"
 #include "layers.h"
 #include "lines.h"
-#include "psi_slam/view/loop_residual.h"
+#include "psi_slam/view/loop_legend.h"
 #include "psi_slam/view/palette.h"
 
 namespace psi_slam {
@@ -16,16 +15,8 @@ namespace {
 using mrpt::math::TPose2D;
 using mrpt::opengl::CSetOfLines;
 
-constexpr int kResidualShades = 8;
 constexpr std::uint8_t kFaint = 45;
 constexpr std::uint8_t kClear = 140;  // what lies below is to be seen, too
-
-mrpt::img::TColor colour_of(const LoopRecord& loop, const ReplaySnapshot& snapshot, const LoopStyle& style) {
-  if (loop.verdict != LoopVerdict::kAccepted) return verdict_colour(loop.verdict);
-  if (style.colour == LoopStyle::Colour::kMatcher) return matcher_colour(loop.matcher);
-  const double share = loop_residual(loop, *snapshot.map_T_node).distance_m / kWorstResidual_m;
-  return heat_colour(std::round(share * kResidualShades) / kResidualShades);
-}
 
 }  // namespace
 
@@ -56,7 +47,7 @@ void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopSty
     if (loop.verdict == LoopVerdict::kNotFound) continue;
     const bool was_no_loop = loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kDeleted;
     if (was_no_loop && !style.refused) continue;
-    mrpt::img::TColor colour = colour_of(loop, snapshot, style);
+    mrpt::img::TColor colour = loop_colour(loop, snapshot, style);
     const bool faint = loop.in_last_pass || was_no_loop;  // there are so many
     colour.A = faint ? kFaint : kClear;
     CSetOfLines::Ptr& lines = by_colour[{!faint, colour.R, colour.G, colour.B}];

@@ -15,7 +15,8 @@ namespace psi_slam {
 
 using SceneLayer = mrpt::opengl::CSetOfObjects;
 
-/// Of the layers above the ground, so that none hides in another; low, or perspective would shift them.
+/// Of the layers above the ground: those of one viewport are drawn from the lowest to the highest. Low, or
+/// perspective would shift them.
 namespace height_m {
 inline constexpr double kLocalMaps = 0.005;
 inline constexpr double kOdometry = 0.01;

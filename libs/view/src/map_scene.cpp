@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/view/map_scene.h"
 
+#include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/CSetOfLines.h>
+
+#include <utility>
+
 #include "layers.h"
 #include "psi_slam/view/frame_pose.h"
 #include "psi_slam/view/palette.h"
@@ -19,6 +24,30 @@ constexpr std::array<const char*, kMapLayers> kNames{"Gridmap",
                                                      "Robot",
                                                      "Search windows"};
 
+constexpr const char* kMaps = "main";
+constexpr const char* kLines = "lines";
+constexpr const char* kMarks = "marks";
+constexpr const char* kLegend = "legend";
+
+const char* viewport_of(MapLayer layer) {
+  switch (layer) {
+    case MapLayer::kGrid:
+    case MapLayer::kLocalMaps:
+      return kMaps;
+    case MapLayer::kOdometry:
+    case MapLayer::kTrajectory:
+    case MapLayer::kConstraints:
+    case MapLayer::kLoops:
+      return kLines;
+    case MapLayer::kNodes:
+    case MapLayer::kScan:
+    case MapLayer::kRobot:
+    case MapLayer::kWindows:
+      return kMarks;
+  }
+  return kMaps;
+}
+
 }  // namespace
 
 const char* name_of(MapLayer layer) {
@@ -31,14 +60,25 @@ bool shown_at_first(MapLayer layer) {
 
 MapScene::MapScene() {
   scene_->getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(palette::kBackground));
+  for (const char* upper : {kLines, kMarks}) {
+    const auto viewport = scene_->createViewport(upper);
+    viewport->setTransparent(true);
+    viewport->setClonedCameraFrom(kMaps);
+  }
+  scene_->createViewport(kLegend)->setTransparent(true);
   for (std::size_t i = 0; i < kMapLayers; ++i) {
     layers_[i] = mrpt::opengl::CSetOfObjects::Create();
     layers_[i]->setName(kNames[i]);
     layers_[i]->setVisibility(shown_at_first(static_cast<MapLayer>(i)));
-    scene_->insert(layers_[i]);
+    scene_->insert(layers_[i], viewport_of(static_cast<MapLayer>(i)));
   }
-  scene_->insert(chosen_layer_);
-  scene_->insert(measure_layer_);
+  scene_->insert(chosen_layer_, kMarks);
+  scene_->insert(measure_layer_, kMarks);
+}
+
+void MapScene::set_clip_distances(double nearest_m, double farthest_m) {
+  for (const auto& viewport : scene_->viewports())
+    viewport->setViewportClipDistances(static_cast<float>(nearest_m), static_cast<float>(farthest_m));
 }
 
 mrpt::opengl::CSetOfObjects& MapScene::of(MapLayer layer) {
@@ -47,6 +87,36 @@ mrpt::opengl::CSetOfObjects& MapScene::of(MapLayer layer) {
 
 const mrpt::opengl::CSetOfObjects& MapScene::layer(MapLayer layer) const {
   return *layers_[static_cast<std::size_t>(layer)];
+}
+
+void MapScene::set_pixel_scale(float scale) {
+  if (scale == pixel_scale_) return;
+  pixel_scale_ = scale;
+  shown_ = {};
+}
+
+void MapScene::set_legend(mrpt::img::CImage picture, int margin_px) {
+  const auto viewport = scene_->getViewport(kLegend);
+  const bool empty = picture.isEmpty();
+  viewport->setTransparent(empty);
+  if (empty) {
+    viewport->setNormalMode();
+    return;
+  }
+  viewport->setViewportPosition(margin_px, margin_px, static_cast<double>(picture.getWidth()),
+                                static_cast<double>(picture.getHeight()));
+  viewport->setImageView(std::move(picture));
+}
+
+/// Anew, with lines and points as large as the screen asks for.
+void MapScene::fill(SceneLayer& layer, const Fill& draw) const {
+  draw(layer);
+  for (const auto& object : layer) {
+    if (const auto lines = std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(object))
+      lines->setLineWidth(lines->getLineWidth() * pixel_scale_);
+    if (const auto dots = std::dynamic_pointer_cast<mrpt::opengl::CPointCloud>(object))
+      dots->setPointSize(dots->getPointSize() * pixel_scale_);
+  }
 }
 
 void MapScene::set_visible(MapLayer layer, bool visible) {
@@ -60,7 +130,7 @@ bool MapScene::visible(MapLayer layer) const {
 
 void MapScene::set_measure(const std::optional<Measure>& measure) {
   measure_layer_->clear();
-  if (measure) draw_measure(*measure_layer_, *measure);
+  if (measure) fill(*measure_layer_, [&](SceneLayer& layer) { draw_measure(layer, *measure); });
 }
 
 bool MapScene::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
@@ -75,8 +145,10 @@ bool MapScene::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
   const bool poses_changed = first || snapshot->map_T_node != shown_.snapshot->map_T_node;
   const bool frames_changed = first || snapshot->frames.size() != shown_.snapshot->frames.size() ||
                               snapshot->phase != shown_.snapshot->phase;
-  if (frames_changed) draw_odometry(of(MapLayer::kOdometry), *snapshot);
-  if (poses_changed || frames_changed) draw_trajectory(of(MapLayer::kTrajectory), *snapshot);
+  if (frames_changed)
+    fill(of(MapLayer::kOdometry), [&](SceneLayer& layer) { draw_odometry(layer, *snapshot); });
+  if (poses_changed || frames_changed)
+    fill(of(MapLayer::kTrajectory), [&](SceneLayer& layer) { draw_trajectory(layer, *snapshot); });
   changed = show_graph(*snapshot, poses_changed) || changed;
   changed = show_robot(*snapshot, frame, poses_changed || frames_changed || frame != shown_.frame) || changed;
   shown_ = {snapshot, map, frame, loop_style_, chosen_loop_};
@@ -94,17 +166,20 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
   if (maps_changed) draw_local_maps(of(MapLayer::kLocalMaps), snapshot);
   if (maps_changed || poses_changed) place_local_maps(of(MapLayer::kLocalMaps), snapshot);
   if (poses_changed) {
-    if (visible(MapLayer::kNodes)) draw_nodes(of(MapLayer::kNodes), snapshot);
-    if (visible(MapLayer::kConstraints)) draw_constraints(of(MapLayer::kConstraints), snapshot);
+    if (visible(MapLayer::kNodes))
+      fill(of(MapLayer::kNodes), [&](SceneLayer& layer) { draw_nodes(layer, snapshot); });
+    if (visible(MapLayer::kConstraints))
+      fill(of(MapLayer::kConstraints), [&](SceneLayer& layer) { draw_constraints(layer, snapshot); });
   }
   const bool loops_changed =
       poses_changed || snapshot.loops != shown_.snapshot->loops || !(loop_style_ == shown_.loop_style);
-  if (loops_changed) draw_loops(of(MapLayer::kLoops), snapshot, loop_style_);
+  if (loops_changed)
+    fill(of(MapLayer::kLoops), [&](SceneLayer& layer) { draw_loops(layer, snapshot, loop_style_); });
   const bool chosen_changed = loops_changed || chosen_loop_ != shown_.chosen_loop;
   if (chosen_changed) {
     chosen_layer_->clear();
     if (chosen_loop_ && *chosen_loop_ < snapshot.loops->size())
-      draw_chosen_loop(*chosen_layer_, snapshot, *chosen_loop_);
+      fill(*chosen_layer_, [&](SceneLayer& layer) { draw_chosen_loop(layer, snapshot, *chosen_loop_); });
   }
   return maps_changed || loops_changed || chosen_changed;
 }
@@ -115,9 +190,9 @@ bool MapScene::show_robot(const ReplaySnapshot& snapshot, std::optional<std::siz
   if (snapshot.frames.empty()) return true;
   const std::size_t index = std::min(frame.value_or(snapshot.frames.size() - 1), snapshot.frames.size() - 1);
   const mrpt::math::TPose2D map_T_robot = map_T_frame(snapshot, index);
-  draw_scan(of(MapLayer::kScan), snapshot.log[index], map_T_robot);
+  fill(of(MapLayer::kScan), [&](SceneLayer& layer) { draw_scan(layer, snapshot.log[index], map_T_robot); });
   draw_robot(of(MapLayer::kRobot), map_T_robot);
-  draw_windows(of(MapLayer::kWindows), snapshot, index);
+  fill(of(MapLayer::kWindows), [&](SceneLayer& layer) { draw_windows(layer, snapshot, index); });
   return true;
 }
 

@@ -49,8 +49,9 @@ class Replay {
 
   /// Maps scan after scan, at the speed set. At the end of the log the last pass follows by itself.
   void play();
+  /// Between two scans, or in the midst of the last pass: see ReplaySnapshot::last_pass_held.
   void pause();
-  /// Maps one more scan, and pauses.
+  /// Maps one more scan, and pauses. (The last pass has no steps.)
   void step();
   /// Times the speed of the recording; 0: as fast as possible. It is 1 at first.
   void set_speed(double times);
@@ -108,6 +109,7 @@ class Replay {
   void make_edit(MappingSession& session, const EditWish& wish);
   void export_once(MappingSession& session, const ExportWish& wish);
   void observe(const SessionProgress& progress);
+  void hold_last_pass();
   void publish();
   LogPace::Clock::time_point next_publication() const;
   void fail(const std::string& sentence);
@@ -135,6 +137,7 @@ class Replay {
   std::mutex mutex_;  // of what is wished for
   std::condition_variable changed_;
   bool playing_ = false;
+  bool held_ = false;  // the last pass, if it is on
   std::size_t steps_ = 0;
   std::size_t hurry_to_ = 0;  // scans
   LogPace pace_;

@@ -54,6 +54,7 @@ struct EditOutcome {
 
 struct ReplaySnapshot {
   ReplayPhase phase = ReplayPhase::kOpening;
+  bool last_pass_held = false;  ///< in the last pass: it waits to be told to play, to be cut or to close
   SessionProgress progress;
   std::string failure;                ///< a sentence, where the phase is kFailed
   std::vector<std::string> warnings;  ///< what is wrong with the log, a sentence each

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run as one of MRPT's scenes: for windows, reports and tests. It holds a layer for each thing to be seen,
 // and redraws those alone whose matter has changed since it was shown last.
+//
+// Layers lie centimetres above each other, which OpenGL cannot always tell apart from far above; so the maps,
+// the lines on them and the marks on those are viewports, drawn one over the other whatever their depths. All
+// follow the camera of the first, "main".
 #pragma once
 
+#include <mrpt/img/CImage.h>
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,6 +67,8 @@ class MapScene {
 
   /// The scene itself stays the same object.
   const mrpt::opengl::COpenGLScene::Ptr& scene() const { return scene_; }
+  /// Nothing nearer to the eye is drawn, and nothing farther.
+  void set_clip_distances(double nearest_m, double farthest_m);
 
   /// Brings all layers up to date. `frame` is the scan to show instead of the newest. True when anything has
   /// changed.
@@ -75,6 +83,12 @@ class MapScene {
   void choose_loop(std::optional<std::size_t> loop) { chosen_loop_ = loop; }
   void set_measure(const std::optional<Measure>& measure);
 
+  /// Pixels of the screen to one of a desktop that is not scaled: lines and points are so many times as
+  /// large.
+  void set_pixel_scale(float scale);
+  /// A picture in the lower left corner, pixel for pixel, this far from the edges; an empty one: none.
+  void set_legend(mrpt::img::CImage picture, int margin_px);
+
   /// The objects of a layer; for those who want to know what is drawn.
   const mrpt::opengl::CSetOfObjects& layer(MapLayer layer) const;
 
@@ -86,7 +100,9 @@ class MapScene {
     LoopStyle loop_style;
     std::optional<std::size_t> chosen_loop;
   };
+  using Fill = std::function<void(mrpt::opengl::CSetOfObjects&)>;
   mrpt::opengl::CSetOfObjects& of(MapLayer layer);
+  void fill(mrpt::opengl::CSetOfObjects& layer, const Fill& draw) const;
   bool show_graph(const ReplaySnapshot& snapshot, bool poses_changed);
   bool show_robot(const ReplaySnapshot& snapshot, std::optional<std::size_t> frame, bool changed);
 
@@ -96,6 +112,7 @@ class MapScene {
   mrpt::opengl::CSetOfObjects::Ptr measure_layer_ = mrpt::opengl::CSetOfObjects::Create();
   LoopStyle loop_style_;
   std::optional<std::size_t> chosen_loop_;
+  float pixel_scale_ = 1;
   Shown shown_;
 };
 

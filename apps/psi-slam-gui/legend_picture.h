@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/img/CImage.h>
+#include <wx/window.h>
+
+#include "psi_slam/view/loop_legend.h"
+
+namespace psi_slam {
+
+/// A box with a coloured stroke and a name for each entry, in the window's font and pixels; empty without
+/// entries.
+mrpt::img::CImage legend_picture(const LoopLegend& legend, const wxWindow& window);
+
+}  // namespace psi_slam

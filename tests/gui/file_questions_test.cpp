@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the commands of the File menu do with the user's answers.
+#include "file_questions.h"
+
+#include <gmock/gmock.h>
+
+#include <deque>
+
+#include "../session/room_log.h"
+#include "gui_run.h"
+#include "message_bar.h"
+#include "settings_panel.h"
+#include "test_files.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+using Answer = std::optional<std::filesystem::path>;
+
+class FileQuestionsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run, of Debian's package xvfb";
+    gui_.then([this](MainFrame& frame) {
+      frame.set_ask_for_file([this](const FileQuestion& question) -> Answer {
+        asked_.push_back(question);
+        EXPECT_FALSE(answers_.empty()) << question.title;
+        const Answer answer = answers_.empty() ? std::nullopt : answers_.front();
+        if (!answers_.empty()) answers_.pop_front();
+        return answer;
+      });
+    });
+  }
+  std::filesystem::path path(const std::string& name) const { return gui_.folder() / name; }
+  /// The command's question gets this answer.
+  GuiRun& command(int id, const Answer& answer) {
+    gui_.then([this, answer](MainFrame& frame) {
+      frame.messages().dismiss();
+      answers_.push_back(answer);
+    });
+    return gui_.command(id);
+  }
+  void until_it_says(const std::string& words) {
+    gui_.when("\"" + words + "\" in the bar", [words](MainFrame& frame) {
+      return frame.messages().sentence().find(words) != std::string::npos;
+    });
+  }
+  /// A run that is finished.
+  void map_room() {
+    const auto log = write_lines(path("room.log"), room_log_lines(20));
+    command(kOpenLog, log)
+        .when_phase(ReplayPhase::kPaused)
+        .command(kPlayOrPause)
+        .when_phase(ReplayPhase::kFinished);
+  }
+
+  GuiRun gui_;
+  std::deque<Answer> answers_;
+  std::vector<FileQuestion> asked_;
+};
+
+TEST_F(FileQuestionsTest, a_log_is_opened_its_results_and_the_view_are_written) {
+  map_room();
+  command(kExport, path("results"));
+  until_it_says("All results are in");
+  write_file(path("view.png"), "something else, to be replaced");
+  command(kSavePicture, path("view.png"));
+  until_it_says("The picture is");
+  EXPECT_EQ(gui_.run({}), 0);
+  EXPECT_TRUE(std::filesystem::exists(path("results") / "report.html"));
+  EXPECT_THAT(read_file(path("view.png")), HasSubstr("PNG"));
+  ASSERT_EQ(asked_.size(), 3U);
+  EXPECT_EQ(asked_[0].kind, FileQuestion::Kind::kOpen);
+  EXPECT_EQ(asked_[1].kind, FileQuestion::Kind::kFolder);
+  EXPECT_EQ(asked_[2].kind, FileQuestion::Kind::kSave);
+  EXPECT_EQ(asked_[2].proposed_name, "view.png");
+}
+
+TEST_F(FileQuestionsTest, settings_are_saved_over_others_and_opened) {
+  write_file(path("my.ini"), "[front_end]\nwindow_m = 0.7\n");
+  command(kOpenSettings, path("my.ini")).then([](MainFrame& frame) {
+    EXPECT_EQ(frame.settings_panel().shown("front_end.window_m"), "0.7");
+    EXPECT_TRUE(frame.settings_panel().enter("front_end.window_m", "0.4"));
+  });
+  command(kSaveSettings, path("my.ini"));
+  until_it_says("The settings are in");
+  write_file(path("wrong.ini"), "[front_end]\nwindow_metres = 1\n");
+  command(kOpenSettings, path("wrong.ini"));
+  until_it_says("window_metres");
+  EXPECT_EQ(gui_.run({}), 0);
+  EXPECT_THAT(read_file(path("my.ini")), HasSubstr("window_m = 0.4"));
+}
+
+TEST_F(FileQuestionsTest, nothing_happens_when_the_user_thinks_better_of_it) {
+  const auto nothing_happened = [](MainFrame& frame) { EXPECT_EQ(frame.messages().sentence(), ""); };
+  command(kOpenLog, std::nullopt).then([](MainFrame& frame) { EXPECT_FALSE(frame.replay()); });
+  for (const int id : {kOpenSettings, kSaveSettings}) command(id, std::nullopt).then(nothing_happened);
+  map_room();
+  for (const int id : {kExport, kSavePicture}) command(id, std::nullopt).pause(200).then(nothing_happened);
+  EXPECT_EQ(gui_.run({}), 0);
+  EXPECT_EQ(asked_.size(), 6U);
+}
+
+TEST_F(FileQuestionsTest, a_place_that_cannot_be_written_to_is_told) {
+  write_file(path("plain"), "no folder");
+  command(kSaveSettings, path("plain") / "my.ini");
+  until_it_says("plain");
+  map_room();
+  command(kExport, path("plain") / "results");
+  until_it_says("plain");
+  command(kExport, path("plain"));
+  until_it_says("plain");
+  command(kSavePicture, path("plain") / "view.png");
+  until_it_says("plain");
+  EXPECT_EQ(gui_.run({}), 0);
+  EXPECT_EQ(read_file(path("plain")), "no folder");
+}
+
+}  // namespace
+}  // namespace psi_slam

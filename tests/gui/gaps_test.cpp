@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How long the window lets the user wait, measured while it is used with a benchmark log. The figures are
+// printed and recorded; machines differ too much to expect any.
+#include <gmock/gmock.h>
+
+#include "gui_run.h"
+#include "loop_inspector.h"
+#include "shared_logs.h"
+
+namespace psi_slam {
+namespace {
+
+TEST(Gaps, between_events_of_a_benchmark_log) {
+  if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run, of Debian's package xvfb";
+  const auto log = shared_file("fr079.clf.gz");
+  if (!log) GTEST_SKIP() << kNeedsData;
+  GuiRun gui;
+  gui.patience(std::chrono::minutes(4))
+      .gauge("idle")
+      .pause(2000)
+      .gauge("opening")
+      .then([&](MainFrame& frame) { frame.open_log(*log); });
+  gui.when_phase(ReplayPhase::kPaused)
+      .pause(500)
+      .gauge("playing")
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kLastPass)
+      .gauge("last_pass")
+      .when_phase(ReplayPhase::kFinished)
+      .pause(1500)
+      .gauge("selecting");
+  for (const std::size_t row : {3U, 100U, 700U, 1500U})
+    gui.then([row](MainFrame& frame) {
+         const LoopTable& table = frame.loops().table();
+         ASSERT_GT(table.rows(), row);
+         frame.loops().select(table.loop_of(row));
+       })
+        .pause(300);
+  gui.gauge("resizing");
+  for (const int width : {1200, 1500, 1000, 1400})
+    gui.then([width](MainFrame& frame) { frame.SetSize(width, 900); }).pause(300);
+  gui.gauge("layers");
+  for (const MapLayer layer : {MapLayer::kConstraints, MapLayer::kNodes, MapLayer::kLoops})
+    gui.command(kLayer + static_cast<int>(layer)).pause(300);
+  gui.gauge("exporting")
+      .then([&](MainFrame& frame) { frame.export_to(gui.folder() / "out", false); })
+      .when("all is written",
+            [](MainFrame& frame) { return frame.replay()->snapshot()->exported.has_value(); })
+      .gauge("idle_with_map")
+      .pause(2000);
+  EXPECT_EQ(gui.run({}), 0);
+  EXPECT_TRUE(std::filesystem::exists(gui.folder() / "out" / "report.html"));
+}
+
+}  // namespace
+}  // namespace psi_slam

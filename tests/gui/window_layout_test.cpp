@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window_layout.h"
+
+#include <gmock/gmock.h>
+#include <wx/display.h>
+
+#include "gui_run.h"
+#include "map_canvas.h"
+#include "test_files.h"
+
+namespace psi_slam {
+namespace {
+
+bool shown(MainFrame& frame, const char* pane) {
+  const wxAuiPaneInfo& info = frame.panes().GetPane(pane);
+  return info.IsOk() && info.IsShown();
+}
+
+class WindowLayoutTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run, of Debian's package xvfb";
+  }
+  /// What a run before has left behind.
+  void write_choices(const std::string& lines) {
+    std::filesystem::create_directories(gui_.folder() / "config");
+    write_file(gui_.folder() / "config" / "psi-slam-gui.conf", lines);
+  }
+  static void expect_whole(MainFrame& frame) {
+    for (const char* pane : {"map", "settings", "loops", "plots"}) EXPECT_TRUE(shown(frame, pane)) << pane;
+    const wxRect screen = wxDisplay(0U).GetClientArea();
+    EXPECT_TRUE(screen.Contains(frame.GetRect())) << frame.GetRect().x << ' ' << frame.GetRect().y;
+  }
+
+  GuiRun gui_;
+};
+
+TEST_F(WindowLayoutTest, is_the_same_in_the_next_window) {
+  MainFrame* window = nullptr;
+  const int nodes = kLayer + static_cast<int>(MapLayer::kNodes);
+  gui_.then([&](MainFrame&) {
+        window = new MainFrame();
+        window->Show();
+        window->SetSize(window->FromDIP(wxSize(1111, 777)));
+      })
+      .pause(300)
+      .then([&](MainFrame&) {
+        GuiRun::choose(*window, kPanePlots);
+        GuiRun::choose(*window, nodes);
+        GuiRun::choose(*window, kRefusedLoops);
+        GuiRun::choose(*window, kLoopsByResidual);
+        window->Close(true);
+      })
+      .pause(300)
+      .then([&](MainFrame&) {
+        window = new MainFrame();
+        window->Show();
+      })
+      .pause(300)
+      .then([&](MainFrame&) {
+        EXPECT_EQ(window->GetSize(), window->FromDIP(wxSize(1111, 777)));
+        EXPECT_FALSE(shown(*window, "plots"));
+        EXPECT_TRUE(shown(*window, "loops"));
+        EXPECT_FALSE(window->GetMenuBar()->IsChecked(kPanePlots));
+        EXPECT_TRUE(window->GetMenuBar()->IsChecked(nodes));
+        EXPECT_TRUE(window->map().map_scene().visible(MapLayer::kNodes));
+        EXPECT_TRUE(window->map().map_scene().loop_style().refused);
+        EXPECT_TRUE(window->GetMenuBar()->IsChecked(kLoopsByResidual));
+        GuiRun::choose(*window, kDefaultLayout);
+        EXPECT_TRUE(shown(*window, "plots"));
+        EXPECT_TRUE(window->GetMenuBar()->IsChecked(kPanePlots));
+        window->Close(true);
+      });
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
+TEST_F(WindowLayoutTest, of_another_screen_does_not_put_the_window_out_of_sight) {
+  write_choices(
+      "[window]\nversion=1\nx=99999\ny=-5000\nwidth=20000\nheight=9000\n"
+      "panes=layout2|name=map;state=768|dock_size(5,0,0)=1|\n");
+  gui_.pause(300).then([](MainFrame& frame) { expect_whole(frame); }).screenshot("restored");
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
+TEST_F(WindowLayoutTest, of_another_version_is_not_used) {
+  write_choices("[window]\nversion=77\nx=50\ny=50\nwidth=800\nheight=600\npanes=nonsense\n");
+  gui_.pause(300).then([](MainFrame& frame) {
+    expect_whole(frame);
+    EXPECT_GT(frame.GetSize().x, frame.FromDIP(800));
+  });
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What OpenGL makes of a scene, drawn without any window.
+#include <gmock/gmock.h>
+#include <mrpt/opengl/CFBORender.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+#include "psi_slam/view/map_camera.h"
+#include "psi_slam/view/map_scene.h"
+#include "psi_slam/view/palette.h"
+#include "replayed_room.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr PictureSize kSize{1104, 536};
+
+class MapRenderingTest : public ReplayedRoom {
+ protected:
+  static void SetUpTestSuite() {
+    setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+    ReplayedRoom::SetUpTestSuite();
+  }
+  void SetUp() override {
+    try {
+      renderer_ = std::make_unique<mrpt::opengl::CFBORender>(kSize.width_px, kSize.height_px);
+    } catch (const std::exception& error) {
+      GTEST_SKIP() << "there is no OpenGL: " << error.what();
+    }
+    scene_ = std::make_unique<MapScene>();
+    GroundRectangle all;
+    const MapRaster& raster = map_->raster;
+    all.min = {raster.x_min_m, raster.y_max_m - raster.height_px * raster.resolution_m};
+    all.max = {raster.x_min_m + raster.width_px * raster.resolution_m, raster.y_max_m};
+    camera_ = camera_above(all, kSize);
+  }
+
+  /// The layers over the gridmap, from above.
+  void draw(std::initializer_list<MapLayer> layers) {
+    for (std::size_t i = 0; i < kMapLayers; ++i) scene_->set_visible(static_cast<MapLayer>(i), false);
+    scene_->set_visible(MapLayer::kGrid, true);
+    for (const MapLayer layer : layers) scene_->set_visible(layer, true);
+    scene_->show(finished_, map_);
+    scene_->set_clip_distances(camera_.distance_m / 5, camera_.distance_m * 8);
+    mrpt::opengl::CCamera eye;
+    eye.setPointingAt(static_cast<float>(camera_.target.x), static_cast<float>(camera_.target.y), 0.0F);
+    eye.setZoomDistance(static_cast<float>(camera_.distance_m));
+    eye.setAzimuthDegrees(-90);
+    eye.setElevationDegrees(89.9F);
+    eye.setProjectiveFOVdeg(static_cast<float>(camera_.field_of_view_deg));
+    renderer_->setCamera(*scene_->scene(), eye);
+    renderer_->render_RGB(*scene_->scene(), picture_);
+  }
+
+  /// Whether a pixel near where the camera sees a place is about of that colour.
+  bool seen(const mrpt::math::TPoint2D& place, const mrpt::img::TColor& colour) const {
+    const auto middle = ground_at(camera_, kSize, kSize.width_px / 2.0, kSize.height_px / 2.0);
+    const auto beside = ground_at(camera_, kSize, kSize.width_px / 2.0 + 100, kSize.height_px / 2.0);
+    const double px_per_m = 100 / (beside->x - middle->x);
+    const int x = static_cast<int>(std::lround(kSize.width_px / 2.0 + (place.x - middle->x) * px_per_m));
+    const int y = static_cast<int>(std::lround(kSize.height_px / 2.0 - (place.y - middle->y) * px_per_m));
+    const auto near = [](std::uint8_t a, std::uint8_t b) { return std::abs(int{a} - int{b}) < 70; };
+    for (int row = y - 2; row <= y + 2; ++row)
+      for (int column = x - 2; column <= x + 2; ++column) {
+        const auto channel = [&](std::int8_t index) {
+          return picture_.at<std::uint8_t>(static_cast<unsigned>(column), static_cast<unsigned>(row), index);
+        };
+        if (near(channel(2), colour.R) && near(channel(1), colour.G) && near(channel(0), colour.B))
+          return true;
+      }
+    return false;
+  }
+  /// Of the nodes' places.
+  double share_seen(const mrpt::img::TColor& colour) const {
+    const auto& nodes = *finished_->map_T_node;
+    const auto count = std::count_if(nodes.begin(), nodes.end(), [&](const auto& node) {
+      return seen({node.x, node.y}, colour);
+    });
+    return static_cast<double>(count) / static_cast<double>(nodes.size());
+  }
+
+  std::unique_ptr<mrpt::opengl::CFBORender> renderer_;  // outlives what the scene keeps in its context
+  std::unique_ptr<MapScene> scene_;
+  MapCamera camera_;
+  mrpt::img::CImage picture_;
+};
+
+TEST_F(MapRenderingTest, the_gridmap_hides_nothing_that_lies_on_it) {
+  draw({MapLayer::kTrajectory});
+  EXPECT_GT(share_seen(palette::kCorrected), 0.95) << "all but where a thin line falls between pixels";
+  draw({MapLayer::kOdometry});
+  EXPECT_EQ(share_seen(palette::kCorrected), 0) << "what is not drawn is not seen";
+}
+
+TEST_F(MapRenderingTest, nodes_stand_out_from_the_lines) {
+  draw({MapLayer::kLoops, MapLayer::kConstraints, MapLayer::kNodes});
+  EXPECT_EQ(share_seen(palette::kNode), 1);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -38,7 +38,7 @@ class GuiApp : public wxApp {
     keep_choices();
     auto* frame = new MainFrame();  // wx deletes it when it is closed
     frame->Show();
-    frame->start(line_.log, line_.config, line_.settings);
+    frame->start(line_.log, line_.config, line_.settings, line_.edits);
     if (when_shown_) frame->CallAfter([this, frame] { when_shown_(*frame); });
     return true;
   }
@@ -85,6 +85,7 @@ int run_gui(const std::vector<std::string>& arguments, std::ostream& out, std::o
   try {
     const GuiCommandLine line = parse_gui_command_line(arguments, app);
     BoundSettings().load(line.config, line.settings);  // what is wrong with them is told here and now
+    if (!line.edits.empty()) EditJournal::read(line.edits);
     return run_window(line, err, when_shown);
   } catch (const CLI::Success& asked) {  // --help, --version
     app.exit(asked, out, err);

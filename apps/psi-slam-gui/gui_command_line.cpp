@@ -10,6 +10,9 @@ GuiCommandLine parse_gui_command_line(const std::vector<std::string>& arguments,
   GuiCommandLine line;
   app.add_option("LOG", line.log, "Log to open: an MRPT rawlog or a CARMEN log, plain or gzipped")
       ->type_name("");
+  app.add_option("--edits", line.edits,
+                 "Loops deleted, forced or matched by hand: a file as File > Save loop edits makes it")
+      ->type_name("FILE");
   add_settings_options(app, line.config, line.settings);
   app.set_version_flag("--version", "psi-slam-gui " PSI_SLAM_VERSION, "Print the version, and exit");
   app.allow_extras();

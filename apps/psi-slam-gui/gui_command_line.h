@@ -9,6 +9,7 @@ namespace psi_slam {
 
 struct GuiCommandLine {
   std::string log;                    ///< empty: none is opened
+  std::string edits;                  ///< empty: none
   std::string config;                 ///< empty: the built-in defaults
   std::vector<std::string> settings;  ///< "section.key=value", in the order given
 };

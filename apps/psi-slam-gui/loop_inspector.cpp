@@ -10,6 +10,7 @@
 #include <array>
 #include <utility>
 
+#include "loop_actions.h"
 #include "loop_canvas.h"
 #include "psi_slam/results/verdict_text.h"
 #include "psi_slam/view/palette.h"
@@ -86,14 +87,18 @@ LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<
   const int gap = FromDIP(4);
   filter_ = new wxChoice(this, wxID_ANY);
   filter_->Append("All");
-  for (const LoopVerdict verdict : kLoopVerdicts) filter_->Append(wxString(verdict_text(verdict)).Capitalize());
+  for (const LoopVerdict verdict : kLoopVerdicts)
+    filter_->Append(wxString(verdict_text(verdict)).Capitalize());
   filter_->SetSelection(0);
   filter_->SetToolTip("Which loops are listed");
   filter_->Bind(wxEVT_CHOICE, [this](wxCommandEvent&) { filter(); });
-  summary_ = new wxStaticText(this, wxID_ANY, "");
-  actions_ = new wxBoxSizer(wxHORIZONTAL);
-  actions_->Add(filter_, 0, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
-  actions_->Add(summary_, 1, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
+  summary_ = new wxStaticText(this, wxID_ANY, "", wxDefaultPosition, wxDefaultSize,
+                              wxST_NO_AUTORESIZE | wxST_ELLIPSIZE_END);
+  actions_ = new LoopActions(this);
+  auto* row = new wxBoxSizer(wxHORIZONTAL);
+  row->Add(filter_, 0, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
+  row->Add(summary_, 1, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
+  row->Add(actions_, 0, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
 
   splitter_ = new wxSplitterWindow(this, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxSP_LIVE_UPDATE);
   list_ = new LoopList(splitter_);
@@ -105,7 +110,7 @@ LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<
   details_ = new wxStaticText(this, wxID_ANY, kNothingSelected, wxDefaultPosition, wxDefaultSize,
                               wxST_NO_AUTORESIZE | wxST_ELLIPSIZE_END);
   auto* column = new wxBoxSizer(wxVERTICAL);
-  column->Add(actions_, 0, wxEXPAND);
+  column->Add(row, 0, wxEXPAND);
   column->Add(splitter_, 1, wxEXPAND);
   column->Add(details_, 0, wxEXPAND | wxALL, gap);
   SetSizer(column);
@@ -118,8 +123,30 @@ LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<
 }
 
 void LoopInspector::show(const std::shared_ptr<const ReplaySnapshot>& snapshot) {
+  const bool same_loops = snapshot_ && snapshot_->loops == snapshot->loops;
   snapshot_ = snapshot;
+  if (!same_loops) find_chosen();
   if (list_->table.show(snapshot)) refresh_rows();
+}
+
+/// Keeps to the loop that was chosen, wherever it is listed now, and however it was matched anew.
+void LoopInspector::find_chosen() {
+  if (!chosen_) return;
+  const std::vector<LoopRecord>& loops = *snapshot_->loops;
+  const auto is_chosen = [&](const LoopRecord& loop) {
+    return loop.frame == chosen_->frame && loop.local_map == chosen_->local_map;
+  };
+  if (selected_ && *selected_ < loops.size() && is_chosen(loops[*selected_])) {
+    const LoopRecord& now = loops[*selected_];
+    if (now.verdict == chosen_->verdict && now.anchor_T_node == chosen_->anchor_T_node) return;
+  } else {
+    const auto found = std::find_if(loops.rbegin(), loops.rend(), is_chosen);
+    selected_.reset();
+    if (found != loops.rend()) selected_ = static_cast<std::size_t>(loops.rend() - found) - 1;
+  }
+  if (!selected_) return;
+  chosen_ = loops[*selected_];
+  canvas_->show(loop_picture(*snapshot_, *selected_));
 }
 
 void LoopInspector::show_nothing() {
@@ -129,6 +156,8 @@ void LoopInspector::show_nothing() {
 
 void LoopInspector::choose(std::optional<std::size_t> loop) {
   selected_ = loop;
+  chosen_.reset();
+  if (loop && snapshot_ && *loop < snapshot_->loops->size()) chosen_ = (*snapshot_->loops)[*loop];
   canvas_->show(loop && snapshot_ ? loop_picture(*snapshot_, *loop) : std::nullopt);
   show_picture(loop.has_value());
   describe();
@@ -174,8 +203,8 @@ void LoopInspector::sort(int column) {
 
 void LoopInspector::filter() {
   const int choice = filter_->GetSelection();
-  list_->table.set_filter(choice <= 0 ? std::nullopt
-                                      : std::optional(kLoopVerdicts.at(static_cast<std::size_t>(choice - 1))));
+  list_->table.set_filter(
+      choice <= 0 ? std::nullopt : std::optional(kLoopVerdicts.at(static_cast<std::size_t>(choice - 1))));
   refresh_rows();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every match that loop closing made, in a table; the one selected in words below it, and as a picture that
-// takes its room from the table only then. Room for what can be done with a loop is left in actions().
+// takes its room from the table only then. What can be done with it stands above.
 #pragma once
 
 #include <wx/listctrl.h>
@@ -13,13 +13,13 @@
 
 #include "loop_table.h"
 
-class wxBoxSizer;
 class wxChoice;
 class wxSplitterWindow;
 class wxStaticText;
 
 namespace psi_slam {
 
+class LoopActions;
 class LoopCanvas;
 
 /// The table itself: rows are asked for as they come into sight.
@@ -53,13 +53,13 @@ class LoopInspector : public wxPanel {
   const LoopCanvas& canvas() const { return *canvas_; }
   /// What is said of the loop selected.
   std::string details() const;
-  /// The row above the table, for more to do with loops.
-  wxBoxSizer& actions() { return *actions_; }
+  LoopActions& actions() { return *actions_; }
 
  private:
   void choose(std::optional<std::size_t> loop);
   void sort(int column);
   void filter();
+  void find_chosen();
   void refresh_rows();
   void describe();
   void show_picture(bool shown);
@@ -68,7 +68,9 @@ class LoopInspector : public wxPanel {
   std::shared_ptr<const ReplaySnapshot> snapshot_;
   std::optional<std::size_t> selected_;
   bool selecting_ = false;
-  wxBoxSizer* actions_;
+  /// The scan and the local map selected: the loops' numbers may change when loops are edited.
+  std::optional<LoopRecord> chosen_;
+  LoopActions* actions_;
   wxChoice* filter_;
   wxStaticText* summary_;
   wxStaticText* details_;

@@ -138,23 +138,25 @@ void MainFrame::build_toolbar() {
 }
 
 void MainFrame::start(const std::string& log, const std::string& config,
-                      const std::vector<std::string>& settings) {
+                      const std::vector<std::string>& settings, const std::string& edits) {
   try {
     settings_.load(config, settings);
   } catch (const UserError& error) {
     messages_->say(MessageBar::Kind::kError, error.what());
   }
   settings_panel_->refresh();
-  if (!log.empty()) open_log(log);
+  if (!log.empty()) open_log(log, edits.empty() ? EditJournal() : EditJournal::read(edits));
 }
 
-void MainFrame::open_log(const std::filesystem::path& log) {
+void MainFrame::open_log(const std::filesystem::path& log, EditJournal edits) {
   messages_->dismiss();
   snapshot_.reset();
   shown_frame_.reset();
   told_failure_.clear();
   told_warnings_.clear();
   told_export_ = 0;
+  told_edit_ = 0;
+  set_adding_loop(false);
   remembered_ = false;
   exported_ = false;
   closes_without_export_ = false;
@@ -162,7 +164,7 @@ void MainFrame::open_log(const std::filesystem::path& log) {
   plots_->show_nothing();
   settings_of_run_ = settings_file_text(settings_.table);
   settings_panel_->show_pending(false);
-  replay_.open(log, settings_.settings);
+  replay_.open(log, settings_.settings, std::move(edits));
   replay_->set_speed(speed_);
   middle_->SetSelection(kMapPage);
   canvas_->show_all();
@@ -175,7 +177,7 @@ void MainFrame::show_pending_settings() {
 }
 
 void MainFrame::restart() {
-  if (replay_) open_log(std::filesystem::path(replay_->log()));
+  if (replay_) open_log(std::filesystem::path(replay_->log()), edits());
 }
 
 void MainFrame::refresh() {
@@ -188,7 +190,10 @@ void MainFrame::refresh() {
     loops_->show(snapshot);
     take_news(*snapshot);
     if (!replay_) return;
+    take_edit_news(*snapshot);
+    canvas_->map_scene().choose_loop(loops_->selected());
   }
+  enable_edit_commands(snapshot.get());
   transport_->show(*snapshot, replay_->stamps_us(), shown_frame_);
   canvas_->show(snapshot, replay_->drawn_map(), shown_frame_);
   plots_->show(snapshot, shown_frame_);
@@ -232,6 +237,7 @@ void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
   menu.Enable(kRestart, snapshot != nullptr);
   menu.Enable(kExport, finished);
   menu.Enable(kSavePicture, snapshot != nullptr);
+  enable_edit_commands(snapshot);
   GetToolBar()->EnableTool(kRestart, snapshot != nullptr);
   GetToolBar()->EnableTool(kExport, finished);
 }

@@ -38,13 +38,18 @@ class MainFrame : public wxFrame {
   ~MainFrame() override;
 
   /// What the command line asks for; empty names ask for nothing.
-  void start(const std::string& log, const std::string& config, const std::vector<std::string>& settings);
+  void start(const std::string& log, const std::string& config, const std::vector<std::string>& settings,
+             const std::string& edits = "");
 
-  void open_log(const std::filesystem::path& log);
+  /// `edits` are made again while it is mapped.
+  void open_log(const std::filesystem::path& log, EditJournal edits = {});
   void open_settings(const std::filesystem::path& file);
   void save_settings(const std::filesystem::path& file);
   void export_to(const std::filesystem::path& folder, bool replace);
   void save_picture(const std::filesystem::path& file);
+  /// The log is mapped again with the edits of a file.
+  void open_edits(const std::filesystem::path& file);
+  void save_edits(const std::filesystem::path& file);
   /// Shows a scan that was mapped already, or maps up to it.
   void go_to(std::size_t scan);
 
@@ -65,13 +70,16 @@ class MainFrame : public wxFrame {
   void bind_commands();
   void bind_file_commands();
   void bind_view_commands();
+  void bind_edit_commands();
   void on(int command, const std::function<void()>& action);
 
   void press_key(wxKeyEvent& event);
 
   void refresh();
   void take_news(const ReplaySnapshot& snapshot);
+  void take_edit_news(const ReplaySnapshot& snapshot);
   void enable_commands(const ReplaySnapshot* snapshot);
+  void enable_edit_commands(const ReplaySnapshot* snapshot);
   void close(wxCloseEvent& event);
   bool has_unsaved_map() const;
 
@@ -89,6 +97,11 @@ class MainFrame : public wxFrame {
   void show_pending_settings();
   void set_speed(double speed);
   void choose_loop(std::optional<std::size_t> loop);
+  void edit_selected(LoopEdit::Kind kind, MatcherKind matcher = MatcherKind::kCsm);
+  void begin_to_add_loop();
+  void set_adding_loop(bool on);
+  void point_at(const mrpt::math::TPoint2D& place);
+  EditJournal edits() const;
   void toggle_pane(wxWindow* window, bool shown);
   void remember(const std::filesystem::path& log);
   void tell(const std::string& text);  ///< in the status bar
@@ -102,7 +115,9 @@ class MainFrame : public wxFrame {
   std::string told_failure_;     ///< what was said of this run already
   std::vector<std::string> told_warnings_;
   int told_export_ = 0;
-  bool remembered_ = false;  // among the recent logs
+  int told_edit_ = 0;
+  std::optional<mrpt::math::TPoint2D> first_place_;  ///< pointed at, of a loop to be added
+  bool remembered_ = false;                          // among the recent logs
   bool exported_ = false;
   bool closes_without_export_ = false;
   bool close_when_written_ = false;

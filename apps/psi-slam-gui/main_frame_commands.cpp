@@ -35,6 +35,7 @@ void MainFrame::on(int command, const std::function<void()>& action) {
 void MainFrame::bind_commands() {
   bind_file_commands();
   bind_view_commands();
+  bind_edit_commands();
   on(kPlayOrPause, [this] { play_or_pause(); });
   on(kStep, [this] { step(); });
   on(kFinish, [this] { finish(); });
@@ -47,6 +48,7 @@ void MainFrame::bind_commands() {
 }
 
 void MainFrame::press_key(wxKeyEvent& event) {
+  if (event.GetKeyCode() == WXK_ESCAPE && canvas_->pointing()) return begin_to_add_loop();
   const bool types = dynamic_cast<wxTextEntry*>(wxWindow::FindFocus()) != nullptr;
   const int command = types || event.HasAnyModifiers() ? wxID_NONE : command_of_key(event.GetKeyCode());
   if (command == wxID_NONE || !GetMenuBar()->IsEnabled(command)) {

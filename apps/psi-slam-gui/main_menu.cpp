@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "main_menu.h"
 
+#include <array>
 #include <string>
 
 #include "transport_bar.h"
@@ -25,6 +26,23 @@ wxMenu* file_menu(wxMenu* recent) {
   menu->Append(kSavePicture, utf8("Save &picture of the view…\tCtrl+P"));
   menu->AppendSeparator();
   menu->Append(kQuit, "&Quit\tCtrl+Q");
+  return menu;
+}
+
+wxMenu* edit_menu() {
+  auto* menu = new wxMenu;
+  menu->Append(kUndo, "&Undo\tCtrl+Z");
+  menu->Append(kRedo, "&Redo\tCtrl+Shift+Z");
+  menu->AppendSeparator();
+  menu->Append(kDeleteLoop, "&Delete the selected loop (Delete)");
+  menu->Append(kForceLoop, "&Force the selected loop");
+  for (int matcher = 0; matcher < kMatchers; ++matcher)
+    menu->Append(kMatchLoopBy + matcher, "Match it again by " + matcher_title(matcher));
+  menu->Append(kRestoreLoop, "Re&store the selected loop");
+  menu->AppendCheckItem(kAddLoop, "&Add a loop by two clicks (L)");
+  menu->AppendSeparator();
+  menu->Append(kOpenEdits, utf8("&Open loop edits…"));
+  menu->Append(kSaveEdits, utf8("Sa&ve loop edits…"));
   return menu;
 }
 
@@ -75,6 +93,7 @@ wxMenu* view_menu() {
 wxMenuBar* make_menu_bar(wxMenu* recent) {
   auto* bar = new wxMenuBar;
   bar->Append(file_menu(recent), "&File");
+  bar->Append(edit_menu(), "&Edit");
   bar->Append(run_menu(), "&Run");
   bar->Append(view_menu(), "&View");
   auto* help = new wxMenu;
@@ -82,6 +101,18 @@ wxMenuBar* make_menu_bar(wxMenu* recent) {
   help->Append(kAbout, "&About psi-slam");
   bar->Append(help, "&Help");
   return bar;
+}
+
+MatcherKind matcher_kind_of(int number) {
+  constexpr std::array<MatcherKind, kMatchers> kKinds{MatcherKind::kCsm, MatcherKind::kCsmGa,
+                                                      MatcherKind::kGa};
+  return kKinds.at(static_cast<std::size_t>(number));
+}
+
+wxString matcher_title(int number) {
+  constexpr std::array<const char*, kMatchers> kTitles{
+      "exact search (csm)", "coarse cells and the GA (csm_ga)", "the GA alone (ga)"};
+  return kTitles.at(static_cast<std::size_t>(number));
 }
 
 int command_of_key(int key) {
@@ -98,6 +129,10 @@ int command_of_key(int key) {
       return kFollow;
     case 'M':
       return kMeasure;
+    case 'L':
+      return kAddLoop;
+    case WXK_DELETE:
+      return kDeleteLoop;
     default:
       return wxID_NONE;
   }
@@ -106,7 +141,7 @@ int command_of_key(int key) {
 const char* shortcuts_text() {
   return "Space plays and pauses, \".\" maps one scan. In the map: drag to move, right-drag to turn and "
          "tilt, wheel to "
-         "zoom; Home shows all, F follows the robot, M measures.";
+         "zoom; Home shows all, F follows the robot, M measures, L adds a loop.";
 }
 
 }  // namespace psi_slam

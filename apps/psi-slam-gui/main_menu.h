@@ -4,6 +4,7 @@
 
 #include <wx/menu.h>
 
+#include "psi_slam/matching/make_matcher.h"
 #include "psi_slam/view/map_scene.h"
 
 namespace psi_slam {
@@ -35,7 +36,21 @@ enum Command : int {
   kPanePlots,
   kDefaultLayout,
   kShortcuts,
+  kUndo = wxID_UNDO,
+  kRedo = wxID_REDO,
+  kDeleteLoop = kShortcuts + 1,
+  kForceLoop,
+  kRestoreLoop,
+  kMatchLoop,
+  kMatchLoopBy,  // and one more for each matcher
+  kAddLoop = kMatchLoopBy + 10,
+  kOpenEdits,
+  kSaveEdits,
 };
+
+inline constexpr int kMatchers = 3;
+MatcherKind matcher_kind_of(int number);
+wxString matcher_title(int number);
 
 /// `recent` is filled and kept by whoever remembers the files.
 wxMenuBar* make_menu_bar(wxMenu* recent);

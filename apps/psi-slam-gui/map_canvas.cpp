@@ -137,6 +137,17 @@ void MapCanvas::set_measuring(bool measuring) {
   Refresh(false);
 }
 
+void MapCanvas::set_pointing(bool pointing) {
+  pointing_ = pointing;
+  SetCursor(wxCursor(pointing ? wxCURSOR_BULLSEYE : measuring_ ? wxCURSOR_CROSS : wxCURSOR_ARROW));
+}
+
+void MapCanvas::show_pointed(const std::optional<mrpt::math::TPoint2D>& place) {
+  pointed_ = place;
+  map_scene_.set_measure(place ? std::optional(Measure{*place, *place}) : measure_);
+  Refresh(false);
+}
+
 void MapCanvas::look_at(const mrpt::math::TPoint2D& place, double distance_m) {
   set_follow(false);
   fit_ = false;
@@ -178,6 +189,10 @@ std::optional<mrpt::math::TPoint2D> MapCanvas::ground(const wxMouseEvent& event)
 
 void MapCanvas::press(wxMouseEvent& event, bool left) {
   SetFocus();
+  if (left && pointing_) {
+    if (const auto place = ground(event); place && told_pointed_) told_pointed_(*place);
+    return;
+  }
   dragged_from_ = event.GetPosition();
   drag_ = left ? Drag::kMove : Drag::kTurn;
   if (left && measuring_) {
@@ -193,8 +208,12 @@ void MapCanvas::release() {
 }
 
 void MapCanvas::move(wxMouseEvent& event) {
-  if (drag_ == Drag::kNone) return;
   const std::optional<mrpt::math::TPoint2D> place = ground(event);
+  if (pointed_ && place) {
+    map_scene_.set_measure(Measure{*pointed_, *place});
+    Refresh(false);
+  }
+  if (drag_ == Drag::kNone) return;
   MapCamera camera = this->camera();
   const wxPoint from = dragged_from_;
   if (drag_ == Drag::kMeasure && place && measure_) {

@@ -40,6 +40,12 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   bool follows() const { return follow_; }
   void set_measuring(bool measuring);
   bool measuring() const { return measuring_; }
+  /// A click with the left button points at a place instead of moving the map.
+  void set_pointing(bool pointing);
+  bool pointing() const { return pointing_; }
+  /// A place pointed at before, with a line from it to the pointer.
+  void show_pointed(const std::optional<mrpt::math::TPoint2D>& place);
+  void on_pointed(std::function<void(const mrpt::math::TPoint2D&)> told) { told_pointed_ = std::move(told); }
   const std::optional<Measure>& measure() const { return measure_; }
   /// Looks at a place of the map.
   void look_at(const mrpt::math::TPoint2D& place, double distance_m);
@@ -81,6 +87,8 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   bool fit_ = true;
   bool follow_ = false;
   bool measuring_ = false;
+  bool pointing_ = false;
+  std::optional<mrpt::math::TPoint2D> pointed_;
   std::optional<Measure> measure_;
   enum class Drag { kNone, kMove, kTurn, kMeasure };
   Drag drag_ = Drag::kNone;
@@ -88,6 +96,7 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   std::function<void(const wxImage&)> picture_taken_;
   bool told_of_failure_ = false;
   std::function<void(const Measure&)> told_measure_;
+  std::function<void(const mrpt::math::TPoint2D&)> told_pointed_;
   std::function<void(bool)> told_follow_;
   std::function<void(const std::string&)> told_failure_;
 };

@@ -6,9 +6,9 @@
 
 namespace psi_slam {
 
-void ReplaySlot::open(const std::filesystem::path& log, const Settings& settings) {
+void ReplaySlot::open(const std::filesystem::path& log, const Settings& settings, EditJournal edits) {
   close();
-  replay_ = std::make_unique<Replay>(log, settings);
+  replay_ = std::make_unique<Replay>(log, settings, std::move(edits));
 }
 
 void ReplaySlot::close() {

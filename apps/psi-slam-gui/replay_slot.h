@@ -16,7 +16,7 @@ class ReplaySlot {
   Replay* operator->() const { return replay_.get(); }
   explicit operator bool() const { return replay_ != nullptr; }
 
-  void open(const std::filesystem::path& log, const Settings& settings);
+  void open(const std::filesystem::path& log, const Settings& settings, EditJournal edits = {});
   void close();
 
   /// Lets go of closed runs whose threads have ended; to be called now and then.

@@ -65,7 +65,7 @@ TEST_F(LoopTableTest, says_what_is_known_of_a_loop) {
   EXPECT_EQ(table_.text(0, LoopTable::kReason), "the response is too low");
   EXPECT_EQ(table_.text(0, LoopTable::kResidual), "") << "of a constraint only";
   EXPECT_EQ(table_.text(1, LoopTable::kResidual), "0.000");
-  EXPECT_EQ(table_.summary(), "3 matches: 2 accepted, 1 refused");
+  EXPECT_EQ(table_.summary(), "3 searches: 2 accepted, 1 refused");
 }
 
 TEST_F(LoopTableTest, says_in_words_what_became_of_a_loop) {

@@ -172,6 +172,123 @@ TEST_F(MainFrameTest, the_colours_of_loops_are_explained_while_loops_are_shown) 
   EXPECT_EQ(count(without, worst), 0UL);
 }
 
+const LoopRecord& selected_loop(MainFrame& frame) {
+  return frame.replay()->snapshot()->loops->at(frame.loops().selected().value());
+}
+
+void select_first_accepted(MainFrame& frame) {
+  const auto& loops = *frame.replay()->snapshot()->loops;
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    if (loops[i].verdict == LoopVerdict::kAccepted) return frame.loops().select(i);
+  FAIL() << "no loop was closed";
+}
+
+TEST_F(MainFrameTest, loops_are_deleted_matched_again_forced_and_undone) {
+  const std::string log = room_log();
+  const std::filesystem::path edits = gui_.folder() / "my.edits";
+  const auto selected_is = [](LoopVerdict verdict) {
+    return [verdict](MainFrame& frame) {
+      return frame.replay()->snapshot()->phase == ReplayPhase::kFinished && frame.loops().selected() &&
+             selected_loop(frame).verdict == verdict;
+    };
+  };
+  gui_.when_phase(ReplayPhase::kPaused)
+      .then([](MainFrame& frame) { frame.go_to(139); })
+      .when("140 scans", [](MainFrame& frame) { return scans(frame) >= 140; })
+      .when("a loop is listed", [](MainFrame& frame) { return frame.loops().table().rows() > 0; })
+      .then([](MainFrame& frame) {
+        EXPECT_FALSE(frame.GetMenuBar()->IsEnabled(kUndo));
+        EXPECT_FALSE(frame.GetMenuBar()->IsEnabled(kDeleteLoop)) << "none is selected";
+        select_first_accepted(frame);
+      })
+      .command(kDeleteLoop);
+  when_says("Delete the loop of scan");
+  gui_.screenshot("loop_deleted")
+      .command(kUndo)
+      .when("it is accepted again",
+            [](MainFrame& frame) { return selected_loop(frame).verdict == LoopVerdict::kAccepted; })
+      .command(kRedo)
+      .when("it is deleted again",
+            [](MainFrame& frame) { return selected_loop(frame).verdict == LoopVerdict::kDeleted; })
+      .command(kSpeed + 3)
+      .command(kPlayOrPause)
+      .when("it survives the rest of the log", selected_is(LoopVerdict::kDeleted))
+      .command(kMatchLoopBy + 2)
+      .when("it is matched again", selected_is(LoopVerdict::kAccepted))
+      .then([](MainFrame& frame) {
+        EXPECT_EQ(selected_loop(frame).matcher, "ga");
+        EXPECT_TRUE(selected_loop(frame).by_hand);
+      })
+      .screenshot("loop_matched_again")
+      .command(kForceLoop)
+      .when("it is forced",
+            [](MainFrame& frame) { return frame.replay()->snapshot()->undo_text.find("force") == 0; })
+      .when_phase(ReplayPhase::kFinished)
+      .then([&](MainFrame& frame) {
+        frame.save_edits(edits);
+        frame.export_to(gui_.folder() / "gui", false);
+      })
+      .close();
+  EXPECT_EQ(gui_.run({log}), 0);
+
+  MappingSession session(log, {});
+  session.set_edits(EditJournal::read(edits));
+  session.run(std::atomic<bool>(false));
+  session.export_to(OutputFolder::prepare(gui_.folder() / "headless", false));
+  expect_same_results(gui_.folder() / "headless", gui_.folder() / "gui");
+  EXPECT_EQ(read_file(edits), read_file(gui_.folder() / "gui" / "loops.edits"));
+}
+
+TEST_F(MainFrameTest, a_loop_is_added_by_two_clicks) {
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kSpeed + 3)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .when("the map is drawn", [](MainFrame& frame) { return frame.replay()->drawn_map() != nullptr; })
+      .pause(500)
+      .command(kAddLoop)
+      .mouse_to("map", 0.5, 0.4)
+      .mouse_down()
+      .mouse_up()
+      .mouse_to("map", 0.52, 0.42)
+      .screenshot("adding_loop")
+      .then([](MainFrame& frame) {
+        EXPECT_TRUE(frame.map().pointing());
+        EXPECT_THAT(frame.GetStatusBar()->GetStatusText().utf8_string(), HasSubstr("earlier pass"));
+      })
+      .mouse_down()
+      .mouse_up()
+      .when("it was matched", [](MainFrame& frame) { return frame.replay()->snapshot()->edited.has_value(); })
+      .when_phase(ReplayPhase::kFinished);
+  when_says("Match scan");
+  gui_.then([](MainFrame& frame) {
+        EXPECT_FALSE(frame.map().pointing());
+        ASSERT_TRUE(frame.loops().selected().has_value());
+        EXPECT_TRUE(selected_loop(frame).by_hand);
+        EXPECT_EQ(selected_loop(frame).verdict, LoopVerdict::kAccepted) << selected_loop(frame).reason;
+      })
+      .screenshot("loop_added");
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
+TEST_F(MainFrameTest, edits_are_opened_from_a_file_and_kept_when_the_log_is_mapped_again) {
+  const std::filesystem::path edits = gui_.folder() / "my.edits";
+  std::ofstream(edits) << "delete scan=120 local_map=0\n";
+  const std::filesystem::path wrong = gui_.folder() / "wrong.edits";
+  std::ofstream(wrong) << "forget scan=120 local_map=0\n";
+  const auto one_edit = [](MainFrame& frame) {
+    return frame.replay()->snapshot()->edits->size() == 1 &&
+           frame.replay()->snapshot()->phase == ReplayPhase::kPaused;
+  };
+  gui_.when_phase(ReplayPhase::kPaused).then([=](MainFrame& frame) { frame.open_edits(wrong); });
+  when_says("wrong.edits:1: \"forget\" is none of");
+  gui_.then([=](MainFrame& frame) { frame.open_edits(edits); })
+      .when("there is an edit", one_edit)
+      .command(kRestart)
+      .when("it is still there", one_edit);
+  EXPECT_EQ(gui_.run({room_log(40)}), 0);
+}
+
 TEST_F(MainFrameTest, what_goes_wrong_is_a_sentence_in_the_bar) {
   const std::string corrupt = write_lines(gui_.folder() / "corrupt.log", {"FLASER 181 1.0 2.0"}).string();
   auto lines = room_log_lines(40);

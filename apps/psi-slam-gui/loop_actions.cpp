@@ -9,6 +9,11 @@
 #include "wx_text.h"
 
 namespace psi_slam {
+namespace {
+
+constexpr int kMargin = 14;  // of a button beside its text
+
+}  // namespace
 
 LoopActions::LoopActions(wxWindow* parent) : wxPanel(parent) {
   SetSizer(new wxBoxSizer(wxHORIZONTAL));
@@ -22,6 +27,7 @@ LoopActions::LoopActions(wxWindow* parent) : wxPanel(parent) {
 void LoopActions::add(int command, const char* label, const char* tip) {
   auto* const button =
       new wxButton(this, command, wxString::FromUTF8(label), wxDefaultPosition, wxDefaultSize, wxBU_EXACTFIT);
+  button->SetMinSize(wxSize(button->GetBestSize().GetWidth() + FromDIP(kMargin), -1));
   button->SetToolTip(wxString::FromUTF8(tip));
   button->Bind(wxEVT_BUTTON, [this, command, button](wxCommandEvent&) {
     if (command == kMatchLoop) {

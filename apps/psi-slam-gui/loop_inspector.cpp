@@ -143,6 +143,7 @@ void LoopInspector::find_chosen() {
     const auto found = std::find_if(loops.rbegin(), loops.rend(), is_chosen);
     selected_.reset();
     if (found != loops.rend()) selected_ = static_cast<std::size_t>(loops.rend() - found) - 1;
+    lost_sight_ = selected_.has_value();
   }
   if (!selected_) return;
   chosen_ = loops[*selected_];
@@ -217,6 +218,7 @@ void LoopInspector::refresh_rows() {
   if (before >= 0 && (!row || before != static_cast<long>(*row)))
     list_->SetItemState(before, 0, wxLIST_STATE_SELECTED);
   if (row) list_->SetItemState(static_cast<long>(*row), wxLIST_STATE_SELECTED, wxLIST_STATE_SELECTED);
+  if (row && std::exchange(lost_sight_, false)) list_->EnsureVisible(static_cast<long>(*row));
   selecting_ = false;
   list_->Refresh();
   describe();

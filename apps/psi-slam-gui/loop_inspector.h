@@ -68,6 +68,7 @@ class LoopInspector : public wxPanel {
   std::shared_ptr<const ReplaySnapshot> snapshot_;
   std::optional<std::size_t> selected_;
   bool selecting_ = false;
+  bool lost_sight_ = false;  ///< the selected loop is listed elsewhere now
   /// The scan and the local map selected: the loops' numbers may change when loops are edited.
   std::optional<LoopRecord> chosen_;
   LoopActions* actions_;

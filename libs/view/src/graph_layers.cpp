@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -17,6 +18,14 @@ using mrpt::opengl::CSetOfLines;
 
 constexpr std::uint8_t kFaint = 45;
 constexpr std::uint8_t kClear = 140;  // what lies below is to be seen, too
+
+// They cover the map long before all are drawn, and what is drawn costs time at every frame of the window.
+constexpr std::size_t kMostLoopsOfLastPass = 3000;
+
+std::size_t last_pass_loops(const ReplaySnapshot& snapshot) {
+  return static_cast<std::size_t>(std::count_if(snapshot.loops->begin(), snapshot.loops->end(),
+                                                [](const LoopRecord& loop) { return loop.in_last_pass; }));
+}
 
 }  // namespace
 
@@ -43,7 +52,10 @@ void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopSty
   layer.clear();
   using Key = std::tuple<bool, std::uint8_t, std::uint8_t, std::uint8_t>;
   std::map<Key, CSetOfLines::Ptr> by_colour;
+  const std::size_t stride = last_pass_loops(snapshot) / kMostLoopsOfLastPass + 1;
+  std::size_t of_last_pass = 0;
   for (const LoopRecord& loop : *snapshot.loops) {
+    if (loop.in_last_pass && !loop.by_hand && of_last_pass++ % stride != 0) continue;
     if (loop.verdict == LoopVerdict::kNotFound) continue;
     const bool was_no_loop = loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kDeleted;
     if (was_no_loop && !style.refused) continue;

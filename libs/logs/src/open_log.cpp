@@ -7,6 +7,7 @@
 #include "psi_slam/logs/carmen_reader.h"
 #include "psi_slam/logs/log_format.h"
 #include "psi_slam/logs/rawlog_reader.h"
+#include "psi_slam/logs/rosbag_reader.h"
 
 namespace psi_slam {
 namespace {
@@ -40,6 +41,11 @@ std::unique_ptr<FrameSource> open_whole_log(const std::filesystem::path& path, c
       return std::make_unique<CarmenReader>(path, options);
     case LogFormat::kMrptRawlog:
       return std::make_unique<RawlogReader>(path, options);
+    case LogFormat::kRos1Bag:
+    case LogFormat::kRos2Sqlite:
+    case LogFormat::kRos2Mcap:
+    case LogFormat::kRos2Folder:
+      return std::make_unique<RosbagReader>(path, options);
   }
   throw SystemFailure("a log format without reader");
 }

@@ -35,6 +35,7 @@ struct RecordedScan {
   float range_min_m = 0.1F;
   float range_max_m = 30;
   float time_increment_s = 0;
+  float scan_time_s = 0.1F;
 };
 
 /// An odometry message; on a topic of transforms, a transform.
@@ -159,7 +160,7 @@ inline std::string cdr(const RecordedScan& scan, bool little_endian) {
   const float angle_max =
       scan.angle_min_rad + scan.angle_increment_rad * static_cast<float>(scan.ranges_m.size() - 1);
   for (const float value : {scan.angle_min_rad, angle_max, scan.angle_increment_rad, scan.time_increment_s,
-                            0.05F, scan.range_min_m, scan.range_max_m})
+                            scan.scan_time_s, scan.range_min_m, scan.range_max_m})
     cdr.number(value);
   cdr.number(static_cast<std::uint32_t>(scan.ranges_m.size()));
   for (const float range : scan.ranges_m) cdr.number(range);

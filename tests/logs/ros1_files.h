@@ -38,8 +38,8 @@ inline std::string ros1_header(TimeUs time_us, const std::string& frame) {
 
 inline std::string ros1_message(const RecordedScan& scan) {
   std::string bytes = ros1_header(scan.time_us, scan.frame);
-  for (const float value : {scan.angle_min_rad, 0.0F, scan.angle_increment_rad, scan.time_increment_s, 0.05F,
-                            scan.range_min_m, scan.range_max_m})
+  for (const float value : {scan.angle_min_rad, 0.0F, scan.angle_increment_rad, scan.time_increment_s,
+                            scan.scan_time_s, scan.range_min_m, scan.range_max_m})
     bytes += ros1_packed(value);
   bytes += ros1_packed(static_cast<std::uint32_t>(scan.ranges_m.size()));
   for (const float range : scan.ranges_m) bytes += ros1_packed(range);

@@ -101,6 +101,7 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   diagnosis.path = path;
   diagnosis.options = options;
   diagnosis.options.every_nth_scan = 1;
+  diagnosis.options.sweep_time_s = 0;  // the log is judged as it was recorded
   FirstPass pass = read_once(path, diagnosis.options);
   diagnosis.facts = pass.facts;
   if (!pass.states_beam_angles) {

@@ -10,6 +10,18 @@
 #include "psi_slam/logs/range_filter.h"
 
 namespace psi_slam {
+namespace {
+
+/// Drivers that do not know leave it 0, and some state nonsense: longer than there is time between scans, or
+/// than any laser takes.
+float sweep_time_s(const RosLaserScan& message) {
+  constexpr float kMost_s = 1;
+  const float sweep_s = message.time_increment_s * static_cast<float>(message.ranges_m.size() - 1);
+  const float most_s = message.scan_time_s > 0 ? std::min(kMost_s, 1.5F * message.scan_time_s) : kMost_s;
+  return sweep_s > 0 && sweep_s <= most_s ? sweep_s : 0;
+}
+
+}  // namespace
 
 bool RosLaser::Geometry::operator==(const Geometry& other) const {
   return beams == other.beams && angle_min_rad == other.angle_min_rad &&
@@ -55,6 +67,7 @@ LaserScan RosLaser::scan(RosLaserScan message, const FloorMount& mount, const st
   LaserScan scan;
   scan.bearings_rad = bearings_;
   scan.robot_T_laser = options_.robot_T_laser.value_or(mount.robot_T_laser);
+  scan.sweep_time_s = sweep_time_s(message);
   const bool states_maximum = std::isfinite(message.range_max_m) && message.range_max_m > 0;
   scan.max_range_m = static_cast<float>(options_.max_range_m.value_or(
       states_maximum ? static_cast<double>(message.range_max_m) : kUnstatedMaxRange_m));

@@ -41,6 +41,11 @@ struct LogOptions {
   /// Default: the front laser if there is one, else the only one; of a rawlog, the first.
   std::string laser;
 
+  /// The time from the first beam of a scan to its last, seconds, in [0, 1]: the robot's motion in it is
+  /// taken out of the scan. Default: what the log states (ROS: time_increment), else 0, which leaves scans
+  /// alone.
+  std::optional<double> sweep_time_s;
+
   // ROS bags only. What is left empty is found by the types of the topics and by the transforms.
 
   /// The topic of the scans (sensor_msgs/LaserScan).

@@ -67,7 +67,9 @@ TEST(OpenLog, refuses_options_that_make_no_sense) {
 TEST(OpenLog, says_what_stands_in_the_way) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "log";
-  const std::string expected = ", expected an MRPT .rawlog or a CARMEN log, plain or gzipped";
+  const std::string expected =
+      ", expected a CARMEN log or an MRPT .rawlog, plain or gzipped, or a ROS bag (.bag, .db3, .mcap, or the "
+      "folder of a ROS 2 bag)";
   EXPECT_EQ(sentence_of([&] { open_log(path); }), path.string() + " does not exist" + expected);
   write_file(path, "");
   EXPECT_EQ(sentence_of([&] { open_log(path); }), path.string() + " is empty" + expected);

@@ -11,6 +11,7 @@
 #include "psi_slam/logs/log_format.h"
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/logs/rawlog_reader.h"
+#include "psi_slam/logs/rosbag_reader.h"
 
 namespace psi_slam {
 namespace {
@@ -60,11 +61,15 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
     pass.facts.skipped = statistics.skipped;
     pass.facts.scans_with_two_poses = statistics.scans_with_two_poses;
     pass.states_beam_angles = statistics.laser_message != "FLASER" && statistics.laser_message != "RLASER";
-  } else {
+  } else if (format == LogFormat::kMrptRawlog) {
     RawlogReader log(path, unlimited);
     collect(log);
     pass.facts.laser = log.statistics().sensor_label;
     pass.facts.other_lasers = log.statistics().scans_of_other_lasers;
+  } else {
+    RosbagReader log(path, unlimited);
+    collect(log);
+    pass.facts.laser = log.statistics().scans;
   }
   pass.facts.format = name_of(format);
   pass.marks = collector.marks();
@@ -96,6 +101,7 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   diagnosis.path = path;
   diagnosis.options = options;
   diagnosis.options.every_nth_scan = 1;
+  diagnosis.options.sweep_time_s = 0;  // the log is judged as it was recorded
   FirstPass pass = read_once(path, diagnosis.options);
   diagnosis.facts = pass.facts;
   if (!pass.states_beam_angles) {

@@ -3,27 +3,35 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <system_error>
 
 #include "psi_slam/base/compressed_file.h"
 #include "psi_slam/base/user_error.h"
+#include "psi_slam/logs/bag_compression.h"
+#include "psi_slam/logs/bag_folder.h"
 
 namespace psi_slam {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExpected = ", expected an MRPT .rawlog or a CARMEN log, plain or gzipped";
+constexpr const char* kExpected =
+    ", expected a CARMEN log or an MRPT .rawlog, plain or gzipped, or a ROS bag (.bag, .db3, .mcap, or the "
+    "folder of a ROS 2 bag)";
 constexpr std::size_t kHeadBytes = std::size_t{256} * 1024;
 
 bool starts_with(std::string_view text, std::string_view beginning) {
   return text.substr(0, beginning.size()) == beginning;
 }
 
-bool is_rosbag(std::string_view head) {
+std::optional<LogFormat> bag_format(std::string_view head) {
   constexpr std::string_view kSqlite("SQLite format 3\0", 16);
-  return starts_with(head, "#ROSBAG") || starts_with(head, "\x89MCAP") || starts_with(head, kSqlite);
+  if (starts_with(head, "#ROSBAG")) return LogFormat::kRos1Bag;
+  if (starts_with(head, "\x89MCAP")) return LogFormat::kRos2Mcap;
+  if (starts_with(head, kSqlite)) return LogFormat::kRos2Sqlite;
+  return std::nullopt;
 }
 
 /// An MRPT archive begins with an object: one byte, the length of its class's name with the highest bit set,
@@ -63,24 +71,40 @@ bool is_carmen(std::string_view head) {
 }  // namespace
 
 std::string_view name_of(LogFormat format) {
-  return format == LogFormat::kCarmen ? "CARMEN" : "MRPT rawlog";
+  switch (format) {
+    case LogFormat::kCarmen:
+      return "CARMEN";
+    case LogFormat::kMrptRawlog:
+      return "MRPT rawlog";
+    case LogFormat::kRos1Bag:
+      return "ROS 1 bag";
+    case LogFormat::kRos2Sqlite:
+      return "ROS 2 bag (SQLite)";
+    case LogFormat::kRos2Mcap:
+      return "ROS 2 bag (MCAP)";
+    case LogFormat::kRos2Folder:
+      return "ROS 2 bag (folder)";
+  }
+  return "unknown";
 }
 
 LogFormat detect_log_format(const fs::path& path) {
   std::error_code ignored;
-  if (fs::is_directory(path, ignored) && fs::exists(path / "metadata.yaml", ignored))
-    throw UserError(path.string() + " is a ROS bag, which is not supported yet" + kExpected);
-  if (fs::is_directory(path, ignored)) throw UserError(path.string() + " is a folder" + kExpected);
   if (!fs::exists(path, ignored)) throw UserError(path.string() + " does not exist" + kExpected);
+  if (fs::is_directory(path, ignored)) {
+    if (!files_of_bag_folder(path).empty()) return LogFormat::kRos2Folder;
+    throw UserError(path.string() + " is a folder" + kExpected);
+  }
   CompressedFile file(path);
   std::string head(kHeadBytes, '\0');
   head.resize(file.read(head.data(), head.size()));
   if (head.empty()) throw UserError(path.string() + " is empty" + kExpected);
-  if (is_rosbag(head))
-    throw UserError(path.string() + " is a ROS bag, which is not supported yet" + kExpected);
+  if (const auto format = bag_format(head)) return *format;
   if (is_mrpt_archive(head)) return LogFormat::kMrptRawlog;
   if (is_carmen(head)) return LogFormat::kCarmen;
-  throw UserError(path.string() + " is neither of the formats that are read" + kExpected);
+  if (is_zstd(head))
+    throw UserError(path.string() + " is compressed by zstd, expected it unpacked: zstd -d unpacks it");
+  throw UserError(path.string() + " is none of the formats that are read" + kExpected);
 }
 
 }  // namespace psi_slam

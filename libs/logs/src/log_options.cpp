@@ -30,6 +30,8 @@ void check_log_options(const LogOptions& options) {
   if (!(options.min_range_m >= 0)) fail("log.min_range_m", options.min_range_m, "0 metres or more");
   if (options.max_range_m && !(*options.max_range_m > options.min_range_m))
     fail("log.max_range_m", *options.max_range_m, "more metres than log.min_range_m");
+  if (options.sweep_time_s && !(*options.sweep_time_s >= 0 && *options.sweep_time_s <= 1))
+    fail("log.sweep_time_s", *options.sweep_time_s, "0 to 1 seconds");
   if (options.robot_T_laser &&
       !(std::isfinite(options.robot_T_laser->x) && std::isfinite(options.robot_T_laser->y) &&
         std::isfinite(options.robot_T_laser->phi)))

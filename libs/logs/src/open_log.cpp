@@ -5,8 +5,10 @@
 
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/carmen_reader.h"
+#include "psi_slam/logs/deskewed_source.h"
 #include "psi_slam/logs/log_format.h"
 #include "psi_slam/logs/rawlog_reader.h"
+#include "psi_slam/logs/rosbag_reader.h"
 
 namespace psi_slam {
 namespace {
@@ -34,21 +36,36 @@ class ThinnedSource : public FrameSource {
   std::size_t every_nth_;
 };
 
-std::unique_ptr<FrameSource> open_whole_log(const std::filesystem::path& path, const LogOptions& options) {
-  switch (detect_log_format(path)) {
+std::unique_ptr<FrameSource> open_as_recorded(const std::filesystem::path& path, LogFormat format,
+                                              const LogOptions& options) {
+  switch (format) {
     case LogFormat::kCarmen:
       return std::make_unique<CarmenReader>(path, options);
     case LogFormat::kMrptRawlog:
       return std::make_unique<RawlogReader>(path, options);
+    case LogFormat::kRos1Bag:
+    case LogFormat::kRos2Sqlite:
+    case LogFormat::kRos2Mcap:
+    case LogFormat::kRos2Folder:
+      return std::make_unique<RosbagReader>(path, options);
   }
   throw SystemFailure("a log format without reader");
+}
+
+/// Only bags may state how long a sweep takes.
+bool may_be_skewed(LogFormat format, const LogOptions& options) {
+  const bool is_bag = format != LogFormat::kCarmen && format != LogFormat::kMrptRawlog;
+  return options.sweep_time_s ? *options.sweep_time_s > 0 : is_bag;
 }
 
 }  // namespace
 
 std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const LogOptions& options) {
   check_log_options(options);
-  auto source = open_whole_log(path, options);
+  const LogFormat format = detect_log_format(path);
+  auto source = open_as_recorded(path, format, options);
+  if (may_be_skewed(format, options))
+    source = std::make_unique<DeskewedSource>(std::move(source), options.sweep_time_s);
   if (options.every_nth_scan == 1) return source;
   return std::make_unique<ThinnedSource>(std::move(source), options.every_nth_scan);
 }

@@ -1,28 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/logs/rawlog_laser.h"
 
-#include <mrpt/core/bits_math.h>
-#include <mrpt/poses/CPose3D.h>
-
-#include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 
 #include "psi_slam/base/user_error.h"
+#include "psi_slam/logs/floor_mount.h"
 #include "psi_slam/logs/range_filter.h"
 
 namespace psi_slam {
-namespace {
-
-const double kMaxTilt_rad = mrpt::DEG2RAD(15.0);
-
-/// The angle between the laser's plane and the floor, in [0, pi/2].
-double tilt_rad(const mrpt::math::CMatrixDouble33& rotation) {
-  return std::acos(std::min(1.0, std::abs(rotation(2, 2))));
-}
-
-}  // namespace
 
 std::vector<float> RawlogLaser::bearings_rad(std::size_t beams, double aperture_rad, bool clockwise) const {
   const bool as_the_log_says = options_.beam_angles == BeamAngles::kAuto;
@@ -37,15 +23,8 @@ std::vector<float> RawlogLaser::bearings_rad(std::size_t beams, double aperture_
 LaserScan RawlogLaser::scan(const mrpt::obs::CObservation2DRangeScan& observation, const std::string& place) {
   const std::size_t beams = observation.getScanSize();
   if (beams == 0) throw UserError(place + ": the scan has 0 rays, expected 1 or more");
-  const mrpt::math::CMatrixDouble33 rotation = observation.sensorPose.getRotationMatrix();
-  if (tilt_rad(rotation) > kMaxTilt_rad) {
-    char degrees[32];
-    std::snprintf(degrees, sizeof degrees, "%.0f", mrpt::RAD2DEG(tilt_rad(rotation)));
-    throw UserError(place + ": the laser is tilted by " + degrees +
-                    " degrees, expected one that looks along the floor to 15 degrees");
-  }
-  const bool upside_down = rotation(2, 2) < 0;
-  const bool clockwise = (upside_down == observation.rightToLeft) != options_.mirrored;
+  const FloorMount mount = floor_mount(observation.sensorPose, place);
+  const bool clockwise = (mount.upside_down == observation.rightToLeft) != options_.mirrored;
   const auto aperture_rad = static_cast<double>(observation.aperture);
   if (!bearings_ || beams != beams_ || aperture_rad != aperture_rad_ || clockwise != clockwise_) {
     bearings_ = std::make_shared<const std::vector<float>>(bearings_rad(beams, aperture_rad, clockwise));
@@ -56,8 +35,7 @@ LaserScan RawlogLaser::scan(const mrpt::obs::CObservation2DRangeScan& observatio
 
   LaserScan scan;
   scan.bearings_rad = bearings_;
-  scan.robot_T_laser = options_.robot_T_laser.value_or(mrpt::math::TPose2D{
-      observation.sensorPose.x(), observation.sensorPose.y(), std::atan2(rotation(1, 0), rotation(0, 0))});
+  scan.robot_T_laser = options_.robot_T_laser.value_or(mount.robot_T_laser);
   const bool states_maximum = observation.maxRange > 0;
   scan.max_range_m = static_cast<float>(options_.max_range_m.value_or(
       states_maximum ? static_cast<double>(observation.maxRange) : kUnstatedMaxRange_m));

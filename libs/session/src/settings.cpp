@@ -34,6 +34,17 @@ void describe_log(OptionTable& table, Settings& settings) {
       .optional_number("laser_y_m", settings.laser_mount.y_m, any_number(), "m", "the same to the left")
       .optional_angle_deg("laser_yaw_deg", settings.laser_mount.yaw_rad, between(-360, 360),
                           "where it looks, counter-clockwise from straight ahead")
+      .optional_number(
+          "sweep_time_s", log.sweep_time_s, between(0, 1), "s",
+          "from the first beam of a scan to its last: the motion meanwhile is taken out; auto: what "
+          "the log says, 0 leaves scans alone")
+      .text("scan_topic", log.scan_topic, "ROS bags: the topic of the scans; empty: the only one of its type")
+      .text("odometry_topic", log.odometry_topic,
+            "ROS bags: the topic of the odometry, or /tf; empty: the only one of its type, else /tf")
+      .text("odom_frame", log.odom_frame,
+            "ROS bags: the frame that odometry is told in; empty: the one above the laser that is named so")
+      .text("base_frame", log.base_frame,
+            "ROS bags: the robot's frame, which odometry moves; empty: the odometry's own child frame")
       .integer("every_nth_scan", log.every_nth_scan, at_least(1), "scans",
                "1 maps every scan, 2 every second one, and so on");
 }

@@ -27,6 +27,8 @@ struct LaserScan {
   BeamBearings bearings_rad;
   float max_range_m = 0;  ///< of the sensor: what it reports beyond this is "no return"
   mrpt::math::TPose2D robot_T_laser;
+  float sweep_time_s =
+      0;  ///< from the first beam, at the frame's time, to the last; 0: all at once, or not said
 };
 
 /// One scan with the robot's odometry at the scan's own time.

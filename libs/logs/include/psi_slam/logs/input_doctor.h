@@ -49,8 +49,8 @@ struct LogDiagnosis {
   std::vector<Finding> findings;
 };
 
-/// Reads the whole log (`options.every_nth_scan` is not applied) and fills everything. A log that
-/// breaks off is judged up to there. Throws UserError when not even its first scan can be read.
+/// Reads the whole log (`options.every_nth_scan` and `sweep_time_s` are not applied) and fills everything. A
+/// log that breaks off is judged up to there. Throws UserError when not even its first scan can be read.
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options = {});
 
 /// What follows from the measurements: the warnings first, then the notes. `diagnose` has called it.

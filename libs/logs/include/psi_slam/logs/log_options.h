@@ -15,8 +15,9 @@ namespace psi_slam {
 /// itself, or, where the log does not say, from the convention of its format as told at each member.
 struct LogOptions {
   /// Pose of the laser on the robot. Default: the log's own (CARMEN: PARAM robot_frontlaser_offset and kin,
-  /// or the difference of the poses of raw ROBOTLASER lines; rawlog: the sensor's pose); CARMEN logs that do
-  /// not say have the front laser in the robot's centre, and the rear one there looking backwards.
+  /// or the difference of the poses of raw ROBOTLASER lines; rawlog: the sensor's pose; ROS: the transforms);
+  /// CARMEN logs that do not say have the front laser in the robot's centre, and the rear one there looking
+  /// backwards.
   std::optional<mrpt::math::TPose2D> robot_T_laser;
 
   /// How the beams share the field of view. Default: what the log states, else `usual_beam_angles`.
@@ -39,6 +40,26 @@ struct LogOptions {
   /// Which laser. CARMEN: "front", "rear" or a message name such as "RAWLASER2"; rawlog: a sensor label.
   /// Default: the front laser if there is one, else the only one; of a rawlog, the first.
   std::string laser;
+
+  /// The time from the first beam of a scan to its last, seconds, in [0, 1]: the robot's motion in it is
+  /// taken out of the scan. Default: what the log states (ROS: time_increment), else 0, which leaves scans
+  /// alone.
+  std::optional<double> sweep_time_s;
+
+  // ROS bags only. What is left empty is found by the types of the topics and by the transforms.
+
+  /// The topic of the scans (sensor_msgs/LaserScan).
+  std::string scan_topic;
+
+  /// The topic of the odometry (nav_msgs/Odometry); one of transforms ("/tf") takes the transform instead.
+  std::string odometry_topic;
+
+  /// The frame that odometry is told in. Default: the nearest above the laser whose name has "odom" in it.
+  std::string odom_frame;
+
+  /// The robot's frame, which odometry moves. Default: the child frame of the odometry's messages, or that
+  /// of the transform from odom_frame.
+  std::string base_frame;
 
   /// 2 takes every second scan, and so on; odometry stays that of each scan's own time.
   std::size_t every_nth_scan = 1;

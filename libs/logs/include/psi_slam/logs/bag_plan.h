@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "psi_slam/logs/bag_file.h"
+#include "psi_slam/logs/log_options.h"
+#include "psi_slam/logs/transform_tree.h"
+
+namespace psi_slam {
+
+/// What of a ROS bag is read.
+struct BagPlan {
+  std::vector<std::string> scan_topics;
+  std::string odometry_topic;  ///< empty: odometry is the transform from odom_frame to base_frame
+  std::vector<std::string> transform_topics;
+  std::string odom_frame;
+  std::string base_frame;    ///< the robot's: that which odometry moves
+  TransformTree transforms;  ///< as far as they were needed to find the frames
+
+  /// All topics to read.
+  std::vector<std::string> topics() const;
+};
+
+/// The poses of robots in bags come from a topic of their own or from a transform.
+bool is_transforms(const BagTopic& topic);
+
+/// Finds the topics by their types, or by name where the user names them, and the frames by reading on until
+/// all are known. Throws UserError when something is missing, or there are several and none is named.
+BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options);
+
+}  // namespace psi_slam

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "class_verbosity.h"
+#include "passed_user_error.h"
 #include "psi_slam/graphslam/graphslam_settings.h"
 #include "psi_slam/mapping/carried_frames.h"
 #include "psi_slam/pose_graph/information_matrix.h"
@@ -32,7 +33,8 @@ void keep_local_maps(const std::vector<PlacedLocalMap>& finished, PlaceMemory& m
 }  // namespace
 
 CPsiFrontEndNRD::CPsiFrontEndNRD() : map_(std::make_shared<SharedMap>()) {
-  initializeLoggers("CPsiFrontEndNRD");
+  setClassName("CPsiFrontEndNRD");
+  logging_enable_keep_record = true;
   map_->memory.shelf = std::make_shared<LocalMapShelf>(kUnpackedLocalMaps);
 }
 
@@ -40,7 +42,7 @@ CPsiFrontEndNRD::~CPsiFrontEndNRD() = default;
 
 void CPsiFrontEndNRD::loadParams(const std::string& source_fname) {
   BoundSettings bound;
-  load_graphslam_settings(source_fname, bound);
+  through_engine([&] { load_graphslam_settings(source_fname, bound); });
   const Settings& settings = bound.settings;
   options_ = {settings.mapper.front_end, settings.mapper.local_map_sigma_m,
               settings.mapper.local_map_sigma_rad};
@@ -58,6 +60,12 @@ void CPsiFrontEndNRD::set_log_options(const LogOptions& options) {
 bool CPsiFrontEndNRD::updateState(mrpt::obs::CActionCollection::Ptr action,
                                   mrpt::obs::CSensoryFrame::Ptr observations,
                                   mrpt::obs::CObservation::Ptr observation) {
+  return through_engine([&] { return update(action, observations, observation); });
+}
+
+bool CPsiFrontEndNRD::update(const mrpt::obs::CActionCollection::Ptr& action,
+                             const mrpt::obs::CSensoryFrame::Ptr& observations,
+                             const mrpt::obs::CObservation::Ptr& observation) {
   // The engine has moved all nodes since its last new one; others may have added edges.
   map_->mirror.read(*m_graph);
   if (map_->solver)

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "class_verbosity.h"
-#include "psi_slam/base/user_error.h"
+#include "passed_user_error.h"
 #include "psi_slam/graphslam/graphslam_settings.h"
 
 namespace psi_slam {
@@ -33,14 +33,15 @@ LoopKeeperOptions keeper_options(const Settings& settings) {
 }  // namespace
 
 CPsiLoopCloserERD::CPsiLoopCloserERD() {
-  initializeLoggers("CPsiLoopCloserERD");
+  setClassName("CPsiLoopCloserERD");
+  logging_enable_keep_record = true;
 }
 
 CPsiLoopCloserERD::~CPsiLoopCloserERD() = default;
 
 void CPsiLoopCloserERD::loadParams(const std::string& source_fname) {
   BoundSettings bound;
-  load_graphslam_settings(source_fname, bound);
+  through_engine([&] { load_graphslam_settings(source_fname, bound); });
   keeper_ = std::make_unique<LoopKeeper>(keeper_options(bound.settings));
   passes_ = bound.settings.mapper.last_pass.passes;
   refinement_ = bound.settings.mapper.joint_refinement;
@@ -50,14 +51,15 @@ void CPsiLoopCloserERD::loadParams(const std::string& source_fname) {
 
 SharedMap& CPsiLoopCloserERD::map() const {
   if (!map_)
-    throw UserError("CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD: take that as the node decider");
+    throw UserError(
+        "CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD: take that as the node decider");
   return *map_;
 }
 
 bool CPsiLoopCloserERD::updateState(mrpt::obs::CActionCollection::Ptr /*action*/,
                                     mrpt::obs::CSensoryFrame::Ptr /*observations*/,
                                     mrpt::obs::CObservation::Ptr /*observation*/) {
-  const std::size_t made = close_loops_of_new_nodes();
+  const std::size_t made = through_engine([&] { return close_loops_of_new_nodes(); });
   m_just_inserted_lc = made > 0;
   if (made > 0) map().mirror.publish(*m_graph);
   return true;

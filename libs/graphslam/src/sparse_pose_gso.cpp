@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "class_verbosity.h"
+#include "passed_user_error.h"
 #include "psi_slam/graphslam/graphslam_settings.h"
 #include "psi_slam/pose_graph/constraint_error.h"
 
@@ -19,7 +20,8 @@ constexpr double kGrowthForSmallNews = 1e-3;
 }  // namespace
 
 CPsiSpaGSO::CPsiSpaGSO() : map_(std::make_shared<SharedMap>()) {
-  initializeLoggers("CPsiSpaGSO");
+  setClassName("CPsiSpaGSO");
+  logging_enable_keep_record = true;
   map_->solver.emplace();
 }
 
@@ -32,7 +34,7 @@ void CPsiSpaGSO::share(std::shared_ptr<SharedMap> map) {
 
 void CPsiSpaGSO::loadParams(const std::string& source_fname) {
   BoundSettings bound;
-  load_graphslam_settings(source_fname, bound);
+  through_engine([&] { load_graphslam_settings(source_fname, bound); });
   map_->solver->set_options(bound.settings.mapper.pose_graph);
   params_text_ = graphslam_options_text(bound.table, kOptimizerSection);
   setMinLoggingLevel(class_verbosity(source_fname, kOptimizerSection));
@@ -42,9 +44,11 @@ bool CPsiSpaGSO::updateState(mrpt::obs::CActionCollection::Ptr /*action*/,
                              mrpt::obs::CSensoryFrame::Ptr /*observations*/,
                              mrpt::obs::CObservation::Ptr /*observation*/) {
   just_optimized_ = false;
-  map_->mirror.read(*m_graph);
-  news_ = std::max(news_, contradiction_of_new_edges());
-  if (is_time_to_optimize()) optimizeGraph();
+  through_engine([&] {
+    map_->mirror.read(*m_graph);
+    news_ = std::max(news_, contradiction_of_new_edges());
+    if (is_time_to_optimize()) optimizeGraph();
+  });
   if (just_optimized_ || stale_) map_->mirror.write_poses(*m_graph);
   stale_ = m_graph->nodes.size() != nodes_in_graph_;
   nodes_in_graph_ = m_graph->nodes.size();

@@ -15,7 +15,8 @@ namespace {
 constexpr const char* kTooFewAgree = "found in a wide window, and too few other matches agree with it";
 
 std::string contradiction_text(double chi) {
-  return "the other constraints contradict it by " + std::to_string(std::lround(chi)) + " standard deviations";
+  return "the other constraints contradict it by " + std::to_string(std::lround(chi)) +
+         " standard deviations";
 }
 
 }  // namespace
@@ -68,8 +69,7 @@ void LoopKeeper::accept(std::size_t index, PoseGraph& graph) {
   constraint.from = loop.anchor;
   constraint.to = loop.node;
   constraint.from_T_to = loop.anchor_T_node;
-  constraint.information =
-      noisy_information(loop.covariance, options_.loop_sigma_m, options_.loop_sigma_rad);
+  constraint.information = noisy_information(loop.covariance, options_.loop_sigma_m, options_.loop_sigma_rad);
   loop_of_constraint_.emplace_back(graph.add_constraint(constraint), index);
 }
 
@@ -82,7 +82,9 @@ void LoopKeeper::run_last_pass(const PlaceMemory& memory, PoseGraph& graph,
       memory, graph,
       [&](std::size_t node) -> const Matcher& { return policy_.matcher(matcher_of_node_.at(node)); },
       options_.loop_closure.verification, options_.last_pass,
-      [&](std::size_t node, std::size_t local_map) { return known.count({node, local_map}) > 0; },
+      [&](std::size_t node, std::size_t local_map) {
+        return known.count({node, local_map}) > 0;
+      },
       options_.seed, pool_, progress);
   for (LoopRecord& loop : outcome.loops) {
     loops_.push_back(std::move(loop));

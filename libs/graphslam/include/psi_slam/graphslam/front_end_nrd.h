@@ -52,6 +52,9 @@ class CPsiFrontEndNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecid
   bool checkRegistrationCondition() override;
 
  private:
+  bool update(const mrpt::obs::CActionCollection::Ptr& action,
+              const mrpt::obs::CSensoryFrame::Ptr& observations,
+              const mrpt::obs::CObservation::Ptr& observation);
   bool add(const Frame& frame);
   void add_node();
 

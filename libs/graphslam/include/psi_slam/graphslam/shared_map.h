@@ -14,8 +14,8 @@ namespace psi_slam {
 /// nothing but the graph. connect_deciders() gives all three the same one.
 struct SharedMap {
   GraphMirror mirror;
-  PlaceMemory memory;                         ///< by the node decider
-  std::vector<double> odometry_m;             ///< by node: length of odometry's path up to there
+  PlaceMemory memory;                          ///< by the node decider
+  std::vector<double> odometry_m;              ///< by node: length of odometry's path up to there
   std::optional<SparsePoseAdjustment> solver;  ///< where the optimizer is ours: then poses are the mirror's
 };
 

@@ -3,8 +3,8 @@
 // graph is optimised at once when a new edge is contradicted by more than five standard deviations; for
 // smaller news only after it has grown by a thousandth.
 //
-// MRPT's engine sets all poses anew after each new node; ours come back with the next entry, and with finish()
-// after the last one.
+// MRPT's engine sets all poses anew after each new node; ours come back with the next entry, and with
+// finish() after the last one.
 #pragma once
 
 #include <mrpt/graphslam/interfaces/CGraphSlamOptimizer.h>

@@ -34,7 +34,8 @@ struct LoopKeeperOptions {
   LastPassOptions last_pass;
   double loop_sigma_m = 0.02;  ///< of a loop, on top of its match's covariance
   double loop_sigma_rad = radians_from_degrees(0.25L);
-  double max_loop_chi = 5.0;  ///< a loop that the graph contradicts by more standard deviations is switched off
+  double max_loop_chi =
+      5.0;  ///< a loop that the graph contradicts by more standard deviations is switched off
   std::uint64_t seed = 1;
   int threads = 1;  ///< that match loops; no result depends on it
 };
@@ -52,7 +53,8 @@ class LoopKeeper {
 
   /// Matches all nodes near a local map once more, and adds what is believed. `progress` is told the share
   /// done; when it returns false, the search ends there.
-  void run_last_pass(const PlaceMemory& memory, PoseGraph& graph, const std::function<bool(double)>& progress);
+  void run_last_pass(const PlaceMemory& memory, PoseGraph& graph,
+                     const std::function<bool(double)>& progress);
 
   /// Optimises the graph and switches off the loops that it contradicts.
   void settle(PoseGraph& graph, SparsePoseAdjustment& solver);

@@ -29,7 +29,8 @@ inline bool is_information_matrix(const Eigen::Matrix3d& information) {
 }
 
 /// The inverse of a covariance of (x, y, theta) to which independent noise is added.
-inline Eigen::Matrix3d noisy_information(const Eigen::Matrix3d& covariance, double sigma_m, double sigma_rad) {
+inline Eigen::Matrix3d noisy_information(const Eigen::Matrix3d& covariance, double sigma_m,
+                                         double sigma_rad) {
   const Eigen::Vector3d noise(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
   const Eigen::Matrix3d inverse = (covariance + Eigen::Matrix3d(noise.asDiagonal())).inverse();
   return (inverse + inverse.transpose()) / 2;

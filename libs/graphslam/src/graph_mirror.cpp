@@ -70,7 +70,8 @@ void GraphMirror::add_nodes_of(const MrptGraph& network) {
     if (node == network.nodes.end())
       throw UserError("the pose graph has no node " + std::to_string(id) + ": its " +
                       std::to_string(network.nodes.size()) + " nodes must be numbered from 0 without a gap");
-    TPose2D pose = node->second.asTPose();
+    // Where MRPT's deciders register it the root has another pose, but the engine keeps it at the origin.
+    TPose2D pose = id == network.root ? TPose2D(0, 0, 0) : node->second.asTPose();
     for (const auto& [ends, edge] : network.edges) {
       const bool leads_here = ends.second == id && ends.first < graph_.num_nodes();
       if (!leads_here) continue;

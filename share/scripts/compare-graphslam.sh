@@ -5,7 +5,7 @@
 #
 #     share/scripts/compare-graphslam.sh FOLDER [OUTPUT]     # FOLDER is the one that fetch-benchmark-logs.sh has filled
 #
-# LOGS are the names of the logs, by default all five; LIMIT_S is how many seconds a run may take, by default 900.
+# LOGS are the names of the logs, by default all five; LIMIT_S is how many seconds of processor time a run may take, by default 900.
 # Needs the programs that share/scripts/build.sh builds; PSI_SLAM_BUILD is the folder where they were built if not
 # build/release. The results are left in OUTPUT/LOG/DECIDERS, by default out/graphslam/LOG/DECIDERS.
 set -euo pipefail
@@ -52,12 +52,12 @@ run() {
   mkdir -p "$3"
   settings "$1" >"$3/graphslam.ini"
   TIMEFORMAT='%U %S %R'
-  { time timeout "$limit_s" "$psi_graphslam" -i "$3/graphslam.ini" -r "$folder/$1.clf.gz" -n "$node" -e "$edge" \
-    -o "$optimizer" --disable-visuals --output-dir "$3/results" </dev/null >"$3/messages" 2>&1; } 2>"$3/times" ||
+  { time (ulimit -S -t "$limit_s" && exec "$psi_graphslam" -i "$3/graphslam.ini" -r "$folder/$1.clf.gz" -n "$node" -e "$edge" \
+    -o "$optimizer" --disable-visuals --output-dir "$3/results") </dev/null >"$3/messages" 2>&1; } 2>"$3/times" ||
     status=$?
   case $status in
     0) "$psi_slam_eval" --json "$3/results/trajectory.tum" "$folder/$1.relations" >"$3/evaluation.json" ;;
-    124) echo "not finished in $limit_s s" >"$3/end" ;;
+    152) echo "not finished in $limit_s s of processor time" >"$3/end" ;;  # SIGXCPU
     1[3-9]*) echo "crashed (signal $((status - 128)))" >"$3/end" ;;
     *) tail -n 1 "$3/messages" >"$3/end" ;;
   esac

@@ -52,8 +52,12 @@ run() {
   mkdir -p "$3"
   settings "$1" >"$3/graphslam.ini"
   TIMEFORMAT='%U %S %R'
-  { time (ulimit -S -t "$limit_s" && exec "$psi_graphslam" -i "$3/graphslam.ini" -r "$folder/$1.clf.gz" -n "$node" -e "$edge" \
-    -o "$optimizer" --disable-visuals --output-dir "$3/results") </dev/null >"$3/messages" 2>&1; } 2>"$3/times" ||
+  # shellcheck disable=SC2016  # the inner shell expands them
+  {
+    time bash -c 'ulimit -S -t "$0" && exec "$@"' "$limit_s" "$psi_graphslam" -i "$3/graphslam.ini" \
+      -r "$folder/$1.clf.gz" -n "$node" -e "$edge" -o "$optimizer" --disable-visuals --output-dir "$3/results" \
+      </dev/null >"$3/messages" 2>&1
+  } 2>"$3/times" ||
     status=$?
   case $status in
     0) "$psi_slam_eval" --json "$3/results/trajectory.tum" "$folder/$1.relations" >"$3/evaluation.json" ;;

@@ -2,29 +2,15 @@
 #include "rival_log.h"
 
 #include <mrpt/io/CFileOutputStream.h>
-#include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/logs/rawlog_objects.h"
 #include "psi_slam/results/range_observation.h"
+#include "psi_slam/results/robot_action.h"
 
 namespace psi_slam {
-namespace {
-
-mrpt::obs::CActionCollection movement(const mrpt::math::TPose2D& motion, TimeUs time_us) {
-  mrpt::obs::CActionRobotMovement2D action;
-  action.timestamp = mrpt_clock_time(time_us);  // icp-slam refuses one without
-  action.computeFromOdometry(mrpt::poses::CPose2D(motion),
-                             mrpt::obs::CActionRobotMovement2D::TMotionModelOptions());
-  return mrpt::obs::CActionCollection(action);
-}
-
-}  // namespace
-
 std::vector<TimeUs> write_rival_log(FrameSource& source, const std::filesystem::path& path,
                                     const std::function<bool()>& stop) {
   std::vector<TimeUs> times;
@@ -39,7 +25,7 @@ std::vector<TimeUs> write_rival_log(FrameSource& source, const std::filesystem::
       odom_T_last = frame->odom_T_robot;
       mrpt::obs::CSensoryFrame observations;
       observations.insert(range_observation(*frame));
-      archive << movement(motion, frame->time_us) << observations;
+      archive << robot_action(motion, frame->time_us) << observations;
       times.push_back(frame->time_us);
     }
   });

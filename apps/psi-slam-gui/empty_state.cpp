@@ -20,7 +20,7 @@ EmptyState::EmptyState(wxWindow* parent, const std::function<void()>& open) : wx
   column->Add(title, 0, wxALIGN_CENTRE | wxALL, gap);
   auto* text = new wxStaticText(
       this, wxID_ANY,
-      "Drop a log here, or open one: CARMEN (.log, .clf) or MRPT (.rawlog), gzipped or not.\n"
+      "Drop a log here, or open one: CARMEN (.log, .clf) MRPT (.rawlog), gzipped or not, or a ROS bag.\n"
       "Then press play. Settings can be changed on the right before.",
       wxDefaultPosition, wxDefaultSize, wxALIGN_CENTRE_HORIZONTAL);
   column->Add(text, 0, wxALIGN_CENTRE | wxALL, gap);

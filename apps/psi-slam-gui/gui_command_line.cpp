@@ -8,7 +8,8 @@ namespace psi_slam {
 
 GuiCommandLine parse_gui_command_line(const std::vector<std::string>& arguments, CLI::App& app) {
   GuiCommandLine line;
-  app.add_option("LOG", line.log, "Log to open: an MRPT rawlog or a CARMEN log, plain or gzipped")
+  app.add_option("LOG", line.log,
+                 "Log to open: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag")
       ->type_name("");
   app.add_option("--edits", line.edits,
                  "Loops deleted, forced or matched by hand: a file as File > Save loop edits makes it")
@@ -19,6 +20,7 @@ GuiCommandLine parse_gui_command_line(const std::vector<std::string>& arguments,
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
   if (const std::vector<std::string> unknown = app.remaining(); !unknown.empty())
     throw UserError(unknown_argument_text(unknown.front(), app, "psi-slam-gui"));
+  if (!line.edits.empty() && line.log.empty()) throw UserError("--edits goes with a log: name it, too");
   return line;
 }
 

@@ -106,7 +106,7 @@ void LoopCanvas::paint() {
   draw_half(*context, wxRect(0, 0, half, size.GetHeight()), picture_->before, colour_of(palette::kBefore),
             "Predicted");
   draw_half(*context, wxRect(half, 0, size.GetWidth() - half, size.GetHeight()), picture_->after,
-            colour_of(palette::kAfter), "Matched");
+            colour_of(palette::kAfter), picture_->after.empty() ? "Not found" : "Matched");
   context->SetPen(wxPen(wxSystemSettings::GetColour(wxSYS_COLOUR_BTNSHADOW)));
   context->StrokeLine(half, 0, half, size.GetHeight());
 }

@@ -209,16 +209,19 @@ void LoopInspector::filter() {
   refresh_rows();
 }
 
-/// The selection stays with its loop, wherever that is now.
+/// The selection stays with its loop, wherever that is now, and in sight if it was.
 void LoopInspector::refresh_rows() {
   selecting_ = true;
-  list_->SetItemCount(static_cast<long>(list_->table.rows()));
   const long before = list_->GetNextItem(-1, wxLIST_NEXT_ALL, wxLIST_STATE_SELECTED);
+  const long top = list_->GetTopItem();
+  const bool in_sight = before >= top && before < top + list_->GetCountPerPage();
+  list_->SetItemCount(static_cast<long>(list_->table.rows()));
   const auto row = selected_ ? list_->table.row_of(*selected_) : std::nullopt;
   if (before >= 0 && (!row || before != static_cast<long>(*row)))
     list_->SetItemState(before, 0, wxLIST_STATE_SELECTED);
   if (row) list_->SetItemState(static_cast<long>(*row), wxLIST_STATE_SELECTED, wxLIST_STATE_SELECTED);
-  if (row && std::exchange(lost_sight_, false)) list_->EnsureVisible(static_cast<long>(*row));
+  if (row && (std::exchange(lost_sight_, false) || (in_sight && before != static_cast<long>(*row))))
+    list_->EnsureVisible(static_cast<long>(*row));
   selecting_ = false;
   list_->Refresh();
   describe();

@@ -35,7 +35,12 @@ class LogDrop : public wxFileDropTarget {
   bool OnDropFiles(wxCoord, wxCoord, const wxArrayString& names) override {
     if (names.empty()) return false;
     const std::filesystem::path path = path_of(names[0]);
-    path.extension() == ".ini" ? frame_.open_settings(path) : frame_.open_log(path);
+    if (path.extension() == ".ini")
+      frame_.open_settings(path);
+    else if (path.extension() == ".edits")
+      frame_.open_edits(path);
+    else
+      frame_.open_other_log(path);
     return true;
   }
 
@@ -139,13 +144,15 @@ void MainFrame::build_toolbar() {
 
 void MainFrame::start(const std::string& log, const std::string& config,
                       const std::vector<std::string>& settings, const std::string& edits) {
+  EditJournal journal;
   try {
     settings_.load(config, settings);
+    if (!edits.empty()) journal = EditJournal::read(edits);
   } catch (const UserError& error) {
     messages_->say(MessageBar::Kind::kError, error.what());
   }
   settings_panel_->refresh();
-  if (!log.empty()) open_log(log, edits.empty() ? EditJournal() : EditJournal::read(edits));
+  if (!log.empty()) open_log(log, std::move(journal));
 }
 
 void MainFrame::open_log(const std::filesystem::path& log, EditJournal edits) {
@@ -170,6 +177,14 @@ void MainFrame::open_log(const std::filesystem::path& log, EditJournal edits) {
   canvas_->show_all();
   SetTitle(text_of(log.filename()) + wxString::FromUTF8(" — psi-slam"));
   refresh();
+}
+
+void MainFrame::open_other_log(const std::filesystem::path& log) {
+  if (!snapshot_ || snapshot_->edits->empty() || exported_) return open_log(log);
+  messages_->say(
+      MessageBar::Kind::kWarning,
+      "The map with the loops edited by hand has not been exported. Open another log nevertheless?",
+      {{"Open it", [this, log] { open_log(log); }}});
 }
 
 void MainFrame::show_pending_settings() {
@@ -222,6 +237,7 @@ void MainFrame::take_news(const ReplaySnapshot& snapshot) {
     messages_->say(Kind::kNote, "All results are in " + outcome.folder.string() + ": begin with report.html");
   else
     messages_->say(Kind::kError, outcome.failure);
+  close_when_written_ = close_when_written_ && outcome.failure.empty();
   if (close_when_written_) Close();
 }
 

@@ -43,6 +43,8 @@ class MainFrame : public wxFrame {
 
   /// `edits` are made again while it is mapped.
   void open_log(const std::filesystem::path& log, EditJournal edits = {});
+  /// The same, but where edits would be lost the user is asked first.
+  void open_other_log(const std::filesystem::path& log);
   void open_settings(const std::filesystem::path& file);
   void save_settings(const std::filesystem::path& file);
   void export_to(const std::filesystem::path& folder, bool replace);

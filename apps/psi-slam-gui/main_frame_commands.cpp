@@ -22,7 +22,9 @@
 namespace psi_slam {
 namespace {
 
-const char* const kLogFiles = "Logs (*.log;*.clf;*.rawlog;*.gz)|*.log;*.clf;*.rawlog;*.gz|All files|*";
+const char* const kLogFiles =
+    "Logs (*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz)|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz|All "
+    "files|*";
 const char* const kSettingsFiles = "Settings (*.ini)|*.ini|All files|*";
 
 }  // namespace
@@ -72,7 +74,7 @@ void MainFrame::bind_file_commands() {
       wxEVT_MENU,
       [this](wxCommandEvent& event) {
         const auto index = static_cast<std::size_t>(event.GetId() - recent_.GetBaseId());
-        if (index < recent_.GetCount()) open_log(path_of(recent_.GetHistoryFile(index)));
+        if (index < recent_.GetCount()) open_other_log(path_of(recent_.GetHistoryFile(index)));
       },
       recent_.GetBaseId(), recent_.GetBaseId() + recent_.GetMaxFiles());
 }
@@ -137,7 +139,7 @@ void MainFrame::check_choices() {
 
 void MainFrame::ask_for_log() {
   if (const auto file = ask_for_file_({FileQuestion::Kind::kOpen, "Open a log", kLogFiles, ""}))
-    open_log(*file);
+    open_other_log(*file);
 }
 
 void MainFrame::ask_for_settings(bool save) {
@@ -190,7 +192,8 @@ void MainFrame::save_picture(const std::filesystem::path& file) {
     try {
       write_atomically(file, [&](const std::filesystem::path& path) {
         const wxLogNull quiet;  // what goes wrong is told in the bar
-        picture.SaveFile(text_of(path), wxBITMAP_TYPE_PNG);
+        if (!picture.SaveFile(text_of(path), wxBITMAP_TYPE_PNG))
+          throw SystemFailure("cannot write the picture " + file.string());
       });
       messages_->say(MessageBar::Kind::kNote, "The picture is " + file.string());
     } catch (const SystemFailure& failure) {

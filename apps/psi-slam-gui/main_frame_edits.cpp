@@ -28,9 +28,8 @@ std::string capitalized(std::string text) {
 
 const LoopRecord* record_of(const ReplaySnapshot& snapshot, const LoopEdit& edit) {
   const std::vector<LoopRecord>& loops = *snapshot.loops;
-  const auto found = std::find_if(loops.rbegin(), loops.rend(), [&](const LoopRecord& loop) {
-    return loop.frame == edit.frame && loop.local_map == edit.local_map;
-  });
+  const auto found = std::find_if(loops.rbegin(), loops.rend(),
+                                  [&](const LoopRecord& loop) { return same_loop(loop, edit); });
   return found == loops.rend() ? nullptr : &*found;
 }
 
@@ -67,6 +66,11 @@ void MainFrame::edit_selected(Kind kind, MatcherKind matcher) {
   const LoopRecord& loop = (*snapshot_->loops)[*selected];
   LoopEdit edit{kind, loop.frame, loop.local_map};
   edit.matcher = matcher;
+  // What the last pass found is gone while the map is open again: it is looked for where it was.
+  edit.of_last_pass = kind == Kind::kForce && loop.in_last_pass;
+  const double window_m = std::max(loop.window.x_m, loop.window.y_m);
+  if (kind == Kind::kMatch)
+    edit.place = LoopPlace{loop.anchor_T_predicted, {window_m, window_m, loop.window.theta_rad}};
   replay_->edit(edit);
 }
 

@@ -141,7 +141,8 @@ int command_of_key(int key) {
 const char* shortcuts_text() {
   return "Space plays and pauses, \".\" maps one scan. In the map: drag to move, right-drag to turn and "
          "tilt, wheel to "
-         "zoom; Home shows all, F follows the robot, M measures, L adds a loop.";
+         "zoom; Home shows all, F follows the robot, M measures. L adds a loop, Delete deletes the selected "
+         "one, Ctrl+Z undoes.";
 }
 
 }  // namespace psi_slam

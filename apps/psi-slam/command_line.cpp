@@ -71,7 +71,8 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   CommandLine line;
   std::string log_to_map;
   bool dump_config = false;
-  app.add_option("LOG", log_to_map, "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped")
+  app.add_option("LOG", log_to_map,
+                 "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag")
       ->type_name("");
   app.add_option("-o,--output", line.output, "Folder for the results, new or empty")->type_name("DIR");
   add_settings_options(app, line.config, line.settings);

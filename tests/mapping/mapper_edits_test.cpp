@@ -260,5 +260,62 @@ TEST_F(MapperEditsTest, edited_after_the_end_it_is_what_it_would_have_been_witho
   EXPECT_EQ(deleted->verdict, LoopVerdict::kDeleted);
 }
 
+TEST_F(MapperEditsTest, a_loop_that_only_the_last_pass_finds_is_forced_as_it_finds_it) {
+  map_all();
+  MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
+  // Refused on the way and found by the last pass: the match that was refused is not meant.
+  std::optional<LoopRecord> chosen;
+  for (const LoopRecord& loop : result.loops) {
+    if (!loop.in_last_pass || loop.verdict != LoopVerdict::kAccepted) continue;
+    if (!chosen) chosen = loop;
+    for (const LoopRecord& other : result.loops)
+      if (!other.in_last_pass && other.verdict == LoopVerdict::kRefused && other.node == loop.node &&
+          other.local_map == loop.local_map)
+        chosen = loop;
+  }
+  ASSERT_TRUE(chosen.has_value());
+  LoopEdit edit = edit_of(Kind::kForce, *chosen);
+  edit.of_last_pass = true;
+  EXPECT_EQ(mapper_.judge(edit, result.frames).state, State::kDone);
+  mapper_.reopen(std::move(result));
+  EXPECT_EQ(mapper_.edit(edit).state, State::kWaits);
+  const MappingResult forced = mapper_.finish();
+  EXPECT_THAT(forced.unmet_edits, IsEmpty());
+  const auto found = std::find_if(forced.loops.rbegin(), forced.loops.rend(), [&](const LoopRecord& loop) {
+    return loop.frame == edit.frame && loop.local_map == edit.local_map;
+  });
+  ASSERT_NE(found, forced.loops.rend());
+  EXPECT_TRUE(found->in_last_pass);
+  EXPECT_TRUE(found->by_hand);
+  EXPECT_EQ(found->verdict, LoopVerdict::kAccepted);
+  EXPECT_NEAR(found->anchor_T_node.x, chosen->anchor_T_node.x, 0.05);
+  EXPECT_NEAR(found->anchor_T_node.y, chosen->anchor_T_node.y, 0.05);
+}
+
+TEST_F(MapperEditsTest, a_loop_that_was_added_and_taken_back_leaves_the_last_pass_free_to_find_it) {
+  map_all();
+  MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
+  const auto only_last_pass = [&](const LoopRecord& loop) {
+    return loop.in_last_pass && loop.verdict == LoopVerdict::kAccepted &&
+           std::count_if(result.loops.begin(), result.loops.end(), [&](const LoopRecord& other) {
+             return other.node == loop.node && other.local_map == loop.local_map;
+           }) == 1;
+  };
+  const auto found = std::find_if(result.loops.begin(), result.loops.end(), only_last_pass);
+  ASSERT_NE(found, result.loops.end());
+  const LoopRecord loop = *found;
+  mapper_.reopen(std::move(result));
+  LoopEdit edit = edit_of(Kind::kMatch, loop);
+  edit.place = LoopPlace{loop.anchor_T_predicted, loop.window};
+  EXPECT_EQ(mapper_.edit(edit).state, State::kDone);
+  EXPECT_EQ(mapper_.edit(edit_of(Kind::kRestore, loop)).state, State::kDone);
+  EXPECT_EQ(mapper_.edit(edit_of(Kind::kRestore, loop)).state, State::kImpossible);
+  const MappingResult again = mapper_.finish();
+  EXPECT_TRUE(std::any_of(again.loops.begin(), again.loops.end(), [&](const LoopRecord& now) {
+    return now.node == loop.node && now.local_map == loop.local_map && now.in_last_pass &&
+           now.verdict == LoopVerdict::kAccepted && !now.by_hand;
+  }));
+}
+
 }  // namespace
 }  // namespace psi_slam

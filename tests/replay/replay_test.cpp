@@ -403,7 +403,7 @@ TEST_F(ReplayEditsTest, of_a_run_are_made_again_in_the_next) {
   }
   ASSERT_EQ(journal.edits().size(), 1U);
   Replay replay(path, settings_, journal);
-  EXPECT_EQ(wait_for(replay, ReplayPhase::kPaused)->edits->size(), 1U);
+  EXPECT_EQ(replay.snapshot()->edits->size(), 1U) << "from the first moment, should the log not open";
   replay.set_speed(0);
   replay.play();
   const SnapshotPtr finished = wait_for(replay, ReplayPhase::kFinished);

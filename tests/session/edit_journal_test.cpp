@@ -52,12 +52,17 @@ TEST_F(EditJournalTest, comes_back_from_its_file_to_the_last_bit) {
   match.matcher = MatcherKind::kCsmGa;
   match.place = LoopPlace{{1.0 / 3, -2e-9, M_PI / 7}, {2.1, 2.1, 0.1}};
   journal.add({match, kEnd});
-  journal.add({{Kind::kForce, 1, 2}, {}});
+  LoopEdit force{Kind::kForce, 1, 2};
+  force.of_last_pass = true;
+  journal.add({force, {}});
   journal.add({{Kind::kRestore, 812, 14}, after(1600)});
   journal.write(path_);
   const EditJournal back = EditJournal::read(path_);
   EXPECT_EQ(back.text(), journal.text());
   ASSERT_THAT(back.edits(), SizeIs(4));
+  EXPECT_TRUE(back.edits()[0].edit.of_last_pass);
+  EXPECT_THAT(complaint("force scan=1 local_map=2 attempt=first"),
+              HasSubstr("attempt=first is not last_pass"));
   const LoopEdit& read = back.edits()[3].edit;
   EXPECT_EQ(read.kind, Kind::kMatch);
   EXPECT_EQ(read.matcher, MatcherKind::kCsmGa);

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "constraint_information.h"
 #include "psi_slam/mapping/carried_frames.h"
+#include "psi_slam/pose_graph/information_matrix.h"
 
 namespace psi_slam {
 namespace {
@@ -26,16 +26,28 @@ constexpr double kGrowthForSmallNews = 1e-3;
 
 }  // namespace
 
+LoopKeeperOptions loop_keeper_options(const MapperOptions& mapper) {
+  LoopKeeperOptions options;
+  options.matcher = mapper.matcher;
+  options.loop_matcher = mapper.loop_matcher;
+  options.genetic = mapper.genetic;
+  options.psi = mapper.psi;
+  options.loop_closure = mapper.loop_closure;
+  options.consensus = mapper.loop_consensus;
+  options.last_pass = mapper.last_pass;
+  options.loop_sigma_m = mapper.loop_sigma_m;
+  options.loop_sigma_rad = mapper.loop_sigma_rad;
+  options.max_loop_chi = mapper.max_loop_chi;
+  options.seed = mapper.seed;
+  options.threads = mapper.threads;
+  return options;
+}
+
 Mapper::Mapper(const MapperOptions& options)
     : options_(options),
       front_end_(options.front_end),
-      matcher_policy_(options.matcher, options.psi, options.loop_matcher, options.genetic),
-      loop_closure_factor_(options.psi),
-      loop_closer_(options.loop_closure, options.seed),
-      loop_consensus_(options.loop_consensus),
-      pool_(options.threads),
-      solver_(options.pose_graph),
-      ledger_({options.loop_sigma_m, options.loop_sigma_rad}) {
+      keeper_(loop_keeper_options(options)),
+      solver_(options.pose_graph) {
   result_.psi = options.psi;
   memory_.shelf = std::make_shared<LocalMapShelf>(kUnpackedLocalMaps);
 }
@@ -82,8 +94,8 @@ void Mapper::record_factor(FrameRecord& record, const FrontEndStep& step) {
     odometry_m = std::hypot(motion.x, motion.y);
   }
   const TPose2D map_T_robot = map_T_local_ + step.local_T_robot;
-  loop_closure_factor_.move(odometry_m, {map_T_robot.x, map_T_robot.y});
-  const LoopClosureFactor::Value factor = loop_closure_factor_.value();
+  keeper_.move(odometry_m, {map_T_robot.x, map_T_robot.y});
+  const LoopClosureFactor::Value factor = keeper_.factor();
   record.psi = factor.psi;
   record.eta = factor.eta;
   record.mean_loops = factor.mean_loops;
@@ -108,7 +120,7 @@ void Mapper::add_node(const FrontEndStep& step, std::size_t frame) {
     constraint.to = *step.node;
     constraint.from_T_to = membership.anchor_T_node;
     constraint.information =
-        information_of(membership.covariance, options_.local_map_sigma_m, options_.local_map_sigma_rad);
+        noisy_information(membership.covariance, options_.local_map_sigma_m, options_.local_map_sigma_rad);
     constraint.kind = Constraint::Kind::kLocalMap;
     graph_.add_constraint(constraint);
   }
@@ -121,27 +133,16 @@ void Mapper::remember(const PlacedLocalMap& finished) {
 }
 
 void Mapper::close_loops(std::size_t node, FrameRecord& record) {
-  matcher_of_node_.push_back(matcher_policy_.kind(record.psi));
-  const Matcher& matcher = matcher_policy_.matcher(matcher_of_node_.back());
-  record.matcher = matcher.name();
-  record.loop_closing_ms = loop_clock_.time([&] {
-    LoopCloser::Outcome outcome = loop_closer_.close(node, memory_, graph_, matcher, pool_);
-    record.loops_tried = static_cast<int>(outcome.effort.attempts);
-    record.loop_evaluations = outcome.effort.evaluations;
-    record.evaluations += outcome.effort.evaluations;
-    record.loop_matching_ms = outcome.effort.milliseconds;
-    result_.loop_matchers[matcher.name()].effort += outcome.effort;
-    for (LoopRecord& loop : outcome.loops) {
-      const bool pending = loop.verdict == LoopVerdict::kPending;
-      for (const std::size_t confirmed : confirmed_by(ledger_.add(std::move(loop)))) {
-        const std::optional<double> news = ledger_.accept(confirmed, graph_);
-        if (!news) continue;
-        ++record.loops_accepted;
-        news_ = std::max({news_, *news, pending ? kUrgentNews : 0});
-      }
-    }
-  });
-  loop_closure_factor_.add_frame(record.loops_accepted);
+  NodeLoops loops;
+  record.loop_closing_ms = loop_clock_.time([&] { loops = keeper_.close(node, memory_, graph_); });
+  record.matcher = loops.matcher;
+  record.loops_tried = static_cast<int>(loops.effort.attempts);
+  record.loops_accepted = loops.accepted;
+  record.loop_evaluations = loops.effort.evaluations;
+  record.evaluations += loops.effort.evaluations;
+  record.loop_matching_ms = loops.effort.milliseconds;
+  result_.loop_matchers[loops.matcher].effort += loops.effort;
+  news_ = std::max({news_, loops.news, loops.agreed ? kUrgentNews : 0});
   if (!is_time_to_optimize()) return;
   record.pose_graph_ms = graph_clock_.time([&] { optimize(); });
 }
@@ -159,43 +160,19 @@ bool Mapper::is_time_to_optimize() const {
          static_cast<double>(grown_by) >= kGrowthForSmallNews * static_cast<double>(graph_.num_nodes());
 }
 
-// The loops that are to become constraints now that this one was found: itself when verification accepted it;
-// when it waits for others to agree, those that waited and it, if they now do.
-std::vector<std::size_t> Mapper::confirmed_by(std::size_t index) {
-  const LoopRecord& loop = ledger_.loops()[index];
-  if (loop.verdict == LoopVerdict::kAccepted) return {index};
-  if (loop.verdict != LoopVerdict::kPending) return {};
-  const NodeScan& here = memory_.nodes[loop.node];
-  return loop_consensus_.add(
-      {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity}, graph_);
-}
-
 void Mapper::run_last_pass(const std::function<bool(double)>& progress) {
-  const std::set<LoopPair> known = ledger_.searched_pairs();
-  const auto is_known = [&](std::size_t node, std::size_t local_map) {
-    return known.count({node, local_map}) != 0;
-  };
-  const auto matcher_of = [&](std::size_t node) -> const Matcher& {
-    return matcher_policy_.matcher(matcher_of_node_[node]);
-  };
-  LastPassOutcome outcome = last_pass(memory_, graph_, matcher_of, options_.loop_closure.verification,
-                                      options_.last_pass, is_known, options_.seed, pool_, progress);
-  for (const auto& [matcher, effort] : outcome.effort) {
+  for (const auto& [matcher, effort] : keeper_.run_last_pass(memory_, graph_, progress)) {
     result_.loop_matchers[matcher].effort += effort;
     result_.loop_matchers[matcher].last_pass_effort += effort;
-  }
-  for (LoopRecord& loop : outcome.loops) {
-    const std::size_t entered = ledger_.add(std::move(loop));
-    if (ledger_.loops()[entered].verdict == LoopVerdict::kAccepted) ledger_.accept(entered, graph_);
   }
 }
 
 void Mapper::settle_loops() {
-  graph_clock_.time([&] { ledger_.settle(graph_, solver_, options_.max_loop_chi); });
+  graph_clock_.time([&] { keeper_.settle(graph_, solver_); });
 }
 
 void Mapper::count_accepted_loops() {
-  for (const LoopRecord& loop : ledger_.loops()) {
+  for (const LoopRecord& loop : keeper_.loops()) {
     if (loop.verdict != LoopVerdict::kAccepted) continue;
     ++result_.loop_matchers[loop.matcher].accepted;
     if (loop.in_last_pass) ++result_.loop_matchers[loop.matcher].accepted_in_last_pass;
@@ -212,7 +189,7 @@ void Mapper::refine_poses(const std::function<bool(double)>& progress) {
     return node ? *memory_.nodes[*node].points
                 : matching_points(result_.log[frame].scan, options_.front_end.scan);
   };
-  refine_jointly(scans, options_.joint_refinement, pool_, progress);
+  refine_jointly(scans, options_.joint_refinement, keeper_.pool(), progress);
   // The map's frame stays that of the first node, as the graph has it.
   const TPose2D first = scans.map_T_frame[result_.node_frames.front()];
   for (TPose2D& pose : scans.map_T_frame) pose = graph_.pose(0) + (pose - first);
@@ -229,8 +206,9 @@ void Mapper::end_log() {
 
 MappingResult Mapper::finish(const std::function<bool(double)>& progress, AfterFinish after) {
   end_log();
-  if (after == AfterFinish::kReopen) before_finish_ = {graph_, ledger_, solver_, result_.loop_matchers};
-  ledger_.refuse_pending();
+  if (after == AfterFinish::kReopen)
+    before_finish_ = {graph_, keeper_.ledger(), solver_, result_.loop_matchers};
+  keeper_.ledger().refuse_pending();
   const int steps = options_.last_pass.passes + (options_.joint_refinement.rounds > 0 ? 1 : 0);
   const auto go_on = [&](double done) {
     const bool wanted = !progress || progress(done / steps);
@@ -243,7 +221,7 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress, AfterF
       last_pass_clock_.time([&] { run_last_pass([&](double share) { return go_on(pass + share); }); });
       settle_loops();
     }
-    ledger_.refuse_pending();
+    keeper_.ledger().refuse_pending();
   }
   result_.unmet_edits = unmet_edits();
   count_accepted_loops();
@@ -253,7 +231,7 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress, AfterF
         [&] { refine_poses([&](double share) { return go_on(options_.last_pass.passes + share); }); });
   result_.interrupted = result_.last_pass_cut_short;
   result_.graph = graph_.to_mrpt();
-  result_.loops = after == AfterFinish::kReopen ? ledger_.loops() : ledger_.take_loops();
+  result_.loops = after == AfterFinish::kReopen ? keeper_.loops() : keeper_.ledger().take_loops();
   for (const StageClock* clock :
        {&front_end_clock_, &loop_clock_, &graph_clock_, &last_pass_clock_, &refinement_clock_})
     result_.stages.push_back(clock->timing());

@@ -25,7 +25,7 @@ Replay::Replay(std::filesystem::path log, const Settings& settings, EditJournal 
       outline_(log_, log_options(settings)),
       painter_(settings.map),
       maker_(std::make_unique<SnapshotMaker>(settings.mapper.psi)),
-      first_edits_(std::move(edits)),
+      first_edits_((maker_->note_edits(edits.edits(), EditHistory()), std::move(edits))),
       snapshot_(maker_->snapshot(phase_)),
       thread_([this] { run(); }) {}
 
@@ -163,7 +163,6 @@ void Replay::work() {
   session.stay_open();
   session.set_edits(first_edits_);
   session_ = &session;
-  maker_->note_edits(session.edits().edits(), edit_history_);
   if (!map_scans(session)) return;
   do {
     finish_map(session);
@@ -179,6 +178,10 @@ void Replay::finish_map(MappingSession& session) {
   }
   session.finish(stop_last_pass_);
   session_ = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    last_pass_stopped_ = stop_last_pass_ && !cut_last_pass_ && !close_;
+  }
   maker_->note_warnings(session);
   maker_->take(session.result());
   painter_.request(maker_->sketch());
@@ -276,7 +279,12 @@ void Replay::serve_edits(MappingSession& session) {
     cut_last_pass_ = false;
   }
   for (const EditWish& wish : wishes) make_edit(session, wish);
-  if (session.finished()) return;  // there was nothing to undo or to redo
+  if (session.finished()) {  // nothing was changed
+    if (!last_pass_stopped_) return;
+    session.reopen();
+  }
+  if (phase_ == ReplayPhase::kFinished) phase_ = ReplayPhase::kLastPass;
+  stale_ = true;
   session_ = &session;
   maker_->note_edits(session.edits().edits(), edit_history_);
   publish();

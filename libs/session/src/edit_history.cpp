@@ -15,9 +15,8 @@ std::optional<LoopEdit> EditHistory::undo() {
   undone_.push_back(made_.back());
   made_.pop_back();
   const LoopEdit& undone = undone_.back();
-  const auto before = std::find_if(made_.rbegin(), made_.rend(), [&](const LoopEdit& edit) {
-    return edit.frame == undone.frame && edit.local_map == undone.local_map;
-  });
+  const auto before = std::find_if(made_.rbegin(), made_.rend(),
+                                   [&](const LoopEdit& edit) { return same_loop(edit, undone); });
   if (before != made_.rend()) return *before;
   return LoopEdit{LoopEdit::Kind::kRestore, undone.frame, undone.local_map};
 }

@@ -15,10 +15,6 @@ namespace {
 
 constexpr const char* kHeading = "# psi-slam loop edits 1\n";
 
-bool same_loop(const LoopEdit& a, const LoopEdit& b) {
-  return a.frame == b.frame && a.local_map == b.local_map;
-}
-
 bool earlier(const TimedEdit& a, const TimedEdit& b) {
   return a.time < b.time;
 }

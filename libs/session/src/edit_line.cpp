@@ -50,6 +50,7 @@ class Values {
  public:
   Values(std::istringstream& words, Kind kind) {
     std::vector<std::string> keys = strings(kPairKeys);
+    if (kind == Kind::kForce) keys.emplace_back("attempt");
     if (kind == Kind::kMatch)
       for (const char* key : kMatchKeys) keys.emplace_back(key);
     for (std::string word; words >> word;) {
@@ -135,6 +136,7 @@ std::string edit_line(const TimedEdit& timed) {
             " yaw_deg=" + exact_degrees_text(edit.place->anchor_T_node.phi) +
             " window_m=" + exact_text(edit.place->window.x_m) +
             " window_deg=" + exact_degrees_text(edit.place->window.theta_rad);
+  if (edit.kind == Kind::kForce && edit.of_last_pass) line += " attempt=last_pass";
   if (timed.time.kind == EditTime::Kind::kAfterScan) line += " after=" + std::to_string(timed.time.scan);
   if (timed.time.kind == EditTime::Kind::kEnd) line += " after=end";
   return line;
@@ -150,6 +152,11 @@ TimedEdit parse_edit_line(std::string_view line) {
   timed.edit.frame = values.whole("scan");
   timed.edit.local_map = values.whole("local_map");
   timed.time = time_of(values);
+  if (values.has("attempt")) {
+    if (values.text("attempt") != "last_pass")
+      throw UserError("attempt=" + values.text("attempt") + " is not last_pass");
+    timed.edit.of_last_pass = true;
+  }
   if (timed.edit.kind == Kind::kMatch) {
     timed.edit.matcher = matcher_of(values.text("matcher"));
     timed.edit.place = place_of(values);

@@ -125,10 +125,18 @@ void MappingSession::make_due_edits(EditTime now) {
   }
 }
 
+void MappingSession::reopen() {
+  mapper_->reopen(std::move(result_));
+  finished_ = false;
+}
+
 LoopEditOutcome MappingSession::edit(const LoopEdit& edit) {
   const WorkClock clock(work_s_);
-  if (finished_) mapper_->reopen(std::move(result_));
-  finished_ = false;
+  if (finished_) {
+    LoopEditOutcome outcome = mapper_->judge(edit, result_.frames);
+    if (outcome.state == LoopEditOutcome::State::kImpossible) return outcome;
+    reopen();
+  }
   const bool at_end = at_end_ || broken_off_;
   if (at_end) mapper_->end_log();
   const bool changes_later = edits_.forget_later(edit);

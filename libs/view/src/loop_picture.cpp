@@ -63,8 +63,11 @@ std::optional<LoopPicture> loop_picture(const ReplaySnapshot& snapshot, std::siz
   const LoopRecord& loop = (*snapshot.loops)[index];
   if (loop.local_map >= snapshot.local_maps.size() || loop.node >= snapshot.nodes.size()) return std::nullopt;
   const ScanPoints& scan = *snapshot.nodes[loop.node].points;
-  return LoopPicture{raster_of(points_of(snapshot.local_maps[loop.local_map], snapshot.nodes)),
-                     placed(scan, loop.anchor_T_predicted), placed(scan, loop.anchor_T_node)};
+  LoopPicture picture{raster_of(points_of(snapshot.local_maps[loop.local_map], snapshot.nodes)),
+                      placed(scan, loop.anchor_T_predicted),
+                      {}};
+  if (loop.verdict != LoopVerdict::kNotFound) picture.after = placed(scan, loop.anchor_T_node);
+  return picture;
 }
 
 }  // namespace psi_slam

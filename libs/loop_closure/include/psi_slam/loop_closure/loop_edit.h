@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "psi_slam/loop_closure/loop_record.h"
 #include "psi_slam/matching/make_matcher.h"
 #include "psi_slam/matching/search_window.h"
 
@@ -32,11 +33,21 @@ struct LoopEdit {
   std::size_t frame = 0;      ///< of the scan, in the log's order; it must have become a node
   std::size_t local_map = 0;  ///< its number
 
+  /// Of kForce only: the match that the last pass finds, not one that was found on the way.
+  bool of_last_pass = false;
+
   // Of kMatch only.
   MatcherKind matcher = MatcherKind::kCsm;
   /// None: where the loop was looked for before, or else where the graph expects it, in the largest window.
   std::optional<LoopPlace> place{};
 };
+
+inline bool same_loop(const LoopEdit& a, const LoopEdit& b) {
+  return a.frame == b.frame && a.local_map == b.local_map;
+}
+inline bool same_loop(const LoopRecord& loop, const LoopEdit& edit) {
+  return loop.frame == edit.frame && loop.local_map == edit.local_map;
+}
 
 /// What an edit asks for: "delete the loop of scan 812 with local map 14".
 std::string text_of(const LoopEdit& edit);

@@ -11,16 +11,10 @@
 #include <vector>
 
 #include "psi_slam/base/degrees.h"
-#include "psi_slam/base/worker_pool.h"
 #include "psi_slam/local_maps/front_end.h"
-#include "psi_slam/loop_closure/last_pass.h"
-#include "psi_slam/loop_closure/loop_closer.h"
-#include "psi_slam/loop_closure/loop_closure_factor.h"
-#include "psi_slam/loop_closure/loop_consensus.h"
 #include "psi_slam/loop_closure/loop_edit.h"
-#include "psi_slam/loop_closure/matcher_policy.h"
+#include "psi_slam/loop_closure/loop_keeper.h"
 #include "psi_slam/mapping/joint_refinement.h"
-#include "psi_slam/mapping/loop_ledger.h"
 #include "psi_slam/mapping/mapping_result.h"
 #include "psi_slam/mapping/stage_clock.h"
 #include "psi_slam/pose_graph/pose_graph.h"
@@ -52,6 +46,9 @@ struct MapperOptions {
   int threads = 1;            ///< that match loops; no result depends on it
 };
 
+/// What the loop keeper takes.
+LoopKeeperOptions loop_keeper_options(const MapperOptions& mapper);
+
 /// What became of an edit.
 struct LoopEditOutcome {
   enum class State {
@@ -75,6 +72,10 @@ class Mapper {
   /// replaces it.
   LoopEditOutcome edit(const LoopEdit& edit);
 
+  /// What stands against an edit, without making it. `frames` are those of the mapper, or, after finish(), of
+  /// its result.
+  LoopEditOutcome judge(const LoopEdit& edit, const std::vector<FrameRecord>& frames) const;
+
   /// No scan comes any more: the last local maps are finished.
   void end_log();
 
@@ -97,7 +98,7 @@ class Mapper {
   const PoseGraph& graph() const { return graph_; }
   const std::vector<Frame>& log() const { return result_.log; }
   const std::vector<FrameRecord>& frames() const { return result_.frames; }
-  const std::vector<LoopRecord>& loops() const { return ledger_.loops(); }
+  const std::vector<LoopRecord>& loops() const { return keeper_.loops(); }
   const PlaceMemory& memory() const { return memory_; }
   const std::vector<PlacedLocalMap>& active_local_maps() const { return front_end_.active(); }
 
@@ -115,12 +116,9 @@ class Mapper {
   void follow_graph();
   void remember(const PlacedLocalMap& finished);
   void close_loops(std::size_t node, FrameRecord& record);
-  std::vector<std::size_t> confirmed_by(std::size_t loop);
   bool is_time_to_optimize() const;
   void optimize();
-  LoopEditOutcome judge(const LoopEdit& edit) const;
   LoopEditOutcome carry_out(const LoopEdit& edit);
-  LoopEditOutcome match_by_hand(const LoopEdit& edit, std::size_t node);
   void serve_waiting_edits();
   std::vector<std::string> unmet_edits() const;
   void run_last_pass(const std::function<bool(double)>& progress);
@@ -130,21 +128,15 @@ class Mapper {
 
   MapperOptions options_;
   FrontEnd front_end_;
-  MatcherPolicy matcher_policy_;
-  LoopClosureFactor loop_closure_factor_;
-  LoopCloser loop_closer_;
-  LoopConsensus loop_consensus_;
-  WorkerPool pool_;
+  LoopKeeper keeper_;
   SparsePoseAdjustment solver_;
   PoseGraph graph_;
   PlaceMemory memory_;
-  std::vector<MatcherKind> matcher_of_node_;  ///< that Psi chose there
-  LoopLedger ledger_;
   std::vector<LoopEdit> waiting_edits_;
   std::vector<std::string> impossible_edits_;  ///< of those that had waited, a sentence each
   std::optional<Checkpoint> before_finish_;
   mrpt::math::TPose2D map_T_local_;  ///< the front end's frame, as the newest node says
-  double news_ = 0;                  ///< of accept(), the most since the graph was optimised
+  double news_ = 0;                  ///< of NodeLoops, the most since the graph was optimised
   std::size_t optimized_nodes_ = 0;  ///< in the graph then
   MappingResult result_;
   StageClock front_end_clock_{"match and insert scan"};

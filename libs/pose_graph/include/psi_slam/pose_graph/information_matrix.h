@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 namespace psi_slam {
 
@@ -25,6 +26,14 @@ inline bool is_information_matrix(const Eigen::Matrix3d& information) {
   const double limit = 1 + kRounding;
   const double determinant = 1 + 2 * xy * xt * yt - xy * xy - xt * xt - yt * yt;
   return xy * xy <= limit && xt * xt <= limit && yt * yt <= limit && determinant >= -kRounding;
+}
+
+/// The inverse of a covariance of (x, y, theta) to which independent noise is added.
+inline Eigen::Matrix3d noisy_information(const Eigen::Matrix3d& covariance, double sigma_m,
+                                         double sigma_rad) {
+  const Eigen::Vector3d noise(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
+  const Eigen::Matrix3d inverse = (covariance + Eigen::Matrix3d(noise.asDiagonal())).inverse();
+  return (inverse + inverse.transpose()) / 2;
 }
 
 }  // namespace psi_slam

@@ -124,6 +124,7 @@ class Replay {
   EditJournal first_edits_;
   EditHistory edit_history_;
   int edits_made_ = 0;
+  bool last_pass_stopped_ = false;     // for edits, and is to be begun anew
   MappingSession* session_ = nullptr;  // while its mapper can be followed
   ReplayPhase phase_ = ReplayPhase::kOpening;
   bool stale_ = false;  // something happened since the last snapshot

@@ -7,12 +7,14 @@
 //     # psi-slam loop edits 1
 //     delete scan=812 local_map=14 after=1500
 //     force scan=812 local_map=15 after=end
+//     force scan=813 local_map=15 attempt=last_pass after=end
 //     match scan=900 local_map=3 matcher=ga x_m=1.5 y_m=-2 yaw_deg=90 window_m=2 window_deg=30 after=1500
 //     restore scan=812 local_map=14 after=1600
 //
 // Who writes one by hand may leave out `after`: such an edit is made as soon as its scan and its local map
 // are there. x_m, y_m and yaw_deg place the scan's robot in the local map, window_m and window_deg are
 // half-widths; `match` may do without these five.
+// attempt=last_pass is for a match that only the last pass finds.
 #pragma once
 
 #include <cstddef>

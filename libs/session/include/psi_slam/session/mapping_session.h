@@ -83,6 +83,8 @@ class MappingSession {
   /// After finish() edits are still taken. It costs memory.
   void stay_open() { stays_open_ = true; }
   bool finished() const { return finished_; }
+  /// Takes back finish(): it is to be called again.
+  void reopen();
 
   /// Ends the mapping. Once `stop` is true the last pass is cut short. The result is marked as interrupted,
   /// by the user, when readable scans of the log were left unread or the last pass was cut short. Throws

@@ -17,7 +17,7 @@ namespace psi_slam {
 struct LoopPicture {
   MapRaster local_map;                       ///< dark where its scans hit something; in its own frame
   std::vector<mrpt::math::TPoint2D> before;  ///< the scan as predicted, in the local map's frame
-  std::vector<mrpt::math::TPoint2D> after;   ///< as matched
+  std::vector<mrpt::math::TPoint2D> after;   ///< as matched; empty where no match was found
 };
 
 /// Of a loop by its index; none when the snapshot does not hold what it takes.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/mapping/loop_ledger.h"
+#include "psi_slam/loop_closure/loop_ledger.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
-#include "constraint_information.h"
 #include "psi_slam/loop_closure/contradicted_loops.h"
+#include "psi_slam/pose_graph/information_matrix.h"
 
 namespace psi_slam {
 namespace {
@@ -36,7 +36,8 @@ std::size_t LoopLedger::add(LoopRecord loop) {
     wanted->second.before.push_back({loops_.size(), loop, std::nullopt});
     if (wanted->second.kind == LoopEdit::Kind::kDelete)
       delete_by_hand(loop, "deleted by hand");
-    else if (wanted->second.kind == LoopEdit::Kind::kForce && loop.verdict != LoopVerdict::kNotFound)
+    else if (wanted->second.kind == LoopEdit::Kind::kForce && loop.verdict != LoopVerdict::kNotFound &&
+             (!wanted->second.of_last_pass || loop.in_last_pass))
       accept_by_hand(loop);
   }
   return enter(std::move(loop));
@@ -57,7 +58,7 @@ std::optional<double> LoopLedger::accept(std::size_t index, PoseGraph& graph) {
   constraint.from = loop.anchor;
   constraint.to = loop.node;
   constraint.from_T_to = loop.anchor_T_node;
-  constraint.information = information_of(loop.covariance, noise_.sigma_m, noise_.sigma_rad);
+  constraint.information = noisy_information(loop.covariance, noise_.sigma_m, noise_.sigma_rad);
   constraint.kind = Constraint::Kind::kLoop;
   link(index, graph.add_constraint(constraint));
   const mrpt::math::TPose2D off = loop.anchor_T_node - (graph.pose(loop.node) - graph.pose(loop.anchor));
@@ -95,7 +96,8 @@ void LoopLedger::refuse_pending() {
 std::set<LoopPair> LoopLedger::searched_pairs() const {
   std::set<LoopPair> pairs;
   for (const LoopRecord& loop : loops_) {
-    const bool failed = loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kNotFound;
+    const bool failed = loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kNotFound ||
+                        (loop.verdict == LoopVerdict::kDeleted && !loop.by_hand);  // taken back
     if (!failed || loop.in_last_pass || loop.by_hand) pairs.insert(pair_of(loop));
   }
   return pairs;
@@ -106,11 +108,12 @@ void LoopLedger::remove(const LoopPair& pair, PoseGraph& graph) {
   for (const std::size_t loop : attempts_of(pair)) strike(loop, "deleted by hand", graph);
 }
 
-bool LoopLedger::force(const LoopPair& pair, PoseGraph& graph) {
+bool LoopLedger::force(const LoopPair& pair, bool of_last_pass, PoseGraph& graph) {
   take_over(pair, LoopEdit::Kind::kForce, graph);
+  by_hand_[pair].of_last_pass = of_last_pass;
   const std::vector<std::size_t> attempts = attempts_of(pair);
   const auto found = std::find_if(attempts.rbegin(), attempts.rend(), [&](std::size_t loop) {
-    return loops_[loop].verdict != LoopVerdict::kNotFound;
+    return loops_[loop].verdict != LoopVerdict::kNotFound && (!of_last_pass || loops_[loop].in_last_pass);
   });
   if (found == attempts.rend()) return false;
   for (const std::size_t other : attempts)
@@ -150,7 +153,10 @@ void LoopLedger::replace(LoopRecord loop, PoseGraph& graph) {
 bool LoopLedger::restore(const LoopPair& pair, PoseGraph& graph) {
   const auto wanted = by_hand_.find(pair);
   if (wanted == by_hand_.end()) return false;
-  for (const std::size_t loop : attempts_of(pair)) strike(loop, "matched by hand, then taken back", graph);
+  for (const std::size_t loop : attempts_of(pair)) {
+    strike(loop, "matched by hand, then taken back", graph);
+    loops_[loop].by_hand = false;
+  }
   for (const Entry& entry : wanted->second.before) {
     loops_[entry.loop] = entry.record;
     if (entry.constraint) {

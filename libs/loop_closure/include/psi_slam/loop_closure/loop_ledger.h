@@ -50,14 +50,15 @@ class LoopLedger {
   void refuse_pending();
 
   /// The pairs that a last search for loops leaves out: those whose loop is more than refused, those that it
-  /// has tried before, and those that a person has settled.
+  /// has tried before, and those whose match a person has settled.
   std::set<LoopPair> searched_pairs() const;
 
   // What a person does. It holds for attempts that come later, too.
 
   void remove(const LoopPair& pair, PoseGraph& graph);
-  /// False when no match of the pair has been found: the first that comes is taken.
-  bool force(const LoopPair& pair, PoseGraph& graph);
+  /// False when no match of the pair has been found: the first that comes is taken. With `of_last_pass` only
+  /// one that the last pass finds will do.
+  bool force(const LoopPair& pair, bool of_last_pass, PoseGraph& graph);
   /// `loop` is what the person had matched: it stands instead of what was found before.
   void replace(LoopRecord loop, PoseGraph& graph);
   /// Takes back the other three. False when there is nothing to take back.
@@ -78,6 +79,7 @@ class LoopLedger {
   /// What a person wants of a pair, and its attempts as they were before.
   struct ByHand {
     LoopEdit::Kind kind = LoopEdit::Kind::kDelete;
+    bool of_last_pass = false;  ///< see force()
     std::vector<Entry> before;
   };
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// psi-graphslam: MRPT's graph-slam engine with its deciders and ours, as its graphslam-engine has it.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace psi_slam {
+
+/// Runs the program with the arguments behind its name. Returns its exit code: 0 done, 1 failed, 2 wrong
+/// usage or input. MRPT's engine prints its own messages to the process' standard output.
+int run_graphslam_app(const std::vector<std::string>& arguments, std::ostream& out,
+                      std::ostream& err) noexcept;
+
+}  // namespace psi_slam

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes frames of the entries that MRPT's graph-slam engine hands to its deciders one by one: either an
+// action with a sensory frame, or a single observation. The kind of odometry that comes first decides.
+// Scans whose odometry comes in observations wait for the odometry behind them, as when a log is read.
+#pragma once
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "psi_slam/logs/frame.h"
+#include "psi_slam/logs/log_options.h"
+#include "psi_slam/logs/odometry_interpolator.h"
+#include "psi_slam/logs/rawlog_laser.h"
+
+namespace psi_slam {
+
+class EntryFrames {
+ public:
+  /// Throws UserError when an option makes no sense.
+  explicit EntryFrames(const LogOptions& options);
+
+  /// Any of the three may be null. Throws UserError when a scan has no time stamp or no rays, its laser is
+  /// tilted, or no odometry comes.
+  void take(const mrpt::obs::CActionCollection::Ptr& action,
+            const mrpt::obs::CSensoryFrame::Ptr& observations,
+            const mrpt::obs::CObservation::Ptr& observation);
+
+  /// The next frame that is complete.
+  std::optional<Frame> next();
+
+  /// Scans that still wait need wait no longer. Throws UserError when there are some and odometry never came.
+  void end_of_log();
+
+ private:
+  enum class Odometry { kUndecided, kActions, kObservations };
+  void take(const mrpt::obs::CObservation& observation);
+  void take_scan(const mrpt::obs::CObservation2DRangeScan& observation);
+  void take_odometry(const mrpt::obs::CObservationOdometry& observation);
+  void begin_with_actions();
+  void expect_odometry() const;
+
+  LogOptions options_;
+  RawlogLaser laser_;
+  std::optional<std::string> laser_label_;
+  std::optional<std::string> odometry_label_;
+  Odometry odometry_ = Odometry::kUndecided;
+  mrpt::math::TPose2D odom_T_robot_{0, 0, 0};  ///< the sum of the actions
+  OdometryInterpolator waiting_;
+  std::deque<Frame> ready_;
+  std::size_t scans_ = 0;
+  std::size_t frames_ = 0;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/graphslam/entry_frames.h"
+
+#include <utility>
+
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/logs/rawlog_objects.h"
+
+namespace psi_slam {
+namespace {
+
+TimeUs stamp_of(const mrpt::obs::CObservation& observation, const std::string& what) {
+  const std::optional<TimeUs> stamp = time_us(observation);
+  if (!stamp) throw UserError(what + " of the rawlog has no time stamp, expected one on every observation");
+  return *stamp;
+}
+
+}  // namespace
+
+EntryFrames::EntryFrames(const LogOptions& options) : options_(options), laser_(options) {
+  check_log_options(options);
+}
+
+void EntryFrames::take(const mrpt::obs::CActionCollection::Ptr& action,
+                       const mrpt::obs::CSensoryFrame::Ptr& observations,
+                       const mrpt::obs::CObservation::Ptr& observation) {
+  if (action) {
+    const std::optional<mrpt::math::TPose2D> motion = movement_of(*action);
+    if (motion && odometry_ == Odometry::kUndecided) begin_with_actions();
+    if (motion && odometry_ == Odometry::kActions) odom_T_robot_ = odom_T_robot_ + *motion;
+  }
+  if (observation) take(*observation);
+  if (!observations) return;
+  for (const mrpt::obs::CObservation::Ptr& one : *observations) take(*one);
+}
+
+std::optional<Frame> EntryFrames::next() {
+  std::optional<Frame> frame;
+  if (ready_.empty()) {
+    frame = waiting_.take();
+  } else {
+    frame = std::move(ready_.front());
+    ready_.pop_front();
+  }
+  if (frame) frame->index = frames_++;
+  return frame;
+}
+
+void EntryFrames::end_of_log() {
+  if (odometry_ == Odometry::kUndecided) expect_odometry();
+  waiting_.end_of_log();
+}
+
+// Scans that came before the first action stand where the robot started.
+void EntryFrames::begin_with_actions() {
+  odometry_ = Odometry::kActions;
+  waiting_.add_odometry(0, odom_T_robot_);
+  waiting_.end_of_log();
+  while (std::optional<Frame> frame = waiting_.take()) ready_.push_back(*std::move(frame));
+  waiting_ = {};
+}
+
+void EntryFrames::take(const mrpt::obs::CObservation& observation) {
+  if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation))
+    take_scan(*scan);
+  else if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation))
+    take_odometry(*odometry);
+}
+
+void EntryFrames::take_scan(const mrpt::obs::CObservation2DRangeScan& observation) {
+  const std::string& label = observation.sensorLabel;
+  if (!options_.laser.empty() && label != options_.laser) return;
+  if (!laser_label_) laser_label_ = label;
+  if (label != *laser_label_) return;
+  const std::string what = "scan " + std::to_string(++scans_);
+  Frame frame;
+  frame.time_us = stamp_of(observation, what);
+  frame.scan = laser_.scan(observation, what);
+  frame.odom_T_robot = odom_T_robot_;
+  if (odometry_ == Odometry::kActions) {
+    ready_.push_back(std::move(frame));
+    return;
+  }
+  waiting_.add_scan(std::move(frame));
+  const bool too_many = waiting_.waiting() > OdometryInterpolator::kMaxWaiting;
+  if (too_many && odometry_ == Odometry::kUndecided) expect_odometry();
+}
+
+void EntryFrames::take_odometry(const mrpt::obs::CObservationOdometry& observation) {
+  if (odometry_ == Odometry::kActions) return;
+  if (!odometry_label_) odometry_label_ = observation.sensorLabel;
+  if (observation.sensorLabel != *odometry_label_) return;
+  odometry_ = Odometry::kObservations;
+  waiting_.add_odometry(stamp_of(observation, "odometry"), observation.odometry.asTPose());
+}
+
+void EntryFrames::expect_odometry() const {
+  if (waiting_.waiting() == 0) return;
+  throw UserError("no odometry came with the first " + std::to_string(waiting_.waiting()) +
+                  " scans of the rawlog, expected actions of class CActionRobotMovement2D or observations of "
+                  "class CObservationOdometry");
+}
+
+}  // namespace psi_slam

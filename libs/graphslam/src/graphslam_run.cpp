@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one place that makes MRPT's engine, a template without a compiled form.
+#include "psi_slam/graphslam/graphslam_run.h"
+
+#include <mrpt/graphslam/CGraphSlamEngine.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "graphslam_window.h"
+#include "no_standard_input.h"
+#include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/graphslam/front_end_nrd.h"
+#include "psi_slam/graphslam/graphslam_settings.h"
+#include "psi_slam/graphslam/log_entries.h"
+#include "psi_slam/logs/rawlog_objects.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using mrpt::graphs::TNodeID;
+using mrpt::math::TPose2D;
+
+/// MRPT's engine, whose map can be drawn when all is done.
+class Engine : public mrpt::graphslam::CGraphSlamEngine<MrptGraph> {
+ public:
+  template <class... Arguments>
+  explicit Engine(Arguments&&... arguments) : CGraphSlamEngine(std::forward<Arguments>(arguments)...) {
+    m_time_logger.setMinLoggingLevel(getMinLoggingLevel());  // of the figures it prints at its end
+  }
+
+  /// The map of the graph's poses as they are now. Nodes that were registered before the first scan have
+  /// none: MRPT would follow a null pointer.
+  mrpt::maps::COccupancyGridMap2D::Ptr draw_map() {
+    for (auto node = m_nodes_to_laser_scans2D.begin(); node != m_nodes_to_laser_scans2D.end();)
+      node = node->second ? std::next(node) : m_nodes_to_laser_scans2D.erase(node);
+    m_map_is_cached = false;
+    auto map = mrpt::maps::COccupancyGridMap2D::Create();
+    getMap(map);
+    return map;
+  }
+};
+
+/// The result of `work` in MRPT's engine. Throws UserError for a mistake of the user, SystemFailure for what
+/// MRPT complains of.
+template <class Work>
+auto in_engine(const Work& work) {
+  try {
+    return work();
+  } catch (const UserError&) {
+    throw;
+  } catch (const mrpt::ExceptionWithCallBackBase& failure) {
+    std::string words = failure.originalWhat.substr(failure.originalWhat.find_first_not_of("\r\n "));
+    throw SystemFailure("MRPT's graph-slam engine gave up: " + words.substr(0, words.find('\n')));
+  }
+}
+
+/// MRPT looks neither at a file's words nor at its length. Returns the number of poses.
+std::size_t check_ground_truth(const fs::path& path) {
+  constexpr std::size_t kWords = 4;
+  std::ifstream file(path);
+  if (!file) throw UserError(path.string() + " cannot be read");
+  std::size_t lines = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++lines;
+    std::istringstream words(line);
+    std::vector<double> values;
+    for (double value = 0; words >> value;) values.push_back(value);
+    if (values.size() != kWords || !words.eof())
+      throw UserError(path.string() + ':' + std::to_string(lines) + ": expected \"time x y theta\"");
+  }
+  return lines;
+}
+
+mrpt::obs::CObservation2DRangeScan::Ptr scan_of(const LogEntry& entry) {
+  if (entry.observations)
+    return entry.observations->getObservationByClass<mrpt::obs::CObservation2DRangeScan>();
+  return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(entry.observation);
+}
+
+}  // namespace
+
+class GraphSlamRun::Implementation {
+ public:
+  Implementation(const GraphSlamSetup& setup, const DeciderCatalogue& catalogue)
+      : general_(read_graphslam_general(setup.ini)),
+        node_decider_(catalogue.make_node_decider(setup.node_decider)),
+        edge_decider_(catalogue.make_edge_decider(setup.edge_decider)),
+        optimizer_(catalogue.make_optimizer(setup.optimizer)) {
+    connect_deciders(*node_decider_, *edge_decider_, *optimizer_);
+    if (!setup.ground_truth.empty()) true_poses_ = check_ground_truth(setup.ground_truth);
+    entries_ = open_log_entries(setup.log, log_options(read_graphslam_settings(setup.ini)));
+    front_end_ = dynamic_cast<CPsiFrontEndNRD*>(node_decider_.get());
+    if (front_end_ != nullptr && entries_->are_made()) front_end_->set_log_options({});
+    if (setup.visuals) window_ = std::make_unique<GraphSlamWindow>();
+    const NoStandardInput no_input;
+    in_engine([&] {
+      engine_ = std::make_unique<Engine>(setup.ini.string(), setup.log.string(), setup.ground_truth.string(),
+                                         window_ ? &window_->manager() : nullptr, node_decider_.get(),
+                                         edge_decider_.get(), optimizer_.get());
+    });
+  }
+
+  bool step() {
+    std::optional<LogEntry> entry = entries_->next();
+    if (!entry) return false;
+    if (true_poses_ && steps_ >= *true_poses_)
+      throw UserError("the file of true poses ends after " + std::to_string(*true_poses_) +
+                      " poses, before the log does");
+    const auto scan = scan_of(*entry);
+    const bool go_on = in_engine([&] {
+      return engine_->_execGraphSlamStep(entry->action, entry->observations, entry->observation, steps_);
+    });
+    ++steps_;
+    if (scan) keep_path(*scan);
+    return go_on;
+  }
+
+  void finish(const std::function<bool(double)>& progress) {
+    finish_deciders(*node_decider_, *edge_decider_, *optimizer_, progress);
+  }
+
+  Trajectory trajectory() const {
+    if (front_end_ != nullptr) return front_end_->trajectory();
+    const auto& nodes = engine_->getGraph().nodes;
+    Trajectory path;
+    for (const PathPose& pose : path_) {
+      const auto node = nodes.find(pose.node);
+      const TPose2D map_T_node = node == nodes.end() ? TPose2D(0, 0, 0) : node->second.asTPose();
+      path.push_back({pose.time_us, map_T_node + pose.node_T_robot});
+    }
+    return path;
+  }
+
+  std::map<std::string, int> edge_counts() const {
+    std::map<std::string, int> counts;
+    edge_decider_->getEdgesStats(&counts);
+    return counts;
+  }
+
+  void write(const OutputFolder& folder) {
+    write_tum(folder.path() / "trajectory.tum", trajectory());
+    if (general_.save_graph)
+      write_atomically(folder.path() / general_.save_graph_fname, [&](const fs::path& temporary) {
+        engine_->getGraph().saveToTextFile(temporary.string());
+      });
+    if (general_.save_map && !engine_->getGraph().nodes.empty())
+      engine_->draw_map()->saveMetricMapRepresentationToFile(
+          (folder.path() / general_.save_map_fname).string());
+    if (window_ && general_.save_3DScene) {
+      const std::string scene = (folder.path() / general_.save_3DScene_fname).string();
+      engine_->save3DScene(&scene);
+    }
+    in_engine([&] { engine_->generateReportFiles(folder.path().string()); });
+  }
+
+  const Engine& engine() const { return *engine_; }
+  const LogEntries& entries() const { return *entries_; }
+  std::size_t scans() const { return scans_; }
+  void wait_for_window() {
+    if (window_) window_->wait_until_closed();
+  }
+
+ private:
+  struct PathPose {
+    TimeUs time_us = 0;
+    TNodeID node = 0;
+    TPose2D node_T_robot;
+  };
+
+  void keep_path(const mrpt::obs::CObservation2DRangeScan& scan) {
+    ++scans_;
+    if (front_end_ != nullptr) return;
+    const std::optional<TimeUs> time = time_us(scan);
+    if (!time) throw UserError("scan " + std::to_string(scans_) + " of the rawlog has no time stamp");
+    const auto& nodes = engine_->getGraph().nodes;
+    PathPose pose;
+    pose.time_us = *time;
+    pose.node = nodes.empty() ? 0 : nodes.size() - 1;
+    const TPose2D map_T_node = nodes.empty() ? TPose2D(0, 0, 0) : nodes.at(pose.node).asTPose();
+    pose.node_T_robot = engine_->getCurrentRobotPosEstimation().asTPose() - map_T_node;
+    path_.push_back(pose);
+  }
+
+  const GraphSlamGeneral general_;
+  std::unique_ptr<NodeDecider> node_decider_;
+  std::unique_ptr<EdgeDecider> edge_decider_;
+  std::unique_ptr<GraphOptimizer> optimizer_;
+  CPsiFrontEndNRD* front_end_ = nullptr;  // the node decider, where it is ours
+  std::unique_ptr<LogEntries> entries_;
+  std::optional<std::size_t> true_poses_;
+  std::unique_ptr<GraphSlamWindow> window_;
+  std::unique_ptr<Engine> engine_;
+  std::size_t steps_ = 0;
+  std::size_t scans_ = 0;
+  std::vector<PathPose> path_;  // of node deciders of MRPT's
+};
+
+GraphSlamRun::GraphSlamRun(const GraphSlamSetup& setup, const DeciderCatalogue& catalogue)
+    : implementation_(std::make_unique<Implementation>(setup, catalogue)) {}
+
+GraphSlamRun::~GraphSlamRun() = default;
+
+bool GraphSlamRun::step() {
+  return implementation_->step();
+}
+
+double GraphSlamRun::progress() const {
+  return implementation_->entries().progress();
+}
+
+void GraphSlamRun::finish(const std::function<bool(double)>& progress) {
+  implementation_->finish(progress);
+}
+
+Trajectory GraphSlamRun::trajectory() const {
+  return implementation_->trajectory();
+}
+
+const MrptGraph& GraphSlamRun::graph() const {
+  return implementation_->engine().getGraph();
+}
+
+std::size_t GraphSlamRun::scans() const {
+  return implementation_->scans();
+}
+
+std::map<std::string, int> GraphSlamRun::edge_counts() const {
+  return implementation_->edge_counts();
+}
+
+void GraphSlamRun::write(const OutputFolder& folder) {
+  implementation_->write(folder);
+}
+
+void GraphSlamRun::wait_for_window() {
+  implementation_->wait_for_window();
+}
+
+}  // namespace psi_slam

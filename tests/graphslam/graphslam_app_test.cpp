@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "graphslam_app.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "psi_slam/results/trajectory_file.h"
+#include "simulated_rawlog.h"
+#include "temporary_folder.h"
+#include "test_files.h"
+
+namespace psi_slam {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct AppRun {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+AppRun run_app(const std::vector<std::string>& arguments) {
+  std::ostringstream out;
+  std::ostringstream err;
+  const int code = run_graphslam_app(arguments, out, err);
+  return {code, out.str(), err.str()};
+}
+
+const std::string kIni = PSI_SLAM_INI_FOLDER "/graphslam.ini";
+
+TEST(GraphSlamApp, the_program_maps_a_simulated_log_without_a_display) {
+  const TemporaryFolder folder;
+  const auto log = write_rawlog(folder.path() / "drive.rawlog", simulated_drive().frames, 1);
+  const auto results = folder.path() / "results";
+  const std::string command = "env -u DISPLAY " PSI_GRAPHSLAM_PROGRAM " -i " + kIni + " -r " + log.string() +
+                              " --output-dir " + results.string() + " > /dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_LT(simulated_drive().error_m(read_trajectory(results / "trajectory.tum")), 0.03);
+  for (const char* name : {"output_graph.graph", "output_map.png", "summary.json", "CGraphSlamEngine.log"})
+    EXPECT_TRUE(std::filesystem::exists(results / name)) << name;
+}
+
+TEST(GraphSlamApp, deciders_that_do_not_go_together_are_wrong_usage) {
+  const TemporaryFolder folder;
+  std::vector<Frame> frames = simulated_drive().frames;
+  frames.resize(5);
+  const std::string log = write_rawlog(folder.path() / "drive.rawlog", frames, 1).string();
+  const AppRun run = run_app({"-i", kIni, "-r", log, "-n", "CICPCriteriaNRD", "--disable-visuals",
+                              "--output-dir", (folder.path() / "results").string()});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(
+      run.err,
+      "psi-graphslam: the edge decider CPsiLoopCloserERD matches with the local maps of CPsiFrontEndNRD "
+      "and works with no other node decider\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));
+}
+
+TEST(GraphSlamApp, wrong_words_are_told) {
+  EXPECT_THAT(run_app({"-r", "x"}).err, HasSubstr("-i INI"));
+  EXPECT_THAT(run_app({"-i", kIni}).err, HasSubstr("-r LOG"));
+  EXPECT_THAT(run_app({"-i", kIni, "-r", "/no/such.rawlog"}).err, HasSubstr("/no/such.rawlog"));
+  EXPECT_THAT(run_app({"-i", "/no/such.ini", "-r", "x"}).err, HasSubstr("/no/such.ini"));
+  EXPECT_THAT(run_app({"-i", kIni, "-r", "x", "--3d"}).err, HasSubstr("graphslam-engine"));
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{}, {"--no-such"}, {"-i", kIni, "-r", "/no/such.rawlog"}})
+    EXPECT_EQ(run_app(words).code, 2);
+}
+
+TEST(GraphSlamApp, lists_what_there_is_to_choose_from) {
+  const AppRun run = run_app({"--list-deciders"});
+  EXPECT_EQ(run.code, 0);
+  for (const char* name : {"CPsiFrontEndNRD (psi-slam)", "CFixedIntervalsNRD (MRPT)", "CLoopCloserERD (MRPT)",
+                           "CPsiLoopCloserERD (psi-slam)", "CPsiSpaGSO (psi-slam)", "CLevMarqGSO (MRPT)"})
+    EXPECT_THAT(run.out, HasSubstr(name));
+  EXPECT_EQ(run_app({"--list-node-regs"}).out.find("ERD (MRPT)"), std::string::npos);
+}
+
+TEST(GraphSlamApp, the_options_that_it_prints_are_a_settings_file) {
+  const TemporaryFolder folder;
+  const AppRun run = run_app({"--dump-options"});
+  EXPECT_THAT(run.out, HasSubstr("front_end.node_distance_m = 0.15"));
+}
+
+TEST(GraphSlamApp, true_poses_that_are_too_few_are_told) {
+  const TemporaryFolder folder;
+  std::vector<Frame> frames = simulated_drive().frames;
+  frames.resize(9);
+  const std::string log = write_rawlog(folder.path() / "drive.rawlog", frames, 1).string();
+  const auto run_with = [&](const std::string& poses) {
+    write_file(folder.path() / "truth.txt", poses);
+    return run_app({"-i", kIni, "-r", log, "-g", (folder.path() / "truth.txt").string(), "--disable-visuals",
+                    "--output-dir", (folder.path() / "results").string()});
+  };
+  EXPECT_THAT(run_with("1 0 0 0\n2 0 0 0\n").err, HasSubstr("ends after 2 poses"));
+  EXPECT_THAT(run_with("1 0 zero 0\n").err, HasSubstr("truth.txt:1"));
+}
+
+}  // namespace
+}  // namespace psi_slam

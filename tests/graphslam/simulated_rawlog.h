@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A simulated drive as rawlogs of either form, with the truth of each scan.
+#pragma once
+
+#include <mrpt/io/CFileOutputStream.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "psi_slam/logs/rawlog_objects.h"
+#include "psi_slam/results/range_observation.h"
+#include "psi_slam/results/robot_action.h"
+#include "psi_slam/results/trajectory_file.h"
+#include "psi_slam/simulation/simulated_log.h"
+
+namespace psi_slam {
+
+struct SimulatedDriveWithTruth {
+  std::vector<Frame> frames;
+  std::map<TimeUs, mrpt::math::TPose2D> truth;  ///< from the first scan's place
+
+  explicit SimulatedDriveWithTruth(double path_m) {
+    SimulatedLog log(simulated_log_options(path_m, 3));
+    mrpt::math::TPose2D world_T_start;
+    while (std::optional<Frame> frame = log.next()) {
+      if (frames.empty()) world_T_start = log.world_T_robot();
+      truth[frame->time_us] = log.world_T_robot() - world_T_start;
+      frames.push_back(*std::move(frame));
+    }
+  }
+
+  /// Mean distance from the truth, metres.
+  double error_m(const Trajectory& path) const {
+    double sum = 0;
+    for (const StampedPose& pose : path) {
+      const mrpt::math::TPose2D& there = truth.at(pose.time_us);
+      sum += std::hypot(pose.pose.x - there.x, pose.pose.y - there.y);
+    }
+    return sum / static_cast<double>(path.size());
+  }
+
+  /// Of odometry alone.
+  double odometry_error_m() const {
+    Trajectory path;
+    for (const Frame& frame : frames)
+      path.push_back({frame.time_us, frame.odom_T_robot - frames.front().odom_T_robot});
+    return error_m(path);
+  }
+};
+
+/// Made once for all tests.
+inline const SimulatedDriveWithTruth& simulated_drive() {
+  static const SimulatedDriveWithTruth kDrive(120);
+  return kDrive;
+}
+
+inline mrpt::obs::CObservationOdometry odometry_observation(const Frame& frame) {
+  mrpt::obs::CObservationOdometry odometry;
+  odometry.timestamp = mrpt_clock_time(frame.time_us);
+  odometry.odometry = mrpt::poses::CPose2D(frame.odom_T_robot);
+  return odometry;
+}
+
+/// Form 1: actions and sensory frames. Form 2: a scan and then odometry of its time, one by one.
+inline std::filesystem::path write_rawlog(const std::filesystem::path& path, const std::vector<Frame>& frames,
+                                          int form) {
+  mrpt::io::CFileOutputStream file(path.string());
+  auto archive = mrpt::serialization::archiveFrom(file);
+  mrpt::math::TPose2D last = frames.front().odom_T_robot;
+  for (const Frame& frame : frames) {
+    if (form == 1) {
+      mrpt::obs::CSensoryFrame observations;
+      observations.insert(range_observation(frame));
+      archive << robot_action(frame.odom_T_robot - last, frame.time_us) << observations;
+    } else {
+      archive << *range_observation(frame) << odometry_observation(frame);
+    }
+    last = frame.odom_T_robot;
+  }
+  return path;
+}
+
+}  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "markdown_cells.h"
+#include "psi_slam/batch/markdown_cells.h"
 
 #include <algorithm>
 

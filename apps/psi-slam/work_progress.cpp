@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench_progress.h"
+#include "work_progress.h"
 
 #include <cstdio>
 #include <ostream>
@@ -15,7 +15,7 @@ constexpr double kEarlyShare = 0.01;  // before it the time left is guesswork
 
 }  // namespace
 
-std::string bench_progress_text(const std::string& doing, double share, double elapsed_s) {
+std::string work_progress_text(const std::string& doing, double share, double elapsed_s) {
   char percent[32];
   std::snprintf(percent, sizeof percent, "   %3.0f %%", 100 * share);
   std::string line = doing + percent;
@@ -23,7 +23,7 @@ std::string bench_progress_text(const std::string& doing, double share, double e
   return line;
 }
 
-void BenchProgress::show(const std::string& doing, double done, double all) {
+void WorkProgress::show(const std::string& doing, double done, double all) {
   if (terminal_ == nullptr) return;
   const auto now = std::chrono::steady_clock::now();
   if (shown_ && now - shown_at_ < kBetweenUpdates) return;
@@ -31,10 +31,10 @@ void BenchProgress::show(const std::string& doing, double done, double all) {
   shown_at_ = now;
   const double share = all > 0 ? done / all : 0;
   const double elapsed_s = std::chrono::duration<double>(now - began_).count();
-  *terminal_ << kEraseLine << bench_progress_text(doing, share, elapsed_s) << std::flush;
+  *terminal_ << kEraseLine << work_progress_text(doing, share, elapsed_s) << std::flush;
 }
 
-void BenchProgress::clear() {
+void WorkProgress::clear() {
   if (shown_) *terminal_ << kEraseLine << std::flush;
   shown_ = false;
 }

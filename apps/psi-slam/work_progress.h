@@ -9,17 +9,17 @@
 namespace psi_slam {
 
 /// "intel, cases   34 %   12:30 left"; without the time before it can be told.
-std::string bench_progress_text(const std::string& doing, double share, double elapsed_s);
+std::string work_progress_text(const std::string& doing, double share, double elapsed_s);
 
 /// One line of a terminal that is written over and over, and gone at the end of its scope. Without a
 /// terminal it says nothing.
-class BenchProgress {
+class WorkProgress {
  public:
   /// `terminal` may be null.
-  explicit BenchProgress(std::ostream* terminal) : terminal_(terminal) {}
-  ~BenchProgress() { clear(); }
-  BenchProgress(const BenchProgress&) = delete;
-  BenchProgress& operator=(const BenchProgress&) = delete;
+  explicit WorkProgress(std::ostream* terminal) : terminal_(terminal) {}
+  ~WorkProgress() { clear(); }
+  WorkProgress(const WorkProgress&) = delete;
+  WorkProgress& operator=(const WorkProgress&) = delete;
 
   /// `done` of `all` units of the work that the time left is told by; not shown more than a few times a
   /// second.

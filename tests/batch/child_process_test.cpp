@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "child_process.h"
+#include "psi_slam/batch/child_process.h"
 
 #include <gmock/gmock.h>
 

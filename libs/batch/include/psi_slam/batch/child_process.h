@@ -30,7 +30,9 @@ struct ChildEnd {
   std::string failure() const;
 };
 
-/// Its standard input is empty. Throws SystemFailure when it cannot be started.
+/// Its standard input is empty. It stands in a process group of its own, so that Ctrl-C is for the caller
+/// alone, and ends with the thread that started it, however that ends. Throws SystemFailure when it cannot be
+/// started.
 ChildEnd run_child(const ChildProcess& child);
 
 }  // namespace psi_slam

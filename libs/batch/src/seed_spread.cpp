@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "seed_spread.h"
+#include "psi_slam/batch/seed_spread.h"
 
 #include <algorithm>
 #include <cmath>

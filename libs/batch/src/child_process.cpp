@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "child_process.h"
+#include "psi_slam/batch/child_process.h"
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstring>
 
 #include "psi_slam/base/user_error.h"
-#include "running_child.h"
+#include "psi_slam/batch/running_child.h"
 
 namespace psi_slam {
 namespace {
@@ -42,19 +43,38 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   return pointers;
 }
 
+/// In the new process, where nothing but system calls is safe. It ends with the process that started it, and
+/// is out of reach of its terminal's Ctrl-C. Says through `complaint` why there is no program.
+[[noreturn]] void become(char* const* words, int out, int err, int complaint, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // it has ended already
+  ::setpgid(0, 0);
+  const int in = ::open("/dev/null", O_RDONLY);
+  if (in >= 0 && ::dup2(in, STDIN_FILENO) >= 0 && ::dup2(out, STDOUT_FILENO) >= 0 &&
+      ::dup2(err, STDERR_FILENO) >= 0)
+    ::execv(words[0], words);
+  const int error = errno;
+  const ssize_t told = ::write(complaint, &error, sizeof error);
+  ::_exit(told < 0 ? 1 : 127);
+}
+
 pid_t start(const ChildProcess& child, const Pipe& out, const Pipe& err) {
   std::vector<std::string> words = child.words;
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&files, out.writing(), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&files, err.writing(), STDERR_FILENO);
-  pid_t pid = -1;
-  const int error =
-      ::posix_spawn(&pid, words.at(0).c_str(), &files, nullptr, pointers_to(words).data(), ::environ);
-  posix_spawn_file_actions_destroy(&files);
-  if (error != 0) fail("cannot start " + child.words[0], error);
-  return pid;
+  const std::vector<char*> pointers = pointers_to(words);
+  Pipe complaint;  // closes when the program begins
+  const pid_t parent = ::getpid();
+  const pid_t pid = ::fork();
+  if (pid < 0) fail("cannot start " + words.at(0), errno);
+  if (pid == 0) become(pointers.data(), out.writing(), err.writing(), complaint.writing(), parent);
+  complaint.close_writing();
+  std::string told;
+  while (complaint.read_to(told)) {
+  }
+  int error = 0;
+  if (told.size() < sizeof error) return pid;
+  std::memcpy(&error, told.data(), sizeof error);
+  ::waitpid(pid, nullptr, 0);
+  fail("cannot start " + words[0], error);
 }
 
 /// The last line that says something.

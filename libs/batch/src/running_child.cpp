@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "running_child.h"
+#include "psi_slam/batch/running_child.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>

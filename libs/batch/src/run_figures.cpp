@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run_figures.h"
+#include "psi_slam/batch/run_figures.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

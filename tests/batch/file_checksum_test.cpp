@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "file_checksum.h"
+#include "psi_slam/batch/file_checksum.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "run_figures.h"
+#include "psi_slam/batch/run_figures.h"
 
 namespace psi_slam {
 

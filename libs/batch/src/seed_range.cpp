@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "seed_range.h"
+#include "psi_slam/batch/seed_range.h"
 
 #include <charconv>
 #include <numeric>

@@ -112,6 +112,19 @@ TEST_F(SweepPlanTest, a_log_may_have_an_at_sign_in_its_name_and_a_namesake) {
   EXPECT_EQ(plan.logs[1].name, namesake);
 }
 
+TEST_F(SweepPlanTest, a_log_may_be_a_folder) {
+  std::filesystem::create_directory(folder_.path() / "recording");
+  file("recording/0.db3", "1");
+  const SweepRequest asked = request({(folder_.path() / "recording").string() + '/'});
+  const SweepPlan plan = plan_sweep(asked, "program");
+  EXPECT_EQ(plan.logs.front().name, "recording");
+  EXPECT_EQ(plan.logs.front().bytes, 1U);
+  file("recording/1.db3", "2");
+  EXPECT_NE(plan_sweep(asked, "program").runs.front().key, plan.runs.front().key);
+  file("recording.ini", "[log]\nmax_range_m = 30\n");
+  EXPECT_EQ(plan_sweep(asked, "program").logs.front().ini, folder_.path() / "recording.ini");
+}
+
 TEST_F(SweepPlanTest, refuses_with_a_sentence) {
   const std::string log = file("a.log");
   EXPECT_THAT(refusal(request({})), HasSubstr("name the logs"));

@@ -27,7 +27,7 @@ SweepOutcome done(double error_m) {
 class SweepReportTest : public testing::Test {
  protected:
   SweepReportTest() {
-    plan_.logs = {{"a", "a.log", {}, {}, "sha", {}}};
+    plan_.logs = {{"a", "a.log", {}, {}, "sha", 1, {}}};
     plan_.columns = {"map.resolution_m"};
     for (const char* value : {"0.1", "0.2"})
       for (const std::uint64_t seed : {1, 2})

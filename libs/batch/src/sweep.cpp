@@ -82,7 +82,7 @@ SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const 
     result.outcomes.push_back(kept_outcome(order));
     if (result.outcomes.back()) continue;
     runs.push_back(result.outcomes.size() - 1);
-    work.push_back(static_cast<double>(fs::file_size(order.log)));
+    work.push_back(static_cast<double>(plan.logs[run.log].bytes));
     all_work += work.back();
     orders.push_back(std::move(order));
   }

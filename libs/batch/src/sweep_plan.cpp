@@ -32,6 +32,24 @@ void require_file(const fs::path& path, const std::string& what) {
   if (!fs::is_regular_file(path)) throw UserError(what + path.string() + " is no file");
 }
 
+/// Of a log that is a folder, all its files count, and their names.
+void measure(SweepLog& log) {
+  if (!fs::is_directory(log.log)) {
+    log.sha256 = sha256_of_file(log.log);
+    log.bytes = fs::file_size(log.log);
+    return;
+  }
+  std::map<std::string, fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(log.log))
+    if (entry.is_regular_file()) files[entry.path().lexically_relative(log.log).string()] = entry.path();
+  std::string text;
+  for (const auto& [name, path] : files) {
+    text += name + ' ' + sha256_of_file(path) + '\n';
+    log.bytes += fs::file_size(path);
+  }
+  log.sha256 = sha256_of_text(text);
+}
+
 /// The file of that name in the folder, or beside the log where no folder is given; empty where there is
 /// none.
 fs::path found(const fs::path& log, const std::string& folder, const char* ending) {
@@ -42,6 +60,7 @@ fs::path found(const fs::path& log, const std::string& folder, const char* endin
 SweepLog log_of(const std::string& argument, const SweepRequest& request) {
   SweepLog log;
   log.log = argument;
+  if (log.log.filename().empty()) log.log = log.log.parent_path();  // "folder/"
   const std::size_t at = argument.rfind('@');
   if (at != std::string::npos && !fs::exists(log.log)) {  // a file may have an @ in its name
     log.log = argument.substr(0, at);
@@ -50,9 +69,9 @@ SweepLog log_of(const std::string& argument, const SweepRequest& request) {
   } else {
     log.ini = found(log.log, request.ini_folder, ".ini");
   }
-  require_file(log.log, "the log ");
+  if (!fs::is_directory(log.log)) require_file(log.log, "the log ");
   log.name = stem_of(log.log);
-  log.sha256 = sha256_of_file(log.log);
+  measure(log);
   fs::path relations = request.relations;
   if (relations.empty())
     relations = found(log.log, {}, ".relations");

@@ -26,10 +26,11 @@ struct SweepRequest {
 
 struct SweepLog {
   std::string name;  ///< "intel"; the whole path where two files have one name
-  std::filesystem::path log;
+  std::filesystem::path log;                       ///< a file, or a folder of one recording
   std::filesystem::path ini;                       ///< its own settings; empty: none
   std::optional<std::filesystem::path> relations;  ///< that are known to be true
   std::string sha256;
+  std::uintmax_t bytes = 0;      ///< of the log
   std::string relations_sha256;  ///< empty: none
 };
 

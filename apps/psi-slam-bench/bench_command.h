@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "bench_progress.h"
 #include "benchmark_logs.h"
+#include "psi_slam/batch/seed_range.h"
 #include "psi_slam_app.h"
-#include "seed_range.h"
+#include "work_progress.h"
 
 namespace psi_slam {
 
@@ -52,7 +52,7 @@ void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& pu
 /// The result of `work`, which is given what it is to report its progress to.
 template <class Work>
 auto with_progress(const Streams& streams, const Work& work) {
-  BenchProgress progress(streams.err_is_terminal ? &streams.err : nullptr);
+  WorkProgress progress(streams.err_is_terminal ? &streams.err : nullptr);
   return work([&](const std::string& doing, double done, double all) { progress.show(doing, done, all); });
 }
 

@@ -8,6 +8,7 @@
 
 #include "mapped_run.h"
 #include "psi_slam/base/user_error.h"
+#include "psi_slam/batch/log_name.h"
 #include "psi_slam/config/apply_settings.h"
 #include "psi_slam/config/ini_file.h"
 #include "psi_slam/logs/open_log.h"
@@ -17,16 +18,6 @@ namespace psi_slam {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The name of the log that a file is, if it is one.
-std::optional<std::string> log_name(const std::string& file) {
-  for (const char* ending : {".clf", ".log", ".rawlog", ".clf.gz", ".log.gz", ".rawlog.gz"}) {
-    const std::string_view end = ending;
-    if (file.size() > end.size() && file.compare(file.size() - end.size(), end.size(), end) == 0)
-      return file.substr(0, file.size() - end.size());
-  }
-  return std::nullopt;
-}
 
 /// The front end once more beside the mapper, which keeps its local maps to itself: it gives the same ones.
 class PlaceCollector {
@@ -78,7 +69,7 @@ std::vector<BenchmarkLog> find_benchmark_logs(const fs::path& data, const fs::pa
   if (!fs::is_directory(data)) throw UserError(data.string() + " is no folder");
   std::map<std::string, fs::path> files;
   for (const auto& entry : fs::directory_iterator(data)) {
-    const auto name = log_name(entry.path().filename().string());
+    const auto name = log_name_of(entry.path().filename().string());
     if (!name || !entry.is_regular_file()) continue;
     fs::path& file = files[*name];
     if (file.empty() || entry.path() < file) file = entry.path();

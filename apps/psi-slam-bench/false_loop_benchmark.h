@@ -13,8 +13,8 @@
 #include "benchmark_logs.h"
 #include "false_loops.h"
 #include "log_identity.h"
+#include "psi_slam/batch/seed_range.h"
 #include "psi_slam/pose_graph/sparse_pose_adjustment.h"
-#include "seed_range.h"
 
 namespace psi_slam {
 

@@ -6,6 +6,7 @@
 #include "false_loop_report.h"
 #include "match_report.h"
 #include "psi_slam/base/atomic_file.h"
+#include "psi_slam/batch/machine_text.h"
 
 namespace psi_slam {
 namespace {

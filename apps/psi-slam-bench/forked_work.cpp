@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "psi_slam/base/user_error.h"
-#include "running_child.h"
+#include "psi_slam/batch/running_child.h"
 
 namespace psi_slam {
 namespace {

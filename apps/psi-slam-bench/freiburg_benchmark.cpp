@@ -3,14 +3,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "child_process.h"
-#include "file_checksum.h"
-#include "kept_run.h"
 #include "match_report.h"
 #include "program_identity.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/base/worker_pool.h"
-#include "task_progress.h"
+#include "psi_slam/batch/child_process.h"
+#include "psi_slam/batch/file_checksum.h"
+#include "psi_slam/batch/kept_run.h"
+#include "psi_slam/batch/machine_text.h"
+#include "psi_slam/batch/task_progress.h"
 
 namespace psi_slam {
 namespace {

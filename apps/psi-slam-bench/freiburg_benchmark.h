@@ -17,9 +17,9 @@
 #include "benchmark_logs.h"
 #include "freiburg_run.h"
 #include "log_identity.h"
+#include "psi_slam/batch/seed_range.h"
 #include "rival_program.h"
 #include "rival_run.h"
-#include "seed_range.h"
 
 namespace psi_slam {
 

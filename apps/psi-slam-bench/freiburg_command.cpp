@@ -11,6 +11,7 @@
 #include "match_report.h"
 #include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
+#include "psi_slam/batch/machine_text.h"
 #include "published_figures.h"
 #include "rival_benchmark.h"
 

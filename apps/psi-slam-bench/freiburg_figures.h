@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "freiburg_benchmark.h"
-#include "seed_spread.h"
+#include "psi_slam/batch/seed_spread.h"
 
 namespace psi_slam {
 

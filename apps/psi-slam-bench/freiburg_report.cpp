@@ -7,8 +7,8 @@
 #include "freiburg_comparison.h"
 #include "freiburg_figures.h"
 #include "freiburg_rivals.h"
-#include "markdown_cells.h"
 #include "program_identity.h"
+#include "psi_slam/batch/markdown_cells.h"
 #include "psi_slam/results/number_text.h"
 
 namespace psi_slam {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "markdown_cells.h"
+#include "psi_slam/batch/markdown_cells.h"
 #include "psi_slam/results/number_text.h"
 
 namespace psi_slam {

@@ -26,7 +26,4 @@ std::string match_json(const MatchBenchmark& benchmark, const MatchBenchmarkOpti
 std::string window_plot(const MatchBenchmark& benchmark);
 std::string local_map_plot(const MatchBenchmark& benchmark);
 
-/// "AMD EPYC, 2 processors", as the system tells it.
-std::string machine_text();
-
 }  // namespace psi_slam

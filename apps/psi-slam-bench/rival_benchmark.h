@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "benchmark_logs.h"
+#include "psi_slam/batch/task_progress.h"
 #include "rival_program.h"
 #include "rival_run.h"
-#include "task_progress.h"
 
 namespace psi_slam {
 

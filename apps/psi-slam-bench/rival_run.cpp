@@ -5,9 +5,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "child_process.h"
 #include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
+#include "psi_slam/batch/child_process.h"
 #include "psi_slam/config/apply_settings.h"
 #include "psi_slam/logs/open_log.h"
 #include "rival_log.h"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "benchmark_logs.h"
+#include "psi_slam/batch/run_figures.h"
 #include "rival_program.h"
-#include "run_figures.h"
 
 namespace psi_slam {
 

@@ -4,6 +4,7 @@
 #include "bench_command.h"
 #include "match_report.h"
 #include "psi_slam/base/atomic_file.h"
+#include "psi_slam/batch/machine_text.h"
 #include "robustness_benchmark.h"
 #include "robustness_report.h"
 

@@ -7,6 +7,7 @@
 #include "plan_picture.h"
 #include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
+#include "psi_slam/batch/machine_text.h"
 #include "simulate_benchmark.h"
 #include "simulate_report.h"
 #include "simulated_log_file.h"

@@ -13,7 +13,8 @@ constexpr const char* kExamples =
     "  psi-slam check my.log                    what is in a log, and what is wrong with it\n"
     "  psi-slam my.log -o out/                  map it: open out/report.html\n"
     "  psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0.025\n"
-    "  psi-slam --dump-config > my.ini          settings to begin with\n";
+    "  psi-slam --dump-config > my.ini          settings to begin with\n"
+    "  psi-slam sweep *.log -o out/ --set loop_closure.matcher=csm,ga --seeds 10\n";
 
 bool is_option(const std::string& argument) {
   return argument.size() > 1 && argument.front() == '-';
@@ -21,7 +22,7 @@ bool is_option(const std::string& argument) {
 
 /// Complains about the first argument that is neither the log nor a known option.
 [[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
-  const auto command = nearest_name(line.log, {"check", "options"});
+  const auto command = nearest_name(line.log, {"check", "options", "sweep"});
   if (command && !is_option(argument))
     throw UserError("there is no command \"" + line.log + "\"; did you mean \"" + *command + "\"?");
   throw UserError(unknown_argument_text(argument, app, "psi-slam"));
@@ -99,10 +100,15 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   CLI::App* const options = app.add_subcommand("options", "Explain every option of the settings files");
   options->add_flag("--markdown", line.markdown, "Print a page in Markdown");
 
+  CLI::App* const sweep = app.add_subcommand("sweep", "Map many logs with many settings, and compare");
+  add_sweep_options(*sweep, line.sweep);
+  add_processes_option(*sweep, line.sweep);
+
   app.require_subcommand(0, 1);
   app.allow_extras();
   check->allow_extras();
   options->allow_extras();
+  sweep->allow_extras();
   app.footer(kExamples);
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
 
@@ -111,12 +117,15 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   } else if (check->parsed()) {
     line.command = CommandLine::Command::kCheck;
     line.log = log_to_check;
+  } else if (sweep->parsed()) {
+    line.command = CommandLine::Command::kSweep;
   } else if (dump_config) {
     line.command = CommandLine::Command::kDumpConfig;
   } else {
     line.log = log_to_map;
   }
-  const CLI::App& spoken_to = check->parsed() ? *check : options->parsed() ? *options : app;
+  const std::vector<CLI::App*> commands = app.get_subcommands();  // that were parsed
+  const CLI::App& spoken_to = commands.empty() ? app : *commands.front();
   const std::vector<std::string> unknown = app.remaining(true);
   if (!unknown.empty()) fail_unknown(unknown.front(), line, spoken_to);
   if (line.quiet && line.verbose) throw UserError("--quiet and --verbose do not go together");

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "sweep_command.h"
+
 namespace psi_slam {
 
 /// What the user asked for, not yet looked at closer.
 struct CommandLine {
-  enum class Command { kMap, kCheck, kOptions, kDumpConfig };
+  enum class Command { kMap, kCheck, kOptions, kDumpConfig, kSweep };
 
   Command command = Command::kMap;
   std::string log;
@@ -25,6 +27,7 @@ struct CommandLine {
   bool quiet = false;
   bool verbose = false;
   bool markdown = false;
+  SweepArguments sweep;
 };
 
 /// Reads the arguments with `app`, which was made for this. Throws CLI::ParseError for --help, --version and

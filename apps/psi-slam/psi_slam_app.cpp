@@ -120,6 +120,9 @@ int run(const CommandLine& line, const Streams& streams) {
     case CommandLine::Command::kDumpConfig:
       dump_config(line, streams);
       break;
+    case CommandLine::Command::kSweep:
+      code = run_sweep_command(line.sweep, local_workers(line.sweep.processes), "/proc/self/exe", streams);
+      break;
   }
   streams.out.flush();
   if (!streams.out) throw SystemFailure("cannot write to standard output");

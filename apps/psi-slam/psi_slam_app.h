@@ -4,6 +4,7 @@
 //     psi-slam [-c INI] [--set SECTION.KEY=VALUE]... LOG -o DIR     maps a log
 //     psi-slam check [-c INI] LOG                                   tells what a log holds, and what is wrong
 //     psi-slam options [--markdown]                                 explains every option
+//     psi-slam sweep LOG... -o DIR [--set SECTION.KEY=V,V]...       maps many logs with many settings
 //     psi-slam --dump-config [-c INI] [--set ...]                   prints a settings file
 #pragma once
 

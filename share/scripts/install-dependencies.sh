@@ -11,6 +11,7 @@ packages=(
   libcli11-dev nlohmann-json3-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev
   libssl-dev libnanoflann-dev libgtest-dev libgmock-dev libbenchmark-dev python3
   python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs
+  libopenmpi-dev openmpi-bin
 )
 
 fail() {

@@ -65,9 +65,9 @@ class AppProcess {
   /// `prepare` runs in the new process before the program does.
   AppProcess(
       const std::vector<std::string>& arguments, std::filesystem::path folder,
-      const std::function<void()>& prepare = [] {})
+      const std::function<void()>& prepare = [] {}, const std::string& program = PSI_SLAM_PROGRAM)
       : folder_(std::move(folder)) {
-    std::vector<std::string> words{PSI_SLAM_PROGRAM};
+    std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
@@ -85,6 +85,7 @@ class AppProcess {
     ::_exit(127);
   }
 
+  pid_t pid() const { return pid_; }
   void send(int signal) const { ::kill(pid_, signal); }
 
   /// Waits for its end. The code is minus the signal if one ended it.

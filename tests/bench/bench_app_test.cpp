@@ -3,12 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench_progress.h"
 #include "command_fixture.h"
 #include "psi_slam/base/time_stamp.h"
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/results/relations_metric.h"
 #include "shared_logs.h"
+#include "work_progress.h"
 
 namespace psi_slam {
 namespace {
@@ -185,9 +185,9 @@ TEST_F(BenchApp, refuses_simulations_that_make_no_sense) {
   }
 }
 
-TEST(BenchProgress, tells_the_time_left_once_it_can) {
-  EXPECT_EQ(bench_progress_text("intel", 0.25, 60), "intel    25 %   3:00 left");
-  EXPECT_EQ(bench_progress_text("intel", 0.001, 60), "intel     0 %");
+TEST(WorkProgress, tells_the_time_left_once_it_can) {
+  EXPECT_EQ(work_progress_text("intel", 0.25, 60), "intel    25 %   3:00 left");
+  EXPECT_EQ(work_progress_text("intel", 0.001, 60), "intel     0 %");
 }
 
 }  // namespace

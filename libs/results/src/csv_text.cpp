@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "csv_text.h"
+#include "psi_slam/results/csv_text.h"
 
 #include "psi_slam/results/number_text.h"
 

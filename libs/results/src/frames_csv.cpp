@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/results/frames_csv.h"
 
-#include "csv_text.h"
 #include "psi_slam/base/atomic_file.h"
+#include "psi_slam/results/csv_text.h"
 #include "psi_slam/results/number_text.h"
 
 namespace psi_slam {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "csv_text.h"
 #include "psi_slam/base/atomic_file.h"
+#include "psi_slam/results/csv_text.h"
 #include "psi_slam/results/number_text.h"
 #include "psi_slam/results/verdict_text.h"
 

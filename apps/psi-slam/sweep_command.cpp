@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sweep_command.h"
+
+#include <map>
+#include <ostream>
+
+#include "interrupt_signals.h"
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/batch/file_checksum.h"
+#include "psi_slam/batch/sweep_report.h"
+#include "work_progress.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostThreads = 1024;
+
+/// An option that takes one text each time it is given.
+CLI::Option* add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& texts,
+                          const std::string& help) {
+  return command.add_option(name, texts, help + "; may be given again")->allow_extra_args(false);
+}
+
+void prepare(const fs::path& folder) {
+  if (folder.empty()) throw UserError("name the folder for the results: -o DIR (see psi-slam sweep --help)");
+  std::error_code failed;
+  fs::create_directories(folder / "runs", failed);
+  if (failed) throw UserError("the folder " + folder.string() + " cannot be made: " + failed.message());
+}
+
+std::string closing_text(const SweepResult& result, const fs::path& folder) {
+  const std::size_t made = result.made_now();
+  const std::size_t finished = result.outcomes.size() - result.to_go() - result.failed();
+  return std::to_string(finished) + " of " + std::to_string(result.outcomes.size()) + " runs are finished, " +
+         std::to_string(made) + " made now: " + (folder / "report.html").string() + " compares them, " +
+         (folder / "sweep.csv").string() + " lists them.\n";
+}
+
+}  // namespace
+
+void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
+  SweepRequest& request = arguments.request;
+  command.add_option("LOG", request.logs, "Logs to map; LOG@INI states a log's own settings")->type_name("");
+  command
+      .add_option("-o,--output", arguments.output,
+                  "Folder for runs and report; runs that are there are not made again")
+      ->type_name("DIR");
+  command
+      .add_option("--ini", request.ini_folder,
+                  "Folder of the logs' own settings NAME.ini; default: beside each log, where there are any")
+      ->type_name("DIR");
+  command
+      .add_option("--relations", request.relations,
+                  "True relations of the one log; default: NAME.relations beside each, where there are any")
+      ->type_name("FILE");
+  add_repeated(command, "-c,--config", request.configs, "Settings file to compare, over the logs' own")
+      ->type_name("INI");
+  add_repeated(command, "--set", request.choices, "Values of an option to compare")
+      ->type_name("SECTION.KEY=VALUE,...");
+  command
+      .add_option_function<std::string>(
+          "--seeds", [&request](const std::string& text) { request.seeds = parse_seeds(text); },
+          "Of each setting's runs: N for 1 to N, or FIRST-LAST")
+      ->default_str("1")
+      ->type_name("SEEDS");
+  static const std::map<std::string, SweepKeep> kKeeps{
+      {"none", SweepKeep::kNone}, {"paths", SweepKeep::kPaths}, {"maps", SweepKeep::kMaps}};
+  command
+      .add_option("--keep", arguments.keep,
+                  "Of each run: none (its summary and settings), paths (and tables), maps (everything)")
+      ->transform(CLI::Transformer(kKeeps))
+      ->default_str("none")
+      ->type_name("WHAT");
+  command.add_option("--threads", request.threads, "Threads of each run")
+      ->check(CLI::Range(1, kMostThreads))
+      ->capture_default_str();
+  command.add_flag("-q,--quiet", arguments.quiet, "Print nothing but complaints");
+}
+
+void add_processes_option(CLI::App& command, SweepArguments& arguments) {
+  command
+      .add_option("--processes", arguments.processes,
+                  "Runs at a time; more than there are processors spoils the times")
+      ->check(CLI::Range(1, kMostThreads))
+      ->capture_default_str();
+}
+
+int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& workers, const fs::path& program,
+                      const Streams& streams) {
+  prepare(arguments.output);
+  const SweepPlan plan = plan_sweep(arguments.request, sha256_of_file(program));
+  const fs::path folder = arguments.output;
+  const SweepLock lock(folder);
+  const InterruptSignals signals;
+  SweepResult result;
+  {
+    WorkProgress progress(streams.err_is_terminal && !arguments.quiet ? &streams.err : nullptr);
+    result = run_sweep(
+        plan, {folder, arguments.keep, program}, workers, [&] { return signals.came().load(); },
+        [&](const std::string& doing, double done, double all) { progress.show(doing, done, all); });
+  }
+  write_sweep_report(plan, result, folder);
+  if (!arguments.quiet) streams.out << closing_text(result, folder);
+  if (result.to_go() > 0)
+    throw SystemFailure("interrupted with " + std::to_string(result.to_go()) +
+                        " runs to go: the same command goes on");
+  if (result.failed() > 0)
+    throw SystemFailure(std::to_string(result.failed()) + (result.failed() == 1 ? " run" : " runs") +
+                        " failed: " + (folder / "report.html").string() + " says which and why");
+  return 0;
+}
+
+}  // namespace psi_slam

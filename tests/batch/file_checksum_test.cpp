@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/batch/file_checksum.h"
+
+#include <gtest/gtest.h>
+
+#include "temporary_folder.h"
+#include "test_files.h"
+
+namespace psi_slam {
+namespace {
+
+TEST(FileChecksum, is_the_sha_256_of_the_standard) {
+  EXPECT_EQ(sha256_of_text("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256_of_text(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+TEST(FileChecksum, of_a_file_is_that_of_its_bytes) {
+  const TemporaryFolder folder;
+  const std::string bytes(200'001, '\0');  // more than is read at once
+  write_file(folder.path() / "zeros", bytes);
+  EXPECT_EQ(sha256_of_file(folder.path() / "zeros"), sha256_of_text(bytes));
+  EXPECT_NE(sha256_of_text(bytes), sha256_of_text(bytes + '\0'));
+  EXPECT_NE(sentence_of([&] { sha256_of_file(folder.path() / "none"); }).find("none"), std::string::npos);
+  EXPECT_NE(sentence_of([&] { sha256_of_file(folder.path()); }).find("cannot be read"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -31,8 +31,8 @@ std::string closing_text(const RunSummary& summary, const std::string& log_name,
   const std::string report = (folder.path() / "report.html").string();
   std::error_code ignored;
   const bool has_picture = std::filesystem::exists(picture, ignored);  // map.write_png
-  std::string lines = "The map is " + (has_picture ? picture : folder.path()).string() + (has_picture ? "; " : ": ") +
-                      report + " tells how it was made.\n";
+  std::string lines = "The map is " + (has_picture ? picture : folder.path()).string() +
+                      (has_picture ? "; " : ": ") + report + " tells how it was made.\n";
   lines += counted(summary.log.scans, "scan") + " of " + log_name + " over " +
            minutes_text(summary.log.duration_s) + text(" and %.0f m: ", summary.path_length_m) +
            counted(summary.nodes, "node") + ", " + counted(summary.loops.accepted, "loop") + " closed.\n";

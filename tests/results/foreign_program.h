@@ -32,7 +32,8 @@ inline ForeignRun run_foreign(const std::string& command) {
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
   ForeignRun run;
   std::array<char, 4096> piece{};
-  while (const std::size_t size = std::fread(piece.data(), 1, piece.size(), pipe)) run.out.append(piece.data(), size);
+  while (const std::size_t size = std::fread(piece.data(), 1, piece.size(), pipe))
+    run.out.append(piece.data(), size);
   const int status = pclose(pipe);
   run.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
   return run;

@@ -41,6 +41,14 @@ class MapFiles : public testing::Test {
     return run_foreign("/usr/bin/python3 '" PSI_SLAM_MEASURE_MAP "' '" + file.string() + "'");
   }
 
+  /// `numbers` begins with the walls' x_min, x_max, y_min, y_max.
+  void expect_room(const std::vector<double>& numbers, double tolerance_m) const {
+    EXPECT_NEAR(numbers[0], room_.x_min, tolerance_m);
+    EXPECT_NEAR(numbers[1], room_.x_max, tolerance_m);
+    EXPECT_NEAR(numbers[2], room_.y_min, tolerance_m);
+    EXPECT_NEAR(numbers[3], room_.y_max, tolerance_m);
+  }
+
   const TemporaryFolder folder_;
   const SimulatedRoom room_;
   const MappingResult result_;
@@ -58,10 +66,7 @@ TEST_F(MapFiles, cad_programs_find_the_walls_where_they_are) {
   MEASURE_OR_SKIP(run, write("map.dxf"));
   const std::vector<double> numbers = run.numbers();
   ASSERT_EQ(numbers.size(), 7U) << run.out;
-  EXPECT_NEAR(numbers[0], room_.x_min, kClose_m);
-  EXPECT_NEAR(numbers[1], room_.x_max, kClose_m);
-  EXPECT_NEAR(numbers[2], room_.y_min, kClose_m);
-  EXPECT_NEAR(numbers[3], room_.y_max, kClose_m);
+  expect_room(numbers, kClose_m);
   EXPECT_GE(numbers[4], 1) << "outlines on the layer WALLS";
   EXPECT_EQ(numbers[5], 1) << "one line on the layer TRAJECTORY";
   EXPECT_EQ(numbers[6], 0) << "faults that the reader found";
@@ -75,7 +80,9 @@ TEST_F(MapFiles, gdal_reads_the_drawing_too) {
   const std::size_t at = run.out.find("Extent: (");
   ASSERT_NE(at, std::string::npos) << run.out;
   double x_min = 0, y_min = 0, x_max = 0, y_max = 0;
-  ASSERT_EQ(std::sscanf(run.out.c_str() + at, "Extent: (%lf, %lf) - (%lf, %lf)", &x_min, &y_min, &x_max, &y_max), 4);
+  ASSERT_EQ(
+      std::sscanf(run.out.c_str() + at, "Extent: (%lf, %lf) - (%lf, %lf)", &x_min, &y_min, &x_max, &y_max),
+      4);
   EXPECT_NEAR(x_max - x_min, 6, kClose_m);
   EXPECT_NEAR(y_max - y_min, 4, kClose_m);
 }
@@ -85,10 +92,7 @@ TEST_F(MapFiles, the_svg_is_drawn_true_to_scale) {
   MEASURE_OR_SKIP(run, write("map.svg"));
   const std::vector<double> numbers = run.numbers();
   ASSERT_EQ(numbers.size(), 7U) << run.out;
-  EXPECT_NEAR(numbers[0], room_.x_min, 1.5 * kCell_m);  // half a line's width more
-  EXPECT_NEAR(numbers[1], room_.x_max, 1.5 * kCell_m);
-  EXPECT_NEAR(numbers[2], room_.y_min, 1.5 * kCell_m);
-  EXPECT_NEAR(numbers[3], room_.y_max, 1.5 * kCell_m);
+  expect_room(numbers, 1.5 * kCell_m);  // half a line's width more
   EXPECT_NEAR(numbers[4], 60 + 2 * 5, 2) << "millimetres of paper, margins of 5 mm with them";
   EXPECT_NEAR(numbers[5], numbers[4] * 10, 1) << "pixels at 254 dpi";
 }
@@ -117,10 +121,7 @@ TEST_F(MapFiles, the_geotiff_is_in_the_maps_own_metres_where_no_other_system_is_
   MEASURE_OR_SKIP(run, write("map.tif"));
   const std::vector<double> numbers = run.numbers();
   ASSERT_GE(numbers.size(), 4U) << run.out;
-  EXPECT_NEAR(numbers[0], room_.x_min, kClose_m);
-  EXPECT_NEAR(numbers[1], room_.x_max, kClose_m);
-  EXPECT_NEAR(numbers[2], room_.y_min, kClose_m);
-  EXPECT_NEAR(numbers[3], room_.y_max, kClose_m);
+  expect_room(numbers, kClose_m);
   EXPECT_THAT(run.out, EndsWith(" local metre 255.0\n"));
 }
 
@@ -151,8 +152,8 @@ TEST_F(MapFiles, only_what_was_asked_for_is_there) {
 }
 
 TEST_F(MapFiles, a_folder_that_is_gone_is_told_with_the_files_name) {
-  for (bool MapFileOptions::*wanted : {&MapFileOptions::svg, &MapFileOptions::dxf, &MapFileOptions::print,
-                                       &MapFileOptions::geotiff}) {
+  for (bool MapFileOptions::*wanted :
+       {&MapFileOptions::svg, &MapFileOptions::dxf, &MapFileOptions::print, &MapFileOptions::geotiff}) {
     MapFileOptions options = options_;
     options.*wanted = true;
     EXPECT_THROW(write_map_files(folder_.path() / "missing", result_, *grid_, options), SystemFailure);

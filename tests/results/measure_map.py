@@ -4,8 +4,9 @@
 
     measure_map.py FILE
 
-prints one line: x_min x_max y_min y_max of what is occupied, in metres of the map (of the coordinate system for
-.tif), and what else the file says of itself. Exit code 77 when what reads the file is not installed.
+prints one line: x_min x_max y_min y_max of what is occupied, in metres of the map (of the coordinate
+system for .tif), and what else the file says of itself. Exit code 77 when what reads the file is not
+installed.
 """
 import shutil
 import subprocess
@@ -19,8 +20,8 @@ def report(x_min, x_max, y_min, y_max, *facts):
 
 def dark_box(image, below):
     """The first and last columns and rows with a dark pixel in the part above row `below`, ends exclusive."""
-    mask = image.crop((0, 0, image.width, below)).convert("L").point(lambda grey: 255 if grey < 100 else 0)
-    return mask.getbbox()
+    grey = image.crop((0, 0, image.width, below)).convert("L")
+    return grey.point(lambda value: 255 if value < 100 else 0).getbbox()
 
 
 def measure_png(path):
@@ -42,14 +43,16 @@ def measure_svg(path):
     if not shutil.which("rsvg-convert"):
         raise ImportError("rsvg-convert")
     root = tree.parse(path).getroot()
-    left, top, width, height = (float(number) for number in root.get("viewBox").split())
+    left, top, width, _ = (float(number) for number in root.get("viewBox").split())
     paper_mm = float(root.get("width").removesuffix("mm"))
     with tempfile.NamedTemporaryFile(suffix=".png") as drawn:
-        subprocess.run(["rsvg-convert", "--dpi-x", "254", "--dpi-y", "254", "-o", drawn.name, path], check=True)
+        dpi = ["--dpi-x", "254", "--dpi-y", "254"]
+        subprocess.run(["rsvg-convert", *dpi, "-o", drawn.name, path], check=True)
         image = Image.open(drawn.name).convert("RGB")
     metre_px = image.width / width
     box = dark_box(image, image.height - round(22 * 10))
-    report(left + box[0] / metre_px, left + box[2] / metre_px, -top - box[3] / metre_px, -top - box[1] / metre_px,
+    report(left + box[0] / metre_px, left + box[2] / metre_px,
+           -top - box[3] / metre_px, -top - box[1] / metre_px,
            "%.2f" % paper_mm, image.width, image.height)
 
 
@@ -80,8 +83,8 @@ def measure_tif(path):
                             for i in (0, 1) for j in (0, 1)]
     eastings, northings = zip(*corners)
     system = data.GetSpatialRef()
-    report(min(eastings), max(eastings), min(northings), max(northings), system.GetAuthorityCode(None) or "local",
-           system.GetLinearUnitsName(), band.GetNoDataValue())
+    report(min(eastings), max(eastings), min(northings), max(northings),
+           system.GetAuthorityCode(None) or "local", system.GetLinearUnitsName(), band.GetNoDataValue())
 
 
 if __name__ == "__main__":

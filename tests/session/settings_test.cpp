@@ -61,8 +61,8 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   // Of MapperOptions nine are structs, and the seed and the threads are those of RunOptions.
   const std::size_t mapper =
       member_count<MapperOptions>() - 11 + choice + front_end + matcher + loops + solver;
-  const std::size_t files = member_count<MapFileOptions>() - 2 + member_count<MapDrawingOptions>() +
-                            member_count<GeoReference>();
+  const std::size_t files =
+      member_count<MapFileOptions>() - 2 + member_count<MapDrawingOptions>() + member_count<GeoReference>();
   const std::size_t others = member_count<GridMapOptions>() + files + member_count<RunOptions>();
   EXPECT_EQ(described(), log + mapper + others)
       << "a struct of options has a member that describe() of settings.cpp does not know";

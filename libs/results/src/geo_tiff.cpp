@@ -42,7 +42,8 @@ class QuietGdal {
 /// A file in memory, gone with its scope.
 class MemoryFile {
  public:
-  MemoryFile() : name_("/vsimem/psi-slam-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + ".tif") {}
+  MemoryFile()
+      : name_("/vsimem/psi-slam-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + ".tif") {}
   ~MemoryFile() { VSIUnlink(name_.c_str()); }
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
@@ -125,7 +126,8 @@ bool write_to(const std::string& name, const COccupancyGridMap2D& grid, const Ge
   std::array<double, 6> transform = geo_transform(grid, reference);
   GDALRasterBand& band = *file->GetRasterBand(1);
   band.SetDescription("occupancy [percent]");
-  bool written = file->SetSpatialRef(&system) == CE_None && file->SetGeoTransform(transform.data()) == CE_None &&
+  bool written = file->SetSpatialRef(&system) == CE_None &&
+                 file->SetGeoTransform(transform.data()) == CE_None &&
                  band.SetNoDataValue(kNotSeen) == CE_None && write_rows(band, grid);
   file->FlushCache(false);
   return written && CPLGetLastErrorType() < CE_Failure;

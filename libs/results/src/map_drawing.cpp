@@ -65,7 +65,7 @@ DrawingExtent extent_of(const COccupancyGridMap2D& grid, const SeenCells& seen, 
   const auto x_min_m = static_cast<double>(grid.getXMin());
   const auto y_min_m = static_cast<double>(grid.getYMin());
   DrawingExtent extent{x_min_m + seen.x_begin * cell_m, x_min_m + seen.x_end * cell_m,
-                   y_min_m + seen.y_begin * cell_m, y_min_m + seen.y_end * cell_m};
+                       y_min_m + seen.y_begin * cell_m, y_min_m + seen.y_end * cell_m};
   for (const TPoint2D& point : path) {
     extent.x_min_m = std::min(extent.x_min_m, point.x);
     extent.x_max_m = std::max(extent.x_max_m, point.x);

@@ -45,7 +45,8 @@ void write_tables(DxfText& dxf) {
   dxf.pair(0, "LTYPE").pair(2, "CONTINUOUS").pair(70, 0).pair(3, "Solid line");
   dxf.pair(72, 65).pair(73, 0).pair(40, "0.0").pair(0, "ENDTAB");
   dxf.pair(0, "TABLE").pair(2, "LAYER").pair(70, 3);
-  const std::pair<const char*, int> layers[] = {{"0", kForeground}, {kWalls, kForeground}, {kTrajectory, kRed}};
+  const std::pair<const char*, int> layers[] = {
+      {"0", kForeground}, {kWalls, kForeground}, {kTrajectory, kRed}};
   for (const auto& [name, colour] : layers)
     dxf.pair(0, "LAYER").pair(2, name).pair(70, 0).pair(62, colour).pair(6, "CONTINUOUS");
   dxf.pair(0, "ENDTAB").pair(0, "ENDSEC");

@@ -49,13 +49,11 @@ void write_map_files(const fs::path& folder, const MappingResult& result,
   if (options.svg || options.dxf) drawing = draw_map_lines(grid, mapped_poses(result), options.lines);
   file(options.svg, "map.svg",
        [&](const fs::path& path) { write_text_atomically(path, map_svg(drawing, options.print_scale)); });
-  file(options.dxf, "map.dxf",
-       [&](const fs::path& path) { write_text_atomically(path, map_dxf(drawing)); });
+  file(options.dxf, "map.dxf", [&](const fs::path& path) { write_text_atomically(path, map_dxf(drawing)); });
   file(options.print, "map_print.png", [&](const fs::path& path) {
     write_text_atomically(path, print_map(grid, print_options(options)).png);
   });
-  file(options.geotiff, "map.tif",
-       [&](const fs::path& path) { write_geo_tiff(path, grid, options.earth); });
+  file(options.geotiff, "map.tif", [&](const fs::path& path) { write_geo_tiff(path, grid, options.earth); });
 }
 
 }  // namespace psi_slam

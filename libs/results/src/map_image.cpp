@@ -46,7 +46,8 @@ Block block_at(const COccupancyGridMap2D& grid, int x_begin, int y_begin, int si
 /// A wall one cell thin that crosses the block is as dark as a thick one.
 Pixel colour(const Block& block, int side, const Pixel& unknown) {
   const int open = block.cells - block.occupied;
-  const Pixel ground = open == 0 ? kFreeInk : mixed(unknown, kFreeInk, static_cast<double>(block.free) / open);
+  const Pixel ground =
+      open == 0 ? kFreeInk : mixed(unknown, kFreeInk, static_cast<double>(block.free) / open);
   return mixed(ground, kWallInk, std::min(1.0, static_cast<double>(block.occupied) / side));
 }
 

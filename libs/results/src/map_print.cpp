@@ -75,7 +75,8 @@ void add_footer(cv::Mat& image, const MapPrintOptions& options, double pixels_a_
   draw_arrow(image, {corner, 6 * px_per_mm, M_PI / 2}, "y", px_per_mm);
   if (options.north_rad) {
     const double length = 5 * px_per_mm;
-    const cv::Point2d half(std::cos(*options.north_rad) * length / 2, -std::sin(*options.north_rad) * length / 2);
+    const cv::Point2d half(std::cos(*options.north_rad) * length / 2,
+                           -std::sin(*options.north_rad) * length / 2);
     const cv::Point2d centre(image.cols - 24 * px_per_mm, top + 7 * px_per_mm);
     draw_arrow(image, {centre - half, length, *options.north_rad}, "N", px_per_mm);
   }

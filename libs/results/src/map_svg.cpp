@@ -54,9 +54,9 @@ std::string footer(double x, double y, double width_m, double mm, double scale) 
                      text_at(x + bar_m + 2 * mm, middle + kTextHeight_mm / 3 * mm, kTextHeight_mm * mm,
                              number(bar_m) + " m, 1:" + number(scale));
   const double axes_x = x + width_m - tip - 4 * mm;
-  text += "<path id=\"axes\" fill=\"none\" d=\"M" + number(axes_x) + ' ' + number(axes_y - tip) + 'v' + number(tip) + 'h' +
-          number(tip) + 'm' + number(-1.5 * mm) + ' ' + number(-0.7 * mm) + 'l' + number(1.5 * mm) + ' ' +
-          number(0.7 * mm) + 'l' + number(-1.5 * mm) + ' ' + number(0.7 * mm) + 'M' +
+  text += "<path id=\"axes\" fill=\"none\" d=\"M" + number(axes_x) + ' ' + number(axes_y - tip) + 'v' +
+          number(tip) + 'h' + number(tip) + 'm' + number(-1.5 * mm) + ' ' + number(-0.7 * mm) + 'l' +
+          number(1.5 * mm) + ' ' + number(0.7 * mm) + 'l' + number(-1.5 * mm) + ' ' + number(0.7 * mm) + 'M' +
           number(axes_x - 0.7 * mm) + ' ' + number(axes_y - tip + 1.5 * mm) + 'l' + number(0.7 * mm) + ' ' +
           number(-1.5 * mm) + 'l' + number(0.7 * mm) + ' ' + number(1.5 * mm) + "\"/>\n";
   text += text_at(axes_x + tip + mm, axes_y + mm, kTextHeight_mm * mm, "x");

@@ -33,7 +33,8 @@ double scale_bar_m(double width_m, double resolution_m);
 void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, double resolution_m,
                     const std::string& note = {});
 
-/// The file's bytes; `image` has one, three or four channels. Throws SystemFailure when there is no making it.
+/// The file's bytes; `image` has one, three or four channels. Throws SystemFailure when there is no making
+/// it.
 std::string png_bytes(const cv::Mat& image);
 
 }  // namespace psi_slam

@@ -378,7 +378,8 @@ void describe_map_files(OptionTable& table, MapFileOptions& files) {
   table.flag("write_png", files.png, "map.png: the map to look at")
       .flag("write_ros", files.ros, "map.yaml and map.pgm: for map_server of ROS 1 and nav2")
       .flag("write_mrpt", files.mrpt, "map.gridmap.gz and map.simplemap.gz: for MRPT's programs")
-      .flag("write_svg", files.svg, "map.svg: walls and path as lines, in millimetres of paper at print_scale")
+      .flag("write_svg", files.svg,
+            "map.svg: walls and path as lines, in millimetres of paper at print_scale")
       .flag("write_dxf", files.dxf, "map.dxf: walls and path for CAD, in metres")
       .flag("write_print", files.print, "map_print.png: a picture that prints true to scale")
       .flag("write_geotiff", files.geotiff, "map.tif: for geographic information systems")

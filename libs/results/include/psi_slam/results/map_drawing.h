@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The map as lines, for drawings: outlines of what is occupied, and the robot's path.
 //
-// An outline runs through the centres of the outermost cells of a wall: a laser's returns lie anywhere in their
-// cell, so its centre is where the surface is, give or take half a cell. A wall one cell thin is there and back on
-// one line; a wall that was seen from both sides only on its surfaces has an outline for each.
+// An outline runs through the centres of the outermost cells of a wall: a laser's returns lie anywhere in
+// their cell, so its centre is where the surface is, give or take half a cell. A wall one cell thin is there
+// and back on one line; a wall that was seen from both sides only on its surfaces has an outline for each.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -36,7 +36,7 @@ struct DrawingExtent {
 struct MapDrawing {
   std::vector<MapLine> walls;  ///< closed; those of two points are there and back
   MapLine trajectory;          ///< open
-  DrawingExtent extent;            ///< of all lines and of all that was seen
+  DrawingExtent extent;        ///< of all lines and of all that was seen
   double cell_m = 0;           ///< how thick an outline is
 };
 

@@ -8,8 +8,8 @@
 
 namespace psi_slam {
 
-/// The file's text, in metres, in the map's frame: closed polylines on the layer WALLS, a line where a wall is only
-/// one, and an open polyline on the layer TRAJECTORY.
+/// The file's text, in metres, in the map's frame: closed polylines on the layer WALLS, a line where a wall
+/// is only one, and an open polyline on the layer TRAJECTORY.
 std::string map_dxf(const MapDrawing& drawing);
 
 }  // namespace psi_slam

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gridmap as a picture that prints true to scale: a PNG file that says how many of its pixels make a metre of
-// paper.
+// The gridmap as a picture that prints true to scale: a PNG file that says how many of its pixels make a
+// metre of paper.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -22,9 +22,9 @@ struct MapPrintOptions {
 
 struct MapPrint {
   std::string png;
-  int dpi = 0;              ///< as written
-  double pixels_a_m = 0;    ///< of the building
-  int map_height_px = 0;    ///< the map; the strip with scale bar and axes is below it
+  int dpi = 0;            ///< as written
+  double pixels_a_m = 0;  ///< of the building
+  int map_height_px = 0;  ///< the map; the strip with scale bar and axes is below it
   int width_px = 0;
   int height_px = 0;
   double x_min_m = 0;  ///< of the picture's upper left corner, in the map

@@ -47,16 +47,18 @@ say "packing"
 programs=$(find "$work/packages" -maxdepth 1 -name 'psi-slam_*.deb')
 library=$(find "$work/packages" -maxdepth 1 -name 'libpsi-slam-dev_*.deb')
 [ -f "$programs" ] && [ -f "$library" ] || fail "expected psi-slam and libpsi-slam-dev, found $(ls "$work/packages")"
+# Seen through files: grep --quiet may end before dpkg-deb has written all.
+dpkg-deb --field "$programs" Depends >"$work/depends.txt"
+dpkg-deb --contents "$programs" >"$work/programs.txt"
+dpkg-deb --contents "$library" >"$work/library.txt"
 for library_name in libc6 libmrpt-maps2.5 libwxgtk3.2-1 libgdal32; do
-  dpkg-deb --field "$programs" Depends | grep -q "\b$library_name\b" || fail "psi-slam does not depend on $library_name"
+  grep -q "\b$library_name\b" "$work/depends.txt" || fail "psi-slam does not depend on $library_name"
 done
 for file in ./usr/bin/psi-slam ./usr/share/man/man1/psi-slam.1.gz ./usr/share/man/man5/psi-slam.ini.5.gz \
   ./usr/share/bash-completion/completions/psi-slam ./usr/share/psi-slam/ini/psi-slam.ini \
   ./usr/share/doc/psi-slam/copyright; do
-  dpkg-deb --contents "$programs" | grep -q " $file$" || fail "psi-slam does not hold $file"
+  grep -q " $file$" "$work/programs.txt" || fail "psi-slam does not hold $file"
 done
-# Seen through a file: grep -q may end before dpkg-deb has written all.
-dpkg-deb --contents "$library" >"$work/library.txt"
 grep -q "cmake/psi-slam/psi-slam-config.cmake$" "$work/library.txt" || fail "libpsi-slam-dev has no CMake package"
 if grep -q " ./usr/bin/" "$work/library.txt"; then fail "libpsi-slam-dev holds programs"; fi
 

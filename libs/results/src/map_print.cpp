@@ -56,7 +56,7 @@ void draw_arrow(cv::Mat& image, const Arrow& arrow, const std::string& name, dou
   cv::arrowedLine(image, arrow.from, tip, ink, thick, cv::LINE_AA, 0, 0.25);
   const double font_scale = px_per_mm * 2.5 / 21;  // FONT_HERSHEY_DUPLEX has capitals 21 pixels high
   const cv::Size size = cv::getTextSize(name, cv::FONT_HERSHEY_DUPLEX, font_scale, thick, nullptr);
-  const cv::Point2d middle = tip + 2.2 * px_per_mm * direction;
+  const cv::Point2d middle = tip + 2.8 * px_per_mm * direction;
   cv::putText(image, name, middle + cv::Point2d(-size.width / 2.0, size.height / 2.0),
               cv::FONT_HERSHEY_DUPLEX, font_scale, ink, thick, cv::LINE_AA);
 }

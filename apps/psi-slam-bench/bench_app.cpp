@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "bench_command.h"
+#include "document_options.h"
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
@@ -26,6 +27,7 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_robustness_command(app, streams);
     app.require_subcommand(1);
     app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version, and exit");
+    add_document_options(app);
     app.parse(
         std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // last first, as CLI11 takes them
     return kDone;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "document_options.h"
 #include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/results/number_text.h"
@@ -36,10 +37,12 @@ EvalOptions parse(const std::vector<std::string>& arguments, CLI::App& app) {
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
   app.add_option("--per-relation", options.per_relation,
-                 "Write the error of each relation to this file (CSV)");
+                 "Write the error of each relation to this file (CSV)")
+      ->type_name("FILE");
   app.add_flag("--force", options.force, "Replace the file of --per-relation if it is there already");
   app.add_flag("--json", options.json, "Print the result as JSON");
   app.set_version_flag("--version", "psi-slam-eval " PSI_SLAM_VERSION, "Print the version and exit");
+  add_document_options(app);
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
   return options;
 }

@@ -2,6 +2,7 @@
 #include "gui_command_line.h"
 
 #include "command_line.h"
+#include "document_options.h"
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
@@ -16,6 +17,7 @@ GuiCommandLine parse_gui_command_line(const std::vector<std::string>& arguments,
       ->type_name("FILE");
   add_settings_options(app, line.config, line.settings);
   app.set_version_flag("--version", "psi-slam-gui " PSI_SLAM_VERSION, "Print the version, and exit");
+  add_document_options(app, default_settings());
   app.allow_extras();
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
   if (const std::vector<std::string> unknown = app.remaining(); !unknown.empty())

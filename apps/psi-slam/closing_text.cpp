@@ -3,6 +3,8 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 
 #include "progress_line.h"
 
@@ -25,9 +27,12 @@ std::string counted(std::size_t count, const std::string& one) {
 }  // namespace
 
 std::string closing_text(const RunSummary& summary, const std::string& log_name, const OutputFolder& folder) {
-  const std::string picture = (folder.path() / "map.png").string();
+  const std::filesystem::path picture = folder.path() / "map.png";
   const std::string report = (folder.path() / "report.html").string();
-  std::string lines = "The map is " + picture + "; " + report + " tells how it was made.\n";
+  std::error_code ignored;
+  const bool has_picture = std::filesystem::exists(picture, ignored);  // map.write_png
+  std::string lines = "The map is " + (has_picture ? picture : folder.path()).string() +
+                      (has_picture ? "; " : ": ") + report + " tells how it was made.\n";
   lines += counted(summary.log.scans, "scan") + " of " + log_name + " over " +
            minutes_text(summary.log.duration_s) + text(" and %.0f m: ", summary.path_length_m) +
            counted(summary.nodes, "node") + ", " + counted(summary.loops.accepted, "loop") + " closed.\n";

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line.h"
 
+#include "document_options.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/config/nearest_name.h"
+#include "psi_slam/session/bound_settings.h"
 
 namespace psi_slam {
 namespace {
@@ -44,6 +46,11 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
 }
 
 }  // namespace
+
+std::shared_ptr<const OptionTable> default_settings() {
+  const auto bound = std::make_shared<BoundSettings>();
+  return {bound, &bound->table};
+}
 
 void add_settings_options(CLI::App& app, std::string& config, std::vector<std::string>& settings) {
   app.add_option("-c,--config", config, "Settings file; without it, the built-in defaults")->type_name("INI");
@@ -110,6 +117,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   options->allow_extras();
   sweep->allow_extras();
   app.footer(kExamples);
+  add_document_options(app, default_settings());
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
 
   if (options->parsed()) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sweep_command.h"
+#include "psi_slam/config/option_table.h"
 
 namespace psi_slam {
 
@@ -33,6 +35,9 @@ struct CommandLine {
 /// Reads the arguments with `app`, which was made for this. Throws CLI::ParseError for --help, --version and
 /// unknown options, and UserError for arguments that do not go together.
 CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::App& app);
+
+/// The table of all settings, for those who write about them.
+std::shared_ptr<const OptionTable> default_settings();
 
 /// Adds -c and --set, which fill `config` and `settings`.
 void add_settings_options(CLI::App& app, std::string& config, std::vector<std::string>& settings);

@@ -27,10 +27,10 @@ inline constexpr const char* kNeedsQuickstartLog = "needs the rawlogs of Debian'
 
 /// Every file of a run.
 inline const std::vector<std::string>& result_names() {
-  static const std::vector<std::string> kNames{"frames.csv",       "graph.g2o",         "loops.csv",
-                                               "map.gridmap.gz",   "map.pgm",           "map.png",
-                                               "map.simplemap.gz", "map.yaml",          "report.html",
-                                               "summary.json",     "trajectory.carmen", "trajectory.tum"};
+  static const std::vector<std::string> kNames{
+      "frames.csv",  "graph.g2o",    "loops.csv",         "map.dxf",       "map.gridmap.gz",
+      "map.pgm",     "map.png",      "map.simplemap.gz",  "map.svg",       "map.yaml",
+      "report.html", "summary.json", "trajectory.carmen", "trajectory.tum"};
   return kNames;
 }
 

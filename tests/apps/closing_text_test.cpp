@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "temporary_folder.h"
+#include "test_files.h"
 
 namespace psi_slam {
 namespace {
@@ -14,7 +15,7 @@ using testing::Not;
 class ClosingText : public testing::Test {
  protected:
   std::string text() const {
-    return closing_text(summary_, "my.log", OutputFolder::prepare(folder_.path() / "out", false));
+    return closing_text(summary_, "my.log", OutputFolder::prepare(folder_.path() / "out", true));
   }
 
   TemporaryFolder folder_;
@@ -31,10 +32,17 @@ TEST_F(ClosingText, says_where_the_map_is_and_what_it_is_made_of) {
   summary_.real_time_factor = 132.9;
   summary_.peak_memory_mib = 305;
   const std::string folder = (folder_.path() / "out").string();
+  std::filesystem::create_directory(folder);
+  write_file(folder + "/map.png", "a picture");
   EXPECT_EQ(text(), "The map is " + folder + "/map.png; " + folder +
                         "/report.html tells how it was made.\n"
                         "13631 scans of my.log over 44:51 and 503 m: 3463 nodes, 1 loop closed.\n"
                         "It took 20.2 s, real-time factor 132.9, and 305 MiB of memory.\n");
+}
+
+TEST_F(ClosingText, without_a_picture_the_folder_is_named) {
+  const std::string folder = (folder_.path() / "out").string();
+  EXPECT_THAT(text(), HasSubstr("The map is " + folder + ": " + folder + "/report.html tells"));
 }
 
 TEST_F(ClosingText, leaves_out_a_factor_that_cannot_be_said) {

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs a build into a folder of its own, builds the project beside this file against it, and runs that.
+# Installs a build into a folder of its own, builds the project beside this file and the example against it, and runs
+# both.
 #
 #   cmake -D PSI_SLAM_BUILD=DIR -D WORK=DIR [-D CONFIG=Release] [-D CXX=COMPILER] -P package_test.cmake
 foreach(name PSI_SLAM_BUILD WORK)
@@ -28,12 +29,24 @@ endif()
 
 file(REMOVE_RECURSE ${WORK})
 run("installing" ${CMAKE_COMMAND} --install ${PSI_SLAM_BUILD} --prefix ${WORK}/installed ${config})
-run("configuring" ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build
-  -D CMAKE_PREFIX_PATH=${WORK}/installed ${build_type} ${compiler})
-run("building" ${CMAKE_COMMAND} --build ${WORK}/build ${config})
+# build_project(NAME SOURCE): into WORK/NAME, as any user would.
+function(build_project name source)
+  run("configuring ${name}" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/${name}
+    -D CMAKE_PREFIX_PATH=${WORK}/installed ${build_type} ${compiler})
+  run("building ${name}" ${CMAKE_COMMAND} --build ${WORK}/${name} ${config})
+endfunction()
+
+build_project(build ${CMAKE_CURRENT_LIST_DIR})
+build_project(example ${WORK}/installed/share/doc/libpsi-slam-dev/examples/map-a-log)
 
 foreach(program psi-slam psi-slam-eval)
   run("the installed ${program}" ${WORK}/installed/bin/${program} --version)
+endforeach()
+foreach(file man/man1/psi-slam-gui.1.gz man/man5/psi-slam.ini.5.gz bash-completion/completions/psi-slam-bench
+    zsh/vendor-completions/_psi-slam psi-slam/ini/psi-slam.ini doc/psi-slam/README.md doc/psi-slam/share/doc/architecture.md)
+  if(NOT EXISTS ${WORK}/installed/share/${file})
+    message(FATAL_ERROR "share/${file} was not installed")
+  endif()
 endforeach()
 
 set(rawlog "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog")
@@ -48,6 +61,14 @@ if(EXISTS ${rawlog})
       message(FATAL_ERROR "${name} has ${size} bytes only")
     endif()
   endforeach()
+  run("the example" ${WORK}/example/map_a_log ${rawlog} map.resolution_m=0.1)
+  if(NOT output MATCHES "\n[0-9]+[.][0-9]+ -?[0-9.]+ -?[0-9.]+ -?[0-9.]+\n" OR NOT output MATCHES "225 scans, [1-9][0-9]* nodes")
+    message(FATAL_ERROR "the example prints no poses:\n${output}")
+  endif()
+  execute_process(COMMAND ${WORK}/example/map_a_log ${rawlog} map.resolution=1 RESULT_VARIABLE result ERROR_VARIABLE complaint)
+  if(NOT result EQUAL 2 OR NOT complaint MATCHES "did you mean")
+    message(FATAL_ERROR "the example does not tell a mistake in its settings: ${result} ${complaint}")
+  endif()
 else()
   message("not run: it needs the data sets of the package mrpt-common")
 endif()

@@ -83,8 +83,8 @@ TEST(OutputFolder, holds_all_files_under_their_fixed_names_and_nothing_else) {
   const TemporaryFolder temporary;
   export_room(OutputFolder::prepare(temporary.path() / "run", false));
   EXPECT_EQ(names_in(temporary.path() / "run"),
-            (std::set<std::string>{"frames.csv", "loops.csv", "map.gridmap.gz", "map.pgm", "map.png",
-                                   "map.simplemap.gz", "map.yaml", "report.html", "summary.json",
+            (std::set<std::string>{"frames.csv", "loops.csv", "map.dxf", "map.gridmap.gz", "map.pgm",
+                                   "map.png", "map.simplemap.gz", "map.svg", "map.yaml", "report.html", "summary.json",
                                    "trajectory.carmen", "trajectory.tum"}));
 }
 

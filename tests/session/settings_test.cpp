@@ -61,7 +61,9 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   // Of MapperOptions nine are structs, and the seed and the threads are those of RunOptions.
   const std::size_t mapper =
       member_count<MapperOptions>() - 11 + choice + front_end + matcher + loops + solver;
-  const std::size_t others = member_count<GridMapOptions>() + member_count<RunOptions>();
+  const std::size_t files =
+      member_count<MapFileOptions>() - 2 + member_count<MapDrawingOptions>() + member_count<GeoReference>();
+  const std::size_t others = member_count<GridMapOptions>() + files + member_count<RunOptions>();
   EXPECT_EQ(described(), log + mapper + others)
       << "a struct of options has a member that describe() of settings.cpp does not know";
 }
@@ -128,6 +130,12 @@ TEST_F(SettingsTest, refuses_thresholds_of_psi_that_leave_nothing_between_them) 
   EXPECT_EQ(refusal({"psi.psi_1=5", "psi.psi_2=4"}), "psi.psi_1 = 5 must be less than psi.psi_2 = 4");
   EXPECT_EQ(refusal({"psi.psi_1=4"}), "psi.psi_1 = 4 must be less than psi.psi_2 = 4");
   EXPECT_EQ(refusal({"psi.psi_1=3.9"}), "");
+}
+
+TEST_F(SettingsTest, refuses_a_coordinate_system_that_a_map_cannot_lie_in) {
+  EXPECT_EQ(refusal({"map.epsg=25832"}), "");
+  EXPECT_THAT(refusal({"map.epsg=4326"}), HasSubstr("expected a projected system in metres"));
+  EXPECT_EQ(refusal({"map.epsg=99999"}), "map.epsg = 99999: there is no such coordinate system");
 }
 
 TEST_F(SettingsTest, seed_and_threads_of_the_run_reach_the_mapper) {

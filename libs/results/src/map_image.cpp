@@ -4,33 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "cell_state.h"
+#include "picture_ink.h"
 #include "psi_slam/base/atomic_file.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/results/number_text.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
-using Pixel = cv::Vec4b;  // blue, green, red, opacity
-
-const Pixel kWall{38, 28, 22, 255};
-const Pixel kFree{255, 255, 255, 255};
-const Pixel kUnknown{232, 229, 226, 255};
-const Pixel kTransparent{255, 255, 255, 0};
-
-// The log-odds beyond which map_server calls a cell occupied or free.
-bool is_occupied(COccupancyGridMap2D::cellType cell) {
-  return COccupancyGridMap2D::l2p(cell) < 0.35F;
-}
-bool is_free(COccupancyGridMap2D::cellType cell) {
-  return COccupancyGridMap2D::l2p(cell) > 0.804F;
-}
-
 Pixel mixed(const Pixel& a, const Pixel& b, double share_of_b) {
   Pixel result;
   for (int i = 0; i < 4; ++i) result[i] = cv::saturate_cast<std::uint8_t>(a[i] + (b[i] - a[i]) * share_of_b);
@@ -62,8 +46,9 @@ Block block_at(const COccupancyGridMap2D& grid, int x_begin, int y_begin, int si
 /// A wall one cell thin that crosses the block is as dark as a thick one.
 Pixel colour(const Block& block, int side, const Pixel& unknown) {
   const int open = block.cells - block.occupied;
-  const Pixel ground = open == 0 ? kFree : mixed(unknown, kFree, static_cast<double>(block.free) / open);
-  return mixed(ground, kWall, std::min(1.0, static_cast<double>(block.occupied) / side));
+  const Pixel ground =
+      open == 0 ? kFreeInk : mixed(unknown, kFreeInk, static_cast<double>(block.free) / open);
+  return mixed(ground, kWallInk, std::min(1.0, static_cast<double>(block.occupied) / side));
 }
 
 /// The raster's own pixels.
@@ -71,41 +56,11 @@ cv::Mat image_of(MapRaster& raster) {
   return {raster.height_px, raster.width_px, CV_8UC4, raster.pixels.data()};
 }
 
-/// 1, 2 or 5 times a power of ten, at most `length_m`.
-double round_length(double length_m) {
-  const double power = std::pow(10, std::floor(std::log10(length_m)));
-  for (const double digit : {5.0, 2.0})
-    if (digit * power <= length_m) return digit * power;
-  return power;
-}
-
 void add_scale_bar(cv::Mat& image, double resolution_m, const Pixel& ground) {
   const int unit = std::max(6, std::max(image.cols, image.rows) / 160);
-  const double bar_m = round_length(std::max(image.cols * resolution_m / 5, resolution_m));
-  const int bar_px = static_cast<int>(std::lround(bar_m / resolution_m));
-  const int top = image.rows;
-  cv::copyMakeBorder(image, image, 0, 5 * unit, 0, 0, cv::BORDER_CONSTANT,
-                     cv::Scalar(ground[0], ground[1], ground[2], ground[3]));
-  const cv::Scalar ink(kWall[0], kWall[1], kWall[2], kWall[3]);
-  const int left = 2 * unit;
-  const int middle = top + 5 * unit / 2;
-  const int thick = std::max(1, unit / 4);
-  cv::rectangle(image, {left, middle - thick / 2, bar_px, thick}, ink, cv::FILLED);
-  for (const int end : {left, left + bar_px - thick})
-    cv::rectangle(image, {end, middle - unit / 2, thick, unit}, ink, cv::FILLED);
-  const double font_scale = unit / 15.0;
-  const std::string label = fixed_text(bar_m, bar_m < 1 ? 2 : 0) + " m";
-  cv::putText(image, label, {left + bar_px + unit, middle + unit / 2}, cv::FONT_HERSHEY_DUPLEX, font_scale,
-              ink, std::max(1, unit / 10), cv::LINE_AA);
-}
-
-std::string png_bytes(const cv::Mat& image, bool with_opacity) {
-  cv::Mat encoded = image;
-  if (!with_opacity) cv::cvtColor(image, encoded, cv::COLOR_BGRA2BGR);
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", encoded, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9}))
-    throw SystemFailure("cannot make a PNG picture of the map");
-  return {bytes.begin(), bytes.end()};
+  const ScaleBarPlace place{2 * unit, image.rows + 5 * unit / 2, unit};
+  cv::copyMakeBorder(image, image, 0, 5 * unit, 0, 0, cv::BORDER_CONSTANT, scalar_of(ground));
+  draw_scale_bar(image, place, scale_bar_m(image.cols * resolution_m, resolution_m), resolution_m);
 }
 
 }  // namespace
@@ -141,7 +96,7 @@ MapRaster map_raster(const COccupancyGridMap2D& grid, const MapPictureOptions& o
   const int cells_a_pixel =
       std::max(1, (std::max(width, height) + options.max_side_px - 1) / std::max(1, options.max_side_px));
 
-  const Pixel& unknown = options.transparent_unknown ? kTransparent : kUnknown;
+  const Pixel& unknown = options.transparent_unknown ? kTransparentInk : kUnknownInk;
   MapRaster raster;
   raster.width_px = (width + cells_a_pixel - 1) / cells_a_pixel;
   raster.height_px = (height + cells_a_pixel - 1) / cells_a_pixel;
@@ -171,9 +126,10 @@ MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions&
 
   MapPicture picture;
   picture.resolution_m = raster.resolution_m / pixels_a_cell;
-  const Pixel& unknown = options.transparent_unknown ? kTransparent : kUnknown;
+  const Pixel& unknown = options.transparent_unknown ? kTransparentInk : kUnknownInk;
   if (options.scale_bar) add_scale_bar(image, picture.resolution_m, unknown);
-  picture.png = png_bytes(image, options.transparent_unknown);
+  if (!options.transparent_unknown) cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
+  picture.png = png_bytes(image);
   picture.width_px = image.cols;
   picture.height_px = image.rows;
   picture.x_min_m = raster.x_min_m;

@@ -11,10 +11,7 @@
 #include "psi_slam/results/corrected_log.h"
 #include "psi_slam/results/frames_csv.h"
 #include "psi_slam/results/loops_csv.h"
-#include "psi_slam/results/map_image.h"
-#include "psi_slam/results/map_server_pair.h"
 #include "psi_slam/results/mapped_trajectory.h"
-#include "psi_slam/results/mrpt_maps.h"
 #include "psi_slam/results/report_html.h"
 #include "psi_slam/results/summary_json.h"
 #include "psi_slam/results/trajectory_file.h"
@@ -56,16 +53,13 @@ OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
 }
 
 void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
-                    const OutputFolder& folder) {
+                    const OutputFolder& folder, const MapFileOptions& map_files) {
   const auto file = [&](const char* name) { return folder.path() / name; };
   write_tum(file("trajectory.tum"), trajectory_of(result.frames));
   write_corrected_log(file("trajectory.carmen"), result.log, mapped_poses(result));
   write_frames_csv(file("frames.csv"), result.frames);
   write_loops_csv(file("loops.csv"), result.loops);
-  write_map_image(file("map.png"), grid);
-  write_map_server_pair(file("map.yaml"), grid);
-  write_grid_map(file("map.gridmap.gz"), grid);
-  write_simple_map(file("map.simplemap.gz"), simple_map(result));
+  write_map_files(folder.path(), result, grid, map_files);
 }
 
 void export_account(const MappingResult& result, const RunInfo& info, const RunSummary& summary,

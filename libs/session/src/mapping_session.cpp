@@ -170,7 +170,7 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   writing_clock.time([&] {
     write_g2o(graph_, folder.path() / "graph.g2o");
     write_edits(folder.path() / "loops.edits");
-    export_results(result_, *grid, folder);
+    export_results(result_, *grid, folder, settings_.map_files);
   });
   result_.stages.push_back(writing_clock.timing());
   clock.stop();

@@ -374,6 +374,32 @@ void describe_map(OptionTable& table, GridMapOptions& map) {
                "a larger map gets coarser cells");
 }
 
+void describe_map_files(OptionTable& table, MapFileOptions& files) {
+  table.flag("write_png", files.png, "map.png: the map to look at")
+      .flag("write_ros", files.ros, "map.yaml and map.pgm: for map_server of ROS 1 and nav2")
+      .flag("write_mrpt", files.mrpt, "map.gridmap.gz and map.simplemap.gz: for MRPT's programs")
+      .flag("write_svg", files.svg,
+            "map.svg: walls and path as lines, in millimetres of paper at print_scale")
+      .flag("write_dxf", files.dxf, "map.dxf: walls and path for CAD, in metres")
+      .flag("write_print", files.print, "map_print.png: a picture that prints true to scale")
+      .flag("write_geotiff", files.geotiff, "map.tif: for geographic information systems")
+      .number("print_scale", files.print_scale, above(0).at_most(1e6), "",
+              "of map_print.png and map.svg: 100 is 1:100, a centimetre of paper for a metre")
+      .integer("print_dpi", files.print_dpi, between(1, 10'000), "dpi",
+               "of map_print.png; lowered where the picture had more than 150 million pixels")
+      .number("line_tolerance_m", files.lines.tolerance_m, at_least(0).at_most(10), "m",
+              "what lines of map.svg and map.dxf may deviate from the cells' outlines")
+      .number("min_wall_m", files.lines.min_wall_m, at_least(0).at_most(100), "m",
+              "of map.svg and map.dxf: occupied spots smaller than this are left out")
+      .integer("epsg", files.earth.epsg, between(0, 1'000'000), "",
+               "of map.tif: the projected coordinate system, in metres; 0: the map's own")
+      .number("origin_easting_m", files.earth.easting_m, between(-1e9, 1e9), "m",
+              "of map.tif: where the map's origin lies in that system")
+      .number("origin_northing_m", files.earth.northing_m, between(-1e9, 1e9), "m", "the same to the north")
+      .angle_deg("origin_heading_deg", files.earth.heading_rad, between(-360, 360),
+                 "of map.tif: where the map's x axis points, counter-clockwise from east");
+}
+
 void describe_run(OptionTable& table, RunOptions& run) {
   table.section("run", "How the program runs")
       .integer("seed", run.seed, any_number(), "", "of all random numbers: the same seed gives the same map")
@@ -396,6 +422,7 @@ void describe(OptionTable& table, Settings& settings) {
   describe_last_pass(table, settings.mapper.last_pass);
   describe_joint_refinement(table, settings.mapper.joint_refinement);
   describe_map(table, settings.map);
+  describe_map_files(table, settings.map_files);
   describe_run(table, settings.run);
 }
 

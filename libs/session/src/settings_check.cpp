@@ -4,6 +4,7 @@
 
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/config/exact_number.h"
+#include "psi_slam/results/geo_tiff.h"
 #include "psi_slam/session/settings.h"
 
 namespace psi_slam {
@@ -72,6 +73,7 @@ void check(const Settings& settings) {
   check_windows(settings.mapper);
   check_matchers(settings.mapper);
   check_log_options(log_options(settings));
+  check_epsg(settings.map_files.earth.epsg);
 }
 
 LogOptions log_options(const Settings& settings) {

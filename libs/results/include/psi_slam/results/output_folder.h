@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The folder of a run's results, under fixed names:
 //
-//     map.png  map.yaml  map.pgm            the gridmap as a picture, and for map_server
-//     map.gridmap.gz  map.simplemap.gz      the gridmap, and the nodes with their scans, for MRPT
+//     map.*  map_print.png                  the map, in the forms that MapFileOptions names
 //     trajectory.tum  trajectory.carmen     the trajectory of all scans, and the corrected log
 //     frames.csv  loops.csv  summary.json  report.html
 //
@@ -14,6 +13,7 @@
 #include <filesystem>
 
 #include "psi_slam/mapping/mapping_result.h"
+#include "psi_slam/results/map_files.h"
 #include "psi_slam/results/run_summary.h"
 
 namespace psi_slam {
@@ -37,7 +37,7 @@ class OutputFolder {
 /// `result` as draw_grid_map makes it. Throws SystemFailure (a sentence that names the file) when the disk
 /// does not take one.
 void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
-                    const OutputFolder& folder);
+                    const OutputFolder& folder, const MapFileOptions& map_files = {});
 
 /// Writes summary.json and, last of all, report.html: after the rest, so that their times include the writing
 /// of it. Throws as export_results.

@@ -10,6 +10,7 @@
 #include "psi_slam/logs/log_options.h"
 #include "psi_slam/mapping/mapper.h"
 #include "psi_slam/results/grid_map.h"
+#include "psi_slam/results/map_files.h"
 
 namespace psi_slam {
 
@@ -30,6 +31,7 @@ struct Settings {
   LaserMount laser_mount;
   MapperOptions mapper;  ///< its seed and threads are those of `run`: see mapper_options()
   GridMapOptions map;
+  MapFileOptions map_files;
   RunOptions run;
 };
 

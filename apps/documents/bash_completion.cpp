@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bash_completion.h"
+
+#include <map>
+
+#include "command_words.h"
+
+namespace psi_slam {
+namespace {
+
+/// Finds the word to complete, the option before it, and the command among the words before. Bash breaks
+/// words at
+/// "=" and ":", where ours go on: the line is read anew, and what bash thinks is done already is cut off the
+/// answers.
+constexpr const char* kBegin = R"(@FUNCTION@_answer() {
+  local answer
+  while IFS= read -r answer; do
+    COMPREPLY+=("$answer")
+  done < <(compgen "$@")
+}
+
+@FUNCTION@() {
+  local line=${COMP_LINE:0:$COMP_POINT} prefix="" previous="" command="" word i
+  local -a words
+  if [[ -n ${ZSH_VERSION-} ]]; then
+    words=("${COMP_WORDS[@]:0:$((COMP_CWORD + 1))}")
+  else
+    # shellcheck disable=SC2162  # backslashes are the shell's
+    read -a words <<<"$line"
+    [[ $line == *[[:space:]] ]] && words+=("")
+  fi
+  local last=$((${#words[@]} - 1))
+  local whole=${words[last]} current=${words[last]}
+  for ((i = 1; i < last; ++i)); do
+    word=${words[i]}
+    if [[ -z $command && " @COMMANDS@ " == *" $word "* ]]; then command=$word; fi
+    if [[ " @TAKE_VALUES@ " == *" $word "* ]]; then ((++i)); fi
+  done
+  ((last > 0)) && previous=${words[last - 1]}
+  if [[ $current == --*=* ]]; then
+    previous=${current%%=*}
+    prefix=$previous=
+    current=${current#*=}
+  fi
+  COMPREPLY=()
+)";
+
+constexpr const char* kEnd = R"(  local broken=${whole%"${whole##*[=:]}"}
+  if [[ -n $broken && ${COMP_WORDBREAKS-} == *[=:]* ]]; then COMPREPLY=("${COMPREPLY[@]#"$broken"}"); fi
+}
+complete -o nosort -F @FUNCTION@ @PROGRAM@ 2>/dev/null || complete -F @FUNCTION@ @PROGRAM@
+)";
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+/// The commands' names with blanks in between; option names of the commands and of the program with values.
+std::string command_names(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : shown_commands(app))
+    names += (names.empty() ? "" : " ") + command->get_name();
+  return names;
+}
+
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+std::vector<std::string> names_with_values(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : shown_options(app))
+    if (kind_of_value(*option) != WordKind::kNothing)
+      for (const std::string& name : typed_names(*option)) names.push_back(name);
+  for (const CLI::App* command : shown_commands(app))
+    for (const std::string& name : names_with_values(*command)) names.push_back(name);
+  return names;
+}
+
+std::string answer(const std::string& compgen, const std::string& option = "") {
+  return "@FUNCTION@_answer -P \"$prefix\" " + compgen + " -- \"$current\"" +
+         (option.empty() ? "" : "\n      compopt -o " + option + " 2>/dev/null");
+}
+
+std::string answer_for(WordKind kind, const std::string& function) {
+  switch (kind) {
+    case WordKind::kFile:
+      return answer("-f", "filenames");
+    case WordKind::kFolder:
+      return answer("-d", "filenames");
+    case WordKind::kSetting:
+      return function + "_setting";
+    case WordKind::kOther:
+    case WordKind::kNothing:
+      break;
+  }
+  return ":";
+}
+
+/// A branch of `case "$command $previous" in` for each kind of value, by the options that take it.
+std::string value_branches(const CLI::App& app, const std::string& command, const std::string& function) {
+  std::map<WordKind, std::vector<std::string>> patterns;
+  for (const CLI::Option* option : shown_options(app))
+    if (const WordKind kind = kind_of_value(*option); kind != WordKind::kNothing)
+      for (const std::string& name : typed_names(*option))
+        patterns[kind].push_back('"' + command + ' ' + name + '"');
+  std::string text;
+  for (const auto& [kind, names] : patterns)
+    text += "    " + joined(names, " | ") + ")\n      " + answer_for(kind, function) + "\n      ;;\n";
+  return text;
+}
+
+/// What may be where no option waits for its value: options after a dash, else commands and files.
+std::string word_branches(const CLI::App& app, const std::string& command) {
+  std::vector<std::string> options;
+  for (const CLI::Option* option : shown_options(app))
+    for (const std::string& name : typed_names(*option)) options.push_back(name);
+  std::string text = "    \"" + command + " \"*)\n      if [[ $current == -* ]]; then\n        " +
+                     answer("-W \"" + joined(options, " ") + '"') + "\n      else\n";
+  const std::string commands = command_names(app);
+  const std::string files = shown_positionals(app).empty() ? "" : "-f ";
+  const std::string words = commands.empty() ? "" : "-W \"" + commands + "\" ";
+  text += files.empty() && words.empty() ? "        :\n" : "        " + answer(files + words) + '\n';
+  if (!files.empty()) text += "        compopt -o filenames 2>/dev/null\n";
+  return text + "      fi\n      ;;\n";
+}
+
+/// The function that completes SECTION.KEY=VALUE.
+std::string setting_function(const OptionTable& settings, const std::string& function) {
+  std::vector<std::string> keys;
+  std::map<std::string, std::vector<std::string>> keys_of_values;
+  for (const OptionSection& section : settings.sections()) {
+    for (const Option& option : section.options) {
+      keys.push_back(option.name() + '=');
+      if (option.type == OptionType::kFlag) keys_of_values["true false"].push_back(option.name());
+      if (option.type == OptionType::kChoice)
+        keys_of_values[joined(option.choices, " ")].push_back(option.name());
+      if (option.may_be_auto) keys_of_values["auto"].push_back(option.name());
+    }
+  }
+  std::string text =
+      function + "_setting() {\n  local values=\"\"\n  if [[ $current != *=* ]]; then\n      " +
+      answer("-W \"" + joined(keys, " ") + '"', "nospace") + "\n    return\n  fi\n  case ${current%%=*} in\n";
+  for (const auto& [values, names] : keys_of_values)
+    text += "    " + joined(names, " | ") + ") values=\"" + values + "\" ;;\n";
+  return text +
+         "  esac\n  @FUNCTION@_answer -P \"$prefix${current%%=*}=\" -W \"$values\" -- "
+         "\"${current#*=}\"\n}\n\n";
+}
+
+}  // namespace
+
+std::string bash_completion(const CLI::App& app, const OptionTable* settings) {
+  const std::string function = '_' + replaced(app.get_name(), "-", "_");
+  std::string script = "# bash completion for " + app.get_name() + ", made from its command line\n\n";
+  if (settings != nullptr) script += setting_function(*settings, function);
+  script += replaced(replaced(kBegin, "@COMMANDS@", command_names(app)), "@TAKE_VALUES@",
+                     joined(names_with_values(app), " "));
+  script += "  case \"$command $previous\" in\n" + value_branches(app, "", function);
+  for (const CLI::App* command : shown_commands(app))
+    script += value_branches(*command, command->get_name(), function);
+  script += word_branches(app, "");
+  for (const CLI::App* command : shown_commands(app)) script += word_branches(*command, command->get_name());
+  script += "  esac\n";
+  return replaced(replaced(script + kEnd, "@FUNCTION@", function), "@PROGRAM@", app.get_name());
+}
+
+}  // namespace psi_slam

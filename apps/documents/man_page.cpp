@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "man_page.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "command_words.h"
+#include "psi_slam/config/ini_file.h"
+#include "roff_text.h"
+
+namespace psi_slam {
+namespace {
+
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string heading(const std::string& name, int section, const std::string& version) {
+  const std::string manual = section == 1 ? "User Commands" : "File Formats";
+  return ".TH \"" + roff_text(upper(name)) + "\" " + std::to_string(section) + " \"\" \"" +
+         roff_text(version) + "\" \"" + manual + "\"\n";
+}
+
+/// The first clause of the description, without the program's name.
+std::string in_a_line(const CLI::App& app) {
+  std::string text = app.get_description();
+  const std::string name = app.get_name() + ' ';
+  if (text.compare(0, name.size(), name) == 0) text.erase(0, name.size());
+  text.erase(std::min(text.find_first_of(".:"), text.size()));
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string synopsis(const CLI::App& app, const std::string& program) {
+  std::string line = roff_bold(program) + " [" + roff_italic("OPTION") + "]...";
+  for (const CLI::Option* positional : shown_positionals(app)) {
+    const std::string name = roff_italic(positional->get_name(true));
+    line += positional->get_required() ? ' ' + name : " [" + name + ']';
+  }
+  return line;
+}
+
+std::string option_item(const CLI::Option& option) {
+  std::string tag;
+  for (const std::string& name : typed_names(option)) tag += (tag.empty() ? "" : ", ") + roff_bold(name);
+  if (const std::string value = value_name(option); !value.empty()) tag += ' ' + roff_italic(value);
+  std::string text = roff_text(option.get_description());
+  if (!option.get_default_str().empty()) text += " (default " + roff_text(option.get_default_str()) + ')';
+  if (option.get_required()) text += " (required)";
+  return roff_item(tag, text);
+}
+
+std::string option_items(const CLI::App& app) {
+  std::string text;
+  for (const CLI::Option* positional : shown_positionals(app))
+    text += roff_item(roff_italic(positional->get_name(true)), roff_text(positional->get_description()));
+  for (const CLI::Option* option : shown_options(app)) text += option_item(*option);
+  return text;
+}
+
+std::string commands(const CLI::App& app) {
+  std::string text;
+  for (const CLI::App* command : shown_commands(app))
+    text += ".SS \"" + roff_text(app.get_name() + ' ' + command->get_name()) + "\"\n" +
+            roff_text(command->get_description()) + '\n' + option_items(*command);
+  return text.empty() ? "" : roff_section("COMMANDS") + text;
+}
+
+std::string footer(const CLI::App& app) {
+  constexpr std::string_view kTitle = "\nExamples:\n";
+  const std::string text = app.get_footer();
+  if (text.empty()) return "";
+  if (text.compare(0, kTitle.size(), kTitle) != 0) return roff_section("NOTES") + roff_text(text) + '\n';
+  return roff_section("EXAMPLES") + roff_example(text.substr(kTitle.size()));
+}
+
+std::string see_also(const std::string& name) {
+  std::string text;
+  for (const char* other : {"psi-slam", "psi-slam-gui", "psi-slam-eval", "psi-slam-bench"})
+    if (name != other) text += roff_bold(other) + "(1), ";
+  if (name == "psi-slam.ini") return text.substr(0, text.size() - 2) + '\n';
+  return text + roff_bold("psi-slam.ini") + "(5)\n";
+}
+
+std::string values_of(const Option& option) {
+  return roff_text(option.values() + "; default " + ini_value_text(option.default_text));
+}
+
+}  // namespace
+
+std::string man_page(const CLI::App& app) {
+  const std::string name = app.get_name();
+  std::string page = heading(name, 1, app.version());
+  page += roff_section("NAME") + roff_text(name) + " \\- " + roff_text(in_a_line(app)) + '\n';
+  page += roff_section("SYNOPSIS");
+  const bool only_commands = app.get_require_subcommand_min() > 0;
+  if (!only_commands) page += synopsis(app, name) + '\n';
+  for (const CLI::App* command : shown_commands(app))
+    page += (page.compare(page.size() - 11, 11, "\"SYNOPSIS\"\n") == 0 ? "" : ".br\n") +
+            synopsis(*command, name + ' ' + command->get_name()) + '\n';
+  page += roff_section("DESCRIPTION") + roff_text(app.get_description()) + '\n';
+  page += roff_section("OPTIONS") + option_items(app);
+  page += commands(app);
+  page += roff_section("EXIT STATUS") + roff_item("0", "Success.") +
+          roff_item("1", "The system failed: a full disk, no memory, no display.") +
+          roff_item("2", "The user has to mend something: the arguments, the settings or the log.");
+  page += footer(app);
+  return page + roff_section("SEE ALSO") + see_also(name);
+}
+
+std::string settings_man_page(const OptionTable& table, const std::string& version) {
+  std::string page = heading("psi-slam.ini", 5, version);
+  page += roff_section("NAME") + "psi\\-slam.ini \\- settings of psi\\-slam and psi\\-slam\\-gui\n";
+  page +=
+      roff_section("DESCRIPTION") +
+      roff_text(
+          "A settings file has sections in brackets and lines KEY = VALUE. Comments begin with a semicolon, "
+          "or with "
+          "a hash at the start of a line or after a space. What a file leaves out keeps its default; lines "
+          "include = FILE before the first section take another file's values, which this one may override. "
+          "Unknown keys and values out of range are refused.") +
+      "\n" + roff_bold("psi-slam --dump-config") + '\n' + roff_text("prints a file with every option;") +
+      '\n' + roff_bold("--set SECTION.KEY=VALUE") + '\n' + roff_text("changes one option for one run.") +
+      '\n';
+  for (const OptionSection& section : table.sections()) {
+    page += roff_section('[' + section.name + ']') + roff_text(section.title + '.') + '\n';
+    for (const Option& option : section.options)
+      page += roff_item(roff_bold(option.key), roff_text(option.help) + "\n.br\n" + values_of(option));
+  }
+  return page + roff_section("SEE ALSO") + see_also("psi-slam.ini");
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Man pages and shell completion, which the programs print themselves, and where they are installed.
+
+# psi_slam_write_document(PROGRAM OPTION FILE): adds the rule, and FILE to the list `documents` of the caller.
+function(psi_slam_write_document program option file)
+  set(script ${PROJECT_SOURCE_DIR}/share/cmake/write-program-document.cmake)
+  add_custom_command(OUTPUT ${file}
+    COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${program}> -D OPTION=${option} -D FILE=${file} -P ${script}
+    DEPENDS ${program} ${script} VERBATIM)
+  set(documents ${documents} ${file} PARENT_SCOPE)
+endfunction()
+
+# Man pages, completion, licence and changelog of the programs.
+function(psi_slam_install_documents)
+  set(programs psi-slam psi-slam-gui psi-slam-eval psi-slam-bench)
+  set(man ${PROJECT_BINARY_DIR}/man)
+  set(completions ${PROJECT_BINARY_DIR}/completions)
+  file(MAKE_DIRECTORY ${man} ${completions})
+  set(documents)
+  foreach(program IN LISTS programs)
+    psi_slam_write_document(${program} --man-page ${man}/${program}.1.gz)
+    psi_slam_write_document(${program} --bash-completion ${completions}/${program})
+  endforeach()
+  psi_slam_write_document(psi-slam --settings-man-page ${man}/psi-slam.ini.5.gz)
+  add_custom_target(psi_slam_program_documents ALL DEPENDS ${documents})
+
+  list(JOIN programs " " PROGRAMS)
+  configure_file(${PROJECT_SOURCE_DIR}/share/cmake/zsh-completion.in ${PROJECT_BINARY_DIR}/_psi-slam @ONLY)
+
+  list(TRANSFORM programs REPLACE "(.+)" "${man}/\\1.1.gz" OUTPUT_VARIABLE pages)
+  list(TRANSFORM programs REPLACE "(.+)" "${completions}/\\1" OUTPUT_VARIABLE scripts)
+  install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
+  install(FILES ${man}/psi-slam.ini.5.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man5 COMPONENT programs)
+  install(FILES ${scripts} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)
+  install(FILES ${PROJECT_BINARY_DIR}/_psi-slam
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)
+  install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/psi-slam COMPONENT programs)
+  install(DIRECTORY share/doc/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/psi-slam/share/doc COMPONENT programs)
+  install(DIRECTORY share/examples
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libpsi-slam-dev COMPONENT development)
+  psi_slam_install_legal_documents(psi-slam programs)
+  psi_slam_install_legal_documents(libpsi-slam-dev development)
+endfunction()
+
+# What every Debian package holds: its licence and what changed.
+function(psi_slam_install_legal_documents package component)
+  set(folder ${CMAKE_INSTALL_DATADIR}/doc/${package})
+  set(changelog ${PROJECT_BINARY_DIR}/changelog.gz)
+  if(NOT TARGET psi_slam_changelog)
+    add_custom_command(OUTPUT ${changelog} DEPENDS ${PROJECT_SOURCE_DIR}/CHANGELOG.md VERBATIM
+      COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_BINARY_DIR}/changelog
+      COMMAND gzip --force --best --no-name ${PROJECT_BINARY_DIR}/changelog)
+    add_custom_target(psi_slam_changelog ALL DEPENDS ${changelog})
+  endif()
+  install(FILES ${changelog} DESTINATION ${folder} COMPONENT ${component})
+  install(FILES LICENSE DESTINATION ${folder} RENAME copyright COMPONENT ${component})
+endfunction()

@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# completion_test.sh BUILD: what the scripts for bash answer, without a terminal.
+set -euo pipefail
+build=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+mkdir maps
+touch my.log my.ini "my other.log"
+
+failures=0
+for program in psi-slam psi-slam-gui psi-slam-eval psi-slam-bench; do
+  # shellcheck disable=SC1090
+  source "$build/completions/$program"
+done
+
+# answers LINE: what bash would offer behind it.
+answers() {
+  COMP_LINE=$1
+  COMP_POINT=${#COMP_LINE}
+  COMPREPLY=()
+  local program=${1%% *}
+  "_${program//-/_}"
+  printf '%s\n' "${COMPREPLY[@]}" | sort | tr '\n' '|'
+}
+
+# expect LINE ANSWERS: all of them, in order, a bar behind each; * at the end for more.
+expect() {
+  local found
+  found=$(answers "$1")
+  # shellcheck disable=SC2053  # the pattern is meant
+  if [[ $found != $2 ]]; then
+    echo "completion_test.sh: \"$1\" offers $found, expected $2" >&2
+    failures=$((failures + 1))
+  fi
+}
+
+COMP_WORDBREAKS=$' \t\n"\'><=;|&(:'
+expect "psi-slam --out" "--output|"
+expect "psi-slam --o" "--output|"
+expect "psi-slam ch" "check|"
+expect "psi-slam my" "my other.log|my.ini|my.log|"
+expect "psi-slam check my.l" "my.log|"
+expect "psi-slam check --j" "--json|"
+expect "psi-slam options --m" "--markdown|"
+expect "psi-slam check --ou" "|"
+expect "psi-slam my.log -o m" "maps|"
+expect "psi-slam -c my.i" "my.ini|"
+expect "psi-slam -o check --th" "--threads|"
+expect "psi-slam --seed " "|"
+expect "psi-slam --set map.write_d" "map.write_dxf=|"
+expect "psi-slam --set map.write_dxf=" "false|true|"
+expect "psi-slam --set map.write_dxf=t" "true|"
+expect "psi-slam --set=map.write_dxf=f" "false|"
+expect "psi-slam --set loop_closure.matcher=c" "csm|csm_ga|"
+expect "psi-slam --set log.max_range_m=" "auto|"
+expect "psi-slam --set map.resolution_m=" "|"
+expect "psi-slam check my.log --set run.th" "run.threads=|"
+expect "psi-slam --config=my.i" "my.ini|"
+expect "psi-slam-gui --ed" "--edits|"
+expect "psi-slam-gui --set psi.psi_" "psi.psi_1=|psi.psi_2=|"
+expect "psi-slam-eval --per-relation ma" "maps|"
+expect "psi-slam-bench f" "false-loops|freiburg|"
+expect "psi-slam-bench freiburg --riv" "--rival*"
+expect "psi-slam-bench match --data ma" "maps|"
+expect "psi-slam --man" "|"
+
+# Every key of the settings files is offered.
+count=$("$build/apps/psi-slam/psi-slam" --dump-config | grep -c '^[a-z_0-9]* = ')
+offered=$(answers "psi-slam --set " | tr '|' '\n' | grep -c '=$')
+[ "$count" -eq "$offered" ] || { echo "completion_test.sh: $count options but $offered offered" >&2; failures=$((failures + 1)); }
+
+COMP_WORDBREAKS=$' \t\n"'  # as with zsh, the whole word is answered
+expect "psi-slam --set map.write_dxf=t" "map.write_dxf=true|"
+expect "psi-slam --config=my.i" "--config=my.ini|"
+[ "$failures" -eq 0 ]

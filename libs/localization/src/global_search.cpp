@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/localization/global_search.h"
 
-#include <mrpt/math/wrap2pi.h>
-
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,9 +13,17 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kSearchedShare = 0.7;  // of min_response: large cells score less, and refused places are told
+constexpr double kSearchedShare = 0.9;  // of min_response: large cells score less, and refused places are told
 constexpr double kFineCells = 1.5;      // half-width of the window in the fine grid, in coarse cells
 constexpr double kFineWindow_rad = radians_from_degrees(2.0L);
+
+// Rivals below this share of the best are not looked for: they would not stop a place from being believed.
+constexpr double kLeastAmbiguity = 0.75;
+
+MatcherOptions with_quick_ambiguity(MatcherOptions options) {
+  options.ambiguity_floor = std::max(options.ambiguity_floor, kLeastAmbiguity);
+  return options;
+}
 
 /// The whole map and all headings, from its middle.
 struct Everywhere {
@@ -50,7 +57,7 @@ void for_context(std::size_t node, const PlaceMemory& memory, double travel_m, c
 GlobalSearch::GlobalSearch(ReferenceMap map, const GlobalSearchOptions& options)
     : map_(std::move(map)),
       options_(options),
-      matcher_(make_matcher(options.matcher, options.match, options.genetic)),
+      matcher_(make_matcher(options.matcher, with_quick_ambiguity(options.match), options.genetic)),
       fine_matcher_(options.match) {}
 
 FoundPlace GlobalSearch::find(std::size_t node, const PlaceMemory& memory, const MatchSeed& seed) const {

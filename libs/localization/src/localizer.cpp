@@ -24,14 +24,13 @@ Localizer::Localizer(ReferenceMap map, const LocalizerOptions& options)
       search_(std::move(map), options.search),
       matcher_(options.search.match),
       front_end_(options.front_end),
-      window_{options.window_m, options.window_m, options.window_rad},
       consensus_(options.consensus) {
   map_frame_.add_node({0, 0, 0});
 }
 
 void Localizer::start_at(const TPose2D& map_T_robot) {
   map_T_local_ = map_T_robot;
-  window_ = {options_.start_window_m, options_.start_window_m, options_.start_window_rad};
+  near_told_start_ = true;
 }
 
 LocalizationStep Localizer::add(const Frame& frame) {
@@ -58,7 +57,7 @@ void Localizer::track(const FrontEndStep& motion, LocalizationStep& step) {
   if (fitted_us_ == 0) fitted_us_ = now_us_;
   if (step.fits) {
     map_T_local_ = step.map_T_robot + inverse(motion.local_T_robot);
-    window_ = {options_.window_m, options_.window_m, options_.window_rad};
+    near_told_start_ = false;
     misfit_m_ = 0;
     fitted_us_ = now_us_;
     return;
@@ -69,22 +68,34 @@ void Localizer::track(const FrontEndStep& motion, LocalizationStep& step) {
   find_again();
 }
 
+PosePrior Localizer::prior_at(const TPose2D& map_T_robot) const {
+  const double information_m = 1 / (options_.prior_sigma_m * options_.prior_sigma_m);
+  const double information_rad = 1 / (options_.prior_sigma_rad * options_.prior_sigma_rad);
+  PosePrior prior;
+  prior.map_T_robot = map_T_robot;
+  prior.information.diagonal() << information_m, information_m, information_rad;
+  return prior;
+}
+
 bool Localizer::match_near(const FrontEndStep& motion, LocalizationStep& step) const {
   const LocalMap& map = *search_.map().fine;
   const ScanPoints& scan = *motion.points;
   if (scan.points.empty() || scan.farthest_m <= map.scores().resolution_m()) return false;
-  MatchProblem problem{map.scores(), scan, step.map_T_robot, window_};
+  const SearchExtent window =
+      near_told_start_
+          ? SearchExtent{options_.start_window_m, options_.start_window_m, options_.start_window_rad}
+          : SearchExtent{options_.window_m, options_.window_m, options_.window_rad};
+  MatchProblem problem{map.scores(), scan, step.map_T_robot, window};
   problem.min_response = options_.min_response;
-  const double information_m = 1 / (options_.prior_sigma_m * options_.prior_sigma_m);
-  const double information_rad = 1 / (options_.prior_sigma_rad * options_.prior_sigma_rad);
-  problem.prior.emplace().map_T_robot = step.map_T_robot;
-  problem.prior->information.diagonal() << information_m, information_m, information_rad;
+  if (!near_told_start_) problem.prior = prior_at(step.map_T_robot);
   const MatchResult match = matcher_.match(problem);
   if (!match.found) return false;
-  const RefinedPose predicted = refine(map.scores(), scan, step.map_T_robot,
-                                       options_.search.match.refinement, problem.prior);
-  const bool as_predicted = predicted.mean_score >= kPredictionShare * match.refined_response;
-  const TPose2D matched = as_predicted ? predicted.map_T_robot : match.map_T_robot;
+  TPose2D matched = match.map_T_robot;
+  if (problem.prior) {
+    const RefinedPose predicted = refine(map.scores(), scan, step.map_T_robot,
+                                         options_.search.match.refinement, problem.prior);
+    if (predicted.mean_score >= kPredictionShare * match.refined_response) matched = predicted.map_T_robot;
+  }
   const LocalMap::Agreement agreement = map.agreement(scan, matched);
   const auto points = static_cast<double>(scan.points.size());
   if (static_cast<double>(agreement.observed) < options_.min_observed_share * points ||
@@ -127,6 +138,7 @@ void Localizer::search(std::size_t frame, LocalizationStep& step) {
 // What the front end knows of the way until now may lead from where the robot is no more.
 void Localizer::find_again() {
   map_T_local_.reset();
+  near_told_start_ = false;
   front_end_.emplace(options_.front_end);
   last_local_T_robot_ = {0, 0, 0};
   memory_ = {};

@@ -386,10 +386,18 @@ void describe_localization(OptionTable& table, LocalizerOptions& localization) {
               "from one of these searches to the next")
       .number("context_travel_m", search.context.travel_m, at_least(0), "m",
               "of the way before, whose scans are looked for together")
+      .number("context_node_spacing_m", search.context.node_spacing_m, at_least(0), "m",
+              "scans of it nearer to each other along the way are left out")
+      .number("context_point_spacing_m", search.context.point_spacing_m, above(0), "m",
+              "one point of it for each square of this size")
       .number("min_search_response", search.min_response, between(0, 1), "", "least response of a place")
       .number("max_ambiguity", search.max_ambiguity, between(0, 1), "",
               "greatest response of another place of the map, as a share of the best; the nearer to 1, the "
               "more searches must agree")
+      .number("min_search_observed_share", search.min_observed_share, between(0, 1), "",
+              "least share of the scans' points where the map shows anything, at a place found")
+      .number("min_search_agree", search.min_agree, between(0, 1), "",
+              "least share of those points, on the map's walls")
       .number("min_clear_share", search.min_clear_share, between(0, 1), "",
               "least share of the beams that go through no wall at a place found")
       .number("min_response", localization.min_response, between(0, 1), "",
@@ -401,6 +409,10 @@ void describe_localization(OptionTable& table, LocalizerOptions& localization) {
       .number("window_m", localization.window_m, above(0).at_most(100), "m",
               "while tracking: half-width of the search window")
       .angle_deg("window_theta_deg", localization.window_rad, above(0).at_most(180), "the same in heading")
+      .number("prior_sigma_m", localization.prior_sigma_m, above(0).at_most(100), "m",
+              "while tracking: standard deviation of the prediction, which holds the pose where the scan does not")
+      .angle_deg("prior_sigma_theta_deg", localization.prior_sigma_rad, above(0).at_most(180),
+                 "the same in heading")
       .number("start_window_m", localization.start_window_m, above(0).at_most(100), "m",
               "half-width of the first window around --start")
       .angle_deg("start_window_theta_deg", localization.start_window_rad, above(0).at_most(180),

@@ -27,11 +27,11 @@ struct GlobalSearchOptions {
   double smoothing_sigma_m = 0.03;
   ScanContextOptions context{15.0, 0.5, 0.2};
 
-  double min_response = 0.4;    ///< of the scans at the place found
-  double max_ambiguity = 0.95;  ///< response of the next best place of the map, as a share of the best
+  double min_response = 0.5;    ///< of the scans at the place found
+  double max_ambiguity = 0.87;  ///< response of the next best place of the map, as a share of the best
   double min_observed_share = 0.5;  ///< of the scans' points, in space that the map shows
   double min_agree = 0.75;          ///< of the scans' points in observed space, on something occupied
-  double min_clear_share = 0.8;     ///< of the scans' beams, that go through no wall of the map
+  double min_clear_share = 0.9;     ///< of the scans' beams, that go through no wall of the map
 };
 
 /// The best place of the map; what was not looked at any more is 0.

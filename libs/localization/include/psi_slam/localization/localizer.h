@@ -64,6 +64,7 @@ class Localizer {
  private:
   bool tracking() const { return map_T_local_.has_value(); }
   void track(const FrontEndStep& motion, LocalizationStep& step);
+  PosePrior prior_at(const mrpt::math::TPose2D& map_T_robot) const;
   bool match_near(const FrontEndStep& motion, LocalizationStep& step) const;
   void remember(const FrontEndStep& motion, std::size_t frame);
   void search(std::size_t frame, LocalizationStep& step);
@@ -75,7 +76,7 @@ class Localizer {
   std::optional<FrontEnd> front_end_;
   mrpt::math::TPose2D last_local_T_robot_;
   std::optional<mrpt::math::TPose2D> map_T_local_;  ///< of the front end's frame; none while lost
-  SearchExtent window_;
+  bool near_told_start_ = false;  ///< no scan has fitted since
   double misfit_m_ = 0;  ///< since the last scan that fitted
   TimeUs fitted_us_ = 0;
   TimeUs now_us_ = 0;

@@ -103,9 +103,11 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
       "localize",
       "Keep track of a robot in a finished map, and find it with no start pose (exit code 1: never found)");
   std::string log_to_localize;
-  localize->add_option("MAP", line.map, "A map as a run writes it: map.yaml or map.gridmap.gz")->type_name("");
+  localize->add_option("MAP", line.map, "A map as a run writes it: map.yaml or map.gridmap.gz")
+      ->type_name("");
   localize->add_option("LOG", log_to_localize, "Log of a robot in that building")->type_name("");
-  localize->add_option("-o,--output", line.output, "Folder for localization.csv and trajectory.tum, new or empty")
+  localize
+      ->add_option("-o,--output", line.output, "Folder for localization.csv and trajectory.tum, new or empty")
       ->type_name("DIR");
   localize->add_option("--start", line.start, "About where it starts: metres and degrees in the map")
       ->type_name("X,Y,YAW_DEG");

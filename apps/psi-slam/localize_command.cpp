@@ -56,8 +56,8 @@ LocalizedLog localize_all(FrameSource& log, Localizer& localizer, const Interrup
 int localize(const CommandLine& line, const Settings& settings, const Streams& streams) {
   const LocalizerOptions options = localizer_options(settings);
   const auto map = read_map_file(line.map);
-  Localizer localizer(
-      make_reference_map(map, options.search.resolution_m, options.search.smoothing_sigma_m), options);
+  Localizer localizer(make_reference_map(map, options.search.resolution_m, options.search.smoothing_sigma_m),
+                      options);
   if (!line.start.empty()) localizer.start_at(parse_start(line.start));
   const auto log = open_log(line.log, log_options(settings));
   std::optional<OutputFolder> folder;

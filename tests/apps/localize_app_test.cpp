@@ -28,7 +28,8 @@ class LocalizeApp : public testing::Test {
   std::filesystem::path map(const std::string& name) const { return folder_.path() / "map" / name; }
 
   AppRun localize(const std::string& map_name, std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments{"localize", map(map_name).string(), (folder_.path() / "new.log").string()};
+    std::vector<std::string> arguments{"localize", map(map_name).string(),
+                                       (folder_.path() / "new.log").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_app(arguments);
   }

@@ -16,8 +16,8 @@ namespace psi_slam {
 namespace {
 
 constexpr std::size_t kStarts = 24;
-constexpr double kWay_m = 20;      // that each robot drives at most
-constexpr double kFalse_m = 1;     // farther from the path, a place found is a false one
+constexpr double kWay_m = 20;   // that each robot drives at most
+constexpr double kFalse_m = 1;  // farther from the path, a place found is a false one
 
 MappingResult mapped(const std::filesystem::path& log, const Settings& settings, std::size_t scans) {
   MappingSession session(log, settings);
@@ -38,7 +38,8 @@ struct Figures {
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
   return values[values.size() / 2];
 }
 
@@ -53,7 +54,8 @@ void set_down_at(std::size_t start, const MappingResult& whole, const ReferenceM
     way_m += steps.back().moved_m;
     if (steps.back().state != LocalizationStep::State::kTracking) continue;
     const auto& truth = whole.frames[i].map_T_robot;
-    const double off_m = std::hypot(steps.back().map_T_robot.x - truth.x, steps.back().map_T_robot.y - truth.y);
+    const double off_m =
+        std::hypot(steps.back().map_T_robot.x - truth.x, steps.back().map_T_robot.y - truth.y);
     figures.errors_m.push_back(off_m);
     wrong = wrong || off_m > kFalse_m;
   }
@@ -79,10 +81,11 @@ Figures localize_second_half(const std::filesystem::path& log, const std::string
   Figures figures;
   for (std::size_t i = 0; i < kStarts; ++i)
     set_down_at(half + i * (whole.log.size() - half) / kStarts, whole, map, options, figures);
-  std::printf("%s: %zu of %zu found within %.0f m of driving (%zu within 5 m), median %.1f m and %.1f s; %zu "
-              "wrong; median error %.3f m\n",
-              ini.c_str(), figures.found, kStarts, kWay_m, figures.within_5_m, median(figures.found_after_m),
-              median(figures.found_after_s), figures.wrong, median(figures.errors_m));
+  std::printf(
+      "%s: %zu of %zu found within %.0f m of driving (%zu within 5 m), median %.1f m and %.1f s; %zu "
+      "wrong; median error %.3f m\n",
+      ini.c_str(), figures.found, kStarts, kWay_m, figures.within_5_m, median(figures.found_after_m),
+      median(figures.found_after_s), figures.wrong, median(figures.errors_m));
   return figures;
 }
 

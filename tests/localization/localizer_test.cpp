@@ -106,7 +106,8 @@ TEST(Localizer, finds_a_robot_again_that_was_carried_away) {
   const TPose2D before = drive.frames[third - 1].odom_T_robot;
   const TPose2D after = drive.frames[away].odom_T_robot;
   const auto cut = [&](auto& all) {
-    all.erase(all.begin() + static_cast<std::ptrdiff_t>(third), all.begin() + static_cast<std::ptrdiff_t>(away));
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(third),
+              all.begin() + static_cast<std::ptrdiff_t>(away));
   };
   cut(drive.frames);
   cut(drive.world_T_robot);

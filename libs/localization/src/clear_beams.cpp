@@ -16,8 +16,8 @@ constexpr double kNoSurface = 0.5;        // where nothing is known of the surfa
 double tolerance_m(const ScanPoints& scan, std::size_t i, double dx, double dy) {
   double incidence = kNoSurface;
   if (!scan.normals.empty() && (scan.normals[i].x != 0 || scan.normals[i].y != 0))
-    incidence = std::abs(dx * static_cast<double>(scan.normals[i].x) +
-                         dy * static_cast<double>(scan.normals[i].y));
+    incidence =
+        std::abs(dx * static_cast<double>(scan.normals[i].x) + dy * static_cast<double>(scan.normals[i].y));
   return kSurface_m / std::max(incidence, kLeastIncidence);
 }
 

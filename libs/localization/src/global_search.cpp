@@ -13,8 +13,9 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kSearchedShare = 0.9;  // of min_response: large cells score less, and refused places are told
-constexpr double kFineCells = 1.5;      // half-width of the window in the fine grid, in coarse cells
+constexpr double kSearchedShare =
+    0.9;                            // of min_response: large cells score less, and refused places are told
+constexpr double kFineCells = 1.5;  // half-width of the window in the fine grid, in coarse cells
 constexpr double kFineWindow_rad = radians_from_degrees(2.0L);
 
 // Rivals below this share of the best are not looked for: they would not stop a place from being believed.
@@ -79,8 +80,8 @@ FoundPlace GlobalSearch::find(std::size_t node, const PlaceMemory& memory, const
   place.response = somewhere.response;
   place.ambiguity = somewhere.ambiguity.value_or(0);
   const double window_m = kFineCells * coarse.resolution_m();
-  const MatchResult exactly = fine_matcher_.match({map_.fine->scores(), context, somewhere.map_T_robot,
-                                                   {window_m, window_m, kFineWindow_rad}});
+  const MatchResult exactly = fine_matcher_.match(
+      {map_.fine->scores(), context, somewhere.map_T_robot, {window_m, window_m, kFineWindow_rad}});
   place.evaluations += exactly.evaluations;
   if (exactly.found) {
     place.map_T_robot = exactly.map_T_robot;
@@ -118,15 +119,16 @@ std::string GlobalSearch::objection(FoundPlace& place, const ScanPoints& context
   place.observed_share = static_cast<double>(all.observed) / static_cast<double>(context.points.size());
   LocalMap::Agreement forward;
   ClearBeams beams;
-  for_context(node, memory, options_.context.travel_m, [&](const NodeScan& there, const TPose2D& here_T_there) {
-    const TPose2D map_T_there = place.map_T_robot + here_T_there;
-    const LocalMap::Agreement one = map_.fine->agreement(*there.points, map_T_there);
-    forward.observed += one.observed;
-    forward.hits += one.hits;
-    const ClearBeams more = clear_beams(map_.fine->scores(), *there.points, map_T_there);
-    beams.clear += more.clear;
-    beams.beams += more.beams;
-  });
+  for_context(node, memory, options_.context.travel_m,
+              [&](const NodeScan& there, const TPose2D& here_T_there) {
+                const TPose2D map_T_there = place.map_T_robot + here_T_there;
+                const LocalMap::Agreement one = map_.fine->agreement(*there.points, map_T_there);
+                forward.observed += one.observed;
+                forward.hits += one.hits;
+                const ClearBeams more = clear_beams(map_.fine->scores(), *there.points, map_T_there);
+                beams.clear += more.clear;
+                beams.beams += more.beams;
+              });
   place.agree = forward.share();
   place.clear_share = beams.share();
   if (place.observed_share < options_.min_observed_share)

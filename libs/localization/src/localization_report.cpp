@@ -80,14 +80,15 @@ std::string localization_text(const LocalizationSummary& summary) {
                           " s and " + fixed_text(summary.travelled_m, 1) + " m";
   if (!summary.localized())
     return "Not localized in " + way + ": " + summary.why_not + ".\nThe whole map was searched " +
-           times(summary.searches) + "; the best response was " + fixed_text(summary.best_response, 2) + ".\n";
+           times(summary.searches) + "; the best response was " + fixed_text(summary.best_response, 2) +
+           ".\n";
   std::string text = "Localized after " + fixed_text(*summary.found_after_m, 1) + " m and " +
                      fixed_text(*summary.found_after_s, 1) + " s";
   if (summary.ambiguity)
     text += "; the next best place scored " + fixed_text(*summary.ambiguity, 2) + " of that";
-  text += ".\nOf " + way + ", " + percent(summary.tracked, summary.scans) + " of the scans were tracked and " +
-          percent(summary.fitting, summary.scans) + " fit the map, with a median response of " +
-          fixed_text(summary.median_response, 2) + ".\n";
+  text += ".\nOf " + way + ", " + percent(summary.tracked, summary.scans) +
+          " of the scans were tracked and " + percent(summary.fitting, summary.scans) +
+          " fit the map, with a median response of " + fixed_text(summary.median_response, 2) + ".\n";
   if (summary.times_lost > 0)
     text += "It was lost " + times(summary.times_lost) + " and found by searching the whole map " +
             times(summary.times_found) + ".\n";

@@ -92,8 +92,8 @@ bool Localizer::match_near(const FrontEndStep& motion, LocalizationStep& step) c
   if (!match.found) return false;
   TPose2D matched = match.map_T_robot;
   if (problem.prior) {
-    const RefinedPose predicted = refine(map.scores(), scan, step.map_T_robot,
-                                         options_.search.match.refinement, problem.prior);
+    const RefinedPose predicted =
+        refine(map.scores(), scan, step.map_T_robot, options_.search.match.refinement, problem.prior);
     if (predicted.mean_score >= kPredictionShare * match.refined_response) matched = predicted.map_T_robot;
   }
   const LocalMap::Agreement agreement = map.agreement(scan, matched);
@@ -123,8 +123,8 @@ void Localizer::search(std::size_t frame, LocalizationStep& step) {
   const NodeScan& here = memory_.nodes[node];
   const FoundPlace& place = step.search.emplace(search_.find(node, memory_, {options_.seed, frame, 0}));
   if (!place.believed()) return;
-  const LoopConsensus::Vote vote{node, here.travelled_m, here.local_T_robot, 0, place.map_T_robot,
-                                 place.ambiguity};
+  const LoopConsensus::Vote vote{node, here.travelled_m,  here.local_T_robot,
+                                 0,    place.map_T_robot, place.ambiguity};
   if (consensus_.add(vote, map_frame_).empty()) return;
   map_T_local_ = place.map_T_robot + inverse(here.local_T_robot);
   misfit_m_ = 0;

@@ -410,7 +410,8 @@ void describe_localization(OptionTable& table, LocalizerOptions& localization) {
               "while tracking: half-width of the search window")
       .angle_deg("window_theta_deg", localization.window_rad, above(0).at_most(180), "the same in heading")
       .number("prior_sigma_m", localization.prior_sigma_m, above(0).at_most(100), "m",
-              "while tracking: standard deviation of the prediction, which holds the pose where the scan does not")
+              "while tracking: standard deviation of the prediction, which holds the pose where the scan "
+              "does not")
       .angle_deg("prior_sigma_theta_deg", localization.prior_sigma_rad, above(0).at_most(180),
                  "the same in heading")
       .number("start_window_m", localization.start_window_m, above(0).at_most(100), "m",

@@ -15,9 +15,7 @@ namespace psi_slam {
 struct ClearBeams {
   std::size_t beams = 0;
   std::size_t clear = 0;  ///< of those, beams that meet no wall before their end
-  double share() const {
-    return beams == 0 ? 0 : static_cast<double>(clear) / static_cast<double>(beams);
-  }
+  double share() const { return beams == 0 ? 0 : static_cast<double>(clear) / static_cast<double>(beams); }
 };
 
 /// Walks along all beams of the scan. A wall that lies near the surface where the beam ends is that surface.

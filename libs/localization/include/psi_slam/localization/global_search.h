@@ -27,8 +27,8 @@ struct GlobalSearchOptions {
   double smoothing_sigma_m = 0.03;
   ScanContextOptions context{15.0, 0.5, 0.2};
 
-  double min_response = 0.5;    ///< of the scans at the place found
-  double max_ambiguity = 0.87;  ///< response of the next best place of the map, as a share of the best
+  double min_response = 0.5;        ///< of the scans at the place found
+  double max_ambiguity = 0.87;      ///< response of the next best place of the map, as a share of the best
   double min_observed_share = 0.5;  ///< of the scans' points, in space that the map shows
   double min_agree = 0.75;          ///< of the scans' points in observed space, on something occupied
   double min_clear_share = 0.9;     ///< of the scans' beams, that go through no wall of the map
@@ -43,7 +43,7 @@ struct FoundPlace {
   double observed_share = 0;
   double agree = 0;
   double clear_share = 0;
-  std::string objection;  ///< why it is not to be believed, as a clause; empty: it is
+  std::string objection;   ///< why it is not to be believed, as a clause; empty: it is
   bool ambiguous = false;  ///< the objection is that another place fits as well
   std::int64_t evaluations = 0;
 

@@ -23,16 +23,16 @@ struct LocalizationSummary {
   std::size_t fitting = 0;  ///< of those, that fit the map
   double duration_s = 0;
   double travelled_m = 0;
-  int searches = 0;      ///< of the whole map
-  int times_found = 0;   ///< by a search; a start that was told is none
-  int times_lost = 0;    ///< after it was tracked
-  bool ambiguous = false;  ///< never found, and the best place had a rival as good
-  double best_response = 0;                  ///< of all searches
-  std::optional<double> found_after_s;       ///< from the first scan
+  int searches = 0;                     ///< of the whole map
+  int times_found = 0;                  ///< by a search; a start that was told is none
+  int times_lost = 0;                   ///< after it was tracked
+  bool ambiguous = false;               ///< never found, and the best place had a rival as good
+  double best_response = 0;             ///< of all searches
+  std::optional<double> found_after_s;  ///< from the first scan
   std::optional<double> found_after_m;
-  std::optional<double> ambiguity;           ///< of the search that found it first
-  double median_response = 0;                ///< of the scans that fit
-  std::string why_not;                       ///< of the last search, where the robot was never localized
+  std::optional<double> ambiguity;  ///< of the search that found it first
+  double median_response = 0;       ///< of the scans that fit
+  std::string why_not;              ///< of the last search, where the robot was never localized
 
   bool localized() const { return fitting > 0; }
 };

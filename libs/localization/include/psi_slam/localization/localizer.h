@@ -44,10 +44,10 @@ struct LocalizationStep {
   enum class State { kLost, kTracking };
   TimeUs time_us = 0;
   State state = State::kLost;
-  mrpt::math::TPose2D map_T_robot;   ///< while tracking
-  bool fits = false;                 ///< the scan fits the map there; false: the motion alone says where it is
-  double response = 0;               ///< where it fits
-  double moved_m = 0;                ///< since the scan before
+  mrpt::math::TPose2D map_T_robot;  ///< while tracking
+  bool fits = false;                ///< the scan fits the map there; false: the motion alone says where it is
+  double response = 0;              ///< where it fits
+  double moved_m = 0;               ///< since the scan before
   std::optional<FoundPlace> search;  ///< of the whole map, if one was made at this scan
 };
 
@@ -76,8 +76,8 @@ class Localizer {
   std::optional<FrontEnd> front_end_;
   mrpt::math::TPose2D last_local_T_robot_;
   std::optional<mrpt::math::TPose2D> map_T_local_;  ///< of the front end's frame; none while lost
-  bool near_told_start_ = false;  ///< no scan has fitted since
-  double misfit_m_ = 0;  ///< since the last scan that fitted
+  bool near_told_start_ = false;                    ///< no scan has fitted since
+  double misfit_m_ = 0;                             ///< since the last scan that fitted
   TimeUs fitted_us_ = 0;
   TimeUs now_us_ = 0;
 

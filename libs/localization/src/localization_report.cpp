@@ -84,7 +84,9 @@ std::string localization_text(const LocalizationSummary& summary) {
            ".\n";
   std::string text = "Localized after " + fixed_text(*summary.found_after_m, 1) + " m and " +
                      fixed_text(*summary.found_after_s, 1) + " s";
-  if (summary.ambiguity)
+  if (summary.ambiguity == 0.0)
+    text += "; no other place came near";
+  else if (summary.ambiguity)
     text += "; the next best place scored " + fixed_text(*summary.ambiguity, 2) + " of that";
   text += ".\nOf " + way + ", " + percent(summary.tracked, summary.scans) +
           " of the scans were tracked and " + percent(summary.fitting, summary.scans) +

@@ -14,6 +14,7 @@ constexpr const char* kExamples =
     "\nExamples:\n"
     "  psi-slam check my.log                    what is in a log, and what is wrong with it\n"
     "  psi-slam my.log -o out/                  map it: open out/report.html\n"
+    "  psi-slam localize out/map.yaml new.log   where a robot is in a finished map\n"
     "  psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0.025\n"
     "  psi-slam --dump-config > my.ini          settings to begin with\n"
     "  psi-slam sweep *.log -o out/ --set loop_closure.matcher=csm,ga --seeds 10\n";
@@ -24,7 +25,7 @@ bool is_option(const std::string& argument) {
 
 /// Complains about the first argument that is neither the log nor a known option.
 [[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
-  const auto command = nearest_name(line.log, {"check", "options", "sweep"});
+  const auto command = nearest_name(line.log, {"check", "localize", "options", "sweep"});
   if (command && !is_option(argument))
     throw UserError("there is no command \"" + line.log + "\"; did you mean \"" + *command + "\"?");
   throw UserError(unknown_argument_text(argument, app, "psi-slam"));
@@ -38,7 +39,9 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
     throw UserError("name the log: psi-slam check LOG" + std::string(kSeeHelp));
   if (line.command == Command::kMap && line.output.empty())
     throw UserError("name the folder for the results: -o DIR" + std::string(kSeeHelp));
-  if (line.command != Command::kMap && !line.output.empty())
+  if (line.command == Command::kLocalize && line.log.empty())
+    throw UserError("name a map and a log: psi-slam localize MAP LOG" + std::string(kSeeHelp));
+  if (line.command != Command::kMap && line.command != Command::kLocalize && !line.output.empty())
     throw UserError("-o goes with mapping only: nothing is written here");
   if (line.command != Command::kMap && !line.edits.empty()) throw UserError("--edits goes with mapping only");
   if (line.command != Command::kMap && !log_to_map.empty())
@@ -104,6 +107,23 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   add_settings_options(*check, line.config, line.settings);
   check->add_flag("--json", line.json, "Print the findings as JSON");
 
+  CLI::App* const localize = app.add_subcommand(
+      "localize",
+      "Keep track of a robot in a finished map, and find it with no start pose (exit code 1: never found)");
+  std::string log_to_localize;
+  localize->add_option("MAP", line.map, "A map as a run writes it: map.yaml or map.gridmap.gz")
+      ->type_name("");
+  localize->add_option("LOG", log_to_localize, "Log of a robot in that building")->type_name("");
+  localize
+      ->add_option("-o,--output", line.output, "Folder for localization.csv and trajectory.tum, new or empty")
+      ->type_name("DIR");
+  localize->add_option("--start", line.start, "About where it starts: metres and degrees in the map")
+      ->type_name("X,Y,YAW_DEG");
+  add_settings_options(*localize, line.config, line.settings);
+  localize->add_flag("--force", line.force, "Replace the results in a folder that is not empty");
+  localize->add_flag("--json", line.json, "Print the summary as JSON");
+  localize->add_flag("-q,--quiet", line.quiet, "Print nothing but complaints");
+
   CLI::App* const options = app.add_subcommand("options", "Explain every option of the settings files");
   options->add_flag("--markdown", line.markdown, "Print a page in Markdown");
 
@@ -114,6 +134,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   app.require_subcommand(0, 1);
   app.allow_extras();
   check->allow_extras();
+  localize->allow_extras();
   options->allow_extras();
   sweep->allow_extras();
   app.footer(kExamples);
@@ -127,6 +148,9 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
     line.log = log_to_check;
   } else if (sweep->parsed()) {
     line.command = CommandLine::Command::kSweep;
+  } else if (localize->parsed()) {
+    line.command = CommandLine::Command::kLocalize;
+    line.log = log_to_localize;
   } else if (dump_config) {
     line.command = CommandLine::Command::kDumpConfig;
   } else {

@@ -14,10 +14,12 @@ namespace psi_slam {
 
 /// What the user asked for, not yet looked at closer.
 struct CommandLine {
-  enum class Command { kMap, kCheck, kOptions, kDumpConfig, kSweep };
+  enum class Command { kMap, kCheck, kLocalize, kOptions, kDumpConfig, kSweep };
 
   Command command = Command::kMap;
   std::string log;
+  std::string map;    ///< to localize in
+  std::string start;  ///< "X,Y,YAW_DEG" in the map; empty: unknown
   std::string output;
   std::string edits;                  ///< empty: none
   std::string config;                 ///< empty: the built-in defaults

@@ -9,6 +9,7 @@
 #include "closing_text.h"
 #include "command_line.h"
 #include "interrupt_signals.h"
+#include "localize_command.h"
 #include "log_check.h"
 #include "progress_line.h"
 #include "psi_slam/base/user_error.h"
@@ -112,6 +113,12 @@ int run(const CommandLine& line, const Streams& streams) {
         streams.err << "psi-slam: " << broken_off << '\n';
         code = kWrongUsageOrInput;
       }
+      break;
+    }
+    case CommandLine::Command::kLocalize: {
+      BoundSettings bound;
+      load(line, bound);
+      code = localize(line, bound.settings, streams);
       break;
     }
     case CommandLine::Command::kOptions:

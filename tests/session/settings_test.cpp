@@ -63,7 +63,12 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
       member_count<MapperOptions>() - 11 + choice + front_end + matcher + loops + solver;
   const std::size_t files =
       member_count<MapFileOptions>() - 2 + member_count<MapDrawingOptions>() + member_count<GeoReference>();
-  const std::size_t others = member_count<GridMapOptions>() + files + member_count<RunOptions>();
+  // Front end, consensus, matches, smoothing and seed of the localizer are the mapper's.
+  const std::size_t localization = member_count<LocalizerOptions>() - 4 +
+                                   member_count<GlobalSearchOptions>() - 4 +
+                                   member_count<ScanContextOptions>();
+  const std::size_t others =
+      member_count<GridMapOptions>() + files + member_count<RunOptions>() + localization;
   EXPECT_EQ(described(), log + mapper + others)
       << "a struct of options has a member that describe() of settings.cpp does not know";
 }

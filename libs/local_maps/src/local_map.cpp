@@ -25,6 +25,11 @@ LocalMap::LocalMap(const LocalMapOptions& options)
   last_scan_.assign(grid_->getRawMap().size(), 0);
 }
 
+LocalMap::LocalMap(const LocalMapOptions& options, const Grid& drawn) : options_(options), grid_(drawn) {
+  options_.resolution_m = static_cast<double>(drawn.getResolution());
+  finish();
+}
+
 void LocalMap::grow_to_hold(const Beams& beams) {
   double x_min = static_cast<double>(grid_->getXMin());
   double x_max = static_cast<double>(grid_->getXMax());

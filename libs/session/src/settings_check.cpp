@@ -92,6 +92,17 @@ MapperOptions mapper_options(const Settings& settings) {
   return options;
 }
 
+LocalizerOptions localizer_options(const Settings& settings) {
+  LocalizerOptions options = settings.localization;
+  options.front_end = settings.mapper.front_end;
+  options.consensus = settings.mapper.loop_consensus;
+  options.search.genetic = settings.mapper.genetic;
+  options.search.match = settings.mapper.loop_matcher;
+  options.search.smoothing_sigma_m = settings.mapper.front_end.local_map.smoothing_sigma_m;
+  options.seed = settings.run.seed;
+  return options;
+}
+
 int worker_threads(const RunOptions& run) {
   if (run.threads > 0) return run.threads;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

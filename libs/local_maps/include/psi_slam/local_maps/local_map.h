@@ -43,6 +43,9 @@ class LocalMap {
  public:
   explicit LocalMap(const LocalMapOptions& options);
 
+  /// A finished one of a grid that was drawn elsewhere, in the grid's frame and of its resolution.
+  LocalMap(const LocalMapOptions& options, const mrpt::maps::COccupancyGridMap2D& drawn);
+
   /// Draws a scan: cells at beam ends become more occupied, cells on the way there less, each at most once a
   /// scan and ends before ways. Must not be called after finish().
   void insert(const Beams& beams);

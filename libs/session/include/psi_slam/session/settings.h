@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "psi_slam/config/option_table.h"
+#include "psi_slam/localization/localizer.h"
 #include "psi_slam/logs/log_options.h"
 #include "psi_slam/mapping/mapper.h"
 #include "psi_slam/results/grid_map.h"
@@ -32,6 +33,7 @@ struct Settings {
   MapperOptions mapper;  ///< its seed and threads are those of `run`: see mapper_options()
   GridMapOptions map;
   MapFileOptions map_files;
+  LocalizerOptions localization;  ///< what it shares with mapping is the mapper's: see localizer_options()
   RunOptions run;
 };
 
@@ -48,6 +50,9 @@ LogOptions log_options(const Settings& settings);
 
 /// What the mapper takes: with the seed and the threads of `run`.
 MapperOptions mapper_options(const Settings& settings);
+
+/// What the localizer takes: with the mapper's front end and genetic search, and the seed of `run`.
+LocalizerOptions localizer_options(const Settings& settings);
 
 /// The number of threads that run.threads stands for, at least 1.
 int worker_threads(const RunOptions& run);

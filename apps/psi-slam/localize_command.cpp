@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localize_command.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <array>
+#include <optional>
+#include <ostream>
+#include <sstream>
+
+#include "interrupt_signals.h"
+#include "psi_slam/base/degrees.h"
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/localization/localization_report.h"
+#include "psi_slam/localization/map_file.h"
+#include "psi_slam/logs/open_log.h"
+#include "psi_slam/results/output_folder.h"
+
+namespace psi_slam {
+namespace {
+
+mrpt::math::TPose2D parse_start(const std::string& text) {
+  std::istringstream words(text);
+  words.imbue(std::locale::classic());
+  std::array<double, 3> numbers{};
+  char comma = ',';
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (!((i == 0 || words >> comma) && comma == ',' && words >> numbers[i]))
+      throw UserError("--start " + text + ": expected X,Y,YAW_DEG, as in 12.5,-3,90");
+  if (words >> comma) throw UserError("--start " + text + ": expected three numbers, X,Y,YAW_DEG");
+  return {numbers[0], numbers[1], mrpt::math::wrapToPi(numbers[2] * radians_from_degrees(1))};
+}
+
+struct LocalizedLog {
+  std::vector<LocalizationStep> steps;
+  std::optional<std::string> broken_off;
+};
+
+LocalizedLog localize_all(FrameSource& log, Localizer& localizer, const InterruptSignals& signals) {
+  LocalizedLog result;
+  try {
+    while (!signals.came()) {
+      const std::optional<Frame> frame = log.next();
+      if (!frame) break;
+      result.steps.push_back(localizer.add(*frame));
+    }
+  } catch (const UserError& error) {
+    if (result.steps.empty()) throw;
+    result.broken_off = error.what();
+  }
+  return result;
+}
+
+}  // namespace
+
+int localize(const CommandLine& line, const Settings& settings, const Streams& streams) {
+  const LocalizerOptions options = localizer_options(settings);
+  const auto map = read_map_file(line.map);
+  Localizer localizer(make_reference_map(map, options.search.resolution_m, options.search.smoothing_sigma_m),
+                      options);
+  if (!line.start.empty()) localizer.start_at(parse_start(line.start));
+  const auto log = open_log(line.log, log_options(settings));
+  std::optional<OutputFolder> folder;
+  if (!line.output.empty()) folder = OutputFolder::prepare(line.output, line.force);
+
+  const InterruptSignals signals;
+  const LocalizedLog localized = localize_all(*log, localizer, signals);
+  if (localized.steps.empty()) throw UserError(line.log + ": no scan was read, there is nothing to localize");
+  if (folder) write_localization(localized.steps, folder->path());
+  const LocalizationSummary summary = summarize(localized.steps);
+  if (line.json)
+    streams.out << localization_json(summary);
+  else if (!line.quiet)
+    streams.out << localization_text(summary);
+  if (const SkippedLines skipped = log->skipped_lines(); skipped.count > 0 && !localized.broken_off)
+    streams.err << "psi-slam: " << skipped.sentence() << '\n';
+  if (localized.broken_off) {
+    streams.err << "psi-slam: " << *localized.broken_off << '\n';
+    return 2;
+  }
+  return summary.localized() ? 0 : 1;
+}
+
+}  // namespace psi_slam

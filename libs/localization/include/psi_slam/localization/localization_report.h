@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run of the localizer came to, for people and programs.
+//
+//     localization.csv   time_s,state,x_m,y_m,theta_rad,response,fits,ambiguity,note     a line a scan
+//     trajectory.tum     the poses of all scans that were tracked
+//
+// `ambiguity` and `note`, why a place was not believed, are of searches of the whole map; the pose of a scan
+// is empty while the robot is lost.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "psi_slam/localization/localizer.h"
+
+namespace psi_slam {
+
+struct LocalizationSummary {
+  std::size_t scans = 0;
+  std::size_t tracked = 0;  ///< scans
+  std::size_t fitting = 0;  ///< of those, that fit the map
+  double duration_s = 0;
+  double travelled_m = 0;
+  int searches = 0;                     ///< of the whole map
+  int times_found = 0;                  ///< by a search; a start that was told is none
+  int times_lost = 0;                   ///< after it was tracked
+  bool ambiguous = false;               ///< never found, and the best place had a rival as good
+  double best_response = 0;             ///< of all searches
+  std::optional<double> found_after_s;  ///< from the first scan
+  std::optional<double> found_after_m;
+  std::optional<double> ambiguity;  ///< of the search that found it first
+  double median_response = 0;       ///< of the scans that fit
+  std::string why_not;              ///< of the last search, where the robot was never localized
+
+  bool localized() const { return fitting > 0; }
+};
+
+LocalizationSummary summarize(const std::vector<LocalizationStep>& steps);
+
+/// A few lines for people.
+std::string localization_text(const LocalizationSummary& summary);
+std::string localization_json(const LocalizationSummary& summary);
+std::string localization_csv(const std::vector<LocalizationStep>& steps);
+
+/// Writes localization.csv and trajectory.tum into a folder that exists. Throws SystemFailure.
+void write_localization(const std::vector<LocalizationStep>& steps, const std::filesystem::path& folder);
+
+}  // namespace psi_slam

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/localization/localization_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "psi_slam/base/atomic_file.h"
+#include "psi_slam/results/number_text.h"
+#include "psi_slam/results/trajectory_file.h"
+
+namespace psi_slam {
+namespace {
+
+using State = LocalizationStep::State;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+  return fixed_text(whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole), 1) + " %";
+}
+
+std::string times(int count) {
+  return count == 1 ? "once" : std::to_string(count) + " times";
+}
+
+void count_search(const FoundPlace& place, LocalizationSummary& summary) {
+  ++summary.searches;
+  summary.why_not = place.objection;
+  if (place.response >= summary.best_response) {
+    summary.best_response = place.response;
+    summary.ambiguous = place.ambiguous;
+  }
+}
+
+}  // namespace
+
+LocalizationSummary summarize(const std::vector<LocalizationStep>& steps) {
+  LocalizationSummary summary;
+  summary.scans = steps.size();
+  std::vector<double> responses;
+  State before = State::kLost;
+  for (const LocalizationStep& step : steps) {
+    summary.travelled_m += step.moved_m;
+    summary.duration_s = seconds(step.time_us - steps.front().time_us);
+    if (step.search) count_search(*step.search, summary);
+    const bool tracks = step.state == State::kTracking;
+    if (tracks) ++summary.tracked;
+    if (tracks && before == State::kLost && step.search) {
+      ++summary.times_found;
+      if (!summary.ambiguity) summary.ambiguity = step.search->ambiguity;
+    }
+    if (!tracks && before == State::kTracking) ++summary.times_lost;
+    if (step.fits) responses.push_back(step.response);
+    if (step.fits && !summary.found_after_s) {
+      summary.found_after_s = summary.duration_s;
+      summary.found_after_m = summary.travelled_m;
+    }
+    before = step.state;
+  }
+  summary.fitting = responses.size();
+  summary.median_response = median(std::move(responses));
+  if (summary.localized()) {
+    summary.ambiguous = false;
+    summary.why_not.clear();
+  } else if (summary.why_not.empty()) {
+    summary.why_not = summary.searches == 0 ? "no scan could be looked for"
+                                            : "places were found, but too few that agree with each other";
+  }
+  return summary;
+}
+
+std::string localization_text(const LocalizationSummary& summary) {
+  const std::string way = std::to_string(summary.scans) + " scans over " + fixed_text(summary.duration_s, 1) +
+                          " s and " + fixed_text(summary.travelled_m, 1) + " m";
+  if (!summary.localized())
+    return "Not localized in " + way + ": " + summary.why_not + ".\nThe whole map was searched " +
+           times(summary.searches) + "; the best response was " + fixed_text(summary.best_response, 2) +
+           ".\n";
+  std::string text = "Localized after " + fixed_text(*summary.found_after_m, 1) + " m and " +
+                     fixed_text(*summary.found_after_s, 1) + " s";
+  if (summary.ambiguity == 0.0)
+    text += "; no other place came near";
+  else if (summary.ambiguity)
+    text += "; the next best place scored " + fixed_text(*summary.ambiguity, 2) + " of that";
+  text += ".\nOf " + way + ", " + percent(summary.tracked, summary.scans) +
+          " of the scans were tracked and " + percent(summary.fitting, summary.scans) +
+          " fit the map, with a median response of " + fixed_text(summary.median_response, 2) + ".\n";
+  if (summary.times_lost > 0)
+    text += "It was lost " + times(summary.times_lost) + " and found by searching the whole map " +
+            times(summary.times_found) + ".\n";
+  return text;
+}
+
+std::string localization_json(const LocalizationSummary& summary) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+  };
+  const nlohmann::ordered_json json = {{"localized", summary.localized()},
+                                       {"ambiguous", summary.ambiguous},
+                                       {"why_not", summary.why_not},
+                                       {"scans", summary.scans},
+                                       {"tracked", summary.tracked},
+                                       {"fitting", summary.fitting},
+                                       {"duration_s", summary.duration_s},
+                                       {"travelled_m", summary.travelled_m},
+                                       {"found_after_m", number(summary.found_after_m)},
+                                       {"found_after_s", number(summary.found_after_s)},
+                                       {"ambiguity", number(summary.ambiguity)},
+                                       {"searches", summary.searches},
+                                       {"times_found", summary.times_found},
+                                       {"times_lost", summary.times_lost},
+                                       {"best_search_response", summary.best_response},
+                                       {"median_response", summary.median_response}};
+  return json.dump(2) + '\n';
+}
+
+std::string localization_csv(const std::vector<LocalizationStep>& steps) {
+  std::string text = "time_s,state,x_m,y_m,theta_rad,response,fits,ambiguity,note\n";
+  for (const LocalizationStep& step : steps) {
+    const bool tracks = step.state == State::kTracking;
+    text += format_seconds(step.time_us) + (tracks ? ",tracking," : ",lost,");
+    if (tracks)
+      for (const double value : {step.map_T_robot.x, step.map_T_robot.y, step.map_T_robot.phi})
+        text += fixed_text(value, 6) + ',';
+    else
+      text += ",,,";
+    const bool found_something = step.search && step.search->found;
+    const double response = found_something && !tracks ? step.search->response : step.response;
+    text += fixed_text(response, 4) + (step.fits ? ",1," : ",0,");
+    if (found_something) text += fixed_text(step.search->ambiguity, 4);
+    text += ',';
+    if (step.search && !step.search->objection.empty()) text += '"' + step.search->objection + '"';
+    text += '\n';
+  }
+  return text;
+}
+
+void write_localization(const std::vector<LocalizationStep>& steps, const std::filesystem::path& folder) {
+  Trajectory trajectory;
+  for (const LocalizationStep& step : steps)
+    if (step.state == State::kTracking) trajectory.push_back({step.time_us, step.map_T_robot});
+  write_text_atomically(folder / "localization.csv", localization_csv(steps));
+  write_tum(folder / "trajectory.tum", trajectory);
+}
+
+}  // namespace psi_slam

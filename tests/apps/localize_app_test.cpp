@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// psi-slam localize, from a map and a log to its results.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "../session/room_log.h"
+#include "app_run.h"
+#include "psi_slam/results/trajectory_file.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+/// The room, mapped; the map's frame is the first scan's. Another robot drives round in it faster.
+class LocalizeApp : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto log = write_lines(folder_.path() / "room.log", room_log_lines(150, 100));
+    ASSERT_EQ(run_app({log.string(), "-q", "-o", map("").string()}).code, 0);
+    write_lines(folder_.path() / "new.log", room_log_lines(120, 80));
+  }
+
+  std::filesystem::path map(const std::string& name) const { return folder_.path() / "map" / name; }
+
+  AppRun localize(const std::string& map_name, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"localize", map(map_name).string(),
+                                       (folder_.path() / "new.log").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_app(arguments);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(LocalizeApp, finds_and_tracks_a_robot_in_both_kinds_of_map) {
+  for (const std::string name : {"map.yaml", "map.gridmap.gz"}) {
+    const auto out = folder_.path() / ("out-" + name);
+    const AppRun run = localize(name, {"-o", out.string()});
+    EXPECT_EQ(run.code, 0) << run.err << run.out;
+    EXPECT_THAT(run.out, HasSubstr("Localized after"));
+    EXPECT_THAT(bytes_of(out / "localization.csv"), HasSubstr(",tracking,"));
+    const Trajectory poses = read_trajectory(out / "trajectory.tum");
+    ASSERT_GT(poses.size(), 60U);
+    const TimeUs begin_us = 1000LL * 1000 * 1000;
+    for (const StampedPose& stamped : poses) {
+      const double scan = static_cast<double>(stamped.time_us - begin_us) / 200e3;
+      const auto truth = room_pose(2 * M_PI * scan / 80) - room_pose(0);
+      ASSERT_LT(std::hypot(stamped.pose.x - truth.x, stamped.pose.y - truth.y), 0.1) << scan;
+    }
+  }
+}
+
+TEST_F(LocalizeApp, takes_a_start_and_prints_json) {
+  const AppRun run = localize("map.yaml", {"--start", "0.2,-0.1,5", "--json"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  const Json summary = Json::parse(run.out);
+  EXPECT_EQ(summary["localized"], true);
+  EXPECT_EQ(summary["searches"], 0);
+  EXPECT_EQ(summary["tracked"], 120);
+}
+
+TEST_F(LocalizeApp, of_a_robot_that_is_not_there_it_says_so_with_exit_code_1) {
+  std::vector<std::string> lines = room_log_lines(60, 80);
+  for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, "1.3");  // a round shaft
+  write_lines(folder_.path() / "new.log", lines);
+  const AppRun run = localize("map.yaml");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.out, HasSubstr("Not localized"));
+  const AppRun json = localize("map.yaml", {"--json"});
+  EXPECT_EQ(json.code, 1);
+  EXPECT_EQ(Json::parse(json.out)["localized"], false);
+}
+
+TEST_F(LocalizeApp, wrong_usage_is_told_in_a_sentence) {
+  EXPECT_EQ(run_app({"localize"}).code, 2);
+  EXPECT_THAT(run_app({"localize", map("map.yaml").string()}).err, HasSubstr("localize MAP LOG"));
+  EXPECT_THAT(localize("map.png").err, HasSubstr("expected map.yaml or map.gridmap.gz"));
+  for (const std::string start : {"1,2", "1,2,x", "1,2,3,4", "1;2;3"}) {
+    const AppRun run = localize("map.yaml", {"--start", start});
+    EXPECT_EQ(run.code, 2) << start;
+    EXPECT_THAT(run.err, HasSubstr("X,Y,YAW_DEG")) << start;
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

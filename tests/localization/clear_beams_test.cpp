@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/localization/clear_beams.h"
+
+#include <gtest/gtest.h>
+
+namespace psi_slam {
+namespace {
+
+/// 4 m x 4 m, with a wall across at x = 2 m.
+ScoreGrid wall_across() {
+  ScoreGrid grid(0, 0, 0.05, 80, 80);
+  for (int y = 0; y < 80; ++y) *grid.finest().cell(40, y) = 255;
+  return grid;
+}
+
+ScanPoints one_point(float x, float y) {
+  ScanPoints scan;
+  scan.points = {{x, y}};
+  scan.farthest_m = 4;
+  return scan;
+}
+
+TEST(ClearBeams, a_beam_through_a_wall_is_not_clear_and_one_that_ends_there_is) {
+  const ScoreGrid map = wall_across();
+  EXPECT_EQ(clear_beams(map, one_point(1, 0), {1, 2, 0}).clear, 1U) << "ends at the wall";
+  EXPECT_EQ(clear_beams(map, one_point(2.5F, 0), {1, 2, 0}).clear, 0U) << "goes through it";
+  EXPECT_EQ(clear_beams(map, one_point(2.5F, 0), {1, 2, M_PI}).clear, 1U) << "looks away from it";
+  EXPECT_EQ(clear_beams(map, one_point(2.5F, 0), {1, 2, 0}).beams, 1U);
+}
+
+TEST(ClearBeams, beams_begin_at_the_laser) {
+  ScanPoints scan = one_point(2.5F, 0);
+  scan.origin = {1.5F, 0};
+  EXPECT_EQ(clear_beams(wall_across(), scan, {1, 2, 0}).clear, 1U) << "the laser is behind the wall";
+}
+
+TEST(ClearBeams, a_wall_that_the_beam_grazes_is_the_one_it_ends_on) {
+  ScanPoints scan = one_point(0.1F, 1.5F);  // almost along the wall
+  scan.normals = {{1, 0}};
+  EXPECT_EQ(clear_beams(wall_across(), scan, {1.95, 1, 0}).clear, 1U);
+}
+
+TEST(ClearBeams, of_no_beams_no_share_is_clear) {
+  EXPECT_EQ(clear_beams(wall_across(), {}, {1, 2, 0}).share(), 0);
+}
+
+}  // namespace
+}  // namespace psi_slam

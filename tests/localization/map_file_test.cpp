@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/localization/map_file.h"
+
+#include <gmock/gmock.h>
+
+#include "psi_slam/results/map_server_pair.h"
+#include "psi_slam/results/mrpt_maps.h"
+#include "temporary_folder.h"
+#include "test_files.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::maps::COccupancyGridMap2D;
+using testing::HasSubstr;
+
+/// Free but for a wall along a column, unknown on top; its corner is off the origin.
+COccupancyGridMap2D small_map() {
+  COccupancyGridMap2D grid(-1.5F, 2.5F, 4, 7, 0.05F);
+  for (int y = 0; y < 50; ++y)
+    for (int x = 0; x < 80; ++x) grid.setCell(x, y, x == 30 ? 0.02F : 0.97F);
+  return grid;
+}
+
+TEST(MapFile, both_kinds_are_read_back_cell_by_cell_and_in_their_place) {
+  const TemporaryFolder folder;
+  const COccupancyGridMap2D map = small_map();
+  write_map_server_pair(folder.path() / "map.yaml", map);
+  write_grid_map(folder.path() / "map.gridmap.gz", map);
+  for (const char* name : {"map.yaml", "map.gridmap.gz"}) {
+    const COccupancyGridMap2D read = read_map_file(folder.path() / name);
+    ASSERT_EQ(read.getSizeX(), map.getSizeX()) << name;
+    ASSERT_EQ(read.getSizeY(), map.getSizeY()) << name;
+    EXPECT_NEAR(read.getXMin(), map.getXMin(), 1e-4) << name;
+    EXPECT_NEAR(read.getYMin(), map.getYMin(), 1e-4) << name;
+    EXPECT_LT(read.getCell(30, 10), 0.35F) << name;
+    EXPECT_GT(read.getCell(31, 10), 0.65F) << name;
+    EXPECT_NEAR(read.getCell(31, 55), 0.5F, 0.01F) << name << ": unknown stays unknown";
+  }
+}
+
+TEST(MapFile, what_is_no_map_is_refused_in_a_sentence) {
+  const TemporaryFolder folder;
+  const auto sentence = [&](const std::string& name, const std::string& bytes) {
+    write_file(folder.path() / name, bytes);
+    return sentence_of([&] { read_map_file(folder.path() / name); });
+  };
+  EXPECT_THAT(sentence_of([&] { read_map_file(folder.path() / "none.yaml"); }), HasSubstr("none.yaml"));
+  EXPECT_THAT(sentence("map.png", "x"), HasSubstr("expected map.yaml or map.gridmap.gz"));
+  EXPECT_THAT(sentence("words.yaml", "image: [1"), HasSubstr("words.yaml"));
+  EXPECT_THAT(sentence("torn.gridmap.gz", "no gridmap"), HasSubstr("no whole gridmap"));
+  write_map_server_pair(folder.path() / "empty.yaml", COccupancyGridMap2D(0, 1, 0, 1, 0.05F));
+  EXPECT_THAT(sentence_of([&] { read_map_file(folder.path() / "empty.yaml"); }),
+              HasSubstr("without a single wall"));
+  write_map_server_pair(folder.path() / "map.yaml", small_map());
+  std::string turned = read_file(folder.path() / "map.yaml");
+  turned.replace(turned.find(", 0.0]"), 6, ", 0.5]");
+  EXPECT_THAT(sentence("turned.yaml", turned), HasSubstr("origin is turned"));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Drives through simulated buildings, with the truth of each scan, and maps drawn at the true poses: their
+// frame is the plan's.
+#pragma once
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+
+#include <cmath>
+#include <vector>
+
+#include "psi_slam/localization/localizer.h"
+#include "psi_slam/results/grid_map.h"
+#include "psi_slam/simulation/simulated_log.h"
+
+namespace psi_slam {
+
+struct TrueDrive {
+  std::vector<Frame> frames;
+  std::vector<mrpt::math::TPose2D> world_T_robot;  ///< by frame
+};
+
+/// Through the building of seed `plan`, on the way and with the noise of seed `drive`.
+inline TrueDrive drive_through(std::uint64_t plan, std::uint64_t drive, double path_m) {
+  constexpr double kCorridors_m = 90;
+  SimulatedLogOptions options = simulated_log_options(path_m, drive);
+  options.plan.seed = plan;
+  options.plan.corridors_m = kCorridors_m;
+  options.path.scan_rate_hz = 4;
+  SimulatedLog log(options);
+  TrueDrive result;
+  while (std::optional<Frame> frame = log.next()) {
+    result.frames.push_back(*std::move(frame));
+    result.world_T_robot.push_back(log.world_T_robot());
+  }
+  return result;
+}
+
+inline mrpt::maps::COccupancyGridMap2D map_of(const TrueDrive& drive) {
+  return *draw_grid_map(drive.frames, drive.world_T_robot);
+}
+
+inline double distance_m(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+inline std::vector<LocalizationStep> localize(Localizer& localizer, const std::vector<Frame>& frames) {
+  std::vector<LocalizationStep> steps;
+  for (const Frame& frame : frames) steps.push_back(localizer.add(frame));
+  return steps;
+}
+
+inline ReferenceMap reference_of(const mrpt::maps::COccupancyGridMap2D& grid,
+                                 const LocalizerOptions& options = {}) {
+  return make_reference_map(grid, options.search.resolution_m, options.search.smoothing_sigma_m);
+}
+
+}  // namespace psi_slam

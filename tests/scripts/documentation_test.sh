@@ -9,7 +9,7 @@ set -euo pipefail
 source=$(cd "$1" && pwd)
 build=$(cd "$2" && pwd)
 shift 2
-for app in psi-slam psi-slam-eval psi-slam-bench; do
+for app in psi-slam psi-slam-eval psi-slam-bench psi-graphslam; do
   PATH="$build/apps/$app:$PATH"
 done
 export PATH
@@ -34,6 +34,7 @@ write_logs() {
   cd "$scratch/logs"
   psi-slam-bench simulate --path-m 40 --people 0 --write-log benchmark-logs/intel.clf.gz >simulate.md
   cp benchmark-logs/intel.clf.gz my.log
+  cp my.log new.log  # the robot comes again, started elsewhere for all that its odometry says
   cp benchmark-logs/intel.relations my.relations
 }
 

@@ -217,7 +217,8 @@ void LoopInspector::refresh_rows() {
   const bool in_sight = before >= top && before < top + list_->GetCountPerPage();
   list_->SetItemCount(static_cast<long>(list_->table.rows()));
   const auto row = selected_ ? list_->table.row_of(*selected_) : std::nullopt;
-  if (before >= 0 && (!row || before != static_cast<long>(*row)))
+  const bool still_listed = before >= 0 && before < list_->GetItemCount();
+  if (still_listed && (!row || before != static_cast<long>(*row)))
     list_->SetItemState(before, 0, wxLIST_STATE_SELECTED);
   if (row) list_->SetItemState(static_cast<long>(*row), wxLIST_STATE_SELECTED, wxLIST_STATE_SELECTED);
   if (row && (std::exchange(lost_sight_, false) || (in_sight && before != static_cast<long>(*row))))

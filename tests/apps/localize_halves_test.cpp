@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "psi_slam/localization/localization_report.h"
 #include "psi_slam/session/bound_settings.h"
@@ -90,6 +91,8 @@ Figures localize_second_half(const std::filesystem::path& log, const std::string
 }
 
 TEST(LocalizeHalves, robots_of_the_second_half_of_a_real_log_are_found_in_the_map_of_the_first) {
+  if (std::getenv("PSI_SLAM_LONG_TESTS") == nullptr)
+    GTEST_SKIP() << "takes a quarter of an hour: set PSI_SLAM_LONG_TESTS";
   const auto log = shared_file("fr079.clf.gz");
   if (!log) GTEST_SKIP() << kNeedsData;
   const Figures figures = localize_second_half(*log, "fr079.ini");

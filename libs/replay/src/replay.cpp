@@ -24,8 +24,8 @@ Replay::Replay(std::filesystem::path log, const Settings& settings, EditJournal 
       settings_(settings),
       outline_(log_, log_options(settings)),
       painter_(settings.map),
-      maker_(std::make_unique<SnapshotMaker>(settings.mapper.psi)),
-      first_edits_((maker_->note_edits(edits.edits(), EditHistory()), std::move(edits))),
+      maker_(std::make_unique<SnapshotMaker>(settings.mapper.psi, edits.edits())),
+      first_edits_(std::move(edits)),
       snapshot_(maker_->snapshot(phase_)),
       thread_([this] { run(); }) {}
 
@@ -34,72 +34,67 @@ Replay::~Replay() {
   thread_.join();
 }
 
-void Replay::play() {
+template <class Change>
+void Replay::tell(Change change) {
   {
     const std::lock_guard lock(mutex_);
+    change();
+  }
+  changed_.notify_all();
+}
+
+void Replay::play() {
+  tell([&] {
     playing_ = true;
     held_ = false;
     pace_.restart();
     due_ = Clock::now();
-  }
-  changed_.notify_all();
+  });
 }
 
 void Replay::pause() {
-  {
-    const std::lock_guard lock(mutex_);
+  tell([&] {
     playing_ = false;
     held_ = true;
     steps_ = 0;
     hurry_to_ = 0;
-  }
-  changed_.notify_all();
+  });
 }
 
 void Replay::step() {
-  {
-    const std::lock_guard lock(mutex_);
+  tell([&] {
     playing_ = false;
     held_ = false;
     ++steps_;
-  }
-  changed_.notify_all();
+  });
 }
 
 void Replay::set_speed(double times) {
-  {
-    const std::lock_guard lock(mutex_);
+  tell([&] {
     pace_.set_speed(times);
     due_ = Clock::now();
-  }
-  changed_.notify_all();
+  });
 }
 
 void Replay::hurry_to(std::size_t scans) {
-  {
-    const std::lock_guard lock(mutex_);
+  tell([&] {
     held_ = false;
     hurry_to_ = scans;
-  }
-  changed_.notify_all();
+  });
 }
 
 void Replay::finish() {
-  {
-    const std::lock_guard lock(mutex_);
+  tell([&] {
     held_ = false;
     finish_ = true;
-  }
-  changed_.notify_all();
+  });
 }
 
 void Replay::cut_last_pass() {
-  {
-    const std::lock_guard lock(mutex_);
+  tell([&] {
     cut_last_pass_ = true;
     stop_last_pass_ = true;
-  }
-  changed_.notify_all();
+  });
 }
 
 void Replay::edit(const LoopEdit& edit) {
@@ -115,29 +110,21 @@ void Replay::redo() {
 }
 
 void Replay::wish(const EditWish& edit) {
-  {
-    const std::lock_guard lock(mutex_);
+  tell([&] {
     edit_wishes_.push_back(edit);
     stop_last_pass_ = true;
-  }
-  changed_.notify_all();
+  });
 }
 
 void Replay::export_to(std::filesystem::path folder, bool replace) {
-  {
-    const std::lock_guard lock(mutex_);
-    export_ = ExportWish{std::move(folder), replace};
-  }
-  changed_.notify_all();
+  tell([&] { export_ = ExportWish{std::move(folder), replace}; });
 }
 
 void Replay::close() {
-  {
-    const std::lock_guard lock(mutex_);
+  tell([&] {
     close_ = true;
     stop_last_pass_ = true;
-  }
-  changed_.notify_all();
+  });
 }
 
 std::shared_ptr<const ReplaySnapshot> Replay::snapshot() const {

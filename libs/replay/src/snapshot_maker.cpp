@@ -20,6 +20,11 @@ bool same_poses(const std::vector<mrpt::math::TPose2D>& a, const std::vector<mrp
 
 }  // namespace
 
+SnapshotMaker::SnapshotMaker(const PsiOptions& psi, const std::vector<TimedEdit>& edits) {
+  now_.psi = psi;
+  now_.edits = std::make_shared<std::vector<TimedEdit>>(edits);
+}
+
 void SnapshotMaker::note_warnings(const MappingSession& session) {
   now_.warnings.clear();
   if (session.broken_off()) now_.warnings.push_back(*session.broken_off());

@@ -13,7 +13,8 @@ namespace psi_slam {
 
 class SnapshotMaker {
  public:
-  explicit SnapshotMaker(const PsiOptions& psi) { now_.psi = psi; }
+  /// `edits` are those that the run begins with.
+  SnapshotMaker(const PsiOptions& psi, const std::vector<TimedEdit>& edits);
 
   /// A scan was mapped, with this much of the log read.
   void note_scan(double share) { shares_.push_back(share); }

@@ -97,6 +97,9 @@ class Replay {
     bool replace = false;
   };
 
+  /// Changes what is wished for, and wakes the engine's thread.
+  template <class Change>
+  void tell(Change change);
   void run() noexcept;
   void work();
   bool map_scans(MappingSession& session);

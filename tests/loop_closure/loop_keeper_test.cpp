@@ -88,7 +88,7 @@ TEST(LoopKeeper, loops_that_wait_to_the_end_are_refused) {
   PoseGraph graph = two_rounds().graph();
   LoopKeeperOptions options = near_maps_too();
   options.loop_closure.verification.wide_window_m = 0;  // every window is wide: all wait
-  options.consensus.min_weight = 1e6;                   // and none is ever confirmed
+  options.loop_consensus.min_weight = 1e6;              // and none is ever confirmed
   LoopKeeper keeper(options);
   EXPECT_EQ(close_all(keeper, graph), 0U);
   const auto pending = [&] {

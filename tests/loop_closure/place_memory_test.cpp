@@ -17,6 +17,28 @@ std::vector<std::size_t> first_of_stretches(const std::vector<double>& travelled
   return first;
 }
 
+FrontEndStep step_at(double x_m, double y_m) {
+  FrontEndStep step;
+  step.local_T_robot = {x_m, y_m, 0.5};
+  step.points = std::make_shared<ScanPoints>();
+  return step;
+}
+
+TEST(RememberNode, keeps_the_scan_and_sums_up_the_way_however_it_bends) {
+  PlaceMemory memory;
+  remember_node(step_at(1, 1), 4, memory);
+  remember_node(step_at(4, 5), 7, memory);
+  const FrontEndStep last = step_at(4, 3);
+  remember_node(last, 9, memory);
+  ASSERT_EQ(memory.nodes.size(), 3u);
+  EXPECT_EQ(memory.nodes[0].travelled_m, 0);
+  EXPECT_DOUBLE_EQ(memory.nodes[1].travelled_m, 5);
+  EXPECT_DOUBLE_EQ(memory.nodes[2].travelled_m, 7);
+  EXPECT_EQ(memory.nodes[2].frame, 9u);
+  EXPECT_EQ(memory.nodes[2].local_T_robot, last.local_T_robot);
+  EXPECT_EQ(memory.nodes[2].points, last.points);
+}
+
 TEST(BeginsStretch, once_in_each_stretch) {
   EXPECT_EQ(first_of_stretches({0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.1}, 0.5), (std::vector<std::size_t>{0, 3, 5}));
 }

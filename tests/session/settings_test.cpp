@@ -59,8 +59,8 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
                              member_count<PaperGeneticOptions>() + member_count<MemeticGeneticOptions>() +
                              member_count<CoarseCellOptions>();
   // Of MapperOptions nine are structs, and the seed and the threads are those of RunOptions.
-  const std::size_t mapper =
-      member_count<MapperOptions>() - 11 + choice + front_end + matcher + loops + solver;
+  const std::size_t mapper = member_count<MapperOptions>() - 4 + member_count<LoopKeeperOptions>() - 8 +
+                             choice + front_end + matcher + loops + solver;
   const std::size_t files =
       member_count<MapFileOptions>() - 2 + member_count<MapDrawingOptions>() + member_count<GeoReference>();
   // Front end, consensus, matches, smoothing and seed of the localizer are the mapper's.

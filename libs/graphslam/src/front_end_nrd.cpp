@@ -8,7 +8,6 @@
 #include "passed_user_error.h"
 #include "psi_slam/graphslam/graphslam_settings.h"
 #include "psi_slam/mapping/carried_frames.h"
-#include "psi_slam/pose_graph/information_matrix.h"
 #include "psi_slam/results/mapped_trajectory.h"
 
 namespace psi_slam {
@@ -16,18 +15,14 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// So many local maps stay unpacked: those that the robot comes by again within a few metres.
-constexpr std::size_t kUnpackedLocalMaps = 48;
+constexpr char kSpeaker[] = "rawlog: ";
 
 double length_m(const TPose2D& motion) {
   return std::hypot(motion.x, motion.y);
 }
 
 void keep_local_maps(const std::vector<PlacedLocalMap>& finished, PlaceMemory& memory) {
-  for (const PlacedLocalMap& local_map : finished) {
-    memory.local_maps.push_back(local_map);
-    memory.shelf->add(local_map.map);
-  }
+  for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, memory);
 }
 
 }  // namespace
@@ -35,7 +30,7 @@ void keep_local_maps(const std::vector<PlacedLocalMap>& finished, PlaceMemory& m
 CPsiFrontEndNRD::CPsiFrontEndNRD() : map_(std::make_shared<SharedMap>()) {
   setClassName("CPsiFrontEndNRD");
   logging_enable_keep_record = true;
-  map_->memory.shelf = std::make_shared<LocalMapShelf>(kUnpackedLocalMaps);
+  map_->memory = memory_with_shelf();
 }
 
 CPsiFrontEndNRD::~CPsiFrontEndNRD() = default;
@@ -44,16 +39,16 @@ void CPsiFrontEndNRD::loadParams(const std::string& source_fname) {
   BoundSettings bound;
   through_engine([&] { load_graphslam_settings(source_fname, bound); });
   const Settings& settings = bound.settings;
-  options_ = {settings.mapper.front_end, settings.mapper.local_map_sigma_m,
-              settings.mapper.local_map_sigma_rad};
-  if (!log_options_set_) entries_ = std::make_unique<EntryFrames>(log_options(settings));
+  options_ = {settings.mapper.front_end,
+              {settings.mapper.local_map_sigma_m, settings.mapper.local_map_sigma_rad}};
+  if (!log_options_set_) entries_ = std::make_unique<EntryFrames>(log_options(settings), kSpeaker);
   front_end_ = std::make_unique<FrontEnd>(options_.front_end);
   params_text_ = graphslam_options_text(bound.table, kNodeDeciderSection);
   setMinLoggingLevel(class_verbosity(source_fname, kNodeDeciderSection));
 }
 
 void CPsiFrontEndNRD::set_log_options(const LogOptions& options) {
-  entries_ = std::make_unique<EntryFrames>(options);
+  entries_ = std::make_unique<EntryFrames>(options, kSpeaker);
   log_options_set_ = true;
 }
 
@@ -115,31 +110,15 @@ bool CPsiFrontEndNRD::checkRegistrationCondition() {
 void CPsiFrontEndNRD::add_node() {
   PlaceMemory& memory = map_->memory;
   PoseGraph& graph = map_->mirror.graph();
-  NodeScan node;
-  node.frame = frames_.size() - 1;
-  node.local_T_robot = step_.local_T_robot;
-  node.points = step_.points;
   TPose2D pose(0, 0, 0);
-  if (!memory.nodes.empty()) {
-    const TPose2D motion = step_.local_T_robot - memory.nodes.back().local_T_robot;
-    node.travelled_m = memory.nodes.back().travelled_m + length_m(motion);
-    pose = graph.pose(graph.num_nodes() - 1) + motion;
-  }
-  node_frames_.push_back(node.frame);
-  memory.nodes.push_back(std::move(node));
+  if (!memory.nodes.empty())
+    pose = graph.pose(graph.num_nodes() - 1) + (step_.local_T_robot - memory.nodes.back().local_T_robot);
+  node_frames_.push_back(frames_.size() - 1);
+  remember_node(step_, node_frames_.back(), memory);
   map_->odometry_m.push_back(odometry_m_);
 
   graph.add_node(pose);
-  for (const FrontEndStep::Membership& membership : step_.memberships) {
-    Constraint constraint;
-    constraint.kind = Constraint::Kind::kLocalMap;
-    constraint.from = membership.anchor;
-    constraint.to = *step_.node;
-    constraint.from_T_to = membership.anchor_T_node;
-    constraint.information =
-        noisy_information(membership.covariance, options_.local_map_sigma_m, options_.local_map_sigma_rad);
-    graph.add_constraint(constraint);
-  }
+  constrain_to_local_maps(step_, options_.local_map_noise, graph);
   keep_local_maps(step_.finished, memory);
 }
 

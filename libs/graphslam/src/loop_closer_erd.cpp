@@ -21,7 +21,7 @@ CPsiLoopCloserERD::~CPsiLoopCloserERD() = default;
 void CPsiLoopCloserERD::loadParams(const std::string& source_fname) {
   BoundSettings bound;
   through_engine([&] { load_graphslam_settings(source_fname, bound); });
-  keeper_ = std::make_unique<LoopKeeper>(loop_keeper_options(mapper_options(bound.settings)));
+  keeper_ = std::make_unique<LoopKeeper>(mapper_options(bound.settings));
   passes_ = bound.settings.mapper.last_pass.passes;
   refinement_ = bound.settings.mapper.joint_refinement;
   params_text_ = graphslam_options_text(bound.table, kEdgeDeciderSection);

@@ -43,7 +43,7 @@ LocalizationStep Localizer::add(const Frame& frame) {
   if (tracking()) {
     track(motion, step);
   } else if (motion.node) {
-    remember(motion, frame.index);
+    remember_node(motion, frame.index, memory_);
     if (begins_stretch(memory_.nodes.size() - 1, memory_.nodes, options_.search_travel_m))
       search(frame.index, step);
   }
@@ -104,18 +104,6 @@ bool Localizer::match_near(const FrontEndStep& motion, LocalizationStep& step) c
   step.map_T_robot = matched;
   step.response = match.response;
   return true;
-}
-
-void Localizer::remember(const FrontEndStep& motion, std::size_t frame) {
-  NodeScan node;
-  node.frame = frame;
-  node.local_T_robot = motion.local_T_robot;
-  node.points = motion.points;
-  if (!memory_.nodes.empty()) {
-    const TPose2D moved = motion.local_T_robot - memory_.nodes.back().local_T_robot;
-    node.travelled_m = memory_.nodes.back().travelled_m + std::hypot(moved.x, moved.y);
-  }
-  memory_.nodes.push_back(std::move(node));
 }
 
 void Localizer::search(std::size_t frame, LocalizationStep& step) {

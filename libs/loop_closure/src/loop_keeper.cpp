@@ -13,7 +13,7 @@ LoopKeeper::LoopKeeper(const LoopKeeperOptions& options)
       policy_(options.matcher, options.psi, options.loop_matcher, options.genetic),
       factor_(options.psi),
       closer_(options.loop_closure, options.seed),
-      consensus_(options.consensus),
+      consensus_(options.loop_consensus),
       ledger_({options.loop_sigma_m, options.loop_sigma_rad}),
       pool_(options.threads) {}
 

@@ -2,8 +2,37 @@
 #include "psi_slam/loop_closure/place_memory.h"
 
 #include <cmath>
+#include <utility>
 
 namespace psi_slam {
+namespace {
+
+constexpr std::size_t kUnpackedLocalMaps = 48;
+
+}  // namespace
+
+PlaceMemory memory_with_shelf() {
+  PlaceMemory memory;
+  memory.shelf = std::make_shared<LocalMapShelf>(kUnpackedLocalMaps);
+  return memory;
+}
+
+void remember_node(const FrontEndStep& step, std::size_t frame, PlaceMemory& memory) {
+  NodeScan node;
+  node.frame = frame;
+  node.local_T_robot = step.local_T_robot;
+  node.points = step.points;
+  if (!memory.nodes.empty()) {
+    const mrpt::math::TPose2D motion = step.local_T_robot - memory.nodes.back().local_T_robot;
+    node.travelled_m = memory.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
+  }
+  memory.nodes.push_back(std::move(node));
+}
+
+void remember_local_map(const PlacedLocalMap& finished, PlaceMemory& memory) {
+  memory.local_maps.push_back(finished);
+  if (memory.shelf) memory.shelf->add(finished.map);
+}
 
 void take_off_shelf(const PlaceMemory& memory, const std::vector<std::size_t>& local_maps, WorkerPool& pool) {
   if (memory.shelf) memory.shelf->use(local_maps, pool);

@@ -7,16 +7,13 @@
 #include <string>
 #include <utility>
 
+#include "psi_slam/loop_closure/local_map_constraints.h"
 #include "psi_slam/mapping/carried_frames.h"
-#include "psi_slam/pose_graph/information_matrix.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
-
-// So many local maps stay unpacked: those that the robot comes by again within a few metres.
-constexpr std::size_t kUnpackedLocalMaps = 48;
 
 // The graph is optimised at once where a loop says by this many standard deviations of loops that it is
 // wrong; where less, only after it has grown by this share of itself: such news costs a node about the same
@@ -26,30 +23,13 @@ constexpr double kGrowthForSmallNews = 1e-3;
 
 }  // namespace
 
-LoopKeeperOptions loop_keeper_options(const MapperOptions& mapper) {
-  LoopKeeperOptions options;
-  options.matcher = mapper.matcher;
-  options.loop_matcher = mapper.loop_matcher;
-  options.genetic = mapper.genetic;
-  options.psi = mapper.psi;
-  options.loop_closure = mapper.loop_closure;
-  options.consensus = mapper.loop_consensus;
-  options.last_pass = mapper.last_pass;
-  options.loop_sigma_m = mapper.loop_sigma_m;
-  options.loop_sigma_rad = mapper.loop_sigma_rad;
-  options.max_loop_chi = mapper.max_loop_chi;
-  options.seed = mapper.seed;
-  options.threads = mapper.threads;
-  return options;
-}
-
 Mapper::Mapper(const MapperOptions& options)
     : options_(options),
       front_end_(options.front_end),
-      keeper_(loop_keeper_options(options)),
-      solver_(options.pose_graph) {
+      keeper_(options),
+      solver_(options.pose_graph),
+      memory_(memory_with_shelf()) {
   result_.psi = options.psi;
-  memory_.shelf = std::make_shared<LocalMapShelf>(kUnpackedLocalMaps);
 }
 
 const FrameRecord& Mapper::add(Frame frame) {
@@ -102,33 +82,15 @@ void Mapper::record_factor(FrameRecord& record, const FrontEndStep& step) {
 }
 
 void Mapper::add_node(const FrontEndStep& step, std::size_t frame) {
-  NodeScan scan;
-  scan.frame = frame;
-  scan.local_T_robot = step.local_T_robot;
-  scan.points = step.points;
-  if (!memory_.nodes.empty()) {
-    const TPose2D motion = step.local_T_robot - memory_.nodes.back().local_T_robot;
-    scan.travelled_m = memory_.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
-  }
-  memory_.nodes.push_back(std::move(scan));
+  remember_node(step, frame, memory_);
   result_.node_frames.push_back(frame);
 
   graph_.add_node(map_T_local_ + step.local_T_robot);
-  for (const FrontEndStep::Membership& membership : step.memberships) {
-    Constraint constraint;
-    constraint.from = membership.anchor;
-    constraint.to = *step.node;
-    constraint.from_T_to = membership.anchor_T_node;
-    constraint.information =
-        noisy_information(membership.covariance, options_.local_map_sigma_m, options_.local_map_sigma_rad);
-    constraint.kind = Constraint::Kind::kLocalMap;
-    graph_.add_constraint(constraint);
-  }
+  constrain_to_local_maps(step, {options_.local_map_sigma_m, options_.local_map_sigma_rad}, graph_);
 }
 
 void Mapper::remember(const PlacedLocalMap& finished) {
-  memory_.local_maps.push_back(finished);
-  memory_.shelf->add(finished.map);
+  remember_local_map(finished, memory_);
   result_.local_maps.push_back({finished.anchor, finished.first_node, finished.last_node});
 }
 

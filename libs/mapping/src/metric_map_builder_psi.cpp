@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/mapping/metric_map_builder_psi.h"
 
-#include <mrpt/obs/CObservation2DRangeScan.h>
-#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 
@@ -15,9 +13,7 @@
 #include <vector>
 
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/logs/odometry_interpolator.h"
-#include "psi_slam/logs/rawlog_laser.h"
-#include "psi_slam/logs/rawlog_objects.h"
+#include "psi_slam/logs/entry_frames.h"
 #include "psi_slam/pose_graph/marginal_covariance.h"
 #include "psi_slam/results/map_image.h"
 
@@ -27,8 +23,6 @@ namespace {
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPose2D;
 using mrpt::obs::CObservation;
-using mrpt::obs::CObservation2DRangeScan;
-using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
 using mrpt::poses::CPose2D;
 using mrpt::poses::CPosePDFGaussian;
@@ -68,27 +62,24 @@ class CMetricMapBuilderPsi::Implementation {
   void process(const mrpt::obs::CActionCollection& actions, const CSensoryFrame& observations) {
     const std::lock_guard<std::mutex> lock(mutex_);
     expect_unfinished();
-    if (const auto movement = movement_of(actions)) {
-      if (odometry_ == Odometry::kUndecided) begin_with_actions();
-      if (odometry_ == Odometry::kActions) odom_T_robot_ = odom_T_robot_ + *movement;
-    }
+    entries_->take(std::make_shared<mrpt::obs::CActionCollection>(actions), nullptr, nullptr);
+    map_ready_scans();
     // A copy of the list, not of what it holds: the caller may fill the frame anew.
     const auto kept = std::make_shared<CSensoryFrame>(observations);
-    for (const CObservation::Ptr& observation : *kept) take(*observation, kept);
+    for (const CObservation::Ptr& observation : *kept) take(observation, kept);
   }
 
   void process(const CObservation::Ptr& observation) {
     const std::lock_guard<std::mutex> lock(mutex_);
     expect_unfinished();
     if (!observation) throw std::invalid_argument("CMetricMapBuilderPsi: no observation");
-    take(*observation, frame_of(observation));
+    take(observation, frame_of(observation));
   }
 
   void finish() {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (finished_) return;
-    if (odometry_ == Odometry::kUndecided && waiting_.waiting() > 0) throw_no_odometry();
-    waiting_.end_of_log();
+    entries_->end_of_log();
     map_ready_scans();
     MappingResult result = mapper_->finish();
     graph_ = mapper_->graph();
@@ -136,19 +127,11 @@ class CMetricMapBuilderPsi::Implementation {
   }
 
  private:
-  enum class Odometry { kUndecided, kActions, kObservations };
-
   void start(const CPosePDFGaussian& map_T_start) {
     start_ = map_T_start;
     mapper_ = std::make_unique<Mapper>(options_.mapper);
-    laser_.emplace(options_.log);
-    laser_label_.reset();
-    odometry_label_.reset();
-    odometry_ = Odometry::kUndecided;
-    odom_T_robot_ = {0, 0, 0};
-    waiting_ = {};
+    entries_.emplace(options_.log, "CMetricMapBuilderPsi: ");
     waiting_observations_.clear();
-    scans_taken_ = 0;
     log_.clear();
     frames_.clear();
     graph_ = {};
@@ -165,66 +148,15 @@ class CMetricMapBuilderPsi::Implementation {
       throw std::logic_error("CMetricMapBuilderPsi: the map is finished, initialize() begins another one");
   }
 
-  // Scans that came before the first action stand where the robot started.
-  void begin_with_actions() {
-    odometry_ = Odometry::kActions;
-    waiting_.add_odometry(0, odom_T_robot_);
-    waiting_.end_of_log();
+  void take(const CObservation::Ptr& observation, const CSensoryFrame::Ptr& kept) {
+    const std::size_t scans = entries_->scans();
+    entries_->take(nullptr, nullptr, observation);
+    if (entries_->scans() > scans) waiting_observations_.push_back(kept);
     map_ready_scans();
-    waiting_ = {};
-  }
-
-  void take(const CObservation& observation, const CSensoryFrame::Ptr& kept) {
-    if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) take_scan(*scan, kept);
-    if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&observation))
-      take_odometry(*odometry);
-  }
-
-  void take_scan(const CObservation2DRangeScan& observation, const CSensoryFrame::Ptr& kept) {
-    const bool wanted = options_.log.laser.empty() || options_.log.laser == observation.sensorLabel;
-    if (!laser_label_ && wanted) laser_label_ = observation.sensorLabel;
-    if (observation.sensorLabel != laser_label_) return;
-    const std::string place = "CMetricMapBuilderPsi: scan " + std::to_string(scans_taken_ + 1);
-    Frame frame;
-    frame.scan = laser_->scan(observation, place);
-    frame.time_us = stamp_of(observation, place);
-    frame.odom_T_robot = odom_T_robot_;
-    ++scans_taken_;
-    if (odometry_ == Odometry::kActions) {
-      map(std::move(frame), kept);
-      return;
-    }
-    waiting_.add_scan(std::move(frame));
-    waiting_observations_.push_back(kept);
-    if (odometry_ == Odometry::kUndecided && waiting_.waiting() > OdometryInterpolator::kMaxWaiting)
-      throw_no_odometry();
-    map_ready_scans();
-  }
-
-  void take_odometry(const CObservationOdometry& observation) {
-    if (odometry_ == Odometry::kActions) return;
-    if (!odometry_label_) odometry_label_ = observation.sensorLabel;
-    if (observation.sensorLabel != odometry_label_) return;
-    const TimeUs time_us = stamp_of(observation, "CMetricMapBuilderPsi: odometry");
-    odometry_ = Odometry::kObservations;
-    waiting_.add_odometry(time_us, observation.odometry.asTPose());
-    map_ready_scans();
-  }
-
-  static TimeUs stamp_of(const CObservation& observation, const std::string& place) {
-    const std::optional<TimeUs> stamp = time_us(observation);
-    if (!stamp) throw UserError(place + " has no time stamp, expected one on every observation");
-    return *stamp;
-  }
-
-  [[noreturn]] void throw_no_odometry() const {
-    throw UserError("CMetricMapBuilderPsi: no odometry came with " + std::to_string(waiting_.waiting()) +
-                    " scans, expected actions of class CActionRobotMovement2D or observations of class "
-                    "CObservationOdometry");
   }
 
   void map_ready_scans() {
-    while (std::optional<Frame> frame = waiting_.take()) {
+    while (std::optional<Frame> frame = entries_->next()) {
       const CSensoryFrame::Ptr kept = std::move(waiting_observations_.front());
       waiting_observations_.pop_front();
       map(*std::move(frame), kept);
@@ -232,8 +164,7 @@ class CMetricMapBuilderPsi::Implementation {
   }
 
   void map(Frame frame, const CSensoryFrame::Ptr& kept) {
-    const std::size_t index = mapper_->log().size();
-    frame.index = index;
+    const std::size_t index = frame.index;
     if (!mapper_->add(std::move(frame)).node) return;
     node_frames_.push_back(index);
     node_observations_.push_back(kept);
@@ -302,14 +233,8 @@ class CMetricMapBuilderPsi::Implementation {
 
   CPosePDFGaussian start_;
   std::unique_ptr<Mapper> mapper_;  // gone after finish()
-  std::optional<RawlogLaser> laser_;
-  std::optional<std::string> laser_label_;
-  std::optional<std::string> odometry_label_;
-  Odometry odometry_ = Odometry::kUndecided;
-  TPose2D odom_T_robot_{0, 0, 0};  // the sum of the actions
-  OdometryInterpolator waiting_;
+  std::optional<EntryFrames> entries_;
   std::deque<CSensoryFrame::Ptr> waiting_observations_;  // of the scans that wait
-  std::size_t scans_taken_ = 0;
 
   std::vector<std::size_t> node_frames_;
   std::vector<CSensoryFrame::Ptr> node_observations_;

@@ -14,9 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/graphslam/entry_frames.h"
 #include "psi_slam/graphslam/shared_map.h"
 #include "psi_slam/local_maps/front_end.h"
+#include "psi_slam/logs/entry_frames.h"
+#include "psi_slam/loop_closure/local_map_constraints.h"
 #include "psi_slam/mapping/mapping_result.h"
 #include "psi_slam/results/trajectory_file.h"
 
@@ -60,8 +61,7 @@ class CPsiFrontEndNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecid
 
   struct Options {
     FrontEndOptions front_end;
-    double local_map_sigma_m = 0;
-    double local_map_sigma_rad = 0;
+    LocalMapNoise local_map_noise;
   };
   Options options_;
   bool log_options_set_ = false;

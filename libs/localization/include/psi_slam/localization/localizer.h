@@ -66,7 +66,6 @@ class Localizer {
   void track(const FrontEndStep& motion, LocalizationStep& step);
   PosePrior prior_at(const mrpt::math::TPose2D& map_T_robot) const;
   bool match_near(const FrontEndStep& motion, LocalizationStep& step) const;
-  void remember(const FrontEndStep& motion, std::size_t frame);
   void search(std::size_t frame, LocalizationStep& step);
   void find_again();
 

@@ -28,18 +28,18 @@ namespace psi_slam {
 
 struct LoopKeeperOptions {
   LoopMatcher matcher = LoopMatcher::kAdaptive;
-  MatcherOptions loop_matcher;
+  MatcherOptions loop_matcher;  ///< what all of them share
   GeneticOptions genetic;
   PsiOptions psi;
   LoopClosureOptions loop_closure;
-  LoopConsensusOptions consensus;
+  LoopConsensusOptions loop_consensus;
   LastPassOptions last_pass;
   double loop_sigma_m = 0.02;  ///< of a loop, on top of its match's covariance
   double loop_sigma_rad = radians_from_degrees(0.25L);
-  double max_loop_chi =
-      5.0;  ///< a loop that the graph contradicts by more standard deviations is switched off
-  std::uint64_t seed = 1;
-  int threads = 1;  ///< that match loops; no result depends on it
+  double max_loop_chi = 5.0;  ///< a loop that the finished graph contradicts by more standard deviations is
+                              ///< switched off
+  std::uint64_t seed = 1;     ///< of all random numbers
+  int threads = 1;            ///< that match loops; no result depends on it
 };
 
 /// What came of a node's search for loops.

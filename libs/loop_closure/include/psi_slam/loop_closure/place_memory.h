@@ -29,6 +29,14 @@ struct PlaceMemory {
   std::shared_ptr<LocalMapShelf> shelf;  ///< that all of them lie on, in this order; none: nothing is packed
 };
 
+/// Empty, with a shelf that keeps those local maps unpacked that the robot comes by again within metres.
+PlaceMemory memory_with_shelf();
+
+/// Appends the node that the front end has made of a frame, which it is asked for.
+void remember_node(const FrontEndStep& step, std::size_t frame, PlaceMemory& memory);
+
+void remember_local_map(const PlacedLocalMap& finished, PlaceMemory& memory);
+
 /// Before local maps are looked at: unpacks them, where there is a shelf.
 void take_off_shelf(const PlaceMemory& memory, const std::vector<std::size_t>& local_maps, WorkerPool& pool);
 

@@ -3,7 +3,6 @@
 // CMetricMapBuilderPsi all drive this class; it knows nothing of files, windows or options' texts.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -22,15 +21,8 @@
 
 namespace psi_slam {
 
-struct MapperOptions {
+struct MapperOptions : LoopKeeperOptions {
   FrontEndOptions front_end;
-  LoopMatcher matcher = LoopMatcher::kAdaptive;
-  MatcherOptions loop_matcher;  ///< what all of them share
-  GeneticOptions genetic;
-  PsiOptions psi;
-  LoopClosureOptions loop_closure;
-  LoopConsensusOptions loop_consensus;
-  LastPassOptions last_pass;
   JointRefinementOptions joint_refinement;
   PoseAdjustmentOptions pose_graph;
 
@@ -38,16 +30,7 @@ struct MapperOptions {
   double local_map_sigma_m =
       0.015;  ///< of a node's pose in a local map, on top of the front end's covariance
   double local_map_sigma_rad = radians_from_degrees(0.25L);
-  double loop_sigma_m = 0.02;  ///< of a loop, on top of its match's covariance
-  double loop_sigma_rad = radians_from_degrees(0.25L);
-  double max_loop_chi = 5.0;  ///< a loop that the finished graph contradicts by more standard deviations is
-                              ///< switched off
-  std::uint64_t seed = 1;     ///< of all random numbers
-  int threads = 1;            ///< that match loops; no result depends on it
 };
-
-/// What the loop keeper takes.
-LoopKeeperOptions loop_keeper_options(const MapperOptions& mapper);
 
 /// What became of an edit.
 struct LoopEditOutcome {

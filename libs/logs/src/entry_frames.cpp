@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/graphslam/entry_frames.h"
+#include "psi_slam/logs/entry_frames.h"
 
 #include <utility>
 
@@ -7,17 +7,8 @@
 #include "psi_slam/logs/rawlog_objects.h"
 
 namespace psi_slam {
-namespace {
-
-TimeUs stamp_of(const mrpt::obs::CObservation& observation, const std::string& what) {
-  const std::optional<TimeUs> stamp = time_us(observation);
-  if (!stamp) throw UserError(what + " of the rawlog has no time stamp, expected one on every observation");
-  return *stamp;
-}
-
-}  // namespace
-
-EntryFrames::EntryFrames(const LogOptions& options) : options_(options), laser_(options) {
+EntryFrames::EntryFrames(const LogOptions& options, std::string speaker)
+    : options_(options), speaker_(std::move(speaker)), laser_(options) {
   check_log_options(options);
 }
 
@@ -47,7 +38,7 @@ std::optional<Frame> EntryFrames::next() {
 }
 
 void EntryFrames::end_of_log() {
-  if (odometry_ == Odometry::kUndecided) expect_odometry();
+  if (odometry_ == Odometry::kUndecided && waiting_.waiting() > 0) throw_no_odometry(waiting_.waiting());
   waiting_.end_of_log();
 }
 
@@ -72,18 +63,18 @@ void EntryFrames::take_scan(const mrpt::obs::CObservation2DRangeScan& observatio
   if (!options_.laser.empty() && label != options_.laser) return;
   if (!laser_label_) laser_label_ = label;
   if (label != *laser_label_) return;
-  const std::string what = "scan " + std::to_string(++scans_);
+  const std::string what = speaker_ + "scan " + std::to_string(scans_ + 1);
   Frame frame;
   frame.time_us = stamp_of(observation, what);
   frame.scan = laser_.scan(observation, what);
   frame.odom_T_robot = odom_T_robot_;
-  if (odometry_ == Odometry::kActions) {
+  if (odometry_ == Odometry::kUndecided && waiting_.waiting() == OdometryInterpolator::kMaxWaiting)
+    throw_no_odometry(waiting_.waiting() + 1);
+  ++scans_;
+  if (odometry_ == Odometry::kActions)
     ready_.push_back(std::move(frame));
-    return;
-  }
-  waiting_.add_scan(std::move(frame));
-  const bool too_many = waiting_.waiting() > OdometryInterpolator::kMaxWaiting;
-  if (too_many && odometry_ == Odometry::kUndecided) expect_odometry();
+  else
+    waiting_.add_scan(std::move(frame));
 }
 
 void EntryFrames::take_odometry(const mrpt::obs::CObservationOdometry& observation) {
@@ -91,14 +82,19 @@ void EntryFrames::take_odometry(const mrpt::obs::CObservationOdometry& observati
   if (!odometry_label_) odometry_label_ = observation.sensorLabel;
   if (observation.sensorLabel != *odometry_label_) return;
   odometry_ = Odometry::kObservations;
-  waiting_.add_odometry(stamp_of(observation, "odometry"), observation.odometry.asTPose());
+  waiting_.add_odometry(stamp_of(observation, speaker_ + "odometry"), observation.odometry.asTPose());
 }
 
-void EntryFrames::expect_odometry() const {
-  if (waiting_.waiting() == 0) return;
-  throw UserError("no odometry came with the first " + std::to_string(waiting_.waiting()) +
-                  " scans of the rawlog, expected actions of class CActionRobotMovement2D or observations of "
-                  "class CObservationOdometry");
+TimeUs EntryFrames::stamp_of(const mrpt::obs::CObservation& observation, const std::string& what) {
+  const std::optional<TimeUs> stamp = time_us(observation);
+  if (!stamp) throw UserError(what + " has no time stamp, expected one on every observation");
+  return *stamp;
+}
+
+void EntryFrames::throw_no_odometry(std::size_t scans) const {
+  throw UserError(speaker_ + "no odometry came with " + std::to_string(scans) +
+                  " scans, expected actions of class CActionRobotMovement2D or observations of class "
+                  "CObservationOdometry");
 }
 
 }  // namespace psi_slam

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes frames of the entries that MRPT's graph-slam engine hands to its deciders one by one: either an
-// action with a sensory frame, or a single observation. The kind of odometry that comes first decides.
-// Scans whose odometry comes in observations wait for the odometry behind them, as when a log is read.
+// Makes frames of what MRPT's programs hand on one by one: either an action with a sensory frame, or a single
+// observation. Scans are those of one laser. The kind of odometry that comes first decides; scans whose
+// odometry comes in observations wait for the odometry behind them, as when a log is read.
 #pragma once
 
 #include <mrpt/obs/CActionCollection.h>
@@ -23,8 +23,8 @@ namespace psi_slam {
 
 class EntryFrames {
  public:
-  /// Throws UserError when an option makes no sense.
-  explicit EntryFrames(const LogOptions& options);
+  /// All sentences of errors begin with `speaker`. Throws UserError when an option makes no sense.
+  explicit EntryFrames(const LogOptions& options, std::string speaker = {});
 
   /// Any of the three may be null. Throws UserError when a scan has no time stamp or no rays, its laser is
   /// tilted, or no odometry comes.
@@ -35,6 +35,9 @@ class EntryFrames {
   /// The next frame that is complete.
   std::optional<Frame> next();
 
+  /// How many scans were taken. Their frames come in the same order.
+  std::size_t scans() const { return scans_; }
+
   /// Scans that still wait need wait no longer. Throws UserError when there are some and odometry never came.
   void end_of_log();
 
@@ -44,9 +47,11 @@ class EntryFrames {
   void take_scan(const mrpt::obs::CObservation2DRangeScan& observation);
   void take_odometry(const mrpt::obs::CObservationOdometry& observation);
   void begin_with_actions();
-  void expect_odometry() const;
+  static TimeUs stamp_of(const mrpt::obs::CObservation& observation, const std::string& what);
+  [[noreturn]] void throw_no_odometry(std::size_t scans) const;
 
   LogOptions options_;
+  std::string speaker_;
   RawlogLaser laser_;
   std::optional<std::string> laser_label_;
   std::optional<std::string> odometry_label_;

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/graphslam/entry_frames.h"
-
-#include <gmock/gmock.h>
-
 #include "psi_slam/graphslam/log_entries.h"
+
+#include <gtest/gtest.h>
+
+#include "psi_slam/logs/entry_frames.h"
 #include "simulated_rawlog.h"
 #include "temporary_folder.h"
-#include "test_files.h"
 
 namespace psi_slam {
 namespace {
-
-using ::testing::HasSubstr;
 
 std::vector<Frame> short_drive() {
   const std::vector<Frame>& frames = simulated_drive().frames;
@@ -31,9 +28,9 @@ std::vector<Frame> frames_of(const std::filesystem::path& rawlog) {
   return frames;
 }
 
-class EntryFramesOfEitherForm : public ::testing::TestWithParam<int> {};
+class LogEntriesOfEitherForm : public ::testing::TestWithParam<int> {};
 
-TEST_P(EntryFramesOfEitherForm, are_the_frames_that_were_written) {
+TEST_P(LogEntriesOfEitherForm, give_the_frames_that_were_written) {
   const TemporaryFolder folder;
   const std::vector<Frame> written = short_drive();
   const std::vector<Frame> frames =
@@ -50,21 +47,7 @@ TEST_P(EntryFramesOfEitherForm, are_the_frames_that_were_written) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, EntryFramesOfEitherForm, ::testing::Values(1, 2));
-
-TEST(EntryFrames, a_log_without_odometry_is_refused) {
-  EntryFrames entries{LogOptions()};
-  entries.take(nullptr, nullptr, range_observation(short_drive().front()));
-  EXPECT_FALSE(entries.next());
-  EXPECT_THAT(sentence_of([&] { entries.end_of_log(); }), HasSubstr("no odometry"));
-}
-
-TEST(EntryFrames, a_scan_without_time_is_refused) {
-  EntryFrames entries{LogOptions()};
-  const auto scan = range_observation(short_drive().front());
-  scan->timestamp = {};
-  EXPECT_THAT(sentence_of([&] { entries.take(nullptr, nullptr, scan); }), HasSubstr("no time stamp"));
-}
+INSTANTIATE_TEST_SUITE_P(Forms, LogEntriesOfEitherForm, ::testing::Values(1, 2));
 
 }  // namespace
 }  // namespace psi_slam

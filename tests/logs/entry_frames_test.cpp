@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/logs/entry_frames.h"
+
+#include <gmock/gmock.h>
+
+#include <vector>
+
+#include "rawlog_files.h"
+#include "test_files.h"
+
+namespace psi_slam {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<double> ways_m(EntryFrames& entries) {
+  std::vector<double> ways_m;
+  while (const std::optional<Frame> frame = entries.next()) {
+    EXPECT_EQ(frame->index, ways_m.size());
+    ways_m.push_back(frame->odom_T_robot.x);
+  }
+  return ways_m;
+}
+
+TEST(EntryFrames, sum_up_actions) {
+  EntryFrames entries{LogOptions()};
+  entries.take(movement({1, 0, 0}), sensory_frame({range_scan(1'000'000)}), nullptr);
+  entries.take(movement({0.5, 0, 0}), sensory_frame({range_scan(2'000'000)}), nullptr);
+  EXPECT_THAT(ways_m(entries), ElementsAre(1, 1.5));
+}
+
+TEST(EntryFrames, wait_for_the_odometry_behind_them) {
+  EntryFrames entries{LogOptions()};
+  entries.take(nullptr, nullptr, odometry(1'000'000, {1, 0, 0}));
+  entries.take(nullptr, nullptr, range_scan(1'500'000));
+  EXPECT_EQ(entries.scans(), 1u);
+  EXPECT_FALSE(entries.next());
+  entries.take(nullptr, nullptr, odometry(2'000'000, {2, 0, 0}));
+  EXPECT_THAT(ways_m(entries), ElementsAre(1.5));
+}
+
+TEST(EntryFrames, before_the_first_action_stand_at_the_start) {
+  EntryFrames entries{LogOptions()};
+  entries.take(nullptr, nullptr, range_scan(1'000'000));
+  entries.take(movement({1, 0, 0}), sensory_frame({range_scan(2'000'000)}), nullptr);
+  EXPECT_THAT(ways_m(entries), ElementsAre(0, 1));
+}
+
+TEST(EntryFrames, are_of_one_laser) {
+  EntryFrames entries{LogOptions()};
+  entries.take(movement({1, 0, 0}),
+               sensory_frame({range_scan(1'000'000, "FRONT"), range_scan(1'000'000, "REAR")}), nullptr);
+  EXPECT_EQ(entries.scans(), 1u);
+}
+
+TEST(EntryFrames, a_log_without_odometry_is_refused) {
+  EntryFrames entries{LogOptions(), "entries: "};
+  entries.take(nullptr, nullptr, range_scan(1'000'000));
+  EXPECT_FALSE(entries.next());
+  EXPECT_EQ(sentence_of([&] { entries.end_of_log(); }),
+            "entries: no odometry came with 1 scans, expected actions of class CActionRobotMovement2D or "
+            "observations of class CObservationOdometry");
+}
+
+TEST(EntryFrames, odometry_that_never_comes_is_missed_before_the_log_ends) {
+  EntryFrames entries{LogOptions()};
+  const auto endless = [&] {
+    for (TimeUs i = 1; i <= 2000; ++i) entries.take(nullptr, nullptr, range_scan(i * 100'000));
+  };
+  EXPECT_THAT(sentence_of(endless), HasSubstr("no odometry came with 1001 scans"));
+}
+
+TEST(EntryFrames, a_scan_without_time_is_refused) {
+  EntryFrames entries{LogOptions()};
+  const auto scan = range_scan(1'000'000);
+  scan->timestamp = {};
+  EXPECT_EQ(sentence_of([&] { entries.take(nullptr, nullptr, scan); }),
+            "scan 1 has no time stamp, expected one on every observation");
+}
+
+}  // namespace
+}  // namespace psi_slam

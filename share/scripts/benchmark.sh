@@ -10,10 +10,8 @@
 # One thread maps; let nothing else run beside it, or the speed is not the machine's.
 set -euo pipefail
 
-root=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${PSI_SLAM_BUILD:-$root/build/release}/apps
-psi_slam=$programs/psi-slam/psi-slam
-psi_slam_eval=$programs/psi-slam-eval/psi-slam-eval
+# shellcheck source=share/scripts/benchmark-logs.bash
+source "$(dirname "$0")/benchmark-logs.bash" benchmark "psi-slam psi-slam-eval" "$@"
 
 # log | name | mean translation error of Karto [m]
 benchmark="
@@ -23,15 +21,6 @@ mit-killian | MIT Killian  | 1.09
 mit-csail   | MIT CSAIL    | 0.0407
 fr079       | Freiburg 079 | 2.89
 "
-
-say() {
-  echo "benchmark.sh: $*" >&2
-}
-
-wrong_usage() {
-  say "$*"
-  exit 2
-}
 
 # row NAME KARTO SUMMARY EVALUATION: one line of the table.
 row() {
@@ -71,37 +60,20 @@ processor() {
   sed -n 's/^model name[[:space:]]*: *//p' /proc/cpuinfo | head -n 1
 }
 
-case ${1:-} in
-  -h | --help)
-    sed -n '3,/^set /{/^#/s/^# \{0,1\}//p}' "$0"
-    exit 0
-    ;;
-esac
-[ $# -eq 1 ] || [ $# -eq 2 ] || wrong_usage "usage: $0 FOLDER [OUTPUT]"
-[ -d "$1" ] || wrong_usage "$1 is no folder"
-folder=$(cd "$1" && pwd)
-outputs=${2:-$root/out/benchmark}
-for program in "$psi_slam" "$psi_slam_eval"; do
-  [ -x "$program" ] || wrong_usage "$program is missing; share/scripts/build.sh psi-slam psi-slam-eval makes it"
-done
-
 rows=()
 sums=()
 while IFS='|' read -r log name karto; do
   log=$(xargs <<<"$log") name=$(xargs <<<"$name") karto=$(xargs <<<"$karto")
   [ -n "$log" ] || continue
-  if [ ! -r "$folder/$log.clf.gz" ] || [ ! -r "$folder/$log.relations" ]; then
-    say "$folder has no $log.clf.gz with $log.relations"
-    continue
-  fi
+  has_log "$log" || continue
   say "mapping $name"
   output=$outputs/$log
-  "$psi_slam" -c "$root/ini/$log.ini" "$folder/$log.clf.gz" -o "$output" --force --threads 1 --quiet </dev/null
-  "$psi_slam_eval" --json "$output/trajectory.tum" "$folder/$log.relations" >"$output/evaluation.json"
+  "${app[psi-slam]}" -c "$root/ini/$log.ini" "$folder/$log.clf.gz" -o "$output" --force --threads 1 --quiet </dev/null
+  "${app[psi-slam-eval]}" --json "$output/trajectory.tum" "$folder/$log.relations" >"$output/evaluation.json"
   rows+=("$(row "$name" "$karto" "$output/summary.json" "$output/evaluation.json")")
   sums+=("$(sha256sum <"$folder/$log.clf.gz" | cut -d ' ' -f 1)  $log.clf.gz")
 done <<<"$benchmark"
-[ "${#rows[@]}" -gt 0 ] || wrong_usage "$folder has none of the benchmark's logs; fetch-benchmark-logs.sh fetches them"
+expect_results "${#rows[@]}"
 
 echo "| log | scans | translation [m] | rotation [deg] | Karto's translation [m] | times faster than recorded | memory |"
 echo "|---|---|---|---|---|---|---|"

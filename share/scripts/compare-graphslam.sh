@@ -10,10 +10,8 @@
 # build/release. The results are left in OUTPUT/LOG/DECIDERS, by default out/graphslam/LOG/DECIDERS.
 set -euo pipefail
 
-root=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${PSI_SLAM_BUILD:-$root/build/release}/apps
-psi_graphslam=$programs/psi-graphslam/psi-graphslam
-psi_slam_eval=$programs/psi-slam-eval/psi-slam-eval
+# shellcheck source=share/scripts/benchmark-logs.bash
+source "$(dirname "$0")/benchmark-logs.bash" graphslam "psi-graphslam psi-slam-eval" "$@"
 limit_s=${LIMIT_S:-900}
 read -r -a logs <<<"${LOGS:-aces intel mit-killian mit-csail fr079}"
 # Ours first: times are told as shares of its.
@@ -26,15 +24,6 @@ teams=(
   "CPsiFrontEndNRD CEmptyERD CPsiSpaGSO"
   "CPsiFrontEndNRD CPsiLoopCloserERD CLevMarqGSO"
 )
-
-say() {
-  echo "compare-graphslam.sh: $*" >&2
-}
-
-wrong_usage() {
-  say "$*"
-  exit 2
-}
 
 # settings LOG: ours, with what its own settings say of the sensor, in one thread.
 settings() {
@@ -54,13 +43,13 @@ run() {
   TIMEFORMAT='%U %S %R'
   # shellcheck disable=SC2016  # the inner shell expands them
   {
-    time bash -c 'ulimit -S -t "$0" && exec "$@"' "$limit_s" "$psi_graphslam" -i "$3/graphslam.ini" \
+    time bash -c 'ulimit -S -t "$0" && exec "$@"' "$limit_s" "${app[psi-graphslam]}" -i "$3/graphslam.ini" \
       -r "$folder/$1.clf.gz" -n "$node" -e "$edge" -o "$optimizer" --disable-visuals --output-dir "$3/results" \
       </dev/null >"$3/messages" 2>&1
   } 2>"$3/times" ||
     status=$?
   case $status in
-    0) "$psi_slam_eval" --json "$3/results/trajectory.tum" "$folder/$1.relations" >"$3/evaluation.json" ;;
+    0) "${app[psi-slam-eval]}" --json "$3/results/trajectory.tum" "$folder/$1.relations" >"$3/evaluation.json" ;;
     152) echo "not finished in $limit_s s of processor time" >"$3/end" ;;  # SIGXCPU
     1[3-9]*) echo "crashed (signal $((status - 128)))" >"$3/end" ;;
     *) tail -n 1 "$3/messages" >"$3/end" ;;
@@ -107,33 +96,16 @@ for team in teams:
 END
 }
 
-case ${1:-} in
-  -h | --help)
-    sed -n '3,/^set /{/^#/s/^# \{0,1\}//p}' "$0"
-    exit 0
-    ;;
-esac
-[ $# -eq 1 ] || [ $# -eq 2 ] || wrong_usage "usage: $0 FOLDER [OUTPUT]"
-[ -d "$1" ] || wrong_usage "$1 is no folder"
-folder=$(cd "$1" && pwd)
-outputs=${2:-$root/out/graphslam}
-for program in "$psi_graphslam" "$psi_slam_eval"; do
-  [ -x "$program" ] || wrong_usage "$program is missing; share/scripts/build.sh psi-graphslam psi-slam-eval makes it"
-done
-
 table=()
 for log in "${logs[@]}"; do
-  if [ ! -r "$folder/$log.clf.gz" ] || [ ! -r "$folder/$log.relations" ]; then
-    say "$folder has no $log.clf.gz with $log.relations"
-    continue
-  fi
+  has_log "$log" || continue
   for team in "${teams[@]}"; do
     say "$log with $team"
     run "$log" "$team" "$outputs/$log/${team// /-}"
   done
   table+=("$(rows "$log")")
 done
-[ "${#table[@]}" -gt 0 ] || wrong_usage "$folder has none of the benchmark's logs; fetch-benchmark-logs.sh fetches them"
+expect_results "${#table[@]}"
 
 echo "| log | node decider | edge decider | optimizer | translation [m] | rotation [deg] | nodes | loops | processor time, as a share of ours |"
 echo "|---|---|---|---|---:|---:|---:|---:|---:|"

@@ -9,21 +9,10 @@
 # build/release. The maps are left in OUTPUT/MATCHER/LOG, by default out/matchers/MATCHER/LOG.
 set -euo pipefail
 
-root=$(cd "$(dirname "$0")/../.." && pwd)
-programs=${PSI_SLAM_BUILD:-$root/build/release}/apps
-psi_slam=$programs/psi-slam/psi-slam
-psi_slam_eval=$programs/psi-slam-eval/psi-slam-eval
+# shellcheck source=share/scripts/benchmark-logs.bash
+source "$(dirname "$0")/benchmark-logs.bash" matchers "psi-slam psi-slam-eval" "$@"
 logs=(aces intel mit-killian mit-csail fr079)
 matchers=(csm csm_ga ga adaptive)
-
-say() {
-  echo "compare-matchers.sh: $*" >&2
-}
-
-wrong_usage() {
-  say "$*"
-  exit 2
-}
 
 # rows LOG: a line for each matcher.
 rows() {
@@ -57,36 +46,19 @@ for matcher in matchers:
 END
 }
 
-case ${1:-} in
-  -h | --help)
-    sed -n '3,/^set /{/^#/s/^# \{0,1\}//p}' "$0"
-    exit 0
-    ;;
-esac
-[ $# -eq 1 ] || [ $# -eq 2 ] || wrong_usage "usage: $0 FOLDER [OUTPUT]"
-[ -d "$1" ] || wrong_usage "$1 is no folder"
-folder=$(cd "$1" && pwd)
-outputs=${2:-$root/out/matchers}
-for program in "$psi_slam" "$psi_slam_eval"; do
-  [ -x "$program" ] || wrong_usage "$program is missing; share/scripts/build.sh psi-slam psi-slam-eval makes it"
-done
-
 table=()
 for log in "${logs[@]}"; do
-  if [ ! -r "$folder/$log.clf.gz" ] || [ ! -r "$folder/$log.relations" ]; then
-    say "$folder has no $log.clf.gz with $log.relations"
-    continue
-  fi
+  has_log "$log" || continue
   for matcher in "${matchers[@]}"; do
     say "mapping $log with $matcher"
     output=$outputs/$matcher/$log
-    "$psi_slam" -c "$root/ini/$log.ini" "$folder/$log.clf.gz" -o "$output" --force --threads 1 --quiet \
+    "${app[psi-slam]}" -c "$root/ini/$log.ini" "$folder/$log.clf.gz" -o "$output" --force --threads 1 --quiet \
       --set "loop_closure.matcher=$matcher" </dev/null
-    "$psi_slam_eval" --json "$output/trajectory.tum" "$folder/$log.relations" >"$output/evaluation.json"
+    "${app[psi-slam-eval]}" --json "$output/trajectory.tum" "$folder/$log.relations" >"$output/evaluation.json"
   done
   table+=("$(rows "$log")")
 done
-[ "${#table[@]}" -gt 0 ] || wrong_usage "$folder has none of the benchmark's logs; fetch-benchmark-logs.sh fetches them"
+expect_results "${#table[@]}"
 
 echo "| log | matcher | translation [m] | against csm | loops | against csm | matching loops [s] | share of csm's |"
 echo "|---|---|---|---|---|---|---|---|"

@@ -76,7 +76,7 @@ std::vector<BagTopic> BagFolder::topics() {
 }
 
 void BagFolder::want(const std::vector<std::string>& topics) {
-  wanted_ = topics;
+  BagFile::want(topics);
   file_->want(topics);
 }
 
@@ -84,7 +84,7 @@ bool BagFolder::next(BagMessage& message) {
   while (!file_->next(message)) {
     if (at_ + 1 == files_.size()) return false;
     file_ = open_bag(files_[++at_]);
-    file_->want(wanted_);
+    file_->want(wanted());
   }
   return true;
 }

@@ -131,8 +131,7 @@ bool McapBag::take(const Record& record, BagMessage& message) {
 bool McapBag::take_message(ByteCursor cursor, BagMessage& message) const {
   const BagTopic* topic = channels_.topic(cursor.number<std::uint16_t>());
   if (topic == nullptr) throw MalformedBytes("a message has no channel");
-  if (!wanted_.empty() && std::find(wanted_.begin(), wanted_.end(), topic->name) == wanted_.end())
-    return false;
+  if (!is_wanted(*topic)) return false;
   cursor.number<std::uint32_t>();  // its number in the channel
   const auto recorded_ns = cursor.number<std::uint64_t>();
   cursor.number<std::uint64_t>();  // when it was published

@@ -143,8 +143,7 @@ void Ros1Bag::open_chunk(const Ros1Record& record) {
 
 void Ros1Bag::add_connection(const Ros1Record& record) {
   Connection connection{topic_of(record), true};
-  connection.is_wanted =
-      wanted_.empty() || std::find(wanted_.begin(), wanted_.end(), connection.topic.name) != wanted_.end();
+  connection.is_wanted = is_wanted(connection.topic);
   connections_.emplace(number_field<std::uint32_t>(record.fields, "conn"), std::move(connection));
 }
 

@@ -89,8 +89,7 @@ std::vector<BagTopic> SqliteBag::topics() {
 void SqliteBag::begin_messages() {
   std::string ids;
   for (const auto& [id, topic] : topics_)
-    if (wanted_.empty() || std::find(wanted_.begin(), wanted_.end(), topic.name) != wanted_.end())
-      ids += (ids.empty() ? "" : ",") + std::to_string(id);
+    if (is_wanted(topic)) ids += (ids.empty() ? "" : ",") + std::to_string(id);
   messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages WHERE topic_id IN (" + ids +
                       ") ORDER BY id");
   try {

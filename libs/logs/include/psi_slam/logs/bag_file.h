@@ -2,6 +2,7 @@
 // The one interface over the containers of ROS bags: ROS 1 bags, and ROS 2 bags in SQLite or MCAP files.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -44,7 +45,7 @@ class BagFile {
   virtual std::vector<BagTopic> topics() = 0;
 
   /// Only messages of these topics will be given; all if never called. Called before the first next().
-  virtual void want(const std::vector<std::string>& topics) = 0;
+  virtual void want(const std::vector<std::string>& topics) { wanted_ = topics; }
 
   /// False at the end. Throws UserError (file, place) where the bag is damaged or cut off.
   virtual bool next(BagMessage& message) = 0;
@@ -54,6 +55,15 @@ class BagFile {
 
   /// Where the last message stands, for sentences: "run.bag: byte 4117".
   virtual std::string place() const = 0;
+
+ protected:
+  const std::vector<std::string>& wanted() const { return wanted_; }
+  bool is_wanted(const BagTopic& topic) const {
+    return wanted_.empty() || std::find(wanted_.begin(), wanted_.end(), topic.name) != wanted_.end();
+  }
+
+ private:
+  std::vector<std::string> wanted_;
 };
 
 /// Opens a bag of any of the containers, which its content decides: a file, or the folder of a ROS 2 bag with

@@ -29,7 +29,6 @@ class BagFolder : public BagFile {
 
  private:
   std::vector<std::filesystem::path> files_;
-  std::vector<std::string> wanted_;
   std::size_t at_ = 0;  // of files_
   std::unique_ptr<BagFile> file_;
 };

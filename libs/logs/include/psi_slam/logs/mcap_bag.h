@@ -38,7 +38,6 @@ class McapBag : public BagFile {
   explicit McapBag(const std::filesystem::path& path);
 
   std::vector<BagTopic> topics() override;
-  void want(const std::vector<std::string>& topics) override { wanted_ = topics; }
   bool next(BagMessage& message) override;
   double progress() const override { return stream_.progress(); }
   std::string place() const override;
@@ -56,7 +55,6 @@ class McapBag : public BagFile {
   std::vector<BagTopic> topics_of_summary() const;
 
   BagStream stream_;
-  std::vector<std::string> wanted_;
   McapChannels channels_;
   std::string chunk_;
   std::optional<ByteCursor> in_chunk_;

@@ -32,7 +32,6 @@ class Ros1Bag : public BagFile {
   explicit Ros1Bag(const std::filesystem::path& path);
 
   std::vector<BagTopic> topics() override;
-  void want(const std::vector<std::string>& topics) override { wanted_ = topics; }
   bool next(BagMessage& message) override;
   double progress() const override { return stream_.progress(); }
   std::string place() const override;
@@ -53,7 +52,6 @@ class Ros1Bag : public BagFile {
   void check_end() const;
 
   BagStream stream_;
-  std::vector<std::string> wanted_;
   std::map<std::uint32_t, Connection> connections_;
   std::string header_;
   std::string chunk_;

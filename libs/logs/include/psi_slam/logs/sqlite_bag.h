@@ -23,7 +23,6 @@ class SqliteBag : public BagFile {
   ~SqliteBag() override;
 
   std::vector<BagTopic> topics() override;
-  void want(const std::vector<std::string>& topics) override { wanted_ = topics; }
   bool next(BagMessage& message) override;
   double progress() const override;
   std::string place() const override;
@@ -42,7 +41,6 @@ class SqliteBag : public BagFile {
   Database database_;
   Statement messages_;
   std::map<std::int64_t, BagTopic> topics_;
-  std::vector<std::string> wanted_;
   std::string unpacked_;
   std::int64_t id_ = 0;  // of the last message
   std::int64_t last_id_ = 0;

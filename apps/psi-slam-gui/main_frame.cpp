@@ -27,7 +27,18 @@ constexpr int kBetweenLooks_ms = 50;
 constexpr int kEmptyPage = 0;
 constexpr int kMapPage = 1;
 constexpr const char* kNotExported = "The map has not been exported. Close the window nevertheless?";
+constexpr std::size_t kMostWarnings = 4;  // in the bar
 constexpr double kLoopDistance_m = 20;  // of the eye that looks at a chosen loop
+
+std::string first_of(const std::vector<std::string>& warnings) {
+  std::string text;
+  for (std::size_t i = 0; i < warnings.size() && i < kMostWarnings; ++i)
+    text += (i == 0 ? "" : "\n") + warnings[i];
+  if (warnings.size() > kMostWarnings)
+    text +=
+        "\nand " + std::to_string(warnings.size() - kMostWarnings) + " more, which the exported report lists";
+  return text;
+}
 
 class LogDrop : public wxFileDropTarget {
  public:
@@ -201,14 +212,13 @@ void MainFrame::refresh() {
   const std::shared_ptr<const ReplaySnapshot> snapshot = replay_->snapshot();
   if (snapshot != snapshot_) {
     snapshot_ = snapshot;
-    enable_commands(snapshot.get());
     loops_->show(snapshot);
+    enable_commands(snapshot.get());
     take_news(*snapshot);
     if (!replay_) return;
     take_edit_news(*snapshot);
     canvas_->map_scene().choose_loop(loops_->selected());
   }
-  enable_edit_commands(snapshot.get());
   transport_->show(*snapshot, replay_->stamps_us(), shown_frame_);
   canvas_->show(snapshot, replay_->drawn_map(), shown_frame_);
   plots_->show(snapshot, shown_frame_);
@@ -223,7 +233,7 @@ void MainFrame::take_news(const ReplaySnapshot& snapshot) {
   }
   if (!snapshot.warnings.empty() && snapshot.warnings != told_warnings_) {
     told_warnings_ = snapshot.warnings;
-    messages_->say(Kind::kWarning, snapshot.warnings.front());
+    messages_->say(Kind::kWarning, first_of(snapshot.warnings));
   }
   if (!remembered_ && snapshot.phase != ReplayPhase::kOpening && snapshot.phase != ReplayPhase::kFailed) {
     remembered_ = true;
@@ -294,6 +304,7 @@ void MainFrame::go_to(std::size_t scan) {
 }
 
 void MainFrame::choose_loop(std::optional<std::size_t> loop) {
+  if (snapshot_) enable_edit_commands(snapshot_.get());
   canvas_->map_scene().choose_loop(loop);
   if (!loop || !snapshot_ || *loop >= snapshot_->loops->size()) return;
   const mrpt::math::TPose2D node = snapshot_->map_T_node->at((*snapshot_->loops)[*loop].node);

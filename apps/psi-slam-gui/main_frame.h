@@ -86,6 +86,7 @@ class MainFrame : public wxFrame {
   bool has_unsaved_map() const;
 
   void ask_for_log();
+  void ask_for_log_folder();
   void ask_for_settings(bool save);
   void ask_for_export();
   void ask_for_picture();

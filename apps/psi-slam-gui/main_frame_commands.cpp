@@ -64,6 +64,7 @@ void MainFrame::press_key(wxKeyEvent& event) {
 
 void MainFrame::bind_file_commands() {
   on(kOpenLog, [this] { ask_for_log(); });
+  on(kOpenFolder, [this] { ask_for_log_folder(); });
   on(kOpenSettings, [this] { ask_for_settings(false); });
   on(kSaveSettings, [this] { ask_for_settings(true); });
   on(kResetSettings, [this] { settings_panel_->reset_all(); });
@@ -140,6 +141,12 @@ void MainFrame::check_choices() {
 void MainFrame::ask_for_log() {
   if (const auto file = ask_for_file_({FileQuestion::Kind::kOpen, "Open a log", kLogFiles, ""}))
     open_other_log(*file);
+}
+
+void MainFrame::ask_for_log_folder() {
+  if (const auto folder =
+          ask_for_file_({FileQuestion::Kind::kFolder, "Open the folder of a ROS 2 bag", "", ""}))
+    open_other_log(*folder);
 }
 
 void MainFrame::ask_for_settings(bool save) {

@@ -16,6 +16,7 @@ wxString utf8(const char* text) {
 wxMenu* file_menu(wxMenu* recent) {
   auto* menu = new wxMenu;
   menu->Append(kOpenLog, utf8("&Open log…\tCtrl+O"));
+  menu->Append(kOpenFolder, utf8("Open &folder of a ROS 2 bag…"));
   menu->AppendSubMenu(recent, "&Recent logs");
   menu->AppendSeparator();
   menu->Append(kOpenSettings, utf8("Open &settings…\tCtrl+Shift+O"));

@@ -35,6 +35,7 @@ enum Command : int {
   kPaneLoops,
   kPanePlots,
   kDefaultLayout,
+  kOpenFolder,
   kShortcuts,
   kUndo = wxID_UNDO,
   kRedo = wxID_REDO,

@@ -92,14 +92,24 @@ TEST_F(FileQuestionsTest, settings_are_saved_over_others_and_opened) {
   EXPECT_THAT(read_file(path("my.ini")), HasSubstr("window_m = 0.4"));
 }
 
+TEST_F(FileQuestionsTest, the_folder_of_a_bag_is_opened_as_a_log) {
+  std::filesystem::create_directory(path("empty_bag"));
+  command(kOpenFolder, path("empty_bag"));
+  until_it_says("empty_bag");
+  EXPECT_EQ(gui_.run({}), 0);
+  ASSERT_EQ(asked_.size(), 1U);
+  EXPECT_EQ(asked_[0].kind, FileQuestion::Kind::kFolder);
+}
+
 TEST_F(FileQuestionsTest, nothing_happens_when_the_user_thinks_better_of_it) {
   const auto nothing_happened = [](MainFrame& frame) { EXPECT_EQ(frame.messages().sentence(), ""); };
   command(kOpenLog, std::nullopt).then([](MainFrame& frame) { EXPECT_FALSE(frame.replay()); });
-  for (const int id : {kOpenSettings, kSaveSettings}) command(id, std::nullopt).then(nothing_happened);
+  for (const int id : {kOpenFolder, kOpenSettings, kSaveSettings})
+    command(id, std::nullopt).then(nothing_happened);
   map_room();
   for (const int id : {kExport, kSavePicture}) command(id, std::nullopt).pause(200).then(nothing_happened);
   EXPECT_EQ(gui_.run({}), 0);
-  EXPECT_EQ(asked_.size(), 6U);
+  EXPECT_EQ(asked_.size(), 7U);
 }
 
 TEST_F(FileQuestionsTest, a_place_that_cannot_be_written_to_is_told) {

@@ -53,6 +53,15 @@ TEST(LoopConsensus, two_unambiguous_matches_a_metre_apart_are_confirmed) {
   EXPECT_EQ(consensus.add(vote(9, 6.1), graph), Loops({7, 9}));
 }
 
+TEST(LoopConsensus, matches_that_no_longer_wait_do_not_count_until_they_do_again) {
+  const PoseGraph graph = two_anchors();
+  LoopConsensus consensus({});
+  consensus.add(vote(7, 5), graph);
+  const auto but_7 = [](std::size_t loop) { return loop != 7; };
+  EXPECT_EQ(consensus.add(vote(8, 6.1), graph, but_7), Loops());
+  EXPECT_EQ(consensus.add(vote(9, 6.2), graph), Loops({7, 8, 9}));
+}
+
 TEST(LoopConsensus, matches_from_one_spot_prove_nothing) {
   const PoseGraph graph = two_anchors();
   LoopConsensus consensus({});

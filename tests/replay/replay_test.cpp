@@ -407,7 +407,36 @@ TEST_F(ReplayEditsTest, of_a_run_are_made_again_in_the_next) {
   replay.set_speed(0);
   replay.play();
   const SnapshotPtr finished = wait_for(replay, ReplayPhase::kFinished);
-  EXPECT_EQ(verdict_of(*finished, journal.edits()[0].edit), LoopVerdict::kDeleted);
+  LoopEdit edit = journal.edits()[0].edit;
+  EXPECT_EQ(verdict_of(*finished, edit), LoopVerdict::kDeleted);
+  edit.kind = LoopEdit::Kind::kForce;
+  replay.edit(edit);
+  EXPECT_EQ(verdict_of(*wait_until_finished_after_edit(replay, 1), edit), LoopVerdict::kAccepted);
+  replay.undo();
+  EXPECT_EQ(verdict_of(*wait_until_finished_after_edit(replay, 2), edit), LoopVerdict::kDeleted)
+      << "as the journal had it";
+}
+
+TEST_F(ReplayEditsTest, that_were_not_made_are_told_of) {
+  EditJournal journal;
+  journal.add({{LoopEdit::Kind::kDelete, 5000, 0}, {}});
+  Replay replay(log(room_log_lines(60)), settings_, journal);
+  replay.set_speed(0);
+  replay.play();
+  EXPECT_THAT(wait_for(replay, ReplayPhase::kFinished)->warnings,
+              testing::ElementsAre(HasSubstr("an edit was not made: delete the loop of scan 5000")));
+}
+
+TEST_F(ReplayTest, the_threads_of_a_closed_run_come_to_their_ends) {
+  Replay replay(log(room_log_lines(60)), settings_);
+  replay.set_speed(0);
+  replay.play();
+  wait_for(replay, ReplayPhase::kFinished);
+  EXPECT_FALSE(replay.ended());
+  replay.close();
+  for (int i = 0; i < 600 && !replay.ended(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_TRUE(replay.ended());
 }
 
 TEST_F(ReplayEditsTest, says_what_cannot_be_done) {

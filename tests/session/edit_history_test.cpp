@@ -16,8 +16,8 @@ void expect_edit(const std::optional<LoopEdit>& edit, Kind kind, std::size_t fra
 
 TEST(EditHistory, takes_back_what_was_done_last_first) {
   EditHistory history;
-  history.note({Kind::kDelete, 1, 0});
-  history.note({Kind::kForce, 2, 0});
+  history.note({Kind::kDelete, 1, 0}, std::nullopt);
+  history.note({Kind::kForce, 2, 0}, std::nullopt);
   EXPECT_EQ(history.undo_text(), "force the loop of scan 2 with local map 0");
   expect_edit(history.undo(), Kind::kRestore, 2);
   expect_edit(history.undo(), Kind::kRestore, 1);
@@ -27,17 +27,19 @@ TEST(EditHistory, takes_back_what_was_done_last_first) {
 
 TEST(EditHistory, what_was_in_force_for_the_loop_before_comes_back) {
   EditHistory history;
-  history.note({Kind::kDelete, 1, 0});
-  history.note({Kind::kDelete, 1, 7});
-  history.note({Kind::kForce, 1, 0});
+  history.note({Kind::kForce, 1, 0}, LoopEdit{Kind::kDelete, 1, 0});
   expect_edit(history.undo(), Kind::kDelete, 1);
+  expect_edit(history.redo(), Kind::kForce, 1);
+  expect_edit(history.undo(), Kind::kDelete, 1);
+  EXPECT_FALSE(history.undo().has_value());
+  history.note({Kind::kDelete, 1, 7}, std::nullopt);
   expect_edit(history.undo(), Kind::kRestore, 1);
 }
 
 TEST(EditHistory, does_again_what_was_undone_until_something_else_is_done) {
   EditHistory history;
-  history.note({Kind::kDelete, 1, 0});
-  history.note({Kind::kDelete, 2, 0});
+  history.note({Kind::kDelete, 1, 0}, std::nullopt);
+  history.note({Kind::kDelete, 2, 0}, std::nullopt);
   EXPECT_FALSE(history.redo().has_value());
   history.undo();
   history.undo();
@@ -45,7 +47,7 @@ TEST(EditHistory, does_again_what_was_undone_until_something_else_is_done) {
   expect_edit(history.redo(), Kind::kDelete, 1);
   expect_edit(history.redo(), Kind::kDelete, 2);
   history.undo();
-  history.note({Kind::kForce, 3, 0});
+  history.note({Kind::kForce, 3, 0}, std::nullopt);
   EXPECT_FALSE(history.redo().has_value());
   EXPECT_EQ(history.redo_text(), "");
 }

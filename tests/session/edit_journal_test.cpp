@@ -98,6 +98,18 @@ TEST_F(EditJournalTest, edits_are_taken_once_in_the_order_of_their_times) {
   EXPECT_THAT(journal.take_due(kEnd), SizeIs(4));
 }
 
+TEST_F(EditJournalTest, in_force_is_what_was_taken_last_for_the_loop) {
+  EditJournal journal;
+  journal.add({{Kind::kDelete, 2, 0}, {}});
+  journal.add({{Kind::kForce, 2, 0}, after(7)});
+  journal.take_due(after(3));
+  const LoopEdit same{Kind::kRestore, 2, 0};
+  EXPECT_EQ(journal.in_force(same)->kind, Kind::kDelete) << "the other is still to come";
+  EXPECT_FALSE(journal.in_force({Kind::kRestore, 2, 1}).has_value());
+  journal.take_due(after(7));
+  EXPECT_EQ(journal.in_force(same)->kind, Kind::kForce);
+}
+
 TEST_F(EditJournalTest, what_a_person_does_now_replaces_what_was_to_be_done_to_the_loop_later) {
   EditJournal journal;
   journal.add({{Kind::kDelete, 2, 0}, after(7)});

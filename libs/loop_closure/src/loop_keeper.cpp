@@ -47,7 +47,8 @@ std::vector<std::size_t> LoopKeeper::confirmed_by(std::size_t index, const Place
   if (loop.verdict != LoopVerdict::kPending) return {};
   const NodeScan& here = memory.nodes[loop.node];
   return consensus_.add(
-      {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity}, graph);
+      {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity}, graph,
+      [&](std::size_t other) { return ledger_.loops()[other].verdict == LoopVerdict::kPending; });
 }
 
 std::map<std::string, LoopEffort> LoopKeeper::run_last_pass(const PlaceMemory& memory, PoseGraph& graph,

@@ -14,7 +14,7 @@ LogOutline::LogOutline(std::filesystem::path log, const LogOptions& options)
     : thread_([this, path = std::move(log), options] { read(path, options); }) {}
 
 LogOutline::~LogOutline() {
-  stop_ = true;
+  stop();
   thread_.join();
 }
 
@@ -32,8 +32,11 @@ void LogOutline::read(const std::filesystem::path& log, const LogOptions& option
       stamps_us->push_back(frame->time_us);
   } catch (const std::exception&) {  // who maps the log meets the same, and tells it
   }
-  const std::lock_guard lock(mutex_);
-  stamps_us_ = std::move(stamps_us);
+  {
+    const std::lock_guard lock(mutex_);
+    stamps_us_ = std::move(stamps_us);
+  }
+  ended_ = true;
 }
 
 }  // namespace psi_slam

@@ -32,15 +32,23 @@ std::shared_ptr<const DrawnMap> draw(const MapSketch& sketch, const GridMapOptio
 
 }  // namespace
 
-MapPainter::MapPainter(const GridMapOptions& options) : options_(options), thread_([this] { work(); }) {}
+MapPainter::MapPainter(const GridMapOptions& options)
+    : options_(options), thread_([this] {
+        work();
+        ended_ = true;
+      }) {}
 
 MapPainter::~MapPainter() {
+  stop();
+  thread_.join();
+}
+
+void MapPainter::stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
   }
   changed_.notify_all();
-  thread_.join();
 }
 
 void MapPainter::request(MapSketch sketch) {

@@ -125,6 +125,8 @@ void Replay::close() {
     close_ = true;
     stop_last_pass_ = true;
   });
+  outline_.stop();
+  painter_.stop();
 }
 
 std::shared_ptr<const ReplaySnapshot> Replay::snapshot() const {
@@ -169,7 +171,7 @@ void Replay::finish_map(MappingSession& session) {
     const std::lock_guard lock(mutex_);
     last_pass_stopped_ = stop_last_pass_ && !cut_last_pass_ && !close_;
   }
-  maker_->note_warnings(session);
+  maker_->note_warnings(session.warnings());
   maker_->take(session.result());
   painter_.request(maker_->sketch());
 }
@@ -282,9 +284,10 @@ void Replay::make_edit(MappingSession& session, const EditWish& wish) {
   if (wish.kind == EditKind::kUndo) edit = edit_history_.undo();
   if (wish.kind == EditKind::kRedo) edit = edit_history_.redo();
   if (!edit) return;
+  const std::optional<LoopEdit> before = session.edits().in_force(*edit);
   const LoopEditOutcome outcome = session.edit(*edit);
   const bool made = outcome.state != LoopEditOutcome::State::kImpossible;
-  if (made && wish.kind == EditKind::kEdit) edit_history_.note(*edit);
+  if (made && wish.kind == EditKind::kEdit) edit_history_.note(*edit, before);
   maker_->note_edited({++edits_made_, *edit, outcome});
 }
 
@@ -339,7 +342,7 @@ void Replay::publish() {
   const auto start = Clock::now();
   if (session_ != nullptr) {
     maker_->follow(session_->mapper());
-    maker_->note_warnings(*session_);
+    maker_->note_warnings(session_->warnings());
     if (stale_) painter_.request(maker_->sketch());
   }
   auto snapshot = maker_->snapshot(phase_);

@@ -25,13 +25,6 @@ SnapshotMaker::SnapshotMaker(const PsiOptions& psi, const std::vector<TimedEdit>
   now_.edits = std::make_shared<std::vector<TimedEdit>>(edits);
 }
 
-void SnapshotMaker::note_warnings(const MappingSession& session) {
-  now_.warnings.clear();
-  if (session.broken_off()) now_.warnings.push_back(*session.broken_off());
-  if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0)
-    now_.warnings.push_back(skipped.sentence());
-}
-
 void SnapshotMaker::follow(const Mapper& mapper) {
   catch_up(log_, mapper.log());
   catch_up(frames_, mapper.frames());

@@ -4,6 +4,9 @@
 
 #include <chrono>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "psi_slam/replay/map_painter.h"
 #include "psi_slam/replay/replay_snapshot.h"
@@ -19,7 +22,7 @@ class SnapshotMaker {
   /// A scan was mapped, with this much of the log read.
   void note_scan(double share) { shares_.push_back(share); }
   void note_progress(const SessionProgress& progress) { now_.progress = progress; }
-  void note_warnings(const MappingSession& session);
+  void note_warnings(std::vector<std::string> sentences) { now_.warnings = std::move(sentences); }
   void note_export(ExportOutcome outcome) { now_.exported = std::move(outcome); }
   void note_held(bool held) { now_.last_pass_held = held; }
   /// Loops, poses and edits are others now.

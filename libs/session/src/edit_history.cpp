@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/session/edit_history.h"
 
-#include <algorithm>
-
 namespace psi_slam {
 
-void EditHistory::note(const LoopEdit& made) {
-  made_.push_back(made);
+void EditHistory::note(const LoopEdit& made, const std::optional<LoopEdit>& before) {
+  made_.push_back({made, before.value_or(LoopEdit{LoopEdit::Kind::kRestore, made.frame, made.local_map})});
   undone_.clear();
 }
 
@@ -14,18 +12,14 @@ std::optional<LoopEdit> EditHistory::undo() {
   if (made_.empty()) return std::nullopt;
   undone_.push_back(made_.back());
   made_.pop_back();
-  const LoopEdit& undone = undone_.back();
-  const auto before = std::find_if(made_.rbegin(), made_.rend(),
-                                   [&](const LoopEdit& edit) { return same_loop(edit, undone); });
-  if (before != made_.rend()) return *before;
-  return LoopEdit{LoopEdit::Kind::kRestore, undone.frame, undone.local_map};
+  return undone_.back().back;
 }
 
 std::optional<LoopEdit> EditHistory::redo() {
   if (undone_.empty()) return std::nullopt;
   made_.push_back(undone_.back());
   undone_.pop_back();
-  return made_.back();
+  return made_.back().made;
 }
 
 }  // namespace psi_slam

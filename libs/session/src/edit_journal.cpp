@@ -35,6 +35,12 @@ std::vector<LoopEdit> EditJournal::take_due(EditTime now) {
   return due;
 }
 
+std::optional<LoopEdit> EditJournal::in_force(const LoopEdit& same) const {
+  for (std::size_t i = taken_; i-- > 0;)
+    if (same_loop(edits_[i].edit, same)) return edits_[i].edit;
+  return std::nullopt;
+}
+
 void EditJournal::enter(const TimedEdit& edit) {
   forget_later(edit.edit);
   edits_.insert(edits_.begin() + static_cast<std::ptrdiff_t>(taken_), edit);

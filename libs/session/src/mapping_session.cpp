@@ -193,6 +193,14 @@ std::vector<std::string> MappingSession::unmet_edits() const {
   return unmet;
 }
 
+std::vector<std::string> MappingSession::warnings() const {
+  std::vector<std::string> warnings;
+  if (broken_off_) warnings.push_back(*broken_off_);
+  if (const SkippedLines skipped = skipped_lines(); skipped.count > 0) warnings.push_back(skipped.sentence());
+  for (const std::string& complaint : unmet_edits()) warnings.push_back("an edit was not made: " + complaint);
+  return warnings;
+}
+
 RunInfo MappingSession::run_info() const {
   Settings settings;
   OptionTable table;
@@ -201,11 +209,7 @@ RunInfo MappingSession::run_info() const {
   RunInfo info{PSI_SLAM_VERSION, path_.filename().string(), {}, {}};
   for (const OptionSection& section : table.sections())
     for (const Option& option : section.options) info.settings[option.name()] = option.text();
-  if (broken_off_) info.warnings.push_back(*broken_off_);
-  if (const SkippedLines skipped = skipped_lines(); skipped.count > 0)
-    info.warnings.push_back(skipped.sentence());
-  for (const std::string& complaint : unmet_edits())
-    info.warnings.push_back("an edit was not made: " + complaint);
+  info.warnings = warnings();
   return info;
 }
 

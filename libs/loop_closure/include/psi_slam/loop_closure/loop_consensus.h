@@ -9,6 +9,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "psi_slam/base/degrees.h"
@@ -39,8 +40,9 @@ class LoopConsensus {
   };
 
   /// Adds a vote; returns the loops that are now confirmed, this one among them, or none. Confirmed ones are
-  /// forgotten.
-  std::vector<std::size_t> add(const Vote& vote, const PoseGraph& graph);
+  /// forgotten. Of the votes before, those count whose loops still wait.
+  std::vector<std::size_t> add(const Vote& vote, const PoseGraph& graph,
+                               const std::function<bool(std::size_t loop)>& still_waits = {});
 
  private:
   bool agree(const Vote& a, const Vote& b, const PoseGraph& graph) const;

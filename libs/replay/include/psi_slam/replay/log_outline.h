@@ -22,6 +22,11 @@ class LogOutline {
   LogOutline(const LogOutline&) = delete;
   LogOutline& operator=(const LogOutline&) = delete;
 
+  /// Reads no further.
+  void stop() { stop_ = true; }
+  /// The thread has come to its end: the destructor will not wait.
+  bool ended() const { return ended_; }
+
   /// The stamps of all scans that can be read, in the log's order; null until they are known. Called by any
   /// thread.
   std::shared_ptr<const std::vector<TimeUs>> stamps_us() const;
@@ -30,6 +35,7 @@ class LogOutline {
   void read(const std::filesystem::path& log, const LogOptions& options);
 
   std::atomic<bool> stop_{false};
+  std::atomic<bool> ended_{false};
   mutable std::mutex mutex_;  // of what follows
   std::shared_ptr<const std::vector<TimeUs>> stamps_us_;
 

@@ -5,6 +5,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <memory>
@@ -45,6 +46,11 @@ class MapPainter {
   /// only, so that large maps are drawn less often.
   void request(MapSketch sketch);
 
+  /// No drawing is begun any more.
+  void stop();
+  /// The thread has come to its end: the destructor will not wait.
+  bool ended() const { return ended_; }
+
   /// The newest drawing, or null. Called by any thread.
   std::shared_ptr<const DrawnMap> drawn() const;
 
@@ -58,6 +64,7 @@ class MapPainter {
   std::shared_ptr<const DrawnMap> drawn_;
   bool stop_ = false;
 
+  std::atomic<bool> ended_{false};
   std::thread thread_;
 };
 

@@ -73,10 +73,10 @@ class Replay {
   /// ReplaySnapshot::exported.
   void export_to(std::filesystem::path folder, bool replace);
 
-  /// Ends the thread as soon as may be, mapping or not; an export under way is written to its end.
+  /// Ends the threads as soon as may be, mapping or not; an export under way is written to its end.
   void close();
-  /// The thread has come to its end: the destructor will not wait.
-  bool ended() const { return ended_; }
+  /// All threads have come to their ends: the destructor will not wait.
+  bool ended() const { return ended_ && outline_.ended() && painter_.ended(); }
 
   /// Never null.
   std::shared_ptr<const ReplaySnapshot> snapshot() const;

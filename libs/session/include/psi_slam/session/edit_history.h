@@ -13,8 +13,9 @@ namespace psi_slam {
 
 class EditHistory {
  public:
-  /// A person made an edit; what was undone before can no longer be redone.
-  void note(const LoopEdit& made);
+  /// A person made an edit where `before` was in force for the same loop. What was undone before can no
+  /// longer be redone.
+  void note(const LoopEdit& made, const std::optional<LoopEdit>& before);
 
   /// The edit that takes back the newest one; none where there is nothing to undo.
   std::optional<LoopEdit> undo();
@@ -26,12 +27,16 @@ class EditHistory {
   std::string redo_text() const { return text_of_last(undone_); }
 
  private:
-  static std::string text_of_last(const std::vector<LoopEdit>& edits) {
-    return edits.empty() ? "" : text_of(edits.back());
+  struct Step {
+    LoopEdit made;
+    LoopEdit back;  // what takes it back
+  };
+  static std::string text_of_last(const std::vector<Step>& steps) {
+    return steps.empty() ? "" : text_of(steps.back().made);
   }
 
-  std::vector<LoopEdit> made_;
-  std::vector<LoopEdit> undone_;
+  std::vector<Step> made_;
+  std::vector<Step> undone_;
 };
 
 }  // namespace psi_slam

@@ -56,6 +56,8 @@ class EditJournal {
   /// The edits from the first that was not taken yet up to `now`; they count as taken. At the end all are
   /// due, those after scans that never came too.
   std::vector<LoopEdit> take_due(EditTime now);
+  /// What was done last to the same loop, of the edits that were taken.
+  std::optional<LoopEdit> in_force(const LoopEdit& same_loop) const;
   /// None is taken any more: for another run of the same log.
   void rewind() { taken_ = 0; }
 

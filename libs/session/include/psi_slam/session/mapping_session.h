@@ -79,6 +79,8 @@ class MappingSession {
 
   /// After finish(): the edits that could not be made, a sentence each.
   std::vector<std::string> unmet_edits() const;
+  /// What the user is to know of this run: damage of the log, and edits that were not made; a sentence each.
+  std::vector<std::string> warnings() const;
 
   /// After finish() edits are still taken. It costs memory.
   void stay_open() { stays_open_ = true; }

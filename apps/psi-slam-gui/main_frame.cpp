@@ -89,7 +89,7 @@ void MainFrame::build() {
   if (wxConfigBase* config = wxConfigBase::Get(false)) recent_.Load(*config);
   SetMenuBar(make_menu_bar(recent));
   CreateStatusBar();
-  tell(shortcuts_text());
+  tell(hint_text());
   build_toolbar();
   panes_.SetManagedWindow(this);
   wxWindow* const middle = build_middle();

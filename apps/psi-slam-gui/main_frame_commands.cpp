@@ -88,7 +88,7 @@ void MainFrame::bind_view_commands() {
     canvas_->set_measuring(!canvas_->measuring());
     GetMenuBar()->Check(kMeasure, canvas_->measuring());
     GetToolBar()->ToggleTool(kMeasure, canvas_->measuring());
-    tell(canvas_->measuring() ? "Drag in the map to measure" : shortcuts_text());
+    tell(canvas_->measuring() ? "Drag in the map to measure" : hint_text());
   });
   canvas_->on_followed([this](bool follows) {
     GetMenuBar()->Check(kFollow, follows);

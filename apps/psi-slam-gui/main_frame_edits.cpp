@@ -79,7 +79,7 @@ void MainFrame::begin_to_add_loop() {
   const bool on = !canvas_->pointing();
   set_adding_loop(on);
   tell(on ? "Add a loop: click on something that was seen twice, as the later pass shows it (Esc: no more)"
-          : shortcuts_text());
+          : hint_text());
 }
 
 void MainFrame::set_adding_loop(bool on) {
@@ -99,7 +99,7 @@ void MainFrame::point_at(const mrpt::math::TPoint2D& place) {
   }
   const auto edit = loop_between_places(*snapshot_, *first_place_, place, MatcherKind::kCsm);
   set_adding_loop(false);
-  tell(shortcuts_text());
+  tell(hint_text());
   if (edit)
     replay_->edit(*edit);
   else

@@ -139,6 +139,10 @@ int command_of_key(int key) {
   }
 }
 
+const char* hint_text() {
+  return "Space plays and pauses. In the map: drag to move, right-drag to turn, wheel to zoom. F1: all keys";
+}
+
 const char* shortcuts_text() {
   return "Space plays and pauses, \".\" maps one scan. In the map: drag to move, right-drag to turn and "
          "tilt, wheel to "

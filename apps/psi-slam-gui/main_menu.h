@@ -60,7 +60,8 @@ wxMenuBar* make_menu_bar(wxMenu* recent);
 /// they would be taken from text fields, too.)
 int command_of_key(int key);
 
-/// What the keys do, for a person.
+/// What mouse and keys do: the most important, in a line, and all of it.
+const char* hint_text();
 const char* shortcuts_text();
 
 }  // namespace psi_slam

@@ -133,6 +133,7 @@ void SettingsPanel::show_pending(bool pending) {
   pending_->Show(pending);
   restart_->Show(pending);
   Layout();
+  if (wxPGProperty* const selected = grid_->GetSelection()) grid_->EnsureVisible(selected);
 }
 
 /// Takes the text, or tells why not.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -17,7 +18,10 @@ using mrpt::math::TPose2D;
 using mrpt::opengl::CSetOfLines;
 
 constexpr std::uint8_t kFaint = 45;
-constexpr std::uint8_t kClear = 140;  // what lies below is to be seen, too
+// What lies below is to be seen, too: the more loops, the paler each.
+constexpr double kClear = 140;
+constexpr double kPalest = 50;
+constexpr double kClearLoops = 100;
 
 // They cover the map long before all are drawn, and what is drawn costs time at every frame of the window.
 constexpr std::size_t kMostLoopsOfLastPass = 3000;
@@ -25,6 +29,14 @@ constexpr std::size_t kMostLoopsOfLastPass = 3000;
 std::size_t last_pass_loops(const ReplaySnapshot& snapshot) {
   return static_cast<std::size_t>(std::count_if(snapshot.loops->begin(), snapshot.loops->end(),
                                                 [](const LoopRecord& loop) { return loop.in_last_pass; }));
+}
+
+std::uint8_t clear_alpha(const ReplaySnapshot& snapshot) {
+  const auto loops = std::count_if(
+      snapshot.loops->begin(), snapshot.loops->end(),
+      [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted && !loop.in_last_pass; });
+  const double crowd = std::max(1.0, static_cast<double>(loops) / kClearLoops);
+  return static_cast<std::uint8_t>(std::max(kPalest, kClear / std::sqrt(crowd)));
 }
 
 }  // namespace
@@ -53,6 +65,7 @@ void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopSty
   using Key = std::tuple<bool, std::uint8_t, std::uint8_t, std::uint8_t>;
   std::map<Key, CSetOfLines::Ptr> by_colour;
   const std::size_t stride = last_pass_loops(snapshot) / kMostLoopsOfLastPass + 1;
+  const std::uint8_t clear = clear_alpha(snapshot);
   std::size_t of_last_pass = 0;
   for (const LoopRecord& loop : *snapshot.loops) {
     if (loop.in_last_pass && !loop.by_hand && of_last_pass++ % stride != 0) continue;
@@ -61,7 +74,7 @@ void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopSty
     if (was_no_loop && !style.refused) continue;
     mrpt::img::TColor colour = loop_colour(loop, snapshot, style);
     const bool faint = loop.in_last_pass || was_no_loop;  // there are so many
-    colour.A = faint ? kFaint : kClear;
+    colour.A = faint ? kFaint : clear;
     CSetOfLines::Ptr& lines = by_colour[{!faint, colour.R, colour.G, colour.B}];
     if (!lines) lines = lines_of(colour, faint ? 1.0F : 1.5F);
     join(*lines, snapshot.map_T_node->at(loop.anchor), snapshot.map_T_node->at(loop.node), height_m::kLoops);

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/loop_closure/loop_ledger.h"
+
+#include <gtest/gtest.h>
+
+namespace psi_slam {
+namespace {
+
+using Verdict = LoopVerdict;
+
+constexpr LoopNoise kNoise{0.02, 0.01};
+
+/// Two nodes a metre apart; loops that fit say that the third stands on the first.
+class LoopLedgerTest : public ::testing::Test {
+ protected:
+  LoopLedgerTest() {
+    for (const double x_m : {0.0, 1.0, 0.0}) graph_.add_node({x_m, 0, 0});
+    Constraint odometry;
+    odometry.information = Eigen::Vector3d(1e4, 1e4, 1e5).asDiagonal();
+    odometry.from = 0;
+    odometry.to = 1;
+    odometry.from_T_to = {1, 0, 0};
+    graph_.add_constraint(odometry);
+    odometry.from = 1;
+    odometry.to = 2;
+    odometry.from_T_to = {-1, 0, 0};
+    graph_.add_constraint(odometry);
+  }
+
+  static LoopRecord loop(Verdict verdict, double x_m = 0, std::size_t local_map = 0) {
+    LoopRecord loop;
+    loop.node = 2;
+    loop.local_map = local_map;
+    loop.anchor = 0;
+    loop.anchor_T_node = {x_m, 0, 0};
+    loop.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+    loop.verdict = verdict;
+    return loop;
+  }
+  static LoopPair pair(std::size_t local_map = 0) { return {2, local_map}; }
+
+  Verdict verdict(std::size_t loop) const { return ledger_.loops()[loop].verdict; }
+  std::size_t loops_in_force() const {
+    std::size_t count = 0;
+    for (std::size_t i = 2; i < graph_.num_constraints(); ++i) count += graph_.enabled(i);
+    return count;
+  }
+
+  PoseGraph graph_;
+  SparsePoseAdjustment solver_{PoseAdjustmentOptions()};
+  LoopLedger ledger_{kNoise};
+};
+
+TEST_F(LoopLedgerTest, an_accepted_loop_becomes_a_constraint_once_and_says_how_far_it_moves_the_graph) {
+  const std::size_t number = ledger_.add(loop(Verdict::kAccepted, 0.06));
+  EXPECT_NEAR(ledger_.accept(number, graph_).value(), 0.06 / kNoise.sigma_m, 1e-9);
+  EXPECT_FALSE(ledger_.accept(number, graph_).has_value());
+  ASSERT_EQ(graph_.num_constraints(), 3U);
+  EXPECT_EQ(graph_.constraint(2).kind, Constraint::Kind::kLoop);
+  EXPECT_NEAR(graph_.constraint(2).information(0, 0), 1 / (1e-4 + 4e-4), 1e-6);
+}
+
+TEST_F(LoopLedgerTest, a_refused_loop_becomes_none) {
+  EXPECT_FALSE(ledger_.accept(ledger_.add(loop(Verdict::kRefused)), graph_).has_value());
+  EXPECT_EQ(graph_.num_constraints(), 2U);
+}
+
+TEST_F(LoopLedgerTest, loops_that_still_wait_at_the_end_are_refused) {
+  const std::size_t waits = ledger_.add(loop(Verdict::kPending));
+  const std::size_t accepted = ledger_.add(loop(Verdict::kAccepted, 0, 1));
+  ledger_.refuse_pending();
+  EXPECT_EQ(verdict(waits), Verdict::kRefused);
+  EXPECT_EQ(verdict(accepted), Verdict::kAccepted);
+}
+
+TEST_F(LoopLedgerTest, a_contradicted_loop_is_switched_off_unless_a_person_has_forced_it) {
+  const std::size_t wrong = ledger_.add(loop(Verdict::kAccepted, 3));
+  ledger_.accept(wrong, graph_);
+  ledger_.settle(graph_, solver_, 5);
+  EXPECT_EQ(verdict(wrong), Verdict::kSwitchedOff);
+  EXPECT_EQ(loops_in_force(), 0U);
+  EXPECT_TRUE(ledger_.force(pair(), false, graph_));
+  ledger_.settle(graph_, solver_, 5);
+  EXPECT_EQ(verdict(wrong), Verdict::kAccepted);
+  EXPECT_EQ(loops_in_force(), 1U);
+}
+
+TEST_F(LoopLedgerTest, a_deleted_loop_is_out_of_force_until_it_is_restored) {
+  const std::size_t number = ledger_.add(loop(Verdict::kAccepted));
+  ledger_.accept(number, graph_);
+  ledger_.remove(pair(), graph_);
+  EXPECT_EQ(verdict(number), Verdict::kDeleted);
+  EXPECT_EQ(loops_in_force(), 0U);
+  EXPECT_TRUE(ledger_.restore(pair(), graph_));
+  EXPECT_EQ(verdict(number), Verdict::kAccepted);
+  EXPECT_FALSE(ledger_.loops()[number].by_hand);
+  EXPECT_EQ(loops_in_force(), 1U);
+  EXPECT_EQ(graph_.num_constraints(), 3U) << "it is the same constraint";
+  EXPECT_FALSE(ledger_.restore(pair(), graph_));
+}
+
+TEST_F(LoopLedgerTest, what_a_person_wants_holds_for_matches_that_come_later) {
+  ledger_.remove(pair(0), graph_);
+  EXPECT_FALSE(ledger_.force(pair(1), false, graph_)) << "there is none yet";
+  EXPECT_EQ(ledger_.forced_in_vain(), std::vector<LoopPair>{pair(1)});
+  EXPECT_EQ(verdict(ledger_.add(loop(Verdict::kAccepted, 0, 0))), Verdict::kDeleted);
+  EXPECT_EQ(verdict(ledger_.add(loop(Verdict::kRefused, 0, 1))), Verdict::kAccepted);
+  EXPECT_TRUE(ledger_.forced_in_vain().empty());
+  EXPECT_TRUE(ledger_.restore(pair(1), graph_));
+  EXPECT_EQ(ledger_.find(pair(1))->verdict, Verdict::kRefused) << "as it came";
+}
+
+TEST_F(LoopLedgerTest, a_match_by_hand_stands_instead_of_what_was_found) {
+  const std::size_t number = ledger_.add(loop(Verdict::kAccepted, 0.5));
+  ledger_.accept(number, graph_);
+  ledger_.replace(loop(Verdict::kAccepted, 0.1), graph_);
+  ASSERT_EQ(ledger_.loops().size(), 1U);
+  EXPECT_EQ(ledger_.find(pair())->anchor_T_node.x, 0.1);
+  EXPECT_EQ(loops_in_force(), 1U);
+  ledger_.restore(pair(), graph_);
+  EXPECT_EQ(ledger_.find(pair())->anchor_T_node.x, 0.5);
+  EXPECT_EQ(loops_in_force(), 1U);
+}
+
+TEST_F(LoopLedgerTest, a_last_search_leaves_out_what_is_settled) {
+  ledger_.add(loop(Verdict::kRefused, 0, 0));
+  ledger_.add(loop(Verdict::kAccepted, 0, 1));
+  ledger_.add(loop(Verdict::kNotFound, 0, 2));
+  LoopRecord searched = loop(Verdict::kRefused, 0, 3);
+  searched.in_last_pass = true;
+  ledger_.add(searched);
+  ledger_.add(loop(Verdict::kRefused, 0, 4));
+  ledger_.remove(pair(4), graph_);
+  EXPECT_EQ(ledger_.searched_pairs(), (std::set<LoopPair>{pair(1), pair(3), pair(4)}));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -133,9 +133,7 @@ MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
   }
   mapped.memory = places.finish();
   const MappingResult result = mapper.finish();
-  mapped.map_T_node.resize(mapped.memory.nodes.size());
-  for (const auto& [node, pose] : result.graph.nodes)
-    mapped.map_T_node[node] = mrpt::math::TPose2D(pose.x(), pose.y(), pose.phi());
+  mapped.map_T_node = result.graph.poses();
   mapped.adaptive_matcher = adaptive_matchers(result);
   mapped.translation_error_m =
       error_of(result.frames, read_relations(log.relations.value())).translation_abs_m.mean;

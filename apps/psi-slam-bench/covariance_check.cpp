@@ -91,14 +91,16 @@ NormalisedErrors normalised_errors(std::string of, std::vector<double> squares) 
 
 std::vector<NormalisedErrors> check_covariances(const MappingResult& result, const Trajectory& truth,
                                                 std::uint64_t seed) {
-  PoseGraph graph = PoseGraph::from_mrpt(result.graph);
+  PoseGraph graph = result.graph;
   const TrueNodes true_nodes(result, truth);
   std::set<std::pair<std::size_t, std::size_t>> loops;
   for (const LoopRecord& loop : result.loops)
     if (loop.verdict == LoopVerdict::kAccepted) loops.emplace(loop.anchor, loop.node);
   std::vector<double> of_maps;
   std::vector<double> of_loops;
-  for (const Constraint& constraint : graph.constraints()) {
+  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
+    if (!graph.enabled(i)) continue;
+    const Constraint& constraint = graph.constraint(i);
     const bool is_loop = loops.count({constraint.from, constraint.to}) != 0;
     (is_loop ? of_loops : of_maps)
         .push_back(normalised_square(constraint.from_T_to, true_nodes.a_T_b(constraint.from, constraint.to),

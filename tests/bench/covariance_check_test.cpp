@@ -95,7 +95,7 @@ TEST(CovarianceCheck, tells_constraints_loops_and_pairs_apart) {
   loop.verdict = LoopVerdict::kAccepted;
   result.loops.push_back(loop);
   SparsePoseAdjustment().optimize(graph);
-  result.graph = graph.to_mrpt();
+  result.graph = graph;
 
   const std::vector<NormalisedErrors> errors = check_covariances(result, truth, 1);
   ASSERT_EQ(errors.size(), 4U);

@@ -53,7 +53,7 @@ const MappingResult& office_map() {
 void expect_consistent(const MappingResult& result, std::size_t frames) {
   ASSERT_EQ(result.frames.size(), frames);
   ASSERT_EQ(result.log.size(), frames);
-  ASSERT_EQ(result.graph.nodes.size(), result.node_frames.size());
+  ASSERT_EQ(result.graph.num_nodes(), result.node_frames.size());
   for (std::size_t i = 0; i < frames; ++i) {
     const TPose2D& pose = result.frames[i].map_T_robot;
     ASSERT_TRUE(std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.phi)) << "scan " << i;
@@ -67,11 +67,10 @@ void expect_consistent(const MappingResult& result, std::size_t frames) {
     ASSERT_LT(result.node_frames[node], frames);
     const FrameRecord& frame = result.frames[result.node_frames[node]];
     EXPECT_EQ(frame.node, node);
-    ASSERT_EQ(result.graph.nodes.count(node), 1U) << "node " << node;
-    const auto& pose = result.graph.nodes.at(node);
-    EXPECT_NEAR(pose.x(), frame.map_T_robot.x, 1e-9);
-    EXPECT_NEAR(pose.y(), frame.map_T_robot.y, 1e-9);
-    EXPECT_NEAR(mrpt::math::wrapToPi(pose.phi() - frame.map_T_robot.phi), 0, 1e-9);
+    const TPose2D& pose = result.graph.pose(node);
+    EXPECT_NEAR(pose.x, frame.map_T_robot.x, 1e-9);
+    EXPECT_NEAR(pose.y, frame.map_T_robot.y, 1e-9);
+    EXPECT_NEAR(mrpt::math::wrapToPi(pose.phi - frame.map_T_robot.phi), 0, 1e-9);
   }
   for (const LocalMapRecord& local_map : result.local_maps) {
     EXPECT_LE(local_map.first_node, local_map.last_node);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/graphslam/levmarq.h>
 
+#include "psi_slam/pose_graph/mrpt_network.h"
 #include "psi_slam/pose_graph/sparse_pose_adjustment.h"
 #include "test_graphs.h"
 
@@ -12,7 +13,7 @@ namespace psi_slam {
 namespace {
 
 PoseGraph solved_by_mrpt(const PoseGraph& graph) {
-  mrpt::graphs::CNetworkOfPoses2DInf network = graph.to_mrpt();
+  mrpt::graphs::CNetworkOfPoses2DInf network = mrpt_network(graph);
   mrpt::graphslam::TResultInfoSpaLevMarq info;
   mrpt::containers::yaml options;
   options["max_iterations"] = 200;

@@ -108,46 +108,5 @@ TEST(PoseGraph, packs_the_covariance_of_each_constraint) {
   EXPECT_EQ(graph.links()[1].tt, std::numeric_limits<double>::infinity());
 }
 
-TEST(PoseGraph, goes_to_MRPT_and_back_with_its_enabled_constraints) {
-  KnownGraph known = ring(20, 3, 1);
-  known.graph.set_enabled(known.graph.num_constraints() - 1, false);
-  known.graph.set_root(4);
-  const mrpt::graphs::CNetworkOfPoses2DInf network = known.graph.to_mrpt();
-  EXPECT_EQ(network.nodes.size(), 20U);
-  EXPECT_EQ(network.edges.size(), known.graph.num_constraints() - 1);
-  const PoseGraph back = PoseGraph::from_mrpt(network);
-  EXPECT_EQ(back.root(), 4U);
-  EXPECT_EQ(back.poses(), known.graph.poses());
-  EXPECT_NEAR(back.chi2(), known.graph.chi2(), 1e-9 * known.graph.chi2());
-  std::size_t loops = 0;
-  for (const Constraint& constraint : back.constraints()) loops += constraint.kind == Constraint::Kind::kLoop;
-  EXPECT_EQ(loops, 2U);
-}
-
-TEST(PoseGraph, keeps_several_constraints_of_one_pair_on_the_way_to_MRPT) {
-  PoseGraph graph;
-  graph.add_node({0, 0, 0});
-  graph.add_node({1, 0, 0});
-  for (int i = 0; i < 3; ++i) graph.add_constraint(link(0, 1));
-  EXPECT_EQ(PoseGraph::from_mrpt(graph.to_mrpt()).num_constraints(), 3U);
-}
-
-TEST(PoseGraph, makes_an_empty_network_of_an_empty_graph) {
-  EXPECT_TRUE(PoseGraph().to_mrpt().nodes.empty());
-  EXPECT_EQ(PoseGraph::from_mrpt({}).num_nodes(), 0U);
-}
-
-TEST(PoseGraph, names_the_node_that_a_network_lacks) {
-  mrpt::graphs::CNetworkOfPoses2DInf network;
-  network.nodes[0] = mrpt::poses::CPose2D();
-  network.nodes[2] = mrpt::poses::CPose2D();
-  try {
-    PoseGraph::from_mrpt(network);
-    FAIL() << "no exception";
-  } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("no node 1"));
-  }
-}
-
 }  // namespace
 }  // namespace psi_slam

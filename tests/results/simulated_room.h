@@ -86,7 +86,7 @@ inline MappingResult walk_around_the_room(int scans = 50) {
       record.loop_evaluations = 40;
       record.loop_matching_ms = 3.5;
       record.loop_closing_ms = 4;
-      result.graph.nodes[*record.node] = mrpt::poses::CPose2D(map_T_robot);
+      result.graph.add_node(map_T_robot);
       result.node_frames.push_back(static_cast<std::size_t>(i));
     }
     result.frames.push_back(record);

@@ -192,7 +192,7 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress, AfterF
     refinement_clock_.time(
         [&] { refine_poses([&](double share) { return go_on(options_.last_pass.passes + share); }); });
   result_.interrupted = result_.last_pass_cut_short;
-  result_.graph = graph_.to_mrpt();
+  result_.graph = graph_;
   result_.loops = after == AfterFinish::kReopen ? keeper_.loops() : keeper_.ledger().take_loops();
   for (const StageClock* clock :
        {&front_end_clock_, &loop_clock_, &graph_clock_, &last_pass_clock_, &refinement_clock_})

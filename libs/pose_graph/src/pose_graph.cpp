@@ -2,12 +2,12 @@
 #include "psi_slam/pose_graph/pose_graph.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "psi_slam/base/user_error.h"
 #include "psi_slam/pose_graph/angle.h"
 #include "psi_slam/pose_graph/constraint_error.h"
 #include "psi_slam/pose_graph/information_matrix.h"
@@ -91,6 +91,10 @@ void PoseGraph::set_pose(std::size_t node, const TPose2D& map_T_node) {
   poses_.at(node) = checked(map_T_node);
 }
 
+std::size_t PoseGraph::num_enabled_constraints() const {
+  return static_cast<std::size_t>(std::count(enabled_.begin(), enabled_.end(), char{1}));
+}
+
 double PoseGraph::chi2() const {
   std::vector<RotatedPose> poses;
   poses.reserve(poses_.size());
@@ -104,44 +108,6 @@ double PoseGraph::chi2() const {
     sum += error.dot(constraint.information * error);
   }
   return sum;
-}
-
-mrpt::graphs::CNetworkOfPoses2DInf PoseGraph::to_mrpt() const {
-  mrpt::graphs::CNetworkOfPoses2DInf graph;
-  graph.root = root_;
-  for (std::size_t i = 0; i < poses_.size(); ++i) graph.nodes[i] = mrpt::poses::CPose2D(poses_[i]);
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    if (enabled_[i] == 0) continue;
-    const Constraint& constraint = constraints_[i];
-    const mrpt::math::CMatrixDouble33 information(constraint.information);
-    graph.insertEdgeAtEnd(constraint.from, constraint.to,
-                          {mrpt::poses::CPose2D(constraint.from_T_to), information});
-  }
-  return graph;
-}
-
-PoseGraph PoseGraph::from_mrpt(const mrpt::graphs::CNetworkOfPoses2DInf& graph) {
-  PoseGraph result;
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
-    const auto node = graph.nodes.find(i);
-    if (node == graph.nodes.end()) {
-      throw UserError("the pose graph has no node " + std::to_string(i) + ": its " +
-                      std::to_string(graph.nodes.size()) + " nodes must be numbered from 0 without a gap");
-    }
-    result.add_node(node->second.asTPose());
-  }
-  for (const auto& [ends, edge] : graph.edges) {
-    Constraint constraint;
-    constraint.from = ends.first;
-    constraint.to = ends.second;
-    constraint.from_T_to = edge.getPoseMean().asTPose();
-    constraint.information = edge.cov_inv.asEigen();
-    const bool successive = ends.first + 1 == ends.second || ends.second + 1 == ends.first;
-    constraint.kind = successive ? Constraint::Kind::kOdometry : Constraint::Kind::kLoop;
-    result.add_constraint(constraint);
-  }
-  if (!result.poses_.empty()) result.set_root(graph.root);
-  return result;
 }
 
 }  // namespace psi_slam

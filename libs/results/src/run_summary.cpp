@@ -141,8 +141,8 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
     summary.evaluations += matcher.last_pass_effort.evaluations;
   if (matched > 0) summary.mean_response /= static_cast<double>(matched);
   summary.path_length_m = path_length_m(poses);
-  summary.nodes = result.graph.nodes.size();
-  summary.edges = result.graph.edges.size();
+  summary.nodes = result.graph.num_nodes();
+  summary.edges = result.graph.num_enabled_constraints();
   summary.local_maps = result.local_maps.size();
   summary.loops = loop_counts(result);
   summary.map = map_extent(grid);

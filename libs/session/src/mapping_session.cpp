@@ -102,7 +102,6 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
         return go_on;
       },
       stays_open_ ? Mapper::AfterFinish::kReopen : Mapper::AfterFinish::kNothing);
-  graph_ = mapper_->graph();
   finished_ = true;
   if (!stays_open_) mapper_.reset();
   result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
@@ -168,7 +167,7 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   drawing_clock.time([&] { grid = draw_grid_map(result_.log, mapped_poses(result_), settings_.map); });
   result_.stages.push_back(drawing_clock.timing());
   writing_clock.time([&] {
-    write_g2o(graph_, folder.path() / "graph.g2o");
+    write_g2o(result_.graph, folder.path() / "graph.g2o");
     write_edits(folder.path() / "loops.edits");
     export_results(result_, *grid, folder, settings_.map_files);
   });

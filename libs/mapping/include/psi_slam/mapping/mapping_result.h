@@ -2,7 +2,6 @@
 // What a mapping run leaves behind: plain values that the exports, the report and the views read.
 #pragma once
 
-#include <mrpt/graphs/CNetworkOfPoses.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
@@ -18,6 +17,7 @@
 #include "psi_slam/loop_closure/loop_record.h"
 #include "psi_slam/mapping/stage_clock.h"
 #include "psi_slam/matching/search_window.h"
+#include "psi_slam/pose_graph/pose_graph.h"
 
 namespace psi_slam {
 
@@ -67,8 +67,8 @@ struct LocalMapRecord {
 struct MappingResult {
   std::vector<Frame> log;  ///< the scans themselves, same order and count as `frames`
   std::vector<FrameRecord> frames;
-  mrpt::graphs::CNetworkOfPoses2DInf graph;  ///< node ids are 0 .. N-1; optimised, then refined with the
-                                             ///< scans: no longer the optimum of the constraints alone
+  PoseGraph
+      graph;  ///< optimised, then refined with the scans: no longer the optimum of the constraints alone
   std::vector<std::size_t> node_frames;      ///< the frame of each node
   std::vector<LocalMapRecord> local_maps;
   std::vector<LoopRecord> loops;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pose graph: the poses of the nodes and the measured relative poses between them.
 //
-// It keeps both in flat arrays and makes MRPT's CNetworkOfPoses2DInf of them on request instead of keeping
-// one in step: that container holds one tree or hash node an edge, has no place for an edge's kind, kernel or
-// switch, and cannot tell apart two edges of the same pair of nodes, while the solver and the path search
-// walk all edges hundreds of times a run.
+// It keeps both in flat arrays and makes MRPT's CNetworkOfPoses2DInf of them on request (mrpt_network.h)
+// instead of keeping one in step: that container holds one tree or hash node an edge, has no place for an
+// edge's kind, kernel or switch, and cannot tell apart two edges of the same pair of nodes, while the solver
+// and the path search walk all edges hundreds of times a run.
 #pragma once
 
-#include <mrpt/graphs/CNetworkOfPoses.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
@@ -48,6 +47,7 @@ class PoseGraph {
 
   std::size_t num_nodes() const { return poses_.size(); }
   std::size_t num_constraints() const { return constraints_.size(); }
+  std::size_t num_enabled_constraints() const;
 
   const mrpt::math::TPose2D& pose(std::size_t node) const { return poses_.at(node); }
   /// The heading is wrapped to (-pi, pi]. Throws std::invalid_argument when the pose is not finite.
@@ -63,13 +63,6 @@ class PoseGraph {
 
   /// Sum of e^T Omega e over the enabled constraints: the E of equation 5 without robust kernels.
   double chi2() const;
-
-  /// The enabled constraints and all nodes, with their numbers as node ids.
-  mrpt::graphs::CNetworkOfPoses2DInf to_mrpt() const;
-
-  /// Of a graph whose node ids are 0 .. N-1 (else throws UserError naming the first that is missing). MRPT's
-  /// edges have no kind: those between successive numbers become odometry, the others loops.
-  static PoseGraph from_mrpt(const mrpt::graphs::CNetworkOfPoses2DInf& graph);
 
  private:
   std::vector<mrpt::math::TPose2D> poses_;

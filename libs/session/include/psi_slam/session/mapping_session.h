@@ -127,7 +127,6 @@ class MappingSession {
   std::vector<std::string> edit_complaints_;
   Observer observer_;
   MappingResult result_;
-  PoseGraph graph_;  // of the result
   std::optional<std::string> broken_off_;
   StageClock reading_clock_{"read log"};
   SessionProgress::Phase phase_ = SessionProgress::Phase::kMapping;

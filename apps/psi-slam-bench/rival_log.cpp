@@ -24,7 +24,7 @@ std::vector<TimeUs> write_rival_log(FrameSource& source, const std::filesystem::
           times.empty() || !frame->has_odometry ? mrpt::math::TPose2D() : frame->odom_T_robot - odom_T_last;
       odom_T_last = frame->odom_T_robot;
       mrpt::obs::CSensoryFrame observations;
-      observations.insert(range_observation(*frame));
+      for (const auto& observation : range_observations(*frame)) observations.insert(observation);
       archive << robot_action(motion, frame->time_us) << observations;
       times.push_back(frame->time_us);
     }

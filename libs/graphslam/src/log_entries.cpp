@@ -70,7 +70,7 @@ class FrameEntries : public LogEntries {
     LogEntry entry;
     entry.action = CActionCollection::Create(robot_action(motion, frame->time_us));
     entry.observations = CSensoryFrame::Create();
-    entry.observations->insert(range_observation(*frame));
+    for (const auto& observation : range_observations(*frame)) entry.observations->insert(observation);
     return entry;
   }
 

@@ -33,7 +33,7 @@ FrontEnd::FrontEnd(const FrontEndOptions& options) : options_(options), matcher_
 
 FrontEndStep FrontEnd::add(const Frame& frame) {
   FrontEndStep step;
-  step.points = std::make_shared<const ScanPoints>(matching_points(frame.scan, options_.scan));
+  step.points = std::make_shared<const ScanPoints>(matching_points(frame, options_.scan));
   const Motion motion = motion_to(frame);
   strain_m_ *= std::exp(-motion.length_m / options_.strain_travel_m);
   step.local_T_robot = last_local_T_robot_ + motion.odometry;
@@ -248,13 +248,13 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
   if (active_.empty() || (active_.size() == 1 && share(active_.front()) >= 0.5))
     begin_local_map(node, step.local_T_robot);
   for (PlacedLocalMap& active : active_) {
-    active.map->insert(drawing_beams(frame.scan, step.local_T_robot - active.local_T_map,
+    active.map->insert(drawing_beams(frame, step.local_T_robot - active.local_T_map,
                                      options_.scan.min_range_m, options_.local_map.max_insert_range_m));
   }
   if (share(active_.front()) >= 1.0 && active_.size() > 1) {
     end_local_maps(step, 1);
     begin_local_map(node, step.local_T_robot);
-    active_.back().map->insert(drawing_beams(frame.scan, TPose2D(0, 0, 0), options_.scan.min_range_m,
+    active_.back().map->insert(drawing_beams(frame, TPose2D(0, 0, 0), options_.scan.min_range_m,
                                              options_.local_map.max_insert_range_m));
   }
 }

@@ -30,7 +30,7 @@ LocalMap::LocalMap(const LocalMapOptions& options, const Grid& drawn) : options_
   finish();
 }
 
-void LocalMap::grow_to_hold(const Beams& beams) {
+void LocalMap::grow_to_hold(const std::vector<Beams>& scans) {
   double x_min = static_cast<double>(grid_->getXMin());
   double x_max = static_cast<double>(grid_->getXMax());
   double y_min = static_cast<double>(grid_->getYMin());
@@ -43,8 +43,10 @@ void LocalMap::grow_to_hold(const Beams& beams) {
     while (p.y - margin < y_min) y_min -= kGrowthStep_m, grow = true;
     while (p.y + margin > y_max) y_max += kGrowthStep_m, grow = true;
   };
-  hold(beams.origin);
-  for (const auto& end : beams.ends) hold(end);
+  for (const Beams& beams : scans) {
+    hold(beams.origin);
+    for (const auto& end : beams.ends) hold(end);
+  }
   if (!grow) return;
   grid_->resizeGrid(static_cast<float>(x_min), static_cast<float>(x_max), static_cast<float>(y_min),
                     static_cast<float>(y_max), 0.5F, false);
@@ -98,28 +100,33 @@ void LocalMap::draw_way(int x0, int y0, int x1, int y1) {
   }
 }
 
-void LocalMap::insert(const Beams& beams) {
-  grow_to_hold(beams);
+void LocalMap::insert(const std::vector<Beams>& scans) {
+  grow_to_hold(scans);
   if (++scan_ == 0) {  // the counter came round
     std::fill(last_scan_.begin(), last_scan_.end(), std::uint16_t{0});
     scan_ = 1;
   }
+  std::vector<Way> ways;
+  for (const Beams& beams : scans) draw_hits(beams, ways);
+  for (const Way& way : ways) draw_way(way.from_x, way.from_y, way.to_x, way.to_y);
+}
+
+// Draws the hits and adds the ways to them, which come last.
+void LocalMap::draw_hits(const Beams& beams, std::vector<Way>& ways) {
   const int origin_x = grid_->x2idx(beams.origin.x);
   const int origin_y = grid_->y2idx(beams.origin.y);
   Region touched = {origin_x, origin_y, origin_x + 1, origin_y + 1};
-  std::vector<std::pair<int, int>> ends;
-  ends.reserve(beams.ends.size());
+  ways.reserve(ways.size() + beams.ends.size());
   for (std::size_t i = 0; i < beams.ends.size(); ++i) {
     const int x = grid_->x2idx(beams.ends[i].x);
     const int y = grid_->y2idx(beams.ends[i].y);
-    ends.emplace_back(x, y);
+    ways.push_back({origin_x, origin_y, x, y});
     touched.x = std::min(touched.x, x);
     touched.y = std::min(touched.y, y);
     touched.x_end = std::max(touched.x_end, x + 1);
     touched.y_end = std::max(touched.y_end, y + 1);
     if (beams.hits[i]) draw_hit(x, y);
   }
-  for (const auto& [x, y] : ends) draw_way(origin_x, origin_y, x, y);
   add_to_dirty(touched);
 }
 

@@ -7,6 +7,7 @@
 namespace psi_slam {
 namespace {
 
+using mrpt::math::TPose2D;
 using Point = mrpt::math::TPoint2Df;
 
 constexpr std::ptrdiff_t kReach = 3;  // neighbours on either side that a line is fitted to
@@ -53,11 +54,10 @@ Point normal_at(const std::vector<Point>& points, std::size_t index) {
   return {-std::sin(along), std::cos(along)};
 }
 
-}  // namespace
-
-ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& options) {
+ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
+                            const ScanFilterOptions& options) {
   ScanPoints result;
-  result.origin = {static_cast<float>(scan.robot_T_laser.x), static_cast<float>(scan.robot_T_laser.y)};
+  result.origin = {static_cast<float>(robot_T_laser.x), static_cast<float>(robot_T_laser.y)};
   result.points.reserve(scan.ranges_m.size());
   const double spacing_squared = options.spacing_m * options.spacing_m;
   double last_x = 0;
@@ -66,9 +66,9 @@ ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& optio
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
     if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;  // NaN too
-    const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + scan.robot_T_laser.phi;
-    const double x = scan.robot_T_laser.x + range * std::cos(bearing);
-    const double y = scan.robot_T_laser.y + range * std::sin(bearing);
+    const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + robot_T_laser.phi;
+    const double x = robot_T_laser.x + range * std::cos(bearing);
+    const double y = robot_T_laser.y + range * std::sin(bearing);
     const double gap_squared = (x - last_x) * (x - last_x) + (y - last_y) * (y - last_y);
     if (!result.points.empty() && gap_squared < spacing_squared) continue;
     last_x = x;
@@ -84,10 +84,29 @@ ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& optio
   return result;
 }
 
-Beams drawing_beams(const LaserScan& scan, const mrpt::math::TPose2D& map_T_robot, double min_range_m,
+}  // namespace
+
+ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& options) {
+  return points_seen_from(scan.robot_T_laser, scan, options);
+}
+
+ScanPoints matching_points(const Frame& frame, const ScanFilterOptions& options) {
+  ScanPoints all = matching_points(frame.scan, options);
+  for (const CompanionScan& companion : frame.companions) {
+    const ScanPoints one =
+        points_seen_from(companion.frame_T_robot + companion.scan.robot_T_laser, companion.scan, options);
+    all.other_lasers.push_back({all.points.size(), one.origin});
+    all.points.insert(all.points.end(), one.points.begin(), one.points.end());
+    all.normals.insert(all.normals.end(), one.normals.begin(), one.normals.end());
+    all.farthest_m = std::max(all.farthest_m, one.farthest_m);
+  }
+  return all;
+}
+
+Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, double min_range_m,
                     double max_range_m) {
   Beams beams;
-  const mrpt::math::TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
+  const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
   beams.origin = {map_T_laser.x, map_T_laser.y};
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
@@ -98,6 +117,15 @@ Beams drawing_beams(const LaserScan& scan, const mrpt::math::TPose2D& map_T_robo
                             map_T_laser.y + drawn * std::sin(bearing));
     beams.hits.push_back(range <= max_range_m);
   }
+  return beams;
+}
+
+std::vector<Beams> drawing_beams(const Frame& frame, const TPose2D& map_T_robot, double min_range_m,
+                                 double max_range_m) {
+  std::vector<Beams> beams;
+  for_each_scan(frame, map_T_robot, [&](const LaserScan& scan, const TPose2D& map_T_robot_then) {
+    beams.push_back(drawing_beams(scan, map_T_robot_then, min_range_m, max_range_m));
+  });
   return beams;
 }
 

@@ -9,6 +9,7 @@
 
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/byte_cursor.h"
+#include "psi_slam/logs/laser_choice.h"
 #include "psi_slam/logs/ros_messages.h"
 
 namespace psi_slam {
@@ -69,7 +70,15 @@ class Planner {
       throw UserError(path_ + " has no laser scans, expected a topic of type " + kRosLaserScan + "; found " +
                       (found.empty() ? "no topic at all" : list(found)));
     }
-    plan_.scan_topics = {choose("log.scan_topic", options_.scan_topic, all, kRosLaserScan)};
+    const bool by_topic = !options_.scan_topic.empty();
+    const char* option = by_topic ? "log.scan_topic" : "log.laser";
+    const LaserChoice choice = laser_choice(option, by_topic ? options_.scan_topic : options_.laser);
+    if (choice.all) plan_.scan_topics = all;
+    for (const std::string& name : choice.names)
+      plan_.scan_topics.push_back(choose(option, name, all, kRosLaserScan));
+    if (plan_.scan_topics.empty()) plan_.scan_topics = {choose("log.scan_topic", "", all, kRosLaserScan)};
+    for (const StatedMount& mount : stated_mounts(options_))
+      choose("log.laser_mounts", mount.name, all, kRosLaserScan);
   }
 
   void choose_transform_topics() {
@@ -181,15 +190,14 @@ class Planner {
           "log.base_frame to name them; its transforms: " +
           plan_.transforms.text());
     }
-    if (options_.robot_T_laser) return;
     for (const auto& [topic, frame] : scan_frames_) {
-      if (knows_mount(frame)) continue;
-      throw UserError(
-          path_ + " does not say where the laser of " + topic +
-          " is on the robot: no transform leads from \"" + plan_.base_frame + "\" to \"" + frame +
-          "\", expected log.base_frame to name the robot's frame, or log.laser_x_m, log.laser_y_m "
-          "and log.laser_yaw_deg; its transforms: " +
-          plan_.transforms.text());
+      if (options_of_topic(options_, topic).robot_T_laser || knows_mount(frame)) continue;
+      throw UserError(path_ + " does not say where the laser of " + topic +
+                      " is on the robot: no transform leads from \"" + plan_.base_frame + "\" to \"" + frame +
+                      "\", expected log.base_frame to name the robot's frame, or " +
+                      (plan_.scan_topics.size() > 1 ? "log.laser_mounts, such as \"" + topic + " 0.2 0 0\""
+                                                    : "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg") +
+                      "; its transforms: " + plan_.transforms.text());
     }
   }
 
@@ -214,6 +222,12 @@ Names BagPlan::topics() const {
 bool is_transforms(const BagTopic& topic) {
   return (topic.type == kRosTransforms || topic.type == kRosOldTransforms) &&
          topic.encoding != BagEncoding::kOther;
+}
+
+LogOptions options_of_topic(const LogOptions& options, const std::string& topic) {
+  std::vector<std::string> names{topic};
+  if (topic.front() == '/') names.push_back(topic.substr(1));  // users leave it out
+  return options_of_laser(options, names);
 }
 
 BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options) {

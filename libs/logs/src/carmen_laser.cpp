@@ -23,7 +23,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> carmen_laser_messages(const std::string& laser) {
+std::vector<std::string> carmen_laser_messages(const std::string& laser, const std::string& option) {
   if (laser == "front") return kFrontMessages;
   if (laser == "rear") return kRearMessages;
   std::vector<std::string> all = kFrontMessages;
@@ -32,8 +32,20 @@ std::vector<std::string> carmen_laser_messages(const std::string& laser) {
   if (laser.empty()) return all;
   if (contains(all, laser)) return {laser};
   throw UserError(
-      "log.laser is \"" + laser +
+      option + " is \"" + laser +
       "\", expected \"front\", \"rear\" or the name of a CARMEN laser message such as \"RAWLASER1\"");
+}
+
+std::vector<std::vector<std::string>> carmen_lasers_wanted(const LaserChoice& choice) {
+  std::vector<std::vector<std::string>> wanted;
+  if (choice.all) {
+    wanted = {kFrontMessages, kRearMessages};
+    for (const std::string& name : kOtherMessages) wanted.push_back({name});
+    return wanted;
+  }
+  if (choice.names.empty()) return {carmen_laser_messages("")};
+  for (const std::string& name : choice.names) wanted.push_back(carmen_laser_messages(name));
+  return wanted;
 }
 
 CarmenLaser::CarmenLaser(std::string message_name, const LogOptions& options)
@@ -41,7 +53,7 @@ CarmenLaser::CarmenLaser(std::string message_name, const LogOptions& options)
       position_(contains(kFrontMessages, message_name_)  ? "front"
                 : contains(kRearMessages, message_name_) ? "rear"
                                                          : ""),
-      options_(options) {}
+      options_(options_of_laser(options, {message_name_, position_})) {}
 
 void CarmenLaser::take_parameter(CarmenFields& fields) {
   const std::string_view name = fields.word("the parameter's name");
@@ -64,10 +76,17 @@ void CarmenLaser::take_parameter(CarmenFields& fields) {
   }
 }
 
+bool CarmenLaser::has_mount_parameters() const {
+  return offset_m_ || side_offset_m_ || angular_offset_rad_;
+}
+
+bool CarmenLaser::knows_mount() const {
+  return options_.robot_T_laser || has_mount_parameters() || mount_by_poses_;
+}
+
 mrpt::math::TPose2D CarmenLaser::robot_T_laser() const {
   if (options_.robot_T_laser) return *options_.robot_T_laser;
-  const bool stated = offset_m_ || side_offset_m_ || angular_offset_rad_;
-  if (!stated && mount_by_poses_) return *mount_by_poses_;
+  if (!has_mount_parameters() && mount_by_poses_) return *mount_by_poses_;
   const double usual_heading_rad = position_ == "rear" ? M_PI : 0.0;
   mrpt::math::TPose2D mount{offset_m_.value_or(0), side_offset_m_.value_or(0),
                             angular_offset_rad_.value_or(usual_heading_rad)};

@@ -2,22 +2,19 @@
 #include "psi_slam/logs/carmen_reader.h"
 
 #include <algorithm>
-#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "psi_slam/base/line_reader.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/logs/carmen_laser.h"
+#include "psi_slam/logs/carmen_lasers.h"
 #include "psi_slam/logs/carmen_message.h"
-#include "psi_slam/logs/carmen_mount.h"
 #include "psi_slam/logs/odometry_interpolator.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kLinesOfHead = 500;
 constexpr std::size_t kLinesForOneSkipped = 100;
 constexpr std::size_t kSkippedBeforeTheEnd = 100;  // damage may come in one place, and the share sink later
 
@@ -25,28 +22,12 @@ bool starts_with(std::string_view text, std::string_view beginning) {
   return text.substr(0, beginning.size()) == beginning;
 }
 
-/// The most preferred of the messages that the first lines of the log have; empty if they have none.
-std::string laser_message_in_head(const std::filesystem::path& path,
-                                  const std::vector<std::string>& preferred) {
-  LineReader lines(path);
-  std::set<std::string, std::less<>> found;
-  std::string_view line;
-  for (std::size_t i = 0; i < kLinesOfHead && lines.next(line); ++i)
-    found.emplace(line.substr(0, line.find_first_of(" \t")));
-  for (const std::string& name : preferred)
-    if (found.count(name) != 0) return name;
-  return {};
-}
-
 }  // namespace
 
 class CarmenReader::Implementation {
  public:
   Implementation(const std::filesystem::path& path, const LogOptions& options)
-      : options_(options), candidates_(carmen_laser_messages(options.laser)), lines_(path) {
-    const std::string message = laser_message_in_head(path, candidates_);
-    if (!message.empty()) choose_laser(message);
-  }
+      : lasers_(path, options), lines_(path) {}
 
   std::optional<Frame> next() {
     std::string_view line;
@@ -70,25 +51,18 @@ class CarmenReader::Implementation {
     return frame;
   }
 
-  void choose_laser(const std::string& message) {
-    laser_.emplace(message, options_);
-    statistics_.laser_message = message;
-    if (starts_with(message, "ROBOTLASER"))
-      if (const auto mount = mount_by_robotlaser(lines_.path(), message)) laser_->set_mount_by_poses(*mount);
-  }
-
-  void count(std::string_view message) {
-    if (message == statistics_.laser_message) {
-      ++*scan_count();
-    } else {
+  void count(std::string_view message, CarmenLasers::Laser* laser) {
+    if (laser == nullptr) {
       ++statistics_.messages[std::string(message)];
+      return;
     }
-  }
-
-  // The commonest message, kept out of the search by name.
-  std::size_t* scan_count() {
-    if (scan_count_ == nullptr) scan_count_ = &statistics_.messages[statistics_.laser_message];
-    return scan_count_;
+    scan_counts_.resize(std::max(scan_counts_.size(), laser->number + 1));
+    std::size_t*& lines = scan_counts_[laser->number];
+    if (lines == nullptr) {
+      lines = &statistics_.messages[std::string(message)];
+      statistics_.laser_message += (statistics_.laser_message.empty() ? "" : ", ") + std::string(message);
+    }
+    ++*lines;
   }
 
   std::optional<Frame> take_or_skip(std::string_view line) {
@@ -114,29 +88,35 @@ class CarmenReader::Implementation {
     CarmenFields fields(line, lines_);
     const std::string_view name = fields.message();
     if (name.empty() || name.front() == '#') return std::nullopt;
-    const bool is_candidate =
-        !laser_ && std::find(candidates_.begin(), candidates_.end(), name) != candidates_.end();
-    if (is_candidate) choose_laser(std::string(name));
-    count(name);
-    if (laser_ && name == laser_->message_name()) return take_scan(fields);
+    CarmenLasers::Laser* laser = lasers_.laser_of(name);
+    count(name, laser);
+    if (laser != nullptr) return take_scan(fields, *laser);
     if (name == "ODOM" && needs_odometry_messages()) {
       ++lines_needed_;
       const CarmenOdometryMessage odometry = read_odometry(fields);
       interpolator_.add_odometry(odometry.time_us, odometry.odom_T_robot);
-    } else if (name == "PARAM" && laser_) {
-      ++lines_needed_;
-      laser_->take_parameter(fields);
     } else if (name == "PARAM") {
-      early_parameters_.emplace_back(line);
+      take_parameter(line);
     }
     return std::nullopt;
   }
 
-  bool needs_odometry_messages() const { return !laser_ || starts_with(laser_->message_name(), "RAWLASER"); }
+  bool needs_odometry_messages() const { return !lasers_.any_known() || lasers_.any_needs_odometry(); }
 
-  std::optional<Frame> take_scan(CarmenFields& fields) {
+  void take_parameter(std::string_view line) {
+    if (!lasers_.all_known()) lasers_.keep_parameter(line);
+    if (lasers_.any_known()) ++lines_needed_;
+    lasers_.for_each([&](CarmenLaser& laser) { parse_parameter(line, laser); });
+  }
+
+  void parse_parameter(std::string_view line, CarmenLaser& laser) const {
+    CarmenFields fields(line, lines_);
+    laser.take_parameter(fields);
+  }
+
+  std::optional<Frame> take_scan(CarmenFields& fields, CarmenLasers::Laser& laser) {
     ++lines_needed_;
-    take_early_parameters();
+    if (!std::exchange(laser.began, true)) begin(laser);
     const bool is_raw = starts_with(fields.message(), "RAWLASER");
     const bool is_robotlaser = starts_with(fields.message(), "ROBOTLASER");
     CarmenLaserMessage message = is_raw          ? read_rawlaser(fields)
@@ -147,7 +127,8 @@ class CarmenReader::Implementation {
     Frame frame;
     frame.time_us = message.time_us;
     frame.odom_T_robot = message.odom_T_robot;
-    frame.scan = laser_->scan(std::move(message), fields);
+    frame.scan = laser.laser.scan(std::move(message), fields);
+    frame.scan.laser = laser.number;
     if (!is_raw) return frame;
     interpolator_.add_scan(std::move(frame));
     if (!interpolator_.has_odometry() && interpolator_.waiting() > OdometryInterpolator::kMaxWaiting)
@@ -155,16 +136,17 @@ class CarmenReader::Implementation {
     return std::nullopt;
   }
 
-  void take_early_parameters() {
-    for (const std::string& line : std::exchange(early_parameters_, {})) {
+  /// Before a laser's first scan.
+  void begin(CarmenLasers::Laser& laser) {
+    for (std::size_t i = 0; i < laser.early_parameters; ++i) {
       ++lines_needed_;
-      CarmenFields fields(line, lines_);
       try {
-        laser_->take_parameter(fields);
+        parse_parameter(lasers_.parameters()[i], laser.laser);
       } catch (const MalformedLine& error) {  // the scan in whose line they are taken is none of it
         skip(error);
       }
     }
+    if (lasers_.several() && !laser.laser.knows_mount()) fail_without_mount(laser.laser);
   }
 
   void end_of_log() {
@@ -190,9 +172,18 @@ class CarmenReader::Implementation {
                     statistics_.laser_message + " lines, and " + found);
   }
 
+  [[noreturn]] void fail_without_mount(const CarmenLaser& laser) const {
+    const std::string& name = laser.message_name();
+    throw UserError(lines_.path().string() + " does not say where the laser of its " + name +
+                    " lines is on the robot, which several lasers at once need: expected " +
+                    (laser.position().empty() ? "" : "PARAM robot_" + laser.position() + "laser_offset or ") +
+                    "log.laser_mounts, such as \"" + name + " 0.2 0 " +
+                    (laser.position() == "rear" ? "180" : "0") + "\" (metres, degrees)");
+  }
+
   [[noreturn]] void fail_without_scans() const {
     std::string expected;
-    for (const std::string& name : candidates_) expected += (expected.empty() ? "" : ", ") + name;
+    for (const std::string& name : lasers_.candidates()) expected += (expected.empty() ? "" : ", ") + name;
     std::string found;
     for (const auto& [name, lines] : statistics_.messages)
       found += (found.empty() ? "" : ", ") + std::to_string(lines) + " " + name;
@@ -200,14 +191,11 @@ class CarmenReader::Implementation {
                     "; found " + (found.empty() ? "no message at all" : found));
   }
 
-  LogOptions options_;
-  std::vector<std::string> candidates_;
+  CarmenLasers lasers_;
   LineReader lines_;
-  std::optional<CarmenLaser> laser_;
-  std::vector<std::string> early_parameters_;  // that came before the laser was known
   OdometryInterpolator interpolator_;
   CarmenStatistics statistics_;
-  std::size_t* scan_count_ = nullptr;
+  std::vector<std::size_t*> scan_counts_;  // of each laser, kept out of the search by name
   std::size_t lines_needed_ = 0;  // that were parsed, or should have been
   std::size_t frames_given_ = 0;
   bool at_end_ = false;

@@ -26,6 +26,7 @@ std::optional<Frame> DegradedSource::next() {
     if (read_++ % options_.keep_every_nth != 0) continue;
     frame->index = kept_++;
     narrow(frame->scan);
+    for (CompanionScan& companion : frame->companions) narrow(companion.scan);
     return frame;
   }
   return std::nullopt;
@@ -35,6 +36,7 @@ void DegradedSource::spoil_odometry(Frame& frame) {
   if (options_.no_odometry) {
     frame.has_odometry = false;
     frame.odom_T_robot = {};
+    for (CompanionScan& companion : frame.companions) companion.frame_T_robot = {};
     return;
   }
   if (!(options_.odometry_noise_scale > 1)) return;

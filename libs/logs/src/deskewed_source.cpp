@@ -3,6 +3,7 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -55,14 +56,29 @@ std::optional<TPose2D> DeskewedSource::motion_between(const Mark& from, const Ma
   return interpolate({0, 0, 0}, to.odom_T_robot - from.odom_T_robot, time_s / apart_s);
 }
 
-void DeskewedSource::straighten(Frame& frame, const std::optional<Frame>& behind) const {
-  const double sweep_s = sweep_time_s_.value_or(static_cast<double>(frame.scan.sweep_time_s));
-  if (!(sweep_s > 0) || frame.scan.ranges_m.size() < 2) return;
+DeskewedSource::Marks DeskewedSource::marks_of(const Frame& frame) {
+  Marks marks{{frame.scan.laser, frame.time_us, frame.odom_T_robot, frame.has_odometry}};
+  for (const CompanionScan& companion : frame.companions)
+    marks.push_back({companion.scan.laser, companion.time_us, frame.odom_T_robot + companion.frame_T_robot,
+                     frame.has_odometry});
+  return marks;
+}
+
+/// The mark of the same laser, else of the first of the frame.
+const DeskewedSource::Mark& DeskewedSource::mark_like(const Mark& mark, const Marks& marks) {
+  const auto same =
+      std::find_if(marks.begin(), marks.end(), [&](const Mark& other) { return other.laser == mark.laser; });
+  return same != marks.end() ? *same : marks.front();
+}
+
+void DeskewedSource::straighten(LaserScan& scan, const Mark& mark, const Marks& behind) const {
+  const double sweep_s = sweep_time_s_.value_or(static_cast<double>(scan.sweep_time_s));
+  if (!(sweep_s > 0) || scan.ranges_m.size() < 2) return;
   std::optional<TPose2D> motion;
-  if (behind) motion = motion_between(mark_of(frame), mark_of(*behind), sweep_s);
-  if (!motion && before_) motion = motion_between(*before_, mark_of(frame), sweep_s);
+  if (!behind.empty()) motion = motion_between(mark, mark_like(mark, behind), sweep_s);
+  if (!motion && !before_.empty()) motion = motion_between(mark_like(mark, before_), mark, sweep_s);
   const bool moves = motion && !(*motion == TPose2D{0, 0, 0});
-  if (moves) frame.scan = deskewed(frame.scan, *motion);
+  if (moves) scan = deskewed(scan, *motion);
 }
 
 std::optional<Frame> DeskewedSource::read_ahead() {
@@ -82,8 +98,12 @@ std::optional<Frame> DeskewedSource::next() {
   }
   std::optional<Frame> frame = std::move(ahead_);
   ahead_ = read_ahead();
-  straighten(*frame, ahead_);
-  before_ = mark_of(*frame);
+  Marks marks = marks_of(*frame);
+  const Marks behind = ahead_ ? marks_of(*ahead_) : Marks{};
+  straighten(frame->scan, marks[0], behind);
+  for (std::size_t i = 0; i < frame->companions.size(); ++i)
+    straighten(frame->companions[i].scan, marks[i + 1], behind);
+  before_ = std::move(marks);
   return frame;
 }
 

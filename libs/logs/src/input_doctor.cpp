@@ -7,7 +7,9 @@
 #include <memory>
 
 #include "psi_slam/base/user_error.h"
+#include "psi_slam/logs/bag_plan.h"
 #include "psi_slam/logs/carmen_reader.h"
+#include "psi_slam/logs/laser_choice.h"
 #include "psi_slam/logs/log_format.h"
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/logs/rawlog_reader.h"
@@ -76,6 +78,19 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
   return pass;
 }
 
+/// Scans are compared with scans of the same laser: of several, the first is judged.
+LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options) {
+  if (!reads_several_lasers(options)) return options;
+  const LogFormat format = detect_log_format(path);
+  if (format == LogFormat::kCarmen || format == LogFormat::kMrptRawlog) {
+    const LaserChoice choice = laser_choice("log.laser", options.laser);
+    options.laser = choice.all ? "" : choice.names.front();
+  } else {
+    options.scan_topic = plan_bag(path, options).scan_topics.front();
+  }
+  return options;
+}
+
 bool is_sound(const OdometryAgreement& odometry) {
   const bool length_is_right =
       odometry.length_ratio == 0 || (odometry.length_ratio > 0.6 && odometry.length_ratio < 1.6);
@@ -99,7 +114,7 @@ double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options) {
   LogDiagnosis diagnosis;
   diagnosis.path = path;
-  diagnosis.options = options;
+  diagnosis.options = options_of_first_laser(path, options);
   diagnosis.options.every_nth_scan = 1;
   diagnosis.options.sweep_time_s = 0;  // the log is judged as it was recorded
   FirstPass pass = read_once(path, diagnosis.options);

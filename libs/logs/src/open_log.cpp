@@ -6,9 +6,11 @@
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/carmen_reader.h"
 #include "psi_slam/logs/deskewed_source.h"
+#include "psi_slam/logs/laser_choice.h"
 #include "psi_slam/logs/log_format.h"
 #include "psi_slam/logs/rawlog_reader.h"
 #include "psi_slam/logs/rosbag_reader.h"
+#include "psi_slam/logs/united_source.h"
 
 namespace psi_slam {
 namespace {
@@ -64,6 +66,7 @@ std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const L
   check_log_options(options);
   const LogFormat format = detect_log_format(path);
   auto source = open_as_recorded(path, format, options);
+  if (reads_several_lasers(options)) source = std::make_unique<UnitedSource>(std::move(source));
   if (may_be_skewed(format, options))
     source = std::make_unique<DeskewedSource>(std::move(source), options.sweep_time_s);
   if (options.every_nth_scan == 1) return source;

@@ -6,15 +6,17 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/odometry_interpolator.h"
 #include "psi_slam/logs/rawlog_archive.h"
-#include "psi_slam/logs/rawlog_laser.h"
+#include "psi_slam/logs/rawlog_lasers.h"
 #include "psi_slam/logs/rawlog_objects.h"
 
 namespace psi_slam {
@@ -38,13 +40,24 @@ struct Contents {
   bool has_actions = false;
 };
 
-/// Reads on until it has found a laser, the one the user wants if he says so, and odometry.
-Contents find_laser_and_odometry(const std::filesystem::path& path, const LogOptions& options) {
+/// The labels that the user names, and the option in which he does.
+std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& options) {
+  std::vector<std::pair<std::string, std::string>> named;
+  for (const std::string& label : laser_choice("log.laser", options.laser).names)
+    named.emplace_back(label, "log.laser");
+  for (const StatedMount& mount : stated_mounts(options)) named.emplace_back(mount.name, "log.laser_mounts");
+  return named;
+}
+
+/// Reads on until it has found a laser, all those that the user names, and odometry.
+Contents find_lasers_and_odometry(const std::filesystem::path& path, const LogOptions& options) {
   RawlogArchive archive(path);
-  std::optional<std::string> laser;
+  const auto named = named_labels(options);
+  ChosenLasers chosen(laser_choice("log.laser", options.laser));
   std::optional<bool> has_actions;
   std::set<std::string> labels;
-  while (!laser || !has_actions) {
+  const auto is_missing = [&](const auto& name) { return labels.count(name.first) == 0; };
+  while (!has_actions || labels.empty() || std::any_of(named.begin(), named.end(), is_missing)) {
     const auto object = archive.next();
     if (!object) break;
     const auto* actions = dynamic_cast<const CActionCollection*>(object.get());
@@ -54,19 +67,16 @@ Contents find_laser_and_odometry(const std::filesystem::path& path, const LogOpt
         has_actions = false;
       if (dynamic_cast<const CObservation2DRangeScan*>(&observation) == nullptr) return;
       labels.insert(observation.sensorLabel);
-      const bool wanted = options.laser.empty() || options.laser == observation.sensorLabel;
-      if (!laser && wanted) laser = observation.sensorLabel;
+      chosen.number_of(observation.sensorLabel);
     });
   }
   if (labels.empty()) {
     throw UserError(path.string() +
                     " has no laser scans, expected observations of class CObservation2DRangeScan");
   }
-  if (!laser) {
-    std::string known;
-    for (const std::string& label : labels) known += (known.empty() ? "\"" : ", \"") + label + "\"";
-    throw UserError("log.laser is \"" + options.laser + "\", expected the label of a laser of " +
-                    path.string() + ": " + known);
+  if (const auto missing = std::find_if(named.begin(), named.end(), is_missing); missing != named.end()) {
+    throw UserError(missing->second + " is \"" + missing->first + "\", expected the label of a laser of " +
+                    path.string() + ": " + quoted_list({labels.begin(), labels.end()}));
   }
   if (!has_actions) {
     throw UserError(
@@ -74,7 +84,9 @@ Contents find_laser_and_odometry(const std::filesystem::path& path, const LogOpt
         " has no odometry, expected actions of class CActionRobotMovement2D or observations of class "
         "CObservationOdometry");
   }
-  return {*laser, *has_actions};
+  std::string label;
+  for (const std::string& name : chosen.names()) label += (label.empty() ? "" : ", ") + name;
+  return {label, *has_actions};
 }
 
 }  // namespace
@@ -82,8 +94,8 @@ Contents find_laser_and_odometry(const std::filesystem::path& path, const LogOpt
 class RawlogReader::Implementation {
  public:
   Implementation(const std::filesystem::path& path, const LogOptions& options)
-      : archive_(path), laser_(options) {
-    const Contents contents = find_laser_and_odometry(path, options);
+      : archive_(path), lasers_(options) {
+    const Contents contents = find_lasers_and_odometry(path, options);
     statistics_.sensor_label = contents.sensor_label;
     statistics_.has_actions = contents.has_actions;
   }
@@ -128,13 +140,14 @@ class RawlogReader::Implementation {
   }
 
   void take_scan(const CObservation2DRangeScan& observation) {
-    if (observation.sensorLabel != statistics_.sensor_label) {
+    auto scan = lasers_.scan(observation, archive_.place());
+    if (!scan) {
       ++statistics_.scans_of_other_lasers[observation.sensorLabel];
       return;
     }
     Frame frame;
     frame.time_us = stamp_of(observation, "scan");
-    frame.scan = laser_.scan(observation, archive_.place());
+    frame.scan = *std::move(scan);
     frame.odom_T_robot = odom_T_robot_;
     if (statistics_.has_actions) {
       ready_.push_back(std::move(frame));
@@ -156,7 +169,7 @@ class RawlogReader::Implementation {
   }
 
   RawlogArchive archive_;
-  RawlogLaser laser_;
+  RawlogLasers lasers_;
   RawlogStatistics statistics_;
   mrpt::math::TPose2D odom_T_robot_{0, 0, 0};  // the sum of the actions
   std::optional<std::string> odometry_label_;

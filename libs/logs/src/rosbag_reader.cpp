@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/logs/rosbag_reader.h"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
+#include <vector>
 
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/bag_plan.h"
@@ -22,10 +24,12 @@ mrpt::math::TPose2D on_floor(const mrpt::math::TPose3D& pose) {
 class RosbagReader::Implementation {
  public:
   Implementation(const std::filesystem::path& path, const LogOptions& options)
-      : plan_(plan_bag(path, options)), bag_(open_bag(path)), laser_(options) {
+      : plan_(plan_bag(path, options)), bag_(open_bag(path)) {
     bag_->want(plan_.topics());
-    for (const std::string& topic : plan_.scan_topics)
+    for (const std::string& topic : plan_.scan_topics) {
       statistics_.scans += (statistics_.scans.empty() ? "" : ", ") + topic;
+      lasers_.emplace_back(options_of_topic(options, topic));
+    }
     statistics_.odometry =
         plan_.odometry_topic.empty() ? plan_.odom_frame + " -> " + plan_.base_frame : plan_.odometry_topic;
   }
@@ -73,7 +77,7 @@ class RosbagReader::Implementation {
         const RosTransform odometry = read_ros_odometry(message);
         interpolator_.add_odometry(odometry.header.time_us, on_floor(odometry.pose));
       } else {
-        take_scan(read_ros_laser_scan(message));
+        take_scan(read_ros_laser_scan(message), laser_of(message.topic->name));
       }
     } catch (const MalformedBytes& error) {
       throw UserError(bag_->place() + ": the message on " + message.topic->name +
@@ -91,19 +95,25 @@ class RosbagReader::Implementation {
     }
   }
 
-  void take_scan(RosLaserScan message) {
+  std::size_t laser_of(const std::string& topic) const {
+    const auto& topics = plan_.scan_topics;
+    return static_cast<std::size_t>(std::find(topics.begin(), topics.end(), topic) - topics.begin());
+  }
+
+  void take_scan(RosLaserScan message, std::size_t laser) {
     if (message.ranges_m.empty()) return;  // nothing to map
     const auto robot_T_laser = plan_.transforms.base_T_frame(plan_.base_frame, message.header.frame);
     const FloorMount mount = robot_T_laser ? floor_mount(*robot_T_laser, bag_->place()) : FloorMount{};
     Frame frame;
     frame.time_us = message.header.time_us;
-    frame.scan = laser_.scan(std::move(message), mount, bag_->place());
+    frame.scan = lasers_[laser].scan(std::move(message), mount, bag_->place());
+    frame.scan.laser = laser;
     interpolator_.add_scan(std::move(frame));
   }
 
   BagPlan plan_;
   std::unique_ptr<BagFile> bag_;
-  RosLaser laser_;
+  std::vector<RosLaser> lasers_;  // by the topics of the plan
   OdometryInterpolator interpolator_;
   RosbagStatistics statistics_;
   std::exception_ptr failure_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace psi_slam {
 namespace {
@@ -18,18 +19,30 @@ std::size_t RangeImage::bin(double bearing_rad) {
   return std::min(index, kBins - 1);
 }
 
-RangeImage::RangeImage(const ScanPoints& scan)
-    : origin_(scan.origin),
-      nearest_m_(kBins, std::numeric_limits<float>::infinity()),
-      farthest_m_(kBins, 0.0F) {
-  for (const auto& point : scan.points) {
-    const float dx = point.x - origin_.x;
-    const float dy = point.y - origin_.y;
-    const std::size_t b = bin(std::atan2(static_cast<double>(dy), static_cast<double>(dx)));
-    const float range = std::hypot(dx, dy);
-    nearest_m_[b] = std::min(nearest_m_[b], range);
-    farthest_m_[b] = std::max(farthest_m_[b], range);
-  }
+RangeImage::RangeImage(const ScanPoints& scan) {
+  for_each_laser(scan, [&](const mrpt::math::TPoint2Df& origin, std::size_t first, std::size_t end) {
+    View view{origin, std::vector<float>(kBins, std::numeric_limits<float>::infinity()),
+              std::vector<float>(kBins, 0.0F)};
+    for (std::size_t i = first; i < end; ++i) {
+      const float dx = scan.points[i].x - origin.x;
+      const float dy = scan.points[i].y - origin.y;
+      const std::size_t b = bin(std::atan2(static_cast<double>(dy), static_cast<double>(dx)));
+      const float range = std::hypot(dx, dy);
+      view.nearest_m[b] = std::min(view.nearest_m[b], range);
+      view.farthest_m[b] = std::max(view.farthest_m[b], range);
+    }
+    views_.push_back(std::move(view));
+  });
+}
+
+RangeImage::Verdict RangeImage::View::judge(double x, double y, double tolerance_m) const {
+  const double dx = x - static_cast<double>(origin.x);
+  const double dy = y - static_cast<double>(origin.y);
+  const std::size_t b = bin(std::atan2(dy, dx));
+  if (farthest_m[b] <= 0) return Verdict::kNothing;
+  const double range = std::hypot(dx, dy);
+  if (range > static_cast<double>(farthest_m[b]) + tolerance_m) return Verdict::kNothing;  // hidden
+  return range < static_cast<double>(nearest_m[b]) - tolerance_m ? Verdict::kContradicts : Verdict::kAgrees;
 }
 
 RangeImage::Agreement RangeImage::compare(const ScanPoints& other, const mrpt::math::TPose2D& this_T_other,
@@ -40,16 +53,10 @@ RangeImage::Agreement RangeImage::compare(const ScanPoints& other, const mrpt::m
   for (const auto& point : other.points) {
     const double x = this_T_other.x + c * static_cast<double>(point.x) - s * static_cast<double>(point.y);
     const double y = this_T_other.y + s * static_cast<double>(point.x) + c * static_cast<double>(point.y);
-    const double dx = x - static_cast<double>(origin_.x);
-    const double dy = y - static_cast<double>(origin_.y);
-    const std::size_t b = bin(std::atan2(dy, dx));
-    if (farthest_m_[b] <= 0) continue;
-    const double range = std::hypot(dx, dy);
-    if (range > static_cast<double>(farthest_m_[b]) + tolerance_m) continue;  // hidden
-    if (range < static_cast<double>(nearest_m_[b]) - tolerance_m)
-      ++result.contradict;
-    else
-      ++result.agree;
+    Verdict verdict = Verdict::kNothing;
+    for (const View& view : views_) verdict = std::max(verdict, view.judge(x, y, tolerance_m));
+    if (verdict == Verdict::kAgrees) ++result.agree;
+    if (verdict == Verdict::kContradicts) ++result.contradict;
   }
   return result;
 }

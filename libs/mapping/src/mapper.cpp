@@ -148,8 +148,7 @@ void Mapper::refine_poses(const std::function<bool(double)>& progress) {
   scans.node_frames = result_.node_frames;
   scans.points = [&](std::size_t frame) {
     const std::optional<std::size_t>& node = result_.frames[frame].node;
-    return node ? *memory_.nodes[*node].points
-                : matching_points(result_.log[frame].scan, options_.front_end.scan);
+    return node ? *memory_.nodes[*node].points : matching_points(result_.log[frame], options_.front_end.scan);
   };
   refine_jointly(scans, options_.joint_refinement, keeper_.pool(), progress);
   // The map's frame stays that of the first node, as the graph has it.

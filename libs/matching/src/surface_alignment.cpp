@@ -116,13 +116,16 @@ Normals compare(const SurfaceMap& map, const SurfacePoints& scan, const TPose2D&
 
 SurfacePoints surface_points(const ScanPoints& scan) {
   SurfacePoints result;
-  for (std::size_t i = 0; i < scan.normals.size(); ++i) {
-    const Point& normal = scan.normals[i];
-    if (normal.x == 0.0F && normal.y == 0.0F) continue;
-    result.points.push_back(scan.points[i]);
-    const bool away = dot(normal, scan.points[i] - scan.origin) > 0;
-    result.normals.push_back(away ? Point(-normal.x, -normal.y) : normal);
-  }
+  if (scan.normals.empty()) return result;
+  for_each_laser(scan, [&](const Point& origin, std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const Point& normal = scan.normals[i];
+      if (normal.x == 0.0F && normal.y == 0.0F) continue;
+      result.points.push_back(scan.points[i]);
+      const bool away = dot(normal, scan.points[i] - origin) > 0;
+      result.normals.push_back(away ? Point(-normal.x, -normal.y) : normal);
+    }
+  });
   return result;
 }
 

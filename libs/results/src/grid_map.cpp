@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -25,10 +26,16 @@ struct Point {
   double y = 0;
 };
 
-/// A beam that returned: where it starts, where it ends, and whether that end is an obstacle.
+/// A beam that returned: where it ends, and whether that end is an obstacle.
 struct Ray {
   Point end;
   bool hit = false;
+};
+
+/// The rays of one scan, which start where its laser was.
+struct Fan {
+  Point start;
+  std::vector<Ray> rays;
 };
 
 /// Turns scans into rays in the map's frame; sines and cosines of the bearings are kept from scan to scan.
@@ -36,8 +43,7 @@ class RayMaker {
  public:
   explicit RayMaker(double max_range_m) : max_range_m_(max_range_m) {}
 
-  /// The rays of a scan; `start` is the laser's place.
-  const std::vector<Ray>& rays(const LaserScan& scan, const TPose2D& map_T_robot, Point& start) {
+  const Fan& fan(const LaserScan& scan, const TPose2D& map_T_robot) {
     if (scan.bearings_rad != bearings_) use_bearings(scan.bearings_rad);
     const std::size_t beams = scan.ranges_m.size();
     if (directions_.size() != beams)
@@ -48,18 +54,18 @@ class RayMaker {
       throw std::invalid_argument("draw_grid_map: a pose is not finite");
     const double c = std::cos(map_T_laser.phi);
     const double s = std::sin(map_T_laser.phi);
-    start = {map_T_laser.x, map_T_laser.y};
-    rays_.clear();
+    fan_.start = {map_T_laser.x, map_T_laser.y};
+    fan_.rays.clear();
     for (std::size_t i = 0; i < beams; ++i) {
       const double range_m = static_cast<double>(scan.ranges_m[i]);
       if (!std::isfinite(range_m)) continue;
       const double length = std::min(range_m, max_range_m_);
       const Point& direction = directions_[i];
-      rays_.push_back({{start.x + length * (c * direction.x - s * direction.y),
-                        start.y + length * (s * direction.x + c * direction.y)},
-                       range_m <= max_range_m_});
+      fan_.rays.push_back({{fan_.start.x + length * (c * direction.x - s * direction.y),
+                            fan_.start.y + length * (s * direction.x + c * direction.y)},
+                           range_m <= max_range_m_});
     }
-    return rays_;
+    return fan_;
   }
 
  private:
@@ -76,7 +82,28 @@ class RayMaker {
   double max_range_m_;
   BeamBearings bearings_;
   std::vector<Point> directions_;
-  std::vector<Ray> rays_;
+  Fan fan_;
+};
+
+/// A maker for each laser of the robot, since all have bearings of their own.
+class FanMaker {
+ public:
+  explicit FanMaker(double max_range_m) : max_range_m_(max_range_m) {}
+
+  /// Of all scans of a frame; valid until the next call.
+  const std::vector<const Fan*>& fans(const Frame& frame, const TPose2D& map_T_robot) {
+    fans_.clear();
+    for_each_scan(frame, map_T_robot, [&](const LaserScan& scan, const TPose2D& map_T_robot_then) {
+      while (makers_.size() <= scan.laser) makers_.emplace_back(max_range_m_);
+      fans_.push_back(&makers_[scan.laser].fan(scan, map_T_robot_then));
+    });
+    return fans_;
+  }
+
+ private:
+  double max_range_m_;
+  std::deque<RayMaker> makers_;  // whose fans stay where they are
+  std::vector<const Fan*> fans_;
 };
 
 struct Bounds {
@@ -94,12 +121,13 @@ struct Bounds {
 };
 
 Bounds bounds_of(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot, double max_range_m) {
-  RayMaker maker(max_range_m);
+  FanMaker maker(max_range_m);
   Bounds bounds;
-  Point start;
   for (std::size_t i = 0; i < log.size(); ++i) {
-    for (const Ray& ray : maker.rays(log[i].scan, map_T_robot[i], start)) bounds.include(ray.end);
-    bounds.include(start);
+    for (const Fan* fan : maker.fans(log[i], map_T_robot[i])) {
+      for (const Ray& ray : fan->rays) bounds.include(ray.end);
+      bounds.include(fan->start);
+    }
   }
   if (log.empty()) bounds.include({0, 0});
   return bounds;
@@ -135,11 +163,14 @@ class Evidence {
   explicit Evidence(const Layout& layout)
       : layout_(layout), cells_(static_cast<std::size_t>(layout.width * layout.height)) {}
 
-  void add_scan(const Point& start, const std::vector<Ray>& rays) {
+  /// What several lasers saw at once counts once in each cell, obstacles first.
+  void add_frame(const std::vector<const Fan*>& fans) {
     next_scan();
-    for (const Ray& ray : rays)
-      if (ray.hit) count(index_of(ray.end), kHitEvidence);
-    for (const Ray& ray : rays) pass(in_cells(start), in_cells(ray.end));
+    for (const Fan* fan : fans)
+      for (const Ray& ray : fan->rays)
+        if (ray.hit) count(index_of(ray.end), kHitEvidence);
+    for (const Fan* fan : fans)
+      for (const Ray& ray : fan->rays) pass(in_cells(fan->start), in_cells(ray.end));
   }
 
   COccupancyGridMap2D::Ptr grid() const {
@@ -245,12 +276,8 @@ COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log, const std:
                                        const GridMapOptions& options) {
   check(log, map_T_robot, options);
   Evidence evidence(layout_for(bounds_of(log, map_T_robot, options.max_range_m), options));
-  RayMaker maker(options.max_range_m);
-  Point start;
-  for (std::size_t i = 0; i < log.size(); ++i) {
-    const std::vector<Ray>& rays = maker.rays(log[i].scan, map_T_robot[i], start);
-    evidence.add_scan(start, rays);
-  }
+  FanMaker maker(options.max_range_m);
+  for (std::size_t i = 0; i < log.size(); ++i) evidence.add_frame(maker.fans(log[i], map_T_robot[i]));
   return evidence.grid();
 }
 

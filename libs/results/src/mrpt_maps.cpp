@@ -30,7 +30,8 @@ mrpt::maps::CSimpleMap simple_map(const MappingResult& result) {
   mrpt::maps::CSimpleMap map;
   for (const std::size_t frame : result.node_frames) {
     auto observations = mrpt::obs::CSensoryFrame::Create();
-    observations->insert(range_observation(result.log.at(frame)));
+    for (const auto& observation : range_observations(result.log.at(frame)))
+      observations->insert(observation);
     const mrpt::poses::CPose2D pose(result.frames.at(frame).map_T_robot);
     map.insert(mrpt::poses::CPosePDFGaussian::Create(pose, covariance), observations);
   }

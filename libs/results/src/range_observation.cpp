@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "psi_slam/logs/rawlog_objects.h"
@@ -43,16 +44,14 @@ EvenRays even_rays(const std::vector<float>& bearings) {
   }
 }
 
-}  // namespace
-
-CObservation2DRangeScan::Ptr range_observation(const Frame& frame) {
-  const LaserScan& scan = frame.scan;
+CObservation2DRangeScan::Ptr observation_of(const LaserScan& scan, TimeUs time_us,
+                                            const mrpt::math::TPose2D& robot_T_laser) {
   const std::vector<float>& bearings = *scan.bearings_rad;
   const EvenRays rays = even_rays(bearings);
 
   auto observation = CObservation2DRangeScan::Create();
-  observation->timestamp = mrpt_clock_time(frame.time_us);
-  observation->sensorLabel = "LASER";
+  observation->timestamp = mrpt_clock_time(time_us);
+  observation->sensorLabel = scan.laser == 0 ? "LASER" : "LASER" + std::to_string(scan.laser + 1);
   observation->maxRange = scan.max_range_m;
   observation->resizeScanAndAssign(rays.count, scan.max_range_m, false);
   float middle = 0;
@@ -62,14 +61,27 @@ CObservation2DRangeScan::Ptr range_observation(const Frame& frame) {
     middle = (bearings.front() + bearings.back()) / 2;
   }
   observation->sensorPose = mrpt::poses::CPose3D(
-      scan.robot_T_laser +
-      mrpt::math::TPose2D(0, 0, std::abs(middle) < 1e-6F ? 0 : static_cast<double>(middle)));
+      robot_T_laser + mrpt::math::TPose2D(0, 0, std::abs(middle) < 1e-6F ? 0 : static_cast<double>(middle)));
   for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
     if (!std::isfinite(scan.ranges_m[beam])) continue;
     observation->setScanRange(rays.ray_of_beam[beam], scan.ranges_m[beam]);
     observation->setScanRangeValidity(rays.ray_of_beam[beam], true);
   }
   return observation;
+}
+
+}  // namespace
+
+CObservation2DRangeScan::Ptr range_observation(const Frame& frame) {
+  return observation_of(frame.scan, frame.time_us, frame.scan.robot_T_laser);
+}
+
+std::vector<CObservation2DRangeScan::Ptr> range_observations(const Frame& frame) {
+  std::vector<CObservation2DRangeScan::Ptr> observations{range_observation(frame)};
+  for (const CompanionScan& companion : frame.companions)
+    observations.push_back(observation_of(companion.scan, companion.time_us,
+                                          companion.frame_T_robot + companion.scan.robot_T_laser));
+  return observations;
 }
 
 }  // namespace psi_slam

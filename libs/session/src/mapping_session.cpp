@@ -22,9 +22,13 @@ std::unique_ptr<FrameSource> open(const std::filesystem::path& path, const Setti
   return std::make_unique<ReadAhead>(std::move(source));
 }
 
-bool has_return(const LaserScan& scan) {
-  return std::any_of(scan.ranges_m.begin(), scan.ranges_m.end(),
-                     [](float range_m) { return std::isfinite(range_m); });
+bool has_return(const Frame& frame) {
+  bool any = false;
+  for_each_scan(frame, {}, [&](const LaserScan& scan, const mrpt::math::TPose2D&) {
+    any = any || std::any_of(scan.ranges_m.begin(), scan.ranges_m.end(),
+                             [](float range_m) { return std::isfinite(range_m); });
+  });
+  return any;
 }
 
 }  // namespace
@@ -62,7 +66,7 @@ bool MappingSession::step() {
     const WorkClock clock(work_s_);
     std::optional<Frame> frame = read();
     if (!frame) return false;
-    any_return_ = any_return_ || has_return(frame->scan);
+    any_return_ = any_return_ || has_return(*frame);
     mapper_->add(*std::move(frame));
     make_due_edits({EditTime::Kind::kAfterScan, scans_++});
   }

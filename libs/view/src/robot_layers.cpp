@@ -58,8 +58,10 @@ void draw_scan(SceneLayer& layer, const Frame& frame, const TPose2D& map_T_robot
   ScanFilterOptions all;
   all.spacing_m = 0;
   all.max_range_m = static_cast<double>(frame.scan.max_range_m);
+  for (const CompanionScan& companion : frame.companions)
+    all.max_range_m = std::max(all.max_range_m, static_cast<double>(companion.scan.max_range_m));
   std::vector<TPoint3Df> points;
-  for (const mrpt::math::TPoint2Df& point : matching_points(frame.scan, all).points) {
+  for (const mrpt::math::TPoint2Df& point : matching_points(frame, all).points) {
     const TPoint2D at =
         map_T_robot.composePoint({static_cast<double>(point.x), static_cast<double>(point.y)});
     points.push_back(raised(at, height_m::kScan));

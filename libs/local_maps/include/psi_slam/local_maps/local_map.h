@@ -48,7 +48,11 @@ class LocalMap {
 
   /// Draws a scan: cells at beam ends become more occupied, cells on the way there less, each at most once a
   /// scan and ends before ways. Must not be called after finish().
-  void insert(const Beams& beams);
+  void insert(const Beams& beams) { insert(std::vector<Beams>{beams}); }
+
+  /// Scans of several lasers at once, each with the origin of its own, are drawn as one: no beam of one laser
+  /// wipes out what another saw at that very time.
+  void insert(const std::vector<Beams>& scans);
 
   /// What was inserted so far; none once finished.
   const std::optional<mrpt::maps::COccupancyGridMap2D>& occupancy() const { return grid_; }
@@ -88,10 +92,17 @@ class LocalMap {
     int x_end = 0;
     int y_end = 0;
   };
-  void grow_to_hold(const Beams& beams);
+  struct Way {  // from cell to cell
+    int from_x = 0;
+    int from_y = 0;
+    int to_x = 0;
+    int to_y = 0;
+  };
+  void grow_to_hold(const std::vector<Beams>& scans);
   void add_to_dirty(const Region& region);
   Region observed_region() const;
   bool observed(int x, int y) const;
+  void draw_hits(const Beams& beams, std::vector<Way>& ways);
   void draw_hit(int x, int y);
   void draw_way(int x0, int y0, int x1, int y1);
 

@@ -13,7 +13,7 @@ namespace psi_slam {
 
 /// What of a ROS bag is read.
 struct BagPlan {
-  std::vector<std::string> scan_topics;
+  std::vector<std::string> scan_topics;  ///< by the numbers of the lasers (LaserScan::laser)
   std::string odometry_topic;  ///< empty: odometry is the transform from odom_frame to base_frame
   std::vector<std::string> transform_topics;
   std::string odom_frame;
@@ -26,6 +26,9 @@ struct BagPlan {
 
 /// The poses of robots in bags come from a topic of their own or from a transform.
 bool is_transforms(const BagTopic& topic);
+
+/// The options for the laser of a topic, with its stated mount.
+LogOptions options_of_topic(const LogOptions& options, const std::string& topic);
 
 /// Finds the topics by their types, or by name where the user names them, and the frames by reading on until
 /// all are known. Throws UserError when something is missing, or there are several and none is named.

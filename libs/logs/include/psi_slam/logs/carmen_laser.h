@@ -11,13 +11,19 @@
 
 #include "psi_slam/logs/carmen_message.h"
 #include "psi_slam/logs/frame.h"
+#include "psi_slam/logs/laser_choice.h"
 #include "psi_slam/logs/log_options.h"
 
 namespace psi_slam {
 
 /// The message names that can hold the scans the user asked for (`LogOptions::laser`), the preferred first.
 /// Throws UserError for a laser that CARMEN does not have.
-std::vector<std::string> carmen_laser_messages(const std::string& laser);
+std::vector<std::string> carmen_laser_messages(const std::string& laser,
+                                               const std::string& option = "log.laser");
+
+/// The same for each laser of a choice (log.laser); of all, the front one, the rear one and the others, so
+/// that a laser which the log tells of in several kinds of messages is read once.
+std::vector<std::vector<std::string>> carmen_lasers_wanted(const LaserChoice& choice);
 
 /// Turns the messages of one CARMEN laser into scans: what the message states, over that what PARAM lines
 /// state, over that what the user states.
@@ -26,6 +32,10 @@ class CarmenLaser {
   CarmenLaser(std::string message_name, const LogOptions& options);
 
   const std::string& message_name() const { return message_name_; }
+  const std::string& position() const { return position_; }  ///< "front", "rear", or empty
+
+  /// Whether anybody has said where the laser is on the robot.
+  bool knows_mount() const;
 
   /// Takes a PARAM line's name and value (the fields behind "PARAM"); other parameters pass unread. A
   /// malformed line changes nothing.
@@ -38,6 +48,7 @@ class CarmenLaser {
   LaserScan scan(CarmenLaserMessage message, const CarmenFields& fields);
 
  private:
+  bool has_mount_parameters() const;
   mrpt::math::TPose2D robot_T_laser() const;
   double max_range_m(const CarmenLaserMessage& message) const;
   std::vector<float> bearings_rad(const CarmenLaserMessage& message, const CarmenFields& fields) const;

@@ -5,6 +5,8 @@
 // RAWLASER1, whichever the head of the log has; without any of them the rear laser's (ROBOTLASER2, RLASER,
 // RAWLASER2), and then RAWLASER3 and RAWLASER4. Messages of other kinds are counted and otherwise ignored.
 //
+// Where several lasers are read, each frame is the scan of one of them: UnitedSource puts them together.
+//
 // Odometry at the scan's time is in the scan's own line, but for RAWLASER lines, which get it by
 // interpolation between ODOM lines. FLASER lines carry a second pose, which some mapper may have corrected:
 // it is never used.
@@ -27,7 +29,7 @@ namespace psi_slam {
 
 /// What a CARMEN reader met besides the frames it gave.
 struct CarmenStatistics {
-  std::string laser_message;                    ///< the kind that scans come from; empty before the first
+  std::string laser_message;  ///< the kind that scans come from, several with commas; empty before the first
   std::map<std::string, std::size_t> messages;  ///< lines of each kind, the ignored ones too
   std::size_t scans_with_two_poses = 0;         ///< whose line carries another pose than its odometry
   SkippedLines skipped;

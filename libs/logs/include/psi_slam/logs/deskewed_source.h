@@ -4,6 +4,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "psi_slam/logs/frame_source.h"
 
@@ -16,8 +17,8 @@ namespace psi_slam {
 LaserScan deskewed(const LaserScan& scan, const mrpt::math::TPose2D& motion);
 
 /// Takes the robot's motion out of the scans of another source. The motion while a laser turned is that from
-/// the scan's odometry to the next one's, or where there is no later one, from the one before; scans more
-/// than a second away from both stay as they are, and so do those without odometry.
+/// the scan's odometry to that of the same laser's next, or where there is no later one, from the one before;
+/// scans more than a second away from both stay as they are, and so do those without odometry.
 class DeskewedSource : public FrameSource {
  public:
   /// Without a stated time of the sweep, each scan's own holds.
@@ -29,20 +30,24 @@ class DeskewedSource : public FrameSource {
 
  private:
   struct Mark {
+    std::size_t laser = 0;
     TimeUs time_us = 0;
     mrpt::math::TPose2D odom_T_robot;
     bool has_odometry = true;
   };
 
-  static Mark mark_of(const Frame& frame) { return {frame.time_us, frame.odom_T_robot, frame.has_odometry}; }
+  using Marks = std::vector<Mark>;
+
+  static Marks marks_of(const Frame& frame);
+  static const Mark& mark_like(const Mark& mark, const Marks& marks);
   static std::optional<mrpt::math::TPose2D> motion_between(const Mark& from, const Mark& to, double time_s);
   std::optional<Frame> read_ahead();
-  void straighten(Frame& frame, const std::optional<Frame>& behind) const;
+  void straighten(LaserScan& scan, const Mark& mark, const Marks& behind) const;
 
   std::unique_ptr<FrameSource> source_;
   std::optional<double> sweep_time_s_;
   bool started_ = false;
-  std::optional<Mark> before_;
+  Marks before_;
   std::optional<Frame> ahead_;
   std::exception_ptr failure_;  // of reading ahead; told behind the frame in front of it
 };

@@ -37,9 +37,15 @@ struct LogOptions {
   /// The readings run clockwise: a laser mounted upside down whose log does not say so.
   bool mirrored = false;
 
-  /// Which laser. CARMEN: "front", "rear" or a message name such as "RAWLASER2"; rawlog: a sensor label.
-  /// Default: the front laser if there is one, else the only one; of a rawlog, the first.
+  /// Which laser. CARMEN: "front", "rear" or a message name such as "RAWLASER2"; rawlog: a sensor label; ROS:
+  /// a topic of scans. Default: the front laser if there is one, else the only one; of a rawlog, the first.
+  /// "all", or several with commas between them, are read together (see LaserChoice).
   std::string laser;
+
+  /// How lasers are mounted that the log does not tell of, or tells wrongly: "NAME X Y YAW" with metres and
+  /// degrees, "mirrored" behind it for one that hangs upside down; several with commas between them. Names as
+  /// in `laser`. `robot_T_laser`, which is for one laser alone, stands over it.
+  std::string laser_mounts;
 
   /// The time from the first beam of a scan to its last, seconds, in [0, 1]: the robot's motion in it is
   /// taken out of the scan. Default: what the log states (ROS: time_increment), else 0, which leaves scans
@@ -48,7 +54,7 @@ struct LogOptions {
 
   // ROS bags only. What is left empty is found by the types of the topics and by the transforms.
 
-  /// The topic of the scans (sensor_msgs/LaserScan).
+  /// The topic of the scans (sensor_msgs/LaserScan), or several as in `laser`, over which it stands.
   std::string scan_topic;
 
   /// The topic of the odometry (nav_msgs/Odometry); one of transforms ("/tf") takes the transform instead.

@@ -8,8 +8,10 @@
 //   interpolated at each scan's time.
 //
 // The kind of odometry that comes first decides; where both exist the other is left unread. Scans come from
-// one sensor, by default the first in the log. Time stamps, in ticks of 100 ns since 1601 there, become Unix
-// time to the nearest microsecond.
+// one sensor, by default the first in the log, or from several. Time stamps, in ticks of 100 ns since 1601
+// there, become Unix time to the nearest microsecond.
+//
+// Each frame is the scan of one laser, also where several are read: UnitedSource puts them together.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +28,8 @@ namespace psi_slam {
 
 /// What a rawlog reader met besides the frames it gave.
 struct RawlogStatistics {
-  std::string sensor_label;  ///< of the laser that scans come from; may be empty in the log, too
+  std::string sensor_label;  ///< of the laser that scans come from, or several with commas; may be empty in
+                             ///< the log, too
   bool has_actions = false;  ///< form: actions and sensory frames, or observations one by one
   std::map<std::string, std::size_t> scans_of_other_lasers;  ///< by sensor label
 };

@@ -2,6 +2,7 @@
 // ROS bags of any kind (see bag_file.h): sensor_msgs/LaserScan with the odometry of nav_msgs/Odometry or of
 // the transform odom -> base_link, interpolated at each scan's own header stamp, and with the laser's mount
 // out of the transforms. A message without stamp has the time at which it was recorded.
+// Each frame is the scan of one laser, also where several are read: UnitedSource puts them together.
 //
 // A bag that is damaged or cut off gives all frames before that place.
 #pragma once

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One scan as a range image, to ask whether what another scan saw agrees with it: a point of the other that
 // this scan looked straight through contradicts it, a point on what it measured agrees, and a point hidden
-// behind says nothing.
+// behind says nothing. Of a robot with several lasers each has an image of its own, and a point that any of
+// them measured agrees.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -30,11 +31,19 @@ class RangeImage {
                     double tolerance_m) const;
 
  private:
+  enum class Verdict { kNothing, kContradicts, kAgrees };
+  /// What one laser saw.
+  struct View {
+    mrpt::math::TPoint2Df origin;
+    std::vector<float> nearest_m;   ///< per bin of bearings; infinite where no beam went
+    std::vector<float> farthest_m;  ///< 0 where no beam went
+
+    Verdict judge(double x, double y, double tolerance_m) const;
+  };
+
   static std::size_t bin(double bearing_rad);
 
-  mrpt::math::TPoint2Df origin_;
-  std::vector<float> nearest_m_;   ///< per bin of bearings; infinite where no beam went
-  std::vector<float> farthest_m_;  ///< 0 where no beam went
+  std::vector<View> views_;
 };
 
 }  // namespace psi_slam

@@ -4,6 +4,8 @@
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
+#include <vector>
+
 #include "psi_slam/logs/frame.h"
 
 namespace psi_slam {
@@ -13,5 +15,9 @@ namespace psi_slam {
 /// times as many, that meet each bearing within a milliradian, or else on the finest; rays without a beam,
 /// and beams without a return, are invalid. A fan that does not look straight ahead turns the sensor's pose.
 mrpt::obs::CObservation2DRangeScan::Ptr range_observation(const Frame& frame);
+
+/// Those of all lasers of the frame, with labels of their own and their own stamps, for a sensory frame: each
+/// sensor's pose is seen from where the robot was at the frame's time.
+std::vector<mrpt::obs::CObservation2DRangeScan::Ptr> range_observations(const Frame& frame);
 
 }  // namespace psi_slam

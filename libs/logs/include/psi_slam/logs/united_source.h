@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <exception>
+#include <memory>
+#include <optional>
+
+#include "psi_slam/logs/frame_source.h"
+#include "psi_slam/logs/scan_uniter.h"
+
+namespace psi_slam {
+
+/// Makes frames of all lasers out of a source whose frames are the scans of one each (see ScanUniter). What
+/// is wrong with the log is told behind the frames before that place.
+class UnitedSource : public FrameSource {
+ public:
+  explicit UnitedSource(std::unique_ptr<FrameSource> source);
+
+  /// Numbered anew.
+  std::optional<Frame> next() override;
+  double progress() const override { return source_->progress(); }
+  SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
+
+ private:
+  void read();
+
+  std::unique_ptr<FrameSource> source_;
+  ScanUniter uniter_;
+  std::size_t frames_given_ = 0;
+  bool at_end_ = false;
+  std::exception_ptr failure_;
+};
+
+}  // namespace psi_slam

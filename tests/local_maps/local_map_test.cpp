@@ -387,5 +387,32 @@ TEST(LocalMap, agrees_with_MRPTs_own_drawing_of_a_square_room) {
   EXPECT_GT(free_shared, 0.98 * free);
 }
 
+TEST(LocalMap, every_laser_carves_free_space_from_where_it_is_itself) {
+  // Front and rear laser half a metre off the robot's centre; the wall behind is the rear one's alone.
+  const Beams front = beam(middle(10, 0), middle(60, 0));
+  const Beams rear = beam(middle(-10, 0), middle(-60, 0));
+  LocalMap map(without_smoothing());
+  map.insert(std::vector<Beams>{front, rear});
+  map.scores();
+  EXPECT_GT(score_at(map.scores(), middle(60, 0)), 128);
+  EXPECT_GT(score_at(map.scores(), middle(-60, 0)), 128);
+  for (int x = 11; x < 60; ++x) {
+    EXPECT_EQ(observed(map, middle(x, 0)), 1U) << x;
+    EXPECT_EQ(observed(map, middle(-x, 0)), 1U) << -x;
+    EXPECT_LT(score_at(map.scores(), middle(-x, 0)), 64) << -x;
+  }
+  for (int x = -8; x <= 8; ++x) EXPECT_EQ(observed(map, middle(x, 0)), 0U) << "nobody looked there: " << x;
+}
+
+TEST(LocalMap, no_laser_wipes_out_what_another_saw_at_that_very_time) {
+  const Beams hit = beam(middle(0, 0), middle(40, 0));
+  const Beams through = beam(middle(0, 1), middle(80, -1));  // by the hit's cell, half way
+  LocalMap together(with_weak_hits());
+  together.insert(std::vector<Beams>{hit, through});
+  LocalMap alone(with_weak_hits());
+  alone.insert(hit);
+  EXPECT_EQ(score_at(together.scores(), middle(40, 0)), score_at(alone.scores(), middle(40, 0)));
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -205,5 +205,50 @@ TEST(DrawingBeams, are_cut_at_the_largest_range_and_left_out_below_the_least) {
   EXPECT_NEAR(beams.ends[2].norm(), 6, 1e-6);
 }
 
+/// The front laser sees a wall 2 m ahead of it; the rear one, looking back, one 3 m behind it. The robot
+/// turned left by 0.1 between the two.
+Frame two_laser_frame() {
+  Frame frame;
+  frame.scan = scan_of({2, 2, 2}, {0.5, 0, 0});
+  CompanionScan rear{scan_of({3, kNan, 3}, {-0.5, 0, M_PI}), 50'000, {0, 0, 0.1}};
+  rear.scan.laser = 1;
+  frame.companions.push_back(rear);
+  return frame;
+}
+
+TEST(MatchingPoints, of_a_frame_are_those_of_all_its_lasers_each_seen_from_its_own_place) {
+  const Frame frame = two_laser_frame();
+  const ScanPoints both = matching_points(frame, without_thinning());
+  const ScanPoints front = matching_points(frame.scan, without_thinning());
+  const ScanPoints rear = matching_points(frame.companions[0].scan, without_thinning());
+  ASSERT_EQ(both.points.size(), 5U);
+  ASSERT_EQ(both.normals.size(), 5U);
+  EXPECT_TRUE(std::equal(front.points.begin(), front.points.end(), both.points.begin()));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const TPose2D turned(0, 0, 0.1);
+    const auto expected =
+        turned.composePoint({static_cast<double>(rear.points[i].x), static_cast<double>(rear.points[i].y)});
+    EXPECT_NEAR(static_cast<double>(both.points[3 + i].x), expected.x, 1e-5);
+    EXPECT_NEAR(static_cast<double>(both.points[3 + i].y), expected.y, 1e-5);
+  }
+  ASSERT_EQ(both.other_lasers.size(), 1U);
+  EXPECT_EQ(both.other_lasers[0].first_point, 3U);
+  EXPECT_NEAR(static_cast<double>(both.other_lasers[0].origin.x), -0.5 * std::cos(0.1), 1e-6);
+  EXPECT_NEAR(static_cast<double>(both.other_lasers[0].origin.y), -0.5 * std::sin(0.1), 1e-6);
+  EXPECT_NEAR(both.farthest_m, rear.farthest_m, 1e-9);
+  std::vector<std::size_t> ends;
+  for_each_laser(both, [&](const TPoint2Df&, std::size_t, std::size_t end) { ends.push_back(end); });
+  EXPECT_EQ(ends, (std::vector<std::size_t>{3, 5}));
+}
+
+TEST(DrawingBeams, of_a_frame_begin_at_each_of_its_lasers) {
+  const auto beams = drawing_beams(two_laser_frame(), {10, 20, M_PI / 2}, 0.1, 40);
+  ASSERT_EQ(beams.size(), 2U);
+  EXPECT_NEAR(beams[0].origin.y, 20.5, 1e-9);
+  EXPECT_NEAR(beams[1].origin.x, 10 + 0.5 * std::sin(0.1), 1e-9);
+  EXPECT_NEAR(beams[1].origin.y, 20 - 0.5 * std::cos(0.1), 1e-9);
+  EXPECT_EQ(beams[1].ends.size(), 2U);
+}
+
 }  // namespace
 }  // namespace psi_slam

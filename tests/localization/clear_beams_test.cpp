@@ -44,5 +44,14 @@ TEST(ClearBeams, of_no_beams_no_share_is_clear) {
   EXPECT_EQ(clear_beams(wall_across(), {}, {1, 2, 0}).share(), 0);
 }
 
+TEST(ClearBeams, each_laser_has_beams_of_its_own) {
+  ScanPoints scan = one_point(2.5F, 0);  // from the robot through the wall
+  scan.points.push_back(scan.points.front());
+  scan.other_lasers.push_back({1, {1.5F, 0}});  // behind the wall
+  const ClearBeams beams = clear_beams(wall_across(), scan, {1, 2, 0});
+  EXPECT_EQ(beams.beams, 2U);
+  EXPECT_EQ(beams.clear, 1U);
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -79,5 +79,36 @@ TEST(EntryFrames, a_scan_without_time_is_refused) {
             "scan 1 has no time stamp, expected one on every observation");
 }
 
+TEST(EntryFrames, of_two_lasers_hold_the_scans_of_both) {
+  LogOptions options;
+  options.laser = "all";
+  EntryFrames entries(options);
+  const auto rear = [](TimeUs time_us) {
+    auto scan = range_scan(time_us, "REAR");
+    scan->sensorPose = mrpt::poses::CPose3D(-0.3, 0, 0, M_PI, 0, 0);
+    return scan;
+  };
+  for (TimeUs t = 0; t < 4; ++t) {
+    const TimeUs time_us = 1'000'000 + t * 100'000;
+    entries.take(nullptr, nullptr, odometry(time_us, {0.1 * static_cast<double>(t), 0, 0}));
+    entries.take(nullptr, nullptr, range_scan(time_us, "FRONT"));
+    if (t != 1) entries.take(nullptr, nullptr, rear(time_us + 50'000));
+  }
+  entries.take(nullptr, nullptr, odometry(1'400'000, {0.4, 0, 0}));
+  EXPECT_EQ(entries.scans(), 7u);
+  entries.end_of_log();
+  std::vector<std::size_t> opened_by;
+  std::vector<std::size_t> companions;
+  while (const std::optional<Frame> frame = entries.next()) {
+    EXPECT_EQ(frame->index, opened_by.size());
+    opened_by.push_back(entries.opened_by());
+    companions.push_back(frame->companions.size());
+    for (const CompanionScan& companion : frame->companions)
+      EXPECT_NEAR(companion.frame_T_robot.x, 0.05, 1e-9);
+  }
+  EXPECT_THAT(opened_by, ElementsAre(0, 2, 3, 5));
+  EXPECT_THAT(companions, ElementsAre(1, 0, 1, 1));
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -122,5 +122,23 @@ TEST(RangeImage, scans_without_points_say_nothing) {
   expect_agreement(RangeImage(scan_of(wall_ahead())).compare(ScanPoints(), {0, 0, 0}, kTolerance_m), 0, 0);
 }
 
+TEST(RangeImage, every_laser_looks_from_its_own_place) {
+  // The front laser, at (1, 0), sees a wall across x = 5; the rear one, at (-1, 0), one across x = -6.
+  ScanPoints scan = scan_of(wall_ahead());
+  scan.origin = {1, 0};
+  scan.other_lasers.push_back({scan.points.size(), {-1, 0}});
+  for (int i = -300; i <= 300; ++i) scan.points.emplace_back(-6.0F, 0.01F * static_cast<float>(i));
+  const RangeImage image(scan);
+  const auto judge = [&](float x, float y) {
+    return image.compare(scan_of({{x, y}}), {0, 0, 0}, kTolerance_m);
+  };
+  expect_agreement(judge(5, 0), 1, 0);
+  expect_agreement(judge(-6, 0), 1, 0);
+  expect_agreement(judge(-4, 0), 0, 1);
+  expect_agreement(judge(-7, 0), 0, 0);
+  // The front laser sees nothing behind it, though its bearings would be those of the rear one's points.
+  expect_agreement(judge(0, 0), 0, 0);
+}
+
 }  // namespace
 }  // namespace psi_slam

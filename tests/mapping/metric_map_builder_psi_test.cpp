@@ -325,6 +325,30 @@ TEST(MetricMapBuilderPsi, its_metric_map_is_one_grid_drawn_when_asked_for) {
   }
 }
 
+TEST(MetricMapBuilderPsi, nodes_of_two_lasers_keep_the_observations_of_both) {
+  const SimulatedDrive drive = short_drive(30);
+  CMetricMapBuilderPsi::Options options;
+  options.log.laser = "all";
+  CMetricMapBuilderPsi builder(options);
+  for (const Frame& frame : drive.frames) {
+    builder.processObservation(odometry(frame.time_us, CPose2D(frame.odom_T_robot)));
+    builder.processObservation(range_observation(frame));
+    auto rear = range_scan(frame.time_us + 50'000, "REAR");
+    rear->sensorPose = mrpt::poses::CPose3D(-0.3, 0, 0, M_PI, 0, 0);
+    builder.processObservation(rear);
+  }
+  builder.finish();
+  mrpt::maps::CSimpleMap map;
+  builder.getCurrentlyBuiltMap(map);
+  ASSERT_GT(map.size(), 3U);
+  for (std::size_t node = 0; node < map.size(); ++node) {
+    mrpt::poses::CPose3DPDF::Ptr pose;
+    CSensoryFrame::Ptr observations;
+    map.get(node, pose, observations);
+    EXPECT_EQ(observations->size(), 2U) << node;
+  }
+}
+
 TEST(MetricMapBuilderPsi, other_observations_are_kept_beside_their_scan) {
   const SimulatedDrive drive = short_drive(30);
   CMetricMapBuilderPsi with_another;

@@ -166,5 +166,17 @@ TEST(SurfaceAlignment, does_not_lay_one_side_of_a_wall_on_the_other) {
   EXPECT_NEAR(found.map_T_robot.y, -2, 1e-3);
 }
 
+TEST(SurfacePoints, face_the_laser_that_saw_them) {
+  ScanPoints scan;
+  scan.origin = {2, 0};
+  scan.points = {{1, 0}, {1, 0}};
+  scan.normals = {{1, 0}, {1, 0}};
+  scan.other_lasers.push_back({1, {-2, 0}});  // on the other side of the wall
+  const SurfacePoints surfaces = surface_points(scan);
+  ASSERT_EQ(surfaces.normals.size(), 2U);
+  EXPECT_EQ(surfaces.normals[0].x, 1.0F);
+  EXPECT_EQ(surfaces.normals[1].x, -1.0F);
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "psi_slam/logs/carmen_reader.h"
+#include "psi_slam/logs/open_log.h"
 #include "psi_slam/results/trajectory_file.h"
 #include "temporary_folder.h"
 
@@ -116,6 +117,40 @@ TEST(CorrectedLog, wants_a_pose_for_each_scan) {
   EXPECT_THROW(write_corrected_log(folder.path() / "x", {frame(1, {}, {1, 2, 3})}, {}),
                std::invalid_argument);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "x"));
+}
+
+TEST(CorrectedLog, two_lasers_have_lines_of_their_own_and_are_read_back_as_one_frame) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "trajectory.carmen";
+  Frame both = frame(2'000'000, {7, 8, 0.5}, {1, 2, 3});
+  CompanionScan rear{frame(0, {}, {4, 5, 6}).scan, 2'050'000, {0.1, 0, 0.05}};
+  rear.scan.laser = 1;
+  rear.scan.robot_T_laser = {-0.3, 0.1, M_PI / 2};
+  both.companions = {rear};
+  Frame rear_alone = frame(3'000'000, {9, 8, 0.5}, {7, 8, 9});
+  rear_alone.scan = rear.scan;
+  write_corrected_log(path, {both, rear_alone}, {{1, 2, 0}, {3, 4, 0}});
+  ASSERT_EQ(lines(path, "FLASER").size(), 1u);
+  ASSERT_EQ(lines(path, "RLASER").size(), 2u);
+  EXPECT_EQ(lines(path, "RLASER")[0].substr(0, 51), "RLASER 3 4 5 6 1.100000000 2.000000000 0.050000000 ");
+
+  LogOptions options;
+  options.laser = "all";
+  options.field_of_view_rad = 1.0;
+  const auto log = open_log(path, options);
+  const auto first = log->next();
+  ASSERT_TRUE(first);
+  ASSERT_EQ(first->companions.size(), 1u);
+  const CompanionScan& read = first->companions[0];
+  EXPECT_EQ(read.time_us, rear.time_us);
+  EXPECT_EQ(read.scan.ranges_m, rear.scan.ranges_m);
+  EXPECT_NEAR(read.scan.robot_T_laser.phi, M_PI / 2, 1e-9);
+  EXPECT_NEAR(read.frame_T_robot.x, 0.1, 1e-8);
+  EXPECT_NEAR(read.frame_T_robot.phi, 0.05, 1e-8);
+  const auto second = log->next();
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->scan.laser, 1u);
+  EXPECT_FALSE(log->next());
 }
 
 }  // namespace

@@ -156,5 +156,32 @@ TEST(GridMap, no_scans_make_an_empty_map_and_wrong_counts_none) {
   EXPECT_THROW(draw_grid_map({Frame()}, {{std::nan(""), 0, 0}}), std::invalid_argument);
 }
 
+TEST(GridMap, every_laser_of_a_frame_draws_from_its_own_place) {
+  const auto straight_on = std::make_shared<const std::vector<float>>(std::vector<float>{0.0F});
+  Frame frame;
+  frame.scan.bearings_rad = straight_on;
+  frame.scan.ranges_m = {3};
+  frame.scan.max_range_m = 30;
+  frame.scan.robot_T_laser = {0.5, 0, 0};
+  CompanionScan rear;
+  rear.scan = frame.scan;
+  rear.scan.laser = 1;
+  rear.scan.ranges_m = {4};
+  rear.scan.robot_T_laser = {-0.5, 0, M_PI};
+  rear.frame_T_robot = {0, 1, 0};  // the robot went to its left meanwhile
+  frame.companions = {rear};
+  const TPose2D pose(10.02, -20.02, 0);
+  const auto grid = draw_grid_map({frame}, {pose});
+  EXPECT_TRUE(is_wall(*grid, pose.x + 3.5, pose.y));
+  EXPECT_TRUE(is_wall(*grid, pose.x - 4.5, pose.y + 1)) << "a wall that only the rear laser sees";
+  for (double x = 0.6; x < 3.4; x += 0.05) EXPECT_TRUE(is_free(*grid, pose.x + x, pose.y)) << x;
+  for (double x = 0.6; x < 4.4; x += 0.05) EXPECT_TRUE(is_free(*grid, pose.x - x, pose.y + 1)) << x;
+  for (double x = -0.4; x < 0.4; x += 0.05) {
+    EXPECT_TRUE(is_unknown(*grid, pose.x + x, pose.y)) << x;
+    EXPECT_TRUE(is_unknown(*grid, pose.x + x, pose.y + 1)) << x;
+  }
+  EXPECT_LT(static_cast<double>(grid->getXMin()), pose.x - 4.5) << "the map holds what both see";
+}
+
 }  // namespace
 }  // namespace psi_slam

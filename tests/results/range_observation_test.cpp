@@ -92,5 +92,25 @@ TEST(RangeObservation, beams_without_return_are_invalid_and_the_time_is_exact) {
   EXPECT_EQ(observation->timestamp - mrpt::Clock::fromDouble(976052905), std::chrono::microseconds(167303));
 }
 
+TEST(RangeObservations, are_of_all_lasers_seen_from_the_frames_place) {
+  Frame frame;
+  frame.time_us = 5'000'000;
+  frame.scan.bearings_rad = std::make_shared<const std::vector<float>>(std::vector<float>{-1, 0, 1});
+  frame.scan.ranges_m = {1, 2, 3};
+  frame.scan.max_range_m = 30;
+  CompanionScan rear{frame.scan, 5'040'000, {0.5, 0, M_PI / 2}};
+  rear.scan.laser = 1;
+  rear.scan.robot_T_laser = {-0.3, 0, M_PI};
+  frame.companions = {rear};
+  const auto observations = range_observations(frame);
+  ASSERT_EQ(observations.size(), 2U);
+  EXPECT_EQ(observations[0]->sensorLabel, "LASER");
+  EXPECT_EQ(observations[1]->sensorLabel, "LASER2");
+  EXPECT_EQ(time_us(*observations[1]), 5'040'000);
+  EXPECT_NEAR(observations[1]->sensorPose.x(), 0.5, 1e-9);
+  EXPECT_NEAR(observations[1]->sensorPose.y(), -0.3, 1e-9);
+  EXPECT_NEAR(observations[1]->sensorPose.yaw(), -M_PI / 2, 1e-9);
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -6,6 +6,9 @@
 #include <mrpt/opengl/CTexturedPlane.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
 
 #include "psi_slam/view/palette.h"
 #include "replayed_room.h"
@@ -128,6 +131,35 @@ TEST_F(MapSceneTest, a_layer_that_is_switched_on_is_up_to_date) {
   scene_.set_visible(MapLayer::kConstraints, true);
   EXPECT_TRUE(scene_.show(finished_, map_));
   EXPECT_GT(first<mrpt::opengl::CSetOfLines>(MapLayer::kConstraints)->size(), 50U);
+}
+
+TEST(MapSceneOfTwoLasers, the_scan_has_the_points_of_both) {
+  Frame frame;
+  frame.scan.bearings_rad = std::make_shared<const std::vector<float>>(std::vector<float>{-0.5F, 0, 0.5F});
+  frame.scan.ranges_m = {1, 2, 3};
+  frame.scan.max_range_m = 10;
+  CompanionScan rear{frame.scan, 0, {}};
+  rear.scan.laser = 1;
+  rear.scan.max_range_m = 30;
+  rear.scan.ranges_m = {20, 21, 22};
+  rear.scan.robot_T_laser = {-0.3, 0, M_PI};
+  frame.companions = {rear};
+  SharedHistory<Frame> log;
+  log.push_back(frame);
+  SharedHistory<FrameRecord> frames;
+  FrameRecord record;
+  record.map_T_robot = {5, 0, 0};
+  frames.push_back(record);
+  auto snapshot = std::make_shared<ReplaySnapshot>();
+  snapshot->log = log.view();
+  snapshot->frames = frames.view();
+  snapshot->phase = ReplayPhase::kFinished;
+  MapScene scene;
+  scene.show(snapshot, nullptr);
+  const auto points =
+      std::dynamic_pointer_cast<mrpt::opengl::CPointCloud>(*scene.layer(MapLayer::kScan).begin());
+  ASSERT_EQ(points->size(), 6U);
+  EXPECT_NEAR(points->getPoint3Df(4).x, 5 - 0.3 - 21, 1e-4);
 }
 
 }  // namespace

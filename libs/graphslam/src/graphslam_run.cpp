@@ -17,6 +17,7 @@
 #include "psi_slam/graphslam/front_end_nrd.h"
 #include "psi_slam/graphslam/graphslam_settings.h"
 #include "psi_slam/graphslam/log_entries.h"
+#include "psi_slam/logs/laser_choice.h"
 #include "psi_slam/logs/rawlog_objects.h"
 
 namespace psi_slam {
@@ -94,9 +95,14 @@ class GraphSlamRun::Implementation {
         optimizer_(catalogue.make_optimizer(setup.optimizer)) {
     connect_deciders(*node_decider_, *edge_decider_, *optimizer_);
     if (!setup.ground_truth.empty()) true_poses_ = check_ground_truth(setup.ground_truth);
-    entries_ = open_log_entries(setup.log, log_options(read_graphslam_settings(setup.ini)));
+    const LogOptions options = log_options(read_graphslam_settings(setup.ini));
+    entries_ = open_log_entries(setup.log, options);
     front_end_ = dynamic_cast<CPsiFrontEndNRD*>(node_decider_.get());
-    if (front_end_ != nullptr && entries_->are_made()) front_end_->set_log_options({});
+    if (front_end_ != nullptr && entries_->are_made()) {
+      LogOptions of_made_entries;
+      if (reads_several_lasers(options)) of_made_entries.laser = "all";
+      front_end_->set_log_options(of_made_entries);
+    }
     if (setup.visuals) window_ = std::make_unique<GraphSlamWindow>();
     const NoStandardInput no_input;
     in_engine([&] {

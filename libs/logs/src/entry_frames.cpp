@@ -4,11 +4,13 @@
 #include <utility>
 
 #include "psi_slam/base/user_error.h"
+#include "psi_slam/logs/laser_choice.h"
 #include "psi_slam/logs/rawlog_objects.h"
 
 namespace psi_slam {
+
 EntryFrames::EntryFrames(const LogOptions& options, std::string speaker)
-    : options_(options), speaker_(std::move(speaker)), laser_(options) {
+    : speaker_(std::move(speaker)), lasers_(options), several_lasers_(reads_several_lasers(options)) {
   check_log_options(options);
 }
 
@@ -27,19 +29,30 @@ void EntryFrames::take(const mrpt::obs::CActionCollection::Ptr& action,
 
 std::optional<Frame> EntryFrames::next() {
   std::optional<Frame> frame;
-  if (ready_.empty()) {
-    frame = waiting_.take();
+  if (several_lasers_) {
+    while (auto scan = next_scan()) uniter_.add(*std::move(scan));
+    if (ended_) uniter_.end_of_log();
+    frame = uniter_.take();
   } else {
-    frame = std::move(ready_.front());
-    ready_.pop_front();
+    frame = next_scan();
   }
-  if (frame) frame->index = frames_++;
+  if (!frame) return std::nullopt;
+  opened_by_ = frame->index;
+  frame->index = frames_++;
+  return frame;
+}
+
+std::optional<Frame> EntryFrames::next_scan() {
+  if (ready_.empty()) return waiting_.take();
+  Frame frame = std::move(ready_.front());
+  ready_.pop_front();
   return frame;
 }
 
 void EntryFrames::end_of_log() {
   if (odometry_ == Odometry::kUndecided && waiting_.waiting() > 0) throw_no_odometry(waiting_.waiting());
   waiting_.end_of_log();
+  ended_ = true;
 }
 
 // Scans that came before the first action stand where the robot started.
@@ -59,14 +72,13 @@ void EntryFrames::take(const mrpt::obs::CObservation& observation) {
 }
 
 void EntryFrames::take_scan(const mrpt::obs::CObservation2DRangeScan& observation) {
-  const std::string& label = observation.sensorLabel;
-  if (!options_.laser.empty() && label != options_.laser) return;
-  if (!laser_label_) laser_label_ = label;
-  if (label != *laser_label_) return;
   const std::string what = speaker_ + "scan " + std::to_string(scans_ + 1);
+  auto scan = lasers_.scan(observation, what);
+  if (!scan) return;
   Frame frame;
+  frame.index = scans_;
   frame.time_us = stamp_of(observation, what);
-  frame.scan = laser_.scan(observation, what);
+  frame.scan = *std::move(scan);
   frame.odom_T_robot = odom_T_robot_;
   if (odometry_ == Odometry::kUndecided && waiting_.waiting() == OdometryInterpolator::kMaxWaiting)
     throw_no_odometry(waiting_.waiting() + 1);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/mapping/metric_map_builder_psi.h"
 
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 
+#include <algorithm>
 #include <deque>
 #include <filesystem>
 #include <mutex>
@@ -16,6 +18,7 @@
 #include "psi_slam/logs/entry_frames.h"
 #include "psi_slam/pose_graph/marginal_covariance.h"
 #include "psi_slam/results/map_image.h"
+#include "psi_slam/results/range_observation.h"
 
 namespace psi_slam {
 namespace {
@@ -32,6 +35,18 @@ CSensoryFrame::Ptr frame_of(const CObservation::Ptr& observation) {
   auto frame = CSensoryFrame::Create();
   frame->insert(observation);
   return frame;
+}
+
+// What came with the scan that opened a frame, and the scans of other lasers that did not come with it.
+CSensoryFrame::Ptr with_all_scans(const CSensoryFrame::Ptr& kept, const Frame& frame) {
+  const auto came = std::count_if(kept->begin(), kept->end(), [](const CObservation::Ptr& observation) {
+    return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation) != nullptr;
+  });
+  if (static_cast<std::size_t>(came) > frame.companions.size()) return kept;
+  auto all = std::make_shared<CSensoryFrame>(*kept);
+  const auto observations = range_observations(frame);
+  for (std::size_t i = 1; i < observations.size(); ++i) all->insert(observations[i]);
+  return all;
 }
 
 void expect_map_updating(bool enabled) {
@@ -151,13 +166,15 @@ class CMetricMapBuilderPsi::Implementation {
   void take(const CObservation::Ptr& observation, const CSensoryFrame::Ptr& kept) {
     const std::size_t scans = entries_->scans();
     entries_->take(nullptr, nullptr, observation);
-    if (entries_->scans() > scans) waiting_observations_.push_back(kept);
+    if (entries_->scans() > scans) waiting_observations_.emplace_back(scans, kept);
     map_ready_scans();
   }
 
   void map_ready_scans() {
     while (std::optional<Frame> frame = entries_->next()) {
-      const CSensoryFrame::Ptr kept = std::move(waiting_observations_.front());
+      // Scans of other lasers joined a frame before this one, or were too many.
+      while (waiting_observations_.front().first != entries_->opened_by()) waiting_observations_.pop_front();
+      const CSensoryFrame::Ptr kept = with_all_scans(waiting_observations_.front().second, *frame);
       waiting_observations_.pop_front();
       map(*std::move(frame), kept);
     }
@@ -234,7 +251,7 @@ class CMetricMapBuilderPsi::Implementation {
   CPosePDFGaussian start_;
   std::unique_ptr<Mapper> mapper_;  // gone after finish()
   std::optional<EntryFrames> entries_;
-  std::deque<CSensoryFrame::Ptr> waiting_observations_;  // of the scans that wait
+  std::deque<std::pair<std::size_t, CSensoryFrame::Ptr>> waiting_observations_;  // of the scans that wait
 
   std::vector<std::size_t> node_frames_;
   std::vector<CSensoryFrame::Ptr> node_observations_;

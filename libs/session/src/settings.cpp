@@ -39,9 +39,14 @@ void describe_log(OptionTable& table, Settings& settings) {
       .number("min_range_m", log.min_range_m, at_least(0), "m",
               "readings below are no returns: a robot that sees its own bumper")
       .flag("mirrored", log.mirrored, "the readings run clockwise: a laser that hangs upside down")
-      .text("laser", log.laser,
-            "which laser: front, rear or a message's name (CARMEN), a sensor's label (rawlog); empty: the "
-            "first")
+      .text(
+          "laser", log.laser,
+          "which laser: front, rear or a message's name (CARMEN), a sensor's label (rawlog), a topic (ROS); "
+          "several with commas, or all, at once; empty: the first")
+      .text("laser_mounts", log.laser_mounts,
+            "lasers on the robot, each NAME X Y YAW in m and degrees, with mirrored behind it if it hangs "
+            "upside "
+            "down, and commas between them; empty: the log's own")
       .optional_number(
           "laser_x_m", settings.laser_mount.x_m, any_number(), "m",
           "the laser on the robot, ahead of its centre; auto: the log's own, or 0 if another of the "
@@ -53,7 +58,9 @@ void describe_log(OptionTable& table, Settings& settings) {
           "sweep_time_s", log.sweep_time_s, between(0, 1), "s",
           "from the first beam of a scan to its last: the motion meanwhile is taken out; auto: what "
           "the log says, 0 leaves scans alone")
-      .text("scan_topic", log.scan_topic, "ROS bags: the topic of the scans; empty: the only one of its type")
+      .text(
+          "scan_topic", log.scan_topic,
+          "ROS bags: the topic of the scans, several with commas, or all; empty: log.laser, or the only one")
       .text("odometry_topic", log.odometry_topic,
             "ROS bags: the topic of the odometry, or /tf; empty: the only one of its type, else /tf")
       .text("odom_frame", log.odom_frame,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes frames of what MRPT's programs hand on one by one: either an action with a sensory frame, or a single
-// observation. Scans are those of one laser. The kind of odometry that comes first decides; scans whose
-// odometry comes in observations wait for the odometry behind them, as when a log is read.
+// observation. Scans are those of one laser, or of several that are put together as ScanUniter says. The kind
+// of odometry that comes first decides; scans whose odometry comes in observations wait for the odometry
+// behind them, as when a log is read.
 #pragma once
 
 #include <mrpt/obs/CActionCollection.h>
@@ -17,7 +18,8 @@
 #include "psi_slam/logs/frame.h"
 #include "psi_slam/logs/log_options.h"
 #include "psi_slam/logs/odometry_interpolator.h"
-#include "psi_slam/logs/rawlog_laser.h"
+#include "psi_slam/logs/rawlog_lasers.h"
+#include "psi_slam/logs/scan_uniter.h"
 
 namespace psi_slam {
 
@@ -35,8 +37,12 @@ class EntryFrames {
   /// The next frame that is complete.
   std::optional<Frame> next();
 
-  /// How many scans were taken. Their frames come in the same order.
+  /// How many scans were taken.
   std::size_t scans() const { return scans_; }
+
+  /// Which of them, counted from 0, opened the frame that next() gave last; they come in this order, and of
+  /// one laser each opens a frame.
+  std::size_t opened_by() const { return opened_by_; }
 
   /// Scans that still wait need wait no longer. Throws UserError when there are some and odometry never came.
   void end_of_log();
@@ -46,21 +52,24 @@ class EntryFrames {
   void take(const mrpt::obs::CObservation& observation);
   void take_scan(const mrpt::obs::CObservation2DRangeScan& observation);
   void take_odometry(const mrpt::obs::CObservationOdometry& observation);
+  std::optional<Frame> next_scan();
   void begin_with_actions();
   static TimeUs stamp_of(const mrpt::obs::CObservation& observation, const std::string& what);
   [[noreturn]] void throw_no_odometry(std::size_t scans) const;
 
-  LogOptions options_;
   std::string speaker_;
-  RawlogLaser laser_;
-  std::optional<std::string> laser_label_;
+  RawlogLasers lasers_;
+  bool several_lasers_;
   std::optional<std::string> odometry_label_;
   Odometry odometry_ = Odometry::kUndecided;
   mrpt::math::TPose2D odom_T_robot_{0, 0, 0};  ///< the sum of the actions
   OdometryInterpolator waiting_;
   std::deque<Frame> ready_;
+  ScanUniter uniter_;  ///< of several lasers
+  bool ended_ = false;
   std::size_t scans_ = 0;
   std::size_t frames_ = 0;
+  std::size_t opened_by_ = 0;
 };
 
 }  // namespace psi_slam

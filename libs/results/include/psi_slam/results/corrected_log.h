@@ -8,7 +8,8 @@
 // written as the sensor's maximum. FLASER has no room for the beams' bearings and the laser's mount: PARAM
 // lines at the top say the mount, and the bearings as far as CARMEN has names for them; a comment says them
 // whole. Ranges go counter-clockwise, also those of a laser that runs clockwise: who reads this log must not
-// set log.mirrored again.
+// set log.mirrored again. The second laser of a robot has RLASER lines, each with the poses of its own time;
+// CARMEN has no lines with poses for a third.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

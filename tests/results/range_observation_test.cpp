@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "psi_slam/logs/rawlog_objects.h"
 #include "simulated_room.h"
 
 namespace psi_slam {
@@ -106,7 +107,7 @@ TEST(RangeObservations, are_of_all_lasers_seen_from_the_frames_place) {
   ASSERT_EQ(observations.size(), 2U);
   EXPECT_EQ(observations[0]->sensorLabel, "LASER");
   EXPECT_EQ(observations[1]->sensorLabel, "LASER2");
-  EXPECT_EQ(time_us(*observations[1]), 5'040'000);
+  EXPECT_EQ(time_us(*observations[1]), TimeUs{5'040'000});
   EXPECT_NEAR(observations[1]->sensorPose.x(), 0.5, 1e-9);
   EXPECT_NEAR(observations[1]->sensorPose.y(), -0.3, 1e-9);
   EXPECT_NEAR(observations[1]->sensorPose.yaw(), -M_PI / 2, 1e-9);

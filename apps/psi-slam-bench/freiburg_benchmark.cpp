@@ -5,10 +5,10 @@
 
 #include "match_report.h"
 #include "program_identity.h"
+#include "psi_slam/base/file_checksum.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/base/worker_pool.h"
 #include "psi_slam/batch/child_process.h"
-#include "psi_slam/batch/file_checksum.h"
 #include "psi_slam/batch/kept_run.h"
 #include "psi_slam/batch/machine_text.h"
 #include "psi_slam/batch/task_progress.h"

@@ -9,9 +9,9 @@
 #include <optional>
 #include <sstream>
 
+#include "psi_slam/base/file_checksum.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/batch/child_process.h"
-#include "psi_slam/batch/file_checksum.h"
 
 namespace psi_slam {
 namespace {

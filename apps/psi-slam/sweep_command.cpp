@@ -5,8 +5,8 @@
 #include <ostream>
 
 #include "interrupt_signals.h"
+#include "psi_slam/base/file_checksum.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/batch/file_checksum.h"
 #include "psi_slam/batch/sweep_report.h"
 #include "work_progress.h"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "psi_slam/base/file_checksum.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/batch/file_checksum.h"
 #include "psi_slam/batch/log_name.h"
 #include "psi_slam/session/bound_settings.h"
 
@@ -32,22 +32,14 @@ void require_file(const fs::path& path, const std::string& what) {
   if (!fs::is_regular_file(path)) throw UserError(what + path.string() + " is no file");
 }
 
-/// Of a log that is a folder, all its files count, and their names.
 void measure(SweepLog& log) {
+  log.sha256 = sha256_of_log(log.log);
   if (!fs::is_directory(log.log)) {
-    log.sha256 = sha256_of_file(log.log);
     log.bytes = fs::file_size(log.log);
     return;
   }
-  std::map<std::string, fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(log.log))
-    if (entry.is_regular_file()) files[entry.path().lexically_relative(log.log).string()] = entry.path();
-  std::string text;
-  for (const auto& [name, path] : files) {
-    text += name + ' ' + sha256_of_file(path) + '\n';
-    log.bytes += fs::file_size(path);
-  }
-  log.sha256 = sha256_of_text(text);
+    if (entry.is_regular_file()) log.bytes += entry.file_size();
 }
 
 /// The file of that name in the folder, or beside the log where no folder is given; empty where there is

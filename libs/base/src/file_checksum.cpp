@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/batch/file_checksum.h"
+#include "psi_slam/base/file_checksum.h"
 
 #include <openssl/evp.h>
 
 #include <array>
 #include <fstream>
+#include <map>
 #include <memory>
 
 #include "psi_slam/base/user_error.h"
@@ -60,6 +61,16 @@ std::string sha256_of_file(const std::filesystem::path& path) {
     checksum.add({block.data(), static_cast<std::size_t>(file.gcount())});
   if (!file.eof()) throw UserError(path.string() + " cannot be read");
   return checksum.hexadecimal();
+}
+
+std::string sha256_of_log(const std::filesystem::path& path) {
+  if (!std::filesystem::is_directory(path)) return sha256_of_file(path);
+  std::map<std::string, std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
+    if (entry.is_regular_file()) files[entry.path().lexically_relative(path).string()] = entry.path();
+  std::string text;
+  for (const auto& [name, file] : files) text += name + ' ' + sha256_of_file(file) + '\n';
+  return sha256_of_text(text);
 }
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/batch/file_checksum.h"
+#include "psi_slam/base/file_checksum.h"
 
 #include <gtest/gtest.h>
 
@@ -22,6 +22,15 @@ TEST(FileChecksum, of_a_file_is_that_of_its_bytes) {
   EXPECT_NE(sha256_of_text(bytes), sha256_of_text(bytes + '\0'));
   EXPECT_NE(sentence_of([&] { sha256_of_file(folder.path() / "none"); }).find("none"), std::string::npos);
   EXPECT_NE(sentence_of([&] { sha256_of_file(folder.path()); }).find("cannot be read"), std::string::npos);
+}
+
+TEST(FileChecksum, of_a_log_that_is_a_folder_is_that_of_its_files_and_their_names) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "b", "2");
+  write_file(folder.path() / "a", "1");
+  EXPECT_EQ(sha256_of_log(folder.path()),
+            sha256_of_text("a " + sha256_of_text("1") + "\nb " + sha256_of_text("2") + "\n"));
+  EXPECT_EQ(sha256_of_log(folder.path() / "a"), sha256_of_text("1"));
 }
 
 }  // namespace

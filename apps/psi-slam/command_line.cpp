@@ -4,7 +4,6 @@
 #include "document_options.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/config/nearest_name.h"
-#include "psi_slam/session/bound_settings.h"
 
 namespace psi_slam {
 namespace {
@@ -14,6 +13,9 @@ constexpr const char* kExamples =
     "\nExamples:\n"
     "  psi-slam check my.log                    what is in a log, and what is wrong with it\n"
     "  psi-slam my.log -o out/                  map it: open out/report.html\n"
+    "  psi-slam my.log -o out/ --save-session my.session\n"
+    "  psi-slam --resume my.session my.log -o more/   go on where that was interrupted\n"
+    "  psi-slam merge monday.log friday.log -o out/   one map of several drives\n"
     "  psi-slam localize out/map.yaml new.log   where a robot is in a finished map\n"
     "  psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0.025\n"
     "  psi-slam --dump-config > my.ini          settings to begin with\n"
@@ -23,9 +25,17 @@ bool is_option(const std::string& argument) {
   return argument.size() > 1 && argument.front() == '-';
 }
 
+/// What commands share that read logs and write a folder.
+void add_run_options(CLI::App& command, CommandLine& line) {
+  add_settings_options(command, line.config, line.settings);
+  command.add_flag("--force", line.force, "Replace the results in a folder that is not empty");
+  command.add_flag("--json", line.json, "Print the summary as JSON");
+  command.add_flag("-q,--quiet", line.quiet, "Print nothing but complaints");
+}
+
 /// Complains about the first argument that is neither the log nor a known option.
 [[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
-  const auto command = nearest_name(line.log, {"check", "localize", "options", "sweep"});
+  const auto command = nearest_name(line.log, {"check", "localize", "merge", "options", "sweep"});
   if (command && !is_option(argument))
     throw UserError("there is no command \"" + line.log + "\"; did you mean \"" + *command + "\"?");
   throw UserError(unknown_argument_text(argument, app, "psi-slam"));
@@ -33,7 +43,7 @@ bool is_option(const std::string& argument) {
 
 void check_together(const CommandLine& line, const std::string& log_to_map) {
   using Command = CommandLine::Command;
-  if (line.command == Command::kMap && line.log.empty())
+  if (line.command == Command::kMap && line.log.empty() && line.resume.empty())
     throw UserError("name the log: psi-slam LOG -o DIR" + std::string(kSeeHelp));
   if (line.command == Command::kCheck && line.log.empty())
     throw UserError("name the log: psi-slam check LOG" + std::string(kSeeHelp));
@@ -41,14 +51,32 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
     throw UserError("name the folder for the results: -o DIR" + std::string(kSeeHelp));
   if (line.command == Command::kLocalize && line.log.empty())
     throw UserError("name a map and a log: psi-slam localize MAP LOG" + std::string(kSeeHelp));
-  if (line.command != Command::kMap && line.command != Command::kLocalize && !line.output.empty())
+  const bool merges = line.command == Command::kMerge;
+  if (merges && line.inputs.size() < 2)
+    throw UserError("name the drives: psi-slam merge FIRST SECOND -o DIR" + std::string(kSeeHelp));
+  if (merges && line.inputs.size() > 2 && !line.start.empty())
+    throw UserError("--start goes with two drives: merge further ones with the session of the first two");
+  if (merges && line.output.empty())
+    throw UserError("name the folder for the results: -o DIR" + std::string(kSeeHelp));
+  if (line.command != Command::kMap && line.command != Command::kLocalize && !merges && !line.output.empty())
     throw UserError("-o goes with mapping only: nothing is written here");
   if (line.command != Command::kMap && !line.edits.empty()) throw UserError("--edits goes with mapping only");
+  if (line.command != Command::kMap && !line.resume.empty())
+    throw UserError("--resume goes with mapping only");
+  if (line.command != Command::kMap && !merges && !line.save_session.empty())
+    throw UserError("--save-session goes with mapping only");
   if (line.command != Command::kMap && !log_to_map.empty())
     throw UserError("\"" + log_to_map + "\" is one argument too many" + kSeeHelp);
 }
 
 }  // namespace
+
+void load_settings(const CommandLine& line, BoundSettings& bound) {
+  bound.load(line.config, line.settings);
+  if (line.seed) bound.table.set("run.seed", *line.seed, "--seed");
+  if (line.threads) bound.table.set("run.threads", *line.threads, "--threads");
+  check(bound.settings);
+}
 
 std::shared_ptr<const OptionTable> default_settings() {
   const auto bound = std::make_shared<BoundSettings>();
@@ -90,6 +118,12 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   app.add_option("--edits", line.edits,
                  "Loops deleted, forced or matched by hand: a file as psi-slam-gui saves it")
       ->type_name("FILE");
+  app.add_option("--save-session", line.save_session,
+                 "Record the run in this file, also when it is interrupted, for --resume")
+      ->type_name("FILE");
+  app.add_option("--resume", line.resume,
+                 "Go on with a recorded run: in the rest of its LOG or in one that follows, or with none")
+      ->type_name("FILE");
   app.add_option("--seed", line.seed, "The same as --set run.seed=N")->type_name("N");
   app.add_option("--threads", line.threads, "The same as --set run.threads=N")->type_name("N");
   app.add_flag("--force", line.force, "Replace the results in a folder that is not empty");
@@ -119,10 +153,20 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
       ->type_name("DIR");
   localize->add_option("--start", line.start, "About where it starts: metres and degrees in the map")
       ->type_name("X,Y,YAW_DEG");
-  add_settings_options(*localize, line.config, line.settings);
-  localize->add_flag("--force", line.force, "Replace the results in a folder that is not empty");
-  localize->add_flag("--json", line.json, "Print the summary as JSON");
-  localize->add_flag("-q,--quiet", line.quiet, "Print nothing but complaints");
+  add_run_options(*localize, line);
+
+  CLI::App* const merge = app.add_subcommand(
+      "merge", "Map several drives through one building as one (exit code 2 where one cannot be placed)");
+  merge->add_option("INPUT", line.inputs, "Logs, or sessions as --save-session records them")->type_name("");
+  merge->add_option("-o,--output", line.output, "Folder for the results, new or empty")->type_name("DIR");
+  merge
+      ->add_option("--start", line.start,
+                   "About where the second drive begins: metres and degrees in the map of the first")
+      ->type_name("X,Y,YAW_DEG");
+  merge
+      ->add_option("--save-session", line.save_session, "Record the merged drives in this file, for --resume")
+      ->type_name("FILE");
+  add_run_options(*merge, line);
 
   CLI::App* const options = app.add_subcommand("options", "Explain every option of the settings files");
   options->add_flag("--markdown", line.markdown, "Print a page in Markdown");
@@ -135,6 +179,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   app.allow_extras();
   check->allow_extras();
   localize->allow_extras();
+  merge->allow_extras();
   options->allow_extras();
   sweep->allow_extras();
   app.footer(kExamples);
@@ -151,6 +196,8 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   } else if (localize->parsed()) {
     line.command = CommandLine::Command::kLocalize;
     line.log = log_to_localize;
+  } else if (merge->parsed()) {
+    line.command = CommandLine::Command::kMerge;
   } else if (dump_config) {
     line.command = CommandLine::Command::kDumpConfig;
   } else {

@@ -7,21 +7,25 @@
 #include <string>
 #include <vector>
 
-#include "sweep_command.h"
 #include "psi_slam/config/option_table.h"
+#include "psi_slam/session/bound_settings.h"
+#include "sweep_command.h"
 
 namespace psi_slam {
 
 /// What the user asked for, not yet looked at closer.
 struct CommandLine {
-  enum class Command { kMap, kCheck, kLocalize, kOptions, kDumpConfig, kSweep };
+  enum class Command { kMap, kCheck, kLocalize, kMerge, kOptions, kDumpConfig, kSweep };
 
   Command command = Command::kMap;
   std::string log;
   std::string map;    ///< to localize in
   std::string start;  ///< "X,Y,YAW_DEG" in the map; empty: unknown
+  std::vector<std::string> inputs;  ///< to merge
   std::string output;
   std::string edits;                  ///< empty: none
+  std::string resume;                 ///< a session file; empty: none
+  std::string save_session;           ///< the same
   std::string config;                 ///< empty: the built-in defaults
   std::vector<std::string> settings;  ///< "section.key=value", in the order given
   std::optional<std::string> seed;
@@ -37,6 +41,10 @@ struct CommandLine {
 /// Reads the arguments with `app`, which was made for this. Throws CLI::ParseError for --help, --version and
 /// unknown options, and UserError for arguments that do not go together.
 CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::App& app);
+
+/// The settings file's values over those that `bound` has, then --set, --seed and --threads. Throws UserError
+/// for what is not accepted or does not go together.
+void load_settings(const CommandLine& line, BoundSettings& bound);
 
 /// The table of all settings, for those who write about them.
 std::shared_ptr<const OptionTable> default_settings();

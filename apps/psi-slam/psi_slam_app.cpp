@@ -2,22 +2,16 @@
 #include "psi_slam_app.h"
 
 #include <new>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <ostream>
 
-#include "closing_text.h"
 #include "command_line.h"
-#include "interrupt_signals.h"
 #include "localize_command.h"
 #include "log_check.h"
-#include "progress_line.h"
+#include "map_command.h"
+#include "merge_command.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/config/option_listing.h"
-#include "psi_slam/results/output_folder.h"
-#include "psi_slam/results/summary_json.h"
 #include "psi_slam/session/bound_settings.h"
-#include "psi_slam/session/mapping_session.h"
 
 namespace psi_slam {
 namespace {
@@ -26,71 +20,9 @@ constexpr int kDone = 0;
 constexpr int kFailed = 1;
 constexpr int kWrongUsageOrInput = 2;
 
-/// The file's values, overridden by those of the command line.
-void load(const CommandLine& line, BoundSettings& bound) {
-  bound.load(line.config, line.settings);
-  if (line.seed) bound.table.set("run.seed", *line.seed, "--seed");
-  if (line.threads) bound.table.set("run.threads", *line.threads, "--threads");
-  check(bound.settings);
-}
-
-std::string changed_settings(const OptionTable& table) {
-  std::string lines;
-  for (const OptionSection& section : table.sections())
-    for (const Option& option : section.options)
-      if (option.text() != option.default_text) lines += option.name() + " = " + option.text() + '\n';
-  return lines;
-}
-
-void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
-           const Streams& streams, std::optional<ProgressLine>& progress_line) {
-  if (streams.err_is_terminal && !line.quiet) progress_line.emplace(streams.err);
-  session.set_observer([&, told = false](const SessionProgress& progress) mutable {
-    if (!told && progress.phase == SessionProgress::Phase::kLastPass && signals.came()) {
-      told = true;
-      if (progress_line) progress_line->clear();
-      streams.err << "psi-slam: interrupted, the map will show the " << progress.scans
-                  << " scans read so far and the loops found so far (interrupt again to give up)\n";
-    }
-    if (progress_line) progress_line->show(progress);
-  });
-}
-
-int map(const CommandLine& line, const Streams& streams) {
-  BoundSettings bound;
-  load(line, bound);
-  if (line.verbose) streams.err << changed_settings(bound.table);
-  const InterruptSignals signals;
-  MappingSession session(line.log, bound.settings);
-  if (!line.edits.empty()) session.set_edits(EditJournal::read(line.edits));
-  const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
-  std::optional<ProgressLine> progress_line;
-  watch(session, signals, line, streams, progress_line);
-  session.run(signals.came());
-  const RunSummary summary = session.export_to(folder);
-  progress_line.reset();
-  session.set_observer({});
-
-  const RunInfo info = session.run_info();
-  if (line.verbose) streams.err << stages_text(session.result());
-  if (line.json)
-    streams.out << summary_json(session.result(), info, summary);
-  else if (!line.quiet)
-    streams.out << closing_text(summary, info.log_name, folder);
-  if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
-    streams.err << "psi-slam: " << skipped.sentence() << '\n';
-  for (const std::string& unmet : session.unmet_edits())
-    streams.err << "psi-slam: an edit was not made: " << unmet << '\n';
-  if (const auto coarser = coarser_cells_text(summary.map)) streams.err << "psi-slam: " << *coarser << '\n';
-  if (!session.broken_off()) return kDone;
-  streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
-              << session.result().frames.size() << " scans that could be read\n";
-  return kWrongUsageOrInput;
-}
-
 void dump_config(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
-  load(line, bound);
+  load_settings(line, bound);
   streams.out << settings_file_text(bound.table);
 }
 
@@ -103,11 +35,11 @@ int run(const CommandLine& line, const Streams& streams) {
   int code = kDone;
   switch (line.command) {
     case CommandLine::Command::kMap:
-      code = map(line, streams);
+      code = map_log(line, streams);
       break;
     case CommandLine::Command::kCheck: {
       BoundSettings bound;
-      load(line, bound);
+      load_settings(line, bound);
       const std::string broken_off = check_log(line.log, log_options(bound.settings), line.json, streams.out);
       if (!broken_off.empty()) {
         streams.err << "psi-slam: " << broken_off << '\n';
@@ -117,10 +49,13 @@ int run(const CommandLine& line, const Streams& streams) {
     }
     case CommandLine::Command::kLocalize: {
       BoundSettings bound;
-      load(line, bound);
+      load_settings(line, bound);
       code = localize(line, bound.settings, streams);
       break;
     }
+    case CommandLine::Command::kMerge:
+      code = merge_drives(line, streams);
+      break;
     case CommandLine::Command::kOptions:
       explain_options(line, streams);
       break;

@@ -2,8 +2,10 @@
 // psi-slam: from a log to a map.
 //
 //     psi-slam [-c INI] [--set SECTION.KEY=VALUE]... LOG -o DIR     maps a log
+//     psi-slam --resume SESSION [LOG] -o DIR                        goes on with a run that was saved
 //     psi-slam check [-c INI] LOG                                   tells what a log holds, and what is wrong
 //     psi-slam localize MAP LOG [-o DIR] [--start X,Y,YAW_DEG]      finds a robot in a finished map
+//     psi-slam merge A B... -o DIR [--start X,Y,YAW_DEG]            maps several drives as one
 //     psi-slam options [--markdown]                                 explains every option
 //     psi-slam sweep LOG... -o DIR [--set SECTION.KEY=V,V]...       maps many logs with many settings
 //     psi-slam --dump-config [-c INI] [--set ...]                   prints a settings file

@@ -240,7 +240,7 @@ TEST_F(MainFrameTest, loops_are_deleted_matched_again_forced_and_undone) {
   EXPECT_EQ(gui_.run({log}), 0);
 
   MappingSession session(log, {});
-  session.set_edits(EditJournal::read(edits));
+  session.add_edits(EditJournal::read(edits));
   session.run(std::atomic<bool>(false));
   session.export_to(OutputFolder::prepare(gui_.folder() / "headless", false));
   expect_same_results(gui_.folder() / "headless", gui_.folder() / "gui");

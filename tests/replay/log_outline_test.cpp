@@ -12,7 +12,7 @@ namespace psi_slam {
 namespace {
 
 std::vector<TimeUs> stamps_of(const std::filesystem::path& log) {
-  const LogOutline outline(log, {});
+  const LogOutline outline(SessionInput(log), {});
   while (outline.stamps_us() == nullptr) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   return *outline.stamps_us();
 }
@@ -38,7 +38,7 @@ TEST(LogOutline, of_a_log_that_cannot_be_read_there_is_nothing) {
 TEST(LogOutline, is_left_in_the_middle) {
   const TemporaryFolder folder;
   const auto log = write_lines(folder.path() / "room.log", room_log_lines(2000));
-  const LogOutline outline(log, {});
+  const LogOutline outline(SessionInput(log), {});
 }
 
 }  // namespace

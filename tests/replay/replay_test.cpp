@@ -10,6 +10,7 @@
 
 #include "../session/room_log.h"
 #include "psi_slam/session/mapping_session.h"
+#include "psi_slam/session/session_file.h"
 #include "same_results.h"
 #include "temporary_folder.h"
 
@@ -116,6 +117,52 @@ TEST_F(ReplayTest, played_it_writes_what_the_headless_program_writes) {
   replay.export_to(out("again"), false);
   EXPECT_EQ(wait_for_export(replay, 2)->exported->failure, "");
   expect_same_results(out("headless"), out("again"));
+}
+
+TEST_F(ReplayTest, saved_and_opened_again_it_goes_on_to_what_the_headless_program_writes) {
+  const auto path = log(room_log_lines());
+  map_headless(path, "headless");
+  const auto wait_for_save = [](const Replay& replay, int number) {
+    const SnapshotPtr now = wait_for(replay, [number](const ReplaySnapshot& snapshot) {
+      return snapshot.saved && snapshot.saved->number == number;
+    });
+    EXPECT_EQ(now->saved->failure, "");
+    return now;
+  };
+  {
+    Replay replay(path, settings_);
+    replay.hurry_to(70);
+    wait_for(replay, [](const ReplaySnapshot& now) {
+      return now.phase == ReplayPhase::kPaused && now.frames.size() >= 70;
+    });
+    replay.save_session(out("my.session"));
+    EXPECT_EQ(wait_for_save(replay, 1)->saved->file, out("my.session"));
+    replay.save_session(out("missing") / "my.session");
+    const SnapshotPtr failed =
+        wait_for(replay, [](const ReplaySnapshot& now) { return now.saved && now.saved->number == 2; });
+    EXPECT_THAT(failed->saved->failure, HasSubstr("cannot write"));
+    EXPECT_EQ(failed->phase, ReplayPhase::kPaused);
+  }
+  const auto recording = std::make_shared<const SessionRecording>(read_session_file(out("my.session")));
+  EXPECT_EQ(recording->frames.size(), 70U);
+  Replay replay(SessionInput(recording, path), settings_);
+  while (replay.stamps_us() == nullptr) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(replay.stamps_us()->size(), 150U);
+  replay.set_speed(0);
+  replay.play();
+  const LoopRecord loop = wait_for(replay, ReplayPhase::kFinished)->loops->front();
+  replay.export_to(out("resumed"), false);
+  EXPECT_EQ(wait_for_export(replay, 1)->exported->failure, "");
+  expect_same_results(out("headless"), out("resumed"));
+
+  replay.edit({LoopEdit::Kind::kDelete, loop.frame, loop.local_map});
+  wait_for(replay,
+           [](const ReplaySnapshot& now) { return now.edited && now.phase == ReplayPhase::kFinished; });
+  replay.save_session(out("edited.session"));
+  wait_for_save(replay, 1);
+  const SessionRecording edited = read_session_file(out("edited.session"));
+  EXPECT_EQ(edited.frames.size(), 150U);
+  EXPECT_EQ(edited.facts.edits.edits().size(), 1U);
 }
 
 TEST_F(ReplayTest, plays_at_the_speed_of_the_log) {
@@ -384,7 +431,7 @@ TEST_F(ReplayEditsTest, made_anywhere_they_give_what_the_headless_program_makes_
   EXPECT_EQ(wait_for_export(replay, 1)->exported->failure, "");
 
   MappingSession session(path, settings_);
-  session.set_edits(EditJournal::read(out("window") / "loops.edits"));
+  session.add_edits(EditJournal::read(out("window") / "loops.edits"));
   session.run(std::atomic<bool>(false));
   session.export_to(OutputFolder::prepare(out("headless"), false));
   expect_same_results(out("window"), out("headless"));

@@ -64,9 +64,12 @@ TEST(MapDrawing, the_path_keeps_its_corners_and_widens_the_extent) {
   std::vector<mrpt::math::TPose2D> path;
   for (int i = 0; i <= 70; ++i) path.emplace_back(0.1 * i, 0, 0);
   for (int i = 0; i <= 20; ++i) path.emplace_back(7, 0.1 * i, 0);
-  const MapDrawing drawing = draw_map_lines(map_with({}), path);
-  ASSERT_EQ(drawing.trajectory.size(), 3U);
-  EXPECT_NEAR(drawing.trajectory[1].x, 7, 1e-5);
+  const MapDrawing drawing = draw_map_lines(map_with({}), {path, {{3, 7.5, 0}, {4, 7.5, 0}}});
+  ASSERT_EQ(drawing.trajectories.size(), 2U) << "nothing is drawn from one drive to the next";
+  ASSERT_EQ(drawing.trajectories[0].size(), 3U);
+  EXPECT_NEAR(drawing.trajectories[0][1].x, 7, 1e-5);
+  EXPECT_EQ(drawing.trajectories[1].size(), 2U);
+  EXPECT_NEAR(drawing.extent.y_max_m, 7.5, 1e-5);
   EXPECT_NEAR(drawing.extent.x_max_m, 7, 1e-5);
   EXPECT_NEAR(drawing.extent.x_min_m, -5, 1e-5);
 }

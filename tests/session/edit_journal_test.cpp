@@ -8,6 +8,7 @@
 
 #include "psi_slam/base/user_error.h"
 #include "temporary_folder.h"
+#include "test_files.h"
 
 namespace psi_slam {
 namespace {
@@ -140,6 +141,26 @@ TEST_F(EditJournalTest, says_where_a_line_is_no_edit_and_what_was_expected) {
               HasSubstr("window_m=0 is not in (0, 1000]"));
   EXPECT_THAT(complaint("delete scan=1 local_map=2 after=soon"), HasSubstr("after=soon"));
   EXPECT_THROW(EditJournal::read(folder_.path() / "none"), UserError);
+}
+
+TEST_F(EditJournalTest, of_a_later_drive_it_counts_on_from_the_drives_before) {
+  EditJournal journal;
+  journal.add({{Kind::kDelete, 8, 1}, {}});
+  journal.add({{Kind::kForce, 8, 2}, after(20)});
+  journal.add({{Kind::kRestore, 9, 1}, kEnd});
+  EXPECT_EQ(journal.of_drive(100, 50, 7).text(),
+            "# psi-slam loop edits 1\ndelete scan=108 local_map=8 after=99\n"
+            "force scan=108 local_map=9 after=120\nrestore scan=109 local_map=8 after=149\n");
+  EXPECT_EQ(journal.of_drive(0, 50, 0).text(),
+            "# psi-slam loop edits 1\ndelete scan=8 local_map=1\nforce scan=8 local_map=2 after=20\n"
+            "restore scan=9 local_map=1 after=49\n");
+}
+
+TEST_F(EditJournalTest, a_text_in_memory_is_read_like_a_file) {
+  const std::string text = "# mine\ndelete scan=40 local_map=3  # here\n";
+  EXPECT_EQ(EditJournal::parse(text, "my.session").text(), EditJournal::read(file(text)).text());
+  EXPECT_THAT(sentence_of([] { EditJournal::parse("\ndelete scan=40\n", "my.session"); }),
+              testing::HasSubstr("my.session:2: "));
 }
 
 }  // namespace

@@ -260,7 +260,7 @@ class MappingSessionEditsTest : public MappingSessionTest {
   /// The same log with the edits that the folder `like` holds.
   std::filesystem::path mapped_by_file(const std::filesystem::path& path, const std::filesystem::path& like) {
     MappingSession session(path, settings_);
-    session.set_edits(EditJournal::read(like / "loops.edits"));
+    session.add_edits(EditJournal::read(like / "loops.edits"));
     session.run(go_on_);
     EXPECT_THAT(session.unmet_edits(), IsEmpty());
     session.export_to(OutputFolder::prepare(folder_.path() / "by_file", false));
@@ -308,7 +308,7 @@ TEST_F(MappingSessionEditsTest, change_the_map) {
   EditJournal edits;
   for (const LoopRecord& loop : untouched.result().loops) edits.add({delete_of(loop), {}});
   MappingSession edited(path, settings_);
-  edited.set_edits(edits);
+  edited.add_edits(edits);
   edited.run(go_on_);
   for (const LoopRecord& loop : edited.result().loops)
     EXPECT_NE(loop.verdict, LoopVerdict::kAccepted) << loop.frame << ' ' << loop.local_map;
@@ -322,7 +322,7 @@ TEST_F(MappingSessionEditsTest, tells_which_were_in_vain) {
   edits.add({{LoopEdit::Kind::kDelete, 5, 0}, {EditTime::Kind::kAfterScan, 1000}});
   edits.add({{LoopEdit::Kind::kForce, 7, 99}, {}});
   MappingSession session(log(room_log_lines(60)), settings_);
-  session.set_edits(edits);
+  session.add_edits(edits);
   session.run(go_on_);
   EXPECT_THAT(session.unmet_edits(),
               ElementsAre("delete the loop of scan 5 with local map 0: scan 5 is part of local map 0",

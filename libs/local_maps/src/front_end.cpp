@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "psi_slam/local_maps/pull_support.h"
 
@@ -257,6 +258,13 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
     active_.back().map->insert(drawing_beams(frame, TPose2D(0, 0, 0), options_.scan.min_range_m,
                                              options_.local_map.max_insert_range_m));
   }
+}
+
+void FrontEnd::begin_drive() {
+  FrontEnd anew(options_);
+  anew.next_local_map_ = next_local_map_;
+  anew.next_node_ = next_node_;
+  *this = std::move(anew);
 }
 
 std::vector<PlacedLocalMap> FrontEnd::finish() {

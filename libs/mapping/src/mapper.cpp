@@ -9,17 +9,46 @@
 
 #include "psi_slam/loop_closure/local_map_constraints.h"
 #include "psi_slam/mapping/carried_frames.h"
+#include "psi_slam/pose_graph/information_matrix.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
+// How far the place where a drive was found is trusted, until loops hold it: for the windows that they are
+// looked for in.
+constexpr double kStartSigma_m = 0.3;
+constexpr double kStartSigma_rad = radians_from_degrees(3.0L);
+
 // The graph is optimised at once where a loop says by this many standard deviations of loops that it is
 // wrong; where less, only after it has grown by this share of itself: such news costs a node about the same
 // then, however large the graph.
 constexpr double kUrgentNews = 5;
 constexpr double kGrowthForSmallNews = 1e-3;
+
+// Drives lie so far apart along the path that nothing that looks along it reaches from one to the other.
+double between_drives_m(const MapperOptions& options) {
+  return 1 + std::max({options.loop_closure.candidates.min_travel_m, options.loop_closure.context.travel_m,
+                       options.loop_closure.attempt_distance_m, options.loop_consensus.memory_m,
+                       options.loop_closure.verification.neighbourhood_m, options.last_pass.travel_m});
+}
+
+/// Of node_T_robot: the place found moves with it as a rigid arm does.
+Eigen::Matrix3d information_of(const DriveStart& start) {
+  const double c = std::cos(start.node_T_robot.phi);
+  const double s = std::sin(start.node_T_robot.phi);
+  const TPose2D& arm = start.robot_T_found;
+  Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();  // the place found, by the start
+  moved(0, 2) = -(s * arm.x + c * arm.y);
+  moved(1, 2) = c * arm.x - s * arm.y;
+  return moved.transpose() * noisy_information(Eigen::Matrix3d::Zero(), kStartSigma_m, kStartSigma_rad) *
+         moved;
+}
+
+TPose2D inverse(const TPose2D& a_T_b) {
+  return TPose2D(0, 0, 0) - a_T_b;
+}
 
 }  // namespace
 
@@ -39,6 +68,7 @@ const FrameRecord& Mapper::add(Frame frame) {
   FrontEndStep step;
   record.front_end_ms = front_end_clock_.time([&] { step = front_end_.add(frame); });
   record.odom_T_robot = frame.has_odometry ? frame.odom_T_robot : step.local_T_robot;
+  rebase_odometry(record);
   record.front_end_T_robot = step.local_T_robot;
   record.response = step.response;
   record.window = step.window;
@@ -59,17 +89,38 @@ const FrameRecord& Mapper::add(Frame frame) {
   return result_.frames.back();
 }
 
-// The front end's frame lies where the newest node puts it.
+void Mapper::begin_drive(const DriveStart& start) {
+  end_log();
+  front_end_.begin_drive();
+  drive_start_ = start;
+  follow_graph();
+  result_.drive_frames.push_back(result_.frames.size());
+}
+
+// Where a drive begins in the map, its odometry begins in the first drive's.
+void Mapper::rebase_odometry(FrameRecord& record) {
+  if (drive_start_) {
+    const TPose2D odom_T_start = result_.frames.front().odom_T_robot + (map_T_local_ - graph_.pose(0));
+    odom_T_drive_ = odom_T_start + inverse(record.odom_T_robot);
+  }
+  if (odom_T_drive_) record.odom_T_robot = *odom_T_drive_ + record.odom_T_robot;
+}
+
+// The front end's frame lies where the newest node puts it, or where the drive begins that is to come.
 void Mapper::follow_graph() {
+  if (drive_start_) {
+    map_T_local_ = graph_.pose(drive_start_->node) + drive_start_->node_T_robot;
+    return;
+  }
   const std::size_t newest = graph_.num_nodes() - 1;
-  map_T_local_ = graph_.pose(newest) + (TPose2D(0, 0, 0) - memory_.nodes[newest].local_T_robot);
+  map_T_local_ = graph_.pose(newest) + inverse(memory_.nodes[newest].local_T_robot);
 }
 
 // The robot is where the front end has it, corrected by the loops of the frames before: in the map, as its
 // start is.
 void Mapper::record_factor(FrameRecord& record, const FrontEndStep& step) {
   double odometry_m = 0;
-  if (!result_.frames.empty()) {
+  if (!result_.frames.empty() && !drive_start_) {
     const TPose2D motion = record.odom_T_robot - result_.frames.back().odom_T_robot;
     odometry_m = std::hypot(motion.x, motion.y);
   }
@@ -87,6 +138,21 @@ void Mapper::add_node(const FrontEndStep& step, std::size_t frame) {
 
   graph_.add_node(map_T_local_ + step.local_T_robot);
   constrain_to_local_maps(step, {options_.local_map_sigma_m, options_.local_map_sigma_rad}, graph_);
+  if (drive_start_) join_drive();
+}
+
+// Loops take over: this keeps the graph in one piece until they come, and tells where to look for them.
+void Mapper::join_drive() {
+  const std::size_t first = memory_.nodes.size() - 1;
+  memory_.nodes[first].travelled_m = memory_.nodes[first - 1].travelled_m + between_drives_m(options_);
+  Constraint constraint;
+  constraint.from = drive_start_->node;
+  constraint.to = first;
+  constraint.from_T_to = drive_start_->node_T_robot;
+  constraint.information = information_of(*drive_start_);
+  constraint.kind = Constraint::Kind::kDriveStart;
+  graph_.add_constraint(constraint);
+  drive_start_.reset();
 }
 
 void Mapper::remember(const PlacedLocalMap& finished) {
@@ -186,7 +252,7 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress, AfterF
   }
   result_.unmet_edits = unmet_edits();
   count_accepted_loops();
-  carry_frames_along(graph_.poses(), result_.node_frames, result_.frames);
+  carry_frames_along(graph_.poses(), result_.node_frames, result_.frames, result_.drive_frames);
   if (options_.close_loops && !memory_.nodes.empty() && !result_.last_pass_cut_short)
     refinement_clock_.time(
         [&] { refine_poses([&](double share) { return go_on(options_.last_pass.passes + share); }); });

@@ -30,6 +30,7 @@ const RobustKernel& SparsePoseAdjustment::kernel_of(const Constraint& constraint
   switch (constraint.kind) {
     case Constraint::Kind::kOdometry:
       return options_.odometry_kernel;
+    case Constraint::Kind::kDriveStart:
     case Constraint::Kind::kLocalMap:
       return options_.local_map_kernel;
     case Constraint::Kind::kLoop:

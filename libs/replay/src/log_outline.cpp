@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "background_thread.h"
-#include "psi_slam/logs/open_log.h"
 
 namespace psi_slam {
 
-LogOutline::LogOutline(std::filesystem::path log, const LogOptions& options)
-    : thread_([this, path = std::move(log), options] { read(path, options); }) {}
+LogOutline::LogOutline(const SessionInput& log, const LogOptions& options)
+    : thread_([this, log, options] { read(log, options); }) {}
 
 LogOutline::~LogOutline() {
   stop();
@@ -23,11 +22,11 @@ std::shared_ptr<const std::vector<TimeUs>> LogOutline::stamps_us() const {
   return stamps_us_;
 }
 
-void LogOutline::read(const std::filesystem::path& log, const LogOptions& options) {
+void LogOutline::read(const SessionInput& log, const LogOptions& options) {
   give_way();
   auto stamps_us = std::make_shared<std::vector<TimeUs>>();
   try {
-    const auto source = open_log(log, options);
+    const auto source = log.open(options);
     for (std::optional<Frame> frame; !stop_ && (frame = source->next());)
       stamps_us->push_back(frame->time_us);
   } catch (const std::exception&) {  // who maps the log meets the same, and tells it

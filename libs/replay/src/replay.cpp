@@ -17,15 +17,30 @@ using Clock = LogPace::Clock;
 constexpr std::chrono::milliseconds kBetweenSnapshots{100};
 constexpr int kWorkPerPublishing = 20;  // snapshots cost the engine at most a twentieth of its time
 
+/// Why `write` could not write `what`, a sentence; empty: it could.
+template <class Write>
+std::string failure_of(const Write& write, const std::string& what) {
+  try {
+    write();
+  } catch (const std::bad_alloc&) {
+    return "there is not enough memory to write " + what;
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
 }  // namespace
 
-Replay::Replay(std::filesystem::path log, const Settings& settings, EditJournal edits)
-    : log_(std::move(log)),
+Replay::Replay(const std::filesystem::path& log, const Settings& settings, EditJournal edits)
+    : Replay(SessionInput(log).with_edits(std::move(edits)), settings) {}
+
+Replay::Replay(SessionInput input, const Settings& settings)
+    : input_(std::move(input)),
       settings_(settings),
-      outline_(log_, log_options(settings)),
+      outline_(input_, log_options(settings)),
       painter_(settings.map),
-      maker_(std::make_unique<SnapshotMaker>(settings.mapper.psi, edits.edits())),
-      first_edits_(std::move(edits)),
+      maker_(std::make_unique<SnapshotMaker>(settings.mapper.psi, input_.edits().edits())),
       snapshot_(maker_->snapshot(phase_)),
       thread_([this] { run(); }) {}
 
@@ -120,6 +135,10 @@ void Replay::export_to(std::filesystem::path folder, bool replace) {
   tell([&] { export_ = ExportWish{std::move(folder), replace}; });
 }
 
+void Replay::save_session(std::filesystem::path file) {
+  tell([&] { save_ = std::move(file); });
+}
+
 void Replay::close() {
   tell([&] {
     close_ = true;
@@ -147,10 +166,9 @@ void Replay::run() noexcept {
 }
 
 void Replay::work() {
-  MappingSession session(log_, settings_);
+  MappingSession session(input_, settings_);
   session.set_observer([&](const SessionProgress& progress) { observe(progress); });
   session.stay_open();
-  session.set_edits(first_edits_);
   session_ = &session;
   if (!map_scans(session)) return;
   do {
@@ -185,6 +203,11 @@ bool Replay::map_scans(MappingSession& session) {
       serve_edits(session);
       continue;
     }
+    if (turn == Turn::kSave) {
+      save_once(session);
+      publish();
+      continue;
+    }
     if (turn == Turn::kFinish || !session.step()) return true;
     const std::lock_guard lock(mutex_);
     due_ = pace_.due_after(session.mapper().frames().back().time_us, Clock::now());
@@ -196,6 +219,7 @@ Replay::Turn Replay::next_turn() {
   while (true) {
     if (close_) return Turn::kClose;
     if (!edit_wishes_.empty()) return Turn::kEdit;
+    if (save_) return Turn::kSave;
     if (finish_) return Turn::kFinish;
     if (hurry_to_ > 0 && scans_ >= hurry_to_) {
       hurry_to_ = 0;
@@ -238,6 +262,7 @@ void Replay::wait_for_due_scan(std::unique_lock<std::mutex>& lock) {
 bool Replay::serve_finished(MappingSession& session) {
   while (true) {
     std::optional<ExportWish> wish;
+    bool saves = false;
     {
       std::unique_lock lock(mutex_);
       if (!close_ && edit_wishes_.empty()) {
@@ -247,9 +272,14 @@ bool Replay::serve_finished(MappingSession& session) {
         publish();
         lock.lock();
       }
-      changed_.wait(lock, [this] { return close_ || export_ || !edit_wishes_.empty(); });
+      changed_.wait(lock, [this] { return close_ || export_ || save_ || !edit_wishes_.empty(); });
       if (close_) return false;
-      if (edit_wishes_.empty()) wish = std::exchange(export_, std::nullopt);
+      saves = edit_wishes_.empty() && save_;
+      if (edit_wishes_.empty() && !saves) wish = std::exchange(export_, std::nullopt);
+    }
+    if (saves) {
+      save_once(session);
+      continue;
     }
     if (wish) {
       export_once(session, *wish);
@@ -291,17 +321,22 @@ void Replay::make_edit(MappingSession& session, const EditWish& wish) {
   maker_->note_edited({++edits_made_, *edit, outcome});
 }
 
+void Replay::save_once(const MappingSession& session) {
+  SaveOutcome outcome{++saves_, {}, ""};
+  {
+    const std::lock_guard lock(mutex_);
+    outcome.file = std::exchange(save_, std::nullopt).value();
+  }
+  outcome.failure = failure_of([&] { session.save(outcome.file); }, "the session");
+  maker_->note_save(std::move(outcome));
+}
+
 void Replay::export_once(MappingSession& session, const ExportWish& wish) {
   phase_ = ReplayPhase::kExporting;
   publish();
   ExportOutcome outcome{++exports_, wish.folder, ""};
-  try {
-    session.export_to(OutputFolder::prepare(wish.folder, wish.replace));
-  } catch (const std::bad_alloc&) {
-    outcome.failure = "there is not enough memory to write the results";
-  } catch (const std::exception& error) {
-    outcome.failure = error.what();
-  }
+  outcome.failure =
+      failure_of([&] { session.export_to(OutputFolder::prepare(wish.folder, wish.replace)); }, "the results");
   maker_->note_export(std::move(outcome));
 }
 

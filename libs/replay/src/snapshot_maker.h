@@ -23,6 +23,7 @@ class SnapshotMaker {
   void note_scan(double share) { shares_.push_back(share); }
   void note_progress(const SessionProgress& progress) { now_.progress = progress; }
   void note_warnings(std::vector<std::string> sentences) { now_.warnings = std::move(sentences); }
+  void note_save(SaveOutcome outcome) { now_.saved = std::move(outcome); }
   void note_export(ExportOutcome outcome) { now_.exported = std::move(outcome); }
   void note_held(bool held) { now_.last_pass_held = held; }
   /// Loops, poses and edits are others now.

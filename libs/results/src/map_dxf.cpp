@@ -71,7 +71,7 @@ std::string map_dxf(const MapDrawing& drawing) {
   write_tables(dxf);
   dxf.pair(0, "SECTION").pair(2, "ENTITIES");
   for (const MapLine& wall : drawing.walls) write_line(dxf, wall, kWalls, true);
-  write_line(dxf, drawing.trajectory, kTrajectory, false);
+  for (const MapLine& line : drawing.trajectories) write_line(dxf, line, kTrajectory, false);
   dxf.pair(0, "ENDSEC").pair(0, "EOF");
   return dxf.take();
 }

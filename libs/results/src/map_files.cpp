@@ -24,6 +24,16 @@ void remove_if_there(const fs::path& file) {
   fs::remove(file, ignored);
 }
 
+std::vector<std::vector<mrpt::math::TPose2D>> paths_of(const MappingResult& result) {
+  std::vector<std::vector<mrpt::math::TPose2D>> paths;
+  for (const FrameSpan& drive : drives_of(result)) {
+    paths.emplace_back();
+    for (std::size_t i = drive.begin; i < drive.end; ++i)
+      paths.back().push_back(result.frames[i].map_T_robot);
+  }
+  return paths;
+}
+
 MapPrintOptions print_options(const MapFileOptions& options) {
   MapPrintOptions print;
   print.scale = options.print_scale;
@@ -46,7 +56,7 @@ void write_map_files(const fs::path& folder, const MappingResult& result,
   file(options.mrpt, "map.simplemap.gz",
        [&](const fs::path& path) { write_simple_map(path, simple_map(result)); });
   MapDrawing drawing;
-  if (options.svg || options.dxf) drawing = draw_map_lines(grid, mapped_poses(result), options.lines);
+  if (options.svg || options.dxf) drawing = draw_map_lines(grid, paths_of(result), options.lines);
   file(options.svg, "map.svg",
        [&](const fs::path& path) { write_text_atomically(path, map_svg(drawing, options.print_scale)); });
   file(options.dxf, "map.dxf", [&](const fs::path& path) { write_text_atomically(path, map_dxf(drawing)); });

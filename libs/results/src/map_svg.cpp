@@ -76,8 +76,9 @@ std::string map_svg(const MapDrawing& drawing, double scale) {
   std::string walls = "<path fill-rule=\"evenodd\" d=\"";
   for (const MapLine& line : drawing.walls) walls += path_data(line, "Z\n");
   walls += "\"/>\n";
-  const std::string trajectory =
-      drawing.trajectory.empty() ? "" : "<path d=\"" + path_data(drawing.trajectory, "") + "\"/>\n";
+  std::string trajectories;
+  for (const MapLine& line : drawing.trajectories)
+    if (!line.empty()) trajectories += "<path d=\"" + path_data(line, "") + "\"/>\n";
 
   const std::string box = number(left) + ' ' + number(top) + ' ' + number(width) + ' ' + number(height);
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -90,7 +91,7 @@ std::string map_svg(const MapDrawing& drawing, double scale) {
          layer("trajectory",
                "fill=\"none\" stroke=\"#c2410c\" stroke-linejoin=\"round\" stroke-width=\"" +
                    number(0.25 * mm) + '"',
-               trajectory) +
+               trajectories) +
          layer("walls",
                "fill=\"#161c26\" stroke=\"#161c26\" stroke-linejoin=\"round\" stroke-linecap=\"round\" "
                "stroke-width=\"" +

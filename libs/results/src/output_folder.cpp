@@ -5,6 +5,7 @@
 
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
@@ -33,6 +34,21 @@ void check_no_file_in_the_way(const fs::path& path) {
   }
 }
 
+/// A trajectory for each drive, where there are several: their stamps may overlap.
+void write_drives(const fs::path& folder, const MappingResult& result) {
+  const auto file = [&](std::size_t drive) {
+    return folder / ("trajectory-" + std::to_string(drive) + ".tum");
+  };
+  const Trajectory whole = trajectory_of(result.frames);
+  std::vector<FrameSpan> drives = drives_of(result);
+  if (drives.size() == 1) drives.clear();
+  for (std::size_t i = 0; i < drives.size(); ++i)
+    write_tum(file(i + 1), Trajectory(whole.begin() + static_cast<std::ptrdiff_t>(drives[i].begin),
+                                      whole.begin() + static_cast<std::ptrdiff_t>(drives[i].end)));
+  std::error_code ignored;  // those of an older map
+  for (std::size_t older = drives.size() + 1; fs::remove(file(older), ignored);) ++older;
+}
+
 }  // namespace
 
 OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
@@ -56,6 +72,7 @@ void export_results(const MappingResult& result, const mrpt::maps::COccupancyGri
                     const OutputFolder& folder, const MapFileOptions& map_files) {
   const auto file = [&](const char* name) { return folder.path() / name; };
   write_tum(file("trajectory.tum"), trajectory_of(result.frames));
+  write_drives(folder.path(), result);
   write_corrected_log(file("trajectory.carmen"), result.log, mapped_poses(result));
   write_frames_csv(file("frames.csv"), result.frames);
   write_loops_csv(file("loops.csv"), result.loops);

@@ -53,6 +53,8 @@ Path thinned(const Path& path) {
   return kept;
 }
 
+using Paths = std::vector<Path>;  // one of each drive
+
 std::string path_data(Path::const_iterator begin, Path::const_iterator end) {
   std::string data;
   for (auto point = begin; point != end; ++point) data += (point == begin ? 'M' : 'L') + text(*point);
@@ -81,9 +83,9 @@ std::string dot(const char* css_class, const Pixel& at) {
          css_class + "</title></path>\n";
 }
 
-std::string trajectory_layer(const Path& path) {
+std::string coloured(const Path& path) {
   constexpr std::size_t kColours = 48;
-  std::string svg = "<g class=\"layer trajectory\">\n";
+  std::string svg;
   const std::size_t last = path.empty() ? 0 : path.size() - 1;
   for (std::size_t i = 0; i < kColours; ++i) {
     const auto begin = static_cast<std::ptrdiff_t>(last * i / kColours);
@@ -92,17 +94,26 @@ std::string trajectory_layer(const Path& path) {
     svg += "<path stroke=\"" + time_colour((static_cast<double>(i) + 0.5) / kColours) + "\" d=\"" +
            path_data(path.begin() + begin, path.begin() + end + 1) + "\"/>\n";
   }
+  return svg;
+}
+
+std::string trajectory_layer(const Paths& paths) {
+  std::string svg = "<g class=\"layer trajectory\">\n";
+  for (const Path& path : paths) svg += coloured(path);
   return svg + "</g>\n";
 }
 
-std::string ends_layer(const Path& path) {
-  if (path.empty()) return {};
-  return "<g class=\"layer trajectory\">\n" + dot("start", path.front()) + dot("end", path.back()) + "</g>\n";
+std::string ends_layer(const Paths& paths) {
+  std::string svg = "<g class=\"layer trajectory\">\n";
+  for (const Path& path : paths)
+    if (!path.empty()) svg += dot("start", path.front()) + dot("end", path.back());
+  return svg + "</g>\n";
 }
 
-std::string path_layer(const char* name, const Path& path) {
-  return "<g class=\"layer " + std::string(name) + "\"><path d=\"" + path_data(path.begin(), path.end()) +
-         "\"/></g>\n";
+std::string path_layer(const char* name, const Paths& paths) {
+  std::string data;
+  for (const Path& path : paths) data += path_data(path.begin(), path.end());
+  return "<g class=\"layer " + std::string(name) + "\"><path d=\"" + data + "\"/></g>\n";
 }
 
 std::string loop_title(const LoopRecord& loop) {
@@ -140,20 +151,30 @@ std::string loop_layer(const char* name, const MappingResult& result, LoopVerdic
   return svg + "</g>\n";
 }
 
-/// The odometry laid onto the map at its first pose, so that its drift is seen.
-Path odometry_path(const MappingResult& result, const Projection& project) {
-  Path path;
-  if (result.frames.empty()) return path;
-  const FrameRecord& first = result.frames.front();
-  for (const FrameRecord& frame : result.frames)
-    path.push_back(project(first.map_T_robot + (frame.odom_T_robot - first.odom_T_robot)));
-  return thinned(path);
+/// Poses told in a frame of their own, laid onto the map where each drive begins, so that their drift is
+/// seen.
+Paths paths_from_starts(const MappingResult& result, TPose2D FrameRecord::*pose, const Projection& project) {
+  Paths paths;
+  for (const FrameSpan& drive : drives_of(result)) {
+    paths.emplace_back();
+    for (std::size_t i = drive.begin; i < drive.end; ++i) {
+      const FrameRecord& first = result.frames[drive.begin];
+      paths.back().push_back(project(first.map_T_robot + (result.frames[i].*pose - first.*pose)));
+    }
+    paths.back() = thinned(paths.back());
+  }
+  return paths;
 }
 
-Path path_of(const MappingResult& result, TPose2D FrameRecord::*pose, const Projection& project) {
-  Path path;
-  for (const FrameRecord& frame : result.frames) path.push_back(project(frame.*pose));
-  return thinned(path);
+Paths mapped_paths(const MappingResult& result, const Projection& project) {
+  Paths paths;
+  for (const FrameSpan& drive : drives_of(result)) {
+    paths.emplace_back();
+    for (std::size_t i = drive.begin; i < drive.end; ++i)
+      paths.back().push_back(project(result.frames[i].map_T_robot));
+    paths.back() = thinned(paths.back());
+  }
+  return paths;
 }
 
 std::string scale_bar(const MapPicture& picture) {
@@ -176,17 +197,18 @@ std::string view_box(double x_min, double y_min, double x_max, double y_max) {
 }
 
 /// What must be in sight to see a path that strays from the map.
-std::string view_box_with(const Path& path, const MapPicture& picture) {
+std::string view_box_with(const Paths& paths, const MapPicture& picture) {
   double x_min = 0;
   double y_min = 0;
   double x_max = picture.width_px;
   double y_max = picture.height_px;
-  for (const Pixel& point : path) {
-    x_min = std::min(x_min, point.x - 20);
-    y_min = std::min(y_min, point.y - 20);
-    x_max = std::max(x_max, point.x + 20);
-    y_max = std::max(y_max, point.y + 20);
-  }
+  for (const Path& path : paths)
+    for (const Pixel& point : path) {
+      x_min = std::min(x_min, point.x - 20);
+      y_min = std::min(y_min, point.y - 20);
+      x_max = std::max(x_max, point.x + 20);
+      y_max = std::max(y_max, point.y + 20);
+    }
   return view_box(x_min, y_min, x_max, y_max);
 }
 
@@ -219,8 +241,8 @@ std::string report_map(const MappingResult& result, const mrpt::maps::COccupancy
   options.scale_bar = false;
   const MapPicture picture = map_picture(grid, options);
   const Projection project(picture);
-  const Path odometry = odometry_path(result, project);
-  const Path front_end = path_of(result, &FrameRecord::front_end_T_robot, project);
+  const Paths odometry = paths_from_starts(result, &FrameRecord::odom_T_robot, project);
+  const Paths front_end = paths_from_starts(result, &FrameRecord::front_end_T_robot, project);
   const std::string size = "width=\"" + std::to_string(picture.width_px) + "\" height=\"" +
                            std::to_string(picture.height_px) + "\"";
 
@@ -243,7 +265,7 @@ std::string report_map(const MappingResult& result, const mrpt::maps::COccupancy
   html += loop_layer("refused", result, LoopVerdict::kRefused, project);
   html += loop_layer("switched-off", result, LoopVerdict::kSwitchedOff, project);
   html += loop_layer("accepted", result, LoopVerdict::kAccepted, project);
-  const Path trajectory = path_of(result, &FrameRecord::map_T_robot, project);
+  const Paths trajectory = mapped_paths(result, project);
   html += trajectory_layer(trajectory);
   html += ends_layer(trajectory) + scale_bar(picture);
   html += "</svg>\n</div>\n";

@@ -14,6 +14,26 @@ namespace {
 
 using mrpt::math::TPose2D;
 
+/// Its stamps, its time and its way: drives may overlap in time, and lie anywhere for all that odometry says.
+void add_drive(const std::vector<Frame>& log, const FrameSpan& drive, MappedLogFacts& facts) {
+  TimeUs first_us = log[drive.begin].time_us;
+  TimeUs last_us = first_us;
+  TimeUs previous_us = first_us;
+  std::vector<TPose2D> odometry;
+  for (std::size_t i = drive.begin; i < drive.end; ++i) {
+    const TimeUs time_us = log[i].time_us;
+    first_us = std::min(first_us, time_us);
+    last_us = std::max(last_us, time_us);
+    facts.stamps_back += time_us < previous_us ? 1 : 0;
+    previous_us = time_us;
+    odometry.push_back(log[i].odom_T_robot);
+  }
+  facts.first_time_us = std::min(facts.first_time_us, first_us);
+  facts.last_time_us = std::max(facts.last_time_us, last_us);
+  facts.duration_s += seconds(last_us - first_us);
+  facts.odometry_length_m += path_length_m(odometry);
+}
+
 MappedLogFacts log_facts(const MappingResult& result) {
   MappedLogFacts facts;
   facts.scans = result.log.size();
@@ -29,20 +49,12 @@ MappedLogFacts log_facts(const MappingResult& result) {
   facts.first_time_us = facts.last_time_us = result.log.front().time_us;
   std::size_t beams = 0;
   std::size_t returns = 0;
-  TimeUs previous_us = result.log.front().time_us;
-  std::vector<TPose2D> odometry;
   for (const Frame& frame : result.log) {
     beams += frame.scan.ranges_m.size();
     for (const float range_m : frame.scan.ranges_m) returns += std::isfinite(range_m) ? 1 : 0;
-    facts.first_time_us = std::min(facts.first_time_us, frame.time_us);
-    facts.last_time_us = std::max(facts.last_time_us, frame.time_us);
-    facts.stamps_back += frame.time_us < previous_us ? 1 : 0;
-    previous_us = frame.time_us;
-    odometry.push_back(frame.odom_T_robot);
   }
   facts.returns = beams == 0 ? 0 : static_cast<double>(returns) / static_cast<double>(beams);
-  facts.duration_s = seconds(facts.last_time_us - facts.first_time_us);
-  facts.odometry_length_m = path_length_m(odometry);
+  for (const FrameSpan& drive : drives_of(result)) add_drive(result.log, drive, facts);
   return facts;
 }
 
@@ -129,10 +141,9 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
                          const GridMapOptions& asked) {
   RunSummary summary;
   summary.log = log_facts(result);
-  std::vector<TPose2D> poses;
+  summary.drives = drives_of(result);
   std::size_t matched = 0;
   for (const FrameRecord& frame : result.frames) {
-    poses.push_back(frame.map_T_robot);
     summary.evaluations += frame.evaluations;
     summary.mean_response += frame.response;
     matched += frame.response > 0 ? 1 : 0;
@@ -140,7 +151,11 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
   for (const auto& [name, matcher] : result.loop_matchers)
     summary.evaluations += matcher.last_pass_effort.evaluations;
   if (matched > 0) summary.mean_response /= static_cast<double>(matched);
-  summary.path_length_m = path_length_m(poses);
+  for (const FrameSpan& drive : summary.drives) {
+    std::vector<TPose2D> poses;
+    for (std::size_t i = drive.begin; i < drive.end; ++i) poses.push_back(result.frames[i].map_T_robot);
+    summary.path_length_m += path_length_m(poses);
+  }
   summary.nodes = result.graph.num_nodes();
   summary.edges = result.graph.num_enabled_constraints();
   summary.local_maps = result.local_maps.size();

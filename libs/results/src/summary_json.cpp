@@ -87,31 +87,39 @@ Json stages_json(const std::vector<StageTiming>& stages) {
   return list;
 }
 
+Json drives_json(const std::vector<FrameSpan>& drives) {
+  Json list = Json::array();
+  for (const FrameSpan& drive : drives)
+    list.push_back({{"first_scan", drive.begin}, {"scans", drive.end - drive.begin}});
+  return list;
+}
+
 }  // namespace
 
 std::string summary_json(const MappingResult& result, const RunInfo& info, const RunSummary& summary) {
-  const Json json = {{"schema", "psi-slam-summary"},
-                     {"schema_version", kSummarySchemaVersion},
-                     {"program_version", info.program_version},
-                     {"interrupted", summary.interrupted},
-                     {"warnings", info.warnings},
-                     {"last_pass_cut_short", summary.last_pass_cut_short},
-                     {"broken_off", summary.broken_off ? Json(*summary.broken_off) : Json(nullptr)},
-                     {"log", log_json(summary.log, info.log_name)},
-                     {"path_length_m", number(summary.path_length_m, 3)},
-                     {"nodes", summary.nodes},
-                     {"edges", summary.edges},
-                     {"local_maps", summary.local_maps},
-                     {"mean_response", number(summary.mean_response, 4)},
-                     {"evaluations", summary.evaluations},
-                     {"map", map_json(summary.map)},
-                     {"wall_s", number(summary.wall_s)},
-                     {"real_time_factor", number(summary.real_time_factor, 3)},
-                     {"peak_memory_mib", number(summary.peak_memory_mib, 1)},
-                     {"stages", stages_json(result.stages)},
-                     {"loop_counts", loop_counts_json(summary.loops)},
-                     {"loop_matchers", loop_matchers_json(result.loop_matchers)},
-                     {"settings", info.settings}};
+  Json json = {{"schema", "psi-slam-summary"},
+               {"schema_version", kSummarySchemaVersion},
+               {"program_version", info.program_version},
+               {"interrupted", summary.interrupted},
+               {"warnings", info.warnings},
+               {"last_pass_cut_short", summary.last_pass_cut_short},
+               {"broken_off", summary.broken_off ? Json(*summary.broken_off) : Json(nullptr)},
+               {"log", log_json(summary.log, info.log_name)},
+               {"path_length_m", number(summary.path_length_m, 3)},
+               {"nodes", summary.nodes},
+               {"edges", summary.edges},
+               {"local_maps", summary.local_maps},
+               {"mean_response", number(summary.mean_response, 4)},
+               {"evaluations", summary.evaluations},
+               {"map", map_json(summary.map)},
+               {"wall_s", number(summary.wall_s)},
+               {"real_time_factor", number(summary.real_time_factor, 3)},
+               {"peak_memory_mib", number(summary.peak_memory_mib, 1)},
+               {"stages", stages_json(result.stages)},
+               {"loop_counts", loop_counts_json(summary.loops)},
+               {"loop_matchers", loop_matchers_json(result.loop_matchers)},
+               {"settings", info.settings}};
+  if (summary.drives.size() > 1) json["drives"] = drives_json(summary.drives);
   // Names and reasons are whatever bytes the user's files had: what is no UTF-8 is replaced, not refused.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }

@@ -19,4 +19,10 @@ std::string settings_file_text(const OptionTable& table) {
          dump(table);
 }
 
+std::string settings_file_text(const Settings& settings) {
+  BoundSettings bound;
+  bound.settings = settings;
+  return settings_file_text(bound.table);
+}
+
 }  // namespace psi_slam

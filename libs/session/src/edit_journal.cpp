@@ -2,6 +2,7 @@
 #include "psi_slam/session/edit_journal.h"
 
 #include <algorithm>
+#include <sstream>
 #include <string_view>
 #include <tuple>
 
@@ -19,6 +20,16 @@ bool earlier(const TimedEdit& a, const TimedEdit& b) {
   return a.time < b.time;
 }
 
+void add_line(std::string_view line, const std::string& place, EditJournal& journal) {
+  line = line.substr(0, line.find('#'));
+  if (line.find_first_not_of(" \t") == std::string_view::npos) return;
+  try {
+    journal.add(parse_edit_line(line));
+  } catch (const UserError& error) {
+    throw UserError(place + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 bool operator<(const EditTime& a, const EditTime& b) {
@@ -27,6 +38,10 @@ bool operator<(const EditTime& a, const EditTime& b) {
 
 void EditJournal::add(const TimedEdit& edit) {
   edits_.insert(std::upper_bound(edits_.begin(), edits_.end(), edit, earlier), edit);
+}
+
+void EditJournal::add(const EditJournal& others) {
+  for (const TimedEdit& edit : others.edits_) add(edit);
 }
 
 std::vector<LoopEdit> EditJournal::take_due(EditTime now) {
@@ -56,6 +71,23 @@ bool EditJournal::forget_later(const LoopEdit& same) {
   return any;
 }
 
+EditJournal EditJournal::of_drive(std::size_t first_scan, std::size_t scans,
+                                  std::size_t first_local_map) const {
+  EditJournal journal;
+  for (TimedEdit edit : edits_) {
+    edit.edit.frame += first_scan;
+    edit.edit.local_map += first_local_map;
+    if (edit.time.kind == EditTime::Kind::kAfterScan)
+      edit.time.scan += first_scan;
+    else if (edit.time.kind == EditTime::Kind::kEnd && first_scan + scans > 0)
+      edit.time = {EditTime::Kind::kAfterScan, first_scan + scans - 1};
+    else if (first_scan > 0)
+      edit.time = {EditTime::Kind::kAfterScan, first_scan - 1};
+    journal.add(edit);
+  }
+  return journal;
+}
+
 std::string EditJournal::text() const {
   std::string text = kHeading;
   for (const TimedEdit& edit : edits_) text += edit_line(edit) + '\n';
@@ -65,15 +97,16 @@ std::string EditJournal::text() const {
 EditJournal EditJournal::read(const std::filesystem::path& file) {
   EditJournal journal;
   LineReader lines(file);
-  for (std::string_view line; lines.next(line);) {
-    line = line.substr(0, line.find('#'));
-    if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
-    try {
-      journal.add(parse_edit_line(line));
-    } catch (const UserError& error) {
-      throw UserError(lines.place() + ": " + error.what());
-    }
-  }
+  for (std::string_view line; lines.next(line);) add_line(line, lines.place(), journal);
+  return journal;
+}
+
+EditJournal EditJournal::parse(const std::string& text, const std::filesystem::path& file) {
+  EditJournal journal;
+  std::istringstream lines(text);
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);)
+    add_line(line, file.string() + ':' + std::to_string(++number), journal);
   return journal;
 }
 

@@ -6,21 +6,14 @@
 #include <cmath>
 #include <utility>
 
+#include "open_input.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/logs/open_log.h"
 #include "psi_slam/pose_graph/g2o_file.h"
 #include "psi_slam/results/grid_map.h"
-#include "psi_slam/session/read_ahead.h"
+#include "psi_slam/session/bound_settings.h"
 
 namespace psi_slam {
 namespace {
-
-std::unique_ptr<FrameSource> open(const std::filesystem::path& path, const Settings& settings) {
-  check(settings);
-  auto source = open_log(path, log_options(settings));
-  if (worker_threads(settings.run) == 1) return source;
-  return std::make_unique<ReadAhead>(std::move(source));
-}
 
 bool has_return(const Frame& frame) {
   bool any = false;
@@ -53,10 +46,21 @@ class MappingSession::WorkClock {
 };
 
 MappingSession::MappingSession(const std::filesystem::path& log, const Settings& settings)
-    : path_(log),
+    : MappingSession(SessionInput(log), settings) {}
+
+MappingSession::MappingSession(const SessionInput& input, const Settings& settings)
+    : recording_(input.recording()),
+      path_(input.log()),
+      logs_(input.logs()),
       settings_(settings),
-      source_(open(log, settings)),
-      mapper_(std::make_unique<Mapper>(mapper_options(settings))) {}
+      source_(open_input(input, settings)),
+      mapper_(std::make_unique<Mapper>(mapper_options(settings))),
+      edits_(input.edits()) {
+  make_due_edits({});
+  if (!recording_) return;
+  drives_ = recording_->facts.drives;
+  scans_left_ = path_.empty() && recording_->facts.scans_left;
+}
 
 MappingSession::~MappingSession() = default;
 
@@ -66,7 +70,9 @@ bool MappingSession::step() {
     const WorkClock clock(work_s_);
     std::optional<Frame> frame = read();
     if (!frame) return false;
+    frame->index = scans_;
     any_return_ = any_return_ || has_return(*frame);
+    begin_recorded_drive();
     mapper_->add(*std::move(frame));
     make_due_edits({EditTime::Kind::kAfterScan, scans_++});
   }
@@ -90,7 +96,7 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   begin(SessionProgress::Phase::kLastPass);
   WorkClock clock(work_s_);
   if (!any_return_)
-    throw UserError(path_.string() + ": " +
+    throw UserError((path_.empty() ? names_of(logs_) : path_.string()) + ": " +
                     (scans_ == 0 ? "no scan was read, there is nothing to map"
                                  : "none of its " + std::to_string(scans_) +
                                        " scans has a return between log.min_range_m and log.max_range_m"));
@@ -114,9 +120,8 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   stages_of_mapping_ = result_.stages.size();
 }
 
-void MappingSession::set_edits(EditJournal edits) {
-  edits_ = std::move(edits);
-  edits_.rewind();
+void MappingSession::add_edits(const EditJournal& edits) {
+  edits_.add(edits);
   make_due_edits({});
 }
 
@@ -197,7 +202,7 @@ std::vector<std::string> MappingSession::unmet_edits() const {
 }
 
 std::vector<std::string> MappingSession::warnings() const {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = warnings_before_;
   if (broken_off_) warnings.push_back(*broken_off_);
   if (const SkippedLines skipped = skipped_lines(); skipped.count > 0) warnings.push_back(skipped.sentence());
   for (const std::string& complaint : unmet_edits()) warnings.push_back("an edit was not made: " + complaint);
@@ -205,12 +210,10 @@ std::vector<std::string> MappingSession::warnings() const {
 }
 
 RunInfo MappingSession::run_info() const {
-  Settings settings;
-  OptionTable table;
-  describe(table, settings);
-  settings = settings_;
-  RunInfo info{PSI_SLAM_VERSION, path_.filename().string(), {}, {}};
-  for (const OptionSection& section : table.sections())
+  BoundSettings bound;
+  bound.settings = settings_;
+  RunInfo info{PSI_SLAM_VERSION, names_of(logs_), {}, {}};
+  for (const OptionSection& section : bound.table.sections())
     for (const Option& option : section.options) info.settings[option.name()] = option.text();
   info.warnings = warnings();
   return info;

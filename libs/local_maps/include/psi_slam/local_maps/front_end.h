@@ -116,6 +116,10 @@ class FrontEnd {
   /// Ends the local maps that are still active and returns them, older first.
   std::vector<PlacedLocalMap> finish();
 
+  /// The next scan is of another drive: nothing before says where it was taken. The frame "local" begins anew
+  /// at its robot; nodes and local maps are numbered on. Needs finish().
+  void begin_drive();
+
   /// The local maps that scans are inserted into, older first, at most two.
   const std::vector<PlacedLocalMap>& active() const { return active_; }
 

@@ -12,8 +12,10 @@
 namespace psi_slam {
 
 /// Sets `map_T_robot` of every frame: as the front end saw it from the node before and from the node behind,
-/// in between the two in proportion. `node_frames` is the frame of each node.
+/// in between the two in proportion. `node_frames` is the frame of each node, `drive_frames` the first frame
+/// of each drive behind the first: the front end's frame is another from there on.
 void carry_frames_along(const std::vector<mrpt::math::TPose2D>& map_T_node,
-                        const std::vector<std::size_t>& node_frames, std::vector<FrameRecord>& frames);
+                        const std::vector<std::size_t>& node_frames, std::vector<FrameRecord>& frames,
+                        const std::vector<std::size_t>& drive_frames = {});
 
 }  // namespace psi_slam

@@ -13,6 +13,7 @@
 #include "psi_slam/local_maps/front_end.h"
 #include "psi_slam/loop_closure/loop_edit.h"
 #include "psi_slam/loop_closure/loop_keeper.h"
+#include "psi_slam/mapping/drive_start.h"
 #include "psi_slam/mapping/joint_refinement.h"
 #include "psi_slam/mapping/mapping_result.h"
 #include "psi_slam/mapping/stage_clock.h"
@@ -49,6 +50,10 @@ class Mapper {
 
   /// The per-scan step. Frames come in the log's order; returns what became of this one so far.
   const FrameRecord& add(Frame frame);
+
+  /// The next scan is the first of another drive, which begins about there: no odometry joins it to the scans
+  /// before, loops are to. Odometry is told on from there (FrameRecord::odom_T_robot).
+  void begin_drive(const DriveStart& start);
 
   /// Changes a loop by hand, and optimises the graph. An edit whose scan or local map is still to come, or a
   /// match that is to be forced and has not been found yet, waits for it; the next edit of the same two
@@ -95,7 +100,9 @@ class Mapper {
     std::map<std::string, LoopMatcherRecord> loop_matchers;
   };
 
+  void rebase_odometry(FrameRecord& record);
   void add_node(const FrontEndStep& step, std::size_t frame);
+  void join_drive();
   void follow_graph();
   void remember(const PlacedLocalMap& finished);
   void close_loops(std::size_t node, FrameRecord& record);
@@ -118,6 +125,8 @@ class Mapper {
   std::vector<LoopEdit> waiting_edits_;
   std::vector<std::string> impossible_edits_;  ///< of those that had waited, a sentence each
   std::optional<Checkpoint> before_finish_;
+  std::optional<DriveStart> drive_start_;            ///< of the scan that comes next
+  std::optional<mrpt::math::TPose2D> odom_T_drive_;  ///< of a later drive: its odometry in the first one's
   mrpt::math::TPose2D map_T_local_;  ///< the front end's frame, as the newest node says
   double news_ = 0;                  ///< of NodeLoops, the most since the graph was optimised
   std::size_t optimized_nodes_ = 0;  ///< in the graph then

@@ -24,7 +24,8 @@ namespace psi_slam {
 /// What happened to one scan of the log, in the log's order.
 struct FrameRecord {
   TimeUs time_us = 0;
-  mrpt::math::TPose2D odom_T_robot;       ///< raw odometry; without any, the front end's pose
+  /// Raw odometry; without any, the front end's pose. Of later drives, told on from where they begin.
+  mrpt::math::TPose2D odom_T_robot;
   mrpt::math::TPose2D front_end_T_robot;  ///< the front end's own pose, before any loop was closed
   mrpt::math::TPose2D
       map_T_robot;  ///< the result: refined on what the scans near it saw, see refine_jointly()
@@ -70,6 +71,7 @@ struct MappingResult {
   PoseGraph
       graph;  ///< optimised, then refined with the scans: no longer the optimum of the constraints alone
   std::vector<std::size_t> node_frames;      ///< the frame of each node
+  std::vector<std::size_t> drive_frames;     ///< the first frame of each drive behind the first
   std::vector<LocalMapRecord> local_maps;
   std::vector<LoopRecord> loops;
   std::vector<std::string> unmet_edits;  ///< what a person asked for in vain, a sentence each
@@ -81,5 +83,17 @@ struct MappingResult {
   bool last_pass_cut_short = false;       ///< not all pairs were tried, or scans not refined
   std::optional<std::string> broken_off;  ///< what is wrong with the log behind its last scan, as a sentence
 };
+
+/// Frames in a row, [begin, end).
+struct FrameSpan {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// The frames of each drive: one, unless several were merged.
+std::vector<FrameSpan> drives_of(const MappingResult& result);
+
+/// The number of the first drive that no loop joins to any other; none where all hold together.
+std::optional<std::size_t> unjoined_drive(const MappingResult& result);
 
 }  // namespace psi_slam

@@ -15,9 +15,10 @@ namespace psi_slam {
 /// equation 5.
 struct Constraint {
   enum class Kind {
-    kOdometry,  ///< between successive nodes
-    kLocalMap,  ///< of a node to the anchor of a local map that holds its scan
-    kLoop,      ///< found by recognising a place: the only kind that may be wrong altogether
+    kOdometry,    ///< between successive nodes
+    kLocalMap,    ///< of a node to the anchor of a local map that holds its scan
+    kDriveStart,  ///< about where a drive begins, seen from a node of another one
+    kLoop,        ///< found by recognising a place: the only kind that may be wrong altogether
   };
 
   std::size_t from = 0;

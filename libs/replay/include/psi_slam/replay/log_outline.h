@@ -4,7 +4,6 @@
 #pragma once
 
 #include <atomic>
-#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -12,12 +11,13 @@
 
 #include "psi_slam/base/time_stamp.h"
 #include "psi_slam/logs/log_options.h"
+#include "psi_slam/session/session_input.h"
 
 namespace psi_slam {
 
 class LogOutline {
  public:
-  LogOutline(std::filesystem::path log, const LogOptions& options);
+  LogOutline(const SessionInput& log, const LogOptions& options);
   ~LogOutline();
   LogOutline(const LogOutline&) = delete;
   LogOutline& operator=(const LogOutline&) = delete;
@@ -32,7 +32,7 @@ class LogOutline {
   std::shared_ptr<const std::vector<TimeUs>> stamps_us() const;
 
  private:
-  void read(const std::filesystem::path& log, const LogOptions& options);
+  void read(const SessionInput& log, const LogOptions& options);
 
   std::atomic<bool> stop_{false};
   std::atomic<bool> ended_{false};

@@ -29,6 +29,7 @@
 #include "psi_slam/replay/replay_snapshot.h"
 #include "psi_slam/session/edit_history.h"
 #include "psi_slam/session/edit_journal.h"
+#include "psi_slam/session/session_input.h"
 #include "psi_slam/session/settings.h"
 
 namespace psi_slam {
@@ -38,13 +39,17 @@ class SnapshotMaker;
 class Replay {
  public:
   /// `edits` are made on the way, each at its time.
-  Replay(std::filesystem::path log, const Settings& settings, EditJournal edits = {});
+  Replay(const std::filesystem::path& log, const Settings& settings, EditJournal edits = {});
+  /// The same of a recording, see SessionInput.
+  Replay(SessionInput input, const Settings& settings);
   /// Closes, and waits for it.
   ~Replay();
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 
-  const std::filesystem::path& log() const { return log_; }
+  const SessionInput& input() const { return input_; }
+  /// That is read; empty where a recording is all there is.
+  const std::filesystem::path& log() const { return input_.log(); }
   const Settings& settings() const { return settings_; }
 
   /// Maps scan after scan, at the speed set. At the end of the log the last pass follows by itself.
@@ -73,6 +78,10 @@ class Replay {
   /// ReplaySnapshot::exported.
   void export_to(std::filesystem::path folder, bool replace);
 
+  /// Writes what was mapped until now as a session file, which is replaced: between two scans, or once the
+  /// last pass has ended. See ReplaySnapshot::saved.
+  void save_session(std::filesystem::path file);
+
   /// Ends the threads as soon as may be, mapping or not; an export under way is written to its end.
   void close();
   /// All threads have come to their ends: the destructor will not wait.
@@ -86,7 +95,7 @@ class Replay {
   std::shared_ptr<const std::vector<TimeUs>> stamps_us() const { return outline_.stamps_us(); }
 
  private:
-  enum class Turn { kStep, kEdit, kFinish, kClose };
+  enum class Turn { kStep, kEdit, kSave, kFinish, kClose };
   enum class EditKind { kEdit, kUndo, kRedo };
   struct EditWish {
     EditKind kind = EditKind::kEdit;
@@ -110,6 +119,7 @@ class Replay {
   void wish(const EditWish& edit);
   void serve_edits(MappingSession& session);
   void make_edit(MappingSession& session, const EditWish& wish);
+  void save_once(const MappingSession& session);
   void export_once(MappingSession& session, const ExportWish& wish);
   void observe(const SessionProgress& progress);
   void hold_last_pass();
@@ -117,14 +127,13 @@ class Replay {
   LogPace::Clock::time_point next_publication() const;
   void fail(const std::string& sentence);
 
-  const std::filesystem::path log_;
+  const SessionInput input_;
   const Settings settings_;
   LogOutline outline_;
   MapPainter painter_;
 
   // The engine's thread only.
   std::unique_ptr<SnapshotMaker> maker_;
-  EditJournal first_edits_;
   EditHistory edit_history_;
   int edits_made_ = 0;
   bool last_pass_stopped_ = false;     // for edits, and is to be begun anew
@@ -134,6 +143,7 @@ class Replay {
   LogPace::Clock::time_point published_at_;
   LogPace::Clock::duration publishing_took_{};
   int exports_ = 0;
+  int saves_ = 0;
 
   mutable std::mutex snapshot_mutex_;
   std::shared_ptr<const ReplaySnapshot> snapshot_;
@@ -151,6 +161,7 @@ class Replay {
   bool cut_last_pass_ = false;
   std::vector<EditWish> edit_wishes_;
   std::optional<ExportWish> export_;
+  std::optional<std::filesystem::path> save_;
   std::size_t scans_ = 0;  // mapped
 
   std::atomic<bool> stop_last_pass_{false};  // cut, or to be begun anew

@@ -45,6 +45,13 @@ struct ExportOutcome {
   std::string failure;  ///< a sentence; empty: all was written
 };
 
+/// What became of the last session file that was asked for.
+struct SaveOutcome {
+  int number = 0;  ///< they count from 1
+  std::filesystem::path file;
+  std::string failure;  ///< a sentence; empty: it was written
+};
+
 /// What became of the last edit.
 struct EditOutcome {
   int number = 0;  ///< they count from 1
@@ -85,6 +92,7 @@ struct ReplaySnapshot {
   std::vector<StageTiming> stages;  ///< once finished
   bool interrupted = false;         ///< once finished: not all of the log was mapped, or its last pass cut
   std::optional<ExportOutcome> exported;  ///< the last export that has ended
+  std::optional<SaveOutcome> saved;       ///< the last session file
 };
 
 }  // namespace psi_slam

@@ -35,14 +35,14 @@ struct DrawingExtent {
 
 struct MapDrawing {
   std::vector<MapLine> walls;  ///< closed; those of two points are there and back
-  MapLine trajectory;          ///< open
+  std::vector<MapLine> trajectories;  ///< open; one a drive
   DrawingExtent extent;        ///< of all lines and of all that was seen
   double cell_m = 0;           ///< how thick an outline is
 };
 
-/// The same grid and path give the same lines, in the same order.
+/// The same grid and paths, one of each drive, give the same lines, in the same order.
 MapDrawing draw_map_lines(const mrpt::maps::COccupancyGridMap2D& grid,
-                          const std::vector<mrpt::math::TPose2D>& map_T_robot,
+                          const std::vector<std::vector<mrpt::math::TPose2D>>& paths,
                           const MapDrawingOptions& options = {});
 
 }  // namespace psi_slam

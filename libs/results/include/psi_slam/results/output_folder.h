@@ -3,6 +3,7 @@
 //
 //     map.*  map_print.png                  the map, in the forms that MapFileOptions names
 //     trajectory.tum  trajectory.carmen     the trajectory of all scans, and the corrected log
+//     trajectory-1.tum  trajectory-2.tum    where several drives were merged, each one's
 //     frames.csv  loops.csv  summary.json  report.html
 //
 // MappingSession adds graph.g2o, and loops.edits where loops were edited.

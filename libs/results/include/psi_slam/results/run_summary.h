@@ -72,7 +72,8 @@ struct MapExtent {
 
 struct RunSummary {
   MappedLogFacts log;
-  double path_length_m = 0;  ///< of the mapped trajectory
+  std::vector<FrameSpan> drives;  ///< that it was mapped in
+  double path_length_m = 0;       ///< of the mapped trajectory
   std::size_t nodes = 0;
   std::size_t edges = 0;
   std::size_t local_maps = 0;

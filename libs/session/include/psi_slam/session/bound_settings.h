@@ -28,5 +28,6 @@ struct BoundSettings {
 
 /// A settings file with all options as they are now, with a heading that names the program's version.
 std::string settings_file_text(const OptionTable& table);
+std::string settings_file_text(const Settings& settings);
 
 }  // namespace psi_slam

@@ -52,6 +52,7 @@ class EditJournal {
 
   /// Adds one behind those of the same time.
   void add(const TimedEdit& edit);
+  void add(const EditJournal& others);
 
   /// The edits from the first that was not taken yet up to `now`; they count as taken. At the end all are
   /// due, those after scans that never came too.
@@ -67,9 +68,15 @@ class EditJournal {
   /// Forgets what is to be done to a loop later; false when nothing was.
   bool forget_later(const LoopEdit& same_loop);
 
+  /// The same of a drive that is one of several: its scans are numbered from `first_scan`, its local maps
+  /// from `first_local_map`; what was made at its end is made after the last of its `scans`.
+  EditJournal of_drive(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
+
   std::string text() const;
   /// Throws UserError, with file and line, on what is no edit.
   static EditJournal read(const std::filesystem::path& file);
+  /// The same for a text in memory, as if it stood in a file called `file`.
+  static EditJournal parse(const std::string& text, const std::filesystem::path& file);
   /// Throws SystemFailure when the disk does not take it.
   void write(const std::filesystem::path& file) const;
 

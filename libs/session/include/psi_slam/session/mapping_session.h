@@ -23,6 +23,7 @@
 #include "psi_slam/mapping/mapper.h"
 #include "psi_slam/results/output_folder.h"
 #include "psi_slam/session/edit_journal.h"
+#include "psi_slam/session/session_input.h"
 #include "psi_slam/session/settings.h"
 
 namespace psi_slam {
@@ -48,6 +49,9 @@ class MappingSession {
 
   /// Opens the log. Throws UserError when it cannot be read, and when settings contradict each other.
   MappingSession(const std::filesystem::path& log, const Settings& settings);
+  /// The same of a recording, and what goes on behind it. The map is that of one run
+  /// that was never interrupted, to the last bit, where the settings that shape it are the recording's.
+  MappingSession(const SessionInput& input, const Settings& settings);
   ~MappingSession();
   MappingSession(const MappingSession&) = delete;
   MappingSession& operator=(const MappingSession&) = delete;
@@ -64,14 +68,18 @@ class MappingSession {
   const std::optional<std::string>& broken_off() const { return broken_off_; }
 
   /// What was left out of what the session has read.
-  SkippedLines skipped_lines() const { return source_->skipped_lines(); }
+  SkippedLines skipped_lines() const;
 
-  /// Edits that are made on the way, each at its time. Call it before the first step().
-  void set_edits(EditJournal edits);
+  /// Edits that are made on the way, each at its time, besides those of the input. Call it before the
+  /// first step().
+  void add_edits(const EditJournal& edits);
 
   /// Changes a loop by hand, now. After finish(), which must have been told to stay open, the map is what it
   /// was before, and finish() is to be called again.
   LoopEditOutcome edit(const LoopEdit& edit);
+
+  /// How many, this one and those that were merged before.
+  std::size_t drives() const { return drives_.size() + 1; }
 
   /// What was changed until now and what is to be changed later: with it, the same log and the same settings
   /// give the same map.
@@ -97,10 +105,20 @@ class MappingSession {
   /// Steps to the end of the log, or, from the first scan on, until `stop` is true; and finishes.
   void run(const std::atomic<bool>& stop);
 
+  /// Goes on with another drive through the same building, which begins there: see place_drive(). Needs
+  /// finish() and stay_open(); finish() is to be called again. Throws UserError when the drive cannot be
+  /// read.
+  void begin_drive(const SessionInput& drive, const DriveStart& start);
+
   /// Draws the map and writes all results. Needs finish(); may be called again for another folder. Throws
   /// SystemFailure when the disk does not take them. The figures returned are those of summary.json and
   /// report.html; their times include all but the writing of these two.
   RunSummary export_to(const OutputFolder& folder);
+
+  /// Writes what was mapped until now, with all edits and settings, as a session file: see SessionInput.
+  /// Where not all of a recording has been mapped yet, it is written whole nevertheless. Throws SystemFailure
+  /// when the disk does not take it.
+  void save(const std::filesystem::path& file) const;
 
   /// Until finish(), and when the session was opened again: the poses, the graph and the loops so far.
   const Mapper& mapper() const { return *mapper_; }
@@ -116,10 +134,15 @@ class MappingSession {
   std::optional<Frame> read();
   void make_due_edits(EditTime now);
   void write_edits(const std::filesystem::path& file) const;
+  void begin_recorded_drive();
+  SessionFacts facts() const;
   void begin(SessionProgress::Phase phase);
   void tell(double share) const;
 
-  std::filesystem::path path_;
+  std::shared_ptr<const SessionRecording> recording_;  // null: none
+  std::filesystem::path path_;                         // of the log that is read; empty: none
+  std::vector<RecordedLog> logs_;
+  std::vector<RecordedDrive> drives_;
   Settings settings_;
   std::unique_ptr<FrameSource> source_;
   std::unique_ptr<Mapper> mapper_;  // gone after finish() unless the session stays open
@@ -128,6 +151,8 @@ class MappingSession {
   Observer observer_;
   MappingResult result_;
   std::optional<std::string> broken_off_;
+  SkippedLines skipped_before_;               // of drives before
+  std::vector<std::string> warnings_before_;  // the same
   StageClock reading_clock_{"read log"};
   SessionProgress::Phase phase_ = SessionProgress::Phase::kMapping;
   double phase_began_s_ = 0;  // of the work

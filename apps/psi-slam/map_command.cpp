@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_command.h"
+
+#include <memory>
+#include <ostream>
+
+#include "closing_text.h"
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/results/output_folder.h"
+#include "psi_slam/results/summary_json.h"
+#include "psi_slam/session/recorded_settings.h"
+#include "psi_slam/session/session_file.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kWrongUsageOrInput = 2;
+
+std::string changed_settings(const OptionTable& table) {
+  std::string lines;
+  for (const OptionSection& section : table.sections())
+    for (const Option& option : section.options)
+      if (option.text() != option.default_text) lines += option.name() + " = " + option.text() + '\n';
+  return lines;
+}
+
+SessionInput input_of(const CommandLine& line, BoundSettings& bound, const Streams& streams) {
+  if (line.resume.empty()) {
+    if (is_session_file(line.log))
+      throw UserError(line.log + " is a session, not a log: psi-slam --resume " + line.log + " -o DIR");
+    load_settings(line, bound);
+    return SessionInput(line.log);
+  }
+  const auto recording = std::make_shared<const SessionRecording>(read_session_file(line.resume));
+  load_recorded_settings(line, line.resume, recording->facts, bound, streams);
+  const auto kept = kept_settings(bound.table);
+  load_settings(line, bound);
+  require_kept(kept, bound.table, line.resume);
+  return SessionInput(recording, line.log);
+}
+
+void tell_result(const MappingSession& session, const RunSummary& summary, const OutputFolder& folder,
+                 const CommandLine& line, const Streams& streams) {
+  const RunInfo info = session.run_info();
+  if (line.verbose) streams.err << stages_text(session.result());
+  if (line.json)
+    streams.out << summary_json(session.result(), info, summary);
+  else if (!line.quiet)
+    streams.out << closing_text(summary, info.log_name, folder);
+  if (!line.save_session.empty() && !line.json && !line.quiet)
+    streams.out << "The session is " << line.save_session << ": --resume goes on with it.\n";
+}
+
+}  // namespace
+
+void check_session_to_save(const CommandLine& line) {
+  namespace fs = std::filesystem;
+  if (line.save_session.empty()) return;
+  const fs::path file = line.save_session;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored))
+    throw UserError("--save-session " + file.string() + ": it is a folder");
+  if (!fs::is_directory(folder, ignored))
+    throw UserError("--save-session " + file.string() + ": there is no folder " + folder.string());
+  const bool resumed = !line.resume.empty() && fs::equivalent(file, line.resume, ignored);
+  if (fs::exists(file, ignored) && !line.force && !resumed)
+    throw UserError("--save-session " + file.string() + ": it is there already, give --force to replace it");
+}
+
+void load_recorded_settings(const CommandLine& line, const std::string& file, const SessionFacts& facts,
+                            BoundSettings& bound, const Streams& streams) {
+  for (const std::string& name : load_recorded(bound, facts, file))
+    streams.err << "psi-slam: " << file << ": " << name << " is no option any more and is left out\n";
+  if (facts.program_version != PSI_SLAM_VERSION && !line.quiet)
+    streams.err << "psi-slam: " << file << " was made by psi-slam " << facts.program_version
+                << ", this is " PSI_SLAM_VERSION ": the map may differ from that one's\n";
+}
+
+void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
+           const Streams& streams, std::optional<ProgressLine>& progress_line) {
+  if (streams.err_is_terminal && !line.quiet) progress_line.emplace(streams.err);
+  session.set_observer([&, told = false](const SessionProgress& progress) mutable {
+    if (!told && progress.phase == SessionProgress::Phase::kLastPass && signals.came()) {
+      told = true;
+      if (progress_line) progress_line->clear();
+      streams.err << "psi-slam: interrupted, the map will show the " << progress.scans
+                  << " scans read so far and the loops found so far (interrupt again to give up)\n";
+    }
+    if (progress_line) progress_line->show(progress);
+  });
+}
+
+int save_and_export(MappingSession& session, const OutputFolder& folder, const CommandLine& line,
+                    const Streams& streams, std::optional<ProgressLine>& progress_line) {
+  if (!line.save_session.empty()) session.save(line.save_session);
+  const RunSummary summary = session.export_to(folder);
+  progress_line.reset();
+  session.set_observer({});
+  tell_result(session, summary, folder, line, streams);
+  if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
+    streams.err << "psi-slam: " << skipped.sentence() << '\n';
+  for (const std::string& unmet : session.unmet_edits())
+    streams.err << "psi-slam: an edit was not made: " << unmet << '\n';
+  if (const auto coarser = coarser_cells_text(summary.map)) streams.err << "psi-slam: " << *coarser << '\n';
+  if (!session.broken_off()) return kDone;
+  streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
+              << session.result().frames.size() << " scans that could be read\n";
+  return kWrongUsageOrInput;
+}
+
+int map_log(const CommandLine& line, const Streams& streams) {
+  BoundSettings bound;
+  const SessionInput input = input_of(line, bound, streams);
+  if (line.verbose) streams.err << changed_settings(bound.table);
+  const InterruptSignals signals;
+  MappingSession session(input, bound.settings);
+  if (!line.edits.empty()) session.add_edits(EditJournal::read(line.edits));
+  const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
+  check_session_to_save(line);
+  std::optional<ProgressLine> progress_line;
+  watch(session, signals, line, streams, progress_line);
+  session.run(signals.came());
+  return save_and_export(session, folder, line, streams, progress_line);
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "merge_command.h"
+
+#include <ostream>
+
+#include "map_command.h"
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/session/place_drive.h"
+#include "start_pose.h"
+
+namespace psi_slam {
+namespace {
+
+/// The settings are those of the first session among the inputs, under those of the command line.
+std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bound, const Streams& streams) {
+  std::vector<SessionInput> inputs;
+  bool recorded = false;
+  for (const std::string& name : line.inputs) {
+    inputs.push_back(SessionInput::of_file(name));
+    const auto& recording = inputs.back().recording();
+    if (recording && !recorded) load_recorded_settings(line, name, recording->facts, bound, streams);
+    recorded = recorded || recording;
+  }
+  // What was edited at the end of the first drive was edited before the next.
+  if (const auto& recording = inputs.front().recording())
+    inputs.front() =
+        inputs.front().with_edits(inputs.front().edits().of_drive(0, recording->frames.size(), 0));
+  load_settings(line, bound);
+  for (const SessionInput& input : inputs)
+    input.open(log_options(bound.settings));  // mistakes are told at once
+  return inputs;
+}
+
+void require_joined(const MappingSession& session, const std::vector<std::string>& names) {
+  if (const auto drive = unjoined_drive(session.result()))
+    throw UserError((names.size() == session.drives() ? names[*drive] : "a drive") +
+                    " cannot be merged: no loop was found that joins it to the rest");
+}
+
+void add_drive(MappingSession& session, const SessionInput& input, const CommandLine& line,
+               const Settings& settings, const InterruptSignals& signals) {
+  const auto grid = draw_grid_map(session.result().log, mapped_poses(session.result()), settings.map);
+  std::optional<mrpt::math::TPose2D> map_T_start;
+  if (!line.start.empty()) map_T_start = parse_start(line.start);
+  const DriveStart start = place_drive(session.result(), *grid, input, settings, map_T_start, signals.came());
+  session.begin_drive(input, start);
+}
+
+}  // namespace
+
+int merge_drives(const CommandLine& line, const Streams& streams) {
+  BoundSettings bound;
+  const std::vector<SessionInput> inputs = open_inputs(line, bound, streams);
+  if (!line.start.empty()) parse_start(line.start);
+  const OutputFolder folder = OutputFolder::prepare(line.output, line.force);
+  check_session_to_save(line);
+  const InterruptSignals signals;
+  std::optional<ProgressLine> progress_line;
+  MappingSession session(inputs.front(), bound.settings);
+  session.stay_open();
+  watch(session, signals, line, streams, progress_line);
+  session.run(signals.came());
+  for (auto input = inputs.begin() + 1; input != inputs.end(); ++input) {
+    if (signals.came()) throw SystemFailure("interrupted before all drives were read: nothing was merged");
+    add_drive(session, *input, line, bound.settings, signals);
+    session.run(signals.came());
+    require_joined(session, line.inputs);
+  }
+  return save_and_export(session, folder, line, streams, progress_line);
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All that it takes to make a map again: the frames that the mapper was given, to the last bit, and what was
+// said to it. The mapper's own state is not recorded: the same program makes the same state of the same
+// frames, and another version a better one.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "psi_slam/logs/frame.h"
+#include "psi_slam/logs/skipped_lines.h"
+#include "psi_slam/mapping/drive_start.h"
+#include "psi_slam/session/edit_journal.h"
+
+namespace psi_slam {
+
+/// A log that frames were read from.
+struct RecordedLog {
+  std::string name;       ///< of the file, without its folder
+  std::string sha256;     ///< see sha256_of_log()
+  std::size_t scans = 0;  ///< that were taken from its beginning
+};
+
+/// A drive behind the first: see DriveStart.
+struct RecordedDrive {
+  std::size_t scan = 0;  ///< its first, in the order of all frames
+  DriveStart start;
+};
+
+struct SessionFacts {
+  std::string program_version;
+  std::vector<RecordedLog> logs;  ///< in the order of their frames
+  std::vector<RecordedDrive> drives;
+  std::string settings;  ///< a settings file with every option
+  EditJournal edits;
+  SkippedLines skipped;
+  std::optional<std::string> broken_off;  ///< what is wrong with the last log behind its last frame
+  bool scans_left = false;                ///< the last log has more of them, as far as is known
+};
+
+struct SessionRecording {
+  SessionFacts facts;
+  std::vector<Frame> frames;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/session/recorded_settings.h"
+
+#include <algorithm>
+
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/config/ini_file.h"
+
+namespace psi_slam {
+namespace {
+
+bool is_kept(const Option& option) {
+  return option.section != "map" && option.section != "localization" && option.name() != "run.threads";
+}
+
+bool is_known(const std::string& name, const OptionTable& table) {
+  const auto& sections = table.sections();
+  return std::any_of(sections.begin(), sections.end(), [&](const OptionSection& section) {
+    return std::any_of(section.options.begin(), section.options.end(),
+                       [&](const Option& option) { return option.name() == name; });
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
+                                       const std::filesystem::path& file) {
+  std::vector<std::string> unknown;
+  for (const IniValue& value : parse_ini(facts.settings, file).values) {
+    const std::string name = value.section + '.' + value.key;
+    if (is_known(name, bound.table))
+      bound.table.set(name, value.text, value.where);
+    else
+      unknown.push_back(name);
+  }
+  return unknown;
+}
+
+std::map<std::string, std::string> kept_settings(const OptionTable& table) {
+  std::map<std::string, std::string> kept;
+  for (const OptionSection& section : table.sections())
+    for (const Option& option : section.options)
+      if (is_kept(option)) kept[option.name()] = option.text();
+  return kept;
+}
+
+void require_kept(const std::map<std::string, std::string>& kept, const OptionTable& table,
+                  const std::filesystem::path& file) {
+  for (const auto& [name, text] : kept_settings(table))
+    if (const std::string& before = kept.at(name); text != before)
+      throw UserError(name + " is " + before + " in the session " + file.string() + " and cannot become " +
+                      text +
+                      ": a resumed session keeps all settings but [map], [localization] and run.threads");
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// psi-slam merge, from two logs or sessions to one map.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "../session/room_log.h"
+#include "app_run.h"
+#include "psi_slam/results/trajectory_file.h"
+#include "same_results.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+/// The room, driven through twice: the second time faster, begun at a quarter of the round, its odometry from
+/// zero and its stamps those of the first drive again.
+class MergeApp : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto lines = room_log_lines(140, 80);
+    write_lines(folder_.path() / "first.log", room_log_lines(120, 100));
+    write_lines(folder_.path() / "second.log", {lines.begin() + kFirst, lines.end()});
+  }
+
+  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  AppRun merge(const std::vector<std::string>& inputs, const std::string& out,
+               const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"merge"};
+    for (const std::string& input : inputs) arguments.push_back(file(input));
+    arguments.insert(arguments.end(), {"-o", file(out)});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_app(arguments);
+  }
+
+  /// The second drive lies in the frame of the first where it truly was.
+  void expect_second_drive_in_place(const std::string& out) {
+    const Trajectory second = read_trajectory(file(out) + "/trajectory-2.tum");
+    ASSERT_EQ(second.size(), 120U);
+    for (std::size_t i = 0; i < second.size(); ++i) {
+      const auto truth = room_pose(2 * M_PI * static_cast<double>(i + kFirst) / 80) - room_pose(0);
+      ASSERT_LT(std::hypot(second[i].pose.x - truth.x, second[i].pose.y - truth.y), 0.05) << i;
+    }
+  }
+
+  static constexpr std::size_t kFirst = 20;
+  TemporaryFolder folder_;
+};
+
+TEST_F(MergeApp, finds_where_the_second_drive_began_and_makes_one_map) {
+  const AppRun run = merge({"first.log", "second.log"}, "out", {"--json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json summary = Json::parse(run.out);
+  EXPECT_EQ(summary["log"]["name"], "first.log + second.log");
+  EXPECT_EQ(summary["log"]["scans"], 240);
+  EXPECT_EQ(summary["drives"],
+            Json::parse(R"([{"first_scan": 0, "scans": 120}, {"first_scan": 120, "scans": 120}])"));
+  EXPECT_EQ(summary["log"]["stamps_back"], 0) << "drives may overlap in time";
+  EXPECT_NEAR(summary["log"]["duration_s"].get<double>(), 2 * 119 * 0.2, 1e-6);
+  EXPECT_EQ(read_trajectory(file("out") + "/trajectory-1.tum").size(), 120U);
+  EXPECT_EQ(read_trajectory(file("out") + "/trajectory.tum").size(), 240U);
+  expect_second_drive_in_place("out");
+  const double way_m = summary["path_length_m"];
+  const double odometry_m = summary["log"]["odometry_length_m"];
+  EXPECT_NEAR(way_m, odometry_m, 0.05 * odometry_m) << "the way from one drive to the next is none";
+}
+
+TEST_F(MergeApp, takes_a_start) {
+  const auto start = room_pose(2 * M_PI * kFirst / 80) - room_pose(0);
+  const auto text = std::to_string(start.x + 0.4) + ',' + std::to_string(start.y - 0.3) + ',' +
+                    std::to_string(start.phi * 180 / M_PI + 8);
+  const AppRun run = merge({"first.log", "second.log"}, "out", {"--start", text});
+  ASSERT_EQ(run.code, 0) << run.err;
+  expect_second_drive_in_place("out");
+  const AppRun wrong = merge({"first.log", "second.log"}, "wrong", {"--start", "40,40,0"});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("second.log does not begin near --start"));
+  EXPECT_TRUE(std::filesystem::is_empty(file("wrong"))) << "no half map";
+}
+
+TEST_F(MergeApp, of_sessions_with_edits_and_saved_again_it_is_the_same_map) {
+  for (const std::string name : {"first", "second"})
+    ASSERT_EQ(
+        run_app({file(name + ".log"), "-q", "-o", file(name), "--save-session", file(name + ".session")})
+            .code,
+        0);
+  ASSERT_EQ(merge({"first.log", "second.log"}, "of_logs").code, 0);
+  ASSERT_EQ(
+      merge({"first.session", "second.session"}, "of_sessions", {"--save-session", file("both.session")})
+          .code,
+      0);
+  expect_same_results(file("of_logs"), file("of_sessions"));
+  ASSERT_EQ(run_app({"--resume", file("both.session"), "-q", "-o", file("resumed")}).code, 0);
+  expect_same_results(file("of_logs"), file("resumed"));
+  EXPECT_EQ(bytes_of(file("of_logs") + "/trajectory-2.tum"), bytes_of(file("resumed") + "/trajectory-2.tum"));
+
+  const AppRun three = merge({"both.session", "second.log"}, "three", {"--json"});
+  ASSERT_EQ(three.code, 0) << three.err;
+  EXPECT_EQ(Json::parse(three.out)["drives"].size(), 3U);
+}
+
+TEST_F(MergeApp, another_building_is_refused_in_one_sentence_and_nothing_is_written) {
+  std::vector<std::string> lines = room_log_lines(60, 80);
+  for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, "1.3");  // a round shaft
+  write_lines(folder_.path() / "second.log", lines);
+  const AppRun run = merge({"first.log", "second.log"}, "out", {"--save-session", file("both.session")});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("second.log cannot be placed in the map of what came before: "));
+  EXPECT_EQ(run.err.find('\n'), run.err.size() - 1) << run.err;
+  EXPECT_TRUE(std::filesystem::is_empty(file("out")));
+  EXPECT_FALSE(std::filesystem::exists(file("both.session")));
+}
+
+TEST_F(MergeApp, wrong_usage_is_told_in_a_sentence) {
+  EXPECT_THAT(run_app({"merge", file("first.log"), "-o", file("x")}).err,
+              HasSubstr("merge FIRST SECOND -o DIR"));
+  EXPECT_THAT(merge({"first.log", "second.log"}, "x", {"--start", "1,2"}).err, HasSubstr("--start 1,2"));
+  EXPECT_THAT(merge({"first.log", "second.log", "first.log"}, "x", {"--start", "1,2,3"}).err,
+              HasSubstr("--start goes with two drives"));
+  EXPECT_THAT(run_app({"merge", file("first.log"), file("second.log")}).err, HasSubstr("-o DIR"));
+  EXPECT_THAT(merge({"first.log", "none.log"}, "x").err, HasSubstr("none.log does not exist"));
+  EXPECT_THAT(run_app({"marge", "a", "b"}).err, HasSubstr("did you mean \"merge\""));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/mapping/mapping_result.h"
+
+#include <gtest/gtest.h>
+
+namespace psi_slam {
+namespace {
+
+/// Three drives of four, three and two frames, a node each second frame of the first, else each.
+MappingResult three_drives() {
+  MappingResult result;
+  result.frames.resize(9);
+  result.drive_frames = {4, 7};
+  result.node_frames = {0, 2, 4, 5, 6, 7, 8};
+  return result;
+}
+
+LoopRecord loop(std::size_t anchor, std::size_t node, LoopVerdict verdict = LoopVerdict::kAccepted) {
+  LoopRecord record;
+  record.anchor = anchor;
+  record.node = node;
+  record.verdict = verdict;
+  return record;
+}
+
+TEST(MappingResult, tells_the_frames_of_each_drive) {
+  const std::vector<FrameSpan> drives = drives_of(three_drives());
+  ASSERT_EQ(drives.size(), 3U);
+  EXPECT_EQ(drives[0].begin, 0U);
+  EXPECT_EQ(drives[0].end, 4U);
+  EXPECT_EQ(drives[1].begin, 4U);
+  EXPECT_EQ(drives[1].end, 7U);
+  EXPECT_EQ(drives[2].end, 9U);
+  EXPECT_EQ(drives_of({}).size(), 1U);
+}
+
+TEST(MappingResult, a_drive_is_joined_by_accepted_loops_with_others_alone) {
+  MappingResult result = three_drives();
+  EXPECT_EQ(unjoined_drive(result), 0U);
+  result.loops = {loop(0, 2), loop(5, 6)};
+  EXPECT_EQ(unjoined_drive(result), 2U) << "a loop within the third joins it to nothing";
+  result.loops.push_back(loop(3, 5, LoopVerdict::kSwitchedOff));
+  EXPECT_EQ(unjoined_drive(result), 2U);
+  result.loops.push_back(loop(6, 3));
+  EXPECT_EQ(unjoined_drive(result), std::nullopt);
+  EXPECT_EQ(unjoined_drive({}), std::nullopt) << "one drive needs no loop";
+}
+
+}  // namespace
+}  // namespace psi_slam

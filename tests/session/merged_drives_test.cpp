@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Two drives through a simulated building become one map, where they truly were.
+#include <gmock/gmock.h>
+
+#include "../localization/simulated_drives.h"
+#include "psi_slam/session/mapping_session.h"
+#include "psi_slam/session/place_drive.h"
+#include "psi_slam/session/session_file.h"
+#include "same_results.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+SessionInput input_of(const std::string& name, const std::vector<Frame>& frames) {
+  auto recording = std::make_shared<SessionRecording>();
+  recording->facts.logs = {{name, name, frames.size()}};
+  recording->frames = frames;
+  return SessionInput(recording);
+}
+
+class MergedDrives : public testing::Test {
+ protected:
+  std::unique_ptr<MappingSession> merged(const SessionInput& first, const SessionInput& second,
+                                         const std::optional<TPose2D>& start = {}) {
+    auto session = std::make_unique<MappingSession>(first, settings_);
+    session->stay_open();
+    session->run(go_on_);
+    const MappingResult& mapped = session->result();
+    const auto grid = draw_grid_map(mapped.log, mapped_poses(mapped), settings_.map);
+    session->begin_drive(second, place_drive(mapped, *grid, second, settings_, start, go_on_));
+    session->run(go_on_);
+    return session;
+  }
+
+  fs::path export_of(MappingSession& session, const std::string& name) {
+    session.export_to(OutputFolder::prepare(folder_.path() / name, false));
+    return folder_.path() / name;
+  }
+
+  /// Of all frames from the truth, both drives in the frame of the first scan.
+  static double worst_m(const MappingResult& result, const TrueDrive& first, const TrueDrive& second) {
+    double worst = 0;
+    for (std::size_t i = 0; i < result.frames.size(); ++i) {
+      const bool in_first = i < first.frames.size();
+      const TPose2D& world_T_robot =
+          in_first ? first.world_T_robot[i] : second.world_T_robot[i - first.frames.size()];
+      worst =
+          std::max(worst, distance_m(result.frames[i].map_T_robot, world_T_robot - first.world_T_robot[0]));
+    }
+    return worst;
+  }
+
+  TemporaryFolder folder_;
+  Settings settings_;
+  const std::atomic<bool> go_on_{false};
+};
+
+TEST_F(MergedDrives, lie_where_they_were_and_no_odometry_joins_them) {
+  const TrueDrive first = drive_through(5, 1, 150);
+  const TrueDrive second = drive_through(5, 2, 80);
+  const auto session = merged(input_of("first", first.frames), input_of("second", second.frames));
+  const MappingResult& result = session->result();
+  ASSERT_EQ(result.frames.size(), first.frames.size() + second.frames.size());
+  ASSERT_EQ(result.drive_frames, std::vector<std::size_t>{first.frames.size()});
+  EXPECT_EQ(unjoined_drive(result), std::nullopt);
+  const double off_m = worst_m(result, first, second);
+  RecordProperty("worst_m", std::to_string(off_m));
+  EXPECT_LT(off_m, 0.15);
+
+  const PoseGraph& graph = session->mapper().graph();
+  const std::size_t first_node = static_cast<std::size_t>(
+      std::lower_bound(result.node_frames.begin(), result.node_frames.end(), first.frames.size()) -
+      result.node_frames.begin());
+  std::size_t starts = 0;
+  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
+    const Constraint& constraint = graph.constraint(i);
+    if ((constraint.from < first_node) == (constraint.to < first_node)) continue;
+    starts += constraint.kind == Constraint::Kind::kDriveStart ? 1 : 0;
+    EXPECT_TRUE(constraint.kind == Constraint::Kind::kDriveStart ||
+                constraint.kind == Constraint::Kind::kLoop);
+  }
+  EXPECT_EQ(starts, 1U);
+  const TPose2D begin = result.frames[first.frames.size()].odom_T_robot;
+  EXPECT_LT(distance_m(begin, second.world_T_robot[0] - first.world_T_robot[0]), 1)
+      << "its odometry is told on from where it began";
+}
+
+TEST_F(MergedDrives, saved_with_edits_and_mapped_again_they_are_the_same_bytes) {
+  const TrueDrive first = drive_through(5, 1, 90);
+  const TrueDrive second = drive_through(5, 2, 60);
+  const auto with_edits = [&](const std::string& name, const TrueDrive& drive) {
+    const SessionInput input = input_of(name, drive.frames);
+    MappingSession session(input, settings_);
+    session.run(go_on_);
+    EditJournal edits;
+    for (const LoopRecord& loop : session.result().loops)
+      if (loop.verdict == LoopVerdict::kAccepted && loop.frame % 2 == 0) {
+        const EditTime times[] = {{}, {EditTime::Kind::kAfterScan, drive.frames.size() - 1}};
+        edits.add({{LoopEdit::Kind::kDelete, loop.frame, loop.local_map}, times[edits.edits().size() % 2]});
+      }
+    EXPECT_FALSE(edits.empty()) << name;
+    return input.with_edits(edits);
+  };
+  const auto session = merged(with_edits("first", first), with_edits("second", second));
+  const fs::path whole = export_of(*session, "whole");
+  session->save(folder_.path() / "both.session");
+  settings_.run.threads = 1;
+  MappingSession again(SessionInput::of_file(folder_.path() / "both.session"), settings_);
+  again.run(go_on_);
+  expect_same_results(whole, export_of(again, "again"));
+  EXPECT_EQ(again.result().drive_frames, session->result().drive_frames);
+}
+
+TEST_F(MergedDrives, of_two_buildings_are_refused) {
+  const SessionInput first = input_of("first", drive_through(5, 1, 60).frames);
+  const SessionInput elsewhere = input_of("elsewhere", drive_through(6, 2, 12).frames);
+  EXPECT_THAT(sentence_of([&] { merged(first, elsewhere); }),
+              HasSubstr("elsewhere cannot be placed in the map"));
+  EXPECT_THAT(sentence_of([&] { merged(first, elsewhere, TPose2D(3, 0, 1)); }),
+              HasSubstr("elsewhere does not begin near --start"));
+}
+
+}  // namespace
+}  // namespace psi_slam

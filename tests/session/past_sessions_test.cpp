@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A session file of every version of the format that there ever was: each still loads and is mapped to what
+// it was. Whoever raises kSessionVersion adds one and leaves the others as they are.
+//
+// version-1.session: the room of room_log.h, made by `psi-slam merge`: a drive of 55 scans, 50 a round, with
+// a loop deleted by hand, and one of 48, 40 a round, that begins with the round's 13th.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "psi_slam/base/file_checksum.h"
+#include "psi_slam/session/bound_settings.h"
+#include "psi_slam/session/mapping_session.h"
+#include "psi_slam/session/recorded_settings.h"
+#include "psi_slam/session/session_file.h"
+#include "room_log.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+std::filesystem::path past_session(const std::string& name) {
+  return std::filesystem::path(PSI_SLAM_PAST_SESSIONS) / name;
+}
+
+double distance_m(const TPose2D& a, const TPose2D& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+TEST(PastSessions, version_1_is_read_as_it_was_written) {
+  const auto file = past_session("version-1.session");
+  ASSERT_EQ(sha256_of_file(file), "6e86601bfccd8339bb9d9dce696f9ad662bb14693b88c64ae1d64412a25f49cc")
+      << "the fixture itself was changed";
+  const SessionRecording recording = read_session_file(file);
+  ASSERT_EQ(recording.frames.size(), 103U);
+  ASSERT_EQ(recording.facts.logs.size(), 2U);
+  EXPECT_EQ(recording.facts.logs[0].name, "first.log");
+  EXPECT_EQ(recording.facts.logs[1].scans, 48U);
+  ASSERT_EQ(recording.facts.drives.size(), 1U);
+  EXPECT_EQ(recording.facts.drives[0].scan, 55U);
+  EXPECT_THAT(recording.facts.edits.text(), testing::HasSubstr("delete scan=45 local_map=0"));
+  EXPECT_FALSE(recording.facts.scans_left);
+  const Frame& frame = recording.frames[20];
+  EXPECT_EQ(frame.time_us, 1'004'000'000);
+  EXPECT_TRUE(frame.has_odometry);
+  ASSERT_EQ(frame.scan.ranges_m.size(), static_cast<std::size_t>(kRoomBeams));
+  const TPose2D pose = room_pose(2 * M_PI * 20 / 50);
+  for (std::size_t beam = 0; beam < frame.scan.ranges_m.size(); ++beam) {
+    const auto bearing_rad = static_cast<double>((*frame.scan.bearings_rad)[beam]);
+    EXPECT_NEAR(static_cast<double>(frame.scan.ranges_m[beam]),
+                room_range_m(pose.x, pose.y, pose.phi + bearing_rad), 2e-3);
+  }
+}
+
+TEST(PastSessions, version_1_is_mapped_to_what_it_was) {
+  const SessionInput input = SessionInput::of_file(past_session("version-1.session"));
+  BoundSettings bound;
+  load_recorded(bound, input.recording()->facts, "version-1.session");
+  MappingSession session(input, bound.settings);
+  session.run(std::atomic<bool>(false));
+  const MappingResult& result = session.result();
+  EXPECT_FALSE(result.interrupted);
+  EXPECT_EQ(unjoined_drive(result), std::nullopt);
+  EXPECT_LT(distance_m(result.frames[54].map_T_robot, room_pose(2 * M_PI * 54 / 50) - room_pose(0)), 0.03);
+  EXPECT_LT(distance_m(result.frames[102].map_T_robot, room_pose(2 * M_PI * 59 / 40) - room_pose(0)), 0.03);
+  EXPECT_LT(distance_m(result.frames[102].map_T_robot, {0.4067, 7.9528, 0}), 0.01)
+      << "where it was when it was recorded";
+}
+
+}  // namespace
+}  // namespace psi_slam

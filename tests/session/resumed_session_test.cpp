@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run that was interrupted, saved and gone on with is the run that was not, to the last byte.
+#include <gmock/gmock.h>
+
+#include "psi_slam/session/bound_settings.h"
+#include "psi_slam/session/mapping_session.h"
+#include "psi_slam/session/recorded_settings.h"
+#include "psi_slam/session/session_file.h"
+#include "room_log.h"
+#include "same_results.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+namespace fs = std::filesystem;
+
+class ResumedSession : public testing::Test {
+ protected:
+  fs::path log(const std::string& name, const std::vector<std::string>& lines) {
+    return write_lines(folder_.path() / name, lines);
+  }
+
+  fs::path export_of(MappingSession& session, const std::string& name) {
+    session.export_to(OutputFolder::prepare(folder_.path() / name, false));
+    return folder_.path() / name;
+  }
+
+  fs::path uninterrupted(const fs::path& log, const EditJournal& edits = {}) {
+    MappingSession session(log, settings_);
+    session.add_edits(edits);
+    session.run(go_on_);
+    return export_of(session, "uninterrupted");
+  }
+
+  /// The session of the log's first scans.
+  fs::path saved_after(std::size_t scans, const fs::path& log, const EditJournal& edits = {}) {
+    MappingSession session(log, settings_);
+    session.add_edits(edits);
+    for (std::size_t i = 0; i < scans; ++i) session.step();
+    session.finish();
+    session.save(saved_);
+    return saved_;
+  }
+
+  SessionInput resumed(const fs::path& log = {}) const {
+    return SessionInput(std::make_shared<const SessionRecording>(read_session_file(saved_)), log);
+  }
+
+  TemporaryFolder folder_;
+  const fs::path saved_ = folder_.path() / "saved.session";
+  Settings settings_;
+  const std::atomic<bool> go_on_{false};
+};
+
+TEST_F(ResumedSession, goes_on_in_the_same_log_to_the_same_bytes_on_any_number_of_threads) {
+  const auto path = log("room.log", room_log_lines());
+  const fs::path whole = uninterrupted(path);
+  saved_after(70, path);
+  for (const int threads : {1, 3}) {
+    settings_.run.threads = threads;
+    MappingSession session(resumed(path), settings_);
+    session.run(go_on_);
+    EXPECT_FALSE(session.result().interrupted);
+    EXPECT_EQ(session.result().frames.size(), 150U);
+    expect_same_results(whole, export_of(session, "resumed" + std::to_string(threads)));
+  }
+}
+
+TEST_F(ResumedSession, saved_before_the_first_scan_within_and_at_the_end_it_is_the_same_map) {
+  const auto path = log("room.log", room_log_lines(60));
+  const fs::path whole = uninterrupted(path);
+  for (const std::size_t scans : {1U, 59U, 60U}) {
+    saved_after(scans, path);
+    MappingSession session(resumed(path), settings_);
+    session.run(go_on_);
+    expect_same_results(whole, export_of(session, "resumed" + std::to_string(scans)));
+  }
+}
+
+TEST_F(ResumedSession, goes_on_in_a_second_log_as_if_the_two_were_one) {
+  const auto lines = room_log_lines();
+  const auto half = lines.begin() + 80;
+  const auto first = log("first.log", {lines.begin(), half});
+  const auto second = log("second.log", {half, lines.end()});
+  const fs::path whole = uninterrupted(log("room.log", lines));
+  saved_after(80, first);
+  MappingSession session(resumed(second), settings_);
+  session.run(go_on_);
+  expect_same_results(whole, export_of(session, "resumed"));
+  EXPECT_EQ(session.run_info().log_name, "first.log + second.log");
+
+  session.save(saved_);  // and once more, now of both
+  MappingSession again(resumed(), settings_);
+  again.run(go_on_);
+  expect_same_results(whole, export_of(again, "again"));
+  EXPECT_THAT(sentence_of([&] { resumed(first); }), HasSubstr("first.log is in the session already"));
+}
+
+TEST_F(ResumedSession, alone_it_writes_what_it_wrote) {
+  const auto path = log("room.log", room_log_lines());
+  MappingSession session(path, settings_);
+  for (int i = 0; i < 90; ++i) session.step();
+  session.finish();
+  session.save(saved_);
+  const fs::path before = export_of(session, "before");
+  fs::remove(path);
+  MappingSession alone(resumed(), settings_);
+  alone.run(go_on_);
+  expect_same_results(before, export_of(alone, "alone"));
+  EXPECT_EQ(alone.run_info().log_name, "room.log");
+  EXPECT_TRUE(alone.result().interrupted) << "the log had more";
+}
+
+TEST_F(ResumedSession, keeps_edits_and_takes_further_ones) {
+  const auto path = log("room.log", room_log_lines());
+  MappingSession plain(path, settings_);
+  plain.run(go_on_);
+  EditJournal early;
+  EditJournal late;
+  for (const LoopRecord& loop : plain.result().loops)
+    if (loop.verdict == LoopVerdict::kAccepted)
+      (loop.frame < 130 ? early : late).add({{LoopEdit::Kind::kDelete, loop.frame, loop.local_map}, {}});
+  ASSERT_FALSE(early.empty());
+  ASSERT_FALSE(late.empty());
+  EditJournal all = early;
+  all.add(late);
+  const fs::path whole = uninterrupted(path, all);
+  saved_after(125, path, early);
+  MappingSession session(resumed(path), settings_);
+  session.add_edits(late);
+  session.run(go_on_);
+  expect_same_results(whole, export_of(session, "resumed"));
+}
+
+TEST_F(ResumedSession, interrupted_within_the_recording_it_loses_nothing_of_it) {
+  const auto path = log("room.log", room_log_lines());
+  const fs::path whole = uninterrupted(path);
+  saved_after(100, path);
+  MappingSession session(resumed(path), settings_);
+  for (int i = 0; i < 30; ++i) session.step();
+  session.finish();
+  session.save(saved_);
+  EXPECT_EQ(read_session_file(saved_).frames.size(), 100U);
+  MappingSession again(resumed(path), settings_);
+  again.run(go_on_);
+  expect_same_results(whole, export_of(again, "again"));
+}
+
+TEST_F(ResumedSession, a_broken_log_breaks_off_again_and_what_was_skipped_is_told_again) {
+  auto lines = room_log_lines(60);
+  lines[20] = "FLASER 181 1.0 2.0";
+  lines.resize(40);
+  const auto path = log("room.log", lines);
+  std::ofstream(path, std::ios::app) << "FLASER 181 1.0 2.0";
+  MappingSession session(path, settings_);
+  session.run(go_on_);
+  session.save(saved_);
+  for (const fs::path& behind : {fs::path(), path}) {
+    MappingSession again(resumed(behind), settings_);
+    again.run(go_on_);
+    EXPECT_EQ(again.broken_off(), session.broken_off());
+    EXPECT_EQ(again.run_info().warnings, session.run_info().warnings);
+    EXPECT_FALSE(again.result().interrupted);
+  }
+}
+
+TEST_F(ResumedSession, refuses_a_log_that_neither_is_its_own_nor_goes_on_behind_it) {
+  const auto path = log("room.log", room_log_lines(60));
+  saved_after(40, path);
+  const auto other = log("other.log", room_log_lines(50, 90));
+  EXPECT_THAT(sentence_of([&] { MappingSession(resumed(other), settings_); }),
+              HasSubstr("other.log is not the log of the session"));
+  EXPECT_THAT(sentence_of([&] { resumed(folder_.path() / "none.log"); }), HasSubstr("does not exist"));
+}
+
+TEST_F(ResumedSession, its_settings_come_back_and_those_that_shape_the_map_stay) {
+  BoundSettings recorded;
+  recorded.load(
+      {}, {"front_end.window_theta_deg=7.3", "log.max_range_m=40", "map.resolution_m=0.1", "run.seed=5"});
+  SessionFacts facts;
+  facts.settings = settings_file_text(recorded.settings);
+  BoundSettings bound;
+  EXPECT_THAT(load_recorded(bound, facts, "my.session"), IsEmpty());
+  EXPECT_EQ(kept_settings(bound.table), kept_settings(recorded.table));
+  EXPECT_EQ(bound.settings.mapper.front_end.window_rad, recorded.settings.mapper.front_end.window_rad);
+  EXPECT_EQ(bound.settings.map.resolution_m, 0.1);
+
+  const auto kept = kept_settings(bound.table);
+  bound.load({}, {"map.write_png=false", "run.threads=3", "front_end.window_theta_deg=7.3"});
+  EXPECT_NO_THROW(require_kept(kept, bound.table, "my.session"));
+  bound.load({}, {"front_end.window_theta_deg=8"});
+  EXPECT_THAT(sentence_of([&] { require_kept(kept, bound.table, "my.session"); }),
+              HasSubstr("front_end.window_theta_deg is 7.3 in the session my.session and cannot become 8"));
+}
+
+TEST_F(ResumedSession, options_that_are_no_more_are_left_out_and_named) {
+  SessionFacts facts;
+  facts.settings = "[front_end]\nwindow_m = 0.2\nmagic = 3\n[gone]\nkey = 1\n";
+  BoundSettings bound;
+  EXPECT_THAT(load_recorded(bound, facts, "old.session"), ElementsAre("front_end.magic", "gone.key"));
+  EXPECT_EQ(bound.settings.mapper.front_end.window_m, 0.2);
+  facts.settings = "[front_end]\nwindow_m = -1\n";
+  EXPECT_THAT(sentence_of([&] { load_recorded(bound, facts, "old.session"); }),
+              HasSubstr("old.session:2: front_end.window_m"));
+}
+
+}  // namespace
+}  // namespace psi_slam

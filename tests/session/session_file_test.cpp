@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/session/session_file.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "psi_slam/base/file_checksum.h"
+#include "temporary_folder.h"
+#include "test_files.h"
+
+namespace psi_slam {
+namespace {
+
+using testing::HasSubstr;
+
+template <class Number>
+bool same_bits(Number a, Number b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+LaserScan scan_of(std::vector<float> ranges_m, float max_range_m) {
+  LaserScan scan;
+  scan.bearings_rad = std::make_shared<std::vector<float>>(ranges_m.size(), 0.1F);
+  scan.ranges_m = std::move(ranges_m);
+  scan.max_range_m = max_range_m;
+  scan.robot_T_laser = {0.1, -1e-300, M_PI};
+  scan.sweep_time_s = 0.025F;
+  return scan;
+}
+
+/// Scans of two sensors by turns, with numbers that text would not bring back.
+SessionRecording small_recording() {
+  SessionRecording recording;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < 4; ++i) {
+    Frame frame;
+    frame.index = i;
+    frame.time_us = 1'000'000'000'000'007 - static_cast<TimeUs>(i);  // stamps may run backwards
+    frame.odom_T_robot = {1.0 / 3, -0.0, std::nextafter(M_PI, 0)};
+    frame.scan = i < 2 ? scan_of({1.1F, nan, 3.3F}, 80) : scan_of({0.1F}, 30);
+    frame.has_odometry = i != 3;
+    recording.frames.push_back(frame);
+  }
+  recording.facts.program_version = "0.1.0";
+  recording.facts.logs = {{"first.log", std::string(64, 'a'), 3}, {"zweiter \"Lauf\".log", "", 1}};
+  recording.facts.drives = {{2, {17, {0.1, 1.0 / 3, -1e-17}, {2.0 / 3, -0.0, 1e300}}}};
+  recording.facts.settings = "[run]\nseed = 7\n";
+  recording.facts.edits.add({{LoopEdit::Kind::kDelete, 2, 1}, {EditTime::Kind::kAfterScan, 3}});
+  recording.facts.skipped = {2, "first.log:7: no number"};
+  recording.facts.broken_off = "first.log:9 is cut off";
+  recording.facts.scans_left = true;
+  return recording;
+}
+
+class SessionFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const SessionRecording recording = small_recording();
+    write_session_file(path_, recording.facts, recording.frames);
+    bytes_ = read_file(path_);
+  }
+
+  std::string complaint_about(const std::string& bytes) const {
+    write_file(path_, bytes);
+    return sentence_of([&] { read_session_file(path_); });
+  }
+
+  /// With a checksum that matches again.
+  static std::string sealed(const std::string& bytes) {
+    const std::string content = bytes.substr(0, bytes.size() - 64);
+    return content + sha256_of_text(content);
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_.path() / "my.session";
+  std::string bytes_;
+};
+
+TEST_F(SessionFileTest, brings_everything_back_to_the_last_bit) {
+  const SessionRecording before = small_recording();
+  const SessionRecording back = read_session_file(path_);
+  ASSERT_EQ(back.frames.size(), before.frames.size());
+  for (std::size_t i = 0; i < before.frames.size(); ++i) {
+    const Frame& a = before.frames[i];
+    const Frame& b = back.frames[i];
+    EXPECT_EQ(b.index, i);
+    EXPECT_EQ(a.time_us, b.time_us);
+    EXPECT_EQ(a.has_odometry, b.has_odometry);
+    EXPECT_TRUE(same_bits(a.odom_T_robot, b.odom_T_robot));
+    EXPECT_TRUE(same_bits(a.scan.robot_T_laser, b.scan.robot_T_laser));
+    EXPECT_EQ(a.scan.max_range_m, b.scan.max_range_m);
+    EXPECT_EQ(a.scan.sweep_time_s, b.scan.sweep_time_s);
+    EXPECT_EQ(*a.scan.bearings_rad, *b.scan.bearings_rad);
+    ASSERT_EQ(a.scan.ranges_m.size(), b.scan.ranges_m.size());
+    for (std::size_t beam = 0; beam < a.scan.ranges_m.size(); ++beam)
+      EXPECT_TRUE(same_bits(a.scan.ranges_m[beam], b.scan.ranges_m[beam]));
+  }
+  EXPECT_EQ(back.frames[0].scan.bearings_rad, back.frames[1].scan.bearings_rad) << "one sensor, told once";
+
+  EXPECT_EQ(back.facts.program_version, "0.1.0");
+  ASSERT_EQ(back.facts.logs.size(), 2U);
+  EXPECT_EQ(back.facts.logs[0].sha256, std::string(64, 'a'));
+  EXPECT_EQ(back.facts.logs[1].name, "zweiter \"Lauf\".log");
+  EXPECT_EQ(back.facts.logs[1].scans, 1U);
+  ASSERT_EQ(back.facts.drives.size(), 1U);
+  EXPECT_EQ(back.facts.drives[0].scan, 2U);
+  EXPECT_EQ(back.facts.drives[0].start.node, 17U);
+  const DriveStart& start = before.facts.drives[0].start;
+  EXPECT_TRUE(same_bits(back.facts.drives[0].start.node_T_robot, start.node_T_robot));
+  EXPECT_TRUE(same_bits(back.facts.drives[0].start.robot_T_found, start.robot_T_found));
+  EXPECT_EQ(back.facts.settings, before.facts.settings);
+  EXPECT_EQ(back.facts.edits.text(), before.facts.edits.text());
+  EXPECT_EQ(back.facts.skipped.sentence(), before.facts.skipped.sentence());
+  EXPECT_EQ(back.facts.broken_off, before.facts.broken_off);
+  EXPECT_TRUE(back.facts.scans_left);
+}
+
+TEST_F(SessionFileTest, the_same_recording_is_the_same_bytes_and_ends_with_the_checksum_of_all_before) {
+  const SessionRecording recording = read_session_file(path_);
+  write_session_file(path_, recording.facts, recording.frames);
+  EXPECT_EQ(read_file(path_), bytes_);
+  EXPECT_EQ(bytes_.substr(bytes_.size() - 64), sha256_of_text(bytes_.substr(0, bytes_.size() - 64)));
+  EXPECT_TRUE(is_session_file(path_));
+}
+
+TEST_F(SessionFileTest, every_flipped_bit_is_noticed) {
+  for (std::size_t i = 0; i < bytes_.size(); ++i) {
+    std::string flipped = bytes_;
+    flipped[i] = static_cast<char>(flipped[i] ^ (1 << (i % 8)));
+    EXPECT_THAT(complaint_about(flipped), HasSubstr("my.session is ")) << "byte " << i;
+  }
+}
+
+TEST_F(SessionFileTest, a_cut_off_file_is_told) {
+  for (std::size_t size = 16; size < bytes_.size(); ++size)
+    EXPECT_THAT(complaint_about(bytes_.substr(0, size)), HasSubstr("my.session is cut off")) << size;
+  EXPECT_THAT(complaint_about(bytes_.substr(0, 15)), HasSubstr("is no session of psi-slam"));
+}
+
+TEST_F(SessionFileTest, a_version_of_the_future_is_told) {
+  std::string newer = bytes_;
+  newer[16] = 2;
+  EXPECT_THAT(
+      complaint_about(sealed(newer)),
+      HasSubstr(
+          "my.session is a session of version 2, by a newer psi-slam: this one reads versions up to 1"));
+}
+
+TEST_F(SessionFileTest, what_is_none_is_told) {
+  EXPECT_THAT(complaint_about(""), HasSubstr("my.session is no session of psi-slam"));
+  EXPECT_THAT(complaint_about("FLASER 180 1.0 1.0 and so on, for longer than any head"),
+              HasSubstr("my.session is no session of psi-slam"));
+  EXPECT_FALSE(is_session_file(path_));
+  EXPECT_THAT(sentence_of([&] { read_session_file(folder_.path() / "none"); }), HasSubstr("does not exist"));
+  EXPECT_THAT(sentence_of([&] { read_session_file(folder_.path()); }), HasSubstr("is a folder"));
+  EXPECT_FALSE(is_session_file(folder_.path() / "none"));
+}
+
+TEST_F(SessionFileTest, what_does_not_add_up_is_told_though_its_checksum_matches) {
+  const SessionRecording good = small_recording();
+  const auto complaint = [&](const std::function<void(SessionRecording&)>& spoil) {
+    SessionRecording recording = good;
+    spoil(recording);
+    write_session_file(path_, recording.facts, recording.frames);
+    return sentence_of([&] { read_session_file(path_); });
+  };
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames.pop_back(); }), HasSubstr("do not add up"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.logs.clear(); }), HasSubstr("do not add up"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].scan = 4; }),
+              HasSubstr("a drive begins"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].scan.ranges_m.pop_back(); }),
+              HasSubstr("other beams than its sensor"));
+}
+
+}  // namespace
+}  // namespace psi_slam

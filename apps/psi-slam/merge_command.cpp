@@ -62,6 +62,8 @@ int merge_drives(const CommandLine& line, const Streams& streams) {
   session.run(signals.came());
   for (auto input = inputs.begin() + 1; input != inputs.end(); ++input) {
     if (signals.came()) throw SystemFailure("interrupted before all drives were read: nothing was merged");
+    if (session.broken_off())
+      streams.err << "psi-slam: " << *session.broken_off() << "; this drive is mapped up to there\n";
     add_drive(session, *input, line, bound.settings, signals);
     session.run(signals.came());
     require_joined(session, line.inputs);

@@ -50,15 +50,14 @@ void MappingSession::begin_drive(const SessionInput& drive, const DriveStart& st
   reopen();
   const std::size_t first_node = mapper_->graph().num_nodes();
   drives_.push_back({scans_, start});
-  recording_ = drive.recording();
-  const std::size_t recorded = recording_ ? recording_->frames.size() : 0;
-  if (recording_)
-    for (RecordedDrive inner : recording_->facts.drives) {
-      inner.scan += scans_;
-      inner.start.node += first_node;
-      drives_.push_back(inner);
+  const auto& inner = drive.recording();
+  if (inner)
+    for (RecordedDrive later : inner->facts.drives) {
+      later.scan += scans_;
+      later.start.node += first_node;
+      drives_.push_back(later);
     }
-  edits_.add(drive.edits().of_drive(scans_, recorded, mapper_->memory().local_maps.size()));
+  edits_.add(drive.edits().of_drive(scans_, inner ? inner->frames.size() : 0, mapper_->memory().local_maps.size()));
   recording_.reset();  // it is no longer all that there is
   path_ = drive.log();
   logs_ = logs_before;
@@ -66,7 +65,7 @@ void MappingSession::begin_drive(const SessionInput& drive, const DriveStart& st
   source_ = std::move(source);
   broken_off_.reset();
   at_end_ = false;
-  scans_left_ = false;
+  scans_left_ = scans_left_ || (inner != nullptr && path_.empty() && inner->facts.scans_left);
   begin(SessionProgress::Phase::kMapping);
   make_due_edits({EditTime::Kind::kAfterScan, scans_ - 1});
 }

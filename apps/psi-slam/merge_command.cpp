@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "merge_command.h"
 
+#include <algorithm>
 #include <ostream>
 
 #include "map_command.h"
@@ -10,6 +11,8 @@
 
 namespace psi_slam {
 namespace {
+
+constexpr int kWrongInput = 2;
 
 /// The settings are those of the first session among the inputs, under those of the command line.
 std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bound, const Streams& streams) {
@@ -60,15 +63,18 @@ int merge_drives(const CommandLine& line, const Streams& streams) {
   session.stay_open();
   watch(session, signals, line, streams, progress_line);
   session.run(signals.came());
+  int code = 0;
   for (auto input = inputs.begin() + 1; input != inputs.end(); ++input) {
     if (signals.came()) throw SystemFailure("interrupted before all drives were read: nothing was merged");
-    if (session.broken_off())
+    if (session.broken_off()) {
       streams.err << "psi-slam: " << *session.broken_off() << "; this drive is mapped up to there\n";
+      code = kWrongInput;
+    }
     add_drive(session, *input, line, bound.settings, signals);
     session.run(signals.came());
     require_joined(session, line.inputs);
   }
-  return save_and_export(session, folder, line, streams, progress_line);
+  return std::max(code, save_and_export(session, folder, line, streams, progress_line));
 }
 
 }  // namespace psi_slam

@@ -116,6 +116,15 @@ TEST_F(MergeApp, another_building_is_refused_in_one_sentence_and_nothing_is_writ
   EXPECT_FALSE(std::filesystem::exists(file("both.session")));
 }
 
+TEST_F(MergeApp, a_first_drive_that_breaks_off_is_told_and_merged_up_to_there) {
+  std::ofstream(file("first.log"), std::ios::app) << "FLASER 181 1.0 2.0";
+  const AppRun run = merge({"first.log", "second.log"}, "out", {"-q"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("first.log:121"));
+  EXPECT_THAT(bytes_of(file("out") + "/report.html"), HasSubstr("first.log:121"));
+  expect_second_drive_in_place("out");
+}
+
 TEST_F(MergeApp, wrong_usage_is_told_in_a_sentence) {
   EXPECT_THAT(run_app({"merge", file("first.log"), "-o", file("x")}).err,
               HasSubstr("merge FIRST SECOND -o DIR"));

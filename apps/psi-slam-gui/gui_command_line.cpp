@@ -10,7 +10,7 @@ namespace psi_slam {
 GuiCommandLine parse_gui_command_line(const std::vector<std::string>& arguments, CLI::App& app) {
   GuiCommandLine line;
   app.add_option("LOG", line.log,
-                 "Log to open: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag")
+                 "Log to open: an MRPT rawlog or a CARMEN log, plain or gzipped, a ROS bag, or a session")
       ->type_name("");
   app.add_option("--edits", line.edits,
                  "Loops deleted, forced or matched by hand: a file as File > Save loop edits makes it")

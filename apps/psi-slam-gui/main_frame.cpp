@@ -16,6 +16,7 @@
 #include "message_bar.h"
 #include "plot_panel.h"
 #include "psi_slam/base/user_error.h"
+#include "psi_slam/session/recorded_settings.h"
 #include "settings_panel.h"
 #include "transport_bar.h"
 #include "wx_text.h"
@@ -155,7 +156,7 @@ void MainFrame::build_toolbar() {
 
 void MainFrame::start(const std::string& log, const std::string& config,
                       const std::vector<std::string>& settings, const std::string& edits) {
-  EditJournal journal;
+  std::optional<EditJournal> journal;
   try {
     settings_.load(config, settings);
     if (!edits.empty()) journal = EditJournal::read(edits);
@@ -166,13 +167,35 @@ void MainFrame::start(const std::string& log, const std::string& config,
   if (!log.empty()) open_log(log, std::move(journal));
 }
 
-void MainFrame::open_log(const std::filesystem::path& log, EditJournal edits) {
+void MainFrame::open_log(const std::filesystem::path& log, std::optional<EditJournal> edits) {
+  try {
+    SessionInput input = SessionInput::of_file(log);
+    if (edits) input = input.with_edits(*std::move(edits));
+    kept_settings_.clear();
+    std::vector<std::string> unknown;
+    if (input.recording()) {
+      unknown = load_recorded(settings_, input.recording()->facts, log);
+      kept_settings_ = kept_settings(settings_.table);
+      settings_panel_->refresh();
+    }
+    opened_ = log;
+    open(std::move(input));
+    if (!unknown.empty())
+      messages_->say(MessageBar::Kind::kWarning,
+                     "The session has an option " + unknown.front() + " that this program does not know");
+  } catch (const UserError& error) {
+    messages_->say(MessageBar::Kind::kError, error.what());
+  }
+}
+
+void MainFrame::open(SessionInput input) {
   messages_->dismiss();
   snapshot_.reset();
   shown_frame_.reset();
   told_failure_.clear();
   told_warnings_.clear();
   told_export_ = 0;
+  told_save_ = 0;
   told_edit_ = 0;
   set_adding_loop(false);
   remembered_ = false;
@@ -182,11 +205,11 @@ void MainFrame::open_log(const std::filesystem::path& log, EditJournal edits) {
   plots_->show_nothing();
   settings_of_run_ = settings_file_text(settings_.table);
   settings_panel_->show_pending(false);
-  replay_.open(log, settings_.settings, std::move(edits));
+  replay_.open(std::move(input), settings_.settings);
   replay_->set_speed(speed_);
   middle_->SetSelection(kMapPage);
   canvas_->show_all();
-  SetTitle(text_of(log.filename()) + wxString::FromUTF8(" — psi-slam"));
+  SetTitle(text_of(opened_.filename()) + wxString::FromUTF8(" — psi-slam"));
   refresh();
 }
 
@@ -203,7 +226,13 @@ void MainFrame::show_pending_settings() {
 }
 
 void MainFrame::restart() {
-  if (replay_) open_log(std::filesystem::path(replay_->log()), edits());
+  if (!replay_) return;
+  try {
+    if (replay_->input().recording()) require_kept(kept_settings_, settings_.table, opened_);
+    open(replay_->input().with_edits(edits()));
+  } catch (const UserError& error) {
+    messages_->say(MessageBar::Kind::kError, error.what());
+  }
 }
 
 void MainFrame::refresh() {
@@ -237,7 +266,16 @@ void MainFrame::take_news(const ReplaySnapshot& snapshot) {
   }
   if (!remembered_ && snapshot.phase != ReplayPhase::kOpening && snapshot.phase != ReplayPhase::kFailed) {
     remembered_ = true;
-    remember(replay_->log());
+    remember(opened_);
+  }
+  if (snapshot.saved && snapshot.saved->number != told_save_) {
+    told_save_ = snapshot.saved->number;
+    const std::string& failure = snapshot.saved->failure;
+    exported_ = exported_ || failure.empty();
+    messages_->say(failure.empty() ? Kind::kNote : Kind::kError,
+                   failure.empty() ? "The session is " + snapshot.saved->file.string() +
+                                         ": open it here, or go on with it by psi-slam --resume"
+                                   : failure);
   }
   if (!snapshot.exported || snapshot.exported->number == told_export_) return;
   const ExportOutcome& outcome = *snapshot.exported;
@@ -262,6 +300,7 @@ void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
   menu.Enable(kFinish, has_scans && (mapping || snapshot->phase == ReplayPhase::kLastPass));
   menu.Enable(kRestart, snapshot != nullptr);
   menu.Enable(kExport, finished);
+  menu.Enable(kSaveSession, has_scans && (mapping || finished));
   menu.Enable(kSavePicture, snapshot != nullptr);
   enable_edit_commands(snapshot);
   GetToolBar()->EnableTool(kRestart, snapshot != nullptr);

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,8 +42,9 @@ class MainFrame : public wxFrame {
   void start(const std::string& log, const std::string& config, const std::vector<std::string>& settings,
              const std::string& edits = "");
 
-  /// `edits` are made again while it is mapped.
-  void open_log(const std::filesystem::path& log, EditJournal edits = {});
+  /// A log, or a session, whose settings become those of the window. `edits` are made while it is mapped, if
+  /// there are any instead of the session's.
+  void open_log(const std::filesystem::path& log, std::optional<EditJournal> edits = {});
   /// The same, but where edits would be lost the user is asked first.
   void open_other_log(const std::filesystem::path& log);
   void open_settings(const std::filesystem::path& file);
@@ -52,6 +54,8 @@ class MainFrame : public wxFrame {
   /// The log is mapped again with the edits of a file.
   void open_edits(const std::filesystem::path& file);
   void save_edits(const std::filesystem::path& file);
+  /// Once the engine comes to it: between two scans, or after the last pass.
+  void save_session(const std::filesystem::path& file);
   /// Shows a scan that was mapped already, or maps up to it.
   void go_to(std::size_t scan);
 
@@ -90,6 +94,8 @@ class MainFrame : public wxFrame {
   void ask_for_settings(bool save);
   void ask_for_export();
   void ask_for_picture();
+  void ask_for_session();
+  void open(SessionInput input);
   /// Menus and tools say what is shown.
   void check_choices();
   void play_or_pause();
@@ -115,9 +121,12 @@ class MainFrame : public wxFrame {
   std::optional<std::size_t> shown_frame_;  ///< looked at instead of the newest
   double speed_ = 0;
   std::string settings_of_run_;  ///< as text: to see whether they have changed since
+  std::filesystem::path opened_;                      ///< log or session
+  std::map<std::string, std::string> kept_settings_;  ///< of a session: it cannot be mapped with others
   std::string told_failure_;     ///< what was said of this run already
   std::vector<std::string> told_warnings_;
   int told_export_ = 0;
+  int told_save_ = 0;
   int told_edit_ = 0;
   std::optional<mrpt::math::TPoint2D> first_place_;  ///< pointed at, of a loop to be added
   bool remembered_ = false;                          // among the recent logs

@@ -23,8 +23,7 @@ namespace psi_slam {
 namespace {
 
 const char* const kLogFiles =
-    "Logs (*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz)|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz|All "
-    "files|*";
+    "Logs and sessions|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.session|All files|*";
 const char* const kSettingsFiles = "Settings (*.ini)|*.ini|All files|*";
 
 }  // namespace
@@ -65,6 +64,7 @@ void MainFrame::press_key(wxKeyEvent& event) {
 void MainFrame::bind_file_commands() {
   on(kOpenLog, [this] { ask_for_log(); });
   on(kOpenFolder, [this] { ask_for_log_folder(); });
+  on(kSaveSession, [this] { ask_for_session(); });
   on(kOpenSettings, [this] { ask_for_settings(false); });
   on(kSaveSettings, [this] { ask_for_settings(true); });
   on(kResetSettings, [this] { settings_panel_->reset_all(); });
@@ -139,7 +139,7 @@ void MainFrame::check_choices() {
 }
 
 void MainFrame::ask_for_log() {
-  if (const auto file = ask_for_file_({FileQuestion::Kind::kOpen, "Open a log", kLogFiles, ""}))
+  if (const auto file = ask_for_file_({FileQuestion::Kind::kOpen, "Open a log or a session", kLogFiles, ""}))
     open_other_log(*file);
 }
 
@@ -164,6 +164,16 @@ void MainFrame::ask_for_export() {
   const auto folder =
       ask_for_file_({FileQuestion::Kind::kFolder, "Folder for the results, new or empty", "", ""});
   if (folder) export_to(*folder, false);
+}
+
+void MainFrame::ask_for_session() {
+  const auto file = ask_for_file_(
+      {FileQuestion::Kind::kSave, "Save the session", "Sessions (*.session)|*.session", "my.session"});
+  if (file) save_session(*file);
+}
+
+void MainFrame::save_session(const std::filesystem::path& file) {
+  if (replay_) replay_->save_session(file);
 }
 
 void MainFrame::ask_for_picture() {

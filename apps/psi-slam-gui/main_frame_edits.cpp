@@ -166,7 +166,7 @@ void MainFrame::open_edits(const std::filesystem::path& file) {
   if (!replay_) return;
   try {
     EditJournal journal = EditJournal::read(file);
-    open_log(std::filesystem::path(replay_->log()), std::move(journal));
+    open(replay_->input().with_edits(std::move(journal)));
     messages_->say(MessageBar::Kind::kNote,
                    "The log is mapped again with the edits of " + file.string() + " as soon as it is played");
   } catch (const UserError& error) {

@@ -15,9 +15,11 @@ wxString utf8(const char* text) {
 
 wxMenu* file_menu(wxMenu* recent) {
   auto* menu = new wxMenu;
-  menu->Append(kOpenLog, utf8("&Open log…\tCtrl+O"));
+  menu->Append(kOpenLog, utf8("&Open log or session…\tCtrl+O"));
   menu->Append(kOpenFolder, utf8("Open &folder of a ROS 2 bag…"));
   menu->AppendSubMenu(recent, "&Recent logs");
+  menu->AppendSeparator();
+  menu->Append(kSaveSession, utf8("Save sessio&n…\tCtrl+S"));
   menu->AppendSeparator();
   menu->Append(kOpenSettings, utf8("Open &settings…\tCtrl+Shift+O"));
   menu->Append(kSaveSettings, utf8("Save se&ttings…\tCtrl+Shift+S"));

@@ -36,6 +36,7 @@ enum Command : int {
   kPanePlots,
   kDefaultLayout,
   kOpenFolder,
+  kSaveSession,
   kShortcuts,
   kUndo = wxID_UNDO,
   kRedo = wxID_REDO,

@@ -6,9 +6,9 @@
 
 namespace psi_slam {
 
-void ReplaySlot::open(const std::filesystem::path& log, const Settings& settings, EditJournal edits) {
+void ReplaySlot::open(SessionInput input, const Settings& settings) {
   close();
-  replay_ = std::make_unique<Replay>(log, settings, std::move(edits));
+  replay_ = std::make_unique<Replay>(std::move(input), settings);
 }
 
 void ReplaySlot::close() {

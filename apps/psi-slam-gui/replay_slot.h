@@ -2,7 +2,6 @@
 // The run that the window shows. Another one takes its place at once, however busy the one before still is.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -16,7 +15,7 @@ class ReplaySlot {
   Replay* operator->() const { return replay_.get(); }
   explicit operator bool() const { return replay_ != nullptr; }
 
-  void open(const std::filesystem::path& log, const Settings& settings, EditJournal edits = {});
+  void open(SessionInput input, const Settings& settings);
   void close();
 
   /// Lets go of closed runs whose threads have ended; to be called now and then.

@@ -77,6 +77,46 @@ TEST_F(FileQuestionsTest, a_log_is_opened_its_results_and_the_view_are_written) 
   EXPECT_EQ(asked_[2].proposed_name, "view.png");
 }
 
+TEST_F(FileQuestionsTest, a_session_is_saved_half_way_and_opened_again) {
+  const auto log = write_lines(path("room.log"), room_log_lines(40));
+  command(kOpenLog, log).when_phase(ReplayPhase::kPaused);
+  for (int i = 0; i < 25; ++i) gui_.command(kStep);
+  gui_.when("25 scans", [](MainFrame& frame) {
+    return frame.replay()->snapshot()->frames.size() == 25 &&
+           frame.replay()->snapshot()->phase == ReplayPhase::kPaused;
+  });
+  command(kSaveSession, path("half.session"));
+  until_it_says("The session is");
+  gui_.then([](MainFrame& frame) { frame.settings_panel().enter("front_end.window_m", "0.7"); });
+  command(kOpenLog, path("half.session"))
+      .when("25 scans again",
+            [](MainFrame& frame) {
+              return frame.replay()->stamps_us() && frame.replay()->stamps_us()->size() == 25;
+            })
+      .then([](MainFrame& frame) {
+        EXPECT_NE(frame.settings_panel().shown("front_end.window_m"), "0.7") << "the session has its own";
+        EXPECT_THAT(std::string(frame.GetTitle().utf8_string()), HasSubstr("half.session"));
+      })
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .then([](MainFrame& frame) {
+        EXPECT_EQ(frame.replay()->snapshot()->frames.size(), 25U);
+        frame.settings_panel().enter("front_end.window_m", "0.7");
+      })
+      .command(kRestart);
+  until_it_says("front_end.window_m is");
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
+TEST_F(FileQuestionsTest, a_damaged_session_is_told_and_the_map_on_show_stays) {
+  map_room();
+  write_file(path("broken.session"), "psi-slam session and then nothing");
+  command(kOpenLog, path("broken.session"));
+  until_it_says("broken.session is");
+  gui_.then([](MainFrame& frame) { EXPECT_EQ(frame.replay()->snapshot()->frames.size(), 20U); });
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
 TEST_F(FileQuestionsTest, settings_are_saved_over_others_and_opened) {
   write_file(path("my.ini"), "[front_end]\nwindow_m = 0.7\n");
   command(kOpenSettings, path("my.ini")).then([](MainFrame& frame) {

@@ -4,6 +4,9 @@
 //
 // version-1.session: the room of room_log.h, made by `psi-slam merge`: a drive of 55 scans, 50 a round, with
 // a loop deleted by hand, and one of 48, 40 a round, that begins with the round's 13th.
+//
+// version-2.session: another room, 60 scans along an ellipse of half axes 3 m and 2.4 m, 50 a round, by a
+// robot with a laser ahead and one behind.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -66,6 +69,25 @@ TEST(PastSessions, version_1_is_mapped_to_what_it_was) {
   EXPECT_LT(distance_m(result.frames[102].map_T_robot, room_pose(2 * M_PI * 59 / 40) - room_pose(0)), 0.03);
   EXPECT_LT(distance_m(result.frames[102].map_T_robot, {0.4067, 7.9528, 0}), 0.01)
       << "where it was when it was recorded";
+}
+
+TEST(PastSessions, version_2_has_the_scans_of_both_lasers_and_is_mapped_to_what_it_was) {
+  const auto file = past_session("version-2.session");
+  ASSERT_EQ(sha256_of_file(file), "3e7dfbbb350d54762751c3384603ed2c70fed36828a261e408cd9fc145a6f332")
+      << "the fixture itself was changed";
+  const SessionInput input = SessionInput::of_file(file);
+  ASSERT_EQ(input.recording()->frames.size(), 60U);
+  for (const Frame& frame : input.recording()->frames) {
+    ASSERT_EQ(frame.companions.size(), 1U);
+    EXPECT_EQ(frame.companions[0].scan.laser, 1U);
+    EXPECT_EQ(frame.companions[0].scan.ranges_m.size(), 61U);
+    EXPECT_NEAR(frame.companions[0].scan.robot_T_laser.x, -0.3, 1e-4);
+  }
+  BoundSettings bound;
+  load_recorded(bound, input.recording()->facts, file);
+  MappingSession session(input, bound.settings);
+  session.run(std::atomic<bool>(false));
+  EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {2.1716, 1.7227, 0}), 0.01);
 }
 
 }  // namespace

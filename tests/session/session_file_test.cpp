@@ -31,6 +31,18 @@ LaserScan scan_of(std::vector<float> ranges_m, float max_range_m) {
   return scan;
 }
 
+/// Of a second laser always, of a third now and then.
+std::vector<CompanionScan> companions_of(std::size_t frame) {
+  std::vector<CompanionScan> companions(frame == 2 ? 2 : 1);
+  for (std::size_t i = 0; i < companions.size(); ++i) {
+    companions[i].scan = scan_of(std::vector<float>(i + 2, 2.2F), 40);
+    companions[i].scan.laser = i + 1;
+    companions[i].time_us = 17 + static_cast<TimeUs>(frame);
+    companions[i].frame_T_robot = {1.0 / 7, -0.0, 1e-300};
+  }
+  return companions;
+}
+
 /// Scans of two sensors by turns, with numbers that text would not bring back.
 SessionRecording small_recording() {
   SessionRecording recording;
@@ -42,6 +54,7 @@ SessionRecording small_recording() {
     frame.odom_T_robot = {1.0 / 3, -0.0, std::nextafter(M_PI, 0)};
     frame.scan = i < 2 ? scan_of({1.1F, nan, 3.3F}, 80) : scan_of({0.1F}, 30);
     frame.has_odometry = i != 3;
+    if (i > 0) frame.companions = companions_of(i);
     recording.frames.push_back(frame);
   }
   recording.facts.program_version = "0.1.0";
@@ -53,6 +66,17 @@ SessionRecording small_recording() {
   recording.facts.broken_off = "first.log:9 is cut off";
   recording.facts.scans_left = true;
   return recording;
+}
+
+void expect_same_scan(const LaserScan& a, const LaserScan& b) {
+  EXPECT_EQ(a.laser, b.laser);
+  EXPECT_TRUE(same_bits(a.robot_T_laser, b.robot_T_laser));
+  EXPECT_EQ(a.max_range_m, b.max_range_m);
+  EXPECT_EQ(a.sweep_time_s, b.sweep_time_s);
+  EXPECT_EQ(*a.bearings_rad, *b.bearings_rad);
+  ASSERT_EQ(a.ranges_m.size(), b.ranges_m.size());
+  for (std::size_t beam = 0; beam < a.ranges_m.size(); ++beam)
+    EXPECT_TRUE(same_bits(a.ranges_m[beam], b.ranges_m[beam]));
 }
 
 class SessionFileTest : public testing::Test {
@@ -90,15 +114,16 @@ TEST_F(SessionFileTest, brings_everything_back_to_the_last_bit) {
     EXPECT_EQ(a.time_us, b.time_us);
     EXPECT_EQ(a.has_odometry, b.has_odometry);
     EXPECT_TRUE(same_bits(a.odom_T_robot, b.odom_T_robot));
-    EXPECT_TRUE(same_bits(a.scan.robot_T_laser, b.scan.robot_T_laser));
-    EXPECT_EQ(a.scan.max_range_m, b.scan.max_range_m);
-    EXPECT_EQ(a.scan.sweep_time_s, b.scan.sweep_time_s);
-    EXPECT_EQ(*a.scan.bearings_rad, *b.scan.bearings_rad);
-    ASSERT_EQ(a.scan.ranges_m.size(), b.scan.ranges_m.size());
-    for (std::size_t beam = 0; beam < a.scan.ranges_m.size(); ++beam)
-      EXPECT_TRUE(same_bits(a.scan.ranges_m[beam], b.scan.ranges_m[beam]));
+    expect_same_scan(a.scan, b.scan);
+    ASSERT_EQ(a.companions.size(), b.companions.size());
+    for (std::size_t other = 0; other < a.companions.size(); ++other) {
+      EXPECT_EQ(a.companions[other].time_us, b.companions[other].time_us);
+      EXPECT_TRUE(same_bits(a.companions[other].frame_T_robot, b.companions[other].frame_T_robot));
+      expect_same_scan(a.companions[other].scan, b.companions[other].scan);
+    }
   }
   EXPECT_EQ(back.frames[0].scan.bearings_rad, back.frames[1].scan.bearings_rad) << "one sensor, told once";
+  EXPECT_EQ(back.frames[1].companions[0].scan.bearings_rad, back.frames[3].companions[0].scan.bearings_rad);
 
   EXPECT_EQ(back.facts.program_version, "0.1.0");
   ASSERT_EQ(back.facts.logs.size(), 2U);
@@ -142,11 +167,11 @@ TEST_F(SessionFileTest, a_cut_off_file_is_told) {
 
 TEST_F(SessionFileTest, a_version_of_the_future_is_told) {
   std::string newer = bytes_;
-  newer[16] = 2;
+  newer[16] = 3;
   EXPECT_THAT(
       complaint_about(sealed(newer)),
       HasSubstr(
-          "my.session is a session of version 2, by a newer psi-slam: this one reads versions up to 1"));
+          "my.session is a session of version 3, by a newer psi-slam: this one reads versions up to 2"));
 }
 
 TEST_F(SessionFileTest, what_is_none_is_told) {
@@ -172,6 +197,8 @@ TEST_F(SessionFileTest, what_does_not_add_up_is_told_though_its_checksum_matches
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].scan = 4; }),
               HasSubstr("a drive begins"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].scan.ranges_m.pop_back(); }),
+              HasSubstr("other beams than its sensor"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].scan.ranges_m.pop_back(); }),
               HasSubstr("other beams than its sensor"));
 }
 

@@ -28,6 +28,7 @@ SnapshotMaker::SnapshotMaker(const PsiOptions& psi, const std::vector<TimedEdit>
 void SnapshotMaker::follow(const Mapper& mapper) {
   catch_up(log_, mapper.log());
   catch_up(frames_, mapper.frames());
+  now_.drive_frames = mapper.drive_frames();
   catch_up(nodes_, mapper.memory().nodes);
   follow_local_maps(mapper);
   now_.map_T_robot = mapper.map_T_robot();

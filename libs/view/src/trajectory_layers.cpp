@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include "layers.h"
 #include "lines.h"
 #include "psi_slam/view/palette.h"
@@ -22,6 +24,8 @@ class Polyline {
     last_ = point;
     begun_ = true;
   }
+  /// What comes next begins a line of its own.
+  void interrupt() { begun_ = false; }
   CSetOfLines::Ptr lines() const { return lines_; }
 
  private:
@@ -30,6 +34,10 @@ class Polyline {
   bool begun_ = false;
 };
 
+bool begins_drive(const ReplaySnapshot& snapshot, std::size_t frame) {
+  return std::binary_search(snapshot.drive_frames.begin(), snapshot.drive_frames.end(), frame);
+}
+
 }  // namespace
 
 void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot) {
@@ -37,15 +45,20 @@ void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot) {
   if (snapshot.frames.empty()) return;
   Polyline line(palette::kOdometry, 1.5F);
   const FrameRecord& first = snapshot.frames[0];
-  for (std::size_t i = 0; i < snapshot.frames.size(); ++i)
+  for (std::size_t i = 0; i < snapshot.frames.size(); ++i) {
+    if (begins_drive(snapshot, i)) line.interrupt();
     line.add(first.map_T_robot + (snapshot.frames[i].odom_T_robot - first.odom_T_robot), height_m::kOdometry);
+  }
   layer.insert(line.lines());
 }
 
 void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot) {
   layer.clear();
   Polyline line(palette::kCorrected, 2.0F);
-  for (const mrpt::math::TPose2D& node : *snapshot.map_T_node) line.add(node, height_m::kTrajectory);
+  for (std::size_t node = 0; node < snapshot.map_T_node->size(); ++node) {
+    if (begins_drive(snapshot, snapshot.nodes[node].frame)) line.interrupt();
+    line.add((*snapshot.map_T_node)[node], height_m::kTrajectory);
+  }
   if (!snapshot.frames.empty()) line.add(snapshot.map_T_robot, height_m::kTrajectory);
   layer.insert(line.lines());
 }

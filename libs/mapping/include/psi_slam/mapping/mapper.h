@@ -86,6 +86,7 @@ class Mapper {
   const PoseGraph& graph() const { return graph_; }
   const std::vector<Frame>& log() const { return result_.log; }
   const std::vector<FrameRecord>& frames() const { return result_.frames; }
+  const std::vector<std::size_t>& drive_frames() const { return result_.drive_frames; }
   const std::vector<LoopRecord>& loops() const { return keeper_.loops(); }
   const PlaceMemory& memory() const { return memory_; }
   const std::vector<PlacedLocalMap>& active_local_maps() const { return front_end_.active(); }

@@ -68,6 +68,7 @@ struct ReplaySnapshot {
 
   HistoryView<Frame> log;  ///< the scans mapped so far
   HistoryView<FrameRecord> frames;
+  std::vector<std::size_t> drive_frames;  ///< the first frame of each drive behind the first
   HistoryView<double> shares;  ///< of the log that had been read with each of them, in [0, 1]
   HistoryView<NodeScan> nodes;
   /// Finished ones, by number; of what they hold there are the nodes' points. (The engine packs and unpacks

@@ -9,6 +9,7 @@
 #include <wx/toolbar.h>
 
 #include "empty_state.h"
+#include "first_sentences.h"
 #include "icons.h"
 #include "loop_inspector.h"
 #include "main_menu.h"
@@ -16,7 +17,6 @@
 #include "message_bar.h"
 #include "plot_panel.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/session/recorded_settings.h"
 #include "settings_panel.h"
 #include "transport_bar.h"
 #include "wx_text.h"
@@ -25,21 +25,8 @@ namespace psi_slam {
 namespace {
 
 constexpr int kBetweenLooks_ms = 50;
-constexpr int kEmptyPage = 0;
-constexpr int kMapPage = 1;
 constexpr const char* kNotExported = "The map has not been exported. Close the window nevertheless?";
-constexpr std::size_t kMostWarnings = 4;  // in the bar
 constexpr double kLoopDistance_m = 20;  // of the eye that looks at a chosen loop
-
-std::string first_of(const std::vector<std::string>& warnings) {
-  std::string text;
-  for (std::size_t i = 0; i < warnings.size() && i < kMostWarnings; ++i)
-    text += (i == 0 ? "" : "\n") + warnings[i];
-  if (warnings.size() > kMostWarnings)
-    text +=
-        "\nand " + std::to_string(warnings.size() - kMostWarnings) + " more, which the exported report lists";
-  return text;
-}
 
 class LogDrop : public wxFileDropTarget {
  public:
@@ -154,87 +141,6 @@ void MainFrame::build_toolbar() {
   bar->Realize();
 }
 
-void MainFrame::start(const std::string& log, const std::string& config,
-                      const std::vector<std::string>& settings, const std::string& edits) {
-  std::optional<EditJournal> journal;
-  try {
-    settings_.load(config, settings);
-    if (!edits.empty()) journal = EditJournal::read(edits);
-  } catch (const UserError& error) {
-    messages_->say(MessageBar::Kind::kError, error.what());
-  }
-  settings_panel_->refresh();
-  if (!log.empty()) open_log(log, std::move(journal));
-}
-
-void MainFrame::open_log(const std::filesystem::path& log, std::optional<EditJournal> edits) {
-  try {
-    SessionInput input = SessionInput::of_file(log);
-    if (edits) input = input.with_edits(*std::move(edits));
-    kept_settings_.clear();
-    std::vector<std::string> unknown;
-    if (input.recording()) {
-      unknown = load_recorded(settings_, input.recording()->facts, log);
-      kept_settings_ = kept_settings(settings_.table);
-      settings_panel_->refresh();
-    }
-    opened_ = log;
-    open(std::move(input));
-    if (!unknown.empty())
-      messages_->say(MessageBar::Kind::kWarning,
-                     "The session has an option " + unknown.front() + " that this program does not know");
-  } catch (const UserError& error) {
-    messages_->say(MessageBar::Kind::kError, error.what());
-  }
-}
-
-void MainFrame::open(SessionInput input) {
-  messages_->dismiss();
-  snapshot_.reset();
-  shown_frame_.reset();
-  told_failure_.clear();
-  told_warnings_.clear();
-  told_export_ = 0;
-  told_save_ = 0;
-  told_edit_ = 0;
-  set_adding_loop(false);
-  remembered_ = false;
-  exported_ = false;
-  closes_without_export_ = false;
-  loops_->show_nothing();
-  plots_->show_nothing();
-  settings_of_run_ = settings_file_text(settings_.table);
-  settings_panel_->show_pending(false);
-  replay_.open(std::move(input), settings_.settings);
-  replay_->set_speed(speed_);
-  middle_->SetSelection(kMapPage);
-  canvas_->show_all();
-  SetTitle(text_of(opened_.filename()) + wxString::FromUTF8(" — psi-slam"));
-  refresh();
-}
-
-void MainFrame::open_other_log(const std::filesystem::path& log) {
-  if (!snapshot_ || snapshot_->edits->empty() || exported_) return open_log(log);
-  messages_->say(
-      MessageBar::Kind::kWarning,
-      "The map with the loops edited by hand has not been exported. Open another log nevertheless?",
-      {{"Open it", [this, log] { open_log(log); }}});
-}
-
-void MainFrame::show_pending_settings() {
-  if (replay_) settings_panel_->show_pending(settings_file_text(settings_.table) != settings_of_run_);
-}
-
-void MainFrame::restart() {
-  if (!replay_) return;
-  try {
-    if (replay_->input().recording()) require_kept(kept_settings_, settings_.table, opened_);
-    open(replay_->input().with_edits(edits()));
-  } catch (const UserError& error) {
-    messages_->say(MessageBar::Kind::kError, error.what());
-  }
-}
-
 void MainFrame::refresh() {
   replay_.tidy();
   if (!replay_) return;
@@ -262,7 +168,7 @@ void MainFrame::take_news(const ReplaySnapshot& snapshot) {
   }
   if (!snapshot.warnings.empty() && snapshot.warnings != told_warnings_) {
     told_warnings_ = snapshot.warnings;
-    messages_->say(Kind::kWarning, first_of(snapshot.warnings));
+    messages_->say(Kind::kWarning, first_sentences(snapshot.warnings));
   }
   if (!remembered_ && snapshot.phase != ReplayPhase::kOpening && snapshot.phase != ReplayPhase::kFailed) {
     remembered_ = true;
@@ -300,6 +206,7 @@ void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
   menu.Enable(kFinish, has_scans && (mapping || snapshot->phase == ReplayPhase::kLastPass));
   menu.Enable(kRestart, snapshot != nullptr);
   menu.Enable(kExport, finished);
+  menu.Enable(kGoOnWithLog, replay_ && replay_->input().recording() != nullptr);
   menu.Enable(kSaveSession, has_scans && (mapping || finished));
   menu.Enable(kSavePicture, snapshot != nullptr);
   enable_edit_commands(snapshot);

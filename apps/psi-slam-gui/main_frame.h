@@ -43,8 +43,9 @@ class MainFrame : public wxFrame {
              const std::string& edits = "");
 
   /// A log, or a session, whose settings become those of the window. `edits` are made while it is mapped, if
-  /// there are any instead of the session's.
-  void open_log(const std::filesystem::path& log, std::optional<EditJournal> edits = {});
+  /// there are any instead of the session's; `overrule` changes settings of a session that may be changed.
+  void open_log(const std::filesystem::path& log, std::optional<EditJournal> edits = {},
+                const std::function<void(BoundSettings&)>& overrule = {});
   /// The same, but where edits would be lost the user is asked first.
   void open_other_log(const std::filesystem::path& log);
   void open_settings(const std::filesystem::path& file);
@@ -54,6 +55,8 @@ class MainFrame : public wxFrame {
   /// The log is mapped again with the edits of a file.
   void open_edits(const std::filesystem::path& file);
   void save_edits(const std::filesystem::path& file);
+  /// Maps behind the session that is open what a log holds beyond it.
+  void go_on_with(const std::filesystem::path& log);
   /// Once the engine comes to it: between two scans, or after the last pass.
   void save_session(const std::filesystem::path& file);
   /// Shows a scan that was mapped already, or maps up to it.
@@ -95,7 +98,13 @@ class MainFrame : public wxFrame {
   void ask_for_export();
   void ask_for_picture();
   void ask_for_session();
+  void ask_for_log_of_session();
+  std::vector<std::string> take_settings_of(const SessionFacts& facts, const std::filesystem::path& file,
+                                            const std::function<void(BoundSettings&)>& overrule);
+  /// Throws UserError where it is a recording and the settings are not its own.
   void open(SessionInput input);
+  /// What `action` throws is a sentence in the bar.
+  void telling_failures(const std::function<void()>& action);
   /// Menus and tools say what is shown.
   void check_choices();
   void play_or_pause();
@@ -139,6 +148,7 @@ class MainFrame : public wxFrame {
   std::optional<WindowLayout> layout_;
   wxFileHistory recent_;
   wxTimer timer_;
+  static constexpr int kMapPage = 1;  // of middle_; page 0 says what to do without a log
   wxSimplebook* middle_ = nullptr;
   MessageBar* messages_ = nullptr;
   MapCanvas* canvas_ = nullptr;

@@ -65,6 +65,7 @@ void MainFrame::bind_file_commands() {
   on(kOpenLog, [this] { ask_for_log(); });
   on(kOpenFolder, [this] { ask_for_log_folder(); });
   on(kSaveSession, [this] { ask_for_session(); });
+  on(kGoOnWithLog, [this] { ask_for_log_of_session(); });
   on(kOpenSettings, [this] { ask_for_settings(false); });
   on(kSaveSettings, [this] { ask_for_settings(true); });
   on(kResetSettings, [this] { settings_panel_->reset_all(); });
@@ -170,6 +171,13 @@ void MainFrame::ask_for_session() {
   const auto file = ask_for_file_(
       {FileQuestion::Kind::kSave, "Save the session", "Sessions (*.session)|*.session", "my.session"});
   if (file) save_session(*file);
+}
+
+void MainFrame::ask_for_log_of_session() {
+  if (const auto file =
+          ask_for_file_({FileQuestion::Kind::kOpen, "The session's last log, or one that goes on behind it",
+                         kLogFiles, ""}))
+    go_on_with(*file);
 }
 
 void MainFrame::save_session(const std::filesystem::path& file) {

@@ -164,14 +164,11 @@ EditJournal MainFrame::edits() const {
 
 void MainFrame::open_edits(const std::filesystem::path& file) {
   if (!replay_) return;
-  try {
-    EditJournal journal = EditJournal::read(file);
-    open(replay_->input().with_edits(std::move(journal)));
+  telling_failures([&] {
+    open(replay_->input().with_edits(EditJournal::read(file)));
     messages_->say(MessageBar::Kind::kNote,
                    "The log is mapped again with the edits of " + file.string() + " as soon as it is played");
-  } catch (const UserError& error) {
-    messages_->say(MessageBar::Kind::kError, error.what());
-  }
+  });
 }
 
 void MainFrame::save_edits(const std::filesystem::path& file) {

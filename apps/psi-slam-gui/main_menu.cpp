@@ -19,6 +19,7 @@ wxMenu* file_menu(wxMenu* recent) {
   menu->Append(kOpenFolder, utf8("Open &folder of a ROS 2 bag…"));
   menu->AppendSubMenu(recent, "&Recent logs");
   menu->AppendSeparator();
+  menu->Append(kGoOnWithLog, utf8("&Go on with the session in its log…"));
   menu->Append(kSaveSession, utf8("Save sessio&n…\tCtrl+S"));
   menu->AppendSeparator();
   menu->Append(kOpenSettings, utf8("Open &settings…\tCtrl+Shift+O"));

@@ -37,6 +37,7 @@ enum Command : int {
   kDefaultLayout,
   kOpenFolder,
   kSaveSession,
+  kGoOnWithLog,
   kShortcuts,
   kUndo = wxID_UNDO,
   kRedo = wxID_REDO,

@@ -96,14 +96,24 @@ TEST_F(FileQuestionsTest, a_session_is_saved_half_way_and_opened_again) {
       .then([](MainFrame& frame) {
         EXPECT_NE(frame.settings_panel().shown("front_end.window_m"), "0.7") << "the session has its own";
         EXPECT_THAT(std::string(frame.GetTitle().utf8_string()), HasSubstr("half.session"));
-      })
+      });
+  command(kGoOnWithLog, path("none.log"));
+  until_it_says("none.log does not exist");
+  command(kGoOnWithLog, log)
+      .when("40 scans again",
+            [](MainFrame& frame) {
+              return frame.replay()->stamps_us() && frame.replay()->stamps_us()->size() == 40;
+            })
       .command(kPlayOrPause)
       .when_phase(ReplayPhase::kFinished)
       .then([](MainFrame& frame) {
-        EXPECT_EQ(frame.replay()->snapshot()->frames.size(), 25U);
+        EXPECT_EQ(frame.replay()->snapshot()->frames.size(), 40U);
         frame.settings_panel().enter("front_end.window_m", "0.7");
       })
       .command(kRestart);
+  until_it_says("front_end.window_m is");
+  write_file(path("my.edits"), "delete scan=3 local_map=0\n");
+  gui_.then([this](MainFrame& frame) { frame.messages().dismiss(), frame.open_edits(path("my.edits")); });
   until_it_says("front_end.window_m is");
   EXPECT_EQ(gui_.run({}), 0);
 }

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the window opens logs and sessions.
+#include <wx/simplebook.h>
+
+#include <new>
+
+#include "first_sentences.h"
+#include "loop_inspector.h"
+#include "main_frame.h"
+#include "map_canvas.h"
+#include "message_bar.h"
+#include "plot_panel.h"
+#include "psi_slam/session/recorded_settings.h"
+#include "settings_panel.h"
+#include "wx_text.h"
+
+namespace psi_slam {
+
+void MainFrame::start(const std::string& log, const std::string& config,
+                      const std::vector<std::string>& settings, const std::string& edits) {
+  std::optional<EditJournal> journal;
+  telling_failures([&] {
+    settings_.load(config, settings);
+    if (!edits.empty()) journal = EditJournal::read(edits);
+  });
+  settings_panel_->refresh();
+  if (log.empty()) return;
+  open_log(log, std::move(journal), [&](BoundSettings& bound) { bound.load(config, settings); });
+}
+
+void MainFrame::open_log(const std::filesystem::path& log, std::optional<EditJournal> edits,
+                         const std::function<void(BoundSettings&)>& overrule) {
+  telling_failures([&] {
+    SessionInput input = SessionInput::of_file(log);
+    if (edits) input = input.with_edits(*std::move(edits));
+    const std::vector<std::string> remarks = input.recording()
+                                                 ? take_settings_of(input.recording()->facts, log, overrule)
+                                                 : std::vector<std::string>();
+    if (!input.recording()) kept_settings_.clear();
+    opened_ = log;
+    open(std::move(input));
+    if (!remarks.empty()) messages_->say(MessageBar::Kind::kWarning, first_sentences(remarks));
+  });
+}
+
+/// All or none of them; returns what the user is to know of them.
+std::vector<std::string> MainFrame::take_settings_of(const SessionFacts& facts,
+                                                     const std::filesystem::path& file,
+                                                     const std::function<void(BoundSettings&)>& overrule) {
+  std::vector<std::string> remarks;
+  BoundSettings recorded;  // what the session does not set has its default
+  for (const std::string& name : load_recorded(recorded, facts, file))
+    remarks.push_back(name + " is no option any more and is left out");
+  if (facts.program_version != PSI_SLAM_VERSION)
+    remarks.push_back("The session was made by psi-slam " + facts.program_version +
+                      ", this is " PSI_SLAM_VERSION ": the map may differ from that one's");
+  std::map<std::string, std::string> kept = kept_settings(recorded.table);
+  if (overrule) overrule(recorded);
+  require_kept(kept, recorded.table, file);
+  kept_settings_ = std::move(kept);
+  settings_.settings = recorded.settings;
+  settings_panel_->refresh();
+  return remarks;
+}
+
+void MainFrame::go_on_with(const std::filesystem::path& log) {
+  if (!replay_ || !replay_->input().recording()) return;
+  telling_failures([&] { open(SessionInput(replay_->input().recording(), log).with_edits(edits())); });
+}
+
+void MainFrame::telling_failures(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::bad_alloc&) {
+    messages_->say(MessageBar::Kind::kError, "There is not enough memory for that");
+  } catch (const std::exception& error) {
+    messages_->say(MessageBar::Kind::kError, error.what());
+  }
+}
+
+void MainFrame::open(SessionInput input) {
+  if (input.recording()) require_kept(kept_settings_, settings_.table, opened_);
+  messages_->dismiss();
+  snapshot_.reset();
+  shown_frame_.reset();
+  told_failure_.clear();
+  told_warnings_.clear();
+  told_export_ = 0;
+  told_save_ = 0;
+  told_edit_ = 0;
+  set_adding_loop(false);
+  remembered_ = false;
+  exported_ = false;
+  closes_without_export_ = false;
+  loops_->show_nothing();
+  plots_->show_nothing();
+  settings_of_run_ = settings_file_text(settings_.table);
+  settings_panel_->show_pending(false);
+  replay_.open(std::move(input), settings_.settings);
+  replay_->set_speed(speed_);
+  middle_->SetSelection(kMapPage);
+  canvas_->show_all();
+  SetTitle(text_of(opened_.filename()) + wxString::FromUTF8(" — psi-slam"));
+  refresh();
+}
+
+void MainFrame::open_other_log(const std::filesystem::path& log) {
+  if (!snapshot_ || snapshot_->edits->empty() || exported_) return open_log(log);
+  messages_->say(
+      MessageBar::Kind::kWarning,
+      "The map with the loops edited by hand has not been exported. Open another log nevertheless?",
+      {{"Open it", [this, log] { open_log(log); }}});
+}
+
+void MainFrame::show_pending_settings() {
+  if (replay_) settings_panel_->show_pending(settings_file_text(settings_.table) != settings_of_run_);
+}
+
+void MainFrame::restart() {
+  if (replay_) telling_failures([this] { open(replay_->input().with_edits(edits())); });
+}
+
+}  // namespace psi_slam

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_command.h"
 
+#include <exception>
 #include <memory>
 #include <ostream>
 
@@ -40,15 +41,25 @@ SessionInput input_of(const CommandLine& line, BoundSettings& bound, const Strea
   return SessionInput(recording, line.log);
 }
 
+/// What hinders it, if something does: the map is to be written nevertheless.
+std::exception_ptr failure_to_save(const MappingSession& session, const std::string& file) {
+  try {
+    session.save(file);
+  } catch (...) {
+    return std::current_exception();
+  }
+  return nullptr;
+}
+
 void tell_result(const MappingSession& session, const RunSummary& summary, const OutputFolder& folder,
-                 const CommandLine& line, const Streams& streams) {
+                 const CommandLine& line, const Streams& streams, bool saved) {
   const RunInfo info = session.run_info();
   if (line.verbose) streams.err << stages_text(session.result());
   if (line.json)
     streams.out << summary_json(session.result(), info, summary);
   else if (!line.quiet)
     streams.out << closing_text(summary, info.log_name, folder);
-  if (!line.save_session.empty() && !line.json && !line.quiet)
+  if (saved && !line.json && !line.quiet)
     streams.out << "The session is " << line.save_session << ": --resume goes on with it.\n";
 }
 
@@ -94,20 +105,22 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
 
 int save_and_export(MappingSession& session, const OutputFolder& folder, const CommandLine& line,
                     const Streams& streams, std::optional<ProgressLine>& progress_line) {
-  if (!line.save_session.empty()) session.save(line.save_session);
+  const bool to_save = !line.save_session.empty();
+  const std::exception_ptr not_saved = to_save ? failure_to_save(session, line.save_session) : nullptr;
   const RunSummary summary = session.export_to(folder);
   progress_line.reset();
   session.set_observer({});
-  tell_result(session, summary, folder, line, streams);
+  tell_result(session, summary, folder, line, streams, to_save && !not_saved);
   if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
     streams.err << "psi-slam: " << skipped.sentence() << '\n';
   for (const std::string& unmet : session.unmet_edits())
     streams.err << "psi-slam: an edit was not made: " << unmet << '\n';
   if (const auto coarser = coarser_cells_text(summary.map)) streams.err << "psi-slam: " << *coarser << '\n';
-  if (!session.broken_off()) return kDone;
-  streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
-              << session.result().frames.size() << " scans that could be read\n";
-  return kWrongUsageOrInput;
+  if (session.broken_off())
+    streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
+                << session.result().frames.size() << " scans that could be read\n";
+  if (not_saved) std::rethrow_exception(not_saved);
+  return !session.broken_off() ? kDone : kWrongUsageOrInput;
 }
 
 int map_log(const CommandLine& line, const Streams& streams) {

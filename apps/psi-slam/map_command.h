@@ -28,7 +28,7 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
            const Streams& streams, std::optional<ProgressLine>& progress_line);
 
 /// Saves the finished session, if it is to be, exports its map, and tells what came of it. Returns the exit
-/// code.
+/// code. Where the session cannot be saved, the map is written nevertheless before that is thrown.
 int save_and_export(MappingSession& session, const OutputFolder& folder, const CommandLine& line,
                     const Streams& streams, std::optional<ProgressLine>& progress_line);
 

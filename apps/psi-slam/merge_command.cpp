@@ -34,10 +34,15 @@ std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bo
   return inputs;
 }
 
-void require_joined(const MappingSession& session, const std::vector<std::string>& names) {
-  if (const auto drive = unjoined_drive(session.result()))
-    throw UserError((names.size() == session.drives() ? names[*drive] : "a drive") +
-                    " cannot be merged: no loop was found that joins it to the rest");
+/// `inputs` has the name of the input that each drive came with.
+void require_joined(const MappingSession& session, const std::vector<std::string>& inputs,
+                    const InterruptSignals& signals) {
+  const auto drive = unjoined_drive(session.result());
+  if (!drive) return;
+  if (signals.came())
+    throw SystemFailure("interrupted before a loop joined " + inputs[*drive] +
+                        " to the rest: nothing was merged");
+  throw UserError(inputs[*drive] + " cannot be merged: no loop was found that joins it to the rest");
 }
 
 void add_drive(MappingSession& session, const SessionInput& input, const CommandLine& line,
@@ -64,6 +69,7 @@ int merge_drives(const CommandLine& line, const Streams& streams) {
   watch(session, signals, line, streams, progress_line);
   session.run(signals.came());
   int code = 0;
+  std::vector<std::string> inputs_of_drives(session.drives(), line.inputs.front());
   for (auto input = inputs.begin() + 1; input != inputs.end(); ++input) {
     if (signals.came()) throw SystemFailure("interrupted before all drives were read: nothing was merged");
     if (session.broken_off()) {
@@ -71,8 +77,9 @@ int merge_drives(const CommandLine& line, const Streams& streams) {
       code = kWrongInput;
     }
     add_drive(session, *input, line, bound.settings, signals);
+    inputs_of_drives.resize(session.drives(), line.inputs[static_cast<std::size_t>(input - inputs.begin())]);
     session.run(signals.came());
-    require_joined(session, line.inputs);
+    require_joined(session, inputs_of_drives, signals);
   }
   return std::max(code, save_and_export(session, folder, line, streams, progress_line));
 }

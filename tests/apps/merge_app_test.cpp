@@ -116,6 +116,14 @@ TEST_F(MergeApp, another_building_is_refused_in_one_sentence_and_nothing_is_writ
   EXPECT_FALSE(std::filesystem::exists(file("both.session")));
 }
 
+/// Of three, the second has no loop with the first, for want of any.
+TEST_F(MergeApp, names_the_drive_that_no_loop_joins) {
+  const AppRun run =
+      merge({"first.log", "second.log", "first.log"}, "out", {"--set", "loop_closure.enabled=false"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("second.log cannot be merged: no loop was found that joins it to the rest"));
+}
+
 TEST_F(MergeApp, a_first_drive_that_breaks_off_is_told_and_merged_up_to_there) {
   std::ofstream(file("first.log"), std::ios::app) << "FLASER 181 1.0 2.0";
   const AppRun run = merge({"first.log", "second.log"}, "out", {"-q"});

@@ -77,6 +77,15 @@ TEST_F(ResumeApp, alone_a_session_is_exported_in_other_forms_and_with_further_ed
   EXPECT_EQ(bytes_of(file("third") + "/loops.edits"), bytes_of(file("second") + "/loops.edits"));
 }
 
+TEST_F(ResumeApp, where_the_session_cannot_be_saved_the_map_is_written_nevertheless) {
+  const std::string log = room_log("room.log", room_log_lines(60));
+  const AppRun run = run_app({log, "-o", file("out"), "--save-session", "/proc/my.session"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.err, HasSubstr("cannot write /proc/my.session"));
+  EXPECT_THAT(run.out, testing::Not(HasSubstr("The session is")));
+  EXPECT_TRUE(fs::exists(file("out") + "/summary.json"));
+}
+
 TEST_F(ResumeApp, wrong_use_is_told_in_one_sentence) {
   const std::string log = room_log("room.log", room_log_lines(60));
   const std::string other = room_log("other.log", room_log_lines(60, 80));

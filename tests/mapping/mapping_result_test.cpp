@@ -36,7 +36,7 @@ TEST(MappingResult, tells_the_frames_of_each_drive) {
 
 TEST(MappingResult, a_drive_is_joined_by_accepted_loops_with_others_alone) {
   MappingResult result = three_drives();
-  EXPECT_EQ(unjoined_drive(result), 0U);
+  EXPECT_EQ(unjoined_drive(result), 1U) << "the others are joined to the first";
   result.loops = {loop(0, 2), loop(5, 6)};
   EXPECT_EQ(unjoined_drive(result), 2U) << "a loop within the third joins it to nothing";
   result.loops.push_back(loop(3, 5, LoopVerdict::kSwitchedOff));
@@ -44,6 +44,17 @@ TEST(MappingResult, a_drive_is_joined_by_accepted_loops_with_others_alone) {
   result.loops.push_back(loop(6, 3));
   EXPECT_EQ(unjoined_drive(result), std::nullopt);
   EXPECT_EQ(unjoined_drive({}), std::nullopt) << "one drive needs no loop";
+}
+
+TEST(MappingResult, drives_that_are_joined_in_two_groups_are_not_one_map) {
+  MappingResult result = three_drives();
+  result.drive_frames = {2, 4, 7};
+  result.loops = {loop(0, 1), loop(6, 3)};
+  EXPECT_EQ(unjoined_drive(result), 2U);
+  result.loops.push_back(loop(1, 5));
+  EXPECT_EQ(unjoined_drive(result), std::nullopt);
+  result.loops = {loop(5, 2), loop(1, 5), loop(0, 2)};
+  EXPECT_EQ(unjoined_drive(result), std::nullopt) << "in whatever order";
 }
 
 }  // namespace

@@ -116,6 +116,64 @@ TEST_F(MergedDrives, saved_with_edits_and_mapped_again_they_are_the_same_bytes) 
   EXPECT_EQ(again.result().drive_frames, session->result().drive_frames);
 }
 
+TEST_F(MergedDrives, interrupted_within_a_recording_of_several_the_rest_is_not_saved) {
+  const TrueDrive first = drive_through(5, 1, 20);
+  TrueDrive others = drive_through(5, 2, 20);
+  ASSERT_GT(others.frames.size(), 60U);
+  others.frames.resize(60);
+  const std::size_t of_first = first.frames.size();
+  SessionRecording recording;
+  recording.facts.logs = {{"b.log", "b", 40}, {"c.log", "c", 20}};
+  recording.facts.drives = {{40, {}}};
+  recording.facts.edits.add({{LoopEdit::Kind::kDelete, 10, 0}, {EditTime::Kind::kAfterScan, 39}});
+  recording.facts.edits.add({{LoopEdit::Kind::kDelete, 50, 0}, {EditTime::Kind::kAfterScan, 59}});
+  recording.frames = others.frames;
+  const SessionInput inner(std::make_shared<const SessionRecording>(recording));
+  for (const std::size_t steps : {0U, 30U, 40U}) {
+    MappingSession session(input_of("a.log", first.frames), settings_);
+    session.stay_open();
+    session.run(go_on_);
+    session.begin_drive(inner, {});
+    for (std::size_t i = 0; i < steps; ++i) session.step();
+    session.finish();
+    session.save(folder_.path() / "part.session");
+    const SessionFacts facts = read_session_file(folder_.path() / "part.session").facts;
+    ASSERT_EQ(facts.logs.size(), steps == 0 ? 1U : 2U);
+    EXPECT_EQ(facts.logs.front().scans, of_first);
+    EXPECT_EQ(facts.logs.back().scans, steps == 0 ? of_first : steps);
+    EXPECT_EQ(facts.drives.size(), steps == 0 ? 0U : 1U);
+    EXPECT_EQ(facts.edits.edits().size(), steps == 0 ? 0U : 1U);
+    EXPECT_TRUE(facts.scans_left);
+  }
+}
+
+TEST_F(MergedDrives, a_short_drive_is_placed_though_it_breaks_off_or_another_is_recorded_behind_it) {
+  const TrueDrive first = drive_through(5, 1, 60);
+  const TrueDrive second = drive_through(5, 2, 12);
+  const TrueDrive elsewhere = drive_through(6, 2, 12);
+  MappingSession session(input_of("first", first.frames), settings_);
+  session.run(go_on_);
+  const MappingResult& mapped = session.result();
+  const auto grid = draw_grid_map(mapped.log, mapped_poses(mapped), settings_.map);
+  const TPose2D near = second.world_T_robot[0] - first.world_T_robot[0];
+  const auto start_of = [&](const SessionRecording& drive) {
+    const SessionInput input(std::make_shared<const SessionRecording>(drive));
+    return place_drive(mapped, *grid, input, settings_, near, go_on_);
+  };
+  SessionRecording drive;
+  drive.frames.assign(second.frames.begin(), second.frames.begin() + 6);
+  drive.facts.logs = {{"second", "second", 6}};
+  const DriveStart alone = start_of(drive);
+  SessionRecording broken = drive;
+  broken.facts.broken_off = "second.log:7 is cut off";
+  EXPECT_EQ(start_of(broken).node_T_robot, alone.node_T_robot);
+  SessionRecording with_another = drive;
+  with_another.facts.drives = {{6, {}}};
+  with_another.frames.insert(with_another.frames.end(), elsewhere.frames.begin(), elsewhere.frames.end());
+  with_another.facts.logs[0].scans = with_another.frames.size();
+  EXPECT_EQ(start_of(with_another).node_T_robot, alone.node_T_robot);
+}
+
 TEST_F(MergedDrives, of_two_buildings_are_refused) {
   const SessionInput first = input_of("first", drive_through(5, 1, 60).frames);
   const SessionInput elsewhere = input_of("elsewhere", drive_through(6, 2, 12).frames);

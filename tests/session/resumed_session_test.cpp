@@ -70,7 +70,7 @@ TEST_F(ResumedSession, goes_on_in_the_same_log_to_the_same_bytes_on_any_number_o
   }
 }
 
-TEST_F(ResumedSession, saved_before_the_first_scan_within_and_at_the_end_it_is_the_same_map) {
+TEST_F(ResumedSession, saved_after_the_first_scan_within_and_at_the_end_it_is_the_same_map) {
   const auto path = log("room.log", room_log_lines(60));
   const fs::path whole = uninterrupted(path);
   for (const std::size_t scans : {1U, 59U, 60U}) {

@@ -151,6 +151,16 @@ TEST_F(SessionFileTest, the_same_recording_is_the_same_bytes_and_ends_with_the_c
   EXPECT_TRUE(is_session_file(path_));
 }
 
+TEST_F(SessionFileTest, takes_names_and_sentences_that_are_no_utf_8) {
+  SessionRecording recording = small_recording();
+  recording.facts.logs[0].name = "B\xfcro.log";
+  recording.facts.skipped.first = "B\xfcro.log:7: \"\xff\" is no number";
+  write_session_file(path_, recording.facts, recording.frames);
+  const SessionRecording back = read_session_file(path_);
+  EXPECT_EQ(back.facts.logs[0].name, "B\xef\xbf\xbdro.log");
+  EXPECT_THAT(back.facts.skipped.first, HasSubstr("is no number"));
+}
+
 TEST_F(SessionFileTest, every_flipped_bit_is_noticed) {
   for (std::size_t i = 0; i < bytes_.size(); ++i) {
     std::string flipped = bytes_;
@@ -196,6 +206,25 @@ TEST_F(SessionFileTest, what_does_not_add_up_is_told_though_its_checksum_matches
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.logs.clear(); }), HasSubstr("do not add up"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].scan = 4; }),
               HasSubstr("a drive begins"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives.push_back(r.facts.drives[0]); }),
+              HasSubstr("its drives do not follow on one another"));
+  EXPECT_THAT(complaint([](SessionRecording& r) {
+                r.facts.logs[0].scans = static_cast<std::size_t>(-3);
+                r.facts.logs[1].scans = 7;  // together 4, as they should be
+              }),
+              HasSubstr("a log has more than all of its scans"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].frame_T_robot.x = 1e300; }),
+              HasSubstr("a pose is none"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[0].odom_T_robot.phi = NAN; }),
+              HasSubstr("a pose is none"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].companions[1].scan.laser = 4'000'000'000; }),
+              HasSubstr("too high a laser"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].companions[1].scan.laser = 1; }),
+              HasSubstr("not in their order"));
+  EXPECT_THAT(complaint([](SessionRecording& r) {
+                r.frames[3].scan.bearings_rad = std::make_shared<std::vector<float>>(1, NAN);
+              }),
+              HasSubstr("the bearing of a beam is none"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].scan.ranges_m.pop_back(); }),
               HasSubstr("other beams than its sensor"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].scan.ranges_m.pop_back(); }),

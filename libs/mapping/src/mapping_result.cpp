@@ -2,6 +2,7 @@
 #include "psi_slam/mapping/mapping_result.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace psi_slam {
 
@@ -17,19 +18,21 @@ std::vector<FrameSpan> drives_of(const MappingResult& result) {
 std::optional<std::size_t> unjoined_drive(const MappingResult& result) {
   const auto drive_of_node = [&](std::size_t node) {
     const auto& begins = result.drive_frames;
-    return std::upper_bound(begins.begin(), begins.end(), result.node_frames[node]) - begins.begin();
+    const auto behind = std::upper_bound(begins.begin(), begins.end(), result.node_frames[node]);
+    return static_cast<std::size_t>(behind - begins.begin());
   };
-  std::vector<bool> joined(result.drive_frames.size() + 1, result.drive_frames.empty());
+  std::vector<std::size_t> group(result.drive_frames.size() + 1);  // of each drive: its lowest drive
+  std::iota(group.begin(), group.end(), 0U);
   for (const LoopRecord& loop : result.loops) {
-    const auto here = drive_of_node(loop.node);
-    const auto there = drive_of_node(loop.anchor);
-    if (loop.verdict != LoopVerdict::kAccepted || here == there) continue;
-    joined[static_cast<std::size_t>(here)] = true;
-    joined[static_cast<std::size_t>(there)] = true;
+    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    const auto [low, high] =
+        std::minmax({group[drive_of_node(loop.node)], group[drive_of_node(loop.anchor)]});
+    std::replace(group.begin(), group.end(), high, low);
   }
-  const auto unjoined = std::find(joined.begin(), joined.end(), false);
-  if (unjoined == joined.end()) return std::nullopt;
-  return static_cast<std::size_t>(unjoined - joined.begin());
+  const auto unjoined =
+      std::find_if(group.begin(), group.end(), [](std::size_t drive) { return drive != 0; });
+  if (unjoined == group.end()) return std::nullopt;
+  return static_cast<std::size_t>(unjoined - group.begin());
 }
 
 }  // namespace psi_slam

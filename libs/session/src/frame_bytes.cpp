@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frame_bytes.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace psi_slam {
@@ -9,6 +11,9 @@ namespace {
 using mrpt::math::TPose2D;
 
 constexpr std::uint32_t kSeveralLasers = 2;  // the version with them
+// What reading promises to who maps the frames, whose memory grows with both.
+constexpr std::uint32_t kMostLasers = 64;
+constexpr double kFarthest_m = 1e7;
 
 enum Flags : std::uint8_t {
   kHasOdometry = 1,
@@ -23,11 +28,14 @@ void append_pose(std::string& bytes, const TPose2D& pose) {
   append_number(bytes, pose.phi);
 }
 
+/// Throws MalformedBytes unless the pose can be one of a robot or a laser.
 TPose2D read_pose(ByteCursor& bytes) {
   TPose2D pose;
   pose.x = bytes.number<double>();
   pose.y = bytes.number<double>();
   pose.phi = bytes.number<double>();
+  const bool is_near = std::abs(pose.x) <= kFarthest_m && std::abs(pose.y) <= kFarthest_m;
+  if (!is_near || !std::isfinite(pose.phi)) throw MalformedBytes("a pose is none");
   return pose;
 }
 
@@ -57,11 +65,15 @@ std::string sensor_bytes(const LaserScan& scan) {
 
 LaserScan read_sensor(ByteCursor& bytes, std::uint32_t version) {
   LaserScan sensor;
-  sensor.bearings_rad = std::make_shared<const std::vector<float>>(read_floats(bytes));
+  std::vector<float> bearings_rad = read_floats(bytes);
+  if (!std::all_of(bearings_rad.begin(), bearings_rad.end(), [](float rad) { return std::isfinite(rad); }))
+    throw MalformedBytes("the bearing of a beam is none");
+  sensor.bearings_rad = std::make_shared<const std::vector<float>>(std::move(bearings_rad));
   sensor.max_range_m = bytes.number<float>();
   sensor.robot_T_laser = read_pose(bytes);
   sensor.sweep_time_s = bytes.number<float>();
   if (version >= kSeveralLasers) sensor.laser = bytes.number<std::uint32_t>();
+  if (sensor.laser >= kMostLasers) throw MalformedBytes("a scan is of too high a laser");
   return sensor;
 }
 
@@ -105,7 +117,7 @@ void append_companions(std::string& bytes, const Frame& frame, LastSensors<std::
   }
 }
 
-std::vector<CompanionScan> read_companions(ByteCursor& bytes, std::uint32_t version,
+std::vector<CompanionScan> read_companions(ByteCursor& bytes, std::uint32_t version, std::size_t first_laser,
                                            LastSensors<LaserScan>& sensors) {
   std::vector<CompanionScan> companions;
   const auto count = bytes.number<std::uint32_t>();
@@ -119,6 +131,8 @@ std::vector<CompanionScan> read_companions(ByteCursor& bytes, std::uint32_t vers
     if (flags != 0) sensor = read_sensor(bytes, version);
     if (!sensor.bearings_rad) throw MalformedBytes("the first scan of a laser has no sensor");
     companion.scan = sensor;
+    if (sensor.laser <= (companions.empty() ? first_laser : companions.back().scan.laser))
+      throw MalformedBytes("the lasers of a frame are not in their order");
     read_ranges(bytes, companion.scan);
     companions.push_back(std::move(companion));
   }
@@ -161,7 +175,8 @@ std::vector<Frame> read_frames(ByteCursor& bytes, std::uint32_t version) {
     if (!sensor.bearings_rad) throw MalformedBytes("the first scan has no sensor");
     frame.scan = sensor;
     read_ranges(bytes, frame.scan);
-    if ((flags & kHasCompanions) != 0) frame.companions = read_companions(bytes, version, sensors);
+    if ((flags & kHasCompanions) != 0)
+      frame.companions = read_companions(bytes, version, frame.scan.laser, sensors);
     frames.push_back(std::move(frame));
   }
   return frames;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a session is made of, recorded or read: saved, and gone on with in another drive.
+#include <algorithm>
 #include <utility>
 
 #include "open_input.h"
@@ -9,6 +10,33 @@
 #include "psi_slam/session/session_file.h"
 
 namespace psi_slam {
+namespace {
+
+EditJournal edits_before(std::size_t scan, const EditJournal& edits) {
+  EditJournal before;
+  for (const TimedEdit& edit : edits.edits())
+    if (edit.edit.frame < scan) before.add(edit);
+  return before;
+}
+
+/// The last log has all scans that those before do not have. A recorded drive that was interrupted has logs
+/// and further drives that were not reached: they are left out, and the edits of their scans.
+void cut_behind(std::size_t scans, SessionFacts& facts) {
+  std::size_t left = scans;
+  for (std::size_t i = 0; i < facts.logs.size(); ++i) {
+    RecordedLog& log = facts.logs[i];
+    log.scans = i + 1 < facts.logs.size() ? std::min(log.scans, left) : left;
+    left -= log.scans;
+    if (left == 0) facts.logs.resize(i + 1);
+  }
+  const auto lost = std::find_if(facts.drives.begin(), facts.drives.end(),
+                                 [&](const RecordedDrive& drive) { return drive.scan >= scans; });
+  if (lost == facts.drives.end()) return;
+  facts.edits = edits_before(lost->scan, facts.edits);
+  facts.drives.erase(lost, facts.drives.end());
+}
+
+}  // namespace
 
 void MappingSession::save(const std::filesystem::path& file) const {
   const std::vector<Frame>& mapped = finished_ ? result_.log : mapper_->log();
@@ -18,22 +46,23 @@ void MappingSession::save(const std::filesystem::path& file) const {
 
 SessionFacts MappingSession::facts() const {
   SessionFacts facts;
-  if (recording_ && scans_ < recording_->frames.size()) {
+  const bool recording_goes_on = recording_ && scans_ < recording_->frames.size();
+  if (recording_goes_on)
     facts = recording_->facts;
-  } else {
+  else
     facts.logs = logs_;
+  facts.drives = drives_;
+  facts.edits = edits_;
+  if (!recording_goes_on) {
+    cut_behind(scans_, facts);
     RecordedLog& last = facts.logs.back();
-    last.scans = scans_;
-    for (std::size_t i = 0; i + 1 < facts.logs.size(); ++i) last.scans -= facts.logs[i].scans;
     if (last.sha256.empty()) last.sha256 = sha256_of_log(path_);
     facts.skipped = skipped_lines();
     facts.broken_off = broken_off_;
     facts.scans_left = scans_left_ || (!at_end_ && !broken_off_);
   }
   facts.program_version = PSI_SLAM_VERSION;
-  facts.drives = drives_;
   facts.settings = settings_file_text(settings_);
-  facts.edits = edits_;
   return facts;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "open_input.h"
 #include "psi_slam/base/user_error.h"
@@ -37,8 +38,34 @@ DriveStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& s
   return start;
 }
 
+/// The frames of the first drive of an input, up to where it breaks off.
+class FirstDrive {
+ public:
+  FirstDrive(const SessionInput& input, const Settings& settings) : frames_(open_input(input, settings)) {
+    if (input.recording() && !input.recording()->facts.drives.empty())
+      end_ = input.recording()->facts.drives.front().scan;
+  }
+
+  std::optional<Frame> next() {
+    if (read_ == end_) return std::nullopt;
+    try {
+      std::optional<Frame> frame = frames_->next();
+      if (frame) ++read_;
+      return frame;
+    } catch (const UserError&) {
+      if (read_ == 0) throw;
+      return std::nullopt;  // who maps the drive tells of it
+    }
+  }
+
+ private:
+  std::unique_ptr<FrameSource> frames_;
+  std::size_t end_ = std::numeric_limits<std::size_t>::max();
+  std::size_t read_ = 0;
+};
+
 /// Follows the robot until it is sure where it is; `why_not` says why it is not.
-std::optional<Sighting> find(FrameSource& frames, Localizer& localizer, FrontEnd& way, bool told,
+std::optional<Sighting> find(FirstDrive& frames, Localizer& localizer, FrontEnd& way, bool told,
                              const std::atomic<bool>& stop, std::string& why_not) {
   std::optional<Sighting> seen;
   double followed_m = 0;
@@ -70,9 +97,9 @@ DriveStart place_drive(const MappingResult& mapped, const mrpt::maps::COccupancy
                       options);
   if (map_T_start) localizer.start_at(*map_T_start);
   FrontEnd way(settings.mapper.front_end);
-  const auto frames = open_input(drive, settings);
+  FirstDrive frames(drive, settings);
   std::string why_not = "it is too short for a search";
-  const auto seen = find(*frames, localizer, way, map_T_start.has_value(), stop, why_not);
+  const auto seen = find(frames, localizer, way, map_T_start.has_value(), stop, why_not);
   if (seen) return seen_from_nearest_node(mapped, *seen);
   const std::string name = names_of(drive.logs());
   if (map_T_start) throw UserError(name + " does not begin near --start: its scans do not fit the map there");

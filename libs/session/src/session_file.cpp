@@ -111,12 +111,18 @@ void require_whole(const fs::path& path, std::string_view bytes) {
 
 void require_consistent(const SessionRecording& recording) {
   std::size_t scans = 0;
-  for (const RecordedLog& log : recording.facts.logs) scans += log.scans;
+  for (const RecordedLog& log : recording.facts.logs) {
+    if (log.scans > recording.frames.size()) throw MalformedBytes("a log has more than all of its scans");
+    scans += log.scans;
+  }
   if (scans != recording.frames.size() || recording.facts.logs.empty())
     throw MalformedBytes("its logs and its scans do not add up");
-  for (const RecordedDrive& drive : recording.facts.drives)
-    if (drive.scan == 0 || drive.scan >= recording.frames.size())
-      throw MalformedBytes("a drive begins beyond its scans");
+  std::size_t begin = 0;
+  for (const RecordedDrive& drive : recording.facts.drives) {
+    if (drive.scan >= recording.frames.size()) throw MalformedBytes("a drive begins beyond its scans");
+    if (drive.scan <= begin) throw MalformedBytes("its drives do not follow on one another");
+    begin = drive.scan;
+  }
 }
 
 }  // namespace
@@ -129,7 +135,8 @@ bool is_session_file(const fs::path& path) {
 
 void write_session_file(const fs::path& path, const SessionFacts& facts, const std::vector<Frame>& frames) {
   std::string content;
-  const std::string json = json_of(facts).dump();
+  // Names of files, and lines of logs that are quoted, may be of any encoding.
+  const std::string json = json_of(facts).dump(-1, ' ', false, Json::error_handler_t::replace);
   append_number(content, std::uint64_t{json.size()});
   content += json;
   append_frames(content, frames);

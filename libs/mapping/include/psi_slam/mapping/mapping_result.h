@@ -93,7 +93,8 @@ struct FrameSpan {
 /// The frames of each drive: one, unless several were merged.
 std::vector<FrameSpan> drives_of(const MappingResult& result);
 
-/// The number of the first drive that no loop joins to any other; none where all hold together.
+/// The number of the first drive that loops do not join to drive 0, be it by way of others; none where all
+/// hold together.
 std::optional<std::size_t> unjoined_drive(const MappingResult& result);
 
 }  // namespace psi_slam

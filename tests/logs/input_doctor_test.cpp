@@ -63,6 +63,15 @@ TEST_F(InputDoctorTest, finds_nothing_wrong_with_a_sound_log) {
   EXPECT_EQ(diagnosis.findings.size(), 1U);
 }
 
+TEST_F(InputDoctorTest, topics_mean_nothing_to_a_log_that_is_no_bag) {
+  LogOptions options;
+  options.scan_topic = "/a,/b";
+  const SimulatedRun run = round_trips(1);
+  EXPECT_EQ(diagnose_run(run, options).facts.scans, run.truth.size());
+  options.laser = "FLASER";
+  EXPECT_EQ(diagnose_run(run, options).facts.laser, "FLASER");
+}
+
 TEST_F(InputDoctorTest, knows_a_mirrored_scan_and_the_key_that_mends_it) {
   SimulatedRun run = round_trips(1);
   for (float& bearing : run.bearings_rad) bearing = -bearing;

@@ -76,6 +76,20 @@ TEST(ScanUniter, tells_where_the_robot_was_when_the_other_laser_scanned) {
   EXPECT_NEAR(moved.phi, 0.1, 1e-12);
 }
 
+TEST(ScanUniter, a_scan_beyond_a_jump_of_odometry_does_not_join) {
+  for (const TPose2D& jump : {TPose2D(50, 0, 0), TPose2D(0, 0, 2)}) {
+    ScanUniter uniter;
+    uniter.add(scan_of({0, 0}));
+    Frame other = scan_of({1, 50});
+    other.odom_T_robot = jump;
+    uniter.add(other);
+    uniter.end_of_log();
+    EXPECT_TRUE(uniter.take()->companions.empty());
+    EXPECT_EQ(uniter.left_out(), 1U);
+    EXPECT_FALSE(uniter.take());
+  }
+}
+
 TEST(ScanUniter, without_odometry_nothing_is_moved) {
   ScanUniter uniter;
   uniter.add(scan_of({0, 0}));

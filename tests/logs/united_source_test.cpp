@@ -240,6 +240,8 @@ TEST_F(UnitedSourceTest, a_laser_that_the_log_lacks_is_told_with_those_it_has) {
   EXPECT_EQ(sentence(lasers("/front/scan,/left")),
             "log.laser is \"/left\", expected a topic of type sensor_msgs/LaserScan of " + path_.string() +
                 ": /front/scan, /rear/scan");
+  EXPECT_EQ(sentence(lasers("/front/scan,front/scan")),
+            "log.laser names the topic /front/scan twice, expected each once");
 }
 
 TEST_F(UnitedSourceTest, a_log_that_breaks_off_gives_all_frames_before) {

@@ -74,8 +74,12 @@ class Planner {
     const char* option = by_topic ? "log.scan_topic" : "log.laser";
     const LaserChoice choice = laser_choice(option, by_topic ? options_.scan_topic : options_.laser);
     if (choice.all) plan_.scan_topics = all;
-    for (const std::string& name : choice.names)
-      plan_.scan_topics.push_back(choose(option, name, all, kRosLaserScan));
+    for (const std::string& name : choice.names) {
+      const std::string topic = choose(option, name, all, kRosLaserScan);
+      if (contains(plan_.scan_topics, topic))
+        throw UserError(std::string(option) + " names the topic " + topic + " twice, expected each once");
+      plan_.scan_topics.push_back(topic);
+    }
     if (plan_.scan_topics.empty()) plan_.scan_topics = {choose("log.scan_topic", "", all, kRosLaserScan)};
     for (const StatedMount& mount : stated_mounts(options_))
       choose("log.laser_mounts", mount.name, all, kRosLaserScan);

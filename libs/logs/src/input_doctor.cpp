@@ -83,8 +83,9 @@ LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions 
   if (!reads_several_lasers(options)) return options;
   const LogFormat format = detect_log_format(path);
   if (format == LogFormat::kCarmen || format == LogFormat::kMrptRawlog) {
+    options.scan_topic.clear();  // of bags alone
     const LaserChoice choice = laser_choice("log.laser", options.laser);
-    options.laser = choice.all ? "" : choice.names.front();
+    if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
   } else {
     options.scan_topic = plan_bag(path, options).scan_topics.front();
   }

@@ -2,6 +2,7 @@
 #include "psi_slam/logs/scan_uniter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <utility>
@@ -15,12 +16,19 @@ constexpr auto kClockWasSet_us = static_cast<TimeUs>(ScanUniter::kClockWasSet_s 
 /// A frame's scans lie within one such time of it, the frames that these might join instead within two; and
 /// messages of different lasers come late by different times.
 constexpr TimeUs kWait_us = 3 * kMostApart_us;
+constexpr double kMostMoved_m = 1.0;
+constexpr double kMostTurned_rad = M_PI / 3;
 
 /// In time, and where that is the same, in the log.
 template <class Scan>
 std::pair<TimeUs, std::size_t> distance(const Scan& a, const Scan& b) {
   return {std::abs(a.frame.time_us - b.frame.time_us),
           a.place < b.place ? b.place - a.place : a.place - b.place};
+}
+
+/// Whether a robot can have moved so between two scans of a frame; else its odometry jumped.
+bool is_drive(const mrpt::math::TPose2D& motion) {
+  return std::hypot(motion.x, motion.y) <= kMostMoved_m && std::abs(motion.phi) <= kMostTurned_rad;
 }
 
 }  // namespace
@@ -78,6 +86,10 @@ std::optional<Frame> ScanUniter::take() {
     CompanionScan companion{scan->frame.scan, scan->frame.time_us, {}};
     if (frame.has_odometry && scan->frame.has_odometry)
       companion.frame_T_robot = scan->frame.odom_T_robot - frame.odom_T_robot;
+    if (!is_drive(companion.frame_T_robot)) {
+      ++left_out_;
+      continue;
+    }
     frame.companions.push_back(std::move(companion));
   }
   left_out_ += used.size() - 1 - companions.size();

@@ -53,6 +53,22 @@ TEST(CompressedFile, says_that_compressed_data_are_cut_off) {
             path.string() + " is cut off: its compressed data end too early");
 }
 
+TEST(CompressedFile, gives_what_stands_before_the_cut) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "log.gz";
+  const std::string bytes = noise(100'000);
+  write_gzipped(path, bytes);
+  std::filesystem::resize_file(path, 50'000);
+  CompressedFile file(path);
+  std::string part(bytes.size(), '\0');
+  const std::size_t got = file.read(part.data(), part.size());
+  EXPECT_GT(got, 10'000U);
+  EXPECT_TRUE(part.substr(0, got) == bytes.substr(0, got));
+  for (int again = 0; again < 2; ++again)
+    EXPECT_EQ(sentence_of([&] { file.read(part.data(), part.size()); }),
+              path.string() + " is cut off: its compressed data end too early");
+}
+
 TEST(CompressedFile, says_that_compressed_data_are_damaged) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "log.gz";

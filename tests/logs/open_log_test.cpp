@@ -85,5 +85,20 @@ TEST(OpenLog, says_when_a_gzipped_log_is_cut_off) {
             path.string() + " is cut off: its compressed data end too early");
 }
 
+TEST(OpenLog, gives_the_scans_of_a_short_gzipped_log_that_is_cut_off) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "cut.clf.gz";
+  write_gzipped(path, small_carmen_log(300));
+  const std::string whole = read_file(path);
+  write_file(path, whole.substr(0, whole.size() / 2));
+  const auto log = open_log(path);
+  std::size_t scans = 0;
+  EXPECT_EQ(sentence_of([&] {
+              while (log->next()) ++scans;
+            }),
+            path.string() + " is cut off: its compressed data end too early");
+  EXPECT_GT(scans, 50U);
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -26,9 +27,21 @@ struct CompressedFile::State {
   fs::path path;
   gzFile file = nullptr;
   std::uintmax_t bytes_on_disk = 0;
+  std::optional<UserError> failure;  // met behind bytes that were given
 
   ~State() {
     if (file != nullptr) gzclose(file);
+  }
+
+  /// What zlib gave fewer bytes for than it was asked; none at the end.
+  std::optional<UserError> failure_now() const {
+    int code = Z_OK;
+    gzerror(file, &code);
+    if (code == Z_OK) return std::nullopt;
+    if (code == Z_BUF_ERROR)
+      return UserError(path.string() + " is cut off: its compressed data end too early");
+    if (code == Z_ERRNO) return UserError("cannot read " + path.string() + ": " + std::strerror(errno));
+    return UserError(path.string() + " is damaged: its compressed data do not decompress");
   }
 };
 
@@ -52,22 +65,17 @@ CompressedFile::CompressedFile(CompressedFile&&) noexcept = default;
 CompressedFile& CompressedFile::operator=(CompressedFile&&) noexcept = default;
 
 std::size_t CompressedFile::read(char* bytes, std::size_t size) {
+  if (state_->failure) throw UserError(*state_->failure);
   std::size_t done = 0;
   while (done < size) {
     const auto wanted = static_cast<unsigned>(std::min(size - done, kMaxBytesPerCall));
     const int got = gzread(state_->file, bytes + done, wanted);
     if (got > 0) done += static_cast<std::size_t>(got);
     if (got == static_cast<int>(wanted)) continue;
-    int code = Z_OK;
-    const std::string message = gzerror(state_->file, &code);
-    if (code == Z_BUF_ERROR)
-      throw UserError(state_->path.string() + " is cut off: its compressed data end too early");
-    if (code == Z_ERRNO)
-      throw UserError("cannot read " + state_->path.string() + ": " + std::strerror(errno));
-    if (code != Z_OK)
-      throw UserError(state_->path.string() + " is damaged: its compressed data do not decompress");
+    state_->failure = state_->failure_now();
     break;
   }
+  if (done == 0 && state_->failure) throw UserError(*state_->failure);
   return done;
 }
 

@@ -56,6 +56,14 @@ bool LineReader::next(std::string_view& line) {
   }
 }
 
+bool LineReader::next_readable(std::string_view& line) {
+  try {
+    return next(line);
+  } catch (const UserError&) {
+    return false;
+  }
+}
+
 std::string LineReader::place() const {
   return file_.path().string() + ":" + std::to_string(line_number_);
 }

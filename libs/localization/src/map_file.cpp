@@ -46,7 +46,7 @@ std::vector<char> all_bytes(const std::filesystem::path& path) {
   std::vector<char> bytes;
   constexpr std::size_t kBlock = std::size_t{1} << 20;
   std::size_t read = kBlock;
-  while (read == kBlock) {
+  while (read > 0) {
     bytes.resize(bytes.size() + kBlock);
     read = file.read(bytes.data() + bytes.size() - kBlock, kBlock);
     bytes.resize(bytes.size() - kBlock + read);

@@ -22,7 +22,7 @@ std::string_view BagStream::read_up_to(std::uint64_t size) {
     if (bytes_.size() < have + wanted) bytes_.resize(have + wanted);
     const std::size_t got = file_.read(bytes_.data() + have, wanted);
     have += got;
-    if (got < wanted) break;
+    if (got == 0) break;
   }
   offset_ += have;
   return std::string_view(bytes_).substr(0, have);

@@ -25,7 +25,7 @@ Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) 
   LineReader lines(path);
   Messages found;
   std::string_view line;
-  for (std::size_t i = 0; i < most_lines && lines.next(line); ++i) {
+  for (std::size_t i = 0; i < most_lines && lines.next_readable(line); ++i) {
     const std::string_view name = line.substr(0, line.find_first_of(" \t"));
     if (found.find(name) == found.end()) found.emplace(name);
   }

@@ -39,7 +39,7 @@ std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const std::filesystem::pa
   double path_m = 0;
   double turn_rad = 0;
   std::string_view line;
-  while (path_m < kEnoughPath_m && turn_rad < kEnoughTurn_rad && lines.next(line)) {
+  while (path_m < kEnoughPath_m && turn_rad < kEnoughTurn_rad && lines.next_readable(line)) {
     CarmenFields fields(line, lines);
     if (fields.message() != message) continue;
     const auto laser = readable_robotlaser(fields);

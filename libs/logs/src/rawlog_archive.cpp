@@ -53,7 +53,13 @@ class ArchiveStream {
  private:
   std::size_t read_file(char* bytes, std::size_t size) {
     try {
-      return file_.read(bytes, size);
+      std::size_t done = 0;
+      while (done < size) {
+        const std::size_t got = file_.read(bytes + done, size - done);
+        if (got == 0) break;
+        done += got;
+      }
+      return done;
     } catch (const UserError& error) {
       failure_ = error;
       throw;

@@ -73,6 +73,8 @@ void Ros1Bag::read_bag_header() {
   if (!read_record_of_file(record) || operation_of(record) != kBagHeader)
     throw MalformedBytes("there is none");
   index_offset_ = number_field<std::uint64_t>(record.fields, "index_pos");
+  if (record.fields.count("conn_count") != 0)
+    connections_told_ = number_field<std::uint32_t>(record.fields, "conn_count");
   const auto encryptor = record.fields.find("encryptor");
   if (encryptor != record.fields.end() && !encryptor->second.empty())
     throw UserError(stream_.path().string() + " is encrypted (" + std::string(encryptor->second) +
@@ -171,15 +173,21 @@ std::vector<BagTopic> Ros1Bag::topics() {
   std::vector<BagTopic> topics;
   const std::string index =
       tail_of_file(stream_.path(), static_cast<std::int64_t>(index_offset_)).value_or("");
+  const std::string_view told = index_offset_ > 0 ? std::string_view(index) : std::string_view();
+  std::uint32_t connections = 0;
   try {
-    for (ByteCursor cursor(index_offset_ > 0 ? index : ""); !cursor.at_end();) {
+    for (ByteCursor cursor(told); !cursor.at_end();) {
       const Ros1Record record = record_of(cursor);
-      if (operation_of(record) == kConnection) add_once(topics, topic_of(record));
+      if (operation_of(record) != kConnection) continue;
+      add_once(topics, topic_of(record));
+      ++connections;
     }
-    if (!topics.empty()) return topics;
+    const bool is_whole = connections >= connections_told_;
+    if (is_whole && !topics.empty()) return topics;
   } catch (const MalformedBytes&) {
-    topics.clear();
+    // An index that is cut off or damaged: the connections stand in the chunks, too.
   }
+  topics.clear();
   Ros1Bag whole(stream_.path());
   try {
     for (BagMessage message; whole.next(message);) continue;

@@ -17,8 +17,8 @@ class CompressedFile {
   CompressedFile(CompressedFile&&) noexcept;
   CompressedFile& operator=(CompressedFile&&) noexcept;
 
-  /// The next `size` bytes after decompression; fewer only at the end. Throws UserError when compressed data
-  /// are damaged or end too early.
+  /// The next `size` bytes after decompression; fewer only at the end, and in front of compressed data that
+  /// are damaged or end too early: then the next call throws UserError.
   std::size_t read(char* bytes, std::size_t size);
 
   const std::filesystem::path& path() const;

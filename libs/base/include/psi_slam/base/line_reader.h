@@ -20,6 +20,9 @@ class LineReader {
   /// Moves to the next line; false at the end. The view holds until the next call.
   bool next(std::string_view& line);
 
+  /// The same for who only looks ahead: what is wrong with the file ends it, too.
+  bool next_readable(std::string_view& line);
+
   /// The number of the line last read, from 1.
   std::size_t line_number() const { return line_number_; }
 

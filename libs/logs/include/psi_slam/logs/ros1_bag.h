@@ -59,6 +59,7 @@ class Ros1Bag : public BagFile {
   std::uint64_t record_offset_ = 0;    // in the file, of the record or its chunk
   std::uint64_t offset_in_chunk_ = 0;  // of the record
   std::uint64_t index_offset_ = 0;     // where the index should begin; 0: the recorder did not close the bag
+  std::uint32_t connections_told_ = 0;  // by the header, of which the index should have as many
 };
 
 }  // namespace psi_slam

@@ -233,7 +233,7 @@ TEST_F(InputDoctorTest, tells_of_lines_that_do_not_parse) {
   EXPECT_EQ(diagnosis.facts.skipped.count, 1U);
   EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty()) << "one line is no harm";
   EXPECT_THAT(finding_of(diagnosis, "skipped_lines").sentence,
-              testing::AllOf(testing::StartsWith("1 line of the log"), testing::HasSubstr(":1: FLASER")));
+              testing::AllOf(testing::StartsWith("1 message of the log"), testing::HasSubstr(":1: FLASER")));
 }
 
 TEST_F(InputDoctorTest, reads_rawlogs_too) {

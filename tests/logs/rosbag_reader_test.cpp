@@ -320,6 +320,48 @@ TEST_F(RosbagReaderTest, says_what_is_missing) {
                 "named like \"odom\" to the robot's"));
 }
 
+TEST_F(RosbagReaderTest, odometry_without_a_pose_is_left_out_and_told) {
+  Recording recording = drive_recorded();
+  RecordedPose none{"/odom", 1'600'000'000'500'000, "odom", "base_link", {}};
+  none.pose.x = std::nan("");
+  recording.insert(recording.begin() + 1, none);
+  recording.insert(recording.begin() + 30, none);
+  write_mcap(path_, recording);
+  const auto log = open_log(path_);
+  expect_same_frames(all_frames(*log), carmen_frames(drive_recorded()));
+  EXPECT_EQ(log->skipped_lines().count, 2U);
+  EXPECT_THAT(log->skipped_lines().sentence(),
+              testing::AllOf(testing::StartsWith("2 messages of the log"), HasSubstr("run.mcap: byte"),
+                             HasSubstr("the odometry on /odom is not finite")));
+  EXPECT_THAT(sentence_about({static_mount(), none, scan_at()}),
+              HasSubstr("the odometry on /odom is not finite"));
+}
+
+TEST_F(RosbagReaderTest, a_damaged_message_where_a_stated_mount_is_enough_ends_the_log_behind_its_scans) {
+  Recording recording = drive_recorded();
+  recording.erase(recording.begin());
+  RecordedPose elsewhere = static_mount("camera");
+  elsewhere.topic = "/tf";
+  recording.push_back(elsewhere);
+  RecordedScan last = scan_at(1'600'000'001'000'000);
+  last.ranges_m.assign(7, 1.5F);
+  recording.push_back(last);
+  write_ros1_bag(path_, recording);
+  std::string bytes = read_file(path_);
+  const std::string seven_ranges = ros1_packed(std::uint32_t{7}) + ros1_packed(1.5F);
+  bytes.replace(bytes.find(seven_ranges), 4, ros1_packed(std::uint32_t{70'000}));
+  write_file(path_, bytes);
+  LogOptions options;
+  options.robot_T_laser = TPose2D(0.2, 0, 0.3);
+  const auto log = open_log(path_, options);
+  std::size_t frames = 0;
+  EXPECT_THAT(sentence_of([&] {
+                while (log->next()) ++frames;
+              }),
+              HasSubstr("70000 numbers are announced"));
+  EXPECT_EQ(frames, 20U);
+}
+
 TEST_F(RosbagReaderTest, a_damaged_scan_is_told_with_its_place) {
   RecordedScan scan = scan_at();
   scan.angle_increment_rad = 0;

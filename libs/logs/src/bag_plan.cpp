@@ -120,6 +120,7 @@ class Planner {
         if (!bag_->next(message)) return;
         take(message);
       } catch (const MalformedBytes& error) {
+        if (is_enough()) return;
         throw UserError(bag_->place() + ": the message on " + message.topic->name +
                         " is damaged: " + error.what());
       } catch (const UserError&) {
@@ -133,17 +134,20 @@ class Planner {
     if (is_transforms(*message.topic)) {
       for (const RosTransform& transform : read_ros_transforms(message)) plan_.transforms.add(transform);
     } else if (message.topic->type == kRosOdometry) {
-      take_odometry(read_ros_odometry(message));
+      take_odometry(message);
     } else {
       scan_frames_.emplace(message.topic->name, read_ros_laser_scan(message).header.frame);
     }
     if (plan_.odometry_topic.empty() && !has_odometry_) find_odometry_transform();
   }
 
-  void take_odometry(const RosTransform& odometry) {
+  void take_odometry(const BagMessage& message) {
+    const std::optional<RosTransform> odometry = read_ros_odometry(message);
+    if (!odometry && no_pose_.empty()) no_pose_ = bag_->place() + ": " + no_pose_text(message.topic->name);
+    if (!odometry) return;
     has_odometry_ = true;
-    if (plan_.odom_frame.empty()) plan_.odom_frame = odometry.header.frame;
-    if (plan_.base_frame.empty()) plan_.base_frame = odometry.child_frame;
+    if (plan_.odom_frame.empty()) plan_.odom_frame = odometry->header.frame;
+    if (plan_.base_frame.empty()) plan_.base_frame = odometry->child_frame;
   }
 
   /// On the way up from a laser, or from the robot's frame where the user names it.
@@ -173,10 +177,17 @@ class Planner {
 
   bool knows_scan_frames() const { return scan_frames_.size() == plan_.scan_topics.size(); }
 
+  bool states_mount(const std::string& topic) const {
+    return options_of_topic(options_, topic).robot_T_laser.has_value();
+  }
+
+  /// Transforms, where there are any, tell of a laser whose mount is stated whether it is upside down.
   bool is_complete() const {
+    const bool has_transforms = !plan_.transform_topics.empty();
     return has_odometry_ && knows_scan_frames() &&
-           std::all_of(scan_frames_.begin(), scan_frames_.end(),
-                       [&](const auto& scan) { return knows_mount(scan.second); });
+           std::all_of(scan_frames_.begin(), scan_frames_.end(), [&](const auto& scan) {
+             return knows_mount(scan.second) || (!has_transforms && states_mount(scan.first));
+           });
   }
 
   /// What a bag that breaks off must have told of before.
@@ -185,6 +196,7 @@ class Planner {
   void require_complete() const {
     for (const std::string& topic : plan_.scan_topics)
       if (scan_frames_.count(topic) == 0) throw UserError(path_ + " has no message on " + topic);
+    if (!has_odometry_ && !no_pose_.empty()) throw UserError(no_pose_ + ", as in all of its messages");
     if (!has_odometry_ && !plan_.odometry_topic.empty())
       throw UserError(path_ + " has no message on " + plan_.odometry_topic);
     if (!has_odometry_) {
@@ -195,7 +207,7 @@ class Planner {
           plan_.transforms.text());
     }
     for (const auto& [topic, frame] : scan_frames_) {
-      if (options_of_topic(options_, topic).robot_T_laser || knows_mount(frame)) continue;
+      if (states_mount(topic) || knows_mount(frame)) continue;
       throw UserError(path_ + " does not say where the laser of " + topic +
                       " is on the robot: no transform leads from \"" + plan_.base_frame + "\" to \"" + frame +
                       "\", expected log.base_frame to name the robot's frame, or " +
@@ -211,6 +223,7 @@ class Planner {
   std::vector<BagTopic> topics_;
   BagPlan plan_;
   std::map<std::string, std::string> scan_frames_;  // by topic
+  std::string no_pose_;                             // where the first odometry without a pose is
   bool has_odometry_ = false;
 };
 
@@ -221,6 +234,10 @@ Names BagPlan::topics() const {
   if (!odometry_topic.empty()) all.push_back(odometry_topic);
   all.insert(all.end(), transform_topics.begin(), transform_topics.end());
   return all;
+}
+
+std::string no_pose_text(const std::string& topic) {
+  return "the odometry on " + topic + " is not finite, or its quaternion is none of length 1";
 }
 
 bool is_transforms(const BagTopic& topic) {

@@ -117,13 +117,13 @@ RosLaserScan read_ros_laser_scan(const BagMessage& message) {
   return scan;
 }
 
-RosTransform read_ros_odometry(const BagMessage& message) {
+std::optional<RosTransform> read_ros_odometry(const BagMessage& message) {
   RosFields fields(message);
   RosTransform odometry;
   odometry.header = header(fields, message.recorded_us);
   odometry.child_frame = frame_name(fields.text());
   const auto pose_found = pose(fields);
-  if (!pose_found) throw MalformedBytes("the odometry is not finite, or its quaternion is none of length 1");
+  if (!pose_found) return std::nullopt;
   odometry.pose = *pose_found;
   return odometry;
 }

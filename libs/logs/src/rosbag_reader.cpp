@@ -74,8 +74,7 @@ class RosbagReader::Implementation {
       if (is_transforms(*message.topic)) {
         for (const RosTransform& transform : read_ros_transforms(message)) take_transform(transform);
       } else if (message.topic->name == plan_.odometry_topic) {
-        const RosTransform odometry = read_ros_odometry(message);
-        interpolator_.add_odometry(odometry.header.time_us, on_floor(odometry.pose));
+        take_odometry(message);
       } else {
         take_scan(read_ros_laser_scan(message), laser_of(message.topic->name));
       }
@@ -93,6 +92,15 @@ class RosbagReader::Implementation {
     } else {
       plan_.transforms.add(transform);
     }
+  }
+
+  void take_odometry(const BagMessage& message) {
+    if (const auto odometry = read_ros_odometry(message)) {
+      interpolator_.add_odometry(odometry->header.time_us, on_floor(odometry->pose));
+      return;
+    }
+    if (statistics_.skipped.count++ == 0)
+      statistics_.skipped.first = bag_->place() + ": " + no_pose_text(message.topic->name);
   }
 
   std::size_t laser_of(const std::string& topic) const {

@@ -24,6 +24,9 @@ struct BagPlan {
   std::vector<std::string> topics() const;
 };
 
+/// What is wrong with odometry that has no pose.
+std::string no_pose_text(const std::string& topic);
+
 /// The poses of robots in bags come from a topic of their own or from a transform.
 bool is_transforms(const BagTopic& topic);
 

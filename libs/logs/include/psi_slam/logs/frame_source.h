@@ -18,7 +18,7 @@ class FrameSource {
   virtual ~FrameSource() = default;
 
   /// The next frame, or none at the end. Throws UserError (file, place, what was expected) on a malformed
-  /// log; formats of lines tolerate a few malformed ones, see skipped_lines().
+  /// log; some formats tolerate a few messages that are none, see skipped_lines().
   virtual std::optional<Frame> next() = 0;
 
   /// How much of the log has been read, in [0, 1], by bytes of the file on disk.

@@ -64,7 +64,7 @@ struct LogFacts {
   RangeFacts ranges;
   std::size_t scans_with_two_poses = 0;         ///< CARMEN: whose line has another pose beside its odometry
   std::map<std::string, std::size_t> messages;  ///< CARMEN: lines of each kind
-  SkippedLines skipped;                         ///< CARMEN: lines that do not parse
+  SkippedLines skipped;                         ///< messages that were left out
   std::map<std::string, std::size_t> other_lasers;  ///< rawlog: scans by sensor label
 };
 

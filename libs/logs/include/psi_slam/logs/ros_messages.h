@@ -5,6 +5,7 @@
 
 #include <mrpt/math/TPose3D.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,8 +46,8 @@ struct RosTransform {
 // Each throws MalformedBytes when the message is shorter than it says.
 RosLaserScan read_ros_laser_scan(const BagMessage& message);
 
-/// Throws MalformedBytes also when its pose is none.
-RosTransform read_ros_odometry(const BagMessage& message);
+/// None when its pose is none: not finite, or no rotation.
+std::optional<RosTransform> read_ros_odometry(const BagMessage& message);
 
 /// Transforms that are none (not finite, or no rotation) are left out: most are of no concern here.
 std::vector<RosTransform> read_ros_transforms(const BagMessage& message);

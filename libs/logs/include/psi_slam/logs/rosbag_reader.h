@@ -21,6 +21,7 @@ namespace psi_slam {
 struct RosbagStatistics {
   std::string scans;     ///< the topic, or several with commas
   std::string odometry;  ///< the topic, or "odom -> base_link"
+  SkippedLines skipped;  ///< odometry messages without a pose
 };
 
 class RosbagReader : public FrameSource {
@@ -31,6 +32,7 @@ class RosbagReader : public FrameSource {
 
   std::optional<Frame> next() override;
   double progress() const override;
+  SkippedLines skipped_lines() const override { return statistics().skipped; }
   const RosbagStatistics& statistics() const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace psi_slam {
 
-/// The lines of a text log that do not parse and were left out: logs that long-running programs write have a
-/// few.
+/// The messages of a log that were left out: lines of a text log that do not parse, of which logs that
+/// long-running programs write have a few; odometry of a bag that is no pose.
 struct SkippedLines {
   std::size_t count = 0;
   std::string first;  ///< "path:line: ...", where the first of them is, what it has and what was expected
@@ -15,8 +15,8 @@ struct SkippedLines {
   /// One sentence without its full stop; empty when nothing was left out.
   std::string sentence() const {
     if (count == 0) return {};
-    if (count == 1) return "1 line of the log does not parse and is left out: " + first;
-    return std::to_string(count) + " lines of the log do not parse and are left out, the first: " + first;
+    if (count == 1) return "1 message of the log does not parse and is left out: " + first;
+    return std::to_string(count) + " messages of the log do not parse and are left out, the first: " + first;
   }
 };
 

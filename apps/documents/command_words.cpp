@@ -14,7 +14,7 @@ WordKind kind_of_value(const CLI::Option& option) {
   };
   if (option.nonpositional() && option.get_items_expected_max() == 0) return WordKind::kNothing;
   if (name == "DIR") return WordKind::kFolder;
-  if (name == "SECTION.KEY=VALUE") return WordKind::kSetting;
+  if (name.rfind("SECTION.KEY=VALUE", 0) == 0) return WordKind::kSetting;
   constexpr std::array<std::string_view, 3> kFiles{"FILE", "INI", "LOG"};
   return is_one_of(kFiles) || !option.nonpositional() ? WordKind::kFile : WordKind::kOther;
 }

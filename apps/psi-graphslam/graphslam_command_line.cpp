@@ -33,7 +33,8 @@ bool has_display() {
 void add_inputs(CLI::App& app, Switches& switches, GraphSlamSetup& setup) {
   app.add_option("-i,--ini-file,--ini", switches.ini, "Settings, as those of MRPT's graphslam-engine")
       ->type_name("INI");
-  app.add_option("-r,--rawlog", switches.log, "Log: an MRPT rawlog, or a CARMEN log, plain or gzipped")
+  app.add_option("-r,--rawlog", switches.log,
+                 "Log: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag")
       ->type_name("LOG");
   app.add_option("-g,--ground-truth", switches.ground_truth, "True poses, as GridMapNavSimul writes them")
       ->type_name("FILE");

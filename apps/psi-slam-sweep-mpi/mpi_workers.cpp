@@ -66,16 +66,17 @@ SweepWorkers mpi_workers(const MpiWorld& world) {
 }
 
 void work_for_rank_0(const MpiWorld& world) {
-  for (;;) {
+  for (bool dismissed = false; !dismissed;) {
     const std::optional<Message> message = world.wait();
     if (message && message->kind == MessageKind::kEnd) return;
     if (!message || message->kind != MessageKind::kOrder)
       continue;  // told to stop when it had ended by itself
     const std::optional<SweepOutcome> outcome = make_run(read_order(message->text), [&] {
       const std::optional<Message> other = world.receive();
-      return other && other->kind == MessageKind::kStop;
+      dismissed = dismissed || (other && other->kind == MessageKind::kEnd);
+      return dismissed || (other && other->kind == MessageKind::kStop);
     });
-    world.send(0, MessageKind::kOutcome, outcome ? outcome_text(*outcome) : "");
+    if (!dismissed) world.send(0, MessageKind::kOutcome, outcome ? outcome_text(*outcome) : "");
   }
 }
 

@@ -141,6 +141,7 @@ TEST_F(SweepPlanTest, refuses_with_a_sentence) {
   EXPECT_THAT(with_choice({"map.resolution_m"}), HasSubstr("expected SECTION.KEY=VALUE"));
   EXPECT_THAT(with_choice({"map.resolution_m=1", "map.resolution_m=2"}), HasSubstr("is set twice"));
   EXPECT_THAT(with_choice({"run.seed=1,2"}), HasSubstr("seeds from --seeds"));
+  EXPECT_THAT(with_choice({"log.laser=FLASER,RLASER"}), HasSubstr("log.laser is a list itself"));
   SweepRequest asked = request({log, file("b.log", "y")});
   asked.relations = log;
   EXPECT_THAT(refusal(asked), HasSubstr("--relations goes with one log"));

@@ -127,6 +127,8 @@ TEST_F(SweepRunTest, orders_and_outcomes_travel_as_text) {
   run.keep = SweepKeep::kMaps;
   EXPECT_EQ(order_text(read_order(order_text(run))), order_text(run));
   EXPECT_EQ(read_order(order_text(run)).settings, run.settings);
+  run.log = "b\xe2timent.log";  // Latin-1
+  EXPECT_EQ(read_order(order_text(run)).log, run.log);
   const SweepOutcome made = outcome(run);
   EXPECT_EQ(outcome_text(read_outcome(outcome_text(made))), outcome_text(made));
   const SweepOutcome failed{{}, "it broke", 2};

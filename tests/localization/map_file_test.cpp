@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "psi_slam/base/compressed_file.h"
 #include "psi_slam/results/map_server_pair.h"
 #include "psi_slam/results/mrpt_maps.h"
 #include "temporary_folder.h"
@@ -56,6 +57,43 @@ TEST(MapFile, what_is_no_map_is_refused_in_a_sentence) {
   std::string turned = read_file(folder.path() / "map.yaml");
   turned.replace(turned.find(", 0.0]"), 6, ", 0.5]");
   EXPECT_THAT(sentence("turned.yaml", turned), HasSubstr("origin is turned"));
+}
+
+TEST(MapFile, cells_of_no_size_are_refused) {
+  const TemporaryFolder folder;
+  write_map_server_pair(folder.path() / "map.yaml", small_map());
+  const std::string yaml = read_file(folder.path() / "map.yaml");
+  const auto sentence = [&](const std::string& key, const std::string& value) {
+    std::string changed = yaml;
+    const std::size_t begin = changed.find(key) + key.size();
+    changed.replace(begin, changed.find_first_of(",\n", begin) - begin, value);
+    write_file(folder.path() / "other.yaml", changed);
+    return sentence_of([&] { read_map_file(folder.path() / "other.yaml"); });
+  };
+  for (const char* value : {"0.00001", "0", "-0.05", "2", ".nan"})
+    EXPECT_THAT(sentence("resolution: ", value), HasSubstr("expected 0.001 to 1 m a cell")) << value;
+  EXPECT_THAT(sentence("origin: [", ".inf"), HasSubstr("no map for map_server"));
+}
+
+TEST(MapFile, counts_of_a_gridmap_are_not_believed) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "map.gridmap.gz";
+  write_grid_map(path, small_map());
+  std::string whole;
+  CompressedFile file(path);
+  for (char byte = 0; file.read(&byte, 1) == 1;) whole += byte;
+  const std::size_t counts = whole.find("Map2D") + 7;  // behind version and bits of a cell
+  const auto sentence_with = [&](std::size_t at, char byte) {
+    std::string bytes = whole;
+    bytes.at(counts + at) = byte;
+    write_file(path, bytes);
+    return sentence_of([&] { read_map_file(path); });
+  };
+  EXPECT_THAT(sentence_with(2, 0x40), HasSubstr("a damaged gridmap: it announces 4194384 x 60 cells"));
+  EXPECT_THAT(sentence_with(27, 0x10), HasSubstr("expected 0.001 to 1 m a cell"));
+  EXPECT_THAT(sentence_with(15, 0x70), HasSubstr("a damaged gridmap"));
+  write_file(path, whole.substr(0, whole.size() / 2));
+  EXPECT_THAT(sentence_of([&] { read_map_file(path); }), HasSubstr("a damaged gridmap"));
 }
 
 }  // namespace

@@ -100,6 +100,13 @@ Choice choice_of(const std::string& assignment) {
   if (choice.column == "run.seed" || choice.column == "run.threads")
     throw UserError("--set: a sweep takes its " + choice.column.substr(4) +
                     (choice.column == "run.seed" ? "s from --seeds" : " from --threads"));
+  const bool is_list = choice.column == "log.laser" || choice.column == "log.scan_topic" ||
+                       choice.column == "log.laser_mounts";
+  if (is_list && assignment.find(',', equals) != std::string::npos)
+    throw UserError(
+        "--set: " + choice.column +
+        " is a list itself, and a comma separates the values of a sweep: put it into a settings file, "
+        "-c INI");
   std::size_t begin = equals + 1;
   for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
     comma = assignment.find(',', begin);

@@ -185,13 +185,16 @@ std::optional<SweepOutcome> make_run(const SweepOrder& order, const std::functio
 }
 
 std::string order_text(const SweepOrder& order) {
-  return Json::array({order.program.string(), order.log.string(), order.relations.string(), order.settings,
-                      order.key, order.folder.string(), static_cast<int>(order.keep)})
-      .dump();
+  const Json json =
+      Json::array({order.program.string(), order.log.string(), order.relations.string(), order.settings,
+                   order.key, order.folder.string(), static_cast<int>(order.keep)});
+  std::string text;
+  Json::to_cbor(json, text);  // unlike JSON it holds file names of any encoding
+  return text;
 }
 
 SweepOrder read_order(const std::string& text) {
-  const Json json = Json::parse(text);
+  const Json json = Json::from_cbor(text);
   const auto word = [&](std::size_t index) { return json.at(index).get<std::string>(); };
   constexpr std::size_t kKeep = 6;
   return {word(0),

@@ -72,6 +72,7 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
     RosbagReader log(path, unlimited);
     collect(log);
     pass.facts.laser = log.statistics().scans;
+    pass.facts.skipped = log.statistics().skipped;
   }
   pass.facts.format = name_of(format);
   pass.marks = collector.marks();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a session is made of, recorded or read: saved, and gone on with in another drive.
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "open_input.h"
 #include "psi_slam/base/file_checksum.h"
+#include "psi_slam/base/user_error.h"
 #include "psi_slam/session/bound_settings.h"
 #include "psi_slam/session/mapping_session.h"
 #include "psi_slam/session/session_file.h"
@@ -67,8 +69,14 @@ SessionFacts MappingSession::facts() const {
 }
 
 void MappingSession::begin_recorded_drive() {
-  for (const RecordedDrive& drive : drives_)
-    if (drive.scan == scans_) mapper_->begin_drive(drive.start);
+  for (const RecordedDrive& drive : drives_) {
+    if (drive.scan != scans_) continue;
+    if (drive.start.node >= mapper_->graph().num_nodes())
+      throw UserError("a recorded drive begins at node " + std::to_string(drive.start.node) +
+                      " of a map that has " + std::to_string(mapper_->graph().num_nodes()) +
+                      ": it was recorded with other settings, merge the logs anew");
+    mapper_->begin_drive(drive.start);
+  }
 }
 
 void MappingSession::begin_drive(const SessionInput& drive, const DriveStart& start) {

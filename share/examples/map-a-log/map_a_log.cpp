@@ -4,7 +4,8 @@
 //     map_a_log my.log > my.poses                                      time [s], x [m], y [m], heading [deg]
 //     map_a_log my.log loop_closure.enabled=false front_end.window_m=0.5 > my.poses
 //
-// Any option of psi-slam.ini(5) may be set. The log is an MRPT rawlog or a CARMEN log, plain or gzipped.
+// Any option of psi-slam.ini(5) may be set. The log is an MRPT rawlog or a CARMEN log, plain or gzipped, or a
+// ROS bag.
 #include <mrpt/core/bits_math.h>
 #include <psi_slam/base/time_stamp.h>
 #include <psi_slam/base/user_error.h>

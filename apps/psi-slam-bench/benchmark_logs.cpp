@@ -2,7 +2,6 @@
 #include "benchmark_logs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -26,17 +25,7 @@ class PlaceCollector {
 
   void add(const Frame& frame) {
     const FrontEndStep step = front_end_.add(frame);
-    if (step.node) {
-      NodeScan node;
-      node.frame = frames_;
-      node.local_T_robot = step.local_T_robot;
-      node.points = step.points;
-      if (!memory_.nodes.empty()) {
-        const mrpt::math::TPose2D motion = step.local_T_robot - memory_.nodes.back().local_T_robot;
-        node.travelled_m = memory_.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
-      }
-      memory_.nodes.push_back(std::move(node));
-    }
+    if (step.node) remember_node(step, frames_, memory_);
     keep(step.finished);
     ++frames_;
   }
@@ -48,7 +37,7 @@ class PlaceCollector {
 
  private:
   void keep(const std::vector<PlacedLocalMap>& finished) {
-    memory_.local_maps.insert(memory_.local_maps.end(), finished.begin(), finished.end());
+    for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, memory_);
   }
 
   FrontEnd front_end_;

@@ -153,28 +153,28 @@ std::string loop_layer(const char* name, const MappingResult& result, LoopVerdic
 
 /// Poses told in a frame of their own, laid onto the map where each drive begins, so that their drift is
 /// seen.
-Paths paths_from_starts(const MappingResult& result, TPose2D FrameRecord::*pose, const Projection& project) {
+using PoseOfFrame = std::function<TPose2D(const FrameRecord& frame, const FrameRecord& first_of_drive)>;
+
+Paths paths_of(const MappingResult& result, const PoseOfFrame& map_T_robot, const Projection& project) {
   Paths paths;
   for (const FrameSpan& drive : drives_of(result)) {
-    paths.emplace_back();
-    for (std::size_t i = drive.begin; i < drive.end; ++i) {
-      const FrameRecord& first = result.frames[drive.begin];
-      paths.back().push_back(project(first.map_T_robot + (result.frames[i].*pose - first.*pose)));
-    }
-    paths.back() = thinned(paths.back());
+    Path path;
+    for (std::size_t i = drive.begin; i < drive.end; ++i)
+      path.push_back(project(map_T_robot(result.frames[i], result.frames[drive.begin])));
+    paths.push_back(thinned(path));
   }
   return paths;
 }
 
-Paths mapped_paths(const MappingResult& result, const Projection& project) {
-  Paths paths;
-  for (const FrameSpan& drive : drives_of(result)) {
-    paths.emplace_back();
-    for (std::size_t i = drive.begin; i < drive.end; ++i)
-      paths.back().push_back(project(result.frames[i].map_T_robot));
-    paths.back() = thinned(paths.back());
-  }
-  return paths;
+/// Poses of another frame, each drive moved to where it starts in the map.
+PoseOfFrame from_start(TPose2D FrameRecord::*pose) {
+  return [pose](const FrameRecord& frame, const FrameRecord& first) {
+    return first.map_T_robot + (frame.*pose - first.*pose);
+  };
+}
+
+TPose2D mapped(const FrameRecord& frame, const FrameRecord& /*first_of_drive*/) {
+  return frame.map_T_robot;
 }
 
 std::string scale_bar(const MapPicture& picture) {
@@ -241,8 +241,8 @@ std::string report_map(const MappingResult& result, const mrpt::maps::COccupancy
   options.scale_bar = false;
   const MapPicture picture = map_picture(grid, options);
   const Projection project(picture);
-  const Paths odometry = paths_from_starts(result, &FrameRecord::odom_T_robot, project);
-  const Paths front_end = paths_from_starts(result, &FrameRecord::front_end_T_robot, project);
+  const Paths odometry = paths_of(result, from_start(&FrameRecord::odom_T_robot), project);
+  const Paths front_end = paths_of(result, from_start(&FrameRecord::front_end_T_robot), project);
   const std::string size = "width=\"" + std::to_string(picture.width_px) + "\" height=\"" +
                            std::to_string(picture.height_px) + "\"";
 
@@ -265,7 +265,7 @@ std::string report_map(const MappingResult& result, const mrpt::maps::COccupancy
   html += loop_layer("refused", result, LoopVerdict::kRefused, project);
   html += loop_layer("switched-off", result, LoopVerdict::kSwitchedOff, project);
   html += loop_layer("accepted", result, LoopVerdict::kAccepted, project);
-  const Paths trajectory = mapped_paths(result, project);
+  const Paths trajectory = paths_of(result, mapped, project);
   html += trajectory_layer(trajectory);
   html += ends_layer(trajectory) + scale_bar(picture);
   html += "</svg>\n</div>\n";

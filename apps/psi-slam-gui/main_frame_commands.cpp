@@ -191,39 +191,33 @@ void MainFrame::ask_for_picture() {
 }
 
 void MainFrame::open_settings(const std::filesystem::path& file) {
-  try {
+  telling_failures([&] {
     BoundSettings fresh;  // what the file does not set has its default
     fresh.load(file, {});
     settings_.settings = fresh.settings;
     settings_panel_->refresh();
     messages_->say(MessageBar::Kind::kNote, "The settings are those of " + file.string());
     show_pending_settings();
-  } catch (const UserError& error) {
-    messages_->say(MessageBar::Kind::kError, error.what());
-  }
+  });
 }
 
 void MainFrame::save_settings(const std::filesystem::path& file) {
-  try {
+  telling_failures([&] {
     write_text_atomically(file, settings_file_text(settings_.table));
     messages_->say(MessageBar::Kind::kNote, "The settings are in " + file.string());
-  } catch (const SystemFailure& failure) {
-    messages_->say(MessageBar::Kind::kError, failure.what());
-  }
+  });
 }
 
 void MainFrame::save_picture(const std::filesystem::path& file) {
   canvas_->take_picture([this, file](const wxImage& picture) {
-    try {
+    telling_failures([&] {
       write_atomically(file, [&](const std::filesystem::path& path) {
         const wxLogNull quiet;  // what goes wrong is told in the bar
         if (!picture.SaveFile(text_of(path), wxBITMAP_TYPE_PNG))
           throw SystemFailure("cannot write the picture " + file.string());
       });
       messages_->say(MessageBar::Kind::kNote, "The picture is " + file.string());
-    } catch (const SystemFailure& failure) {
-      messages_->say(MessageBar::Kind::kError, failure.what());
-    }
+    });
   });
 }
 

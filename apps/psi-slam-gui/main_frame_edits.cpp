@@ -157,8 +157,9 @@ void MainFrame::enable_edit_commands(const ReplaySnapshot* snapshot) {
 
 EditJournal MainFrame::edits() const {
   EditJournal journal;
-  if (snapshot_)
-    for (const TimedEdit& edit : *snapshot_->edits) journal.add(edit);
+  if (!replay_) return journal;
+  const auto newest = replay_->snapshot();  // the window may not have shown it yet
+  for (const TimedEdit& edit : *newest->edits) journal.add(edit);
   return journal;
 }
 
@@ -172,13 +173,11 @@ void MainFrame::open_edits(const std::filesystem::path& file) {
 }
 
 void MainFrame::save_edits(const std::filesystem::path& file) {
-  try {
+  telling_failures([&] {
     edits().write(file);
     messages_->say(MessageBar::Kind::kNote,
                    "The edits are in " + file.string() + ": psi-slam takes them with --edits");
-  } catch (const SystemFailure& failure) {
-    messages_->say(MessageBar::Kind::kError, failure.what());
-  }
+  });
 }
 
 }  // namespace psi_slam

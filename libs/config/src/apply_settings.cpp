@@ -4,18 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "psi_slam/base/text_parts.h"
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
-namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
-
-}  // namespace
 
 void apply(const IniFile& file, OptionTable& table) {
   for (const IniSection& section : file.sections) table.require_section(section.name, section.where);

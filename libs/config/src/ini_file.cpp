@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "psi_slam/base/text_parts.h"
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
@@ -21,10 +22,8 @@ constexpr std::string_view kSpace = " \t\r\v\f";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kInclude = "include";
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kSpace);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+std::string_view stripped(std::string_view text) {
+  return trimmed(text, kSpace);
 }
 
 bool is_space(char c) {
@@ -44,7 +43,7 @@ std::string_view without_comment(std::string_view text) {
 }
 
 bool is_blank(std::string_view text) {
-  return trimmed(without_comment(text)).empty();
+  return stripped(without_comment(text)).empty();
 }
 
 /// The file's bytes, or why they cannot be had.
@@ -100,8 +99,8 @@ class Reader {
 
 /// The value behind "key =". Throws UserError when its quotes do not match.
 std::string parse_value(std::string_view text, const std::string& where) {
-  text = trimmed(text);
-  if (text.empty() || text[0] != '"') return std::string(trimmed(without_comment(text)));
+  text = stripped(text);
+  if (text.empty() || text[0] != '"') return std::string(stripped(without_comment(text)));
   std::string value;
   std::size_t i = 1;
   for (; i < text.size() && text[i] != '"'; ++i) {
@@ -120,17 +119,17 @@ std::string parse_value(std::string_view text, const std::string& where) {
 /// The name of "[name]", perhaps with a comment behind it.
 std::string parse_heading(std::string_view line, const std::string& where) {
   const std::size_t end = line.find(']');
-  if (end == std::string_view::npos || trimmed(line.substr(1, end - 1)).empty() ||
+  if (end == std::string_view::npos || stripped(line.substr(1, end - 1)).empty() ||
       !is_blank(line.substr(end + 1)))
     throw UserError(where + ": expected [section], not " + std::string(line));
-  return std::string(trimmed(line.substr(1, end - 1)));
+  return std::string(stripped(line.substr(1, end - 1)));
 }
 
 void Reader::read_lines(std::string_view text, Position position) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
-    const std::string_view line = trimmed(text.substr(0, end));
+    const std::string_view line = stripped(text.substr(0, end));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     ++position.line;
     if (is_blank(line)) continue;
@@ -146,7 +145,7 @@ void Reader::read_lines(std::string_view text, Position position) {
 void Reader::read_assignment(std::string_view line, Position& position) {
   const std::string where = position.where();
   const std::size_t equals = line.find('=');
-  const std::string key(trimmed(line.substr(0, equals)));
+  const std::string key(stripped(line.substr(0, equals)));
   if (equals == std::string_view::npos || key.empty())
     throw UserError(where + ": expected key = value or [section], not " + std::string(line));
   const std::string value = parse_value(line.substr(equals + 1), where);
@@ -195,7 +194,7 @@ IniFile parse_ini(std::string_view text, const fs::path& path) {
 }
 
 std::string ini_value_text(const std::string& text) {
-  const bool is_plain = !text.empty() && text[0] != '"' && trimmed(without_comment(text)) == text;
+  const bool is_plain = !text.empty() && text[0] != '"' && stripped(without_comment(text)) == text;
   if (is_plain) return text;
   std::string quoted = "\"";
   for (const char c : text) {

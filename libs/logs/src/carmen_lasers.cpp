@@ -6,6 +6,7 @@
 #include <set>
 
 #include "psi_slam/base/line_reader.h"
+#include "psi_slam/base/text_parts.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/carmen_mount.h"
 
@@ -16,10 +17,6 @@ using Messages = std::set<std::string, std::less<>>;
 
 constexpr std::size_t kLinesOfHead = 500;
 constexpr std::size_t kAllLines = std::numeric_limits<std::size_t>::max();
-
-bool starts_with(std::string_view text, std::string_view beginning) {
-  return text.substr(0, beginning.size()) == beginning;
-}
 
 Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) {
   LineReader lines(path);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "psi_slam/base/line_reader.h"
+#include "psi_slam/base/text_parts.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/carmen_lasers.h"
 #include "psi_slam/logs/carmen_message.h"
@@ -17,10 +18,6 @@ namespace {
 
 constexpr std::size_t kLinesForOneSkipped = 100;
 constexpr std::size_t kSkippedBeforeTheEnd = 100;  // damage may come in one place, and the share sink later
-
-bool starts_with(std::string_view text, std::string_view beginning) {
-  return text.substr(0, beginning.size()) == beginning;
-}
 
 }  // namespace
 
@@ -196,7 +193,7 @@ class CarmenReader::Implementation {
   OdometryInterpolator interpolator_;
   CarmenStatistics statistics_;
   std::vector<std::size_t*> scan_counts_;  // of each laser, kept out of the search by name
-  std::size_t lines_needed_ = 0;  // that were parsed, or should have been
+  std::size_t lines_needed_ = 0;           // that were parsed, or should have been
   std::size_t frames_given_ = 0;
   bool at_end_ = false;
 };

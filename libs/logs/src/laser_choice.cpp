@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "psi_slam/base/text_parts.h"
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
@@ -23,12 +24,6 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
     if (end == std::string_view::npos) return words;
     text.remove_prefix(end + 1);
   }
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
 std::optional<double> finite_number(const std::string& word) {
@@ -72,7 +67,7 @@ LaserChoice laser_choice(std::string_view option, std::string_view value) {
   choice.all = value == "all";
   if (choice.all || value.empty()) return choice;
   for (const std::string& part : split(value, ",")) {
-    const std::string name = trimmed(part);
+    const std::string name(trimmed(part));
     const char* fault = name.empty()                   ? "\" has a name missing"
                         : contains(choice.names, name) ? "\" has a name twice"
                                                        : nullptr;
@@ -116,7 +111,7 @@ std::vector<StatedMount> stated_mounts(const LogOptions& options) {
   for (const std::string& text : split(options.laser_mounts, ",")) {
     auto mount = mount_from(text);
     if (!mount)
-      throw UserError("log.laser_mounts has \"" + trimmed(text) +
+      throw UserError("log.laser_mounts has \"" + std::string(trimmed(text)) +
                       "\", expected a laser's name, x and y in metres and yaw in degrees, such as \"RLASER "
                       "-0.3 0 180\", and a comma between any two");
     mounts.push_back(*std::move(mount));

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "psi_slam/base/compressed_file.h"
+#include "psi_slam/base/text_parts.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/logs/bag_compression.h"
 #include "psi_slam/logs/bag_folder.h"
@@ -21,10 +22,6 @@ constexpr const char* kExpected =
     ", expected a CARMEN log or an MRPT .rawlog, plain or gzipped, or a ROS bag (.bag, .db3, .mcap, or the "
     "folder of a ROS 2 bag)";
 constexpr std::size_t kHeadBytes = std::size_t{256} * 1024;
-
-bool starts_with(std::string_view text, std::string_view beginning) {
-  return text.substr(0, beginning.size()) == beginning;
-}
 
 std::optional<LogFormat> bag_format(std::string_view head) {
   constexpr std::string_view kSqlite("SQLite format 3\0", 16);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts of a text, without copies: views into what was given.
+#pragma once
+
+#include <string_view>
+
+namespace psi_slam {
+
+inline bool starts_with(std::string_view text, std::string_view beginning) {
+  return text.substr(0, beginning.size()) == beginning;
+}
+
+/// Without the characters of `space` at both ends.
+inline std::string_view trimmed(std::string_view text, std::string_view space = " \t") {
+  const std::size_t begin = text.find_first_not_of(space);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(space) - begin + 1);
+}
+
+}  // namespace psi_slam

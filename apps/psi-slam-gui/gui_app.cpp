@@ -11,6 +11,7 @@
 #include <wx/stdpaths.h>
 
 #include <array>
+#include <exception>
 #include <ostream>
 
 #include "gui_command_line.h"
@@ -40,6 +41,14 @@ class GuiApp : public wxApp {
     frame->Show();
     frame->start(line_.log, line_.config, line_.settings, line_.edits);
     if (when_shown_) frame->CallAfter([this, frame] { when_shown_(*frame); });
+    return true;
+  }
+
+  /// What no command has told: the window goes on, with all that was mapped and edited.
+  bool OnExceptionInMainLoop() override {
+    auto* const frame = dynamic_cast<MainFrame*>(GetTopWindow());
+    if (frame == nullptr) return wxApp::OnExceptionInMainLoop();
+    frame->tell_failure(std::current_exception());
     return true;
   }
 

@@ -2,6 +2,7 @@
 #include "loop_table.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "psi_slam/results/number_text.h"
 #include "psi_slam/results/verdict_text.h"
@@ -45,7 +46,9 @@ void LoopTable::sort_by(std::size_t column, bool ascending) {
   arrange();
 }
 
-double LoopTable::residual_m(const LoopRecord& loop) const {
+std::optional<double> LoopTable::residual_m(const LoopRecord& loop) const {
+  if (loop.verdict != LoopVerdict::kAccepted && loop.verdict != LoopVerdict::kSwitchedOff)
+    return std::nullopt;
   return loop_residual(loop, *snapshot_->map_T_node).distance_m;
 }
 
@@ -75,8 +78,10 @@ void LoopTable::arrange() {
       return sort([](const LoopRecord& loop) { return loop.ambiguity; });
     case kMoved:
       return sort([](const LoopRecord& loop) { return loop.moved_m; });
-    case kResidual:
-      return sort([this](const LoopRecord& loop) { return residual_m(loop); });
+    case kResidual: {
+      const double last = std::numeric_limits<double>::infinity() * (ascending_ ? 1 : -1);
+      return sort([&](const LoopRecord& loop) { return residual_m(loop).value_or(last); });
+    }
     case kVerdict:
       return sort([](const LoopRecord& loop) { return std::string(verdict_text(loop.verdict)); });
     case kReason:
@@ -109,8 +114,10 @@ std::string LoopTable::text(std::size_t row, std::size_t column) const {
       return fixed_text(loop.ambiguity, 3);
     case kMoved:
       return fixed_text(loop.moved_m, 2);
-    case kResidual:
-      return loop.verdict == LoopVerdict::kAccepted ? fixed_text(residual_m(loop), 3) : "";
+    case kResidual: {
+      const std::optional<double> residual = residual_m(loop);
+      return residual ? fixed_text(*residual, 3) : "";
+    }
     case kVerdict:
       return verdict_text(loop.verdict);
     case kReason:

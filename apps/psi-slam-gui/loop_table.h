@@ -49,12 +49,13 @@ class LoopTable {
   const LoopRecord& loop(std::size_t row) const { return (*snapshot_->loops)[order_[row]]; }
   std::string text(std::size_t row, std::size_t column) const;
 
-  /// "120 matches: 35 accepted, 80 refused, 5 switched off".
+  /// "120 searches: 35 accepted, 80 refused, 5 switched off".
   std::string summary() const;
 
  private:
   void arrange();
-  double residual_m(const LoopRecord& loop) const;
+  /// Of loops that the graph holds or has switched off.
+  std::optional<double> residual_m(const LoopRecord& loop) const;
 
   std::shared_ptr<const ReplaySnapshot> snapshot_;
   std::optional<LoopVerdict> filter_;

@@ -25,7 +25,8 @@ namespace psi_slam {
 namespace {
 
 constexpr int kBetweenLooks_ms = 50;
-constexpr const char* kNotExported = "The map has not been exported. Close the window nevertheless?";
+constexpr const char* kNotExported =
+    "What was mapped or edited since has not been exported. Close the window nevertheless?";
 constexpr double kLoopDistance_m = 20;  // of the eye that looks at a chosen loop
 
 class LogDrop : public wxFileDropTarget {
@@ -142,7 +143,7 @@ void MainFrame::build_toolbar() {
 }
 
 void MainFrame::refresh() {
-  replay_.tidy();
+  for (const std::string& failure : replay_.tidy()) messages_->say(MessageBar::Kind::kError, failure);
   if (!replay_) return;
   const std::shared_ptr<const ReplaySnapshot> snapshot = replay_->snapshot();
   if (snapshot != snapshot_) {
@@ -162,37 +163,44 @@ void MainFrame::refresh() {
 /// Says what the user is to know, each thing once.
 void MainFrame::take_news(const ReplaySnapshot& snapshot) {
   using Kind = MessageBar::Kind;
+  tell_warnings(snapshot.warnings);
   if (snapshot.phase == ReplayPhase::kFailed && snapshot.failure != told_failure_) {
     told_failure_ = snapshot.failure;
     messages_->say(Kind::kError, snapshot.failure);
-  }
-  if (!snapshot.warnings.empty() && snapshot.warnings != told_warnings_) {
-    told_warnings_ = snapshot.warnings;
-    messages_->say(Kind::kWarning, first_sentences(snapshot.warnings));
   }
   if (!remembered_ && snapshot.phase != ReplayPhase::kOpening && snapshot.phase != ReplayPhase::kFailed) {
     remembered_ = true;
     remember(opened_);
   }
-  if (snapshot.saved && snapshot.saved->number != told_save_) {
-    told_save_ = snapshot.saved->number;
-    const std::string& failure = snapshot.saved->failure;
-    exported_ = exported_ || failure.empty();
-    messages_->say(failure.empty() ? Kind::kNote : Kind::kError,
-                   failure.empty() ? "The session is " + snapshot.saved->file.string() +
-                                         ": open it here, or go on with it by psi-slam --resume"
-                                   : failure);
-  }
-  if (!snapshot.exported || snapshot.exported->number == told_export_) return;
-  const ExportOutcome& outcome = *snapshot.exported;
+  if (snapshot.saved && snapshot.saved->number != told_save_) tell_save(*snapshot.saved);
+  if (snapshot.exported && snapshot.exported->number != told_export_) tell_export(*snapshot.exported);
+}
+
+/// What has been told may grow in numbers: that is shown where it still stands, and not told anew.
+void MainFrame::tell_warnings(const std::vector<std::string>& warnings) {
+  if (warnings.empty() || warnings == told_warnings_ || messages_->asks()) return;
+  const bool news = warnings.size() > told_warnings_.size();
+  if (news || messages_->sentence() == first_sentences(told_warnings_))
+    messages_->say(MessageBar::Kind::kWarning, first_sentences(warnings));
+  told_warnings_ = warnings;
+}
+
+void MainFrame::tell_save(const SaveOutcome& outcome) {
+  told_save_ = outcome.number;
+  if (!outcome.failure.empty()) return messages_->say(MessageBar::Kind::kError, outcome.failure);
+  unsaved_.note_written(outcome.written);
+  messages_->say(MessageBar::Kind::kNote, "The session is " + outcome.file.string() +
+                                              ": open it here, or go on with it by psi-slam --resume");
+}
+
+void MainFrame::tell_export(const ExportOutcome& outcome) {
   told_export_ = outcome.number;
-  exported_ = exported_ || outcome.failure.empty();
-  if (outcome.failure.empty())
-    messages_->say(Kind::kNote, "All results are in " + outcome.folder.string() + ": begin with report.html");
-  else
-    messages_->say(Kind::kError, outcome.failure);
-  close_when_written_ = close_when_written_ && outcome.failure.empty();
-  if (close_when_written_) Close();
+  const bool closes = std::exchange(close_when_written_, false);
+  if (!outcome.failure.empty()) return messages_->say(MessageBar::Kind::kError, outcome.failure);
+  unsaved_.note_written(outcome.written);
+  messages_->say(MessageBar::Kind::kNote,
+                 "All results are in " + outcome.folder.string() + ": begin with report.html");
+  if (closes) Close();
 }
 
 void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
@@ -241,11 +249,16 @@ void MainFrame::set_speed(double speed) {
 void MainFrame::go_to(std::size_t scan) {
   if (!replay_ || !snapshot_) return;
   const std::size_t mapped = snapshot_->frames.size();
+  const ReplayPhase phase = snapshot_->phase;
+  const bool mapping =
+      phase == ReplayPhase::kOpening || phase == ReplayPhase::kPaused || phase == ReplayPhase::kPlaying;
   shown_frame_.reset();
   if (scan + 1 < mapped)
     shown_frame_ = scan;
-  else if (scan + 1 > mapped)
+  else if (scan + 1 > mapped && mapping)
     replay_->hurry_to(scan + 1);
+  else if (scan + 1 > mapped)
+    tell("The run was finished after " + std::to_string(mapped) + " scans: map again to go beyond them");
   refresh();
 }
 
@@ -270,8 +283,17 @@ void MainFrame::export_to(const std::filesystem::path& folder, bool replace) {
     replay_->export_to(folder, replace);
 }
 
-bool MainFrame::has_unsaved_map() const {
-  return replay_ && snapshot_ && !snapshot_->frames.empty() && !exported_;
+bool MainFrame::edits_are_under_way() const {
+  return replay_ && replay_->snapshot()->phase != ReplayPhase::kFailed &&
+         replay_->edits_asked() > replay_->snapshot()->edits_served;
+}
+
+bool MainFrame::has_unsaved_edits() const {
+  return replay_ && (edits_are_under_way() || unsaved_.any_edits(*replay_->snapshot()));
+}
+
+bool MainFrame::has_unsaved_work() const {
+  return replay_ && (edits_are_under_way() || unsaved_.any(*replay_->snapshot()));
 }
 
 void MainFrame::close(wxCloseEvent& event) {
@@ -283,7 +305,7 @@ void MainFrame::close(wxCloseEvent& event) {
     return;
   }
   const bool asked = messages_->sentence() == kNotExported || closes_without_export_;
-  if (event.CanVeto() && has_unsaved_map() && !asked && !close_when_written_) {
+  if (event.CanVeto() && has_unsaved_work() && !asked && !close_when_written_) {
     messages_->say(MessageBar::Kind::kWarning, kNotExported, {{"Close without exporting", [this] {
                                                                  closes_without_export_ = true;
                                                                  Close();

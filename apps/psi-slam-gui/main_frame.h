@@ -8,6 +8,7 @@
 #include <wx/frame.h>
 #include <wx/timer.h>
 
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -20,6 +21,7 @@
 #include "file_questions.h"
 #include "psi_slam/session/bound_settings.h"
 #include "replay_slot.h"
+#include "unsaved_work.h"
 #include "window_layout.h"
 
 class wxSimplebook;
@@ -52,13 +54,15 @@ class MainFrame : public wxFrame {
   void save_settings(const std::filesystem::path& file);
   void export_to(const std::filesystem::path& folder, bool replace);
   void save_picture(const std::filesystem::path& file);
-  /// The log is mapped again with the edits of a file.
+  /// The log is mapped again with the edits of a file; where others would be lost the user is asked first.
   void open_edits(const std::filesystem::path& file);
   void save_edits(const std::filesystem::path& file);
   /// Maps behind the session that is open what a log holds beyond it.
   void go_on_with(const std::filesystem::path& log);
   /// Once the engine comes to it: between two scans, or after the last pass.
   void save_session(const std::filesystem::path& file);
+  /// In the bar: what went wrong, as a sentence.
+  void tell_failure(const std::exception_ptr& failure);
   /// Shows a scan that was mapped already, or maps up to it.
   void go_to(std::size_t scan);
 
@@ -90,7 +94,13 @@ class MainFrame : public wxFrame {
   void enable_commands(const ReplaySnapshot* snapshot);
   void enable_edit_commands(const ReplaySnapshot* snapshot);
   void close(wxCloseEvent& event);
-  bool has_unsaved_map() const;
+  bool has_unsaved_work() const;
+  bool has_unsaved_edits() const;
+  /// An edit that was asked for has not been made yet: what is read of the run would lack it.
+  bool edits_are_under_way() const;
+  void tell_warnings(const std::vector<std::string>& warnings);
+  void tell_export(const ExportOutcome& outcome);
+  void tell_save(const SaveOutcome& outcome);
 
   void ask_for_log();
   void ask_for_log_folder();
@@ -101,8 +111,9 @@ class MainFrame : public wxFrame {
   void ask_for_log_of_session();
   std::vector<std::string> take_settings_of(const SessionFacts& facts, const std::filesystem::path& file,
                                             const std::function<void(BoundSettings&)>& overrule);
+  enum class Edits { kOfFile, kMadeSoFar };
   /// Throws UserError where it is a recording and the settings are not its own.
-  void open(SessionInput input);
+  void open(SessionInput input, Edits edits);
   /// What `action` throws is a sentence in the bar.
   void telling_failures(const std::function<void()>& action);
   /// Menus and tools say what is shown.
@@ -116,9 +127,11 @@ class MainFrame : public wxFrame {
   void set_speed(double speed);
   void choose_loop(std::optional<std::size_t> loop);
   void edit_selected(LoopEdit::Kind kind, MatcherKind matcher = MatcherKind::kCsm);
-  void begin_to_add_loop();
+  void toggle_adding_loop();
   void set_adding_loop(bool on);
   void point_at(const mrpt::math::TPoint2D& place);
+  void map_again_with(const std::filesystem::path& edits);
+  /// All that were made. Throws UserError while one is under way.
   EditJournal edits() const;
   void toggle_pane(wxWindow* window, bool shown);
   void remember(const std::filesystem::path& log);
@@ -126,20 +139,20 @@ class MainFrame : public wxFrame {
 
   BoundSettings settings_;
   ReplaySlot replay_;
+  UnsavedWork unsaved_;
   std::shared_ptr<const ReplaySnapshot> snapshot_;
   std::optional<std::size_t> shown_frame_;  ///< looked at instead of the newest
   double speed_ = 0;
-  std::string settings_of_run_;  ///< as text: to see whether they have changed since
+  std::string settings_of_run_;                       ///< as text: to see whether they have changed since
   std::filesystem::path opened_;                      ///< log or session
   std::map<std::string, std::string> kept_settings_;  ///< of a session: it cannot be mapped with others
-  std::string told_failure_;     ///< what was said of this run already
+  std::string told_failure_;                          ///< what was said of this run already
   std::vector<std::string> told_warnings_;
   int told_export_ = 0;
   int told_save_ = 0;
   int told_edit_ = 0;
   std::optional<mrpt::math::TPoint2D> first_place_;  ///< pointed at, of a loop to be added
   bool remembered_ = false;                          // among the recent logs
-  bool exported_ = false;
   bool closes_without_export_ = false;
   bool close_when_written_ = false;
 

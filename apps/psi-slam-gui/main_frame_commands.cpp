@@ -49,7 +49,7 @@ void MainFrame::bind_commands() {
 }
 
 void MainFrame::press_key(wxKeyEvent& event) {
-  if (event.GetKeyCode() == WXK_ESCAPE && canvas_->pointing()) return begin_to_add_loop();
+  if (event.GetKeyCode() == WXK_ESCAPE && canvas_->pointing()) return toggle_adding_loop();
   const bool types = dynamic_cast<wxTextEntry*>(wxWindow::FindFocus()) != nullptr;
   const int command = types || event.HasAnyModifiers() ? wxID_NONE : command_of_key(event.GetKeyCode());
   if (command == wxID_NONE || !GetMenuBar()->IsEnabled(command)) {

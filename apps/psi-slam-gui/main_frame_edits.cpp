@@ -47,7 +47,7 @@ void MainFrame::bind_edit_commands() {
   on(kRestoreLoop, [this] { edit_selected(Kind::kRestore); });
   for (int matcher = 0; matcher < kMatchers; ++matcher)
     on(kMatchLoopBy + matcher, [this, matcher] { edit_selected(Kind::kMatch, matcher_kind_of(matcher)); });
-  on(kAddLoop, [this] { begin_to_add_loop(); });
+  on(kAddLoop, [this] { toggle_adding_loop(); });
   on(kOpenEdits, [this] {
     if (const auto file = ask_for_file_({FileQuestion::Kind::kOpen, "Open loop edits", kEditFiles, ""}))
       open_edits(*file);
@@ -74,7 +74,7 @@ void MainFrame::edit_selected(Kind kind, MatcherKind matcher) {
   replay_->edit(edit);
 }
 
-void MainFrame::begin_to_add_loop() {
+void MainFrame::toggle_adding_loop() {
   if (!snapshot_ || snapshot_->map_T_node->empty()) return;
   const bool on = !canvas_->pointing();
   set_adding_loop(on);
@@ -113,7 +113,6 @@ void MainFrame::take_edit_news(const ReplaySnapshot& snapshot) {
   told_edit_ = snapshot.edited->number;
   const auto& [number, edit, outcome] = *snapshot.edited;
   const bool made = outcome.state != LoopEditOutcome::State::kImpossible;
-  exported_ = exported_ && !made;
   const LoopRecord* const loop = record_of(snapshot, edit);
   std::string words = capitalized(text_of(edit));
   if (!outcome.reason.empty())
@@ -145,7 +144,7 @@ void MainFrame::enable_edit_commands(const ReplaySnapshot* snapshot) {
   enable(kUndo, open && !snapshot->undo_text.empty());
   enable(kRedo, open && !snapshot->redo_text.empty());
   enable(kOpenEdits, snapshot != nullptr);
-  enable(kSaveEdits, open && !snapshot->edits->empty());
+  enable(kSaveEdits, snapshot != nullptr && !snapshot->edits->empty());  // of a failed run, too
   const auto title = [&](int command, const char* name, const char* key, const std::string& what) {
     const wxString label =
         wxString::FromUTF8(name) + (what.empty() ? wxString() : ": " + text_of(what)) + key;
@@ -156,25 +155,32 @@ void MainFrame::enable_edit_commands(const ReplaySnapshot* snapshot) {
 }
 
 EditJournal MainFrame::edits() const {
-  EditJournal journal;
-  if (!replay_) return journal;
-  const auto newest = replay_->snapshot();  // the window may not have shown it yet
-  for (const TimedEdit& edit : *newest->edits) journal.add(edit);
-  return journal;
+  if (!replay_) return {};
+  if (edits_are_under_way()) throw UserError("The last edit is still being made: try again once it is");
+  return journal_of(*replay_->snapshot()->edits);
 }
 
 void MainFrame::open_edits(const std::filesystem::path& file) {
   if (!replay_) return;
+  if (!has_unsaved_edits()) return map_again_with(file);
+  messages_->say(MessageBar::Kind::kWarning,
+                 "Loops edited by hand have not been saved. Open other edits nevertheless?",
+                 {{"Open them", [this, file] { map_again_with(file); }}});
+}
+
+void MainFrame::map_again_with(const std::filesystem::path& edits) {
   telling_failures([&] {
-    open(replay_->input().with_edits(EditJournal::read(file)));
-    messages_->say(MessageBar::Kind::kNote,
-                   "The log is mapped again with the edits of " + file.string() + " as soon as it is played");
+    open(replay_->input().with_edits(EditJournal::read(edits)), Edits::kOfFile);
+    messages_->say(MessageBar::Kind::kNote, "The log is mapped again with the edits of " + edits.string() +
+                                                " as soon as it is played");
   });
 }
 
 void MainFrame::save_edits(const std::filesystem::path& file) {
   telling_failures([&] {
-    edits().write(file);
+    const EditJournal all = edits();
+    all.write(file);
+    unsaved_.note_written_edits(all);
     messages_->say(MessageBar::Kind::kNote,
                    "The edits are in " + file.string() + ": psi-slam takes them with --edits");
   });

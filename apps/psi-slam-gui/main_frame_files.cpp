@@ -38,7 +38,7 @@ void MainFrame::open_log(const std::filesystem::path& log, std::optional<EditJou
                                                  : std::vector<std::string>();
     if (!input.recording()) kept_settings_.clear();
     opened_ = log;
-    open(std::move(input));
+    open(std::move(input), Edits::kOfFile);
     if (!remarks.empty()) messages_->say(MessageBar::Kind::kWarning, first_sentences(remarks));
   });
 }
@@ -65,12 +65,21 @@ std::vector<std::string> MainFrame::take_settings_of(const SessionFacts& facts,
 
 void MainFrame::go_on_with(const std::filesystem::path& log) {
   if (!replay_ || !replay_->input().recording()) return;
-  telling_failures([&] { open(SessionInput(replay_->input().recording(), log).with_edits(edits())); });
+  telling_failures(
+      [&] { open(SessionInput(replay_->input().recording(), log).with_edits(edits()), Edits::kMadeSoFar); });
 }
 
 void MainFrame::telling_failures(const std::function<void()>& action) {
   try {
     action();
+  } catch (...) {
+    tell_failure(std::current_exception());
+  }
+}
+
+void MainFrame::tell_failure(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
   } catch (const std::bad_alloc&) {
     messages_->say(MessageBar::Kind::kError, "There is not enough memory for that");
   } catch (const std::exception& error) {
@@ -78,7 +87,7 @@ void MainFrame::telling_failures(const std::function<void()>& action) {
   }
 }
 
-void MainFrame::open(SessionInput input) {
+void MainFrame::open(SessionInput input, Edits edits) {
   if (input.recording()) require_kept(kept_settings_, settings_.table, opened_);
   messages_->dismiss();
   snapshot_.reset();
@@ -90,12 +99,13 @@ void MainFrame::open(SessionInput input) {
   told_edit_ = 0;
   set_adding_loop(false);
   remembered_ = false;
-  exported_ = false;
+  close_when_written_ = false;
   closes_without_export_ = false;
   loops_->show_nothing();
   plots_->show_nothing();
   settings_of_run_ = settings_file_text(settings_.table);
   settings_panel_->show_pending(false);
+  edits == Edits::kOfFile ? unsaved_.open(input) : unsaved_.begin_again(input);
   replay_.open(std::move(input), settings_.settings);
   replay_->set_speed(speed_);
   middle_->SetSelection(kMapPage);
@@ -105,11 +115,10 @@ void MainFrame::open(SessionInput input) {
 }
 
 void MainFrame::open_other_log(const std::filesystem::path& log) {
-  if (!snapshot_ || snapshot_->edits->empty() || exported_) return open_log(log);
-  messages_->say(
-      MessageBar::Kind::kWarning,
-      "The map with the loops edited by hand has not been exported. Open another log nevertheless?",
-      {{"Open it", [this, log] { open_log(log); }}});
+  if (!has_unsaved_edits()) return open_log(log);
+  messages_->say(MessageBar::Kind::kWarning,
+                 "Loops edited by hand have not been saved. Open another log nevertheless?",
+                 {{"Open it", [this, log] { open_log(log); }}});
 }
 
 void MainFrame::show_pending_settings() {
@@ -117,7 +126,7 @@ void MainFrame::show_pending_settings() {
 }
 
 void MainFrame::restart() {
-  if (replay_) telling_failures([this] { open(replay_->input().with_edits(edits())); });
+  if (replay_) telling_failures([this] { open(replay_->input().with_edits(edits()), Edits::kMadeSoFar); });
 }
 
 }  // namespace psi_slam

@@ -285,6 +285,7 @@ void MapCanvas::key(wxKeyEvent& event) {
 
 void MapCanvas::take_picture(std::function<void(const wxImage&)> taken) {
   picture_taken_ = std::move(taken);
+  told_of_failure_ = false;  // why there is no picture is to be told, again if need be
   Refresh(false);
 }
 
@@ -309,6 +310,7 @@ void MapCanvas::OnPostRender() {
 }
 
 void MapCanvas::OnRenderError(const wxString& text) {
+  picture_taken_ = {};
   if (told_of_failure_ || !told_failure_) return;
   told_of_failure_ = true;
   told_failure_("OpenGL cannot draw the map: " + text.utf8_string());

@@ -29,6 +29,8 @@ class MessageBar : public wxPanel {
   void say(Kind kind, const std::string& sentence, const std::vector<Answer>& answers = {});
   /// The sentence on show; "" when there is none.
   std::string sentence() const { return IsShown() ? sentence_ : std::string(); }
+  /// Whether there is something to be answered.
+  bool asks() const { return IsShown() && !answers_.empty(); }
   /// Does what a click on the answer does. False when there is no answer of that label.
   bool answer(const std::string& label);
   void dismiss();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "psi_slam/replay/replay.h"
@@ -18,12 +19,18 @@ class ReplaySlot {
   void open(SessionInput input, const Settings& settings);
   void close();
 
-  /// Lets go of closed runs whose threads have ended; to be called now and then.
-  void tidy();
+  /// Lets go of closed runs whose threads have ended; to be called now and then. Returns why exports failed
+  /// that were under way when their runs were closed, a sentence each.
+  std::vector<std::string> tidy();
 
  private:
+  struct Closing {
+    std::unique_ptr<Replay> replay;
+    int exports_before = 0;
+  };
+
   std::unique_ptr<Replay> replay_;
-  std::vector<std::unique_ptr<Replay>> closing_;
+  std::vector<Closing> closing_;
 };
 
 }  // namespace psi_slam

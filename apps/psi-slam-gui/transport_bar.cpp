@@ -100,7 +100,8 @@ void TransportBar::show(const ReplaySnapshot& snapshot,
     time_->SetLabel(time);
     Layout();
   }
-  std::string words = progress_words(snapshot);
+  std::string words =
+      progress_words(snapshot, stamps_us ? replay_time_left_s(*stamps_us, mapped, speed()) : 0);
   if (shown) words += "   (scan " + std::to_string(*shown + 1) + " is shown)";
   const wxString label = wxString::FromUTF8(words);
   if (progress_->GetLabel() != label) progress_->SetLabel(label);
@@ -141,15 +142,24 @@ std::string log_time_text(const std::vector<TimeUs>& stamps_us, std::size_t scan
   return since(scan) + " of " + since(stamps_us.size() - 1);
 }
 
-std::string progress_words(const ReplaySnapshot& snapshot) {
+double replay_time_left_s(const std::vector<TimeUs>& stamps_us, std::size_t mapped, double speed) {
+  if (speed <= 0 || mapped == 0 || mapped >= stamps_us.size()) return 0;
+  return std::max(0.0, seconds(stamps_us.back() - stamps_us[mapped - 1])) / speed;
+}
+
+std::string progress_words(const ReplaySnapshot& snapshot, double waiting_left_s) {
   const std::string scans = std::to_string(snapshot.frames.size()) + " scans";
   switch (snapshot.phase) {
     case ReplayPhase::kOpening:
       return "Opening the log";
     case ReplayPhase::kPaused:
       return snapshot.frames.empty() ? "Ready: press play" : "Paused after " + scans;
-    case ReplayPhase::kPlaying:
-      return "Mapping: " + progress_text(snapshot.progress);
+    case ReplayPhase::kPlaying: {
+      SessionProgress progress = snapshot.progress;
+      if (waiting_left_s > 0)
+        progress.remaining_s = std::max(waiting_left_s, progress.remaining_s.value_or(0));
+      return "Mapping: " + progress_text(progress);
+    }
     case ReplayPhase::kLastPass:
       return (snapshot.last_pass_held ? "Finishing, paused: " : "Finishing: ") +
              progress_text(snapshot.progress);

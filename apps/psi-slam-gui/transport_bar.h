@@ -32,7 +32,8 @@ class TransportBar : public wxPanel {
 
   TransportBar(wxWindow* parent, Actions actions);
 
-  /// `shown` is the scan that is looked at instead of the newest.
+  /// `shown` is the scan that is looked at instead of the newest. At a speed of the recording's the time left
+  /// is what the log takes at it, if that is longer than the work.
   void show(const ReplaySnapshot& snapshot, const std::shared_ptr<const std::vector<TimeUs>>& stamps_us,
             std::optional<std::size_t> shown);
   void show_nothing();
@@ -63,7 +64,12 @@ class TransportBar : public wxPanel {
 /// "0:12 of 3:40", the time of a scan in its log.
 std::string log_time_text(const std::vector<TimeUs>& stamps_us, std::size_t scan);
 
-/// What the run is doing, in a few words, with the time left.
-std::string progress_words(const ReplaySnapshot& snapshot);
+/// Until the last scan, at so many times the recording's speed, once so many scans were mapped; 0 at no
+/// speed.
+double replay_time_left_s(const std::vector<TimeUs>& stamps_us, std::size_t mapped, double speed);
+
+/// What the run is doing, in a few words, with the time left: of the work, and at least so long where scans
+/// are waited for.
+std::string progress_words(const ReplaySnapshot& snapshot, double waiting_left_s);
 
 }  // namespace psi_slam

@@ -50,6 +50,22 @@ TEST_F(LoopTableTest, lists_loops_by_frame_at_first_and_by_any_column_if_asked) 
   }
 }
 
+TEST_F(LoopTableTest, those_that_are_no_constraint_have_no_residual_and_come_last) {
+  auto snapshot = std::make_shared<ReplaySnapshot>(*snapshot_);
+  auto loops = *snapshot_->loops;
+  loops[0].anchor_T_node = {0.1, 0, 0};  // both nodes are at the origin
+  loops[1].anchor_T_node = {9, 0, 0};    // refused
+  loops[2].anchor_T_node = {0.2, 0, 0};
+  loops[2].verdict = LoopVerdict::kSwitchedOff;
+  snapshot->loops = std::make_shared<std::vector<LoopRecord>>(loops);
+  table_.show(snapshot);
+  table_.sort_by(LoopTable::kResidual, true);
+  EXPECT_THAT(order(), ElementsAre(0, 2, 1));
+  EXPECT_EQ(table_.text(1, LoopTable::kResidual), "0.200");
+  table_.sort_by(LoopTable::kResidual, false);
+  EXPECT_THAT(order(), ElementsAre(2, 0, 1));
+}
+
 TEST_F(LoopTableTest, lists_those_of_one_verdict_alone) {
   table_.set_filter(LoopVerdict::kAccepted);
   EXPECT_THAT(order(), ElementsAre(2, 0));

@@ -2,6 +2,7 @@
 #include "main_frame.h"
 
 #include <gmock/gmock.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 #include <wx/dnd.h>
 #include <wx/statusbr.h>
 
@@ -47,7 +48,13 @@ class MainFrameTest : public testing::Test {
 };
 
 TEST_F(MainFrameTest, without_a_log_it_says_what_to_do) {
-  gui_.screenshot("empty");
+  gui_.screenshot("empty").then([](MainFrame& frame) {
+    const wxWindow* const page = wxWindow::FindWindowByLabel("See a map being made", &frame);
+    ASSERT_NE(page, nullptr);
+    EXPECT_TRUE(page->IsShownOnScreen());
+    EXPECT_NE(wxWindow::FindWindowByLabel(wxString::FromUTF8("Open a log…"), page->GetParent()), nullptr);
+    EXPECT_FALSE(frame.map().IsShownOnScreen());
+  });
   EXPECT_EQ(gui_.run({}), 0);
 }
 
@@ -345,6 +352,82 @@ TEST_F(MainFrameTest, closed_in_the_middle_it_asks_once_and_ends) {
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
+TEST_F(MainFrameTest, edits_are_not_lost_without_a_question) {
+  const std::filesystem::path saved = gui_.folder() / "saved.edits";
+  const std::filesystem::path others = gui_.folder() / "others.edits";
+  std::ofstream(others) << "delete scan=120 local_map=0\n";
+  const auto edits = [](MainFrame& frame) { return frame.replay()->snapshot()->edits->size(); };
+  gui_.when_phase(ReplayPhase::kPaused)
+      .command(kPlayOrPause)
+      .when_phase(ReplayPhase::kFinished)
+      .when("loops are listed", [](MainFrame& frame) { return frame.loops().table().rows() > 0; })
+      .then([](MainFrame& frame) { select_first_accepted(frame); })
+      .command(kDeleteLoop)
+      .when("it was deleted", [=](MainFrame& frame) { return edits(frame) == 1; })
+      .when_phase(ReplayPhase::kFinished)
+      .command(kRestart)
+      .when_phase(ReplayPhase::kPaused)
+      .then([](MainFrame& frame) { EXPECT_EQ(scans(frame), 0U); })
+      .command(kQuit);
+  when_says("has not been exported");
+  gui_.then([=](MainFrame& frame) {
+    frame.messages().dismiss();
+    frame.open_edits(others);
+  });
+  when_says("have not been saved");
+  gui_.then([=](MainFrame& frame) {
+        EXPECT_EQ(edits(frame), 1U);
+        frame.set_ask_for_file([=](const FileQuestion&) { return saved; });
+      })
+      .command(kSaveEdits)
+      .command(kQuit);  // nothing is left to be asked
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+  EXPECT_EQ(EditJournal::read(saved).edits().size(), 1U);
+}
+
+TEST_F(MainFrameTest, a_session_saved_half_way_is_not_all_that_is_mapped_later) {
+  gui_.when_phase(ReplayPhase::kPaused)
+      .then([](MainFrame& frame) { frame.go_to(19); })
+      .when("20 scans", [](MainFrame& frame) { return scans(frame) == 20; })
+      .then([&](MainFrame& frame) { frame.save_session(gui_.folder() / "my.session"); });
+  when_says("The session is");
+  gui_.command(kStep)
+      .when("one more scan", [](MainFrame& frame) { return scans(frame) == 21; })
+      .command(kQuit);
+  when_says("has not been exported");
+  gui_.then([&](MainFrame& frame) { frame.save_session(gui_.folder() / "my.session"); });
+  when_says("The session is");
+  gui_.command(kQuit);
+  EXPECT_EQ(gui_.run({room_log(40)}), 0);
+}
+
+TEST_F(MainFrameTest, a_run_is_finished_before_its_log_and_an_edit_is_taken_back) {
+  gui_.when_phase(ReplayPhase::kPaused)
+      .then([](MainFrame& frame) { frame.go_to(139); })
+      .when("140 scans", [](MainFrame& frame) { return scans(frame) == 140; })
+      .command(kFinish)
+      .when_phase(ReplayPhase::kFinished)
+      .then([](MainFrame& frame) {
+        EXPECT_EQ(scans(frame), 140U);
+        EXPECT_TRUE(frame.replay()->snapshot()->interrupted);
+        frame.go_to(145);
+        EXPECT_THAT(frame.GetStatusBar()->GetStatusText().utf8_string(),
+                    HasSubstr("finished after 140 scans"));
+      })
+      .when("loops are listed", [](MainFrame& frame) { return frame.loops().table().rows() > 0; })
+      .then([](MainFrame& frame) { select_first_accepted(frame); })
+      .command(kDeleteLoop)
+      .when("it is deleted",
+            [](MainFrame& frame) { return selected_loop(frame).verdict == LoopVerdict::kDeleted; })
+      .when_phase(ReplayPhase::kFinished)
+      .command(kRestoreLoop)
+      .when("it is restored",
+            [](MainFrame& frame) { return selected_loop(frame).verdict == LoopVerdict::kAccepted; })
+      .when_phase(ReplayPhase::kFinished)
+      .then([](MainFrame& frame) { EXPECT_EQ(scans(frame), 140U); });
+  EXPECT_EQ(gui_.run({room_log()}), 0);
+}
+
 TEST_F(MainFrameTest, another_log_replaces_one_under_way) {
   const std::string log = room_log();
   gui_.when_phase(ReplayPhase::kPaused);
@@ -391,7 +474,12 @@ TEST_F(MainFrameTest, the_map_is_looked_at_from_all_sides_and_saved_as_a_picture
       .command(kFollow)
       .then([](MainFrame& frame) { EXPECT_TRUE(frame.map().follows()); })
       .command(kShowAll)
-      .then([](MainFrame& frame) { EXPECT_FALSE(frame.map().follows()); })
+      .then([](MainFrame& frame) {
+        EXPECT_FALSE(frame.map().follows());
+        frame.map().setElevationDegrees(40);
+      })
+      .command(kFromAbove)
+      .then([](MainFrame& frame) { EXPECT_GT(frame.map().camera().elevation_deg, 89); })
       .pause(500)
       .then([&](MainFrame& frame) { frame.save_picture(picture); });
   when_says("The picture is");
@@ -462,6 +550,20 @@ TEST_F(MainFrameTest, a_log_is_dropped_and_found_again_among_the_recent_ones) {
   EXPECT_EQ(gui_.run({}), 0);
 }
 
+/// The tip of the arrow.
+mrpt::math::TPoint2D drawn_robot(MainFrame& frame) {
+  const auto& layer = frame.map().map_scene().layer(MapLayer::kRobot);
+  const auto arrow = std::dynamic_pointer_cast<mrpt::opengl::CSetOfTriangles>(*layer.begin());
+  mrpt::opengl::TTriangle triangle;
+  arrow->getTriangle(0, triangle);
+  return {static_cast<double>(triangle.x(0)), static_cast<double>(triangle.y(0))};
+}
+
+mrpt::math::TPoint2D map_T_robot(MainFrame& frame, std::size_t scan) {
+  const mrpt::math::TPose2D pose = frame.replay()->snapshot()->frames[scan].map_T_robot;
+  return {pose.x, pose.y};
+}
+
 TEST_F(MainFrameTest, an_earlier_scan_is_looked_at) {
   gui_.when_phase(ReplayPhase::kPaused)
       .command(kPlayOrPause)
@@ -472,19 +574,32 @@ TEST_F(MainFrameTest, an_earlier_scan_is_looked_at) {
       .then([](MainFrame& frame) {
         EXPECT_EQ(scans(frame), 150U);
         EXPECT_TRUE(frame.map().map_scene().visible(MapLayer::kNodes));
+        EXPECT_LT((drawn_robot(frame) - map_T_robot(frame, 30)).norm(), 0.6);
+      })
+      .then([](MainFrame& frame) { frame.go_to(149); })
+      .then([](MainFrame& frame) {
+        EXPECT_LT((drawn_robot(frame) - map_T_robot(frame, 149)).norm(), 0.6) << "the newest again";
       });
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
 TEST_F(MainFrameTest, at_twice_the_scaling_all_of_it_is_twice_as_large) {
   setenv("GDK_SCALE", "2", 1);
+  wxImage picture;
   gui_.when_phase(ReplayPhase::kPaused)
       .command(kPlayOrPause)
       .when_phase(ReplayPhase::kFinished)
       .when("the map is drawn", [](MainFrame& frame) { return frame.replay()->drawn_map() != nullptr; })
       .then([](MainFrame& frame) { frame.SetSize(1400, 880); })
       .screenshot("scaling_200")
-      .then([](MainFrame& frame) { EXPECT_EQ(frame.GetContentScaleFactor(), 2); });
+      .then([&](MainFrame& frame) {
+        EXPECT_EQ(frame.GetContentScaleFactor(), 2);
+        frame.map().take_picture([&](const wxImage& taken) { picture = taken; });
+      })
+      .when("a picture of the map", [&](MainFrame&) { return picture.IsOk(); })
+      .then([&](MainFrame& frame) {
+        EXPECT_EQ(picture.GetSize(), 2 * frame.map().GetClientSize()) << "drawn in pixels of the screen";
+      });
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 

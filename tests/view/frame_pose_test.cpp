@@ -11,15 +11,35 @@ namespace {
 class FramePoseTest : public ReplayedRoom {};
 
 TEST_F(FramePoseTest, nodes_are_where_the_graph_has_them_and_scans_between_near_where_the_map_has_them) {
-  for (std::size_t i = 0; i < finished_->nodes.size(); ++i) {
-    const mrpt::math::TPose2D pose = map_T_frame(*finished_, finished_->nodes[i].frame);
-    EXPECT_NEAR(pose.x, (*finished_->map_T_node)[i].x, 1e-9);
-    EXPECT_NEAR(pose.y, (*finished_->map_T_node)[i].y, 1e-9);
+  ReplaySnapshot open = *finished_;
+  open.phase = ReplayPhase::kLastPass;  // its nodes alone are where they belong
+  SharedHistory<NodeScan> nodes;        // every scan of the room is one: some less
+  std::vector<mrpt::math::TPose2D> poses;
+  for (std::size_t i = 0; i < finished_->nodes.size(); i += 4) {
+    nodes.push_back(finished_->nodes[i]);
+    poses.push_back((*finished_->map_T_node)[i]);
   }
-  for (std::size_t i = 0; i < finished_->frames.size(); ++i) {
-    const mrpt::math::TPose2D off = map_T_frame(*finished_, i) - finished_->frames[i].map_T_robot;
+  open.nodes = nodes.view();
+  open.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(poses);
+  for (std::size_t i = 0; i < open.frames.size(); ++i) {
+    const mrpt::math::TPose2D off = map_T_frame(open, i) - finished_->frames[i].map_T_robot;
     EXPECT_LT(std::hypot(off.x, off.y), 0.05) << i;
   }
+  for (std::size_t i = 0; i < open.nodes.size(); ++i) {
+    const mrpt::math::TPose2D pose = map_T_frame(open, open.nodes[i].frame);
+    EXPECT_NEAR(pose.x, (*open.map_T_node)[i].x, 1e-9);
+    EXPECT_NEAR(pose.y, (*open.map_T_node)[i].y, 1e-9);
+  }
+  EXPECT_LT(open.nodes.size(), open.frames.size() / 3);
+}
+
+TEST_F(FramePoseTest, once_finished_every_scan_is_where_the_map_has_it) {
+  ReplaySnapshot moved = *finished_;
+  auto nodes = *moved.map_T_node;
+  for (mrpt::math::TPose2D& node : nodes) node.x += 5;
+  moved.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(nodes);
+  for (std::size_t i = 0; i < moved.frames.size(); ++i)
+    EXPECT_EQ(map_T_frame(moved, i), moved.frames[i].map_T_robot);
 }
 
 }  // namespace

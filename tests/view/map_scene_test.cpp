@@ -56,6 +56,9 @@ TEST_F(MapSceneTest, draws_a_finished_run) {
 
 TEST_F(MapSceneTest, draws_the_active_local_maps_while_it_goes_on) {
   scene_.show(paused_, nullptr);
+  EXPECT_EQ(objects(MapLayer::kLocalMaps), 0U) << "nobody sees them";
+  scene_.set_visible(MapLayer::kLocalMaps, true);
+  scene_.show(paused_, nullptr);
   EXPECT_EQ(objects(MapLayer::kLocalMaps), paused_->active_local_maps.size());
   EXPECT_GT(objects(MapLayer::kLocalMaps), 0U);
   EXPECT_EQ(objects(MapLayer::kGrid), 0U);

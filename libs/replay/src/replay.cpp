@@ -125,6 +125,7 @@ void Replay::redo() {
 }
 
 void Replay::wish(const EditWish& edit) {
+  ++edits_asked_;
   tell([&] {
     edit_wishes_.push_back(edit);
     stop_last_pass_ = true;
@@ -217,9 +218,7 @@ bool Replay::map_scans(MappingSession& session) {
 Replay::Turn Replay::next_turn() {
   std::unique_lock lock(mutex_);
   while (true) {
-    if (close_) return Turn::kClose;
-    if (!edit_wishes_.empty()) return Turn::kEdit;
-    if (save_) return Turn::kSave;
+    if (const auto turn = urgent_turn()) return *turn;
     if (finish_) return Turn::kFinish;
     if (hurry_to_ > 0 && scans_ >= hurry_to_) {
       hurry_to_ = 0;
@@ -261,33 +260,36 @@ void Replay::wait_for_due_scan(std::unique_lock<std::mutex>& lock) {
 /// Exports and edits; true when the map is to be finished again, false when told to close.
 bool Replay::serve_finished(MappingSession& session) {
   while (true) {
-    std::optional<ExportWish> wish;
-    bool saves = false;
-    {
-      std::unique_lock lock(mutex_);
-      if (!close_ && edit_wishes_.empty()) {
-        held_ = false;
-        phase_ = ReplayPhase::kFinished;
-        lock.unlock();
-        publish();
-        lock.lock();
-      }
-      changed_.wait(lock, [this] { return close_ || export_ || save_ || !edit_wishes_.empty(); });
-      if (close_) return false;
-      saves = edit_wishes_.empty() && save_;
-      if (edit_wishes_.empty() && !saves) wish = std::exchange(export_, std::nullopt);
-    }
-    if (saves) {
-      save_once(session);
-      continue;
-    }
-    if (wish) {
-      export_once(session, *wish);
-      continue;
-    }
-    serve_edits(session);
+    const Turn turn = next_turn_when_finished();
+    if (turn == Turn::kClose) break;
+    if (turn == Turn::kSave) save_once(session);
+    if (turn == Turn::kExport) export_once(session);
+    if (turn == Turn::kEdit) serve_edits(session);
     if (!session.finished()) return true;
   }
+  publish();  // what an export that was under way came to
+  return false;
+}
+
+Replay::Turn Replay::next_turn_when_finished() {
+  std::unique_lock lock(mutex_);
+  if (!urgent_turn()) {
+    held_ = false;
+    phase_ = ReplayPhase::kFinished;
+    lock.unlock();
+    publish();
+    lock.lock();
+  }
+  changed_.wait(lock, [this] { return urgent_turn() || export_; });
+  return urgent_turn().value_or(Turn::kExport);
+}
+
+/// What comes before anything else, in this order.
+std::optional<Replay::Turn> Replay::urgent_turn() const {
+  if (close_) return Turn::kClose;
+  if (!edit_wishes_.empty()) return Turn::kEdit;
+  if (save_) return Turn::kSave;
+  return std::nullopt;
 }
 
 void Replay::serve_edits(MappingSession& session) {
@@ -298,6 +300,7 @@ void Replay::serve_edits(MappingSession& session) {
     cut_last_pass_ = false;
   }
   for (const EditWish& wish : wishes) make_edit(session, wish);
+  maker_->note_served(static_cast<int>(wishes.size()));
   if (session.finished()) {  // nothing was changed
     if (!last_pass_stopped_) return;
     session.reopen();
@@ -322,7 +325,7 @@ void Replay::make_edit(MappingSession& session, const EditWish& wish) {
 }
 
 void Replay::save_once(const MappingSession& session) {
-  SaveOutcome outcome{++saves_, {}, ""};
+  SaveOutcome outcome{++saves_, {}, "", {}};
   {
     const std::lock_guard lock(mutex_);
     outcome.file = std::exchange(save_, std::nullopt).value();
@@ -331,10 +334,15 @@ void Replay::save_once(const MappingSession& session) {
   maker_->note_save(std::move(outcome));
 }
 
-void Replay::export_once(MappingSession& session, const ExportWish& wish) {
+void Replay::export_once(MappingSession& session) {
+  ExportWish wish;
+  {
+    const std::lock_guard lock(mutex_);
+    wish = std::exchange(export_, std::nullopt).value();
+  }
   phase_ = ReplayPhase::kExporting;
   publish();
-  ExportOutcome outcome{++exports_, wish.folder, ""};
+  ExportOutcome outcome{++exports_, wish.folder, "", {}};
   outcome.failure =
       failure_of([&] { session.export_to(OutputFolder::prepare(wish.folder, wish.replace)); }, "the results");
   maker_->note_export(std::move(outcome));
@@ -376,7 +384,9 @@ Clock::time_point Replay::next_publication() const {
 void Replay::publish() {
   const auto start = Clock::now();
   if (session_ != nullptr) {
-    maker_->follow(session_->mapper());
+    maker_->follow(session_->mapper(), phase_ == ReplayPhase::kPaused
+                                           ? SnapshotMaker::ActiveMaps::kAtOnce
+                                           : SnapshotMaker::ActiveMaps::kNowAndThen);
     maker_->note_warnings(session_->warnings());
     if (stale_) painter_.request(maker_->sketch());
   }

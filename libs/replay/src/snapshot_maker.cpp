@@ -25,7 +25,17 @@ SnapshotMaker::SnapshotMaker(const PsiOptions& psi, const std::vector<TimedEdit>
   now_.edits = std::make_shared<std::vector<TimedEdit>>(edits);
 }
 
-void SnapshotMaker::follow(const Mapper& mapper) {
+void SnapshotMaker::note_save(SaveOutcome outcome) {
+  outcome.written = {shares_.size(), now_.edits};
+  now_.saved = std::move(outcome);
+}
+
+void SnapshotMaker::note_export(ExportOutcome outcome) {
+  outcome.written = {shares_.size(), now_.edits};
+  now_.exported = std::move(outcome);
+}
+
+void SnapshotMaker::follow(const Mapper& mapper, ActiveMaps active) {
   catch_up(log_, mapper.log());
   catch_up(frames_, mapper.frames());
   now_.drive_frames = mapper.drive_frames();
@@ -39,7 +49,7 @@ void SnapshotMaker::follow(const Mapper& mapper) {
   if (verdicts_may_change || std::exchange(loops_changed_, false) ||
       now_.loops->size() != mapper.loops().size())
     now_.loops = std::make_shared<std::vector<LoopRecord>>(mapper.loops());
-  copy_active(mapper);
+  copy_active(mapper, active);
 }
 
 void SnapshotMaker::note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history) {
@@ -56,18 +66,19 @@ void SnapshotMaker::follow_local_maps(const Mapper& mapper) {
     local_maps_.push_back({all[i].anchor, all[i].first_node, all[i].last_node});
 }
 
-void SnapshotMaker::copy_active(const Mapper& mapper) {
+void SnapshotMaker::copy_active(const Mapper& mapper, ActiveMaps active) {
   const auto time = std::chrono::steady_clock::now();
   if (frames_copied_active_ == frames_.size()) return;
-  if (frames_copied_active_ > 0 && time - copied_active_at_ < kBetweenActiveMaps) return;
+  const bool early = frames_copied_active_ > 0 && time - copied_active_at_ < kBetweenActiveMaps;
+  if (early && active == ActiveMaps::kNowAndThen) return;
   frames_copied_active_ = frames_.size();
   copied_active_at_ = time;
   now_.active_local_maps.clear();
-  for (const PlacedLocalMap& active : mapper.active_local_maps())
-    if (active.map->occupancy())
+  for (const PlacedLocalMap& local_map : mapper.active_local_maps())
+    if (local_map.map->occupancy())
       now_.active_local_maps.push_back(
-          {active.id, active.anchor,
-           std::make_shared<mrpt::maps::COccupancyGridMap2D>(*active.map->occupancy())});
+          {local_map.id, local_map.anchor,
+           std::make_shared<mrpt::maps::COccupancyGridMap2D>(*local_map.map->occupancy())});
 }
 
 void SnapshotMaker::take(const MappingResult& result) {

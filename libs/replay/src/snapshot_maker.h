@@ -23,16 +23,21 @@ class SnapshotMaker {
   void note_scan(double share) { shares_.push_back(share); }
   void note_progress(const SessionProgress& progress) { now_.progress = progress; }
   void note_warnings(std::vector<std::string> sentences) { now_.warnings = std::move(sentences); }
-  void note_save(SaveOutcome outcome) { now_.saved = std::move(outcome); }
-  void note_export(ExportOutcome outcome) { now_.exported = std::move(outcome); }
+  /// What was mapped and edited until now was written, or not.
+  void note_save(SaveOutcome outcome);
+  void note_export(ExportOutcome outcome);
   void note_held(bool held) { now_.last_pass_held = held; }
   /// Loops, poses and edits are others now.
   void note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history);
   void note_edited(EditOutcome outcome) { now_.edited = std::move(outcome); }
+  /// So many of those asked for were made or found impossible.
+  void note_served(int edits) { now_.edits_served += edits; }
   void note_failure(std::string sentence) { now_.failure = std::move(sentence); }
 
-  /// Takes over what is new, before the session is finished.
-  void follow(const Mapper& mapper);
+  /// Takes over what is new, before the session is finished; active local maps, which cost most, at each call
+  /// or now and then.
+  enum class ActiveMaps { kAtOnce, kNowAndThen };
+  void follow(const Mapper& mapper, ActiveMaps active);
   /// The last local maps end when the last pass begins.
   void follow_local_maps(const Mapper& mapper);
   /// Takes over the result, once it is.
@@ -42,10 +47,9 @@ class SnapshotMaker {
 
   /// The map as it is known: of the nodes' scans, after take() of all scans.
   MapSketch sketch() const;
-  bool has_scans() const { return frames_.size() > 0; }
 
  private:
-  void copy_active(const Mapper& mapper);
+  void copy_active(const Mapper& mapper, ActiveMaps active);
 
   ReplaySnapshot now_;
   SharedHistory<Frame> log_;

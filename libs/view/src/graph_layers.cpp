@@ -70,10 +70,9 @@ void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopSty
   for (const LoopRecord& loop : *snapshot.loops) {
     if (loop.in_last_pass && !loop.by_hand && of_last_pass++ % stride != 0) continue;
     if (loop.verdict == LoopVerdict::kNotFound) continue;
-    const bool was_no_loop = loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kDeleted;
-    if (was_no_loop && !style.refused) continue;
+    if (was_no_loop(loop.verdict) && !style.refused) continue;
     mrpt::img::TColor colour = loop_colour(loop, snapshot, style);
-    const bool faint = loop.in_last_pass || was_no_loop;  // there are so many
+    const bool faint = loop.in_last_pass || was_no_loop(loop.verdict);  // there are so many
     colour.A = faint ? kFaint : clear;
     CSetOfLines::Ptr& lines = by_colour[{!faint, colour.R, colour.G, colour.B}];
     if (!lines) lines = lines_of(colour, faint ? 1.0F : 1.5F);

@@ -47,6 +47,8 @@ void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot);
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style);
 /// The loop that a person looks at.
 void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);
+/// Where its match was searched for; added to what the layer holds.
+void draw_loop_window(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);
 
 void draw_robot(SceneLayer& layer, const mrpt::math::TPose2D& map_T_robot);
 void draw_scan(SceneLayer& layer, const Frame& frame, const mrpt::math::TPose2D& map_T_robot);

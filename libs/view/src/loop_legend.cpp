@@ -15,11 +15,11 @@ namespace {
 constexpr int kResidualShades = 8;
 constexpr int kScaleSteps = 4;  // of the residual in the legend
 
+}  // namespace
+
 bool was_no_loop(LoopVerdict verdict) {
   return verdict == LoopVerdict::kRefused || verdict == LoopVerdict::kDeleted;
 }
-
-}  // namespace
 
 mrpt::img::TColor loop_colour(const LoopRecord& loop, const ReplaySnapshot& snapshot,
                               const LoopStyle& style) {
@@ -52,8 +52,8 @@ LoopLegend loop_legend(const ReplaySnapshot& snapshot, const LoopStyle& style) {
       legend.entries.push_back({fixed_text(share * kWorstResidual_m, 2) + unit, heat_colour(share)});
     }
   }
-  for (const LoopVerdict verdict : {LoopVerdict::kPending, LoopVerdict::kSwitchedOff, LoopVerdict::kRefused,
-                                    LoopVerdict::kDeleted})
+  for (const LoopVerdict verdict :
+       {LoopVerdict::kPending, LoopVerdict::kSwitchedOff, LoopVerdict::kRefused, LoopVerdict::kDeleted})
     if ((style.refused || !was_no_loop(verdict)) && any_with(verdict))
       legend.entries.push_back({verdict_text(verdict), verdict_colour(verdict)});
   if (legend.title.empty()) legend.title = "Loops";

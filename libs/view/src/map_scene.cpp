@@ -121,7 +121,7 @@ void MapScene::fill(SceneLayer& layer, const Fill& draw) const {
 
 void MapScene::set_visible(MapLayer layer, bool visible) {
   of(layer).setVisibility(visible);
-  if (visible) shown_.snapshot.reset();  // large layers are not drawn while nobody sees them
+  if (visible) shown_.snapshot.reset();  // nothing was drawn into it meanwhile
 }
 
 bool MapScene::visible(MapLayer layer) const {
@@ -145,9 +145,10 @@ bool MapScene::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
   const bool poses_changed = first || snapshot->map_T_node != shown_.snapshot->map_T_node;
   const bool frames_changed = first || snapshot->frames.size() != shown_.snapshot->frames.size() ||
                               snapshot->phase != shown_.snapshot->phase;
-  if (frames_changed)
+  // Large layers are not drawn while nobody sees them.
+  if (frames_changed && visible(MapLayer::kOdometry))
     fill(of(MapLayer::kOdometry), [&](SceneLayer& layer) { draw_odometry(layer, *snapshot); });
-  if (poses_changed || frames_changed)
+  if ((poses_changed || frames_changed) && visible(MapLayer::kTrajectory))
     fill(of(MapLayer::kTrajectory), [&](SceneLayer& layer) { draw_trajectory(layer, *snapshot); });
   changed = show_graph(*snapshot, poses_changed) || changed;
   changed = show_robot(*snapshot, frame, poses_changed || frames_changed || frame != shown_.frame) || changed;
@@ -163,8 +164,10 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
     return before.size() != now.size() || (!now.empty() && before.front().occupancy != now.front().occupancy);
   };
   const bool maps_changed = first || active_changed();
-  if (maps_changed) draw_local_maps(of(MapLayer::kLocalMaps), snapshot);
-  if (maps_changed || poses_changed) place_local_maps(of(MapLayer::kLocalMaps), snapshot);
+  if (visible(MapLayer::kLocalMaps)) {
+    if (maps_changed) draw_local_maps(of(MapLayer::kLocalMaps), snapshot);
+    if (maps_changed || poses_changed) place_local_maps(of(MapLayer::kLocalMaps), snapshot);
+  }
   if (poses_changed) {
     if (visible(MapLayer::kNodes))
       fill(of(MapLayer::kNodes), [&](SceneLayer& layer) { draw_nodes(layer, snapshot); });
@@ -173,13 +176,16 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
   }
   const bool loops_changed =
       poses_changed || snapshot.loops != shown_.snapshot->loops || !(loop_style_ == shown_.loop_style);
-  if (loops_changed)
+  if (loops_changed && visible(MapLayer::kLoops))
     fill(of(MapLayer::kLoops), [&](SceneLayer& layer) { draw_loops(layer, snapshot, loop_style_); });
   const bool chosen_changed = loops_changed || chosen_loop_ != shown_.chosen_loop;
   if (chosen_changed) {
     chosen_layer_->clear();
     if (chosen_loop_ && *chosen_loop_ < snapshot.loops->size())
-      fill(*chosen_layer_, [&](SceneLayer& layer) { draw_chosen_loop(layer, snapshot, *chosen_loop_); });
+      fill(*chosen_layer_, [&](SceneLayer& layer) {
+        draw_chosen_loop(layer, snapshot, *chosen_loop_);
+        draw_loop_window(layer, snapshot, *chosen_loop_);
+      });
   }
   return maps_changed || loops_changed || chosen_changed;
 }

@@ -39,6 +39,11 @@ void add_window(mrpt::opengl::CSetOfLines& lines, const TPose2D& map_T_middle, c
          map_T_middle.composePoint({reach_m * std::cos(turn_rad), reach_m * std::sin(turn_rad)}));
 }
 
+void add_loop_window(mrpt::opengl::CSetOfLines& lines, const ReplaySnapshot& snapshot,
+                     const LoopRecord& loop) {
+  add_window(lines, snapshot.map_T_node->at(loop.anchor) + loop.anchor_T_predicted, loop.window);
+}
+
 }  // namespace
 
 void draw_robot(SceneLayer& layer, const TPose2D& map_T_robot) {
@@ -78,8 +83,13 @@ void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t
     add_window(*lines, map_T_frame(snapshot, frame - 1) + motion, record.window);
   }
   for (const LoopRecord& loop : *snapshot.loops)
-    if (loop.frame == frame && !loop.in_last_pass)
-      add_window(*lines, snapshot.map_T_node->at(loop.anchor) + loop.anchor_T_predicted, loop.window);
+    if (loop.frame == frame && !loop.in_last_pass) add_loop_window(*lines, snapshot, loop);
+  layer.insert(lines);
+}
+
+void draw_loop_window(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop) {
+  auto lines = lines_of(palette::kWindow, 1.5F);
+  add_loop_window(*lines, snapshot, (*snapshot.loops)[loop]);
   layer.insert(lines);
 }
 

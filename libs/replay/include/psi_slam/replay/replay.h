@@ -73,6 +73,8 @@ class Replay {
   /// The edits made here, not those that it began with.
   void undo();
   void redo();
+  /// Of these three; ReplaySnapshot::edits_served tells how many have been seen to.
+  int edits_asked() const { return edits_asked_; }
 
   /// Writes all results once the run is finished; a request before waits for that. See
   /// ReplaySnapshot::exported.
@@ -95,7 +97,7 @@ class Replay {
   std::shared_ptr<const std::vector<TimeUs>> stamps_us() const { return outline_.stamps_us(); }
 
  private:
-  enum class Turn { kStep, kEdit, kSave, kFinish, kClose };
+  enum class Turn { kStep, kEdit, kSave, kExport, kFinish, kClose };
   enum class EditKind { kEdit, kUndo, kRedo };
   struct EditWish {
     EditKind kind = EditKind::kEdit;
@@ -113,6 +115,8 @@ class Replay {
   void work();
   bool map_scans(MappingSession& session);
   Turn next_turn();
+  Turn next_turn_when_finished();
+  std::optional<Turn> urgent_turn() const;
   void wait_for_due_scan(std::unique_lock<std::mutex>& lock);
   void finish_map(MappingSession& session);
   bool serve_finished(MappingSession& session);
@@ -120,7 +124,7 @@ class Replay {
   void serve_edits(MappingSession& session);
   void make_edit(MappingSession& session, const EditWish& wish);
   void save_once(const MappingSession& session);
-  void export_once(MappingSession& session, const ExportWish& wish);
+  void export_once(MappingSession& session);
   void observe(const SessionProgress& progress);
   void hold_last_pass();
   void publish();
@@ -165,6 +169,7 @@ class Replay {
   std::size_t scans_ = 0;  // mapped
 
   std::atomic<bool> stop_last_pass_{false};  // cut, or to be begun anew
+  std::atomic<int> edits_asked_{0};
   std::atomic<bool> ended_{false};
   std::thread thread_;
 };

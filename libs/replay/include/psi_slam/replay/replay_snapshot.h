@@ -38,11 +38,18 @@ struct ActiveLocalMap {
   std::shared_ptr<const mrpt::maps::COccupancyGridMap2D> occupancy;
 };
 
+/// What of a run is in files.
+struct WrittenWork {
+  std::size_t scans = 0;
+  std::shared_ptr<const std::vector<TimedEdit>> edits = std::make_shared<std::vector<TimedEdit>>();
+};
+
 /// What became of the last export.
 struct ExportOutcome {
   int number = 0;  ///< they count from 1
   std::filesystem::path folder;
   std::string failure;  ///< a sentence; empty: all was written
+  WrittenWork written{};
 };
 
 /// What became of the last session file that was asked for.
@@ -50,6 +57,7 @@ struct SaveOutcome {
   int number = 0;  ///< they count from 1
   std::filesystem::path file;
   std::string failure;  ///< a sentence; empty: it was written
+  WrittenWork written{};
 };
 
 /// What became of the last edit.
@@ -69,7 +77,7 @@ struct ReplaySnapshot {
   HistoryView<Frame> log;  ///< the scans mapped so far
   HistoryView<FrameRecord> frames;
   std::vector<std::size_t> drive_frames;  ///< the first frame of each drive behind the first
-  HistoryView<double> shares;  ///< of the log that had been read with each of them, in [0, 1]
+  HistoryView<double> shares;             ///< of the log that had been read with each of them, in [0, 1]
   HistoryView<NodeScan> nodes;
   /// Finished ones, by number; of what they hold there are the nodes' points. (The engine packs and unpacks
   /// the maps themselves: nobody else may look at them.)
@@ -86,6 +94,7 @@ struct ReplaySnapshot {
   /// Those made and those to come, as they were taken up last; never null.
   std::shared_ptr<const std::vector<TimedEdit>> edits = std::make_shared<std::vector<TimedEdit>>();
   std::optional<EditOutcome> edited;  ///< the last that was asked for
+  int edits_served = 0;               ///< of Replay::edits_asked()
   std::string undo_text;              ///< what Replay::undo() would take back; empty: nothing
   std::string redo_text;
 

@@ -12,6 +12,9 @@
 
 namespace psi_slam {
 
+/// Found, but not in the graph, by the program's judgement or a person's: drawn only where LoopStyle::refused.
+bool was_no_loop(LoopVerdict verdict);
+
 /// The colour in which a scene with this style draws a loop.
 mrpt::img::TColor loop_colour(const LoopRecord& loop, const ReplaySnapshot& snapshot, const LoopStyle& style);
 

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "unsaved_work.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+namespace psi_slam {
+namespace {
+
+using Edits = std::vector<TimedEdit>;
+
+std::shared_ptr<const Edits> edits(std::size_t count) {
+  auto all = std::make_shared<Edits>();
+  for (std::size_t i = 0; i < count; ++i)
+    all->push_back({{LoopEdit::Kind::kDelete, 100 + i, 2}, {EditTime::Kind::kAfterScan, 120}});
+  return all;
+}
+
+ReplaySnapshot snapshot(std::size_t scans, std::size_t edit_count) {
+  ReplaySnapshot now;
+  SharedHistory<FrameRecord> frames;
+  for (std::size_t i = 0; i < scans; ++i) frames.push_back({});
+  now.frames = frames.view();
+  now.edits = edits(edit_count);
+  return now;
+}
+
+class UnsavedWorkTest : public testing::Test {
+ protected:
+  UnsavedWorkTest() { work_.open(SessionInput("my.log").with_edits(journal_of(*edits(1)))); }
+
+  UnsavedWork work_;
+};
+
+TEST_F(UnsavedWorkTest, a_log_that_was_only_opened_is_none) {
+  EXPECT_FALSE(work_.any(snapshot(0, 1))) << "the edit is the file's";
+}
+
+TEST_F(UnsavedWorkTest, scans_are_until_results_or_a_session_hold_them) {
+  EXPECT_TRUE(work_.any(snapshot(1, 1)));
+  EXPECT_FALSE(work_.any_edits(snapshot(1, 1)));
+  work_.note_written({100, edits(1)});
+  EXPECT_FALSE(work_.any(snapshot(100, 1)));
+  EXPECT_TRUE(work_.any(snapshot(101, 1))) << "the session was saved half-way";
+}
+
+TEST_F(UnsavedWorkTest, edits_are_until_they_are_written_be_it_by_themselves) {
+  EXPECT_TRUE(work_.any_edits(snapshot(0, 2)));
+  EXPECT_TRUE(work_.any_edits(snapshot(0, 0))) << "the file's was taken back";
+  work_.note_written_edits(journal_of(*edits(2)));
+  EXPECT_FALSE(work_.any_edits(snapshot(150, 2)));
+  EXPECT_TRUE(work_.any(snapshot(150, 2))) << "the map was not written";
+  EXPECT_TRUE(work_.any_edits(snapshot(150, 3)));
+}
+
+TEST_F(UnsavedWorkTest, edits_carried_to_another_run_of_the_log_are_as_unsaved_as_before) {
+  work_.note_written({150, edits(1)});
+  work_.begin_again(SessionInput("my.log").with_edits(journal_of(*edits(2))));
+  EXPECT_TRUE(work_.any(snapshot(0, 2)));
+  EXPECT_TRUE(work_.any(snapshot(20, 1))) << "these scans were mapped anew";
+}
+
+TEST_F(UnsavedWorkTest, what_a_session_holds_is_written) {
+  const auto recording = std::make_shared<SessionRecording>();
+  recording->frames.resize(40);
+  recording->facts.logs.push_back({});
+  work_.open(SessionInput(recording));
+  EXPECT_FALSE(work_.any(snapshot(40, 0)));
+  EXPECT_TRUE(work_.any(snapshot(41, 0)));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "psi_slam/logs/rawlog_objects.h"
@@ -79,6 +80,52 @@ inline std::filesystem::path write_rawlog(const std::filesystem::path& path, con
       archive << robot_action(frame.odom_T_robot - last, frame.time_us) << observations;
     } else {
       archive << *range_observation(frame) << odometry_observation(frame);
+    }
+    last = frame.odom_T_robot;
+  }
+  return path;
+}
+
+/// The part of the frame that a laser sees which has only the beams from `begin` to `end`.
+inline Frame seen_by_part(const Frame& frame, std::size_t begin, std::size_t end) {
+  Frame part = frame;
+  const std::vector<float>& bearings = *frame.scan.bearings_rad;
+  part.scan.bearings_rad =
+      std::make_shared<const std::vector<float>>(bearings.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                 bearings.begin() + static_cast<std::ptrdiff_t>(end));
+  part.scan.ranges_m.assign(frame.scan.ranges_m.begin() + static_cast<std::ptrdiff_t>(begin),
+                            frame.scan.ranges_m.begin() + static_cast<std::ptrdiff_t>(end));
+  return part;
+}
+
+inline Frame seen_on_the_right(const Frame& frame) {
+  return seen_by_part(frame, 0, frame.scan.ranges_m.size() / 2);
+}
+
+inline Frame seen_on_the_left(const Frame& frame) {
+  return seen_by_part(frame, frame.scan.ranges_m.size() / 2, frame.scan.ranges_m.size());
+}
+
+/// As write_rawlog(), of a robot with two lasers, "right" and "left", or with one of them.
+inline std::filesystem::path write_rawlog_of_lasers(const std::filesystem::path& path,
+                                                    const std::vector<Frame>& frames, int form, bool right,
+                                                    bool left) {
+  mrpt::io::CFileOutputStream file(path.string());
+  auto archive = mrpt::serialization::archiveFrom(file);
+  mrpt::math::TPose2D last = frames.front().odom_T_robot;
+  for (const Frame& frame : frames) {
+    std::vector<mrpt::obs::CObservation2DRangeScan::Ptr> scans;
+    if (right) scans.push_back(range_observation(seen_on_the_right(frame)));
+    if (right) scans.back()->sensorLabel = "right";
+    if (left) scans.push_back(range_observation(seen_on_the_left(frame)));
+    if (left) scans.back()->sensorLabel = "left";
+    if (form == 1) {
+      mrpt::obs::CSensoryFrame observations;
+      for (const auto& scan : scans) observations.insert(scan);
+      archive << robot_action(frame.odom_T_robot - last, frame.time_us) << observations;
+    } else {
+      for (const auto& scan : scans) archive << *scan;
+      archive << odometry_observation(frame);
     }
     last = frame.odom_T_robot;
   }

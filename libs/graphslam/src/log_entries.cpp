@@ -2,7 +2,14 @@
 #include "psi_slam/graphslam/log_entries.h"
 
 #include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "psi_slam/base/user_error.h"
+#include "psi_slam/logs/laser_choice.h"
 #include "psi_slam/logs/log_format.h"
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/logs/rawlog_archive.h"
@@ -27,9 +34,12 @@ CActionCollection::Ptr no_movement(const CSensoryFrame& frame) {
   return collection;
 }
 
+/// The scans of one laser only: MRPT's engine and deciders take whichever comes for that of the robot's only
+/// one.
 class RawlogEntries : public LogEntries {
  public:
-  explicit RawlogEntries(const std::filesystem::path& rawlog) : archive_(rawlog) {}
+  RawlogEntries(const std::filesystem::path& rawlog, const LogOptions& options)
+      : archive_(rawlog), lasers_(laser_choice("log.laser", options.laser)), laser_(options.laser) {}
 
   // Objects that are none of the three, as comments, are passed over.
   std::optional<LogEntry> next() override {
@@ -39,14 +49,20 @@ class RawlogEntries : public LogEntries {
         entry.action = action;
       } else if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object)) {
         if (!entry.action || entry.action->size() == 0) entry.action = no_movement(*frame);
+        leave_out_other_lasers(*frame);
         entry.observations = frame;
         return entry;
       } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(object)) {
+        if (is_of_another_laser(*observation)) continue;
         entry.action.reset();
         entry.observation = observation;
         return entry;
       }
     }
+    if (!any_scan_ && !other_lasers_.empty())
+      throw UserError("log.laser is \"" + laser_ + "\", expected the label of a laser of " +
+                      archive_.path().string() + ": " +
+                      quoted_list({other_lasers_.begin(), other_lasers_.end()}));
     return std::nullopt;
   }
 
@@ -54,7 +70,24 @@ class RawlogEntries : public LogEntries {
   bool are_made() const override { return false; }
 
  private:
+  bool is_of_another_laser(const CObservation& observation) {
+    if (dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation) == nullptr) return false;
+    const bool is_other = !lasers_.number_of(observation.sensorLabel);
+    if (is_other) other_lasers_.insert(observation.sensorLabel);
+    any_scan_ = any_scan_ || !is_other;
+    return is_other;
+  }
+
+  void leave_out_other_lasers(CSensoryFrame& frame) {
+    for (auto observation = frame.begin(); observation != frame.end();)
+      observation = is_of_another_laser(**observation) ? frame.erase(observation) : std::next(observation);
+  }
+
   RawlogArchive archive_;
+  ChosenLasers lasers_;
+  std::string laser_;
+  std::set<std::string> other_lasers_;
+  bool any_scan_ = false;
 };
 
 class FrameEntries : public LogEntries {
@@ -85,7 +118,8 @@ class FrameEntries : public LogEntries {
 }  // namespace
 
 std::unique_ptr<LogEntries> open_log_entries(const std::filesystem::path& log, const LogOptions& options) {
-  if (detect_log_format(log) == LogFormat::kMrptRawlog) return std::make_unique<RawlogEntries>(log);
+  if (detect_log_format(log) == LogFormat::kMrptRawlog && !reads_several_lasers(options))
+    return std::make_unique<RawlogEntries>(log, options);
   return std::make_unique<FrameEntries>(open_log(log, options));
 }
 

@@ -34,8 +34,10 @@ class LogEntries {
   virtual bool are_made() const = 0;
 };
 
-/// Of a rawlog the entries as they are; of a log of any other format a movement and a scan for each of its
-/// frames. Throws UserError when the log cannot be opened.
+/// Of a rawlog the entries as they are, but for scans of other lasers than the one that is read (log.laser,
+/// or the first to come). Of a log of any other format, and where several lasers are read at once, a movement
+/// and the scans of all lasers, the first one's first, for each frame: MRPT's deciders take the first. Throws
+/// UserError when the log cannot be opened; its next() throws when no laser has the label that was asked for.
 std::unique_ptr<LogEntries> open_log_entries(const std::filesystem::path& log, const LogOptions& options);
 
 }  // namespace psi_slam

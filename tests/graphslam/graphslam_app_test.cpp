@@ -2,8 +2,10 @@
 #include "graphslam_app.h"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
 
 #include <cstdlib>
+#include <set>
 #include <sstream>
 
 #include "psi_slam/results/trajectory_file.h"
@@ -56,6 +58,92 @@ TEST(GraphSlamApp, deciders_that_do_not_go_together_are_wrong_usage) {
       "psi-graphslam: the edge decider CPsiLoopCloserERD matches with the local maps of CPsiFrontEndNRD "
       "and works with no other node decider\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));
+}
+
+/// All file names in a folder, hidden ones too.
+std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(folder))
+    names.insert(file.path().filename().string());
+  return names;
+}
+
+const std::set<std::string>& result_names() {
+  static const std::set<std::string> kNames{
+      "CGraphSlamEngine.log", "edge_registrar.log", "node_registrar.log",    "optimizer.log",
+      "output_graph.graph",   "output_map.png",     "output_map_limits.txt", "summary.json",
+      "timings.log",          "trajectory.tum"};
+  return kNames;
+}
+
+TEST(GraphSlamApp, a_damaged_log_is_mapped_up_to_there_and_the_exit_code_is_2) {
+  const TemporaryFolder folder;
+  const auto log = write_rawlog(folder.path() / "drive.rawlog", simulated_drive().frames, 1);
+  std::string bytes = read_file(log);
+  bytes.replace(bytes.size() / 2, 1000, 1000, '?');
+  write_file(log, bytes);
+  const auto results = folder.path() / "results";
+  const AppRun run =
+      run_app({"-i", kIni, "-r", log.string(), "--disable-visuals", "--output-dir", results.string()});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr(log.string() + ": object "));
+  EXPECT_THAT(run.err, HasSubstr("the map shows the "));
+  EXPECT_EQ(names_in(results), result_names());
+  const Trajectory path = read_trajectory(results / "trajectory.tum");
+  EXPECT_GT(path.size(), simulated_drive().frames.size() / 3);
+  EXPECT_LT(path.size(), simulated_drive().frames.size() / 2 + 2);
+  EXPECT_LT(simulated_drive().error_m(path), 0.1);
+  EXPECT_THAT(read_file(results / "summary.json"), HasSubstr("\"broken_off\": \""));
+}
+
+TEST(GraphSlamApp, an_interrupted_run_writes_what_it_has) {
+  const TemporaryFolder folder;
+  const auto log = write_rawlog(folder.path() / "drive.rawlog", simulated_drive().frames, 1);
+  for (const std::string signal : {"INT", "TERM"}) {
+    const auto results = folder.path() / signal;
+    const auto words = folder.path() / (signal + ".words");
+    // The folder of the results is made when the mapping begins.
+    const std::string command = "bash -c '" PSI_GRAPHSLAM_PROGRAM " -i " + kIni + " -r " + log.string() +
+                                " --disable-visuals --output-dir " + results.string() + " > /dev/null 2> " +
+                                words.string() + " & while [ ! -d " + results.string() +
+                                " ] && kill -0 $!; do sleep 0.01; done; kill -" + signal + " $!; wait $!'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << signal;
+    EXPECT_THAT(read_file(words), HasSubstr("psi-graphslam: interrupted, the map will show the ")) << signal;
+    EXPECT_THAT(read_file(results / "summary.json"), HasSubstr("\"interrupted\": true"));
+    EXPECT_LT(read_trajectory(results / "trajectory.tum").size(), simulated_drive().frames.size());
+  }
+}
+
+TEST(GraphSlamApp, a_full_disk_leaves_no_half_a_map) {
+  const TemporaryFolder folder;
+  std::vector<Frame> frames = simulated_drive().frames;
+  frames.resize(9);
+  const auto log = write_rawlog(folder.path() / "drive.rawlog", frames, 1);
+  const auto results = folder.path() / "results";
+  const auto words = folder.path() / "words";
+  const std::string command = "bash -c 'ulimit -f 1; " PSI_GRAPHSLAM_PROGRAM " -i " + kIni + " -r " +
+                              log.string() + " --disable-visuals --output-dir " + results.string() +
+                              " > /dev/null 2> " + words.string() + '\'';
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+  EXPECT_THAT(read_file(words),
+              HasSubstr("psi-graphslam: cannot write " + (results / "output_map.png").string() + ": "));
+  EXPECT_THAT(names_in(results),
+              ::testing::IsSubsetOf(std::set<std::string>{"output_graph.graph", "trajectory.tum"}));
+}
+
+TEST(GraphSlamApp, scans_that_cannot_be_matched_are_told) {
+  const TemporaryFolder folder;
+  std::vector<Frame> frames = simulated_drive().frames;
+  frames.resize(40);
+  const auto log = write_rawlog(folder.path() / "drive.rawlog", frames, 1);
+  std::string settings = read_file(kIni);
+  const std::string distance = "front_end.node_distance_m = 0.15";
+  settings.replace(settings.find(distance), distance.size(), distance + "\nfront_end.min_response = 1");
+  write_file(folder.path() / "my.ini", settings);
+  const AppRun run = run_app({"-i", (folder.path() / "my.ini").string(), "-r", log.string(),
+                              "--disable-visuals", "--output-dir", (folder.path() / "results").string()});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.err, HasSubstr("40 of 40 scans could not be matched"));
 }
 
 TEST(GraphSlamApp, wrong_words_are_told) {

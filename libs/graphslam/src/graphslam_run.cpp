@@ -8,11 +8,13 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "graphslam_window.h"
 #include "no_standard_input.h"
 #include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/atomic_folder.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/graphslam/front_end_nrd.h"
 #include "psi_slam/graphslam/graphslam_settings.h"
@@ -44,6 +46,12 @@ class Engine : public mrpt::graphslam::CGraphSlamEngine<MrptGraph> {
     auto map = mrpt::maps::COccupancyGridMap2D::Create();
     getMap(map);
     return map;
+  }
+
+  /// MRPT's reports of itself and the deciders, complete when this returns: MRPT would keep them open.
+  void write_reports(const fs::path& folder) {
+    generateReportFiles(folder.string());
+    m_out_streams.clear();
   }
 };
 
@@ -78,6 +86,23 @@ std::size_t check_ground_truth(const fs::path& path) {
   return lines;
 }
 
+/// Lets a writer of MRPT's, which may add to the name, write at `path`, so that its files appear whole or not
+/// at all.
+void write_named(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  write_files_atomically(path.parent_path(),
+                         [&](const fs::path& temporary) { write(temporary / path.filename()); });
+}
+
+/// Throws SystemFailure, naming `path`, when the file is missing or lacks the chunk that every PNG ends with.
+void require_whole_png(const fs::path& png, const fs::path& path) {
+  constexpr std::string_view kEnd("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
+  std::ifstream file(png, std::ios::binary);
+  std::string end(kEnd.size(), ' ');
+  file.seekg(-static_cast<std::streamoff>(kEnd.size()), std::ios::end);
+  if (!file.read(end.data(), static_cast<std::streamsize>(end.size())) || end != kEnd)
+    throw SystemFailure("cannot write " + path.string() + ": the disk did not take it");
+}
+
 mrpt::obs::CObservation2DRangeScan::Ptr scan_of(const LogEntry& entry) {
   if (entry.observations)
     return entry.observations->getObservationByClass<mrpt::obs::CObservation2DRangeScan>();
@@ -90,6 +115,7 @@ class GraphSlamRun::Implementation {
  public:
   Implementation(const GraphSlamSetup& setup, const DeciderCatalogue& catalogue)
       : general_(read_graphslam_general(setup.ini)),
+        log_(setup.log),
         node_decider_(catalogue.make_node_decider(setup.node_decider)),
         edge_decider_(catalogue.make_edge_decider(setup.edge_decider)),
         optimizer_(catalogue.make_optimizer(setup.optimizer)) {
@@ -113,23 +139,29 @@ class GraphSlamRun::Implementation {
   }
 
   bool step() {
-    std::optional<LogEntry> entry = entries_->next();
-    if (!entry) return false;
-    if (true_poses_ && steps_ >= *true_poses_)
-      throw UserError("the file of true poses ends after " + std::to_string(*true_poses_) +
-                      " poses, before the log does");
-    const auto scan = scan_of(*entry);
-    const bool go_on = in_engine([&] {
-      return engine_->_execGraphSlamStep(entry->action, entry->observations, entry->observation, steps_);
-    });
-    ++steps_;
-    if (scan) keep_path(*scan);
-    return go_on;
+    if (at_end_ || broken_off_) return false;
+    try {
+      return map_next_entry();
+    } catch (const UserError& error) {
+      if (scans_ == 0) throw;
+      broken_off_ = error.what();
+      return false;
+    }
   }
 
   void finish(const std::function<bool(double)>& progress) {
-    finish_deciders(*node_decider_, *edge_decider_, *optimizer_, progress);
+    if (front_end_ != nullptr && scans_ == 0)
+      throw UserError(log_.string() + ": no scan was read, there is nothing to map");
+    interrupted_ = !at_end_ && !broken_off_;
+    finish_deciders(*node_decider_, *edge_decider_, *optimizer_, [&](double share) {
+      if (!progress || progress(share)) return true;
+      interrupted_ = true;
+      return false;
+    });
   }
+
+  const std::optional<std::string>& broken_off() const { return broken_off_; }
+  bool interrupted() const { return interrupted_; }
 
   Trajectory trajectory() const {
     if (front_end_ != nullptr) return front_end_->trajectory();
@@ -149,20 +181,27 @@ class GraphSlamRun::Implementation {
     return counts;
   }
 
+  std::size_t unmatched_scans() const { return front_end_ != nullptr ? front_end_->unmatched() : 0; }
+
+  // MRPT does not tell when the disk is full: what can be, is written by us, and of the map's picture the end
+  // is looked for.
   void write(const OutputFolder& folder) {
     write_tum(folder.path() / "trajectory.tum", trajectory());
-    if (general_.save_graph)
-      write_atomically(folder.path() / general_.save_graph_fname, [&](const fs::path& temporary) {
-        engine_->getGraph().saveToTextFile(temporary.string());
-      });
-    if (general_.save_map && !engine_->getGraph().nodes.empty())
-      engine_->draw_map()->saveMetricMapRepresentationToFile(
-          (folder.path() / general_.save_map_fname).string());
-    if (window_ && general_.save_3DScene) {
-      const std::string scene = (folder.path() / general_.save_3DScene_fname).string();
-      engine_->save3DScene(&scene);
+    if (general_.save_graph) {
+      std::ostringstream graph;
+      engine_->getGraph().writeAsText(graph);
+      write_text_atomically(folder.path() / general_.save_graph_fname, graph.str());
     }
-    in_engine([&] { engine_->generateReportFiles(folder.path().string()); });
+    if (general_.save_map && !engine_->getGraph().nodes.empty())
+      write_map(folder.path() / general_.save_map_fname);
+    if (window_ && general_.save_3DScene)
+      write_named(folder.path() / general_.save_3DScene_fname, [&](const fs::path& file) {
+        const std::string scene = file.string();
+        engine_->save3DScene(&scene);
+      });
+    write_files_atomically(folder.path(), [&](const fs::path& temporary) {
+      in_engine([&] { engine_->write_reports(temporary); });
+    });
   }
 
   const Engine& engine() const { return *engine_; }
@@ -179,21 +218,48 @@ class GraphSlamRun::Implementation {
     TPose2D node_T_robot;
   };
 
+  void write_map(const fs::path& prefix) {
+    write_named(prefix, [&](const fs::path& temporary) {
+      engine_->draw_map()->saveMetricMapRepresentationToFile(temporary.string());
+      require_whole_png(temporary.string() + ".png", prefix.string() + ".png");
+    });
+  }
+
+  bool map_next_entry() {
+    std::optional<LogEntry> entry = entries_->next();
+    at_end_ = !entry;
+    if (!entry) return false;
+    if (true_poses_ && steps_ >= *true_poses_)
+      throw UserError("the file of true poses ends after " + std::to_string(*true_poses_) +
+                      " poses, before the log does");
+    const auto scan = scan_of(*entry);
+    const bool go_on = in_engine([&] {
+      return engine_->_execGraphSlamStep(entry->action, entry->observations, entry->observation, steps_);
+    });
+    ++steps_;
+    if (scan) keep_path(*scan);
+    return go_on;
+  }
+
   void keep_path(const mrpt::obs::CObservation2DRangeScan& scan) {
+    if (front_end_ == nullptr) path_.push_back(path_pose(scan));
     ++scans_;
-    if (front_end_ != nullptr) return;
+  }
+
+  PathPose path_pose(const mrpt::obs::CObservation2DRangeScan& scan) const {
     const std::optional<TimeUs> time = time_us(scan);
-    if (!time) throw UserError("scan " + std::to_string(scans_) + " of the rawlog has no time stamp");
+    if (!time) throw UserError("scan " + std::to_string(scans_ + 1) + " of the rawlog has no time stamp");
     const auto& nodes = engine_->getGraph().nodes;
     PathPose pose;
     pose.time_us = *time;
     pose.node = nodes.empty() ? 0 : nodes.size() - 1;
     const TPose2D map_T_node = nodes.empty() ? TPose2D(0, 0, 0) : nodes.at(pose.node).asTPose();
     pose.node_T_robot = engine_->getCurrentRobotPosEstimation().asTPose() - map_T_node;
-    path_.push_back(pose);
+    return pose;
   }
 
   const GraphSlamGeneral general_;
+  const fs::path log_;
   std::unique_ptr<NodeDecider> node_decider_;
   std::unique_ptr<EdgeDecider> edge_decider_;
   std::unique_ptr<GraphOptimizer> optimizer_;
@@ -204,6 +270,9 @@ class GraphSlamRun::Implementation {
   std::unique_ptr<Engine> engine_;
   std::size_t steps_ = 0;
   std::size_t scans_ = 0;
+  bool at_end_ = false;
+  std::optional<std::string> broken_off_;
+  bool interrupted_ = false;
   std::vector<PathPose> path_;  // of node deciders of MRPT's
 };
 
@@ -224,6 +293,14 @@ void GraphSlamRun::finish(const std::function<bool(double)>& progress) {
   implementation_->finish(progress);
 }
 
+const std::optional<std::string>& GraphSlamRun::broken_off() const {
+  return implementation_->broken_off();
+}
+
+bool GraphSlamRun::interrupted() const {
+  return implementation_->interrupted();
+}
+
 Trajectory GraphSlamRun::trajectory() const {
   return implementation_->trajectory();
 }
@@ -234,6 +311,10 @@ const MrptGraph& GraphSlamRun::graph() const {
 
 std::size_t GraphSlamRun::scans() const {
   return implementation_->scans();
+}
+
+std::size_t GraphSlamRun::unmatched_scans() const {
+  return implementation_->unmatched_scans();
 }
 
 std::map<std::string, int> GraphSlamRun::edge_counts() const {

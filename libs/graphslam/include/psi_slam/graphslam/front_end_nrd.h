@@ -46,6 +46,9 @@ class CPsiFrontEndNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecid
   /// Every scan where the graph's poses put it.
   Trajectory trajectory() const;
 
+  /// How many scans could not be matched, so that odometry stands for them.
+  std::size_t unmatched() const { return unmatched_; }
+
   const std::shared_ptr<SharedMap>& shared_map() const { return map_; }
 
  protected:

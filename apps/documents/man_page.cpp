@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <sstream>
 
 #include "command_words.h"
 #include "psi_slam/config/ini_file.h"
@@ -77,7 +78,8 @@ std::string footer(const CLI::App& app) {
 
 std::string see_also(const std::string& name) {
   std::string text;
-  for (const char* other : {"psi-slam", "psi-slam-gui", "psi-slam-eval", "psi-slam-bench"})
+  std::istringstream programs(PSI_SLAM_PROGRAMS);
+  for (std::string other; programs >> other;)
     if (name != other) text += roff_bold(other) + "(1), ";
   if (name == "psi-slam.ini") return text.substr(0, text.size() - 2) + '\n';
   return text + roff_bold("psi-slam.ini") + "(5)\n";

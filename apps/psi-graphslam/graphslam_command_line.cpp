@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "document_options.h"
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
@@ -66,6 +67,7 @@ void add_switches(CLI::App& app, Switches& switches, GraphSlamCommandLine& line)
                "Print all options of our deciders and optimizer as a settings file, and exit");
   app.set_version_flag("--version", "psi-graphslam " PSI_SLAM_VERSION, "Print the version, and exit");
   app.footer(kExamples);
+  add_document_options(app);
 }
 
 void check_inputs(const Switches& switches) {

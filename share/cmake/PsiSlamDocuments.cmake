@@ -10,9 +10,9 @@ function(psi_slam_write_document program option file)
   set(documents ${documents} ${file} PARENT_SCOPE)
 endfunction()
 
-# Man pages, completion, licence and changelog of the programs.
+# Man pages, completion, licence and changelog of all programs that psi_slam_add_app() has made.
 function(psi_slam_install_documents)
-  set(programs psi-slam psi-slam-gui psi-slam-eval psi-slam-bench)
+  get_property(programs GLOBAL PROPERTY psi_slam_programs)
   set(man ${PROJECT_BINARY_DIR}/man)
   set(completions ${PROJECT_BINARY_DIR}/completions)
   file(MAKE_DIRECTORY ${man} ${completions})
@@ -25,6 +25,7 @@ function(psi_slam_install_documents)
   add_custom_target(psi_slam_program_documents ALL DEPENDS ${documents})
 
   list(JOIN programs " " PROGRAMS)
+  target_compile_definitions(psi_slam_documents PRIVATE PSI_SLAM_PROGRAMS="${PROGRAMS}")  # for SEE ALSO
   configure_file(${PROJECT_SOURCE_DIR}/share/cmake/zsh-completion.in ${PROJECT_BINARY_DIR}/_psi-slam @ONLY)
 
   list(TRANSFORM programs REPLACE "(.+)" "${man}/\\1.1.gz" OUTPUT_VARIABLE pages)

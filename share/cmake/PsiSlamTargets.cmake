@@ -44,11 +44,13 @@ function(psi_slam_add_library name)
 endfunction()
 
 # psi_slam_add_app(NAME SOURCES file... LINK dependency...)
+# A program that is installed, with a man page and completion: it has the options of add_document_options().
 function(psi_slam_add_app name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
   psi_slam_configure_target(${name})
+  set_property(GLOBAL APPEND PROPERTY psi_slam_programs ${name})
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()
 

@@ -54,9 +54,13 @@ dpkg-deb --contents "$library" >"$work/library.txt"
 for library_name in libc6 libmrpt-maps2.5 libwxgtk3.2-1 libgdal32; do
   grep -q "\b$library_name\b" "$work/depends.txt" || fail "psi-slam does not depend on $library_name"
 done
-for file in ./usr/bin/psi-slam ./usr/share/man/man1/psi-slam.1.gz ./usr/share/man/man5/psi-slam.ini.5.gz \
-  ./usr/share/bash-completion/completions/psi-slam ./usr/share/psi-slam/ini/psi-slam.ini \
-  ./usr/share/doc/psi-slam/copyright; do
+mapfile -t program_names < <(sed -n 's|.* ./usr/bin/\(..*\)$|\1|p' "$work/programs.txt")
+files=(./usr/bin/psi-slam ./usr/bin/psi-graphslam ./usr/share/man/man5/psi-slam.ini.5.gz ./usr/share/psi-slam/ini/psi-slam.ini
+  ./usr/share/doc/psi-slam/copyright)
+for program in "${program_names[@]}"; do
+  files+=("./usr/share/man/man1/$program.1.gz" "./usr/share/bash-completion/completions/$program")
+done
+for file in "${files[@]}"; do
   grep -q " $file$" "$work/programs.txt" || fail "psi-slam does not hold $file"
 done
 grep -q "cmake/psi-slam/psi-slam-config.cmake$" "$work/library.txt" || fail "libpsi-slam-dev has no CMake package"
@@ -80,7 +84,7 @@ inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/psi-sl
   fail "the package does not install: $(tail -5 "$work/install.log")"
 
 say "running it there"
-for program in psi-slam psi-slam-gui psi-slam-eval psi-slam-bench; do
+for program in "${program_names[@]}"; do
   inside "$program" --version || fail "$program does not run"
 done
 log=${PSI_SLAM_LOG:-"/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog"}

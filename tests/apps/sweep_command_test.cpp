@@ -218,6 +218,13 @@ TEST_F(SweepByMpi, gives_the_same_tables_as_processes) {
   EXPECT_THAT(sweep("mpi").out, HasSubstr("0 made now")) << "either goes on where the other was";
 }
 
+TEST_F(SweepByMpi, says_once_what_it_is) {
+  const std::vector<std::string> words{"--oversubscribe", "-n", "3", PSI_SLAM_SWEEP_MPI_PROGRAM, "--version"};
+  const AppRun run = AppProcess(words, folder_.path(), prepare, PSI_SLAM_MPIRUN).finish();
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, ::testing::MatchesRegex("psi-slam-sweep-mpi [0-9.]+\n"));
+}
+
 TEST_F(SweepByMpi, a_killed_rank_loses_nothing_that_was_finished) {
   ASSERT_EQ(sweep("undisturbed").code, 0);
   const AppProcess job(mpi_words("mpi"), folder_.path(), prepare, PSI_SLAM_MPIRUN);

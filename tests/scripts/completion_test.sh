@@ -10,9 +10,10 @@ mkdir maps
 touch my.log my.ini "my other.log"
 
 failures=0
-for program in psi-slam psi-slam-gui psi-slam-eval psi-slam-bench; do
+for program in "$build"/apps/*/psi-*; do
+  [ -f "$program" ] || continue
   # shellcheck disable=SC1090
-  source "$build/completions/$program"
+  source "$build/completions/${program##*/}"
 done
 
 # answers LINE: what bash would offer behind it.
@@ -68,6 +69,15 @@ expect "psi-slam-eval --per-relation ma" "maps|"
 expect "psi-slam-bench f" "false-loops|freiburg|"
 expect "psi-slam-bench freiburg --riv" "--rival*"
 expect "psi-slam-bench match --data ma" "maps|"
+expect "psi-graphslam -r my.l" "my.log|"
+expect "psi-graphslam --ini my.i" "my.ini|"
+expect "psi-graphslam --output-dir m" "maps|"
+expect "psi-graphslam --list-n" "--list-node-regs|"
+if [ -e "$build/completions/psi-slam-sweep-mpi" ]; then
+  expect "psi-slam-sweep-mpi my.l" "my.log|"
+  expect "psi-slam-sweep-mpi -o m" "maps|"
+  expect "psi-slam-sweep-mpi my.log --set map.write_d" "map.write_dxf=|"
+fi
 expect "psi-slam --man" "|"
 
 # Every key of the settings files is offered.

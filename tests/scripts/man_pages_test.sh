@@ -10,6 +10,9 @@ fail() {
   exit 1
 }
 
+for program in "$build"/apps/*/psi-*; do
+  [ ! -f "$program" ] || [ -f "$build/man/${program##*/}.1.gz" ] || fail "$program has no page"
+done
 for page in "$build"/man/*.gz; do
   complaints=$(LC_ALL=C.UTF-8 MANROFFSEQ='' MANWIDTH=80 man --warnings -E UTF-8 -l -Tutf8 -Z "$page" 2>&1 >/dev/null)
   [ -z "$complaints" ] || fail "$page: $complaints"
@@ -24,6 +27,14 @@ expect psi-slam.1.gz "psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0
 expect psi-slam-eval.1.gz "psi-slam-eval [OPTION]... TRAJECTORY RELATIONS"
 expect psi-slam-gui.1.gz "--set SECTION.KEY=VALUE"
 expect psi-slam-bench.1.gz "psi-slam-bench freiburg [OPTION]..."
+expect psi-graphslam.1.gz "psi-graphslam - runs MRPT's graph-slam engine with its deciders and psi-slam's"
+expect psi-graphslam.1.gz "-n, --node-reg NAME"
+expect psi-slam.1.gz "psi-graphslam(1)"
+if [ -e "$build/apps/psi-slam-sweep-mpi/psi-slam-sweep-mpi" ]; then
+  expect psi-slam-sweep-mpi.1.gz "psi-slam-sweep-mpi - maps many logs with many settings on the ranks of an MPI job"
+  expect psi-slam-sweep-mpi.1.gz "mpirun -n 9 psi-slam-sweep-mpi my.log -o sweep --seeds 10"
+  expect psi-slam.1.gz "psi-slam-sweep-mpi(1)"
+fi
 expect psi-slam.ini.5.gz "m, between 0.005 and 10; default 0.05"
 if grep -q "freiburg-run\|man-page" <<<"$(shown psi-slam-bench.1.gz)"; then fail "hidden things are told of"; fi
 count=$("$build/apps/psi-slam/psi-slam" --dump-config | grep -c '^[a-z_0-9]* = ')

@@ -5,7 +5,11 @@
 #
 #     share/scripts/compare-graphslam.sh FOLDER [OUTPUT]     # FOLDER is the one that fetch-benchmark-logs.sh has filled
 #
-# LOGS are the names of the logs, by default all five; LIMIT_S is how many seconds of processor time a run may take, by default 900.
+# LOGS are the names of the logs, by default all five. Where there is no FOLDER/LOG.clf.gz, LOG.rawlog is taken with the true
+# poses in LOG.rawlog.GT.txt, as MRPT ships its graphslam-engine-demos; errors are then those of every pose seen from the first.
+# A run may take LIMIT_S seconds of processor time, by default 900, and LIMIT_TIMES times what ours took, by default 10.
+# SET has more settings for our node decider, such as "front_end.min_response=0.05 local_maps.smoothing_sigma_m=0.3".
+# TEAMS are the teams to run by their numbers, by default "1 2 3 4 5 6 7", in the order of the table; 1 is ours.
 # Needs the programs that share/scripts/build.sh builds; PSI_SLAM_BUILD is the folder where they were built if not
 # build/release. The results are left in OUTPUT/LOG/DECIDERS, by default out/graphslam/LOG/DECIDERS.
 set -euo pipefail
@@ -13,9 +17,12 @@ set -euo pipefail
 # shellcheck source=share/scripts/benchmark-logs.bash
 source "$(dirname "$0")/benchmark-logs.bash" graphslam "psi-graphslam psi-slam-eval" "$@"
 limit_s=${LIMIT_S:-900}
+limit_times=${LIMIT_TIMES:-10}
+read -r -a set <<<"${SET:-}"
+read -r -a numbers <<<"${TEAMS:-1 2 3 4 5 6 7}"
 read -r -a logs <<<"${LOGS:-aces intel mit-killian mit-csail fr079}"
 # Ours first: times are told as shares of its.
-teams=(
+all_teams=(
   "CPsiFrontEndNRD CPsiLoopCloserERD CPsiSpaGSO"
   "CFixedIntervalsNRD CLoopCloserERD CLevMarqGSO"
   "CICPCriteriaNRD CLoopCloserERD CLevMarqGSO"
@@ -24,16 +31,53 @@ teams=(
   "CPsiFrontEndNRD CEmptyERD CPsiSpaGSO"
   "CPsiFrontEndNRD CPsiLoopCloserERD CLevMarqGSO"
 )
+[ "${numbers[0]}" = 1 ] || wrong_usage "TEAMS=\"$TEAMS\" does not begin with 1: the others are compared with ours"
+teams=()
+for number in "${numbers[@]}"; do teams+=("${all_teams[number - 1]}"); done
 
-# settings LOG: ours, with what its own settings say of the sensor, in one thread.
+# log_file LOG: where it is.
+log_file() {
+  local file
+  for file in "$folder/$1.clf.gz" "$folder/$1.rawlog"; do
+    [ ! -r "$file" ] || { echo "$file" && return; }
+  done
+}
+
+# relations LOG FILE: the true ones are copied to the file, or made of the true poses.
+relations() {
+  if [ -r "$folder/$1.clf.gz" ]; then
+    cp "$folder/$1.relations" "$2"
+    return
+  fi
+  python3 - "$folder/$1.rawlog.GT.txt" >"$2" <<'END'
+import math
+import sys
+
+with open(sys.argv[1], encoding="utf-8") as file:
+    poses = [[float(word) for word in line.split()] for line in file]
+start, x0, y0, yaw0 = poses[0]
+for time, x, y, yaw in poses[1:]:
+    ahead = math.cos(yaw0) * (x - x0) + math.sin(yaw0) * (y - y0)
+    left = math.cos(yaw0) * (y - y0) - math.sin(yaw0) * (x - x0)
+    print(f"{start:.6f} {time:.6f} {ahead:.9f} {left:.9f} 0 0 0 {yaw - yaw0:.9f}")
+END
+}
+
+# settings LOG: ours, with what its own settings say of the sensor and with SET, in one thread.
 settings() {
-  local facts
-  facts=$(sed -n '/^\[log\]/,/^\[/{/^[a-z_]* *=/s/^/log./p}' "$root/ini/$1.ini")
+  local facts=""
+  [ ! -r "$root/ini/$1.ini" ] || facts=$(sed -n '/^\[log\]/,/^\[/{/^[a-z_]* *=/s/^/log./p}' "$root/ini/$1.ini")
+  [ "${#set[@]}" -eq 0 ] || facts+=$'\n'$(printf '%s\n' "${set[@]}")
   sed -e "s/^run.threads.*/run.threads = 1/" -e '/^\[NodeRegistrationDeciderParameters\]/r /dev/stdin' \
     "$root/ini/graphslam.ini" <<<"$facts"
 }
 
-# run LOG TEAM FOLDER: one run and its evaluation; how it ended is left in FOLDER/end, its seconds in FOLDER/times.
+# seconds FOLDER: of processor time that the run there took, in full.
+seconds() {
+  awk 'END { print int($1 + $2 + 1) }' "$1/times"
+}
+
+# run LOG TEAM FOLDER LIMIT_S: one run and its evaluation; how it ended is left in FOLDER/end, its seconds in FOLDER/times.
 run() {
   local node edge optimizer status=0
   read -r node edge optimizer <<<"$2"
@@ -43,14 +87,17 @@ run() {
   TIMEFORMAT='%U %S %R'
   # shellcheck disable=SC2016  # the inner shell expands them
   {
-    time bash -c 'ulimit -S -t "$0" && exec "$@"' "$limit_s" "${app[psi-graphslam]}" -i "$3/graphslam.ini" \
-      -r "$folder/$1.clf.gz" -n "$node" -e "$edge" -o "$optimizer" --disable-visuals --output-dir "$3/results" \
+    time bash -c 'ulimit -S -t "$0" && exec "$@"' "$4" "${app[psi-graphslam]}" -i "$3/graphslam.ini" \
+      -r "$(log_file "$1")" -n "$node" -e "$edge" -o "$optimizer" --disable-visuals --output-dir "$3/results" \
       </dev/null >"$3/messages" 2>&1
   } 2>"$3/times" ||
     status=$?
   case $status in
-    0) "${app[psi-slam-eval]}" --json "$3/results/trajectory.tum" "$folder/$1.relations" >"$3/evaluation.json" ;;
-    152) echo "not finished in $limit_s s of processor time" >"$3/end" ;;  # SIGXCPU
+    0)
+      relations "$1" "$3/relations"
+      "${app[psi-slam-eval]}" --json "$3/results/trajectory.tum" "$3/relations" >"$3/evaluation.json"
+      ;;
+    152) echo "not finished" >"$3/end" ;;  # SIGXCPU
     1[3-9]*) echo "crashed (signal $((status - 128)))" >"$3/end" ;;
     *) tail -n 1 "$3/messages" >"$3/end" ;;
   esac
@@ -80,10 +127,11 @@ ours = seconds(folder_of(teams[0]))
 for team in teams:
     folder = folder_of(team)
     cells = [log, *team.split()]
+    times = f"{seconds(folder) / ours:.2f}"
     if os.path.exists(f"{folder}/end"):
         with open(f"{folder}/end", encoding="utf-8") as file:
             end = file.read().strip().replace("|", "/")
-        print("| " + " | ".join(cells + [end, "–", "–", "–", "–"]) + " |")
+        print("| " + " | ".join(cells + [end, "–", "–", "–", times + " until then"]) + " |")
         continue
     with open(f"{folder}/results/summary.json", encoding="utf-8") as file:
         summary = json.load(file)
@@ -92,16 +140,20 @@ for team in teams:
     loops = summary["edge_decider_counts"].get("LC", 0)
     print("| " + " | ".join(cells + [
         f"{evaluation['translation_abs_m']['mean']:.4f}", f"{evaluation['rotation_abs_deg']['mean']:.3f}",
-        f"{summary['nodes']:,}", f"{loops:,}", f"{seconds(folder) / ours:.2f}"]) + " |")
+        f"{summary['nodes']:,}", f"{loops:,}", times]) + " |")
 END
 }
 
 table=()
 for log in "${logs[@]}"; do
-  has_log "$log" || continue
+  [ -r "$folder/$log.rawlog.GT.txt" ] && [ -r "$folder/$log.rawlog" ] || has_log "$log" || continue
+  limit=$limit_s
   for team in "${teams[@]}"; do
     say "$log with $team"
-    run "$log" "$team" "$outputs/$log/${team// /-}"
+    results=$outputs/$log/${team// /-}
+    run "$log" "$team" "$results" "$limit"
+    [ "$team" != "${teams[0]}" ] || limit=$((limit_times * $(seconds "$results")))
+    limit=$((limit < limit_s ? limit : limit_s))
   done
   table+=("$(rows "$log")")
 done

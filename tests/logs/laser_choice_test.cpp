@@ -81,14 +81,29 @@ TEST(StatedMounts, hold_for_the_laser_of_any_of_its_names) {
   EXPECT_EQ(options_of_laser(options, {"RLASER", "rear"}).robot_T_laser, TPose2D(1, 2, 3));
 }
 
-TEST(LogOptionsOfSeveralLasers, have_no_pose_for_one) {
+TEST(LasersOfAFormat, topics_count_for_bags_alone_and_stand_over_the_lasers) {
   LogOptions options;
-  options.laser = "all";
+  for (const LogFormat format : {LogFormat::kCarmen, LogFormat::kMrptRawlog, LogFormat::kRos1Bag}) {
+    SCOPED_TRACE(name_of(format));
+    options.laser = "all";
+    options.scan_topic.clear();
+    EXPECT_TRUE(reads_several_lasers(options, format));
+    options.scan_topic = "/scan";
+    EXPECT_EQ(reads_several_lasers(options, format), !is_bag(format));
+    options.laser = "front";
+    EXPECT_FALSE(reads_several_lasers(options, format));
+    options.scan_topic = "/front,/rear";
+    EXPECT_EQ(reads_several_lasers(options, format), is_bag(format));
+  }
+}
+
+TEST(LasersOfAFormat, several_have_no_pose_for_one) {
+  LogOptions options;
+  options.scan_topic = "all";
   options.robot_T_laser = TPose2D(1, 2, 3);
-  EXPECT_THAT(sentence_of([&] { check_log_options(options); }),
+  EXPECT_THAT(sentence_of([&] { reads_several_lasers(options, LogFormat::kRos2Mcap); }),
               testing::HasSubstr("expected log.laser_mounts"));
-  options.laser = "";
-  check_log_options(options);
+  EXPECT_FALSE(reads_several_lasers(options, LogFormat::kCarmen)) << "it has one laser, the topic is a bag's";
 }
 
 }  // namespace

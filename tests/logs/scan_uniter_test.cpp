@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -105,6 +106,41 @@ TEST(ScanUniter, a_faster_laser_has_scans_to_spare) {
   EXPECT_THAT(united({{0, 0}, {1, 5}, {1, 30}, {1, 55}, {1, 80}, {0, 100}, {1, 105}}, &left_out),
               ElementsAre("0@0 1@5", "0@100 1@105"));
   EXPECT_EQ(left_out, 3U);
+}
+
+/// Ten a second each, the second laser half a period later, both with stamps up to 8 ms off.
+std::vector<Stamp> half_a_period_apart(unsigned seed) {
+  std::vector<Stamp> stamps;
+  std::mt19937 random(seed);
+  for (int i = 0; i < 400; ++i)
+    for (const int laser : {0, 1})
+      stamps.push_back({static_cast<std::size_t>(laser),
+                        100 * i + laser * 50 + static_cast<int>(random() % 17) - 8});
+  return stamps;
+}
+
+TEST(ScanUniter, of_lasers_half_a_period_apart_no_scan_is_lost_but_at_an_end) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    std::size_t left_out = 0;
+    const auto frames = united(half_a_period_apart(seed), &left_out);
+    EXPECT_LE(left_out, 1U);
+    EXPECT_EQ(frames.size(), 400U) << "one of each scan of the first laser";
+    std::size_t alone = 0;
+    for (const std::string& frame : frames) alone += frame.find(" 1@") == std::string::npos ? 1 : 0;
+    EXPECT_LE(alone, 1U);
+  }
+}
+
+TEST(ScanUniter, a_detour_ends_though_no_frame_without_a_scan_comes) {
+  std::vector<Stamp> stamps{{1, -50}};  // belongs to the first frame, which has a nearer one
+  for (int i = 0; i < 30; ++i) stamps.insert(stamps.end(), {{0, 100 * i}, {1, 100 * i + 40}});
+  std::size_t left_out = 0;
+  const auto frames = united(stamps, &left_out);
+  EXPECT_EQ(left_out, 1U);
+  EXPECT_EQ(frames[0], "0@0 1@-50");
+  EXPECT_EQ(frames[3], "0@300 1@240") << "20 ms farther than the nearest";
+  EXPECT_EQ(frames[20], "0@2000 1@2040");
 }
 
 TEST(ScanUniter, what_lies_far_from_all_scans_of_lasers_before_is_a_frame_of_its_own) {

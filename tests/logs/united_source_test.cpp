@@ -137,10 +137,11 @@ TEST_P(EveryLogOfTwoLasers, goes_on_when_either_is_silent_for_a_while) {
     else
       ++(frame.scan.laser == 0 ? front : rear);
   }
-  // Of the rear scans in the gap the first and the last lie near front ones that have nearer ones of their
-  // own.
-  EXPECT_EQ(both, 11U);
-  EXPECT_EQ(front, 3U);
+  // Of the rear scans in the gap the first lies near a front one that has a nearer one of its own. The last
+  // joins the first front one behind the gap, and the others the next ones up to where the rear laser is
+  // silent.
+  EXPECT_EQ(both, 12U);
+  EXPECT_EQ(front, 2U);
   EXPECT_EQ(rear, 4U);
 }
 

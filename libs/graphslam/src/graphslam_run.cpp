@@ -126,7 +126,7 @@ class GraphSlamRun::Implementation {
     front_end_ = dynamic_cast<CPsiFrontEndNRD*>(node_decider_.get());
     if (front_end_ != nullptr && entries_->are_made()) {
       LogOptions of_made_entries;
-      if (reads_several_lasers(options)) of_made_entries.laser = "all";
+      if (reads_several_lasers(options, detect_log_format(setup.log))) of_made_entries.laser = "all";
       front_end_->set_log_options(of_made_entries);
     }
     if (setup.visuals) window_ = std::make_unique<GraphSlamWindow>();

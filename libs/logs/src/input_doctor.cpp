@@ -81,9 +81,9 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
 
 /// Scans are compared with scans of the same laser: of several, the first is judged.
 LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options) {
-  if (!reads_several_lasers(options)) return options;
   const LogFormat format = detect_log_format(path);
-  if (format == LogFormat::kCarmen || format == LogFormat::kMrptRawlog) {
+  if (!reads_several_lasers(options, format)) return options;
+  if (!is_bag(format)) {
     options.scan_topic.clear();  // of bags alone
     const LaserChoice choice = laser_choice("log.laser", options.laser);
     if (choice.several()) options.laser = choice.all ? "" : choice.names.front();

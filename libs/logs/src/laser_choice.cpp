@@ -79,9 +79,16 @@ LaserChoice laser_choice(std::string_view option, std::string_view value) {
   return choice;
 }
 
-bool reads_several_lasers(const LogOptions& options) {
-  return laser_choice("log.laser", options.laser).several() ||
-         laser_choice("log.scan_topic", options.scan_topic).several();
+bool reads_several_lasers(const LogOptions& options, LogFormat format) {
+  const bool by_topic = is_bag(format) && !options.scan_topic.empty();
+  const LaserChoice choice = by_topic ? laser_choice("log.scan_topic", options.scan_topic)
+                                      : laser_choice("log.laser", options.laser);
+  if (choice.several() && options.robot_T_laser)
+    throw UserError(
+        "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg are for one laser, and several are read: "
+        "expected "
+        "log.laser_mounts, such as \"RLASER -0.3 0 180\" (metres, degrees)");
+  return choice.several();
 }
 
 std::optional<std::size_t> ChosenLasers::number_of(const std::string& name) {

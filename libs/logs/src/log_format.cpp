@@ -85,6 +85,10 @@ std::string_view name_of(LogFormat format) {
   return "unknown";
 }
 
+bool is_bag(LogFormat format) {
+  return format != LogFormat::kCarmen && format != LogFormat::kMrptRawlog;
+}
+
 LogFormat detect_log_format(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) throw UserError(path.string() + " does not exist" + kExpected);

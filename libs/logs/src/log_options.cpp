@@ -38,11 +38,8 @@ void check_log_options(const LogOptions& options) {
         std::isfinite(options.robot_T_laser->phi)))
     fail("the laser's pose on the robot", options.robot_T_laser->asString(), "finite numbers");
   stated_mounts(options);
-  if (reads_several_lasers(options) && options.robot_T_laser)
-    throw UserError(
-        "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg are for one laser, and several are read: "
-        "expected "
-        "log.laser_mounts, such as \"RLASER -0.3 0 180\" (metres, degrees)");
+  laser_choice("log.laser", options.laser);
+  laser_choice("log.scan_topic", options.scan_topic);
 }
 
 }  // namespace psi_slam

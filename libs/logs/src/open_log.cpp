@@ -56,8 +56,7 @@ std::unique_ptr<FrameSource> open_as_recorded(const std::filesystem::path& path,
 
 /// Only bags may state how long a sweep takes.
 bool may_be_skewed(LogFormat format, const LogOptions& options) {
-  const bool is_bag = format != LogFormat::kCarmen && format != LogFormat::kMrptRawlog;
-  return options.sweep_time_s ? *options.sweep_time_s > 0 : is_bag;
+  return options.sweep_time_s ? *options.sweep_time_s > 0 : is_bag(format);
 }
 
 }  // namespace
@@ -66,7 +65,7 @@ std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const L
   check_log_options(options);
   const LogFormat format = detect_log_format(path);
   auto source = open_as_recorded(path, format, options);
-  if (reads_several_lasers(options)) source = std::make_unique<UnitedSource>(std::move(source));
+  if (reads_several_lasers(options, format)) source = std::make_unique<UnitedSource>(std::move(source));
   if (may_be_skewed(format, options))
     source = std::make_unique<DeskewedSource>(std::move(source), options.sweep_time_s);
   if (options.every_nth_scan == 1) return source;

@@ -12,12 +12,13 @@ namespace psi_slam {
 namespace {
 
 constexpr auto kMostApart_us = static_cast<TimeUs>(ScanUniter::kMostApart_s * 1e6);
+constexpr auto kMostDetour_us = static_cast<TimeUs>(ScanUniter::kMostDetour_s * 1e6);
+/// A scan goes on to the next frame only where that is at most so many times as far as the nearest.
+constexpr TimeUs kFarther = 2;
 constexpr auto kClockWasSet_us = static_cast<TimeUs>(ScanUniter::kClockWasSet_s * 1e6);
 /// A frame's scans lie within one such time of it, the frames that these might join instead within two; and
 /// messages of different lasers come late by different times.
 constexpr TimeUs kWait_us = 3 * kMostApart_us;
-constexpr double kMostMoved_m = 1.0;
-constexpr double kMostTurned_rad = M_PI / 3;
 
 /// In time, and where that is the same, in the log.
 template <class Scan>
@@ -28,7 +29,8 @@ std::pair<TimeUs, std::size_t> distance(const Scan& a, const Scan& b) {
 
 /// Whether a robot can have moved so between two scans of a frame; else its odometry jumped.
 bool is_drive(const mrpt::math::TPose2D& motion) {
-  return std::hypot(motion.x, motion.y) <= kMostMoved_m && std::abs(motion.phi) <= kMostTurned_rad;
+  return std::hypot(motion.x, motion.y) <= ScanUniter::kMostMoved_m &&
+         std::abs(motion.phi) <= ScanUniter::kMostTurned_rad;
 }
 
 }  // namespace
@@ -57,15 +59,47 @@ bool ScanUniter::opens(const Scan& scan) const {
                       [&](const Scan& other) { return may_join(scan, other) && opens(other); });
 }
 
-/// The scan that opens the frame which `scan` belongs to, joins or is too many for; none when it opens one.
-const ScanUniter::Scan* ScanUniter::frame_of(const Scan& scan) const {
+/// The scan that opens the nearest frame which `scan` may join, left aside that of `but`; none when it opens
+/// one.
+const ScanUniter::Scan* ScanUniter::frame_of(const Scan& scan, const Scan* but) const {
   const Scan* nearest = nullptr;
   for (const Scan& other : scans_) {
-    if (!may_join(scan, other) || (nearest != nullptr && !(distance(scan, other) < distance(scan, *nearest))))
+    if (&other == but || !may_join(scan, other) || (nearest != nullptr && !(distance(scan, other) < distance(scan, *nearest))))
       continue;
     if (opens(other)) nearest = &other;
   }
   return nearest;
+}
+
+const ScanUniter::Scan& ScanUniter::choose(const std::vector<const Scan*>& claimants, const Scan& opener,
+                                           std::vector<std::size_t>& used) {
+  const auto nearest_of = [&](const std::vector<const Scan*>& scans) {
+    return *std::min_element(scans.begin(), scans.end(), [&](const Scan* a, const Scan* b) {
+      return distance(*a, opener) < distance(*b, opener);
+    });
+  };
+  std::map<const Scan*, TimeUs> can_go_on;  // and by how much farther
+  TimeUs& detours_us = detours_us_[claimants.front()->frame.scan.laser];
+  std::vector<const Scan*> others;
+  for (const Scan* scan : claimants) {
+    const Scan* next = claimants.size() > 1 ? frame_of(*scan, &opener) : nullptr;
+    const TimeUs here_us = distance(*scan, opener).first;
+    const TimeUs there_us = next == nullptr ? 0 : distance(*scan, *next).first;
+    if (next != nullptr && there_us <= kFarther * here_us && detours_us + there_us - here_us <= kMostDetour_us)
+      can_go_on[scan] = there_us - here_us;
+    else
+      others.push_back(scan);
+  }
+  const Scan* own = nearest_of(others.empty() ? claimants : others);
+  can_go_on.erase(own);
+  if (can_go_on.empty()) detours_us = 0;
+  for (const Scan* scan : claimants) {
+    if (const auto going = can_go_on.find(scan); going != can_go_on.end())
+      detours_us += going->second;
+    else
+      used.push_back(scan->place);
+  }
+  return *own;
 }
 
 std::optional<Frame> ScanUniter::take() {
@@ -73,26 +107,20 @@ std::optional<Frame> ScanUniter::take() {
   const auto opener =
       std::find_if(scans_.begin(), scans_.end(), [this](const Scan& scan) { return opens(scan); });
   if (must_wait(*opener)) return std::nullopt;
-  std::vector<std::size_t> used{opener->place};
-  std::map<std::size_t, const Scan*> companions;  // by laser
-  for (const Scan& scan : scans_) {
-    if (!may_join(scan, *opener) || frame_of(scan) != &*opener) continue;
-    used.push_back(scan.place);
-    const Scan*& nearest = companions[scan.frame.scan.laser];
-    if (nearest == nullptr || distance(scan, *opener) < distance(*nearest, *opener)) nearest = &scan;
-  }
+  std::map<std::size_t, std::vector<const Scan*>> claimants;  // by laser
+  for (const Scan& scan : scans_)
+    if (may_join(scan, *opener) && frame_of(scan) == &*opener)
+      claimants[scan.frame.scan.laser].push_back(&scan);
   Frame frame = opener->frame;
-  for (const auto& [laser, scan] : companions) {
-    CompanionScan companion{scan->frame.scan, scan->frame.time_us, {}};
-    if (frame.has_odometry && scan->frame.has_odometry)
-      companion.frame_T_robot = scan->frame.odom_T_robot - frame.odom_T_robot;
-    if (!is_drive(companion.frame_T_robot)) {
-      ++left_out_;
-      continue;
-    }
-    frame.companions.push_back(std::move(companion));
+  std::vector<std::size_t> used{opener->place};
+  for (const auto& [laser, scans] : claimants) {
+    const Frame& chosen = choose(scans, *opener, used).frame;
+    CompanionScan companion{chosen.scan, chosen.time_us, {}};
+    if (frame.has_odometry && chosen.has_odometry)
+      companion.frame_T_robot = chosen.odom_T_robot - frame.odom_T_robot;
+    if (is_drive(companion.frame_T_robot)) frame.companions.push_back(std::move(companion));
   }
-  left_out_ += used.size() - 1 - companions.size();
+  left_out_ += used.size() - 1 - frame.companions.size();
   const auto is_used = [&](const Scan& scan) {
     return std::find(used.begin(), used.end(), scan.place) != used.end();
   };

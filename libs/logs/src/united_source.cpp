@@ -23,6 +23,12 @@ std::optional<Frame> UnitedSource::next() {
   }
 }
 
+SkippedLines UnitedSource::skipped_lines() const {
+  SkippedLines skipped = source_->skipped_lines();
+  skipped.spare_scans += uniter_.left_out();
+  return skipped;
+}
+
 void UnitedSource::read() {
   try {
     if (auto scan = source_->next()) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "psi_slam/logs/log_format.h"
 #include "psi_slam/logs/log_options.h"
 
 namespace psi_slam {
@@ -27,8 +28,10 @@ struct LaserChoice {
 /// Throws UserError, naming the option, when a name is empty or comes twice.
 LaserChoice laser_choice(std::string_view option, std::string_view value);
 
-/// Whether frames of the log may hold scans of several lasers.
-bool reads_several_lasers(const LogOptions& options);
+/// Whether frames of a log of this format may hold scans of several lasers: topics count for bags alone, where
+/// they stand over `laser`. Throws UserError when a mount is stated that is for one laser, and for choices
+/// that laser_choice() refuses.
+bool reads_several_lasers(const LogOptions& options, LogFormat format);
 
 /// The lasers that are read of a log that names each scan's laser, numbered as in LaserScan::laser: those
 /// that the user lists in his order, all by their first scans, or the first one to come.

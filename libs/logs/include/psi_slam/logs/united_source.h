@@ -19,7 +19,7 @@ class UnitedSource : public FrameSource {
   /// Numbered anew.
   std::optional<Frame> next() override;
   double progress() const override { return source_->progress(); }
-  SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
+  SkippedLines skipped_lines() const override;
 
  private:
   void read();

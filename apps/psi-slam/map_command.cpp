@@ -116,11 +116,13 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   for (const std::string& unmet : session.unmet_edits())
     streams.err << "psi-slam: an edit was not made: " << unmet << '\n';
   if (const auto coarser = coarser_cells_text(summary.map)) streams.err << "psi-slam: " << *coarser << '\n';
+  for (const std::string& warning : session.warnings_of_logs_before())
+    streams.err << "psi-slam: " << warning << '\n';
   if (session.broken_off())
     streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
                 << session.result().frames.size() << " scans that could be read\n";
   if (not_saved) std::rethrow_exception(not_saved);
-  return !session.broken_off() ? kDone : kWrongUsageOrInput;
+  return session.breaks_off() ? kWrongUsageOrInput : kDone;
 }
 
 int map_log(const CommandLine& line, const Streams& streams) {

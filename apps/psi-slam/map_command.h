@@ -12,7 +12,7 @@
 
 namespace psi_slam {
 
-/// Returns the exit code: 2 where the log breaks off. Throws UserError.
+/// Returns the exit code: 2 where the log breaks off, or one that a session holds. Throws UserError.
 int map_log(const CommandLine& line, const Streams& streams);
 
 /// Where the recorded run is saved to. Throws UserError, at once, for a file that cannot be, or that is there

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "merge_command.h"
 
-#include <algorithm>
 #include <ostream>
 
 #include "map_command.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/session/place_drive.h"
+#include "psi_slam/session/recorded_settings.h"
 #include "start_pose.h"
+#include "work_progress.h"
 
 namespace psi_slam {
 namespace {
-
-constexpr int kWrongInput = 2;
 
 /// The settings are those of the first session among the inputs, under those of the command line.
 std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bound, const Streams& streams) {
@@ -29,6 +28,10 @@ std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bo
     inputs.front() =
         inputs.front().with_edits(inputs.front().edits().of_drive(0, recording->frames.size(), 0));
   load_settings(line, bound);
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    if (const auto& recording = inputs[i].recording())
+      if (const auto changed = changed_settings_text(line.inputs[i], recording->facts, bound.table))
+        streams.err << "psi-slam: " << *changed << '\n';
   for (const SessionInput& input : inputs)
     input.open(log_options(bound.settings));  // mistakes are told at once
   return inputs;
@@ -46,11 +49,15 @@ void require_joined(const MappingSession& session, const std::vector<std::string
 }
 
 void add_drive(MappingSession& session, const SessionInput& input, const CommandLine& line,
-               const Settings& settings, const InterruptSignals& signals) {
+               const Settings& settings, const InterruptSignals& signals, WorkProgress progress) {
+  const std::string doing = "finding where " + names_of(input.logs()) + " begins";
+  progress.show(doing, 0, 1);
   const auto grid = draw_grid_map(session.result().log, mapped_poses(session.result()), settings.map);
   std::optional<mrpt::math::TPose2D> map_T_start;
   if (!line.start.empty()) map_T_start = parse_start(line.start);
-  const DriveStart start = place_drive(session.result(), *grid, input, settings, map_T_start, signals.came());
+  const DriveStart start = place_drive(session.result(), *grid, input, settings, map_T_start, signals.came(),
+                                       [&](double share) { progress.show(doing, share, 1); });
+  progress.clear();
   session.begin_drive(input, start);
 }
 
@@ -68,20 +75,17 @@ int merge_drives(const CommandLine& line, const Streams& streams) {
   session.stay_open();
   watch(session, signals, line, streams, progress_line);
   session.run(signals.came());
-  int code = 0;
   std::vector<std::string> inputs_of_drives(session.drives(), line.inputs.front());
   for (auto input = inputs.begin() + 1; input != inputs.end(); ++input) {
     if (signals.came()) throw SystemFailure("interrupted before all drives were read: nothing was merged");
-    if (session.broken_off()) {
-      streams.err << "psi-slam: " << *session.broken_off() << "; this drive is mapped up to there\n";
-      code = kWrongInput;
-    }
-    add_drive(session, *input, line, bound.settings, signals);
+    if (progress_line) progress_line->clear();
+    add_drive(session, *input, line, bound.settings, signals,
+              WorkProgress(progress_line ? &streams.err : nullptr));
     inputs_of_drives.resize(session.drives(), line.inputs[static_cast<std::size_t>(input - inputs.begin())]);
     session.run(signals.came());
     require_joined(session, inputs_of_drives, signals);
   }
-  return std::max(code, save_and_export(session, folder, line, streams, progress_line));
+  return save_and_export(session, folder, line, streams, progress_line);
 }
 
 }  // namespace psi_slam

@@ -7,6 +7,8 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
+#include "command_line.h"
+#include "psi_slam/logs/open_log.h"
 #include "psi_slam/results/trajectory_file.h"
 #include "same_results.h"
 #include "temporary_folder.h"
@@ -46,6 +48,21 @@ class MergeApp : public testing::Test {
       const auto truth = room_pose(2 * M_PI * static_cast<double>(i + kFirst) / 80) - room_pose(0);
       ASSERT_LT(std::hypot(second[i].pose.x - truth.x, second[i].pose.y - truth.y), 0.05) << i;
     }
+  }
+
+  static std::string default_text(const std::string& name) {
+    const auto table = default_settings();
+    for (const OptionSection& section : table->sections())
+      for (const Option& option : section.options)
+        if (option.name() == name) return option.text();
+    return "";
+  }
+
+  static std::vector<Frame> frames_of_log(const std::string& path) {
+    std::vector<Frame> frames;
+    const auto log = open_log(path, {});
+    while (std::optional<Frame> frame = log->next()) frames.push_back(*std::move(frame));
+    return frames;
   }
 
   static constexpr std::size_t kFirst = 20;
@@ -90,18 +107,69 @@ TEST_F(MergeApp, of_sessions_with_edits_and_saved_again_it_is_the_same_map) {
             .code,
         0);
   ASSERT_EQ(merge({"first.log", "second.log"}, "of_logs").code, 0);
-  ASSERT_EQ(
-      merge({"first.session", "second.session"}, "of_sessions", {"--save-session", file("both.session")})
-          .code,
-      0);
+  const AppRun of_sessions =
+      merge({"first.session", "second.session"}, "of_sessions", {"--save-session", file("both.session")});
+  ASSERT_EQ(of_sessions.code, 0);
+  EXPECT_EQ(of_sessions.err, "") << "their settings are the same";
   expect_same_results(file("of_logs"), file("of_sessions"));
   ASSERT_EQ(run_app({"--resume", file("both.session"), "-q", "-o", file("resumed")}).code, 0);
   expect_same_results(file("of_logs"), file("resumed"));
-  EXPECT_EQ(bytes_of(file("of_logs") + "/trajectory-2.tum"), bytes_of(file("resumed") + "/trajectory-2.tum"));
 
   const AppRun three = merge({"both.session", "second.log"}, "three", {"--json"});
   ASSERT_EQ(three.code, 0) << three.err;
   EXPECT_EQ(Json::parse(three.out)["drives"].size(), 3U);
+}
+
+TEST_F(MergeApp, says_which_settings_of_a_session_are_not_those_of_now) {
+  const auto save = [&](const std::string& name, const std::vector<std::string>& settings) {
+    std::vector<std::string> arguments{file(name + ".log"), "-q", "-o", file(name), "--save-session",
+                                       file(name + ".session")};
+    for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+    ASSERT_EQ(run_app(arguments).code, 0);
+  };
+  save("first", {"map.resolution_m=0.1", "run.threads=1"});
+  save("second", {"front_end.window_theta_deg=7.5", "log.min_range_m=0.05", "run.seed=9",
+                  "verification.max_ambiguity=0.8"});
+  const AppRun run = merge({"first.session", "second.session"}, "out");
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.err, "psi-slam: " + file("second.session") +
+                         " was mapped with other settings and is mapped anew with those of now: "
+                         "front_end.window_theta_deg was 7.5 and is " +
+                         default_text("front_end.window_theta_deg") + ", log.min_range_m was 0.05 and is " +
+                         default_text("log.min_range_m") + ", run.seed was 9 and is " +
+                         default_text("run.seed") + ", and 1 more\n");
+}
+
+/// Stamps of a CARMEN log do not run back and its odometry does not jump.
+TEST_F(MergeApp, has_a_corrected_log_of_each_drive) {
+  ASSERT_EQ(merge({"first.log", "second.log"}, "out").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(file("out") + "/trajectory.carmen"));
+  for (const std::string drive : {"1", "2"}) {
+    SCOPED_TRACE(drive);
+    const std::string name = file("out") + "/trajectory-" + drive;
+    const auto frames = frames_of_log(name + ".carmen");
+    ASSERT_EQ(frames.size(), 120U);
+    for (std::size_t i = 1; i < frames.size(); ++i) {
+      EXPECT_GT(frames[i].time_us, frames[i - 1].time_us);
+      const auto moved = frames[i].odom_T_robot - frames[i - 1].odom_T_robot;
+      EXPECT_LT(std::hypot(moved.x, moved.y), 0.5);
+    }
+    const Trajectory poses = read_trajectory(name + ".carmen");
+    const Trajectory tum = read_trajectory(name + ".tum");
+    for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_NEAR(poses[i].pose.x, tum[i].pose.x, 1e-6);
+  }
+  EXPECT_THAT(bytes_of(file("out") + "/report.html"), HasSubstr("href=\"trajectory-2.carmen\""));
+  // A map of one drive in the same folder leaves none of them.
+  ASSERT_EQ(run_app({file("first.log"), "-q", "-o", file("out"), "--force"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(file("out") + "/trajectory.carmen"));
+  EXPECT_FALSE(std::filesystem::exists(file("out") + "/trajectory-1.carmen"));
+  EXPECT_FALSE(std::filesystem::exists(file("out") + "/trajectory-2.tum"));
+}
+
+TEST_F(MergeApp, shows_on_a_terminal_how_far_the_search_for_the_start_is) {
+  const AppRun run = run_app({"merge", file("first.log"), file("second.log"), "-o", file("out")}, true);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("\r\x1b[Kfinding where second.log begins     0 %"));
 }
 
 TEST_F(MergeApp, another_building_is_refused_in_one_sentence_and_nothing_is_written) {
@@ -126,9 +194,13 @@ TEST_F(MergeApp, names_the_drive_that_no_loop_joins) {
 
 TEST_F(MergeApp, a_first_drive_that_breaks_off_is_told_and_merged_up_to_there) {
   std::ofstream(file("first.log"), std::ios::app) << "FLASER 181 1.0 2.0";
-  const AppRun run = merge({"first.log", "second.log"}, "out", {"-q"});
+  const AppRun run =
+      merge({"first.log", "second.log"}, "out", {"-q", "--save-session", file("both.session")});
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err, HasSubstr("first.log:121"));
+  const AppRun resumed = run_app({"--resume", file("both.session"), "-q", "-o", file("resumed")});
+  EXPECT_EQ(resumed.code, run.code);
+  EXPECT_EQ(resumed.err, run.err);
   EXPECT_THAT(bytes_of(file("out") + "/report.html"), HasSubstr("first.log:121"));
   expect_second_drive_in_place("out");
 }

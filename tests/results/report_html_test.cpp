@@ -57,6 +57,18 @@ TEST(ReportHtml, its_tags_and_drawings_are_well_formed) {
   EXPECT_THAT(html, HasSubstr("class=\"plot\""));
 }
 
+TEST(ReportHtml, tells_the_scans_of_further_lasers_and_those_left_out) {
+  const MappingResult result = walk_around_the_room();
+  const auto grid = draw_grid_map(result.log, mapped_poses(result));
+  RunSummary summary = summarize_run(result, *grid);
+  EXPECT_THAT(report_html(result, {}, summary, *grid), Not(HasSubstr("Further lasers")));
+  summary.log.companion_scans = 48;
+  summary.log.spare_scans = 1200;
+  EXPECT_THAT(report_html(result, {}, summary, *grid),
+              HasSubstr("<th>Further lasers</th><td>48 scans taken together with those of the first; 1,200 scans "
+                        "left out for want of one near enough</td>"));
+}
+
 TEST(ReportHtml, needs_no_network) {
   const std::string html = report_of_the_room();
   EXPECT_THAT(html, Not(HasSubstr("://")));

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "psi_slam/results/grid_map.h"
 #include "psi_slam/results/output_folder.h"
 #include "simulated_room.h"
@@ -25,6 +27,21 @@ TEST(RunSummary, tells_what_was_read) {
   EXPECT_EQ(log.stamps_back, 1U);
   EXPECT_EQ(log.returns, 1);
   EXPECT_NEAR(log.max_range_m, 30, 1e-6);
+}
+
+TEST(RunSummary, counts_the_returns_of_all_lasers) {
+  MappingResult result = walk_around_the_room();
+  for (std::size_t i = 0; i < 25; ++i) {
+    CompanionScan blind;
+    blind.scan = result.log[i].scan;
+    blind.scan.laser = 1;
+    blind.time_us = result.log[i].time_us;
+    for (float& range_m : blind.scan.ranges_m) range_m = std::numeric_limits<float>::quiet_NaN();
+    result.log[i].companions.push_back(blind);
+  }
+  const MappedLogFacts log = summary_of(result).log;
+  EXPECT_EQ(log.companion_scans, 25U);
+  EXPECT_NEAR(log.returns, 50.0 / 75, 1e-12);
 }
 
 TEST(RunSummary, counts_loops_and_like_reasons_together) {

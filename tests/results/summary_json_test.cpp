@@ -22,6 +22,8 @@ RunSummary some_figures() {
   summary.peak_memory_mib = 123.4;
   summary.last_pass_cut_short = true;
   summary.broken_off = "room.clf:41: expected a number";
+  summary.log.companion_scans = 48;
+  summary.log.spare_scans = 2;
   return summary;
 }
 
@@ -36,6 +38,8 @@ TEST(SummaryJson, reads_back_with_its_schema_and_figures) {
   EXPECT_EQ(json["log"]["name"], "room \"1\".clf");
   EXPECT_EQ(json["log"]["scans"], 50);
   EXPECT_EQ(json["log"]["first_time_s"], "976052905.167303");
+  EXPECT_EQ(json["log"]["companion_scans"], 48);
+  EXPECT_EQ(json["log"]["spare_scans"], 2);
   EXPECT_EQ(json["real_time_factor"], 19.6);
   EXPECT_EQ(json["last_pass_cut_short"], true);
   EXPECT_EQ(json["broken_off"], "room.clf:41: expected a number");

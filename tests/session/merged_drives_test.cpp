@@ -143,7 +143,7 @@ TEST_F(MergedDrives, interrupted_within_a_recording_of_several_the_rest_is_not_s
     EXPECT_EQ(facts.logs.back().scans, steps == 0 ? of_first : steps);
     EXPECT_EQ(facts.drives.size(), steps == 0 ? 0U : 1U);
     EXPECT_EQ(facts.edits.edits().size(), steps == 0 ? 0U : 1U);
-    EXPECT_TRUE(facts.scans_left);
+    EXPECT_EQ(facts.logs.back().scans_left, steps == 30);
   }
 }
 
@@ -165,13 +165,41 @@ TEST_F(MergedDrives, a_short_drive_is_placed_though_it_breaks_off_or_another_is_
   drive.facts.logs = {{"second", "second", 6}};
   const DriveStart alone = start_of(drive);
   SessionRecording broken = drive;
-  broken.facts.broken_off = "second.log:7 is cut off";
+  broken.facts.logs[0].broken_off = "second.log:7 is cut off";
   EXPECT_EQ(start_of(broken).node_T_robot, alone.node_T_robot);
   SessionRecording with_another = drive;
   with_another.facts.drives = {{6, {}}};
   with_another.frames.insert(with_another.frames.end(), elsewhere.frames.begin(), elsewhere.frames.end());
   with_another.facts.logs[0].scans = with_another.frames.size();
   EXPECT_EQ(start_of(with_another).node_T_robot, alone.node_T_robot);
+}
+
+TEST_F(MergedDrives, the_search_for_a_start_tells_how_far_it_is_and_can_be_interrupted) {
+  const TrueDrive first = drive_through(5, 1, 60);
+  const SessionInput elsewhere = input_of("elsewhere", drive_through(6, 2, 12).frames);
+  MappingSession session(input_of("first", first.frames), settings_);
+  session.run(go_on_);
+  const MappingResult& mapped = session.result();
+  const auto grid = draw_grid_map(mapped.log, mapped_poses(mapped), settings_.map);
+  std::vector<double> shares;
+  std::atomic<bool> stop{false};
+  const auto place = [&] {
+    place_drive(mapped, *grid, elsewhere, settings_, {}, stop, [&](double share) {
+      shares.push_back(share);
+      stop = share > 0.5;
+    });
+  };
+  try {
+    place();
+    ADD_FAILURE() << "it was not interrupted";
+  } catch (const SystemFailure& failure) {
+    EXPECT_THAT(failure.what(), HasSubstr("interrupted while a drive was looked for in the map"));
+  }
+  ASSERT_GT(shares.size(), 5U);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_LT(shares.front(), 0.2);
+  EXPECT_GT(shares.back(), 0.5);
+  EXPECT_LT(shares.back(), 0.7) << "it ended at once";
 }
 
 TEST_F(MergedDrives, of_two_buildings_are_refused) {

@@ -7,6 +7,10 @@
 //
 // version-2.session: another room, 60 scans along an ellipse of half axes 3 m and 2.4 m, 50 a round, by a
 // robot with a laser ahead and one behind.
+//
+// version-3.session: the room again, made by `psi-slam merge`: a drive of 55 scans, 50 a round, whose log has
+// a line that is no scan for its 21st and breaks off in its 57th, and one of 48, 40 a round, that begins with
+// the round's 13th.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -43,7 +47,7 @@ TEST(PastSessions, version_1_is_read_as_it_was_written) {
   ASSERT_EQ(recording.facts.drives.size(), 1U);
   EXPECT_EQ(recording.facts.drives[0].scan, 55U);
   EXPECT_THAT(recording.facts.edits.text(), testing::HasSubstr("delete scan=45 local_map=0"));
-  EXPECT_FALSE(recording.facts.scans_left);
+  EXPECT_FALSE(recording.facts.logs[1].scans_left);
   const Frame& frame = recording.frames[20];
   EXPECT_EQ(frame.time_us, 1'004'000'000);
   EXPECT_TRUE(frame.has_odometry);
@@ -88,6 +92,32 @@ TEST(PastSessions, version_2_has_the_scans_of_both_lasers_and_is_mapped_to_what_
   MappingSession session(input, bound.settings);
   session.run(std::atomic<bool>(false));
   EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {2.1716, 1.7227, 0}), 0.01);
+}
+
+TEST(PastSessions, version_3_says_what_is_wrong_with_each_log_and_is_mapped_to_what_it_was) {
+  const auto file = past_session("version-3.session");
+  ASSERT_EQ(sha256_of_file(file), "65b48346934b60af846ebf12cd31d0ff81a8c03b8ab0db9b6a4da19c87629f41")
+      << "the fixture itself was changed";
+  const SessionInput input = SessionInput::of_file(file);
+  const SessionFacts& facts = input.recording()->facts;
+  ASSERT_EQ(facts.logs.size(), 2U);
+  EXPECT_EQ(facts.logs[0].scans, 55U);
+  EXPECT_EQ(facts.logs[0].skipped.count, 1U);
+  EXPECT_THAT(facts.logs[0].skipped.first, testing::HasSubstr("first.log:21"));
+  EXPECT_EQ(facts.logs[0].skipped.spare_scans, 0U);
+  EXPECT_THAT(facts.logs[0].broken_off.value_or(""), testing::HasSubstr("first.log:57"));
+  EXPECT_EQ(facts.logs[1].skipped.count, 0U);
+  EXPECT_FALSE(facts.logs[1].broken_off);
+  EXPECT_FALSE(facts.logs[0].scans_left || facts.logs[1].scans_left);
+  ASSERT_EQ(facts.drives.size(), 1U);
+  BoundSettings bound;
+  load_recorded(bound, facts, file);
+  MappingSession session(input, bound.settings);
+  session.run(std::atomic<bool>(false));
+  EXPECT_THAT(session.warnings(), testing::ElementsAre(testing::HasSubstr("first.log:57"),
+                                                       testing::HasSubstr("first.log:21")));
+  EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {0.4085, 7.9527, 0}), 0.01)
+      << "where it was when it was recorded";
 }
 
 }  // namespace

@@ -168,6 +168,49 @@ TEST_F(ResumedSession, a_broken_log_breaks_off_again_and_what_was_skipped_is_tol
   }
 }
 
+/// Drives of 40 scans, of which the first is no more than that for the reason given.
+class GoneOnWithInAnother : public ResumedSession {
+ protected:
+  void expect_told_again_and_again(const std::string& what, bool interrupted) {
+    const auto lines = room_log_lines(90);
+    const auto second = log("second.log", {lines.begin() + 60, lines.end()});
+    for (const fs::path& behind : {second, fs::path(), second}) {  // gone on with, alone, in its last log
+      MappingSession session(resumed(behind), settings_);
+      session.run(go_on_);
+      EXPECT_FALSE(session.broken_off()) << "the second log is whole";
+      EXPECT_EQ(session.breaks_off(), !interrupted);
+      EXPECT_EQ(session.result().interrupted, interrupted);
+      EXPECT_THAT(session.warnings_of_logs_before(), ElementsAre(HasSubstr(what)));
+      EXPECT_THAT(session.run_info().warnings, testing::Contains(HasSubstr(what)));
+      EXPECT_EQ(session.skipped_lines().count, 1U);
+      EXPECT_THAT(session.skipped_lines().first, HasSubstr("first.log:21"));
+      session.save(saved_);
+    }
+  }
+
+  /// One of its lines is no scan.
+  std::vector<std::string> lines_of_first() const {
+    auto lines = room_log_lines(50);
+    lines[20] = "FLASER 181 1.0 2.0";
+    return lines;
+  }
+};
+
+TEST_F(GoneOnWithInAnother, the_log_that_broke_off_is_told) {
+  const auto path = log("first.log", lines_of_first());
+  std::ofstream(path, std::ios::app) << "FLASER 181 1.0 2.0";
+  MappingSession session(path, settings_);
+  session.run(go_on_);
+  ASSERT_TRUE(session.broken_off());
+  session.save(saved_);
+  expect_told_again_and_again("first.log:51", false);
+}
+
+TEST_F(GoneOnWithInAnother, the_log_that_was_interrupted_is_told) {
+  saved_after(40, log("first.log", lines_of_first()));
+  expect_told_again_and_again("only the first 40 scans of first.log are mapped", true);
+}
+
 TEST_F(ResumedSession, refuses_a_log_that_neither_is_its_own_nor_goes_on_behind_it) {
   const auto path = log("room.log", room_log_lines(60));
   saved_after(40, path);

@@ -59,12 +59,12 @@ SessionRecording small_recording() {
   }
   recording.facts.program_version = "0.1.0";
   recording.facts.logs = {{"first.log", std::string(64, 'a'), 3}, {"zweiter \"Lauf\".log", "", 1}};
-  recording.facts.drives = {{2, {17, {0.1, 1.0 / 3, -1e-17}, {2.0 / 3, -0.0, 1e300}}}};
+  recording.facts.drives = {{2, {17, {0.1, 1.0 / 3, -1e-17}, {2.0 / 3, -0.0, 1e-300}}}};
   recording.facts.settings = "[run]\nseed = 7\n";
   recording.facts.edits.add({{LoopEdit::Kind::kDelete, 2, 1}, {EditTime::Kind::kAfterScan, 3}});
-  recording.facts.skipped = {2, "first.log:7: no number"};
-  recording.facts.broken_off = "first.log:9 is cut off";
-  recording.facts.scans_left = true;
+  recording.facts.logs[0].skipped = {2, "first.log:7: no number", 5};
+  recording.facts.logs[0].broken_off = "first.log:9 is cut off";
+  recording.facts.logs[1].scans_left = true;
   return recording;
 }
 
@@ -138,9 +138,13 @@ TEST_F(SessionFileTest, brings_everything_back_to_the_last_bit) {
   EXPECT_TRUE(same_bits(back.facts.drives[0].start.robot_T_found, start.robot_T_found));
   EXPECT_EQ(back.facts.settings, before.facts.settings);
   EXPECT_EQ(back.facts.edits.text(), before.facts.edits.text());
-  EXPECT_EQ(back.facts.skipped.sentence(), before.facts.skipped.sentence());
-  EXPECT_EQ(back.facts.broken_off, before.facts.broken_off);
-  EXPECT_TRUE(back.facts.scans_left);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const RecordedLog& log = back.facts.logs[i];
+    EXPECT_EQ(log.skipped.sentence(), before.facts.logs[i].skipped.sentence());
+    EXPECT_EQ(log.skipped.spare_scans, i == 0 ? 5U : 0U);
+    EXPECT_EQ(log.broken_off, before.facts.logs[i].broken_off);
+    EXPECT_EQ(log.scans_left, i == 1);
+  }
 }
 
 TEST_F(SessionFileTest, the_same_recording_is_the_same_bytes_and_ends_with_the_checksum_of_all_before) {
@@ -154,11 +158,11 @@ TEST_F(SessionFileTest, the_same_recording_is_the_same_bytes_and_ends_with_the_c
 TEST_F(SessionFileTest, takes_names_and_sentences_that_are_no_utf_8) {
   SessionRecording recording = small_recording();
   recording.facts.logs[0].name = "B\xfcro.log";
-  recording.facts.skipped.first = "B\xfcro.log:7: \"\xff\" is no number";
+  recording.facts.logs[0].skipped.first = "B\xfcro.log:7: \"\xff\" is no number";
   write_session_file(path_, recording.facts, recording.frames);
   const SessionRecording back = read_session_file(path_);
   EXPECT_EQ(back.facts.logs[0].name, "B\xef\xbf\xbdro.log");
-  EXPECT_THAT(back.facts.skipped.first, HasSubstr("is no number"));
+  EXPECT_THAT(back.facts.logs[0].skipped.first, HasSubstr("is no number"));
 }
 
 TEST_F(SessionFileTest, every_flipped_bit_is_noticed) {
@@ -177,11 +181,11 @@ TEST_F(SessionFileTest, a_cut_off_file_is_told) {
 
 TEST_F(SessionFileTest, a_version_of_the_future_is_told) {
   std::string newer = bytes_;
-  newer[16] = 3;
+  newer[16] = 4;
   EXPECT_THAT(
       complaint_about(sealed(newer)),
       HasSubstr(
-          "my.session is a session of version 3, by a newer psi-slam: this one reads versions up to 2"));
+          "my.session is a session of version 4, by a newer psi-slam: this one reads versions up to 3"));
 }
 
 TEST_F(SessionFileTest, what_is_none_is_told) {
@@ -206,6 +210,12 @@ TEST_F(SessionFileTest, what_does_not_add_up_is_told_though_its_checksum_matches
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.logs.clear(); }), HasSubstr("do not add up"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].scan = 4; }),
               HasSubstr("a drive begins"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].start.node_T_robot.y = -1.1e7; }),
+              HasSubstr("a drive begins nowhere"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].start.robot_T_found.x = 1e300; }),
+              HasSubstr("a drive begins nowhere"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].start.robot_T_found.phi = NAN; }),
+              HasSubstr("what it says of itself cannot be read")) << "JSON has no such number";
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives.push_back(r.facts.drives[0]); }),
               HasSubstr("its drives do not follow on one another"));
   EXPECT_THAT(complaint([](SessionRecording& r) {

@@ -3,30 +3,91 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
+#include <string>
 
 #include "test_files.h"
 
 namespace psi_slam {
 
-/// Rows without their last column, which tells a time.
-inline std::string without_last_column(const std::string& csv) {
+/// Rows without their last columns, which tell times.
+inline std::string without_last_columns(const std::string& csv, int columns) {
   std::istringstream rows(csv);
   std::string text;
-  for (std::string row; std::getline(rows, row);) text += row.substr(0, row.rfind(',')) + '\n';
+  for (std::string row; std::getline(rows, row); text += row + '\n')
+    for (int i = 0; i < columns; ++i) row.resize(std::min(row.size(), row.rfind(',')));
   return text;
 }
 
-/// The result folders of two runs hold the same bytes; but for the files that tell times.
-inline void expect_same_results(const std::filesystem::path& a, const std::filesystem::path& b) {
-  for (const char* name : {"trajectory.tum", "trajectory.carmen", "graph.g2o", "map.pgm", "map.yaml",
-                           "map.png", "map.gridmap.gz", "map.simplemap.gz"}) {
-    const std::string bytes = read_file(a / name);
-    EXPECT_FALSE(bytes.empty()) << name;
-    EXPECT_TRUE(read_file(b / name) == bytes) << name << " of " << b << " differs from " << a;
+/// A summary without what two runs to the same results may differ in: times, memory, threads, and the names of
+/// the logs.
+inline std::string summary_without_times(const std::string& text) {
+  nlohmann::json summary = nlohmann::json::parse(text);
+  for (const char* key : {"wall_s", "real_time_factor", "peak_memory_mib", "stages"}) summary.erase(key);
+  for (nlohmann::json& matcher : summary.at("loop_matchers")) {
+    matcher.erase("milliseconds");
+    matcher.at("last_pass").erase("milliseconds");
   }
-  EXPECT_EQ(without_last_column(read_file(a / "loops.csv")), without_last_column(read_file(b / "loops.csv")));
+  summary.at("settings").erase("run.threads");
+  summary.at("log").erase("name");
+  return summary.dump(1);
+}
+
+/// The cards of a report that tell neither times nor settings; of the log all but its name.
+inline std::string report_without_times(const std::string& html) {
+  const std::string begin = "<section class=\"card\"><h2>";
+  std::string text;
+  for (std::size_t at = html.find(begin); at != std::string::npos; at = html.find(begin, at + 1)) {
+    const std::string card = html.substr(at, html.find("</section>", at) - at);
+    for (const char* title : {"Map", "Response of the front end", "The factor Ψ and the matcher in use"})
+      if (card.rfind(begin + title, 0) == 0) text += card;
+  }
+  const std::string log = "<tr><th>Scans</th>";
+  const std::size_t facts = html.find(log);
+  if (facts != std::string::npos) text += html.substr(facts, html.find("</table>", facts) - facts);
+  return text;
+}
+
+/// What must be the same of a file of a run's results: all of it, but for what tells times.
+inline std::string comparable(const std::filesystem::path& file) {
+  constexpr int kTimesOfFrames = 4;
+  constexpr int kTimesOfLoops = 1;
+  const std::string bytes = read_file(file);
+  if (file.filename() == "frames.csv") return without_last_columns(bytes, kTimesOfFrames);
+  if (file.filename() == "loops.csv") return without_last_columns(bytes, kTimesOfLoops);
+  if (file.filename() == "summary.json") return summary_without_times(bytes);
+  if (file.filename() == "report.html") return report_without_times(bytes);
+  return bytes;
+}
+
+inline std::set<std::string> names_of_files(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// The names of those that only one of two result folders has, or that differ in more than times.
+inline std::set<std::string> differing_files(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::set<std::string> names = names_of_files(a);
+  names.merge(names_of_files(b));
+  std::set<std::string> differing;
+  for (const std::string& name : names) {
+    const bool in_both = std::filesystem::exists(a / name) && std::filesystem::exists(b / name);
+    if (!in_both || comparable(a / name) != comparable(b / name)) differing.insert(name);
+  }
+  return differing;
+}
+
+/// The result folders of two runs hold the same files, and these the same bytes; but for times.
+inline void expect_same_results(const std::filesystem::path& a, const std::filesystem::path& b) {
+  EXPECT_EQ(differing_files(a, b), std::set<std::string>()) << a << " and " << b;
+  for (const char* name : {"trajectory.tum", "graph.g2o", "frames.csv", "summary.json", "report.html"})
+    EXPECT_FALSE(comparable(a / name).empty()) << name;
 }
 
 }  // namespace psi_slam

@@ -65,10 +65,10 @@ std::string parameters(const LaserScan& scan) {
   return text;
 }
 
-std::string heading(const std::vector<Frame>& log) {
+std::string heading(const std::vector<Frame>& log, const FrameSpan& drive) {
   std::array<const LaserScan*, kKinds.size()> first{};
-  for (const Frame& frame : log)
-    for_each_scan(frame, {}, [&](const LaserScan& scan, const TPose2D&) {
+  for (std::size_t i = drive.begin; i < drive.end; ++i)
+    for_each_scan(log[i], {}, [&](const LaserScan& scan, const TPose2D&) {
       if (scan.laser < first.size() && first[scan.laser] == nullptr) first[scan.laser] = &scan;
     });
   std::string text = "# corrected log: FLASER n ranges  x y theta (map)  odom_x odom_y odom_theta  ";
@@ -110,14 +110,19 @@ std::string scan_lines(const Frame& frame, const TPose2D& map_T_robot) {
 
 void write_corrected_log(const fs::path& path, const std::vector<Frame>& log,
                          const std::vector<TPose2D>& map_T_robot) {
+  write_corrected_log(path, log, map_T_robot, {0, log.size()});
+}
+
+void write_corrected_log(const fs::path& path, const std::vector<Frame>& log,
+                         const std::vector<TPose2D>& map_T_robot, const FrameSpan& drive) {
   if (log.size() != map_T_robot.size())
     throw std::invalid_argument("write_corrected_log: " + std::to_string(log.size()) + " scans but " +
                                 std::to_string(map_T_robot.size()) + " poses");
   write_atomically(path, [&](const fs::path& temporary) {
     errno = 0;
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    if (!log.empty()) file << heading(log);
-    for (std::size_t i = 0; i < log.size() && file; ++i) file << scan_lines(log[i], map_T_robot[i]);
+    if (drive.begin < drive.end) file << heading(log, drive);
+    for (std::size_t i = drive.begin; i < drive.end && file; ++i) file << scan_lines(log[i], map_T_robot[i]);
     file.close();
     if (!file)
       throw SystemFailure("cannot write " + path.string() + ": " +

@@ -34,19 +34,29 @@ void check_no_file_in_the_way(const fs::path& path) {
   }
 }
 
-/// A trajectory for each drive, where there are several: their stamps may overlap.
+/// Where there are several drives, a trajectory and a corrected log for each: their stamps may overlap.
 void write_drives(const fs::path& folder, const MappingResult& result) {
-  const auto file = [&](std::size_t drive) {
-    return folder / ("trajectory-" + std::to_string(drive) + ".tum");
+  const auto file = [&](std::size_t drive, const char* kind) {
+    return folder / ("trajectory-" + std::to_string(drive) + kind);
   };
+  const fs::path whole_log = folder / "trajectory.carmen";
   const Trajectory whole = trajectory_of(result.frames);
+  const std::vector<mrpt::math::TPose2D> poses = mapped_poses(result);
   std::vector<FrameSpan> drives = drives_of(result);
-  if (drives.size() == 1) drives.clear();
-  for (std::size_t i = 0; i < drives.size(); ++i)
-    write_tum(file(i + 1), Trajectory(whole.begin() + static_cast<std::ptrdiff_t>(drives[i].begin),
-                                      whole.begin() + static_cast<std::ptrdiff_t>(drives[i].end)));
-  std::error_code ignored;  // those of an older map
-  for (std::size_t older = drives.size() + 1; fs::remove(file(older), ignored);) ++older;
+  std::error_code ignored;  // of what an older map may have left
+  if (drives.size() == 1) {
+    write_corrected_log(whole_log, result.log, poses);
+    drives.clear();
+  } else {
+    fs::remove(whole_log, ignored);
+  }
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    write_tum(file(i + 1, ".tum"), Trajectory(whole.begin() + static_cast<std::ptrdiff_t>(drives[i].begin),
+                                              whole.begin() + static_cast<std::ptrdiff_t>(drives[i].end)));
+    write_corrected_log(file(i + 1, ".carmen"), result.log, poses, drives[i]);
+  }
+  for (const char* kind : {".tum", ".carmen"})
+    for (std::size_t older = drives.size() + 1; fs::remove(file(older, kind), ignored);) ++older;
 }
 
 }  // namespace
@@ -73,7 +83,6 @@ void export_results(const MappingResult& result, const mrpt::maps::COccupancyGri
   const auto file = [&](const char* name) { return folder.path() / name; };
   write_tum(file("trajectory.tum"), trajectory_of(result.frames));
   write_drives(folder.path(), result);
-  write_corrected_log(file("trajectory.carmen"), result.log, mapped_poses(result));
   write_frames_csv(file("frames.csv"), result.frames);
   write_loops_csv(file("loops.csv"), result.loops);
   write_map_files(folder.path(), result, grid, map_files);

@@ -20,19 +20,33 @@ constexpr const char* kLogo =
     "51h14\" "
     "fill=\"none\" stroke=\"#fff\" stroke-width=\"4.4\" stroke-linecap=\"round\"/></svg>";
 
-constexpr const char* kFiles =
+constexpr const char* kMapFiles =
     "<ul class=\"files\">\n"
     "<li><a href=\"map.png\">map.png</a> <span>the gridmap as a picture</span></li>\n"
     "<li><a href=\"map.yaml\">map.yaml</a> <span>and map.pgm, for ROS and nav2</span></li>\n"
     "<li><a href=\"map.gridmap.gz\">map.gridmap.gz</a> <span>the gridmap for MRPT</span></li>\n"
     "<li><a href=\"map.simplemap.gz\">map.simplemap.gz</a> <span>nodes and scans for MRPT</span></li>\n"
-    "<li><a href=\"trajectory.tum\">trajectory.tum</a> <span>for evo</span></li>\n"
-    "<li><a href=\"trajectory.carmen\">trajectory.carmen</a> <span>the corrected log</span></li>\n"
+    "<li><a href=\"trajectory.tum\">trajectory.tum</a> <span>for evo</span></li>\n";
+constexpr const char* kTables =
     "<li><a href=\"graph.g2o\">graph.g2o</a> <span>the pose graph</span></li>\n"
     "<li><a href=\"frames.csv\">frames.csv</a> <span>a row for each scan</span></li>\n"
     "<li><a href=\"loops.csv\">loops.csv</a> <span>a row for each loop found</span></li>\n"
     "<li><a href=\"summary.json\">summary.json</a> <span>these figures for programs</span></li>\n"
     "</ul>\n";
+
+/// Where several drives were merged, each has its own path and log.
+std::string files_list(std::size_t drives) {
+  const auto file = [](const std::string& name, const char* what) {
+    return "<li><a href=\"" + name + "\">" + name + "</a> <span>" + what + "</span></li>\n";
+  };
+  std::string list = kMapFiles;
+  if (drives <= 1) return list + file("trajectory.carmen", "the corrected log") + kTables;
+  for (std::size_t drive = 1; drive <= drives; ++drive) {
+    const std::string name = "trajectory-" + std::to_string(drive);
+    list += file(name + ".tum", "the path of one drive") + file(name + ".carmen", "its corrected log");
+  }
+  return list + kTables;
+}
 
 std::string card(const std::string& title, const std::string& note, const std::string& content) {
   return "<section class=\"card\"><h2>" + title + (note.empty() ? "" : "<small>" + note + "</small>") +
@@ -117,7 +131,7 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
   html += card("Work for each scan", kKey, work_plot(result));
   html += loops_card(result, summary.loops);
   html += "<div class=\"pair\">\n" + card("What was read", "", log_table(summary.log, info.log_name)) +
-          card("Files of this folder", "", kFiles) + "</div>\n";
+          card("Files of this folder", "", files_list(summary.drives.size())) + "</div>\n";
   html += card("Settings", "", settings_table(info.settings));
   return html + "</main>\n<script>" + kReportScript + "</script>\n</body>\n</html>\n";
 }

@@ -50,8 +50,11 @@ MappedLogFacts log_facts(const MappingResult& result) {
   std::size_t beams = 0;
   std::size_t returns = 0;
   for (const Frame& frame : result.log) {
-    beams += frame.scan.ranges_m.size();
-    for (const float range_m : frame.scan.ranges_m) returns += std::isfinite(range_m) ? 1 : 0;
+    facts.companion_scans += frame.companions.size();
+    for_each_scan(frame, {}, [&](const LaserScan& scan, const TPose2D&) {
+      beams += scan.ranges_m.size();
+      for (const float range_m : scan.ranges_m) returns += std::isfinite(range_m) ? 1 : 0;
+    });
   }
   facts.returns = beams == 0 ? 0 : static_cast<double>(returns) / static_cast<double>(beams);
   for (const FrameSpan& drive : drives_of(result)) add_drive(result.log, drive, facts);

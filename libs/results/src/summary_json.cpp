@@ -30,6 +30,8 @@ Json log_json(const MappedLogFacts& log, const std::string& name) {
           {"max_range_m", number(log.max_range_m, 3)},
           {"robot_T_laser", pose_json(log.robot_T_laser)},
           {"returns", number(log.returns, 4)},
+          {"companion_scans", log.companion_scans},
+          {"spare_scans", log.spare_scans},
           {"first_time_s", format_seconds(log.first_time_us)},
           {"last_time_s", format_seconds(log.last_time_us)},
           {"duration_s", number(log.duration_s)},

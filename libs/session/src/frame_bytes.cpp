@@ -34,8 +34,7 @@ TPose2D read_pose(ByteCursor& bytes) {
   pose.x = bytes.number<double>();
   pose.y = bytes.number<double>();
   pose.phi = bytes.number<double>();
-  const bool is_near = std::abs(pose.x) <= kFarthest_m && std::abs(pose.y) <= kFarthest_m;
-  if (!is_near || !std::isfinite(pose.phi)) throw MalformedBytes("a pose is none");
+  if (!is_possible(pose)) throw MalformedBytes("a pose is none");
   return pose;
 }
 
@@ -140,6 +139,10 @@ std::vector<CompanionScan> read_companions(ByteCursor& bytes, std::uint32_t vers
 }
 
 }  // namespace
+
+bool is_possible(const TPose2D& pose) {
+  return std::abs(pose.x) <= kFarthest_m && std::abs(pose.y) <= kFarthest_m && std::isfinite(pose.phi);
+}
 
 void append_frames(std::string& bytes, const std::vector<Frame>& frames) {
   append_number(bytes, std::uint64_t{frames.size()});

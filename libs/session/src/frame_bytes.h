@@ -23,6 +23,10 @@ void append_number(std::string& bytes, Number number) {
   bytes.append(raw, sizeof raw);
 }
 
+/// Whether a pose can be one of a robot or a laser: finite, and no farther than 10,000 km from where it is
+/// seen.
+bool is_possible(const mrpt::math::TPose2D& pose);
+
 /// With their count before them.
 void append_frames(std::string& bytes, const std::vector<Frame>& frames);
 

@@ -59,7 +59,7 @@ MappingSession::MappingSession(const SessionInput& input, const Settings& settin
   make_due_edits({});
   if (!recording_) return;
   drives_ = recording_->facts.drives;
-  scans_left_ = path_.empty() && recording_->facts.scans_left;
+  scans_left_ = path_.empty() && recording_->facts.logs.back().scans_left;
 }
 
 MappingSession::~MappingSession() = default;
@@ -115,7 +115,9 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   finished_ = true;
   if (!stays_open_) mapper_.reset();
   result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
-  result_.interrupted = result_.interrupted || scans_left_;
+  result_.interrupted =
+      result_.interrupted || scans_left_ ||
+      std::any_of(logs_.begin(), logs_.end() - 1, [](const RecordedLog& before) { return before.scans_left; });
   result_.broken_off = broken_off_;
   stages_of_mapping_ = result_.stages.size();
 }
@@ -183,7 +185,8 @@ RunSummary MappingSession::export_to(const OutputFolder& folder) {
   result_.stages.push_back(writing_clock.timing());
   clock.stop();
   result_.wall_s = work_s_;
-  const RunSummary summary = summarize_run(result_, *grid, settings_.map);
+  RunSummary summary = summarize_run(result_, *grid, settings_.map);
+  summary.log.spare_scans = skipped_lines().spare_scans;
   export_account(result_, run_info(), summary, *grid, folder);
   return summary;
 }
@@ -202,7 +205,7 @@ std::vector<std::string> MappingSession::unmet_edits() const {
 }
 
 std::vector<std::string> MappingSession::warnings() const {
-  std::vector<std::string> warnings = warnings_before_;
+  std::vector<std::string> warnings = warnings_of_logs_before();
   if (broken_off_) warnings.push_back(*broken_off_);
   if (const SkippedLines skipped = skipped_lines(); skipped.count > 0) warnings.push_back(skipped.sentence());
   for (const std::string& complaint : unmet_edits()) warnings.push_back("an edit was not made: " + complaint);

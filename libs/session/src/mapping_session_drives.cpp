@@ -27,7 +27,12 @@ void cut_behind(std::size_t scans, SessionFacts& facts) {
   std::size_t left = scans;
   for (std::size_t i = 0; i < facts.logs.size(); ++i) {
     RecordedLog& log = facts.logs[i];
-    log.scans = i + 1 < facts.logs.size() ? std::min(log.scans, left) : left;
+    const std::size_t taken = i + 1 < facts.logs.size() ? std::min(log.scans, left) : left;
+    if (taken < log.scans) {
+      log.broken_off.reset();
+      log.scans_left = true;
+    }
+    log.scans = taken;
     left -= log.scans;
     if (left == 0) facts.logs.resize(i + 1);
   }
@@ -58,10 +63,12 @@ SessionFacts MappingSession::facts() const {
   if (!recording_goes_on) {
     cut_behind(scans_, facts);
     RecordedLog& last = facts.logs.back();
-    if (last.sha256.empty()) last.sha256 = sha256_of_log(path_);
-    facts.skipped = skipped_lines();
-    facts.broken_off = broken_off_;
-    facts.scans_left = scans_left_ || (!at_end_ && !broken_off_);
+    if (facts.logs.size() == logs_.size()) {
+      if (last.sha256.empty()) last.sha256 = sha256_of_log(path_);
+      last.skipped = source_->skipped_lines();
+      last.broken_off = broken_off_;
+      last.scans_left = scans_left_ || (!at_end_ && !broken_off_);
+    }
   }
   facts.program_version = PSI_SLAM_VERSION;
   facts.settings = settings_file_text(settings_);
@@ -82,8 +89,6 @@ void MappingSession::begin_recorded_drive() {
 void MappingSession::begin_drive(const SessionInput& drive, const DriveStart& start) {
   auto source = open_input(drive, settings_);
   const std::vector<RecordedLog> logs_before = facts().logs;
-  skipped_before_ = skipped_lines();
-  if (broken_off_) warnings_before_.push_back(*broken_off_);
   reopen();
   const std::size_t first_node = mapper_->graph().num_nodes();
   drives_.push_back({scans_, start});
@@ -102,16 +107,32 @@ void MappingSession::begin_drive(const SessionInput& drive, const DriveStart& st
   source_ = std::move(source);
   broken_off_.reset();
   at_end_ = false;
-  scans_left_ = scans_left_ || (inner != nullptr && path_.empty() && inner->facts.scans_left);
+  scans_left_ = inner != nullptr && path_.empty() && inner->facts.logs.back().scans_left;
   begin(SessionProgress::Phase::kMapping);
   make_due_edits({EditTime::Kind::kAfterScan, scans_ - 1});
 }
 
 SkippedLines MappingSession::skipped_lines() const {
-  SkippedLines skipped = source_->skipped_lines();
-  skipped.count += skipped_before_.count;
-  if (skipped_before_.count > 0) skipped.first = skipped_before_.first;
-  return skipped;
+  SkippedLines skipped;
+  for (auto before = logs_.begin(); before != logs_.end() - 1; ++before) skipped = skipped + before->skipped;
+  return skipped + source_->skipped_lines();
+}
+
+std::vector<std::string> MappingSession::warnings_of_logs_before() const {
+  std::vector<std::string> warnings;
+  for (auto log = logs_.begin(); log != logs_.end() - 1; ++log) {
+    if (log->broken_off)
+      warnings.push_back(*log->broken_off + "; this drive is mapped up to there");
+    else if (log->scans_left)
+      warnings.push_back("only the first " + std::to_string(log->scans) + " scans of " + log->name +
+                         " are mapped: it was interrupted and not gone on with");
+  }
+  return warnings;
+}
+
+bool MappingSession::breaks_off() const {
+  return broken_off_ || std::any_of(logs_.begin(), logs_.end() - 1,
+                                    [](const RecordedLog& before) { return before.broken_off.has_value(); });
 }
 
 }  // namespace psi_slam

@@ -46,6 +46,8 @@ class FirstDrive {
       end_ = input.recording()->facts.drives.front().scan;
   }
 
+  double progress() const { return frames_->progress(); }
+
   std::optional<Frame> next() {
     if (read_ == end_) return std::nullopt;
     try {
@@ -66,11 +68,13 @@ class FirstDrive {
 
 /// Follows the robot until it is sure where it is; `why_not` says why it is not.
 std::optional<Sighting> find(FirstDrive& frames, Localizer& localizer, FrontEnd& way, bool told,
-                             const std::atomic<bool>& stop, std::string& why_not) {
+                             const std::atomic<bool>& stop,
+                             const std::function<void(double share)>& tell, std::string& why_not) {
   std::optional<Sighting> seen;
   double followed_m = 0;
   while (std::optional<Frame> frame = frames.next()) {
     if (stop) throw SystemFailure("interrupted while a drive was looked for in the map: nothing was merged");
+    if (tell) tell(frames.progress());
     const LocalizationStep step = localizer.add(*frame);
     const TPose2D start_T_robot = way.add(*frame).local_T_robot;
     if (step.search && !step.search->believed()) why_not = step.search->objection;
@@ -91,7 +95,8 @@ std::optional<Sighting> find(FirstDrive& frames, Localizer& localizer, FrontEnd&
 
 DriveStart place_drive(const MappingResult& mapped, const mrpt::maps::COccupancyGridMap2D& grid,
                        const SessionInput& drive, const Settings& settings,
-                       const std::optional<TPose2D>& map_T_start, const std::atomic<bool>& stop) {
+                       const std::optional<TPose2D>& map_T_start, const std::atomic<bool>& stop,
+                       const std::function<void(double share)>& tell) {
   const LocalizerOptions options = localizer_options(settings);
   Localizer localizer(make_reference_map(grid, options.search.resolution_m, options.search.smoothing_sigma_m),
                       options);
@@ -99,7 +104,7 @@ DriveStart place_drive(const MappingResult& mapped, const mrpt::maps::COccupancy
   FrontEnd way(settings.mapper.front_end);
   FirstDrive frames(drive, settings);
   std::string why_not = "it is too short for a search";
-  const auto seen = find(frames, localizer, way, map_T_start.has_value(), stop, why_not);
+  const auto seen = find(frames, localizer, way, map_T_start.has_value(), stop, tell, why_not);
   if (seen) return seen_from_nearest_node(mapped, *seen);
   const std::string name = names_of(drive.logs());
   if (map_T_start) throw UserError(name + " does not begin near --start: its scans do not fit the map there");

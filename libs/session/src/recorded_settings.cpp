@@ -44,13 +44,38 @@ std::map<std::string, std::string> kept_settings(const OptionTable& table) {
   return kept;
 }
 
+std::vector<ChangedSetting> changed_settings(const std::map<std::string, std::string>& kept,
+                                             const OptionTable& table) {
+  std::vector<ChangedSetting> changed;
+  for (const auto& [name, text] : kept_settings(table))
+    if (const std::string& before = kept.at(name); text != before) changed.push_back({name, before, text});
+  return changed;
+}
+
+std::optional<std::string> changed_settings_text(const std::filesystem::path& file, const SessionFacts& facts,
+                                                 const OptionTable& table) {
+  constexpr std::size_t kNamed = 3;
+  BoundSettings recorded;
+  load_recorded(recorded, facts, file);
+  const std::vector<ChangedSetting> changed = changed_settings(kept_settings(recorded.table), table);
+  if (changed.empty()) return std::nullopt;
+  std::string text = file.string() + " was mapped with other settings and is mapped anew with those of now: ";
+  for (std::size_t i = 0; i < std::min(changed.size(), kNamed); ++i) {
+    const auto said = [](const std::string& value) { return value.empty() ? "empty" : value; };
+    text += (i == 0 ? "" : ", ") + changed[i].name + " was " + said(changed[i].before) + " and is " +
+            said(changed[i].now);
+  }
+  if (changed.size() > kNamed) text += ", and " + std::to_string(changed.size() - kNamed) + " more";
+  return text;
+}
+
 void require_kept(const std::map<std::string, std::string>& kept, const OptionTable& table,
                   const std::filesystem::path& file) {
-  for (const auto& [name, text] : kept_settings(table))
-    if (const std::string& before = kept.at(name); text != before)
-      throw UserError(name + " is " + before + " in the session " + file.string() + " and cannot become " +
-                      text +
-                      ": a resumed session keeps all settings but [map], [localization] and run.threads");
+  const std::vector<ChangedSetting> changed = changed_settings(kept, table);
+  if (changed.empty()) return;
+  const auto& [name, before, now] = changed.front();
+  throw UserError(name + " is " + before + " in the session " + file.string() + " and cannot become " + now +
+                  ": a resumed session keeps all settings but [map], [localization] and run.threads");
 }
 
 }  // namespace psi_slam

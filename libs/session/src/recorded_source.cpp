@@ -21,7 +21,7 @@ std::optional<Frame> RecordedSource::next() {
     return frames[next_++];
   }
   if (!log_) {
-    if (recording_->facts.broken_off) throw UserError(*recording_->facts.broken_off);
+    if (const auto& broken_off = recording_->facts.logs.back().broken_off) throw UserError(*broken_off);
     return std::nullopt;
   }
   std::optional<Frame> frame = log_->next();
@@ -42,7 +42,7 @@ double RecordedSource::progress() const {
 }
 
 SkippedLines RecordedSource::skipped_lines() const {
-  return log_ ? log_->skipped_lines() : recording_->facts.skipped;
+  return log_ ? log_->skipped_lines() : recording_->facts.logs.back().skipped;
 }
 
 AppendedSource::AppendedSource(std::shared_ptr<const SessionRecording> recording,
@@ -68,14 +68,6 @@ std::optional<Frame> AppendedSource::next() {
 double AppendedSource::progress() const {
   const std::size_t recorded = recording_->frames.size();
   return next_ < recorded ? 0.5 * share_of(next_, recorded) : 0.5 + 0.5 * log_->progress();
-}
-
-SkippedLines AppendedSource::skipped_lines() const {
-  const SkippedLines& before = recording_->facts.skipped;
-  SkippedLines skipped = log_->skipped_lines();
-  skipped.count += before.count;
-  if (before.count > 0) skipped.first = before.first;
-  return skipped;
 }
 
 }  // namespace psi_slam

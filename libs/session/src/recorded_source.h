@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames that were recorded, and behind them those of a log.
+// Frames that were recorded, and behind them those of a log. What was skipped is told of the last log alone:
+// of those before, the recording says it.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +46,7 @@ class AppendedSource : public FrameSource {
 
   std::optional<Frame> next() override;
   double progress() const override;
-  SkippedLines skipped_lines() const override;
+  SkippedLines skipped_lines() const override { return log_->skipped_lines(); }
 
  private:
   std::shared_ptr<const SessionRecording> recording_;

@@ -25,6 +25,7 @@ constexpr std::string_view kMagic = "psi-slam session";
 constexpr std::size_t kHeadBytes = kMagic.size() + sizeof(std::uint32_t) + 2 * sizeof(std::uint64_t);
 constexpr std::size_t kChecksumBytes = 64;
 constexpr int kCompressionLevel = 9;
+constexpr std::uint32_t kFactsOfEachLog = 3;  // the version with what is wrong with every log
 
 Json pose_json(const mrpt::math::TPose2D& pose) {
   return Json::array({pose.x, pose.y, pose.phi});
@@ -37,7 +38,15 @@ mrpt::math::TPose2D pose_of(const Json& json) {
 Json json_of(const SessionFacts& facts) {
   Json logs = Json::array();
   for (const RecordedLog& log : facts.logs)
-    logs.push_back({{"name", log.name}, {"sha256", log.sha256}, {"scans", log.scans}});
+    logs.push_back({{"name", log.name},
+                    {"sha256", log.sha256},
+                    {"scans", log.scans},
+                    {"skipped_lines",
+                     {{"count", log.skipped.count},
+                      {"first", log.skipped.first},
+                      {"spare_scans", log.skipped.spare_scans}}},
+                    {"broken_off", log.broken_off.value_or("")},
+                    {"scans_left", log.scans_left}});
   Json drives = Json::array();
   for (const RecordedDrive& drive : facts.drives) {
     drives.push_back({{"scan", drive.scan},
@@ -49,29 +58,35 @@ Json json_of(const SessionFacts& facts) {
           {"logs", logs},
           {"drives", drives},
           {"settings", facts.settings},
-          {"edits", facts.edits.text()},
-          {"skipped_lines", {{"count", facts.skipped.count}, {"first", facts.skipped.first}}},
-          {"broken_off", facts.broken_off.value_or("")},
-          {"scans_left", facts.scans_left}};
+          {"edits", facts.edits.text()}};
 }
 
-SessionFacts facts_of(const Json& json, const fs::path& path) {
+/// What is wrong with a log, and whether that is all of it.
+void read_faults(const Json& json, std::uint32_t version, RecordedLog& log) {
+  const Json& skipped = json.at("skipped_lines");
+  log.skipped = {skipped.at("count").get<std::size_t>(), skipped.at("first").get<std::string>()};
+  if (version >= kFactsOfEachLog) log.skipped.spare_scans = skipped.at("spare_scans").get<std::size_t>();
+  if (const auto broken_off = json.at("broken_off").get<std::string>(); !broken_off.empty())
+    log.broken_off = broken_off;
+  log.scans_left = json.at("scans_left").get<bool>();
+}
+
+SessionFacts facts_of(const Json& json, std::uint32_t version, const fs::path& path) {
   SessionFacts facts;
   facts.program_version = json.at("program_version").get<std::string>();
-  for (const Json& log : json.at("logs"))
+  for (const Json& log : json.at("logs")) {
     facts.logs.push_back({log.at("name").get<std::string>(), log.at("sha256").get<std::string>(),
                           log.at("scans").get<std::size_t>()});
+    if (version >= kFactsOfEachLog) read_faults(log, version, facts.logs.back());
+  }
+  // Before, those of the last log stood for all.
+  if (version < kFactsOfEachLog && !facts.logs.empty()) read_faults(json, version, facts.logs.back());
   for (const Json& drive : json.at("drives"))
     facts.drives.push_back({drive.at("scan").get<std::size_t>(),
                             {drive.at("node").get<std::size_t>(), pose_of(drive.at("node_T_robot")),
                              pose_of(drive.at("robot_T_found"))}});
   facts.settings = json.at("settings").get<std::string>();
   facts.edits = EditJournal::parse(json.at("edits").get<std::string>(), path);
-  facts.skipped = {json.at("skipped_lines").at("count").get<std::size_t>(),
-                   json.at("skipped_lines").at("first").get<std::string>()};
-  if (const auto broken_off = json.at("broken_off").get<std::string>(); !broken_off.empty())
-    facts.broken_off = broken_off;
-  facts.scans_left = json.at("scans_left").get<bool>();
   return facts;
 }
 
@@ -120,6 +135,8 @@ void require_consistent(const SessionRecording& recording) {
   std::size_t begin = 0;
   for (const RecordedDrive& drive : recording.facts.drives) {
     if (drive.scan >= recording.frames.size()) throw MalformedBytes("a drive begins beyond its scans");
+    if (!is_possible(drive.start.node_T_robot) || !is_possible(drive.start.robot_T_found))
+      throw MalformedBytes("a drive begins nowhere");
     if (drive.scan <= begin) throw MalformedBytes("its drives do not follow on one another");
     begin = drive.scan;
   }
@@ -166,7 +183,7 @@ SessionRecording read_session_file(const fs::path& path) {
     ByteCursor cursor(content);
     const std::string_view json = cursor.take(cursor.number<std::uint64_t>());
     SessionRecording recording;
-    recording.facts = facts_of(Json::parse(json), path);
+    recording.facts = facts_of(Json::parse(json), version, path);
     recording.frames = read_frames(cursor, version);
     if (!cursor.at_end()) throw MalformedBytes("there is something behind its last scan");
     require_consistent(recording);

@@ -32,7 +32,10 @@ SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, st
   if (!std::filesystem::exists(log_)) throw UserError(log_.string() + " does not exist, expected a log file");
   const std::string sha256 = sha256_of_log(log_);
   same_log_ = logs_.back().sha256 == sha256;
-  if (same_log_) return;
+  if (same_log_) {  // it is read anew
+    logs_.back() = {logs_.back().name, sha256, logs_.back().scans};
+    return;
+  }
   if (std::any_of(logs_.begin(), logs_.end(),
                   [&](const RecordedLog& known) { return known.sha256 == sha256; }))
     throw UserError(log_.string() + " is in the session already, and " + logs_.back().name + " behind it");

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "psi_slam/logs/frame.h"
+#include "psi_slam/mapping/mapping_result.h"
 
 namespace psi_slam {
 
@@ -25,5 +26,9 @@ namespace psi_slam {
 /// Throws std::invalid_argument when their counts differ, SystemFailure when it cannot be written.
 void write_corrected_log(const std::filesystem::path& path, const std::vector<Frame>& log,
                          const std::vector<mrpt::math::TPose2D>& map_T_robot);
+/// Writes the scans of one drive alone. Of several drives odometry jumps and stamps run back from one to the
+/// next, which readers of CARMEN logs do not expect.
+void write_corrected_log(const std::filesystem::path& path, const std::vector<Frame>& log,
+                         const std::vector<mrpt::math::TPose2D>& map_T_robot, const FrameSpan& drive);
 
 }  // namespace psi_slam

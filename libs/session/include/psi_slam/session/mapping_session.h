@@ -66,6 +66,11 @@ class MappingSession {
 
   /// What is wrong with the log behind its last readable scan, as a sentence.
   const std::optional<std::string>& broken_off() const { return broken_off_; }
+  /// Whether that log or one before it does.
+  bool breaks_off() const;
+  /// What is missing of the logs before the last, now or when they were recorded, as sentences: where one
+  /// breaks off, and which was not read to its end.
+  std::vector<std::string> warnings_of_logs_before() const;
 
   /// What was left out of what the session has read.
   SkippedLines skipped_lines() const;
@@ -151,8 +156,6 @@ class MappingSession {
   Observer observer_;
   MappingResult result_;
   std::optional<std::string> broken_off_;
-  SkippedLines skipped_before_;               // of drives before
-  std::vector<std::string> warnings_before_;  // the same
   StageClock reading_clock_{"read log"};
   SessionProgress::Phase phase_ = SessionProgress::Phase::kMapping;
   double phase_began_s_ = 0;  // of the work
@@ -161,7 +164,7 @@ class MappingSession {
   std::size_t stages_of_mapping_ = 0;  // in result_.stages; those of an export come behind
   bool stays_open_ = false;
   bool finished_ = false;
-  bool scans_left_ = false;  // readable ones, behind the last that was mapped
+  bool scans_left_ = false;  // readable ones of the last log, behind the last that was mapped
   bool any_return_ = false;
   bool at_end_ = false;
 };

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,21 @@ std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts&
 /// The options, by name, that a resumed session cannot change: all but [map], [localization] and
 /// run.threads.
 std::map<std::string, std::string> kept_settings(const OptionTable& table);
+
+struct ChangedSetting {
+  std::string name;
+  std::string before;
+  std::string now;
+};
+
+/// Those of `kept` that have another value in `table`, in the order of their names.
+std::vector<ChangedSetting> changed_settings(const std::map<std::string, std::string>& kept,
+                                             const OptionTable& table);
+
+/// What is to be known of a session that is mapped with other settings than its own, as one sentence without
+/// its full stop that names the first of them; none where those that shape the map are the same.
+std::optional<std::string> changed_settings_text(const std::filesystem::path& file, const SessionFacts& facts,
+                                                 const OptionTable& table);
 
 /// Throws UserError, naming the option, when one of those has another value now than in the session `file`.
 void require_kept(const std::map<std::string, std::string>& kept, const OptionTable& table,

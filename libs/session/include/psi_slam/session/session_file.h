@@ -12,7 +12,7 @@
 namespace psi_slam {
 
 /// The newest version, which is written; all versions up to it are read.
-inline constexpr std::uint32_t kSessionVersion = 2;
+inline constexpr std::uint32_t kSessionVersion = 3;
 
 /// Whether the file begins like a session. False where it cannot be read.
 bool is_session_file(const std::filesystem::path& path);

@@ -21,6 +21,9 @@ struct RecordedLog {
   std::string name;       ///< of the file, without its folder
   std::string sha256;     ///< see sha256_of_log()
   std::size_t scans = 0;  ///< that were taken from its beginning
+  SkippedLines skipped{};
+  std::optional<std::string> broken_off{};  ///< what is wrong with it behind its last frame
+  bool scans_left = false;                  ///< it has more of them, as far as is known
 };
 
 /// A drive behind the first: see DriveStart.
@@ -35,9 +38,6 @@ struct SessionFacts {
   std::vector<RecordedDrive> drives;
   std::string settings;  ///< a settings file with every option
   EditJournal edits;
-  SkippedLines skipped;
-  std::optional<std::string> broken_off;  ///< what is wrong with the last log behind its last frame
-  bool scans_left = false;                ///< the last log has more of them, as far as is known
 };
 
 struct SessionRecording {

@@ -11,6 +11,7 @@
 #include "psi_slam/logs/open_log.h"
 #include "psi_slam/results/output_folder.h"
 #include "start_pose.h"
+#include "work_progress.h"
 
 namespace psi_slam {
 namespace {
@@ -20,13 +21,15 @@ struct LocalizedLog {
   std::optional<std::string> broken_off;
 };
 
-LocalizedLog localize_all(FrameSource& log, Localizer& localizer, const InterruptSignals& signals) {
+LocalizedLog localize_all(FrameSource& log, Localizer& localizer, const InterruptSignals& signals,
+                          WorkProgress progress) {
   LocalizedLog result;
   try {
     while (!signals.came()) {
       const std::optional<Frame> frame = log.next();
       if (!frame) break;
       result.steps.push_back(localizer.add(*frame));
+      progress.show("localizing", log.progress(), 1);
     }
   } catch (const UserError& error) {
     if (result.steps.empty()) throw;
@@ -48,7 +51,8 @@ int localize(const CommandLine& line, const Settings& settings, const Streams& s
   if (!line.output.empty()) folder = OutputFolder::prepare(line.output, line.force);
 
   const InterruptSignals signals;
-  const LocalizedLog localized = localize_all(*log, localizer, signals);
+  const LocalizedLog localized = localize_all(
+      *log, localizer, signals, WorkProgress(streams.err_is_terminal && !line.quiet ? &streams.err : nullptr));
   if (localized.steps.empty()) throw UserError(line.log + ": no scan was read, there is nothing to localize");
   if (folder) write_localization(localized.steps, folder->path());
   const LocalizationSummary summary = summarize(localized.steps);
@@ -62,7 +66,7 @@ int localize(const CommandLine& line, const Settings& settings, const Streams& s
     streams.err << "psi-slam: " << *localized.broken_off << '\n';
     return 2;
   }
-  return summary.localized() ? 0 : 1;
+  return summary.localized_at_end() ? 0 : 1;
 }
 
 }  // namespace psi_slam

@@ -42,7 +42,7 @@ TEST_F(LocalizeApp, finds_and_tracks_a_robot_in_both_kinds_of_map) {
     const auto out = folder_.path() / ("out-" + name);
     const AppRun run = localize(name, {"-o", out.string()});
     EXPECT_EQ(run.code, 0) << run.err << run.out;
-    EXPECT_THAT(run.out, HasSubstr("Localized after"));
+    EXPECT_THAT(run.out, HasSubstr("Localized at the end"));
     EXPECT_THAT(bytes_of(out / "localization.csv"), HasSubstr(",tracking,"));
     const Trajectory poses = read_trajectory(out / "trajectory.tum");
     ASSERT_GT(poses.size(), 60U);
@@ -59,7 +59,14 @@ TEST_F(LocalizeApp, takes_a_start_and_prints_json) {
   const AppRun run = localize("map.yaml", {"--start", "0.2,-0.1,5", "--json"});
   EXPECT_EQ(run.code, 0) << run.err;
   const Json summary = Json::parse(run.out);
-  EXPECT_EQ(summary["localized"], true);
+  EXPECT_EQ(summary["found"], true);
+  EXPECT_EQ(summary["found_after_m"], 0);
+  EXPECT_NEAR(summary["found_at"][0].get<double>(), 0, 0.05) << "not where it was told";
+  EXPECT_NEAR(summary["found_at"][1].get<double>(), 0, 0.05);
+  EXPECT_EQ(summary["localized_at_end"], true);
+  EXPECT_GT(summary["confidence"], 0.8);
+  EXPECT_EQ(summary["lost_after_s"], nullptr);
+  EXPECT_EQ(summary["tracked_share"], 1);
   EXPECT_EQ(summary["searches"], 0);
   EXPECT_EQ(summary["tracked"], 120);
 }
@@ -70,10 +77,41 @@ TEST_F(LocalizeApp, of_a_robot_that_is_not_there_it_says_so_with_exit_code_1) {
   write_lines(folder_.path() / "new.log", lines);
   const AppRun run = localize("map.yaml");
   EXPECT_EQ(run.code, 1);
-  EXPECT_THAT(run.out, HasSubstr("Not localized"));
+  EXPECT_THAT(run.out, HasSubstr("Not found in"));
   const AppRun json = localize("map.yaml", {"--json"});
   EXPECT_EQ(json.code, 1);
-  EXPECT_EQ(Json::parse(json.out)["localized"], false);
+  EXPECT_EQ(Json::parse(json.out)["found"], false);
+  EXPECT_EQ(Json::parse(json.out)["localized_at_end"], false);
+}
+
+/// Found and tracked, then taken to where there is no map.
+TEST_F(LocalizeApp, of_a_robot_that_is_lost_at_the_end_it_says_so_with_exit_code_1) {
+  std::vector<std::string> lines = room_log_lines(120, 80);
+  for (std::size_t i = 80; i < lines.size(); ++i)
+    lines[i] = with_ranges(lines[i], 0, kRoomBeams, "1.3");  // a round shaft
+  write_lines(folder_.path() / "new.log", lines);
+  const AppRun run = localize("map.yaml", {"--start", "0,0,0"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.out, HasSubstr("Found after 0.0 m and 0.0 s at x "));
+  EXPECT_THAT(run.out, HasSubstr("Lost at the end, since "));
+  const AppRun json = localize("map.yaml", {"--start", "0,0,0", "--json"});
+  EXPECT_EQ(json.code, 1);
+  const Json summary = Json::parse(json.out);
+  EXPECT_EQ(summary["found"], true);
+  EXPECT_EQ(summary["localized_at_end"], false);
+  EXPECT_EQ(summary["confidence"], 0);
+  EXPECT_GT(summary["lost_after_s"], 16.0);
+  EXPECT_LT(summary["lost_after_s"], 23.0);
+  EXPECT_GT(summary["tracked_share"], 0.6);
+  EXPECT_LT(summary["tracked_share"], 0.95);
+  EXPECT_FALSE(summary["why_not"].get<std::string>().empty());
+}
+
+TEST_F(LocalizeApp, shows_on_a_terminal_how_far_it_is) {
+  const std::vector<std::string> arguments{"localize", map("map.yaml").string(),
+                                           (folder_.path() / "new.log").string(), "--start", "0,0,0"};
+  EXPECT_THAT(run_app(arguments, true).err, HasSubstr("\r\x1b[Klocalizing "));
+  EXPECT_EQ(run_app(arguments, false).err, "");
 }
 
 TEST_F(LocalizeApp, wrong_usage_is_told_in_a_sentence) {

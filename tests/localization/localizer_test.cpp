@@ -41,7 +41,7 @@ TEST(Localizer, finds_a_robot_of_which_nothing_is_known_and_keeps_track_of_it) {
     const auto steps = localize(localizer, drive.frames);
     EXPECT_LT(worst_m(steps, drive), kTracked_m) << name(matcher);
     const LocalizationSummary summary = summarize(steps);
-    ASSERT_TRUE(summary.localized()) << name(matcher) << ": " << summary.why_not;
+    ASSERT_TRUE(summary.found()) << name(matcher) << ": " << summary.why_not;
     EXPECT_EQ(summary.times_found, 1);
     EXPECT_EQ(summary.times_lost, 0);
     EXPECT_LT(*summary.found_after_m, 15) << name(matcher);
@@ -88,9 +88,9 @@ TEST(Localizer, does_not_find_a_robot_in_the_map_of_another_building) {
   const TrueDrive drive = drive_through(51, 101, 20);
   Localizer localizer(reference_of(building_map()), {});
   const LocalizationSummary summary = summarize(localize(localizer, drive.frames));
-  EXPECT_FALSE(summary.localized());
+  EXPECT_FALSE(summary.found());
   EXPECT_GT(summary.searches, 10);
-  EXPECT_THAT(localization_text(summary), HasSubstr("Not localized"));
+  EXPECT_THAT(localization_text(summary), HasSubstr("Not found"));
 }
 
 // Odometry tells nothing of being carried: it goes on where it was.
@@ -163,7 +163,7 @@ TrueDrive round_a_symmetric_hall(std::uint64_t seed) {
 TEST(Localizer, says_that_a_building_is_ambiguous_instead_of_guessing) {
   Localizer localizer(reference_of(map_of(round_a_symmetric_hall(1))), {});
   const LocalizationSummary summary = summarize(localize(localizer, round_a_symmetric_hall(2).frames));
-  EXPECT_FALSE(summary.localized());
+  EXPECT_FALSE(summary.found());
   EXPECT_TRUE(summary.ambiguous);
   EXPECT_THAT(localization_text(summary), HasSubstr("another place fits as well"));
 }

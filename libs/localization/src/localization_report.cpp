@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/degrees.h"
 #include "psi_slam/results/number_text.h"
 #include "psi_slam/results/trajectory_file.h"
 
@@ -29,6 +30,18 @@ std::string times(int count) {
   return count == 1 ? "once" : std::to_string(count) + " times";
 }
 
+/// Of the scans at the end of a log: see LocalizationSummary.
+double confidence_at_end(const std::vector<LocalizationStep>& steps) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step, ++count) {
+    const bool at_end = seconds(steps.back().time_us - step->time_us) <= LocalizationSummary::kEnd_s;
+    if (!at_end && count >= LocalizationSummary::kEndScans) break;
+    sum += step->confidence;
+  }
+  return count == 0 ? 0 : sum / static_cast<double>(count);
+}
+
 void count_search(const FoundPlace& place, LocalizationSummary& summary) {
   ++summary.searches;
   summary.why_not = place.objection;
@@ -36,6 +49,17 @@ void count_search(const FoundPlace& place, LocalizationSummary& summary) {
     summary.best_response = place.response;
     summary.ambiguous = place.ambiguous;
   }
+}
+
+/// How it stands with the robot at the end of the log.
+std::string end_text(const LocalizationSummary& summary) {
+  if (!summary.tracked_at_end)
+    return "Lost at the end, since " + fixed_text(summary.lost_after_s.value_or(0), 1) + " s: " +
+           summary.why_not;
+  const std::string confidence = fixed_text(summary.confidence, 2);
+  if (summary.localized_at_end()) return "Localized at the end, with a confidence of " + confidence;
+  return "Not localized at the end: tracked, but with a confidence of only " + confidence + ", less than " +
+         fixed_text(LocalizationSummary::kLeastConfidence, 2);
 }
 
 }  // namespace
@@ -50,23 +74,30 @@ LocalizationSummary summarize(const std::vector<LocalizationStep>& steps) {
     summary.duration_s = seconds(step.time_us - steps.front().time_us);
     if (step.search) count_search(*step.search, summary);
     const bool tracks = step.state == State::kTracking;
-    if (tracks) ++summary.tracked;
+    summary.tracked_at_end = tracks;
+    if (tracks) {
+      ++summary.tracked;
+      summary.lost_after_s = summary.duration_s;
+    }
     if (tracks && before == State::kLost && step.search) {
       ++summary.times_found;
-      if (!summary.ambiguity) summary.ambiguity = step.search->ambiguity;
+      if (!summary.found_after_s) summary.ambiguity = step.search->ambiguity;
     }
     if (!tracks && before == State::kTracking) ++summary.times_lost;
     if (step.fits) responses.push_back(step.response);
     if (step.fits && !summary.found_after_s) {
       summary.found_after_s = summary.duration_s;
       summary.found_after_m = summary.travelled_m;
+      summary.map_T_found = step.map_T_robot;
     }
     before = step.state;
   }
   summary.fitting = responses.size();
   summary.median_response = median(std::move(responses));
-  if (summary.localized()) {
-    summary.ambiguous = false;
+  summary.confidence = confidence_at_end(steps);
+  if (summary.tracked_at_end) summary.lost_after_s.reset();
+  if (summary.found()) summary.ambiguous = false;
+  if (summary.tracked_at_end && summary.found()) {
     summary.why_not.clear();
   } else if (summary.why_not.empty()) {
     summary.why_not = summary.searches == 0 ? "no scan could be looked for"
@@ -78,17 +109,20 @@ LocalizationSummary summarize(const std::vector<LocalizationStep>& steps) {
 std::string localization_text(const LocalizationSummary& summary) {
   const std::string way = std::to_string(summary.scans) + " scans over " + fixed_text(summary.duration_s, 1) +
                           " s and " + fixed_text(summary.travelled_m, 1) + " m";
-  if (!summary.localized())
-    return "Not localized in " + way + ": " + summary.why_not + ".\nThe whole map was searched " +
+  if (!summary.found())
+    return "Not found in " + way + ": " + summary.why_not + ".\nThe whole map was searched " +
            times(summary.searches) + "; the best response was " + fixed_text(summary.best_response, 2) +
            ".\n";
-  std::string text = "Localized after " + fixed_text(*summary.found_after_m, 1) + " m and " +
-                     fixed_text(*summary.found_after_s, 1) + " s";
+  const auto& [x_m, y_m, yaw_rad] = summary.map_T_found;
+  std::string text = "Found after " + fixed_text(*summary.found_after_m, 1) + " m and " +
+                     fixed_text(*summary.found_after_s, 1) + " s at x " + fixed_text(x_m, 2) + " m, y " +
+                     fixed_text(y_m, 2) + " m, yaw " + fixed_text(yaw_rad / radians_from_degrees(1), 1) +
+                     " degrees";
   if (summary.ambiguity == 0.0)
     text += "; no other place came near";
   else if (summary.ambiguity)
     text += "; the next best place scored " + fixed_text(*summary.ambiguity, 2) + " of that";
-  text += ".\nOf " + way + ", " + percent(summary.tracked, summary.scans) +
+  text += ".\n" + end_text(summary) + ".\nOf " + way + ", " + percent(summary.tracked, summary.scans) +
           " of the scans were tracked and " + percent(summary.fitting, summary.scans) +
           " fit the map, with a median response of " + fixed_text(summary.median_response, 2) + ".\n";
   if (summary.times_lost > 0)
@@ -101,16 +135,23 @@ std::string localization_json(const LocalizationSummary& summary) {
   const auto number = [](const std::optional<double>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
   };
-  const nlohmann::ordered_json json = {{"localized", summary.localized()},
+  nlohmann::ordered_json found_at;  // metres, metres, radians
+  if (summary.found()) found_at = {summary.map_T_found.x, summary.map_T_found.y, summary.map_T_found.phi};
+  const nlohmann::ordered_json json = {{"found", summary.found()},
+                                       {"localized_at_end", summary.localized_at_end()},
+                                       {"confidence", summary.confidence},
                                        {"ambiguous", summary.ambiguous},
                                        {"why_not", summary.why_not},
                                        {"scans", summary.scans},
                                        {"tracked", summary.tracked},
+                                       {"tracked_share", summary.tracked_share()},
                                        {"fitting", summary.fitting},
                                        {"duration_s", summary.duration_s},
                                        {"travelled_m", summary.travelled_m},
                                        {"found_after_m", number(summary.found_after_m)},
                                        {"found_after_s", number(summary.found_after_s)},
+                                       {"found_at", found_at},
+                                       {"lost_after_s", number(summary.lost_after_s)},
                                        {"ambiguity", number(summary.ambiguity)},
                                        {"searches", summary.searches},
                                        {"times_found", summary.times_found},
@@ -121,7 +162,7 @@ std::string localization_json(const LocalizationSummary& summary) {
 }
 
 std::string localization_csv(const std::vector<LocalizationStep>& steps) {
-  std::string text = "time_s,state,x_m,y_m,theta_rad,response,fits,ambiguity,note\n";
+  std::string text = "time_s,state,x_m,y_m,theta_rad,response,confidence,fits,ambiguity,note\n";
   for (const LocalizationStep& step : steps) {
     const bool tracks = step.state == State::kTracking;
     text += format_seconds(step.time_us) + (tracks ? ",tracking," : ",lost,");
@@ -132,7 +173,7 @@ std::string localization_csv(const std::vector<LocalizationStep>& steps) {
       text += ",,,";
     const bool found_something = step.search && step.search->found;
     const double response = found_something && !tracks ? step.search->response : step.response;
-    text += fixed_text(response, 4) + (step.fits ? ",1," : ",0,");
+    text += fixed_text(response, 4) + ',' + fixed_text(step.confidence, 4) + (step.fits ? ",1," : ",0,");
     if (found_something) text += fixed_text(step.search->ambiguity, 4);
     text += ',';
     if (step.search && !step.search->objection.empty()) text += '"' + step.search->objection + '"';

@@ -103,6 +103,7 @@ bool Localizer::match_near(const FrontEndStep& motion, LocalizationStep& step) c
     return false;
   step.map_T_robot = matched;
   step.response = match.response;
+  step.confidence = static_cast<double>(agreement.hits) / points;
   return true;
 }
 
@@ -121,6 +122,7 @@ void Localizer::search(std::size_t frame, LocalizationStep& step) {
   step.map_T_robot = place.map_T_robot;
   step.fits = true;
   step.response = place.response;
+  step.confidence = place.agree * place.observed_share;
 }
 
 // What the front end knows of the way until now may lead from where the robot is no more.

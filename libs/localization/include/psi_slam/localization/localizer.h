@@ -47,6 +47,7 @@ struct LocalizationStep {
   mrpt::math::TPose2D map_T_robot;  ///< while tracking
   bool fits = false;                ///< the scan fits the map there; false: the motion alone says where it is
   double response = 0;              ///< where it fits
+  double confidence = 0;            ///< where it fits: the share of its points that lie on the map's walls
   double moved_m = 0;               ///< since the scan before
   std::optional<FoundPlace> search;  ///< of the whole map, if one was made at this scan
 };

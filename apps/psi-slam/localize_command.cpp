@@ -51,8 +51,9 @@ int localize(const CommandLine& line, const Settings& settings, const Streams& s
   if (!line.output.empty()) folder = OutputFolder::prepare(line.output, line.force);
 
   const InterruptSignals signals;
-  const LocalizedLog localized = localize_all(
-      *log, localizer, signals, WorkProgress(streams.err_is_terminal && !line.quiet ? &streams.err : nullptr));
+  const LocalizedLog localized =
+      localize_all(*log, localizer, signals,
+                   WorkProgress(streams.err_is_terminal && !line.quiet ? &streams.err : nullptr));
   if (localized.steps.empty()) throw UserError(line.log + ": no scan was read, there is nothing to localize");
   if (folder) write_localization(localized.steps, folder->path());
   const LocalizationSummary summary = summarize(localized.steps);

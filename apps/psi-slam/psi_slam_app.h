@@ -25,8 +25,8 @@ struct Streams {
 };
 
 /// Runs the program with its arguments (without its own name). Returns the exit code: 0 done, also when the
-/// user interrupted it; 1 failed, or not localized at the end; 2 wrong usage or input. Never throws. While it maps,
-/// SIGINT and SIGTERM end the mapping or its last pass in good order, and a second one the process.
+/// user interrupted it; 1 failed, or not localized at the end; 2 wrong usage or input. Never throws. While it
+/// maps, SIGINT and SIGTERM end the mapping or its last pass in good order, and a second one the process.
 int run_psi_slam_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept;
 
 }  // namespace psi_slam

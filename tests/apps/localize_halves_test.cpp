@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real logs: the first half is mapped, and robots are localized in the second. The path of the whole log, mapped
-// at once, is what their poses are compared with: each is seen from the nearest pose of the first half, and told
-// in the map of the first half from there, since the two maps differ by some centimetres. It prints the
-// figures of share/doc/localize.md.
+// Real logs: the first half is mapped, and robots are localized in the second. The path of the whole log,
+// mapped at once, is what their poses are compared with: each is seen from the nearest pose of the first
+// half, and told in the map of the first half from there, since the two maps differ by some centimetres. It
+// prints the figures of share/doc/localize.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -81,11 +81,11 @@ struct Halves {
         first(mapped(log, settings, half)) {
     for (std::size_t i = 0; i < whole.log.size(); ++i) {
       const TPose2D& here = whole.frames[i].map_T_robot;
-      const auto nearest = std::min_element(
-          whole.frames.begin(), whole.frames.begin() + static_cast<std::ptrdiff_t>(half),
-          [&](const FrameRecord& a, const FrameRecord& b) {
-            return distance_m(a.map_T_robot, here) < distance_m(b.map_T_robot, here);
-          });
+      const auto nearest =
+          std::min_element(whole.frames.begin(), whole.frames.begin() + static_cast<std::ptrdiff_t>(half),
+                           [&](const FrameRecord& a, const FrameRecord& b) {
+                             return distance_m(a.map_T_robot, here) < distance_m(b.map_T_robot, here);
+                           });
       const auto at = static_cast<std::size_t>(nearest - whole.frames.begin());
       from_first_m.push_back(distance_m(nearest->map_T_robot, here));
       map_T_robot.push_back(first.frames[at].map_T_robot + (here - whole.frames[at].map_T_robot));
@@ -149,8 +149,7 @@ Figures localize_second_half(const std::filesystem::path& log, const std::string
 }
 
 TEST(LocalizeHalves, robots_of_the_second_half_of_a_real_log_are_found_in_the_map_of_the_first) {
-  if (std::getenv("PSI_SLAM_LONG_TESTS") == nullptr)
-    GTEST_SKIP() << "takes minutes: set PSI_SLAM_LONG_TESTS";
+  if (std::getenv("PSI_SLAM_LONG_TESTS") == nullptr) GTEST_SKIP() << "takes minutes: set PSI_SLAM_LONG_TESTS";
   const auto log = shared_file("fr079.clf.gz");
   if (!log) GTEST_SKIP() << kNeedsData;
   const Figures figures = localize_second_half(*log, "fr079.ini");
@@ -183,8 +182,10 @@ void follow_second_half(const Halves& log, const ReferenceMap& map, const Locali
     return std::count_if(errors_m.begin(), errors_m.end(), [&](double error_m) { return error_m > limit_m; });
   };
   std::printf(
-      "%s: found after %.1f m, %.1f s; %.1f %% of %zu scans tracked, of those within %.0f m of the first half's "
-      "path %.1f %%; lost %d times, found %d times; error at first %.3f m, median %.3f m, largest %.3f m; at the "
+      "%s: found after %.1f m, %.1f s; %.1f %% of %zu scans tracked, of those within %.0f m of the first "
+      "half's "
+      "path %.1f %%; lost %d times, found %d times; error at first %.3f m, median %.3f m, largest %.3f m; at "
+      "the "
       "end %s\n",
       told ? "told start" : "no start", *summary.found_after_m, *summary.found_after_s,
       100 * summary.tracked_share(), summary.scans, kNear_m,
@@ -211,9 +212,10 @@ TEST(LocalizeHalves, a_robot_is_followed_through_the_second_half_of_a_real_log) 
     between_maps_m.push_back(
         distance_m(halves.first.frames[i].map_T_robot, halves.whole.frames[i].map_T_robot));
   const TPose2D moved = halves.whole.frames[0].map_T_robot - halves.first.frames[0].map_T_robot;
-  std::printf("intel.ini: the maps lie apart by %.3f m at the first scan, in the median %.3f m, at most %.3f m\n",
-              std::hypot(moved.x, moved.y), median(between_maps_m),
-              *std::max_element(between_maps_m.begin(), between_maps_m.end()));
+  std::printf(
+      "intel.ini: the maps lie apart by %.3f m at the first scan, in the median %.3f m, at most %.3f m\n",
+      std::hypot(moved.x, moved.y), median(between_maps_m),
+      *std::max_element(between_maps_m.begin(), between_maps_m.end()));
   const LocalizerOptions options = localizer_options(bound.settings);
   std::thread told([&] { follow_second_half(halves, map, options, true); });
   follow_second_half(halves, map, options, false);

@@ -122,7 +122,7 @@ TEST_F(MergeApp, of_sessions_with_edits_and_saved_again_it_is_the_same_map) {
 
 TEST_F(MergeApp, says_which_settings_of_a_session_are_not_those_of_now) {
   const auto save = [&](const std::string& name, const std::vector<std::string>& settings) {
-    std::vector<std::string> arguments{file(name + ".log"), "-q", "-o", file(name), "--save-session",
+    std::vector<std::string> arguments{file(name + ".log"),    "-q", "-o", file(name), "--save-session",
                                        file(name + ".session")};
     for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
     ASSERT_EQ(run_app(arguments).code, 0);

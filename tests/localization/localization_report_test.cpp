@@ -61,8 +61,9 @@ TEST(LocalizationReport, to_be_found_once_is_not_to_be_localized_at_the_end) {
   const LocalizationSummary unsure = summarize(run_that_ends(State::kTracking, 0.4));
   EXPECT_TRUE(unsure.tracked_at_end);
   EXPECT_FALSE(unsure.localized_at_end());
-  EXPECT_THAT(localization_text(unsure),
-              HasSubstr("Not localized at the end: tracked, but with a confidence of only 0.40, less than 0.50"));
+  EXPECT_THAT(
+      localization_text(unsure),
+      HasSubstr("Not localized at the end: tracked, but with a confidence of only 0.40, less than 0.50"));
 
   // By its motion alone for the last three of the five seconds that count.
   auto steps = run_that_ends(State::kTracking, 0.9);

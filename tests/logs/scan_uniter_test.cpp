@@ -114,8 +114,8 @@ std::vector<Stamp> half_a_period_apart(unsigned seed) {
   std::mt19937 random(seed);
   for (int i = 0; i < 400; ++i)
     for (const int laser : {0, 1})
-      stamps.push_back({static_cast<std::size_t>(laser),
-                        100 * i + laser * 50 + static_cast<int>(random() % 17) - 8});
+      stamps.push_back(
+          {static_cast<std::size_t>(laser), 100 * i + laser * 50 + static_cast<int>(random() % 17) - 8});
   return stamps;
 }
 

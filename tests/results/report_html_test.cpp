@@ -64,9 +64,10 @@ TEST(ReportHtml, tells_the_scans_of_further_lasers_and_those_left_out) {
   EXPECT_THAT(report_html(result, {}, summary, *grid), Not(HasSubstr("Further lasers")));
   summary.log.companion_scans = 48;
   summary.log.spare_scans = 1200;
-  EXPECT_THAT(report_html(result, {}, summary, *grid),
-              HasSubstr("<th>Further lasers</th><td>48 scans taken together with those of the first; 1,200 scans "
-                        "left out for want of one near enough</td>"));
+  EXPECT_THAT(
+      report_html(result, {}, summary, *grid),
+      HasSubstr("<th>Further lasers</th><td>48 scans taken together with those of the first; 1,200 scans "
+                "left out for want of one near enough</td>"));
 }
 
 TEST(ReportHtml, needs_no_network) {

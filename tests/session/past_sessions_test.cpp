@@ -114,8 +114,8 @@ TEST(PastSessions, version_3_says_what_is_wrong_with_each_log_and_is_mapped_to_w
   load_recorded(bound, facts, file);
   MappingSession session(input, bound.settings);
   session.run(std::atomic<bool>(false));
-  EXPECT_THAT(session.warnings(), testing::ElementsAre(testing::HasSubstr("first.log:57"),
-                                                       testing::HasSubstr("first.log:21")));
+  EXPECT_THAT(session.warnings(),
+              testing::ElementsAre(testing::HasSubstr("first.log:57"), testing::HasSubstr("first.log:21")));
   EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {0.4085, 7.9527, 0}), 0.01)
       << "where it was when it was recorded";
 }

@@ -215,7 +215,8 @@ TEST_F(SessionFileTest, what_does_not_add_up_is_told_though_its_checksum_matches
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].start.robot_T_found.x = 1e300; }),
               HasSubstr("a drive begins nowhere"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].start.robot_T_found.phi = NAN; }),
-              HasSubstr("what it says of itself cannot be read")) << "JSON has no such number";
+              HasSubstr("what it says of itself cannot be read"))
+      << "JSON has no such number";
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives.push_back(r.facts.drives[0]); }),
               HasSubstr("its drives do not follow on one another"));
   EXPECT_THAT(complaint([](SessionRecording& r) {

@@ -23,8 +23,8 @@ inline std::string without_last_columns(const std::string& csv, int columns) {
   return text;
 }
 
-/// A summary without what two runs to the same results may differ in: times, memory, threads, and the names of
-/// the logs.
+/// A summary without what two runs to the same results may differ in: times, memory, threads, and the names
+/// of the logs.
 inline std::string summary_without_times(const std::string& text) {
   nlohmann::json summary = nlohmann::json::parse(text);
   for (const char* key : {"wall_s", "real_time_factor", "peak_memory_mib", "stages"}) summary.erase(key);

@@ -54,8 +54,8 @@ void count_search(const FoundPlace& place, LocalizationSummary& summary) {
 /// How it stands with the robot at the end of the log.
 std::string end_text(const LocalizationSummary& summary) {
   if (!summary.tracked_at_end)
-    return "Lost at the end, since " + fixed_text(summary.lost_after_s.value_or(0), 1) + " s: " +
-           summary.why_not;
+    return "Lost at the end, since " + fixed_text(summary.lost_after_s.value_or(0), 1) +
+           " s: " + summary.why_not;
   const std::string confidence = fixed_text(summary.confidence, 2);
   if (summary.localized_at_end()) return "Localized at the end, with a confidence of " + confidence;
   return "Not localized at the end: tracked, but with a confidence of only " + confidence + ", less than " +

@@ -10,7 +10,9 @@
 namespace psi_slam {
 
 EntryFrames::EntryFrames(const LogOptions& options, std::string speaker)
-    : speaker_(std::move(speaker)), lasers_(options), several_lasers_(reads_several_lasers(options, LogFormat::kMrptRawlog)) {
+    : speaker_(std::move(speaker)),
+      lasers_(options),
+      several_lasers_(reads_several_lasers(options, LogFormat::kMrptRawlog)) {
   check_log_options(options);
 }
 

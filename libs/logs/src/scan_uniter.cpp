@@ -64,7 +64,8 @@ bool ScanUniter::opens(const Scan& scan) const {
 const ScanUniter::Scan* ScanUniter::frame_of(const Scan& scan, const Scan* but) const {
   const Scan* nearest = nullptr;
   for (const Scan& other : scans_) {
-    if (&other == but || !may_join(scan, other) || (nearest != nullptr && !(distance(scan, other) < distance(scan, *nearest))))
+    if (&other == but || !may_join(scan, other) ||
+        (nearest != nullptr && !(distance(scan, other) < distance(scan, *nearest))))
       continue;
     if (opens(other)) nearest = &other;
   }
@@ -85,7 +86,8 @@ const ScanUniter::Scan& ScanUniter::choose(const std::vector<const Scan*>& claim
     const Scan* next = claimants.size() > 1 ? frame_of(*scan, &opener) : nullptr;
     const TimeUs here_us = distance(*scan, opener).first;
     const TimeUs there_us = next == nullptr ? 0 : distance(*scan, *next).first;
-    if (next != nullptr && there_us <= kFarther * here_us && detours_us + there_us - here_us <= kMostDetour_us)
+    if (next != nullptr && there_us <= kFarther * here_us &&
+        detours_us + there_us - here_us <= kMostDetour_us)
       can_go_on[scan] = there_us - here_us;
     else
       others.push_back(scan);

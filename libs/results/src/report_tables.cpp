@@ -94,11 +94,11 @@ std::string log_table(const MappedLogFacts& log, const std::string& name) {
   html += fact("Returns", fixed_text(100 * log.returns, 1) + " % of the beams, sensor's maximum " +
                               fixed_text(log.max_range_m, 1) + " m");
   if (log.companion_scans + log.spare_scans > 0)
-    html += fact("Further lasers", counted(log.companion_scans, "scan", "scans") +
-                                       " taken together with those of the first; " +
-                                       (log.spare_scans == 0 ? std::string("none")
-                                                             : counted(log.spare_scans, "scan", "scans")) +
-                                       " left out for want of one near enough");
+    html +=
+        fact("Further lasers",
+             counted(log.companion_scans, "scan", "scans") + " taken together with those of the first; " +
+                 (log.spare_scans == 0 ? std::string("none") : counted(log.spare_scans, "scan", "scans")) +
+                 " left out for want of one near enough");
   html += fact("Laser on the robot", "x " + fixed_text(log.robot_T_laser.x, 3) + " m, y " +
                                          fixed_text(log.robot_T_laser.y, 3) + " m, yaw " +
                                          degrees(log.robot_T_laser.phi));

@@ -115,9 +115,9 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   finished_ = true;
   if (!stays_open_) mapper_.reset();
   result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
-  result_.interrupted =
-      result_.interrupted || scans_left_ ||
-      std::any_of(logs_.begin(), logs_.end() - 1, [](const RecordedLog& before) { return before.scans_left; });
+  result_.interrupted = result_.interrupted || scans_left_ ||
+                        std::any_of(logs_.begin(), logs_.end() - 1,
+                                    [](const RecordedLog& before) { return before.scans_left; });
   result_.broken_off = broken_off_;
   stages_of_mapping_ = result_.stages.size();
 }

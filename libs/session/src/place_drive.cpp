@@ -68,8 +68,8 @@ class FirstDrive {
 
 /// Follows the robot until it is sure where it is; `why_not` says why it is not.
 std::optional<Sighting> find(FirstDrive& frames, Localizer& localizer, FrontEnd& way, bool told,
-                             const std::atomic<bool>& stop,
-                             const std::function<void(double share)>& tell, std::string& why_not) {
+                             const std::atomic<bool>& stop, const std::function<void(double share)>& tell,
+                             std::string& why_not) {
   std::optional<Sighting> seen;
   double followed_m = 0;
   while (std::optional<Frame> frame = frames.next()) {

@@ -43,7 +43,8 @@ struct LocalizationSummary {
   std::optional<double> ambiguity;  ///< of the search that found it first
   double median_response = 0;       ///< of the scans that fit
   bool tracked_at_end = false;
-  std::optional<double> lost_after_s;  ///< where it is lost at the end: its last pose's time, from the first scan
+  std::optional<double>
+      lost_after_s;       ///< where it is lost at the end: its last pose's time, from the first scan
   double confidence = 0;  ///< at the end: the mean of its scans, of which those that do not fit have none
   std::string why_not;    ///< of the last search, where the robot was never found or is lost at the end
 

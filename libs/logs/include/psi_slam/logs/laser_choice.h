@@ -28,9 +28,9 @@ struct LaserChoice {
 /// Throws UserError, naming the option, when a name is empty or comes twice.
 LaserChoice laser_choice(std::string_view option, std::string_view value);
 
-/// Whether frames of a log of this format may hold scans of several lasers: topics count for bags alone, where
-/// they stand over `laser`. Throws UserError when a mount is stated that is for one laser, and for choices
-/// that laser_choice() refuses.
+/// Whether frames of a log of this format may hold scans of several lasers: topics count for bags alone,
+/// where they stand over `laser`. Throws UserError when a mount is stated that is for one laser, and for
+/// choices that laser_choice() refuses.
 bool reads_several_lasers(const LogOptions& options, LogFormat format);
 
 /// The lasers that are read of a log that names each scan's laser, numbered as in LaserScan::laser: those

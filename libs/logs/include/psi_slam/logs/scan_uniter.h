@@ -67,7 +67,8 @@ class ScanUniter {
   std::size_t places_ = 0;
   std::size_t clock_ = 0;
   std::size_t left_out_ = 0;
-  std::map<std::size_t, TimeUs> detours_us_;  // by laser, until one of its scans joins the nearest frame again
+  std::map<std::size_t, TimeUs>
+      detours_us_;  // by laser, until one of its scans joins the nearest frame again
   bool ended_ = false;
 };
 

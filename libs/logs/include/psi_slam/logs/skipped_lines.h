@@ -6,8 +6,9 @@
 
 namespace psi_slam {
 
-/// What of a log was left out: lines of a text log that do not parse, of which logs that long-running programs
-/// write have a few; odometry of a bag that is no pose. And, which is no fault, scans that no frame took.
+/// What of a log was left out: lines of a text log that do not parse, of which logs that long-running
+/// programs write have a few; odometry of a bag that is no pose. And, which is no fault, scans that no frame
+/// took.
 struct SkippedLines {
   std::size_t count = 0;
   std::string first;  ///< "path:line: ...", where the first of them is, what it has and what was expected

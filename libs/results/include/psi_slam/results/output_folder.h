@@ -3,8 +3,8 @@
 //
 //     map.*  map_print.png                  the map, in the forms that MapFileOptions names
 //     trajectory.tum  trajectory.carmen     the trajectory of all scans, and the corrected log
-//     trajectory-1.tum  trajectory-2.tum    where several drives were merged, each one's path and corrected log,
-//     trajectory-1.carmen  and so on        and no trajectory.carmen: see write_corrected_log()
+//     trajectory-1.tum  trajectory-1.carmen where several drives were merged, each one's, and so on; and no
+//                                           trajectory.carmen: see write_corrected_log()
 //     frames.csv  loops.csv  summary.json  report.html
 //
 // MappingSession adds graph.g2o, and loops.edits where loops were edited.

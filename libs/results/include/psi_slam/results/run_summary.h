@@ -33,7 +33,7 @@ struct MappedLogFacts {
   double last_bearing_rad = 0;
   double max_range_m = 0;
   mrpt::math::TPose2D robot_T_laser;
-  double returns = 0;  ///< share of all beams, of all lasers, that returned, in [0, 1]
+  double returns = 0;               ///< share of all beams, of all lasers, that returned, in [0, 1]
   std::size_t companion_scans = 0;  ///< of lasers behind the first, that belong to its scans
   std::size_t spare_scans = 0;      ///< the same, that no frame took; what exports cannot see in the result
   TimeUs first_time_us = 0;

@@ -19,9 +19,9 @@
 namespace psi_slam {
 
 /// `grid` is the map of `mapped`, `map_T_start` about where the robot begins in it. `tell` is told, scan by
-/// scan, how much of the drive has been looked at, in [0, 1]; no more than it takes is. Throws UserError, which
-/// says why, when the drive finds no place that it fits, or several; and SystemFailure when `stop` became
-/// true.
+/// scan, how much of the drive has been looked at, in [0, 1]; no more than it takes is. Throws UserError,
+/// which says why, when the drive finds no place that it fits, or several; and SystemFailure when `stop`
+/// became true.
 DriveStart place_drive(const MappingResult& mapped, const mrpt::maps::COccupancyGridMap2D& grid,
                        const SessionInput& drive, const Settings& settings,
                        const std::optional<mrpt::math::TPose2D>& map_T_start, const std::atomic<bool>& stop,

@@ -144,6 +144,7 @@ void MainFrame::build_toolbar() {
 
 void MainFrame::refresh() {
   for (const std::string& failure : replay_.tidy()) messages_->say(MessageBar::Kind::kError, failure);
+  telling_failures([this] { session_reader_.serve(); });
   if (!replay_) return;
   const std::shared_ptr<const ReplaySnapshot> snapshot = replay_->snapshot();
   if (snapshot != snapshot_) {

@@ -21,6 +21,7 @@
 #include "file_questions.h"
 #include "psi_slam/session/bound_settings.h"
 #include "replay_slot.h"
+#include "session_reader.h"
 #include "unsaved_work.h"
 #include "window_layout.h"
 
@@ -109,6 +110,8 @@ class MainFrame : public wxFrame {
   void ask_for_picture();
   void ask_for_session();
   void ask_for_log_of_session();
+  /// Once `read` has given a session, in another thread, `take` is called in this one.
+  void read_session(const std::filesystem::path& file, SessionReader::Read read, SessionReader::Take take);
   std::vector<std::string> take_settings_of(const SessionFacts& facts, const std::filesystem::path& file,
                                             const std::function<void(BoundSettings&)>& overrule);
   enum class Edits { kOfFile, kMadeSoFar };
@@ -139,6 +142,7 @@ class MainFrame : public wxFrame {
 
   BoundSettings settings_;
   ReplaySlot replay_;
+  SessionReader session_reader_;
   UnsavedWork unsaved_;
   std::shared_ptr<const ReplaySnapshot> snapshot_;
   std::optional<std::size_t> shown_frame_;  ///< looked at instead of the newest

@@ -11,6 +11,7 @@
 #include "message_bar.h"
 #include "plot_panel.h"
 #include "psi_slam/session/recorded_settings.h"
+#include "psi_slam/session/session_file.h"
 #include "settings_panel.h"
 #include "wx_text.h"
 
@@ -25,22 +26,34 @@ void MainFrame::start(const std::string& log, const std::string& config,
   });
   settings_panel_->refresh();
   if (log.empty()) return;
-  open_log(log, std::move(journal), [&](BoundSettings& bound) { bound.load(config, settings); });
+  open_log(log, std::move(journal), [=](BoundSettings& bound) { bound.load(config, settings); });
 }
 
 void MainFrame::open_log(const std::filesystem::path& log, std::optional<EditJournal> edits,
                          const std::function<void(BoundSettings&)>& overrule) {
-  telling_failures([&] {
-    SessionInput input = SessionInput::of_file(log);
-    if (edits) input = input.with_edits(*std::move(edits));
-    const std::vector<std::string> remarks = input.recording()
-                                                 ? take_settings_of(input.recording()->facts, log, overrule)
-                                                 : std::vector<std::string>();
-    if (!input.recording()) kept_settings_.clear();
+  session_reader_.give_up();
+  const auto open_input = [=](SessionInput input, const std::vector<std::string>& remarks) {
     opened_ = log;
-    open(std::move(input), Edits::kOfFile);
+    open(edits ? input.with_edits(*edits) : std::move(input), Edits::kOfFile);
     if (!remarks.empty()) messages_->say(MessageBar::Kind::kWarning, first_sentences(remarks));
+  };
+  telling_failures([&] {
+    if (!is_session_file(log)) {
+      kept_settings_.clear();
+      return open_input(SessionInput(log), {});
+    }
+    read_session(
+        log, [log] { return SessionInput::of_file(log); },
+        [=](const SessionInput& input) {
+          open_input(input, take_settings_of(input.recording()->facts, log, overrule));
+        });
   });
+}
+
+void MainFrame::read_session(const std::filesystem::path& file, SessionReader::Read read,
+                             SessionReader::Take take) {
+  messages_->say(MessageBar::Kind::kNote, "Reading " + file.string());
+  session_reader_.begin(std::move(read), std::move(take));
 }
 
 /// All or none of them; returns what the user is to know of them.
@@ -65,8 +78,14 @@ std::vector<std::string> MainFrame::take_settings_of(const SessionFacts& facts,
 
 void MainFrame::go_on_with(const std::filesystem::path& log) {
   if (!replay_ || !replay_->input().recording()) return;
-  telling_failures(
-      [&] { open(SessionInput(replay_->input().recording(), log).with_edits(edits()), Edits::kMadeSoFar); });
+  telling_failures([&] {
+    read_session(
+        log,
+        [recording = replay_->input().recording(), log, edits = edits()] {
+          return SessionInput(recording, log).with_edits(edits);
+        },
+        [this](SessionInput input) { open(std::move(input), Edits::kMadeSoFar); });
+  });
 }
 
 void MainFrame::telling_failures(const std::function<void()>& action) {

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <random>
+#include <thread>
 #include <vector>
 
 namespace psi_slam {
@@ -29,6 +31,10 @@ void expect_timing_of(const std::vector<double>& times_ms) {
   EXPECT_NEAR(timing.total_s, sum * 1e-3, 1e-12 * sum);
 }
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 TEST(StageClock, agrees_with_statistics_computed_directly) {
   std::mt19937_64 random(4);
   std::gamma_distribution<double> times_ms(1.5, 20);
@@ -47,6 +53,23 @@ TEST(StageClock, keeps_a_small_spread_about_a_large_mean) {
 
 TEST(StageClock, one_call_is_its_own_mean_and_extremes) {
   expect_timing_of({7.25});
+}
+
+TEST(StageClock, what_is_left_out_does_not_count) {
+  StageClock clock("stage");
+  double left_out_ms = 0;
+  const auto start = std::chrono::steady_clock::now();
+  clock.time([&] {
+    for (int i = 0; i < 2; ++i)
+      EXPECT_TRUE(clock.leave_out([&] {
+        const auto from = std::chrono::steady_clock::now();
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        left_out_ms += milliseconds_since(from);
+        return true;
+      }));
+  });
+  EXPECT_LE(clock.timing().total_s * 1e3, milliseconds_since(start) - left_out_ms);
+  EXPECT_GE(clock.timing().total_s, 0);
 }
 
 TEST(StageClock, without_a_call_all_is_zero) {

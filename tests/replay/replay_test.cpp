@@ -23,7 +23,7 @@ using SnapshotPtr = std::shared_ptr<const ReplaySnapshot>;
 
 /// The first snapshot that is as expected; a failed expectation when none is for long.
 SnapshotPtr wait_for(const Replay& replay, const std::function<bool(const ReplaySnapshot&)>& expected) {
-  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(4);  // sanitizers are slow
   SnapshotPtr snapshot = replay.snapshot();
   while (!expected(*snapshot)) {
     const bool over = snapshot->phase == ReplayPhase::kFailed;
@@ -46,6 +46,14 @@ SnapshotPtr wait_for_export(const Replay& replay, int number) {
   return wait_for(replay, [number](const ReplaySnapshot& snapshot) {
     return snapshot.exported && snapshot.exported->number == number;
   });
+}
+
+SnapshotPtr wait_for_save(const Replay& replay, int number) {
+  const SnapshotPtr now = wait_for(replay, [number](const ReplaySnapshot& snapshot) {
+    return snapshot.saved && snapshot.saved->number == number;
+  });
+  EXPECT_EQ(now->saved->failure, "");
+  return now;
 }
 
 class ReplayTest : public testing::Test {
@@ -91,7 +99,7 @@ TEST_F(ReplayTest, played_it_writes_what_the_headless_program_writes) {
   const auto path = log(room_log_lines());
   map_headless(path, "headless");
   Replay replay(path, settings_);
-  replay.set_speed(50);
+  replay.set_speed(10);  // fast enough to wait for, slow enough to be paused on its way
   replay.play();
   wait_for(replay, [](const ReplaySnapshot& now) { return now.frames.size() > 20; });
   replay.pause();
@@ -122,13 +130,6 @@ TEST_F(ReplayTest, played_it_writes_what_the_headless_program_writes) {
 TEST_F(ReplayTest, saved_and_opened_again_it_goes_on_to_what_the_headless_program_writes) {
   const auto path = log(room_log_lines());
   map_headless(path, "headless");
-  const auto wait_for_save = [](const Replay& replay, int number) {
-    const SnapshotPtr now = wait_for(replay, [number](const ReplaySnapshot& snapshot) {
-      return snapshot.saved && snapshot.saved->number == number;
-    });
-    EXPECT_EQ(now->saved->failure, "");
-    return now;
-  };
   {
     Replay replay(path, settings_);
     replay.hurry_to(70);
@@ -269,6 +270,11 @@ TEST_F(ReplayTest, a_log_deleted_while_it_is_open_is_mapped_or_told_of) {
   replay.set_speed(0);
   replay.play();
   EXPECT_EQ(wait_for(replay, ReplayPhase::kFinished)->frames.size(), 150U);
+  replay.save_session(out("rescued.session"));
+  wait_for_save(replay, 1);
+  const SessionRecording rescued = read_session_file(out("rescued.session"));
+  EXPECT_EQ(rescued.frames.size(), 150U);
+  EXPECT_EQ(rescued.facts.logs[0].sha256, "");
 }
 
 TEST_F(ReplayTest, is_closed_at_any_moment) {
@@ -462,6 +468,35 @@ TEST_F(ReplayEditsTest, of_a_run_are_made_again_in_the_next) {
   replay.undo();
   EXPECT_EQ(verdict_of(*wait_until_finished_after_edit(replay, 2), edit), LoopVerdict::kDeleted)
       << "as the journal had it";
+}
+
+TEST_F(ReplayEditsTest, undone_they_bring_back_what_was_to_be_done_to_the_loop_later) {
+  const auto path = log(room_log_lines(150));
+  LoopEdit edit;
+  {
+    Replay replay(path, settings_);
+    replay.hurry_to(140);
+    edit = delete_first_accepted(*wait_for(replay, [](const ReplaySnapshot& now) {
+      return now.phase == ReplayPhase::kPaused && now.frames.size() == 140;
+    }));
+  }
+  EditJournal journal;
+  journal.add({edit, {EditTime::Kind::kEnd, 0}});
+  Replay replay(path, settings_, journal);
+  replay.hurry_to(140);
+  wait_for(replay, [](const ReplaySnapshot& now) {
+    return now.phase == ReplayPhase::kPaused && now.frames.size() == 140;
+  });
+  LoopEdit other = edit;
+  other.kind = LoopEdit::Kind::kForce;
+  replay.edit(other);
+  EXPECT_EQ(wait_for_edit(replay, 1)->edits->size(), 1U) << "the later one is forgotten";
+  replay.undo();
+  wait_for_edit(replay, 2);
+  EXPECT_EQ(replay.edits_asked(), replay.snapshot()->edits_served);
+  replay.set_speed(0);
+  replay.play();
+  EXPECT_EQ(verdict_of(*wait_for(replay, ReplayPhase::kFinished), edit), LoopVerdict::kDeleted);
 }
 
 TEST_F(ReplayEditsTest, that_were_not_made_are_told_of) {

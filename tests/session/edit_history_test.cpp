@@ -14,6 +14,11 @@ void expect_edit(const std::optional<LoopEdit>& edit, Kind kind, std::size_t fra
   EXPECT_EQ(edit->frame, frame);
 }
 
+void expect_edit(const std::optional<EditHistory::Reversal>& back, Kind kind, std::size_t frame) {
+  ASSERT_TRUE(back.has_value());
+  expect_edit(back->edit, kind, frame);
+}
+
 TEST(EditHistory, takes_back_what_was_done_last_first) {
   EditHistory history;
   history.note({Kind::kDelete, 1, 0}, std::nullopt);
@@ -34,6 +39,20 @@ TEST(EditHistory, what_was_in_force_for_the_loop_before_comes_back) {
   EXPECT_FALSE(history.undo().has_value());
   history.note({Kind::kDelete, 1, 7}, std::nullopt);
   expect_edit(history.undo(), Kind::kRestore, 1);
+}
+
+TEST(EditHistory, what_was_to_be_done_to_the_loop_later_comes_back_with_it) {
+  EditHistory history;
+  const TimedEdit later{{Kind::kForce, 1, 0}, {EditTime::Kind::kAfterScan, 1500}};
+  history.note({Kind::kDelete, 1, 0}, std::nullopt, {later});
+  for (int round = 0; round < 2; ++round) {
+    const auto back = history.undo();
+    ASSERT_TRUE(back.has_value());
+    EXPECT_EQ(back->edit.kind, Kind::kRestore);
+    ASSERT_EQ(back->later.size(), 1U);
+    EXPECT_EQ(back->later[0].time.scan, 1500U);
+    history.redo();
+  }
 }
 
 TEST(EditHistory, does_again_what_was_undone_until_something_else_is_done) {

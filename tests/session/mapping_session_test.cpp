@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <thread>
 
 #include "psi_slam/pose_graph/g2o_file.h"
 #include "psi_slam/results/grid_map.h"
@@ -141,6 +143,27 @@ TEST_F(MappingSessionTest, tells_how_far_it_is) {
   session.run(go_on_);
   session.export_to(output());
   EXPECT_THAT(phases, ElementsAre(Phase::kMapping, Phase::kLastPass, Phase::kWriting));
+}
+
+TEST_F(MappingSessionTest, time_for_which_its_observer_holds_it_is_no_work) {
+  using Clock = std::chrono::steady_clock;
+  Clock::duration held{};
+  double elapsed_s = 0;
+  MappingSession session(log(room_log_lines(60)), settings_);
+  session.set_observer([&](const SessionProgress& progress) {
+    const auto from = Clock::now();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    elapsed_s = progress.elapsed_s;
+    held += Clock::now() - from;
+  });
+  const auto start = Clock::now();
+  session.run(go_on_);
+  const Clock::duration worked = Clock::now() - start - held;
+  EXPECT_GT(elapsed_s, 0);
+  EXPECT_LE(elapsed_s, std::chrono::duration<double>(worked).count());
+  double stages_s = 0;
+  for (const StageTiming& stage : session.result().stages) stages_s += stage.total_s;
+  EXPECT_LE(stages_s, std::chrono::duration<double>(worked).count());
 }
 
 TEST_F(MappingSessionTest, maps_a_log_up_to_where_it_breaks_off) {

@@ -245,7 +245,10 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress, AfterF
   if (options_.close_loops && !memory_.nodes.empty()) {
     settle_loops();
     for (int pass = 0; pass < options_.last_pass.passes && !result_.last_pass_cut_short; ++pass) {
-      last_pass_clock_.time([&] { run_last_pass([&](double share) { return go_on(pass + share); }); });
+      last_pass_clock_.time([&] {
+        run_last_pass(
+            [&](double share) { return last_pass_clock_.leave_out([&] { return go_on(pass + share); }); });
+      });
       settle_loops();
     }
     keeper_.ledger().refuse_pending();
@@ -254,8 +257,11 @@ MappingResult Mapper::finish(const std::function<bool(double)>& progress, AfterF
   count_accepted_loops();
   carry_frames_along(graph_.poses(), result_.node_frames, result_.frames, result_.drive_frames);
   if (options_.close_loops && !memory_.nodes.empty() && !result_.last_pass_cut_short)
-    refinement_clock_.time(
-        [&] { refine_poses([&](double share) { return go_on(options_.last_pass.passes + share); }); });
+    refinement_clock_.time([&] {
+      refine_poses([&](double share) {
+        return refinement_clock_.leave_out([&] { return go_on(options_.last_pass.passes + share); });
+      });
+    });
   result_.interrupted = result_.last_pass_cut_short;
   result_.graph = graph_;
   result_.loops = after == AfterFinish::kReopen ? keeper_.loops() : keeper_.ledger().take_loops();

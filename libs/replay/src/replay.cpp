@@ -313,15 +313,23 @@ void Replay::serve_edits(MappingSession& session) {
 }
 
 void Replay::make_edit(MappingSession& session, const EditWish& wish) {
-  std::optional<LoopEdit> edit = wish.edit;
-  if (wish.kind == EditKind::kUndo) edit = edit_history_.undo();
-  if (wish.kind == EditKind::kRedo) edit = edit_history_.redo();
-  if (!edit) return;
-  const std::optional<LoopEdit> before = session.edits().in_force(*edit);
-  const LoopEditOutcome outcome = session.edit(*edit);
+  EditHistory::Reversal wanted{wish.edit, {}};
+  if (wish.kind == EditKind::kUndo) {
+    auto back = edit_history_.undo();
+    if (!back) return;
+    wanted = *std::move(back);
+  } else if (wish.kind == EditKind::kRedo) {
+    const auto again = edit_history_.redo();
+    if (!again) return;
+    wanted.edit = *again;
+  }
+  const std::optional<LoopEdit> before = session.edits().in_force(wanted.edit);
+  std::vector<TimedEdit> later = session.edits().to_come(wanted.edit);
+  const LoopEditOutcome outcome = session.edit(wanted.edit);
+  session.plan(wanted.later);
   const bool made = outcome.state != LoopEditOutcome::State::kImpossible;
-  if (made && wish.kind == EditKind::kEdit) edit_history_.note(*edit, before);
-  maker_->note_edited({++edits_made_, *edit, outcome});
+  if (made && wish.kind == EditKind::kEdit) edit_history_.note(wanted.edit, before, std::move(later));
+  maker_->note_edited({++edits_made_, wanted.edit, outcome});
 }
 
 void Replay::save_once(const MappingSession& session) {

@@ -2,6 +2,7 @@
 #include "psi_slam/session/edit_journal.h"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 #include <tuple>
@@ -54,6 +55,13 @@ std::optional<LoopEdit> EditJournal::in_force(const LoopEdit& same) const {
   for (std::size_t i = taken_; i-- > 0;)
     if (same_loop(edits_[i].edit, same)) return edits_[i].edit;
   return std::nullopt;
+}
+
+std::vector<TimedEdit> EditJournal::to_come(const LoopEdit& same) const {
+  std::vector<TimedEdit> later;
+  std::copy_if(edits_.begin() + static_cast<std::ptrdiff_t>(taken_), edits_.end(), std::back_inserter(later),
+               [&](const TimedEdit& edit) { return same_loop(edit.edit, same); });
+  return later;
 }
 
 void EditJournal::enter(const TimedEdit& edit) {

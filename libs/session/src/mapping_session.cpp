@@ -38,11 +38,16 @@ class MappingSession::WorkClock {
   void stop() {
     work_s_ = before_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
+  /// What came since stop() was no work.
+  void go_on() {
+    before_s_ = work_s_;
+    start_ = std::chrono::steady_clock::now();
+  }
 
  private:
   double& work_s_;
-  const double before_s_;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double before_s_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 MappingSession::MappingSession(const std::filesystem::path& log, const Settings& settings)
@@ -108,7 +113,8 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
       [&](double share) {
         const bool go_on = !stop;
         clock.stop();
-        tell(share);
+        tell(share);  // which may hold the run
+        clock.go_on();
         return go_on;
       },
       stays_open_ ? Mapper::AfterFinish::kReopen : Mapper::AfterFinish::kNothing);
@@ -160,6 +166,17 @@ LoopEditOutcome MappingSession::edit(const LoopEdit& edit) {
     now = {EditTime::Kind::kAfterScan, scans_ - 1};
   edits_.enter({edit, now});
   return outcome;
+}
+
+void MappingSession::plan(const std::vector<TimedEdit>& edits) {
+  const bool at_end = finished_ || at_end_ || broken_off_.has_value();
+  for (const TimedEdit& later : edits) {
+    const bool passed = at_end || later.time < EditTime{EditTime::Kind::kAfterScan, scans_};
+    if (passed)
+      edit(later.edit);
+    else
+      edits_.add(later);
+  }
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {

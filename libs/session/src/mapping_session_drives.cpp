@@ -14,6 +14,8 @@
 namespace psi_slam {
 namespace {
 
+namespace fs = std::filesystem;
+
 EditJournal edits_before(std::size_t scan, const EditJournal& edits) {
   EditJournal before;
   for (const TimedEdit& edit : edits.edits())
@@ -64,7 +66,7 @@ SessionFacts MappingSession::facts() const {
     cut_behind(scans_, facts);
     RecordedLog& last = facts.logs.back();
     if (facts.logs.size() == logs_.size()) {
-      if (last.sha256.empty()) last.sha256 = sha256_of_log(path_);
+      if (last.sha256.empty()) last.sha256 = checksum_of_log();
       last.skipped = source_->skipped_lines();
       last.broken_off = broken_off_;
       last.scans_left = scans_left_ || (!at_end_ && !broken_off_);
@@ -73,6 +75,17 @@ SessionFacts MappingSession::facts() const {
   facts.program_version = PSI_SLAM_VERSION;
   facts.settings = settings_file_text(settings_);
   return facts;
+}
+
+// A log that is gone is no reason to lose what was read of it.
+std::string MappingSession::checksum_of_log() const {
+  if (!log_sha256_.empty()) return log_sha256_;
+  try {
+    log_sha256_ = sha256_of_log(path_);
+  } catch (const UserError&) {
+  } catch (const fs::filesystem_error&) {  // of a folder
+  }
+  return log_sha256_;
 }
 
 void MappingSession::begin_recorded_drive() {
@@ -99,9 +112,11 @@ void MappingSession::begin_drive(const SessionInput& drive, const DriveStart& st
       later.start.node += first_node;
       drives_.push_back(later);
     }
-  edits_.add(drive.edits().of_drive(scans_, inner ? inner->frames.size() : 0, mapper_->memory().local_maps.size()));
+  edits_.add(
+      drive.edits().of_drive(scans_, inner ? inner->frames.size() : 0, mapper_->memory().local_maps.size()));
   recording_.reset();  // it is no longer all that there is
   path_ = drive.log();
+  log_sha256_.clear();
   logs_ = logs_before;
   logs_.insert(logs_.end(), drive.logs().begin(), drive.logs().end());
   source_ = std::move(source);

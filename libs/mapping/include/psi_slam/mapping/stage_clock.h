@@ -26,19 +26,33 @@ class StageClock {
   /// Runs `work`, adds its time and returns it in milliseconds.
   template <class Work>
   double time(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    const double ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    const double left_out_before_ms = left_out_ms_;
+    const double ms = duration_ms(work) - (left_out_ms_ - left_out_before_ms);
     add(ms);
     return ms;
+  }
+
+  /// In the midst of time(): what is called here is no part of the stage, such as telling of it, or a pause.
+  template <class Call>
+  auto leave_out(const Call& call) {
+    decltype(call()) result{};
+    left_out_ms_ += duration_ms([&] { result = call(); });
+    return result;
   }
 
   void add(double ms);
   StageTiming timing() const;
 
  private:
+  template <class Work>
+  static double duration_ms(const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+
   StageTiming timing_;
+  double left_out_ms_ = 0;
   double squares_about_mean_ = 0;  // Welford's sum
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Undo and redo of edits. To take one back is an edit, too: the one that was in force for the same loop
-// before it, or else to restore the loop.
+// before it, or else to restore the loop; and what was to be done to it later is to be done again.
 #pragma once
 
 #include <optional>
@@ -8,17 +8,23 @@
 #include <vector>
 
 #include "psi_slam/loop_closure/loop_edit.h"
+#include "psi_slam/session/edit_journal.h"
 
 namespace psi_slam {
 
 class EditHistory {
  public:
-  /// A person made an edit where `before` was in force for the same loop. What was undone before can no
-  /// longer be redone.
-  void note(const LoopEdit& made, const std::optional<LoopEdit>& before);
+  struct Reversal {
+    LoopEdit edit;
+    std::vector<TimedEdit> later;  ///< what was to be done to the loop later, and was forgotten
+  };
 
-  /// The edit that takes back the newest one; none where there is nothing to undo.
-  std::optional<LoopEdit> undo();
+  /// A person made an edit where `before` was in force for the same loop, and `later` was to come. What was
+  /// undone before can no longer be redone.
+  void note(const LoopEdit& made, const std::optional<LoopEdit>& before, std::vector<TimedEdit> later = {});
+
+  /// What takes back the newest one; none where there is nothing to undo.
+  std::optional<Reversal> undo();
   /// The edit that was undone last.
   std::optional<LoopEdit> redo();
 
@@ -29,7 +35,7 @@ class EditHistory {
  private:
   struct Step {
     LoopEdit made;
-    LoopEdit back;  // what takes it back
+    Reversal back;  // what takes it back
   };
   static std::string text_of_last(const std::vector<Step>& steps) {
     return steps.empty() ? "" : text_of(steps.back().made);

@@ -59,6 +59,8 @@ class EditJournal {
   std::vector<LoopEdit> take_due(EditTime now);
   /// What was done last to the same loop, of the edits that were taken.
   std::optional<LoopEdit> in_force(const LoopEdit& same_loop) const;
+  /// What is to be done to the same loop, of the edits that were not taken yet.
+  std::vector<TimedEdit> to_come(const LoopEdit& same_loop) const;
   /// None is taken any more: for another run of the same log.
   void rewind() { taken_ = 0; }
 

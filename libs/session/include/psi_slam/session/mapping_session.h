@@ -83,6 +83,10 @@ class MappingSession {
   /// was before, and finish() is to be called again.
   LoopEditOutcome edit(const LoopEdit& edit);
 
+  /// Edits that an edit made the journal forget are to be made again, each at its time; now where that has
+  /// passed.
+  void plan(const std::vector<TimedEdit>& edits);
+
   /// How many, this one and those that were merged before.
   std::size_t drives() const { return drives_.size() + 1; }
 
@@ -141,11 +145,13 @@ class MappingSession {
   void write_edits(const std::filesystem::path& file) const;
   void begin_recorded_drive();
   SessionFacts facts() const;
+  std::string checksum_of_log() const;
   void begin(SessionProgress::Phase phase);
   void tell(double share) const;
 
   std::shared_ptr<const SessionRecording> recording_;  // null: none
   std::filesystem::path path_;                         // of the log that is read; empty: none
+  mutable std::string log_sha256_;                     // of that, once it was asked for
   std::vector<RecordedLog> logs_;
   std::vector<RecordedDrive> drives_;
   Settings settings_;

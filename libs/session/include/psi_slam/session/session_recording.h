@@ -19,7 +19,7 @@ namespace psi_slam {
 /// A log that frames were read from.
 struct RecordedLog {
   std::string name;       ///< of the file, without its folder
-  std::string sha256;     ///< see sha256_of_log()
+  std::string sha256;     ///< see sha256_of_log(); empty: it was gone when it was asked for
   std::size_t scans = 0;  ///< that were taken from its beginning
   SkippedLines skipped{};
   std::optional<std::string> broken_off{};  ///< what is wrong with it behind its last frame

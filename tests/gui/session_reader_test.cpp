@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <thread>
+
+#include "psi_slam/base/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+class SessionReaderTest : public testing::Test {
+ protected:
+  SessionReader::Take take() {
+    return [this](const SessionInput& input) { taken_.push_back(input.log().string()); };
+  }
+  void serve_until_taken(std::size_t count) {
+    while (taken_.size() < count) {
+      reader_.serve();
+      std::this_thread::yield();
+    }
+  }
+
+  std::vector<std::string> taken_;
+  SessionReader reader_;
+};
+
+TEST_F(SessionReaderTest, hands_over_what_was_read_once_and_in_the_thread_that_serves) {
+  std::thread::id read_in;
+  std::promise<void> may_read;
+  reader_.begin(
+      [&] {
+        may_read.get_future().wait();
+        read_in = std::this_thread::get_id();
+        return SessionInput("my.log");
+      },
+      take());
+  reader_.serve();
+  EXPECT_TRUE(taken_.empty()) << "it does not wait";
+  may_read.set_value();
+  serve_until_taken(1);
+  reader_.serve();
+  EXPECT_EQ(taken_, std::vector<std::string>{"my.log"});
+  EXPECT_NE(read_in, std::this_thread::get_id());
+}
+
+TEST_F(SessionReaderTest, gives_up_what_was_begun_before) {
+  std::promise<void> may_read;
+  std::shared_future<void> told = may_read.get_future().share();
+  reader_.begin([told] { return told.wait(), SessionInput("first.log"); }, take());
+  reader_.begin([] { return SessionInput("second.log"); }, take());
+  serve_until_taken(1);
+  may_read.set_value();
+  reader_.serve();
+  EXPECT_EQ(taken_, std::vector<std::string>{"second.log"});
+}
+
+TEST_F(SessionReaderTest, throws_what_reading_threw_and_goes_on) {
+  reader_.begin([]() -> SessionInput { throw UserError("my.session is damaged"); }, take());
+  bool threw = false;
+  while (!threw) {
+    try {
+      reader_.serve();
+    } catch (const UserError& error) {
+      EXPECT_STREQ(error.what(), "my.session is damaged");
+      threw = true;
+    }
+  }
+  reader_.serve();
+  reader_.begin([] { return SessionInput("my.log"); }, take());
+  serve_until_taken(1);
+}
+
+}  // namespace
+}  // namespace psi_slam

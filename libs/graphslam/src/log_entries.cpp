@@ -118,7 +118,8 @@ class FrameEntries : public LogEntries {
 }  // namespace
 
 std::unique_ptr<LogEntries> open_log_entries(const std::filesystem::path& log, const LogOptions& options) {
-  if (detect_log_format(log) == LogFormat::kMrptRawlog && !reads_several_lasers(options))
+  const LogFormat format = detect_log_format(log);
+  if (format == LogFormat::kMrptRawlog && !reads_several_lasers(options, format))
     return std::make_unique<RawlogEntries>(log, options);
   return std::make_unique<FrameEntries>(open_log(log, options));
 }

@@ -20,6 +20,10 @@ function(psi_slam_install_documents)
   foreach(program IN LISTS programs)
     psi_slam_write_document(${program} --man-page ${man}/${program}.1.gz)
     psi_slam_write_document(${program} --bash-completion ${completions}/${program})
+    get_target_property(component ${program} PSI_SLAM_COMPONENT)
+    install(FILES ${man}/${program}.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
+    install(FILES ${completions}/${program}
+      DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT ${component})
   endforeach()
   psi_slam_write_document(psi-slam --settings-man-page ${man}/psi-slam.ini.5.gz)
   add_custom_target(psi_slam_program_documents ALL DEPENDS ${documents})
@@ -28,11 +32,7 @@ function(psi_slam_install_documents)
   target_compile_definitions(psi_slam_documents PRIVATE PSI_SLAM_PROGRAMS="${PROGRAMS}")  # for SEE ALSO
   configure_file(${PROJECT_SOURCE_DIR}/share/cmake/zsh-completion.in ${PROJECT_BINARY_DIR}/_psi-slam @ONLY)
 
-  list(TRANSFORM programs REPLACE "(.+)" "${man}/\\1.1.gz" OUTPUT_VARIABLE pages)
-  list(TRANSFORM programs REPLACE "(.+)" "${completions}/\\1" OUTPUT_VARIABLE scripts)
-  install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
   install(FILES ${man}/psi-slam.ini.5.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man5 COMPONENT programs)
-  install(FILES ${scripts} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)
   install(FILES ${PROJECT_BINARY_DIR}/_psi-slam
     DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)
   install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/psi-slam COMPONENT programs)
@@ -41,6 +41,9 @@ function(psi_slam_install_documents)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libpsi-slam-dev COMPONENT development)
   psi_slam_install_legal_documents(psi-slam programs)
   psi_slam_install_legal_documents(libpsi-slam-dev development)
+  if(TARGET psi-slam-sweep-mpi)
+    psi_slam_install_legal_documents(psi-slam-mpi cluster)
+  endif()
 endfunction()
 
 # What every Debian package holds: its licence and what changed.

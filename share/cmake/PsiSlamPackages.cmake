@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The Debian packages that `cpack -G DEB` makes of a build: psi-slam, the programs, and libpsi-slam-dev, the library.
+# The Debian packages that `cpack -G DEB` makes of a build: psi-slam, the programs; libpsi-slam-dev, the library; and
+# psi-slam-mpi, where MPI was found, so that nobody else needs that.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME psi-slam)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL programs development)
+if(TARGET psi-slam-sweep-mpi)
+  list(APPEND CPACK_COMPONENTS_ALL cluster)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_STRIP_FILES ON)
 
@@ -26,6 +30,14 @@ the wheel odometry become one consistent floor plan, by graph SLAM with
 genetic loop matching. The package holds psi-slam itself, a window that
 shows the map being made, and programs that measure how good maps are.")
 
+set(CPACK_DEBIAN_CLUSTER_PACKAGE_NAME psi-slam-mpi)
+set(CPACK_DEBIAN_CLUSTER_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_CLUSTER_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_CLUSTER_PACKAGE_DEPENDS "psi-slam (= ${PROJECT_VERSION}-1), openmpi-bin")
+set(CPACK_COMPONENT_CLUSTER_DESCRIPTION
+"Maps many logs with many settings on the ranks of an MPI job: the sweeps of
+psi-slam on a cluster.")
+
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpsi-slam-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)  # static libraries name none
@@ -44,7 +56,7 @@ file(WRITE ${PROJECT_BINARY_DIR}/changelog.Debian
   "  * Packed by CPack; changelog.gz says what is new.\n\n"
   " -- ${CPACK_DEBIAN_PACKAGE_MAINTAINER}  ${now}\n")
 execute_process(COMMAND gzip --force --best --no-name ${PROJECT_BINARY_DIR}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
-foreach(package psi-slam:programs libpsi-slam-dev:development)
+foreach(package psi-slam:programs libpsi-slam-dev:development psi-slam-mpi:cluster)
   string(REPLACE ":" ";" package ${package})
   list(GET package 0 name)
   list(GET package 1 component)

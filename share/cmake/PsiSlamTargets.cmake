@@ -43,15 +43,20 @@ function(psi_slam_add_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 endfunction()
 
-# psi_slam_add_app(NAME SOURCES file... LINK dependency...)
+# psi_slam_add_app(NAME [COMPONENT component] SOURCES file... LINK dependency...)
 # A program that is installed, with a man page and completion: it has the options of add_document_options().
+# It belongs to the component `programs` unless another one is named.
 function(psi_slam_add_app name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_COMPONENT)
+    set(ARG_COMPONENT programs)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
   psi_slam_configure_target(${name})
   set_property(GLOBAL APPEND PROPERTY psi_slam_programs ${name})
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+  set_target_properties(${name} PROPERTIES PSI_SLAM_COMPONENT ${ARG_COMPONENT})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${ARG_COMPONENT})
 endfunction()
 
 # psi_slam_add_tests(NAME LINK dependency...)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes the Debian packages of a build, installs them with apt-get on a bare Debian 12 in a folder of its own, and maps
-# a log there.
+# Makes the Debian packages of a build, installs them with apt-get on a bare Debian 12 in a folder of its own, maps a
+# log and builds the example there.
 #
 #   share/scripts/check-package.sh [BUILD]        default: build/release, all of it built
 #
@@ -46,6 +46,7 @@ say "packing"
 (cd "$build" && cpack -G DEB -B "$work/packages" >"$work/cpack.log" 2>&1) || fail "cpack failed: $(cat "$work/cpack.log")"
 programs=$(find "$work/packages" -maxdepth 1 -name 'psi-slam_*.deb')
 library=$(find "$work/packages" -maxdepth 1 -name 'libpsi-slam-dev_*.deb')
+cluster=$(find "$work/packages" -maxdepth 1 -name 'psi-slam-mpi_*.deb')  # where MPI was found
 [ -f "$programs" ] && [ -f "$library" ] || fail "expected psi-slam and libpsi-slam-dev, found $(ls "$work/packages")"
 # Seen through files: grep --quiet may end before dpkg-deb has written all.
 dpkg-deb --field "$programs" Depends >"$work/depends.txt"
@@ -54,6 +55,7 @@ dpkg-deb --contents "$library" >"$work/library.txt"
 for library_name in libc6 libmrpt-maps2.5 libwxgtk3.2-1 libgdal32; do
   grep -q "\b$library_name\b" "$work/depends.txt" || fail "psi-slam does not depend on $library_name"
 done
+if grep -q openmpi "$work/depends.txt"; then fail "psi-slam depends on Open MPI"; fi
 mapfile -t program_names < <(sed -n 's|.* ./usr/bin/\(..*\)$|\1|p' "$work/programs.txt")
 files=(./usr/bin/psi-slam ./usr/bin/psi-graphslam ./usr/share/man/man5/psi-slam.ini.5.gz ./usr/share/psi-slam/ini/psi-slam.ini
   ./usr/share/doc/psi-slam/copyright)
@@ -98,6 +100,22 @@ if [ -f "$log" ]; then
 else
   say "no log to map: that of the package mrpt-common is not installed here"
 fi
+if [ -n "$cluster" ]; then
+  say "installing psi-slam-mpi there"
+  cp "$cluster" "$system/tmp/psi-slam-mpi.deb"
+  inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/psi-slam-mpi.deb >"$work/install-mpi.log" 2>&1 ||
+    fail "psi-slam-mpi does not install: $(tail -5 "$work/install-mpi.log")"
+  inside psi-slam-sweep-mpi --version || fail "psi-slam-sweep-mpi does not run"
+  inside apt-get purge --quiet --quiet --yes psi-slam-mpi >"$work/purge-mpi.log" 2>&1 || fail "psi-slam-mpi cannot be removed"
+fi
 inside apt-get purge --quiet --quiet --yes psi-slam >"$work/purge.log" 2>&1 || fail "the package cannot be removed"
 if [ -e "$system/usr/share/psi-slam" ]; then fail "the package leaves /usr/share/psi-slam behind"; fi
-say "psi-slam and libpsi-slam-dev are in order"
+
+say "building the example with libpsi-slam-dev there"
+cp "$library" "$system/tmp/libpsi-slam-dev.deb"
+inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/libpsi-slam-dev.deb cmake g++ make \
+  >"$work/install-dev.log" 2>&1 || fail "libpsi-slam-dev does not install: $(tail -5 "$work/install-dev.log")"
+inside sh -c "cmake -S /usr/share/doc/libpsi-slam-dev/examples/map-a-log -B /tmp/example && cmake --build /tmp/example" \
+  >"$work/example.log" 2>&1 || fail "the example does not build: $(tail -5 "$work/example.log")"
+inside test -x /tmp/example/map_a_log || fail "the example was not built"
+say "the packages are in order"

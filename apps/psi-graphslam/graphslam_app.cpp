@@ -11,6 +11,7 @@
 #include "graphslam_command_line.h"
 #include "interrupt_signals.h"
 #include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/exit_code.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/graphslam/graphslam_settings.h"
 
@@ -21,9 +22,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kName = "psi-graphslam";
-constexpr int kDone = 0;
-constexpr int kFailed = 1;
-constexpr int kWrongUsageOrInput = 2;
 
 void list_deciders(const GraphSlamCommandLine& line, std::ostream& out) {
   const DeciderCatalogue catalogue;
@@ -102,11 +100,11 @@ int map(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) 
   map_and_write(run, line.setup, line.output.empty() ? general.output_dir_fname : line.output, line.force,
                 out, err);
   if (!run.interrupted()) run.wait_for_window();
-  return run.broken_off() ? kWrongUsageOrInput : kDone;
+  return run.broken_off() ? kExitWrongUsageOrInput : kExitDone;
 }
 
 int run(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) {
-  int code = kDone;
+  int code = kExitDone;
   if (line.lists())
     list_deciders(line, out);
   else if (line.dump_options)
@@ -127,19 +125,19 @@ int run_graphslam_app(const std::vector<std::string>& arguments, std::ostream& o
     return run(parse_graphslam_command_line(arguments, app), out, err);
   } catch (const CLI::Success& asked) {  // --help, --version
     app.exit(asked, out, err);
-    return kDone;
+    return kExitDone;
   } catch (const CLI::ParseError& error) {
     err << kName << ": " << error.what() << " (see psi-graphslam --help)\n";
-    return kWrongUsageOrInput;
+    return kExitWrongUsageOrInput;
   } catch (const UserError& error) {
     err << kName << ": " << error.what() << '\n';
-    return kWrongUsageOrInput;
+    return kExitWrongUsageOrInput;
   } catch (const std::bad_alloc&) {
     err << kName << ": there is not enough memory\n";
-    return kFailed;
+    return kExitFailed;
   } catch (const std::exception& error) {
     err << kName << ": " << error.what() << '\n';
-    return kFailed;
+    return kExitFailed;
   }
 }
 

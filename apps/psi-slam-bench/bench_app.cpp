@@ -6,17 +6,10 @@
 
 #include "bench_command.h"
 #include "document_options.h"
+#include "psi_slam/base/exit_code.h"
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
-namespace {
-
-constexpr int kDone = 0;
-constexpr int kFailed = 1;
-constexpr int kWrongUsageOrInput = 2;
-
-}  // namespace
-
 int run_bench_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept {
   CLI::App app("psi-slam-bench measures how good and how fast the parts of psi-slam are.", "psi-slam-bench");
   try {
@@ -30,19 +23,19 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_document_options(app);
     app.parse(
         std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // last first, as CLI11 takes them
-    return kDone;
+    return kExitDone;
   } catch (const CLI::Success& asked) {  // --help, --version
     app.exit(asked, streams.out, streams.err);
-    return kDone;
+    return kExitDone;
   } catch (const CLI::ParseError& error) {
     streams.err << "psi-slam-bench: " << error.what() << " (see psi-slam-bench --help)\n";
-    return kWrongUsageOrInput;
+    return kExitWrongUsageOrInput;
   } catch (const UserError& error) {
     streams.err << "psi-slam-bench: " << error.what() << '\n';
-    return kWrongUsageOrInput;
+    return kExitWrongUsageOrInput;
   } catch (const std::exception& error) {
     streams.err << "psi-slam-bench: " << error.what() << '\n';
-    return kFailed;
+    return kExitFailed;
   }
 }
 

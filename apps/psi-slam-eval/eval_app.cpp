@@ -9,6 +9,7 @@
 
 #include "document_options.h"
 #include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/exit_code.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/results/number_text.h"
 #include "psi_slam/results/relations_metric.h"
@@ -120,24 +121,21 @@ void evaluate(const EvalOptions& options, std::ostream& out) {
 }  // namespace
 
 int run_eval_app(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) noexcept {
-  constexpr int kDone = 0;
-  constexpr int kFailed = 1;
-  constexpr int kWrongUsageOrInput = 2;
   CLI::App app(
       "Measures a trajectory against true relations: the metric of the Freiburg SLAM benchmark "
       "(Kümmerle et al. 2009) and the variant that Cartographer's tool computes.",
       "psi-slam-eval");
   try {
     evaluate(parse(arguments, app), out);
-    return kDone;
+    return kExitDone;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error, out, err) == 0 ? kDone : kWrongUsageOrInput;
+    return app.exit(error, out, err) == 0 ? kExitDone : kExitWrongUsageOrInput;
   } catch (const UserError& error) {
     err << "psi-slam-eval: " << error.what() << '\n';
-    return kWrongUsageOrInput;
+    return kExitWrongUsageOrInput;
   } catch (const std::exception& error) {
     err << "psi-slam-eval: " << error.what() << '\n';
-    return kFailed;
+    return kExitFailed;
   }
 }
 

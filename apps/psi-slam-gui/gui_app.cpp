@@ -16,14 +16,11 @@
 
 #include "gui_command_line.h"
 #include "main_frame.h"
+#include "psi_slam/base/exit_code.h"
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
 namespace {
-
-constexpr int kDone = 0;
-constexpr int kFailed = 1;
-constexpr int kWrongUsageOrInput = 2;
 
 class GuiApp : public wxApp {
  public:
@@ -76,9 +73,9 @@ int run_window(const GuiCommandLine& line, std::ostream& err,
   int argc = 1;
   if (!wxEntryStart(argc, argv.data())) {
     err << "psi-slam-gui: there is no display to open a window on; psi-slam maps without one\n";
-    return kFailed;
+    return kExitFailed;
   }
-  int code = kFailed;
+  int code = kExitFailed;
   if (wxTheApp->CallOnInit()) code = wxTheApp->OnRun();
   wxTheApp->OnExit();
   delete wxConfigBase::Set(nullptr);
@@ -98,16 +95,16 @@ int run_gui(const std::vector<std::string>& arguments, std::ostream& out, std::o
     return run_window(line, err, when_shown);
   } catch (const CLI::Success& asked) {  // --help, --version
     app.exit(asked, out, err);
-    return kDone;
+    return kExitDone;
   } catch (const CLI::ParseError& error) {
     err << "psi-slam-gui: " << error.what() << " (see psi-slam-gui --help)\n";
-    return kWrongUsageOrInput;
+    return kExitWrongUsageOrInput;
   } catch (const UserError& error) {
     err << "psi-slam-gui: " << error.what() << '\n';
-    return kWrongUsageOrInput;
+    return kExitWrongUsageOrInput;
   } catch (const std::exception& error) {
     err << "psi-slam-gui: " << error.what() << '\n';
-    return kFailed;
+    return kExitFailed;
   }
 }
 

@@ -60,13 +60,9 @@ void MainFrame::read_session(const std::filesystem::path& file, SessionReader::R
 std::vector<std::string> MainFrame::take_settings_of(const SessionFacts& facts,
                                                      const std::filesystem::path& file,
                                                      const std::function<void(BoundSettings&)>& overrule) {
-  std::vector<std::string> remarks;
   BoundSettings recorded;  // what the session does not set has its default
-  for (const std::string& name : load_recorded(recorded, facts, file))
-    remarks.push_back(name + " is no option any more and is left out");
-  if (facts.program_version != PSI_SLAM_VERSION)
-    remarks.push_back("The session was made by psi-slam " + facts.program_version +
-                      ", this is " PSI_SLAM_VERSION ": the map may differ from that one's");
+  std::vector<std::string> remarks = load_recorded(recorded, facts, file);
+  if (const auto other = other_version_text(file, facts)) remarks.push_back(*other);
   std::map<std::string, std::string> kept = kept_settings(recorded.table);
   if (overrule) overrule(recorded);
   require_kept(kept, recorded.table, file);

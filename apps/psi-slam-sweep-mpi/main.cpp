@@ -16,6 +16,7 @@
 #include "command_line.h"
 #include "document_options.h"
 #include "mpi_workers.h"
+#include "psi_slam/base/exit_code.h"
 #include "psi_slam/base/user_error.h"
 #include "sweep_command.h"
 
@@ -87,13 +88,13 @@ int run_sweep_of(const MpiWorld& world, const std::vector<std::string>& argument
       throw UserError(unknown_argument_text(unknown.front(), app, kName));
     return run_sweep_command(sweep, mpi_workers(world), psi_slam_program(), streams);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error, streams.out, streams.err) == 0 ? 0 : 2;
+    return app.exit(error, streams.out, streams.err) == 0 ? kExitDone : kExitWrongUsageOrInput;
   } catch (const UserError& error) {
     streams.err << kName << ": " << error.what() << '\n';
-    return 2;
+    return kExitWrongUsageOrInput;
   } catch (const std::exception& error) {
     streams.err << kName << ": " << error.what() << '\n';
-    return 1;
+    return kExitFailed;
   }
 }
 

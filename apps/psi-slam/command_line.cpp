@@ -141,9 +141,9 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   add_settings_options(*check, line.config, line.settings);
   check->add_flag("--json", line.json, "Print the findings as JSON");
 
-  CLI::App* const localize = app.add_subcommand(
-      "localize",
-      "Keep track of a robot in a finished map, and find it with no start pose (exit code 1: never found)");
+  CLI::App* const localize = app.add_subcommand("localize",
+                                                "Keep track of a robot in a finished map, and find it with "
+                                                "no start pose (exit code 1: not localized at its end)");
   std::string log_to_localize;
   localize->add_option("MAP", line.map, "A map as a run writes it: map.yaml or map.gridmap.gz")
       ->type_name("");

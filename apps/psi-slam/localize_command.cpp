@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "interrupt_signals.h"
+#include "psi_slam/base/exit_code.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/localization/localization_report.h"
 #include "psi_slam/localization/map_file.h"
@@ -65,9 +66,9 @@ int localize(const CommandLine& line, const Settings& settings, const Streams& s
     streams.err << "psi-slam: " << skipped.sentence() << '\n';
   if (localized.broken_off) {
     streams.err << "psi-slam: " << *localized.broken_off << '\n';
-    return 2;
+    return kExitWrongUsageOrInput;
   }
-  return summary.localized_at_end() ? 0 : 1;
+  return summary.localized_at_end() ? kExitDone : kExitFailed;
 }
 
 }  // namespace psi_slam

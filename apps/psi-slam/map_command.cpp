@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "closing_text.h"
+#include "psi_slam/base/exit_code.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/results/output_folder.h"
 #include "psi_slam/results/summary_json.h"
@@ -14,9 +15,6 @@
 
 namespace psi_slam {
 namespace {
-
-constexpr int kDone = 0;
-constexpr int kWrongUsageOrInput = 2;
 
 std::string changed_settings(const OptionTable& table) {
   std::string lines;
@@ -82,11 +80,10 @@ void check_session_to_save(const CommandLine& line) {
 
 void load_recorded_settings(const CommandLine& line, const std::string& file, const SessionFacts& facts,
                             BoundSettings& bound, const Streams& streams) {
-  for (const std::string& name : load_recorded(bound, facts, file))
-    streams.err << "psi-slam: " << file << ": " << name << " is no option any more and is left out\n";
-  if (facts.program_version != PSI_SLAM_VERSION && !line.quiet)
-    streams.err << "psi-slam: " << file << " was made by psi-slam " << facts.program_version
-                << ", this is " PSI_SLAM_VERSION ": the map may differ from that one's\n";
+  for (const std::string& sentence : load_recorded(bound, facts, file))
+    streams.err << "psi-slam: " << sentence << '\n';
+  if (const auto other = other_version_text(file, facts); other && !line.quiet)
+    streams.err << "psi-slam: " << *other << '\n';
 }
 
 void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
@@ -122,7 +119,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
     streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
                 << session.result().frames.size() << " scans that could be read\n";
   if (not_saved) std::rethrow_exception(not_saved);
-  return session.breaks_off() ? kWrongUsageOrInput : kDone;
+  return session.breaks_off() ? kExitWrongUsageOrInput : kExitDone;
 }
 
 int map_log(const CommandLine& line, const Streams& streams) {

@@ -9,16 +9,13 @@
 #include "log_check.h"
 #include "map_command.h"
 #include "merge_command.h"
+#include "psi_slam/base/exit_code.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/config/option_listing.h"
 #include "psi_slam/session/bound_settings.h"
 
 namespace psi_slam {
 namespace {
-
-constexpr int kDone = 0;
-constexpr int kFailed = 1;
-constexpr int kWrongUsageOrInput = 2;
 
 void dump_config(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
@@ -32,7 +29,7 @@ void explain_options(const CommandLine& line, const Streams& streams) {
 }
 
 int run(const CommandLine& line, const Streams& streams) {
-  int code = kDone;
+  int code = kExitDone;
   switch (line.command) {
     case CommandLine::Command::kMap:
       code = map_log(line, streams);
@@ -43,7 +40,7 @@ int run(const CommandLine& line, const Streams& streams) {
       const std::string broken_off = check_log(line.log, log_options(bound.settings), line.json, streams.out);
       if (!broken_off.empty()) {
         streams.err << "psi-slam: " << broken_off << '\n';
-        code = kWrongUsageOrInput;
+        code = kExitWrongUsageOrInput;
       }
       break;
     }
@@ -79,19 +76,19 @@ int run_psi_slam_app(const std::vector<std::string>& arguments, const Streams& s
     return run(parse_command_line(arguments, app), streams);
   } catch (const CLI::Success& asked) {  // --help, --version
     app.exit(asked, streams.out, streams.err);
-    return kDone;
+    return kExitDone;
   } catch (const CLI::ParseError& error) {
     streams.err << "psi-slam: " << error.what() << " (see psi-slam --help)\n";
-    return kWrongUsageOrInput;
+    return kExitWrongUsageOrInput;
   } catch (const UserError& error) {
     streams.err << "psi-slam: " << error.what() << '\n';
-    return kWrongUsageOrInput;
+    return kExitWrongUsageOrInput;
   } catch (const std::bad_alloc&) {
     streams.err << "psi-slam: there is not enough memory\n";
-    return kFailed;
+    return kExitFailed;
   } catch (const std::exception& error) {
     streams.err << "psi-slam: " << error.what() << '\n';
-    return kFailed;
+    return kExitFailed;
   }
 }
 

@@ -244,11 +244,22 @@ TEST_F(ResumedSession, options_that_are_no_more_are_left_out_and_named) {
   SessionFacts facts;
   facts.settings = "[front_end]\nwindow_m = 0.2\nmagic = 3\n[gone]\nkey = 1\n";
   BoundSettings bound;
-  EXPECT_THAT(load_recorded(bound, facts, "old.session"), ElementsAre("front_end.magic", "gone.key"));
+  EXPECT_THAT(load_recorded(bound, facts, "old.session"),
+              ElementsAre("old.session: front_end.magic is no option any more and is left out",
+                          "old.session: gone.key is no option any more and is left out"));
   EXPECT_EQ(bound.settings.mapper.front_end.window_m, 0.2);
   facts.settings = "[front_end]\nwindow_m = -1\n";
   EXPECT_THAT(sentence_of([&] { load_recorded(bound, facts, "old.session"); }),
               HasSubstr("old.session:2: front_end.window_m"));
+}
+
+TEST_F(ResumedSession, another_version_of_the_program_is_told) {
+  saved_after(10, log("room.log", room_log_lines(10)));
+  SessionFacts facts = read_session_file(saved_).facts;
+  EXPECT_FALSE(other_version_text("now.session", facts).has_value());
+  facts.program_version = "0.0.7";
+  EXPECT_THAT(other_version_text("old.session", facts).value(),
+              HasSubstr("old.session was made by psi-slam 0.0.7, this is "));
 }
 
 }  // namespace

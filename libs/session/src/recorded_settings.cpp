@@ -31,9 +31,15 @@ std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts&
     if (is_known(name, bound.table))
       bound.table.set(name, value.text, value.where);
     else
-      unknown.push_back(name);
+      unknown.push_back(file.string() + ": " + name + " is no option any more and is left out");
   }
   return unknown;
+}
+
+std::optional<std::string> other_version_text(const std::filesystem::path& file, const SessionFacts& facts) {
+  if (facts.program_version == PSI_SLAM_VERSION) return std::nullopt;
+  return file.string() + " was made by psi-slam " + facts.program_version +
+         ", this is " PSI_SLAM_VERSION ": the map may differ from that one's";
 }
 
 std::map<std::string, std::string> kept_settings(const OptionTable& table) {

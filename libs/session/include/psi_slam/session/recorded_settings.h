@@ -14,10 +14,13 @@
 
 namespace psi_slam {
 
-/// Takes all settings of a recording, which was read from `file`. Returns the names of those that this
-/// program no longer knows: they are left out. Throws UserError for a value that it does not accept.
+/// Takes all settings of a recording, which was read from `file`. Returns a sentence, without its full stop,
+/// for each that this program no longer knows: they are left out. Throws UserError for a value that it does not accept.
 std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
                                        const std::filesystem::path& file);
+
+/// That another version of the program made it, which may have mapped it otherwise; none where this one did.
+std::optional<std::string> other_version_text(const std::filesystem::path& file, const SessionFacts& facts);
 
 /// The options, by name, that a resumed session cannot change: all but [map], [localization] and
 /// run.threads.

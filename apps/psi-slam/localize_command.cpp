@@ -19,6 +19,7 @@ namespace {
 
 struct LocalizedLog {
   std::vector<LocalizationStep> steps;
+  bool interrupted = false;
   std::optional<std::string> broken_off;
 };
 
@@ -26,9 +27,11 @@ LocalizedLog localize_all(FrameSource& log, Localizer& localizer, const Interrup
                           WorkProgress progress) {
   LocalizedLog result;
   try {
-    while (!signals.came()) {
-      const std::optional<Frame> frame = log.next();
-      if (!frame) break;
+    while (const std::optional<Frame> frame = log.next()) {
+      if (signals.came()) {
+        result.interrupted = true;
+        break;
+      }
       result.steps.push_back(localizer.add(*frame));
       progress.show("localizing", log.progress(), 1);
     }
@@ -57,13 +60,17 @@ int localize(const CommandLine& line, const Settings& settings, const Streams& s
                    WorkProgress(streams.err_is_terminal && !line.quiet ? &streams.err : nullptr));
   if (localized.steps.empty()) throw UserError(line.log + ": no scan was read, there is nothing to localize");
   if (folder) write_localization(localized.steps, folder->path());
-  const LocalizationSummary summary = summarize(localized.steps);
+  LocalizationSummary summary = summarize(localized.steps);
+  summary.interrupted = localized.interrupted;
   if (line.json)
     streams.out << localization_json(summary);
   else if (!line.quiet)
     streams.out << localization_text(summary);
   if (const SkippedLines skipped = log->skipped_lines(); skipped.count > 0 && !localized.broken_off)
     streams.err << "psi-slam: " << skipped.sentence() << '\n';
+  if (localized.interrupted)
+    streams.err << "psi-slam: interrupted: its end is that of the " << summary.scans
+                << " scans read so far\n";
   if (localized.broken_off) {
     streams.err << "psi-slam: " << *localized.broken_off << '\n';
     return kExitWrongUsageOrInput;

@@ -2,8 +2,11 @@
 // psi-slam localize, from a map and a log to its results.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "../session/room_log.h"
 #include "app_run.h"
@@ -64,6 +67,7 @@ TEST_F(LocalizeApp, takes_a_start_and_prints_json) {
   EXPECT_NEAR(summary["found_at"][0].get<double>(), 0, 0.05) << "not where it was told";
   EXPECT_NEAR(summary["found_at"][1].get<double>(), 0, 0.05);
   EXPECT_EQ(summary["localized_at_end"], true);
+  EXPECT_EQ(summary["interrupted"], false);
   EXPECT_GT(summary["confidence"], 0.8);
   EXPECT_EQ(summary["lost_after_s"], nullptr);
   EXPECT_EQ(summary["tracked_share"], 1);
@@ -85,6 +89,22 @@ TEST_F(LocalizeApp, of_a_robot_that_is_not_there_it_says_so_with_exit_code_1) {
 }
 
 /// Found and tracked, then taken to where there is no map.
+TEST_F(LocalizeApp, interrupted_it_says_that_its_end_is_not_that_of_the_log) {
+  write_lines(folder_.path() / "new.log", room_log_lines(20000, 80));
+  const auto out = folder_.path() / "out";
+  const AppProcess process({"localize", map("map.yaml").string(), (folder_.path() / "new.log").string(),
+                            "--start", "0,0,0", "--json", "-o", out.string()},
+                           folder_.path());
+  while (!std::filesystem::exists(out)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  process.send(SIGINT);
+  const AppRun run = process.finish();
+  const Json summary = Json::parse(run.out);
+  EXPECT_EQ(summary["interrupted"], true);
+  EXPECT_LT(summary["scans"], 20000);
+  EXPECT_THAT(run.err, HasSubstr("interrupted: its end is that of the " +
+                                 std::to_string(summary["scans"].get<int>()) + " scans"));
+}
+
 TEST_F(LocalizeApp, of_a_robot_that_is_lost_at_the_end_it_says_so_with_exit_code_1) {
   std::vector<std::string> lines = room_log_lines(120, 80);
   for (std::size_t i = 80; i < lines.size(); ++i)

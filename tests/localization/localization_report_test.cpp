@@ -75,6 +75,26 @@ TEST(LocalizationReport, to_be_found_once_is_not_to_be_localized_at_the_end) {
   EXPECT_FALSE(summarize(steps).localized_at_end());
 }
 
+TEST(LocalizationReport, whether_a_rival_place_was_as_good_is_of_the_last_search) {
+  auto steps = run_that_ends(State::kLost, 0);
+  FoundPlace rival;
+  rival.response = 0.4;
+  rival.ambiguous = true;
+  rival.objection = "another place fits as well";
+  steps.back().search = rival;
+  EXPECT_TRUE(summarize(steps).found());
+  EXPECT_TRUE(summarize(steps).ambiguous) << "it was lost, and two places fit";
+  EXPECT_EQ(summarize(steps).why_not, rival.objection);
+  FoundPlace none = rival;
+  none.ambiguous = false;
+  none.response = 0.1;
+  none.objection = "no place fits";
+  steps.push_back(steps.back());
+  steps.back().search = none;
+  EXPECT_FALSE(summarize(steps).ambiguous);
+  EXPECT_EQ(summarize(steps).best_response, 0.4);
+}
+
 TEST(LocalizationReport, the_end_has_five_scans_however_far_apart_and_a_short_log_what_it_has) {
   std::vector<LocalizationStep> steps;
   for (int i = 0; i < 9; ++i) steps.push_back(step_at(100 * i, State::kTracking, i < 4 ? 0.1 : 0.7));

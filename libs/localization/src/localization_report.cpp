@@ -45,10 +45,8 @@ double confidence_at_end(const std::vector<LocalizationStep>& steps) {
 void count_search(const FoundPlace& place, LocalizationSummary& summary) {
   ++summary.searches;
   summary.why_not = place.objection;
-  if (place.response >= summary.best_response) {
-    summary.best_response = place.response;
-    summary.ambiguous = place.ambiguous;
-  }
+  summary.ambiguous = place.ambiguous;
+  summary.best_response = std::max(summary.best_response, place.response);
 }
 
 /// How it stands with the robot at the end of the log.
@@ -96,9 +94,9 @@ LocalizationSummary summarize(const std::vector<LocalizationStep>& steps) {
   summary.median_response = median(std::move(responses));
   summary.confidence = confidence_at_end(steps);
   if (summary.tracked_at_end) summary.lost_after_s.reset();
-  if (summary.found()) summary.ambiguous = false;
   if (summary.tracked_at_end && summary.found()) {
     summary.why_not.clear();
+    summary.ambiguous = false;
   } else if (summary.why_not.empty()) {
     summary.why_not = summary.searches == 0 ? "no scan could be looked for"
                                             : "places were found, but too few that agree with each other";
@@ -140,6 +138,7 @@ std::string localization_json(const LocalizationSummary& summary) {
   const nlohmann::ordered_json json = {{"found", summary.found()},
                                        {"localized_at_end", summary.localized_at_end()},
                                        {"confidence", summary.confidence},
+                                       {"interrupted", summary.interrupted},
                                        {"ambiguous", summary.ambiguous},
                                        {"why_not", summary.why_not},
                                        {"scans", summary.scans},

@@ -27,6 +27,7 @@ struct LocalizationSummary {
   /// A robot is localized at the end when it is tracked there, and with at least so much confidence.
   static constexpr double kLeastConfidence = 0.5;
 
+  bool interrupted = false;  ///< the log has more scans: its end is where a person ended the run
   std::size_t scans = 0;
   std::size_t tracked = 0;  ///< scans
   std::size_t fitting = 0;  ///< of those, that fit the map
@@ -35,7 +36,7 @@ struct LocalizationSummary {
   int searches = 0;                     ///< of the whole map
   int times_found = 0;                  ///< by a search; a start that was told is none
   int times_lost = 0;                   ///< after it was tracked
-  bool ambiguous = false;               ///< never found, and the best place had a rival as good
+  bool ambiguous = false;               ///< not found or lost at the end: the last search had a rival as good
   double best_response = 0;             ///< of all searches
   std::optional<double> found_after_s;  ///< from the first scan
   std::optional<double> found_after_m;

@@ -88,7 +88,8 @@ void map_and_write(GraphSlamRun& run, const GraphSlamSetup& setup, const fs::pat
   const OutputFolder folder = OutputFolder::prepare(output, force);
   make_map(run, signals.came(), err);
   run.write(folder);
-  write_text_atomically(folder.path() / "summary.json", summary_of(run, setup).dump(1) + '\n');
+  write_text_atomically(folder.path() / "summary.json",
+                        summary_of(run, setup).dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
   out << run.scans() << " scans, " << run.graph().nodes.size() << " nodes, " << run.graph().edges.size()
       << " edges; results in " << folder.path().string() << std::endl;
   tell_of_log(run, err);

@@ -5,9 +5,11 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <set>
 #include <sstream>
 
+#include "../session/room_log.h"
 #include "psi_slam/results/trajectory_file.h"
 #include "simulated_rawlog.h"
 #include "temporary_folder.h"
@@ -94,6 +96,19 @@ TEST(GraphSlamApp, a_damaged_log_is_mapped_up_to_there_and_the_exit_code_is_2) {
   EXPECT_LT(path.size(), simulated_drive().frames.size() / 2 + 2);
   EXPECT_LT(simulated_drive().error_m(path), 0.1);
   EXPECT_THAT(read_file(results / "summary.json"), HasSubstr("\"broken_off\": \""));
+}
+
+TEST(GraphSlamApp, a_damaged_line_that_is_no_utf8_is_told_all_the_same) {
+  const TemporaryFolder folder;
+  const auto log = write_lines(folder.path() / "room.log", room_log_lines(20));
+  std::ofstream(log, std::ios::app) << "FLASER \xff\xfe 181 1.0";
+  const auto results = folder.path() / "results";
+  const AppRun run =
+      run_app({"-i", kIni, "-r", log.string(), "--disable-visuals", "--output-dir", results.string()});
+  EXPECT_EQ(run.code, 2) << run.err;
+  const std::string summary = read_file(results / "summary.json");
+  EXPECT_THAT(summary, HasSubstr("\"broken_off\": \""));
+  EXPECT_THAT(summary, HasSubstr("\xef\xbf\xbd")) << "the sign for what is no character";
 }
 
 TEST(GraphSlamApp, an_interrupted_run_writes_what_it_has) {

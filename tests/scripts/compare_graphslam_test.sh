@@ -25,14 +25,14 @@ status=0
 error_with() {
   LOGS=$1 TEAMS=1 SET=$2 "$root/share/scripts/compare-graphslam.sh" "$demos" "$work/$1" >"$work/table" 2>"$work/messages" ||
     fail "exit code $?, expected 0"
-  grep "^| $1 | CPsiFrontEndNRD |" "$work/table" | awk -F'|' '{ print int(1000 * $6) }'
+  grep "^| $1 | CPsiFrontEndNRD |" "$work/table" | awk -F'|' '$6 ~ /^ [0-9]+[.][0-9]+ $/ { print int(1000 * $6) }'
 }
 demos=/usr/share/mrpt/datasets/graphslam-engine-demos/action_observations_map
 if [ -d "$demos" ]; then
   error_mm=$(error_with simul "")
-  [ "$error_mm" -lt 100 ] || fail "simul: $error_mm mm"
+  [ -n "$error_mm" ] && [ "$error_mm" -lt 100 ] || fail "simul: ${error_mm:-no error in} mm"
   error_mm=$(error_with range_030_bearing_015 "front_end.min_response=0.05 local_maps.smoothing_sigma_m=0.3")
-  [ "$error_mm" -lt 600 ] || fail "range_030_bearing_015: $error_mm mm"
+  [ -n "$error_mm" ] && [ "$error_mm" -lt 600 ] || fail "range_030_bearing_015: ${error_mm:-no error in} mm"
 fi
 
 if [ ! -r "${PSI_SLAM_DATA:-}/intel.clf.gz" ] || [ ! -r "${PSI_SLAM_DATA:-}/intel.relations" ]; then

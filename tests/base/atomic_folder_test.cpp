@@ -2,9 +2,12 @@
 #include "psi_slam/base/atomic_folder.h"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <set>
+#include <string>
 
 #include "psi_slam/base/atomic_file.h"
 #include "psi_slam/base/user_error.h"
@@ -50,6 +53,21 @@ TEST(AtomicFolder, a_failing_writer_changes_nothing_and_leaves_no_rubbish) {
                std::runtime_error);
   EXPECT_EQ(read_file(folder.path() / "map.png"), "old");
   EXPECT_THAT(names_in(folder.path()), ElementsAre("map.png"));
+}
+
+TEST(AtomicFolder, what_a_killed_process_left_is_removed_and_nothing_else) {
+  const TemporaryFolder folder;
+  const pid_t dead = fork();
+  if (dead == 0) _exit(0);
+  ASSERT_EQ(waitpid(dead, nullptr, 0), dead);
+  const std::string of_dead = ".partial-" + std::to_string(dead);
+  const std::string of_living = ".partial-" + std::to_string(getpid());
+  fs::create_directory(folder.path() / of_dead);
+  for (const std::string& name : {of_dead + "/map.png", of_dead + "-map.png", of_living + "-map.png",
+                                  std::string(".partial-notes"), std::string("map.png")})
+    std::ofstream(folder.path() / name) << "half";
+  remove_leftovers(folder.path());
+  EXPECT_THAT(names_in(folder.path()), ElementsAre(of_living + "-map.png", ".partial-notes", "map.png"));
 }
 
 TEST(AtomicFolder, what_is_in_the_way_is_told_in_a_sentence) {

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/base/atomic_folder.h"
 
+#include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <charconv>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
+#include "psi_slam/base/text_parts.h"
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
@@ -16,6 +23,21 @@ namespace fs = std::filesystem;
 
 void require(const std::error_code& error, const fs::path& path) {
   if (error) throw SystemFailure("cannot write " + path.string() + ": " + error.message());
+}
+
+/// The process that writes ".partial-PID" or ".partial-PID-NAME"; none for other names.
+std::optional<pid_t> writer_of(std::string_view name) {
+  constexpr std::string_view kPartial = ".partial-";
+  if (!starts_with(name, kPartial)) return std::nullopt;
+  name.remove_prefix(kPartial.size());
+  pid_t pid = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
+  const bool whole = end == name.data() + name.size() || *end == '-';
+  return error == std::errc() && whole && pid > 0 ? std::optional(pid) : std::nullopt;
+}
+
+bool has_ended(pid_t process) {
+  return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
 /// A folder that is gone, with all in it, at the end of its scope.
@@ -52,6 +74,15 @@ void write_files_atomically(const fs::path& folder, const std::function<void(con
     fs::rename(file, folder / file.filename(), error);
     require(error, folder / file.filename());
   }
+}
+
+void remove_leftovers(const fs::path& folder) {
+  std::error_code ignored;
+  std::vector<fs::path> leftovers;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (const auto writer = writer_of(entry.path().filename().string()); writer && has_ended(*writer))
+      leftovers.push_back(entry.path());
+  for (const fs::path& leftover : leftovers) fs::remove_all(leftover, ignored);
 }
 
 }  // namespace psi_slam

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/atomic_folder.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/results/corrected_log.h"
 #include "psi_slam/results/frames_csv.h"
@@ -68,6 +69,7 @@ OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
   fs::create_directories(path, error);
   if (error && !fs::is_directory(path))
     throw UserError("cannot make the output folder " + path.string() + ": " + error.message());
+  remove_leftovers(path);
   const bool empty = fs::is_empty(path, error);
   if (error) throw UserError("cannot look into the output folder " + path.string() + ": " + error.message());
   if (!empty && !force)

@@ -190,6 +190,7 @@ void MainFrame::tell_save(const SaveOutcome& outcome) {
   told_save_ = outcome.number;
   if (!outcome.failure.empty()) return messages_->say(MessageBar::Kind::kError, outcome.failure);
   unsaved_.note_written(outcome.written);
+  if (!outcome.remark.empty()) return messages_->say(MessageBar::Kind::kWarning, outcome.remark);
   messages_->say(MessageBar::Kind::kNote, "The session is " + outcome.file.string() +
                                               ": open it here, or go on with it by psi-slam --resume");
 }

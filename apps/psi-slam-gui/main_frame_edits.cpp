@@ -120,7 +120,10 @@ void MainFrame::take_edit_news(const ReplaySnapshot& snapshot) {
   else if (loop != nullptr)
     words += std::string(": ") + verdict_text(loop->verdict) +
              (loop->verdict == LoopVerdict::kDeleted || loop->reason.empty() ? "" : ", " + loop->reason);
-  messages_->say(made ? MessageBar::Kind::kNote : MessageBar::Kind::kWarning, words);
+  if (messages_->asks())
+    tell(words);  // the question stays
+  else
+    messages_->say(made ? MessageBar::Kind::kNote : MessageBar::Kind::kWarning, words);
   if (made && edit.kind == Kind::kMatch && loop != nullptr)
     loops_->select(static_cast<std::size_t>(loop - snapshot.loops->data()));
 }

@@ -31,7 +31,6 @@ void MainFrame::start(const std::string& log, const std::string& config,
 
 void MainFrame::open_log(const std::filesystem::path& log, std::optional<EditJournal> edits,
                          const std::function<void(BoundSettings&)>& overrule) {
-  session_reader_.give_up();
   const auto open_input = [=](SessionInput input, const std::vector<std::string>& remarks) {
     opened_ = log;
     open(edits ? input.with_edits(*edits) : std::move(input), Edits::kOfFile);
@@ -42,10 +41,17 @@ void MainFrame::open_log(const std::filesystem::path& log, std::optional<EditJou
       kept_settings_.clear();
       return open_input(SessionInput(log), {});
     }
+    const int edits_before = replay_ ? replay_->edits_asked() : 0;
     read_session(
         log, [log] { return SessionInput::of_file(log); },
         [=](const SessionInput& input) {
-          open_input(input, take_settings_of(input.recording()->facts, log, overrule));
+          const auto open_session = [=] {
+            open_input(input, take_settings_of(input.recording()->facts, log, overrule));
+          };
+          if (!replay_ || replay_->edits_asked() == edits_before) return open_session();
+          messages_->say(MessageBar::Kind::kWarning,
+                         "Loops were edited while " + log.string() + " was read. Open it nevertheless?",
+                         {{"Open it", [=] { telling_failures(open_session); }}});
         });
   });
 }
@@ -76,11 +82,8 @@ void MainFrame::go_on_with(const std::filesystem::path& log) {
   if (!replay_ || !replay_->input().recording()) return;
   telling_failures([&] {
     read_session(
-        log,
-        [recording = replay_->input().recording(), log, edits = edits()] {
-          return SessionInput(recording, log).with_edits(edits);
-        },
-        [this](SessionInput input) { open(std::move(input), Edits::kMadeSoFar); });
+        log, [recording = replay_->input().recording(), log] { return SessionInput(recording, log); },
+        [this](const SessionInput& input) { open(input.with_edits(edits()), Edits::kMadeSoFar); });
   });
 }
 
@@ -104,6 +107,7 @@ void MainFrame::tell_failure(const std::exception_ptr& failure) {
 
 void MainFrame::open(SessionInput input, Edits edits) {
   if (input.recording()) require_kept(kept_settings_, settings_.table, opened_);
+  session_reader_.give_up();  // what is being read was for the run before
   messages_->dismiss();
   snapshot_.reset();
   shown_frame_.reset();

@@ -19,14 +19,20 @@ class ReplaySlot {
   void open(SessionInput input, const Settings& settings);
   void close();
 
-  /// Lets go of closed runs whose threads have ended; to be called now and then. Returns why exports failed
-  /// that were under way when their runs were closed, a sentence each.
+  /// Lets go of closed runs whose threads have ended; to be called now and then. Returns why exports and
+  /// sessions were not written that had been asked for when their runs were closed, a sentence each.
   std::vector<std::string> tidy();
+
+  /// How many were, or failed.
+  struct Written {
+    int exports = 0;
+    int saves = 0;
+  };
 
  private:
   struct Closing {
     std::unique_ptr<Replay> replay;
-    int exports_before = 0;
+    Written before;
   };
 
   std::unique_ptr<Replay> replay_;

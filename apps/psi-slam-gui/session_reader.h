@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads sessions, and checks logs against them, beside the window: it takes as long as the disk does.
+// Reads sessions, and checks logs against them, beside the window: it takes as long as the disk does. What is
+// given up is read to its end nevertheless, and so long the program does not end, be its window closed.
 #pragma once
 
 #include <functional>

@@ -40,9 +40,12 @@ SessionInput input_of(const CommandLine& line, BoundSettings& bound, const Strea
 }
 
 /// What hinders it, if something does: the map is to be written nevertheless.
-std::exception_ptr failure_to_save(const MappingSession& session, const std::string& file) {
+/// What kept it from being saved; none: it was.
+std::exception_ptr failure_to_save(const MappingSession& session, const std::string& file,
+                                   const Streams& streams) {
   try {
-    session.save(file);
+    if (const std::string remark = session.save(file).remark; !remark.empty())
+      streams.err << "psi-slam: " << remark << '\n';
   } catch (...) {
     return std::current_exception();
   }
@@ -103,7 +106,8 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
 int save_and_export(MappingSession& session, const OutputFolder& folder, const CommandLine& line,
                     const Streams& streams, std::optional<ProgressLine>& progress_line) {
   const bool to_save = !line.save_session.empty();
-  const std::exception_ptr not_saved = to_save ? failure_to_save(session, line.save_session) : nullptr;
+  const std::exception_ptr not_saved =
+      to_save ? failure_to_save(session, line.save_session, streams) : nullptr;
   const RunSummary summary = session.export_to(folder);
   progress_line.reset();
   session.set_observer({});

@@ -9,6 +9,7 @@
 #include "../session/room_log.h"
 #include "gui_run.h"
 #include "message_bar.h"
+#include "psi_slam/session/mapping_session.h"
 #include "settings_panel.h"
 #include "test_files.h"
 
@@ -115,6 +116,38 @@ TEST_F(FileQuestionsTest, a_session_is_saved_half_way_and_opened_again) {
   write_file(path("my.edits"), "delete scan=3 local_map=0\n");
   gui_.then([this](MainFrame& frame) { frame.messages().dismiss(), frame.open_edits(path("my.edits")); });
   until_it_says("front_end.window_m is");
+  EXPECT_EQ(gui_.run({}), 0);
+}
+
+TEST_F(FileQuestionsTest, loops_edited_while_a_session_is_read_are_not_lost) {
+  const auto log = write_lines(path("room.log"), room_log_lines(40));
+  {
+    MappingSession session(log, {});
+    session.run(std::atomic<bool>(false));
+    session.save(path("my.session"));
+  }
+  const LoopEdit edit{LoopEdit::Kind::kDelete, 30, 0};
+  command(kOpenLog, path("my.session"))
+      .when("it is open", [](MainFrame& frame) { return frame.replay() && frame.replay()->stamps_us(); })
+      .when_phase(ReplayPhase::kPaused)
+      .then([=](MainFrame& frame) {
+        frame.go_on_with(log);
+        frame.replay()->edit(edit);  // before the log is compared with the session, or after
+      })
+      .when("the run goes on with the log",
+            [=](MainFrame& frame) {
+              if (frame.messages().sentence().find("still being made") != std::string::npos)
+                frame.go_on_with(log);
+              return frame.replay()->log() == log;
+            })
+      .then([](MainFrame& frame) { EXPECT_EQ(frame.replay()->snapshot()->edits->size(), 1U); })
+      .then([this](MainFrame& frame) {
+        frame.open_log(path("my.session"));
+        frame.replay()->edit({LoopEdit::Kind::kDelete, 31, 0});
+      });
+  until_it_says("Loops were edited while");
+  gui_.then([](MainFrame& frame) { EXPECT_TRUE(frame.messages().answer("Open it")); })
+      .when("the session alone", [](MainFrame& frame) { return frame.replay()->log().empty(); });
   EXPECT_EQ(gui_.run({}), 0);
 }
 

@@ -271,10 +271,37 @@ TEST_F(ReplayTest, a_log_deleted_while_it_is_open_is_mapped_or_told_of) {
   replay.play();
   EXPECT_EQ(wait_for(replay, ReplayPhase::kFinished)->frames.size(), 150U);
   replay.save_session(out("rescued.session"));
-  wait_for_save(replay, 1);
+  EXPECT_THAT(wait_for_save(replay, 1)->saved->remark, HasSubstr("room.log could not be read any more"));
   const SessionRecording rescued = read_session_file(out("rescued.session"));
   EXPECT_EQ(rescued.frames.size(), 150U);
   EXPECT_EQ(rescued.facts.logs[0].sha256, "");
+}
+
+TEST_F(ReplayTest, what_was_asked_for_when_it_is_closed_is_refused_in_words) {
+  Replay replay(log(room_log_lines(60)), settings_);
+  wait_for(replay, ReplayPhase::kPaused);
+  replay.export_to(out("never"), false);  // waits for the map to be finished
+  replay.close();
+  while (!replay.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(replay.snapshot()->exported.has_value());
+  EXPECT_THAT(replay.snapshot()->exported->failure, HasSubstr("never was not written"));
+  EXPECT_FALSE(std::filesystem::exists(out("never")));
+}
+
+TEST_F(ReplayTest, a_session_that_is_mapped_again_and_saved_half_way_has_all_its_scans) {
+  {
+    MappingSession session(log(room_log_lines(40)), settings_);
+    session.run(std::atomic<bool>(false));
+    session.save(out("whole.session"));
+  }
+  Replay replay(SessionInput::of_file(out("whole.session")), settings_);
+  replay.hurry_to(10);
+  wait_for(replay, [](const ReplaySnapshot& now) {
+    return now.phase == ReplayPhase::kPaused && now.frames.size() == 10;
+  });
+  replay.save_session(out("again.session"));
+  EXPECT_EQ(wait_for_save(replay, 1)->saved->written.scans, 40U);
+  EXPECT_EQ(read_session_file(out("again.session")).frames.size(), 40U);
 }
 
 TEST_F(ReplayTest, is_closed_at_any_moment) {

@@ -163,6 +163,7 @@ void Replay::run() noexcept {
   } catch (const std::exception& error) {
     fail(error.what());
   }
+  refuse_wishes();
   ended_ = true;
 }
 
@@ -267,7 +268,6 @@ bool Replay::serve_finished(MappingSession& session) {
     if (turn == Turn::kEdit) serve_edits(session);
     if (!session.finished()) return true;
   }
-  publish();  // what an export that was under way came to
   return false;
 }
 
@@ -333,12 +333,15 @@ void Replay::make_edit(MappingSession& session, const EditWish& wish) {
 }
 
 void Replay::save_once(const MappingSession& session) {
-  SaveOutcome outcome{++saves_, {}, "", {}};
+  SaveOutcome outcome{++saves_, {}, "", "", {}};
   {
     const std::lock_guard lock(mutex_);
     outcome.file = std::exchange(save_, std::nullopt).value();
   }
-  outcome.failure = failure_of([&] { session.save(outcome.file); }, "the session");
+  SavedSession saved;
+  outcome.failure = failure_of([&] { saved = session.save(outcome.file); }, "the session");
+  outcome.remark = saved.remark;
+  outcome.written.scans = saved.scans;
   maker_->note_save(std::move(outcome));
 }
 
@@ -406,6 +409,19 @@ void Replay::publish() {
   stale_ = false;
   published_at_ = Clock::now();
   publishing_took_ = published_at_ - start;
+}
+
+/// What was asked for and can no longer be done, is told.
+void Replay::refuse_wishes() {
+  session_ = nullptr;
+  const std::lock_guard lock(mutex_);
+  const auto words = [](const std::filesystem::path& path) {
+    return path.string() + " was not written: the run ended before it could be";
+  };
+  if (save_) maker_->note_save({++saves_, *save_, words(*save_), "", {}});
+  if (export_) maker_->note_export({++exports_, export_->folder, words(export_->folder), {}});
+  const std::lock_guard snapshot_lock(snapshot_mutex_);
+  snapshot_ = maker_->snapshot(phase_);
 }
 
 void Replay::fail(const std::string& sentence) {

@@ -26,7 +26,7 @@ SnapshotMaker::SnapshotMaker(const PsiOptions& psi, const std::vector<TimedEdit>
 }
 
 void SnapshotMaker::note_save(SaveOutcome outcome) {
-  outcome.written = {shares_.size(), now_.edits};
+  outcome.written.edits = now_.edits;
   now_.saved = std::move(outcome);
 }
 

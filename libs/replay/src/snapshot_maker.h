@@ -23,7 +23,7 @@ class SnapshotMaker {
   void note_scan(double share) { shares_.push_back(share); }
   void note_progress(const SessionProgress& progress) { now_.progress = progress; }
   void note_warnings(std::vector<std::string> sentences) { now_.warnings = std::move(sentences); }
-  /// What was mapped and edited until now was written, or not.
+  /// What was edited until now was written, or not; an export holds all scans, too.
   void note_save(SaveOutcome outcome);
   void note_export(ExportOutcome outcome);
   void note_held(bool held) { now_.last_pass_held = held; }

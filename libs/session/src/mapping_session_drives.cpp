@@ -47,10 +47,17 @@ void cut_behind(std::size_t scans, SessionFacts& facts) {
 
 }  // namespace
 
-void MappingSession::save(const std::filesystem::path& file) const {
+SavedSession MappingSession::save(const std::filesystem::path& file) const {
   const std::vector<Frame>& mapped = finished_ ? result_.log : mapper_->log();
   const bool all_of_recording = !recording_ || mapped.size() >= recording_->frames.size();
-  write_session_file(file, facts(), all_of_recording ? mapped : recording_->frames);
+  const std::vector<Frame>& frames = all_of_recording ? mapped : recording_->frames;
+  const SessionFacts all = facts();
+  write_session_file(file, all, frames);
+  SavedSession saved{frames.size(), ""};
+  if (all.logs.back().sha256.empty())
+    saved.remark = "The session holds all scans that were mapped, but " + all.logs.back().name +
+                   " could not be read any more: it cannot be gone on with in it";
+  return saved;
 }
 
 SessionFacts MappingSession::facts() const {

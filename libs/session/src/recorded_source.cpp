@@ -49,11 +49,14 @@ AppendedSource::AppendedSource(std::shared_ptr<const SessionRecording> recording
                                std::unique_ptr<FrameSource> log, const std::filesystem::path& path)
     : recording_(std::move(recording)), log_(std::move(log)), first_(log_->next()) {
   const std::vector<Frame>& frames = recording_->frames;
+  const char* const other =
+      recording_->facts.logs.back().sha256.empty()
+          ? " cannot be compared with the log of the session (which was gone when it was "
+            "saved) and does not go on behind it: its first scan is of "
+          : " is not the log of the session (its checksum is another) and does not go on "
+            "behind it: its first scan is of ";
   if (first_ && !frames.empty() && first_->time_us <= frames.back().time_us)
-    throw UserError(path.string() +
-                    " is not the log of the session (its checksum is another) and does not go on behind it: "
-                    "its first scan is of " +
-                    format_seconds(first_->time_us) + " s, the session's last of " +
+    throw UserError(path.string() + other + format_seconds(first_->time_us) + " s, the session's last of " +
                     format_seconds(frames.back().time_us) + " s");
 }
 

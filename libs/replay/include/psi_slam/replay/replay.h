@@ -130,6 +130,7 @@ class Replay {
   void publish();
   LogPace::Clock::time_point next_publication() const;
   void fail(const std::string& sentence);
+  void refuse_wishes();
 
   const SessionInput input_;
   const Settings settings_;

@@ -57,6 +57,7 @@ struct SaveOutcome {
   int number = 0;  ///< they count from 1
   std::filesystem::path file;
   std::string failure;  ///< a sentence; empty: it was written
+  std::string remark;   ///< what the file lacks; empty: nothing
   WrittenWork written{};
 };
 

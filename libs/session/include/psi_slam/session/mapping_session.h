@@ -43,6 +43,12 @@ struct SessionProgress {
   std::optional<double> remaining_s;  ///< of the phase, as far as it can be told
 };
 
+/// What a session file holds that was written.
+struct SavedSession {
+  std::size_t scans = 0;  ///< all that were recorded, where not all have been mapped again
+  std::string remark;     ///< what it lacks, a sentence without its full stop; empty: nothing
+};
+
 class MappingSession {
  public:
   using Observer = std::function<void(const SessionProgress&)>;
@@ -127,7 +133,7 @@ class MappingSession {
   /// Writes what was mapped until now, with all edits and settings, as a session file: see SessionInput.
   /// Where not all of a recording has been mapped yet, it is written whole nevertheless. Throws SystemFailure
   /// when the disk does not take it.
-  void save(const std::filesystem::path& file) const;
+  SavedSession save(const std::filesystem::path& file) const;
 
   /// Until finish(), and when the session was opened again: the poses, the graph and the loops so far.
   const Mapper& mapper() const { return *mapper_; }
@@ -145,6 +151,7 @@ class MappingSession {
   void write_edits(const std::filesystem::path& file) const;
   void begin_recorded_drive();
   SessionFacts facts() const;
+  /// Empty where it cannot be read any more.
   std::string checksum_of_log() const;
   void begin(SessionProgress::Phase phase);
   void tell(double share) const;

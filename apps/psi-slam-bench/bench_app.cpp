@@ -10,10 +10,12 @@
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
+
 int run_bench_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept {
   CLI::App app("psi-slam-bench measures how good and how fast the parts of psi-slam are.", "psi-slam-bench");
   try {
     add_freiburg_command(app, streams);
+    add_freiburg_run_command(app, streams);
     add_match_command(app, streams);
     add_simulate_command(app, streams);
     add_false_loops_command(app, streams);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmark_logs.h"
+#include "psi_slam/batch/child_workers.h"
 #include "psi_slam/batch/seed_range.h"
 #include "psi_slam_app.h"
 #include "work_progress.h"
@@ -16,11 +17,21 @@ namespace psi_slam {
 
 /// Each adds its command with its options to the program; parsing the command line then runs it. It throws
 /// UserError when the user must mend something. `streams` outlives `app`.
-void add_freiburg_command(CLI::App& app, const Streams& streams);
+void add_freiburg_run_command(CLI::App& app, const Streams& streams);  ///< of which `freiburg` starts many
 void add_match_command(CLI::App& app, const Streams& streams);
 void add_simulate_command(CLI::App& app, const Streams& streams);
 void add_false_loops_command(CLI::App& app, const Streams& streams);
 void add_robustness_command(CLI::App& app, const Streams& streams);
+
+/// Who makes the runs of `freiburg`.
+struct FreiburgWork {
+  std::filesystem::path program = "/proc/self/exe";  ///< that knows add_freiburg_run_command()
+  /// None: processes of this machine, as many as an option says; then there are rivals to be run, too.
+  ChildWorkers workers{};
+  int runs_at_a_time = 1;    ///< of these workers
+  bool only_parsed = false;  ///< the command does nothing
+};
+void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgWork& work = {});
 
 /// What the commands that work on real logs are given: the options --data and --ini.
 struct DataArguments {

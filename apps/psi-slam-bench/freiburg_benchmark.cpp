@@ -7,8 +7,6 @@
 #include "program_identity.h"
 #include "psi_slam/base/file_checksum.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/base/worker_pool.h"
-#include "psi_slam/batch/child_process.h"
 #include "psi_slam/batch/kept_run.h"
 #include "psi_slam/batch/machine_text.h"
 #include "psi_slam/batch/task_progress.h"
@@ -62,30 +60,22 @@ void keep_figures(const Task& task, const FreiburgFigures& figures) {
             {"settings", settings_text(settings_of(task.run))}});
 }
 
-ChildProcess process_of(const FreiburgRun& run, const fs::path& program) {
-  ChildProcess child;
-  child.words = {program.string(), "freiburg-run",
-                 "--log",          run.log.string(),
-                 "--ini",          run.ini.string(),
-                 "--relations",    run.relations.string(),
-                 "--matcher",      run.matcher,
-                 "--seed",         std::to_string(run.seed),
-                 "--threads",      std::to_string(run.threads)};
-  return child;
+ChildWords words_of(const FreiburgRun& run, const fs::path& program) {
+  return {program.string(), "freiburg-run",
+          "--log",          run.log.string(),
+          "--ini",          run.ini.string(),
+          "--relations",    run.relations.string(),
+          "--matcher",      run.matcher,
+          "--seed",         std::to_string(run.seed),
+          "--threads",      std::to_string(run.threads)};
 }
 
-/// Runs the process to its end: its figures with what it took, or why there are none.
-FreiburgResult result_of(const ChildProcess& child, std::uint64_t seed) {
+/// The figures of a run that has ended, with what it took, or why there are none.
+FreiburgResult result_of(const ChildEnd& end, std::uint64_t seed) {
   FreiburgResult result;
   result.seed = seed;
   result.made = true;
-  ChildEnd end;
-  try {
-    end = run_child(child);
-    result.failure = end.failure();
-  } catch (const SystemFailure& failure) {
-    result.failure = failure.what();
-  }
+  result.failure = end.failure();
   if (result.failure.compare(0, kSpokenBy.size(), kSpokenBy) == 0) result.failure.erase(0, kSpokenBy.size());
   if (!result.failure.empty()) return result;
   result.figures = read_figures(end.out);
@@ -141,16 +131,9 @@ std::vector<Task> tasks_of(FreiburgBenchmark& benchmark, const std::vector<Bench
   return tasks;
 }
 
-/// Runs one task, keeps its figures, and fills in its result; an interrupted one leaves nothing.
-void run(const Task& task, const fs::path& program, const std::atomic<bool>& stop, TaskProgress& progress) {
-  if (stop) return;
-  ChildProcess child = process_of(task.run, program);
-  child.stop = [&] {
-    progress.tell(task.name);
-    return stop.load();
-  };
-  const FreiburgResult result = result_of(child, task.run.seed);
-  if (stop && !result.figures) return;
+/// Keeps the figures of a task that has ended, and fills in its result.
+void take(const Task& task, const ChildEnd& end, TaskProgress& progress) {
+  const FreiburgResult result = result_of(end, task.run.seed);
   if (result.figures) keep_figures(task, *result.figures);
   *task.result = result;
   progress.end(task.work);
@@ -166,8 +149,11 @@ FreiburgBenchmark run_freiburg_benchmark(
   double work = 0;
   for (const Task& task : tasks) work += task.work;
   TaskProgress running(tasks.size(), work, progress);
-  WorkerPool pool(options.processes);
-  pool.run(tasks.size(), [&](std::size_t index) { run(tasks[index], options.program, stop, running); });
+  std::vector<ChildWords> children;
+  for (const Task& task : tasks) children.push_back(words_of(task.run, options.program));
+  const ChildWorkers workers = options.workers ? options.workers : local_child_workers(options.processes);
+  workers(children, {[&] { return stop.load(); }, [&](std::size_t task) { running.tell(tasks[task].name); },
+                     [&](std::size_t task, const ChildEnd& end) { take(tasks[task], end, running); }});
   if (stop && running.to_go() > 0)
     throw SystemFailure("interrupted with " + std::to_string(running.to_go()) +
                         " runs to go: the others are kept in " + (options.output / "runs").string() +

@@ -17,6 +17,7 @@
 #include "benchmark_logs.h"
 #include "freiburg_run.h"
 #include "log_identity.h"
+#include "psi_slam/batch/child_workers.h"
 #include "psi_slam/batch/seed_range.h"
 #include "rival_program.h"
 #include "rival_run.h"
@@ -30,6 +31,7 @@ struct FreiburgOptions {
   int threads = 1;               ///< of each
   std::filesystem::path output;  ///< the runs' files are output/runs/LOG-MATCHER-SEED.json
   std::filesystem::path program = "/proc/self/exe";  ///< psi-slam-bench, which does the runs
+  ChildWorkers workers{};                            ///< none: `processes` on this machine
 };
 
 struct FreiburgResult {

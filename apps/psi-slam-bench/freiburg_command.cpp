@@ -124,17 +124,11 @@ void run_once(const FreiburgRun& run, const Streams& streams) {
   if (!streams.out) throw SystemFailure("cannot write to standard output");
 }
 
-void add_run_command(CLI::App& app, const Streams& streams) {
-  const auto run = std::make_shared<FreiburgRun>();
-  CLI::App* const once = app.add_subcommand("freiburg-run", "One run of the Freiburg benchmark");
-  once->group("");  // not for people: hidden from --help
-  once->add_option("--log", run->log)->required();
-  once->add_option("--ini", run->ini)->required();
-  once->add_option("--relations", run->relations)->required();
-  once->add_option("--matcher", run->matcher)->required()->check(CLI::IsMember(freiburg_matchers()));
-  once->add_option("--seed", run->seed);
-  once->add_option("--threads", run->threads);
-  once->callback([run, &streams] { run_once(*run, streams); });
+void add_processes_option(CLI::App& freiburg, FreiburgArguments& arguments) {
+  freiburg
+      .add_option("--processes", arguments.options.processes, "Runs at a time; more than 1 spoils the times")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
 }
 
 void add_work_options(CLI::App& freiburg, FreiburgArguments& arguments) {
@@ -146,10 +140,6 @@ void add_work_options(CLI::App& freiburg, FreiburgArguments& arguments) {
       ->check(CLI::IsMember(freiburg_matchers()))
       ->type_name("NAME,...");
   add_logs_option(freiburg, arguments.names);
-  freiburg
-      .add_option("--processes", arguments.options.processes, "Runs at a time; more than 1 spoils the times")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
   freiburg.add_option("--threads", arguments.options.threads, "Threads of each run")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -168,8 +158,11 @@ void add_rival_options(CLI::App& freiburg, FreiburgArguments& arguments) {
 
 }  // namespace
 
-void add_freiburg_command(CLI::App& app, const Streams& streams) {
+void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgWork& work) {
   const auto arguments = std::make_shared<FreiburgArguments>();
+  arguments->options.program = work.program;
+  arguments->options.workers = work.workers;
+  arguments->options.processes = work.runs_at_a_time;
   CLI::App* const freiburg = app.add_subcommand(
       "freiburg", "Map the logs of the Freiburg benchmark, and compare with what others reached");
   add_data_options(*freiburg, arguments->data);
@@ -182,9 +175,26 @@ void add_freiburg_command(CLI::App& app, const Streams& streams) {
       ->type_name("DIR")
       ->capture_default_str();
   add_work_options(*freiburg, *arguments);
-  add_rival_options(*freiburg, *arguments);
-  freiburg->callback([arguments, &streams] { run_freiburg(*arguments, streams); });
-  add_run_command(app, streams);
+  if (!work.workers) {
+    add_processes_option(*freiburg, *arguments);
+    add_rival_options(*freiburg, *arguments);
+  }
+  freiburg->callback([arguments, &streams, only_parsed = work.only_parsed] {
+    if (!only_parsed) run_freiburg(*arguments, streams);
+  });
+}
+
+void add_freiburg_run_command(CLI::App& app, const Streams& streams) {
+  const auto run = std::make_shared<FreiburgRun>();
+  CLI::App* const once = app.add_subcommand("freiburg-run", "One run of the Freiburg benchmark");
+  once->group("");  // not for people: hidden from --help
+  once->add_option("--log", run->log)->required();
+  once->add_option("--ini", run->ini)->required();
+  once->add_option("--relations", run->relations)->required();
+  once->add_option("--matcher", run->matcher)->required()->check(CLI::IsMember(freiburg_matchers()));
+  once->add_option("--seed", run->seed);
+  once->add_option("--threads", run->threads);
+  once->callback([run, &streams] { run_once(*run, streams); });
 }
 
 }  // namespace psi_slam

@@ -36,7 +36,7 @@ set(CPACK_DEBIAN_CLUSTER_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_CLUSTER_PACKAGE_DEPENDS "psi-slam (= ${PROJECT_VERSION}-1), openmpi-bin")
 set(CPACK_COMPONENT_CLUSTER_DESCRIPTION
 "Maps many logs with many settings on the ranks of an MPI job: the sweeps of
-psi-slam on a cluster.")
+psi-slam and its benchmark on a cluster.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpsi-slam-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

@@ -105,7 +105,9 @@ if [ -n "$cluster" ]; then
   cp "$cluster" "$system/tmp/psi-slam-mpi.deb"
   inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/psi-slam-mpi.deb >"$work/install-mpi.log" 2>&1 ||
     fail "psi-slam-mpi does not install: $(tail -5 "$work/install-mpi.log")"
-  inside psi-slam-sweep-mpi --version || fail "psi-slam-sweep-mpi does not run"
+  for program in psi-slam-sweep-mpi psi-slam-bench-mpi; do
+    inside "$program" --version || fail "$program does not run"
+  done
   inside apt-get purge --quiet --quiet --yes psi-slam-mpi >"$work/purge-mpi.log" 2>&1 || fail "psi-slam-mpi cannot be removed"
 fi
 inside apt-get purge --quiet --quiet --yes psi-slam >"$work/purge.log" 2>&1 || fail "the package cannot be removed"

@@ -77,6 +77,7 @@ if [ -e "$build/completions/psi-slam-sweep-mpi" ]; then
   expect "psi-slam-sweep-mpi my.l" "my.log|"
   expect "psi-slam-sweep-mpi -o m" "maps|"
   expect "psi-slam-sweep-mpi my.log --set map.write_d" "map.write_dxf=|"
+  expect "psi-slam-bench-mpi freiburg --see" "--seeds|"
 fi
 expect "psi-slam --man" "|"
 

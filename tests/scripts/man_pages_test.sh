@@ -33,6 +33,7 @@ expect psi-slam.1.gz "psi-graphslam(1)"
 if [ -e "$build/apps/psi-slam-sweep-mpi/psi-slam-sweep-mpi" ]; then
   expect psi-slam-sweep-mpi.1.gz "psi-slam-sweep-mpi - maps many logs with many settings on the ranks of an MPI job"
   expect psi-slam-sweep-mpi.1.gz "mpirun -n 9 psi-slam-sweep-mpi my.log -o sweep --seeds 10"
+  expect psi-slam-bench-mpi.1.gz "psi-slam-bench-mpi freiburg [OPTION]..."
   expect psi-slam.1.gz "psi-slam-sweep-mpi(1)"
 fi
 expect psi-slam.ini.5.gz "m, between 0.005 and 10; default 0.05"

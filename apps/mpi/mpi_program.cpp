@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mpi_program.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <sstream>
+
+#include "psi_slam/base/exit_code.h"
+#include "psi_slam/base/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether this process is another rank than the first of those that a starter of MPI jobs has started.
+bool is_started_as_later_rank() {
+  for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
+    if (const char* const rank = std::getenv(variable); rank != nullptr) return std::string(rank) != "0";
+  return false;
+}
+
+/// What the program says of itself; nothing when it is asked for something else.
+std::optional<std::string> words_of_itself(const MpiProgram& program,
+                                           const std::vector<std::string>& arguments) {
+  CLI::App app;
+  try {
+    program.parse(app, arguments);
+  } catch (const CLI::Success& asked) {
+    std::ostringstream words;
+    app.exit(asked, words, words);
+    return words.str();
+  } catch (const std::exception&) {  // told when MPI runs, by one rank
+  }
+  return std::nullopt;
+}
+
+int run_rank_0(const MpiWorld& world, const MpiProgram& program, const std::vector<std::string>& arguments) {
+  const Streams streams{std::cout, std::cerr, ::isatty(STDERR_FILENO) == 1};
+  try {
+    return program.run(world, arguments, streams);
+  } catch (const CLI::ParseError& error) {
+    streams.err << program.name << ": " << error.what() << " (see " << program.name << " --help)\n";
+    return kExitWrongUsageOrInput;
+  } catch (const UserError& error) {
+    streams.err << program.name << ": " << error.what() << '\n';
+    return kExitWrongUsageOrInput;
+  } catch (const std::exception& error) {
+    streams.err << program.name << ": " << error.what() << '\n';
+    return kExitFailed;
+  }
+}
+
+}  // namespace
+
+int run_mpi_program(int argc, char** argv, const MpiProgram& program) {
+  std::signal(SIGXFSZ, SIG_IGN);  // as in psi-slam
+  if (const auto words = words_of_itself(program, {argv + 1, argv + argc})) {
+    if (!is_started_as_later_rank()) std::cout << *words << std::flush;
+    return std::cout ? kExitDone : kExitFailed;
+  }
+  const MpiWorld world(argc, argv);
+  if (world.rank() > 0) {
+    work_for_rank_0(world, program.make);
+    return kExitDone;
+  }
+  const int code = run_rank_0(world, program, {argv + 1, argv + argc});
+  dismiss_workers(world);
+  return code;
+}
+
+fs::path program_beside(const std::string& name, const std::string& own_name) {
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+  for (const fs::path& program : {folder / name, folder.parent_path() / name / name})
+    if (fs::is_regular_file(program)) return program;
+  throw UserError(name + ", which does the runs, is not beside " + (folder / own_name).string());
+}
+
+}  // namespace psi_slam

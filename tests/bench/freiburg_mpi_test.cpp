@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifdef PSI_SLAM_BENCH_MPI_PROGRAM
+
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "command_fixture.h"
+#include "psi_slam/batch/child_workers.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+class FreiburgByMpi : public BenchCommand {
+ protected:
+  FreiburgByMpi() : BenchCommand("freiburg") {
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);  // what containers may forbid
+    write_room();
+  }
+
+  fs::path output(const std::string& name) const { return folder_.path() / name; }
+
+  ChildWords with_output(ChildWords first, const std::string& name) const {
+    const auto rest =
+        words("freiburg", {"-o", output(name).string(), "--matchers", "csm,ga", "--seeds", "3"});
+    first.insert(first.end(), rest.begin(), rest.end());
+    return first;
+  }
+  ChildEnd by_processes(const std::string& name) const {
+    return run_child({with_output({PSI_SLAM_BENCH_PROGRAM}, name)});
+  }
+  ChildEnd by_mpi(const std::string& name, const std::function<bool()>& stop = {}) const {
+    return run_child(
+        {with_output({PSI_SLAM_MPIRUN, "--oversubscribe", "-n", "3", PSI_SLAM_BENCH_MPI_PROGRAM}, name), 0,
+         stop});
+  }
+
+  /// Of each run, by its file's name, without what it took.
+  std::map<std::string, Json> figures(const std::string& name) const {
+    std::map<std::string, Json> all;
+    for (const auto& file : fs::directory_iterator(output(name) / "runs")) {
+      Json run = Json::parse(read_file(file.path()));
+      for (const char* took : {"wall_s", "cpu_s", "peak_memory_mib"}) run["figures"].erase(took);
+      all[file.path().filename().string()] = run["figures"];
+    }
+    return all;
+  }
+  std::map<std::string, fs::file_time_type> times(const std::string& name) const {
+    std::map<std::string, fs::file_time_type> all;
+    for (const auto& file : fs::directory_iterator(output(name) / "runs"))
+      all[file.path().filename().string()] = file.last_write_time();
+    return all;
+  }
+};
+
+TEST_F(FreiburgByMpi, gives_the_figures_of_processes_and_a_page) {
+  const ChildEnd processes = by_processes("processes");
+  ASSERT_EQ(processes.code, 0) << processes.err;
+  const ChildEnd mpi = by_mpi("mpi");
+  ASSERT_EQ(mpi.code, 0) << mpi.err;
+  EXPECT_EQ(figures("mpi").size(), 4U);
+  EXPECT_EQ(figures("mpi"), figures("processes"));
+  EXPECT_EQ(mpi.out, read_file(output("mpi") / "freiburg.md"));
+  EXPECT_THAT(mpi.out, HasSubstr("| room | ga | 3 | 0.0"));
+
+  const auto made = times("processes");
+  const ChildEnd again = by_mpi("processes");  // a single run at a time spoils no times
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(times("processes"), made) << "what is there is not made again";
+}
+
+TEST_F(FreiburgByMpi, a_job_that_was_killed_goes_on_with_the_same_command) {
+  const auto runs = output("mpi") / "runs";
+  const ChildEnd killed =
+      by_mpi("mpi", [&] { return fs::exists(runs) && !fs::is_empty(runs) && !figures("mpi").empty(); });
+  EXPECT_NE(killed.code, 0);
+  const auto kept = times("mpi");
+  ASSERT_FALSE(kept.empty());
+  const ChildEnd rest = by_mpi("mpi");
+  ASSERT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(figures("mpi").size(), 4U);
+  const auto now = times("mpi");
+  for (const auto& [name, time] : kept) EXPECT_EQ(now.at(name), time) << name;
+}
+
+TEST_F(FreiburgByMpi, mistakes_are_told_once_with_exit_code_2) {
+  const ChildEnd end = run_child({{PSI_SLAM_MPIRUN, "--oversubscribe", "-n", "3", PSI_SLAM_BENCH_MPI_PROGRAM,
+                                   "freiburg", "--data", folder_.path().string() + "/none"}});
+  EXPECT_EQ(end.code, 2) << end.err;
+  const std::string sentence = "psi-slam-bench-mpi: ";
+  const auto first = end.err.find(sentence);
+  ASSERT_NE(first, std::string::npos) << end.err;
+  EXPECT_THAT(end.err, HasSubstr("none is no folder"));
+  EXPECT_EQ(end.err.find(sentence, first + 1), std::string::npos) << end.err;
+}
+
+}  // namespace
+}  // namespace psi_slam
+
+#endif

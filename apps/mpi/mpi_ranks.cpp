@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mpi_ranks.h"
 
+#include <exception>
 #include <map>
 
 namespace psi_slam {
@@ -22,6 +23,7 @@ class HandingOut {
       for (const auto& [rank, order] : busy_) watch_.working(order);
       hand_out();
     }
+    if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
@@ -43,7 +45,12 @@ class HandingOut {
     const std::size_t order = busy_.at(message.rank);
     busy_.erase(message.rank);
     idle_.push_back(message.rank);
-    if (!message.text.empty()) watch_.finished(order, message.text);
+    if (message.text.empty()) return;
+    try {
+      watch_.finished(order, message.text);
+    } catch (...) {  // the others are heard to their ends all the same
+      if (!failure_) failure_ = std::current_exception();
+    }
   }
 
   const MpiWorld& world_;
@@ -53,6 +60,7 @@ class HandingOut {
   std::map<int, std::size_t> busy_;  // orders by rank
   std::size_t next_ = 0;             // the first order that nobody has
   bool stopped_ = false;
+  std::exception_ptr failure_;  // the first of watch_.finished()
 };
 
 }  // namespace

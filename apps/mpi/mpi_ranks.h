@@ -20,7 +20,8 @@ struct RankWatch {
   std::function<void(std::size_t order, const std::string&)> finished;  ///< what the maker returned
 };
 
-/// For rank 0, which is not alone: returns when all orders have been made, or stopped.
+/// For rank 0, which is not alone: returns when all orders have been made, or stopped. What `finished` throws
+/// is thrown then.
 void hand_out(const MpiWorld& world, const std::vector<std::string>& orders, const RankWatch& watch);
 
 /// Makes an order: what came of it, or none where `stop`, which it asks a few times a second, ended it.

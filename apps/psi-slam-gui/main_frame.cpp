@@ -163,18 +163,19 @@ void MainFrame::refresh() {
 
 /// Says what the user is to know, each thing once.
 void MainFrame::take_news(const ReplaySnapshot& snapshot) {
-  using Kind = MessageBar::Kind;
+  const bool refused = (snapshot.saved && snapshot.saved->number != told_save_) ||
+                       (snapshot.exported && snapshot.exported->number != told_export_);
   tell_warnings(snapshot.warnings);
-  if (snapshot.phase == ReplayPhase::kFailed && snapshot.failure != told_failure_) {
-    told_failure_ = snapshot.failure;
-    messages_->say(Kind::kError, snapshot.failure);
-  }
   if (!remembered_ && snapshot.phase != ReplayPhase::kOpening && snapshot.phase != ReplayPhase::kFailed) {
     remembered_ = true;
     remember(opened_);
   }
   if (snapshot.saved && snapshot.saved->number != told_save_) tell_save(*snapshot.saved);
   if (snapshot.exported && snapshot.exported->number != told_export_) tell_export(*snapshot.exported);
+  if (snapshot.phase == ReplayPhase::kFailed && (refused || snapshot.failure != told_failure_)) {
+    told_failure_ = snapshot.failure;
+    messages_->say(MessageBar::Kind::kError, snapshot.failure);  // the reason of all else
+  }
 }
 
 /// What has been told may grow in numbers: that is shown where it still stands, and not told anew.

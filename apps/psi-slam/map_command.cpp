@@ -39,17 +39,18 @@ SessionInput input_of(const CommandLine& line, BoundSettings& bound, const Strea
   return SessionInput(recording, line.log);
 }
 
-/// What hinders it, if something does: the map is to be written nevertheless.
-/// What kept it from being saved; none: it was.
-std::exception_ptr failure_to_save(const MappingSession& session, const std::string& file,
-                                   const Streams& streams) {
+struct SavingOutcome {
+  std::exception_ptr failure;  ///< the map is to be written nevertheless
+  std::string remark;          ///< what the session lacks
+  bool is_whole() const { return !failure && remark.empty(); }
+};
+
+SavingOutcome save_session(const MappingSession& session, const std::string& file) {
   try {
-    if (const std::string remark = session.save(file).remark; !remark.empty())
-      streams.err << "psi-slam: " << remark << '\n';
+    return {nullptr, session.save(file).remark};
   } catch (...) {
-    return std::current_exception();
+    return {std::current_exception(), ""};
   }
-  return nullptr;
 }
 
 void tell_result(const MappingSession& session, const RunSummary& summary, const OutputFolder& folder,
@@ -106,12 +107,12 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
 int save_and_export(MappingSession& session, const OutputFolder& folder, const CommandLine& line,
                     const Streams& streams, std::optional<ProgressLine>& progress_line) {
   const bool to_save = !line.save_session.empty();
-  const std::exception_ptr not_saved =
-      to_save ? failure_to_save(session, line.save_session, streams) : nullptr;
+  const SavingOutcome saved = to_save ? save_session(session, line.save_session) : SavingOutcome();
   const RunSummary summary = session.export_to(folder);
   progress_line.reset();
   session.set_observer({});
-  tell_result(session, summary, folder, line, streams, to_save && !not_saved);
+  tell_result(session, summary, folder, line, streams, to_save && saved.is_whole());
+  if (!saved.remark.empty()) streams.err << "psi-slam: " << saved.remark << '\n';
   if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
     streams.err << "psi-slam: " << skipped.sentence() << '\n';
   for (const std::string& unmet : session.unmet_edits())
@@ -122,7 +123,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   if (session.broken_off())
     streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
                 << session.result().frames.size() << " scans that could be read\n";
-  if (not_saved) std::rethrow_exception(not_saved);
+  if (saved.failure) std::rethrow_exception(saved.failure);
   return session.breaks_off() ? kExitWrongUsageOrInput : kExitDone;
 }
 

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <set>
 #include <string>
@@ -66,6 +67,11 @@ TEST(AtomicFolder, what_a_killed_process_left_is_removed_and_nothing_else) {
   for (const std::string& name : {of_dead + "/map.png", of_dead + "-map.png", of_living + "-map.png",
                                   std::string(".partial-notes"), std::string("map.png")})
     std::ofstream(folder.path() / name) << "half";
+  const auto hours_ago = fs::file_time_type::clock::now() - std::chrono::hours(2);
+  remove_leftovers(folder.path());
+  EXPECT_TRUE(fs::exists(folder.path() / of_dead)) << "a process of another machine may have that number";
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    fs::last_write_time(entry.path(), hours_ago);
   remove_leftovers(folder.path());
   EXPECT_THAT(names_in(folder.path()), ElementsAre(of_living + "-map.png", ".partial-notes", "map.png"));
 }

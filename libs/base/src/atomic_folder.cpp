@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <optional>
 #include <set>
 #include <string>
@@ -38,6 +39,13 @@ std::optional<pid_t> writer_of(std::string_view name) {
 
 bool has_ended(pid_t process) {
   return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+/// Numbers of processes are those of this machine: a folder may be shared with others.
+bool is_old(const fs::path& path) {
+  std::error_code error;
+  const auto written = fs::last_write_time(path, error);
+  return !error && fs::file_time_type::clock::now() - written > std::chrono::hours(1);
 }
 
 /// A folder that is gone, with all in it, at the end of its scope.
@@ -79,9 +87,11 @@ void write_files_atomically(const fs::path& folder, const std::function<void(con
 void remove_leftovers(const fs::path& folder) {
   std::error_code ignored;
   std::vector<fs::path> leftovers;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-    if (const auto writer = writer_of(entry.path().filename().string()); writer && has_ended(*writer))
-      leftovers.push_back(entry.path());
+  for (fs::directory_iterator entry(folder, ignored), end; entry != end && !ignored;
+       entry.increment(ignored)) {
+    const auto writer = writer_of(entry->path().filename().string());
+    if (writer && has_ended(*writer) && is_old(entry->path())) leftovers.push_back(entry->path());
+  }
   for (const fs::path& leftover : leftovers) fs::remove_all(leftover, ignored);
 }
 

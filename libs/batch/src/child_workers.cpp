@@ -41,7 +41,7 @@ ChildWorkers local_child_workers(int processes) {
         watch.working(index);
         return watch.stop();
       });
-      if (!end.stopped) watch.finished(index, std::move(end));
+      if (!end.stopped || end.code == 0) watch.finished(index, std::move(end));
     });
   };
 }

@@ -14,7 +14,8 @@ namespace psi_slam {
 void write_files_atomically(const std::filesystem::path& folder,
                             const std::function<void(const std::filesystem::path& temporary_folder)>& write);
 
-/// What a process that was killed while it wrote left in a folder, by this and by write_atomically().
+/// Removes what a process that was killed while it wrote left in a folder more than an hour ago, by this and by
+/// write_atomically().
 void remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace psi_slam

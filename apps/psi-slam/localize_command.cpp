@@ -28,7 +28,7 @@ LocalizedLog localize_all(FrameSource& log, Localizer& localizer, const Interrup
   LocalizedLog result;
   try {
     while (const std::optional<Frame> frame = log.next()) {
-      if (signals.came()) {
+      if (signals.came() && !result.steps.empty()) {
         result.interrupted = true;
         break;
       }
@@ -51,10 +51,10 @@ int localize(const CommandLine& line, const Settings& settings, const Streams& s
                       options);
   if (!line.start.empty()) localizer.start_at(parse_start(line.start));
   const auto log = open_log(line.log, log_options(settings));
+  const InterruptSignals signals;
   std::optional<OutputFolder> folder;
   if (!line.output.empty()) folder = OutputFolder::prepare(line.output, line.force);
 
-  const InterruptSignals signals;
   const LocalizedLog localized =
       localize_all(*log, localizer, signals,
                    WorkProgress(streams.err_is_terminal && !line.quiet ? &streams.err : nullptr));

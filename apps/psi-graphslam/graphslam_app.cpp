@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "closing_text.h"
 #include "decider_listing.h"
 #include "graphslam_command_line.h"
 #include "interrupt_signals.h"
@@ -61,9 +62,7 @@ void make_map(GraphSlamRun& run, const std::atomic<bool>& stop, std::ostream& er
   }
   bool told = false;
   const auto go_on = [&] {
-    if (stop && !told)
-      err << kName << ": interrupted, the map will show the " << run.scans()
-          << " scans read so far and the loops found so far (interrupt again to give up)" << std::endl;
+    if (stop && !told) err << kName << ": " << interrupted_text(run.scans()) << std::endl;
     told = stop;
     return !stop;
   };
@@ -77,9 +76,7 @@ void tell_of_log(const GraphSlamRun& run, std::ostream& err) {
     err << kName << ": " << run.unmatched_scans() << " of " << run.scans()
         << " scans could not be matched, odometry stands for them: where ranges are noisy, raise "
            "local_maps.smoothing_sigma_m to their noise and lower front_end.min_response\n";
-  if (run.broken_off())
-    err << kName << ": " << *run.broken_off() << "; the map shows the " << run.scans()
-        << " scans that could be read\n";
+  if (run.broken_off()) err << kName << ": " << broken_off_text(*run.broken_off(), run.scans()) << '\n';
 }
 
 void map_and_write(GraphSlamRun& run, const GraphSlamSetup& setup, const fs::path& output, bool force,

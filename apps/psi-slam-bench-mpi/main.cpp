@@ -62,9 +62,9 @@ int run(const MpiWorld& world, const std::vector<std::string>& arguments, const 
 }
 
 std::optional<std::string> make(const std::string& order, const std::function<bool()>& stop) {
-  const ChildEnd end = run_to_end(read_child_words(order), stop);
-  if (end.stopped && end.code != 0) return std::nullopt;
-  return child_end_text(end);
+  const std::optional<ChildEnd> end = run_to_end(read_child_words(order), stop);
+  if (!end) return std::nullopt;
+  return child_end_text(*end);
 }
 
 }  // namespace

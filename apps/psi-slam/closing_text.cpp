@@ -41,6 +41,15 @@ std::string closing_text(const RunSummary& summary, const std::string& log_name,
   return lines + text(", and %.0f MiB of memory.\n", summary.peak_memory_mib);
 }
 
+std::string interrupted_text(std::size_t scans) {
+  return "interrupted, the map will show the " + std::to_string(scans) +
+         " scans read so far and the loops found so far (interrupt again to give up)";
+}
+
+std::string broken_off_text(const std::string& why, std::size_t scans) {
+  return why + "; the map shows the " + std::to_string(scans) + " scans that could be read";
+}
+
 std::string stages_text(const MappingResult& result) {
   std::string lines;
   for (const StageTiming& stage : result.stages)

@@ -97,8 +97,7 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
     if (!told && progress.phase == SessionProgress::Phase::kLastPass && signals.came()) {
       told = true;
       if (progress_line) progress_line->clear();
-      streams.err << "psi-slam: interrupted, the map will show the " << progress.scans
-                  << " scans read so far and the loops found so far (interrupt again to give up)\n";
+      streams.err << "psi-slam: " << interrupted_text(progress.scans) << '\n';
     }
     if (progress_line) progress_line->show(progress);
   });
@@ -121,8 +120,8 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   for (const std::string& warning : session.warnings_of_logs_before())
     streams.err << "psi-slam: " << warning << '\n';
   if (session.broken_off())
-    streams.err << "psi-slam: " << *session.broken_off() << "; the map shows the "
-                << session.result().frames.size() << " scans that could be read\n";
+    streams.err << "psi-slam: " << broken_off_text(*session.broken_off(), session.result().frames.size())
+                << '\n';
   if (saved.failure) std::rethrow_exception(saved.failure);
   return session.breaks_off() ? kExitWrongUsageOrInput : kExitDone;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 
+#include "partial_name.h"
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
@@ -23,8 +24,7 @@ SystemFailure cannot_write(const fs::path& path, const std::string& why) {
 }  // namespace
 
 void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  const fs::path temporary =
-      path.parent_path() / (".partial-" + std::to_string(::getpid()) + "-" + path.filename().string());
+  const fs::path temporary = path.parent_path() / partial_name(path.filename().string());
   std::error_code error;
   try {
     write(temporary);

@@ -2,19 +2,14 @@
 #include "psi_slam/base/atomic_folder.h"
 
 #include <signal.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <chrono>
-#include <optional>
 #include <set>
-#include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
-#include "psi_slam/base/text_parts.h"
+#include "partial_name.h"
 #include "psi_slam/base/user_error.h"
 
 namespace psi_slam {
@@ -24,17 +19,6 @@ namespace fs = std::filesystem;
 
 void require(const std::error_code& error, const fs::path& path) {
   if (error) throw SystemFailure("cannot write " + path.string() + ": " + error.message());
-}
-
-/// The process that writes ".partial-PID" or ".partial-PID-NAME"; none for other names.
-std::optional<pid_t> writer_of(std::string_view name) {
-  constexpr std::string_view kPartial = ".partial-";
-  if (!starts_with(name, kPartial)) return std::nullopt;
-  name.remove_prefix(kPartial.size());
-  pid_t pid = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
-  const bool whole = end == name.data() + name.size() || *end == '-';
-  return error == std::errc() && whole && pid > 0 ? std::optional(pid) : std::nullopt;
 }
 
 bool has_ended(pid_t process) {
@@ -73,7 +57,7 @@ class ScopedFolder {
 }  // namespace
 
 void write_files_atomically(const fs::path& folder, const std::function<void(const fs::path&)>& write) {
-  const ScopedFolder temporary(folder / (".partial-" + std::to_string(::getpid())));
+  const ScopedFolder temporary(folder / partial_name());
   write(temporary.path());
   std::set<fs::path> files;
   for (const fs::directory_entry& file : fs::directory_iterator(temporary.path())) files.insert(file.path());

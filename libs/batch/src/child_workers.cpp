@@ -1,30 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/batch/child_workers.h"
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
-#include <utility>
-
+#include "cbor_text.h"
+#include "make_at_a_time.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/base/worker_pool.h"
 
 namespace psi_slam {
 namespace {
 
 using Json = nlohmann::json;
 
-/// Unlike JSON it holds file names of any encoding.
-std::string cbor_text(const Json& json) {
-  std::string text;
-  Json::to_cbor(json, text);
-  return text;
-}
-
 }  // namespace
 
-ChildEnd run_to_end(const ChildWords& words, const std::function<bool()>& stop) {
+std::optional<ChildEnd> run_to_end(const ChildWords& words, const std::function<bool()>& stop) {
   try {
-    return run_child({words, 0, stop});
+    ChildEnd end = run_child({words, 0, stop});
+    if (end.stopped && end.code != 0) return std::nullopt;
+    return end;
   } catch (const SystemFailure& failure) {
     ChildEnd end;
     end.err = failure.what();
@@ -34,15 +26,8 @@ ChildEnd run_to_end(const ChildWords& words, const std::function<bool()>& stop) 
 
 ChildWorkers local_child_workers(int processes) {
   return [processes](const std::vector<ChildWords>& children, const ChildWatch& watch) {
-    WorkerPool pool(std::min(processes, std::max(1, static_cast<int>(children.size()))));
-    pool.run(children.size(), [&](std::size_t index) {
-      if (watch.stop()) return;
-      ChildEnd end = run_to_end(children[index], [&] {
-        watch.working(index);
-        return watch.stop();
-      });
-      if (!end.stopped || end.code == 0) watch.finished(index, std::move(end));
-    });
+    make_at_a_time(processes, children.size(), watch,
+                   [&](std::size_t index, const auto& stop) { return run_to_end(children[index], stop); });
   };
 }
 

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
+#include "make_at_a_time.h"
 #include "psi_slam/base/user_error.h"
-#include "psi_slam/base/worker_pool.h"
 #include "psi_slam/batch/task_progress.h"
 
 namespace psi_slam {
@@ -31,15 +31,8 @@ std::size_t count(const SweepResult& result, bool (*is_one)(const std::optional<
 
 SweepWorkers local_workers(int processes) {
   return [processes](const std::vector<SweepOrder>& orders, const SweepWatch& watch) {
-    WorkerPool pool(std::min(processes, static_cast<int>(orders.size())));
-    pool.run(orders.size(), [&](std::size_t index) {
-      if (watch.stop()) return;
-      std::optional<SweepOutcome> outcome = make_run(orders[index], [&] {
-        watch.working(index);
-        return watch.stop();
-      });
-      if (outcome) watch.finished(index, *std::move(outcome));
-    });
+    make_at_a_time(processes, orders.size(), watch,
+                   [&](std::size_t index, const auto& stop) { return make_run(orders[index], stop); });
   };
 }
 

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cbor_text.h"
 #include "psi_slam/base/atomic_file.h"
+#include "psi_slam/base/exit_code.h"
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/batch/child_process.h"
 #include "psi_slam/batch/kept_run.h"
@@ -19,7 +21,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int kMostAttempts = 2;
-constexpr int kUsersFault = 2;  // psi-slam's exit code: once more would be the same
 constexpr std::string_view kSpokenBy = "psi-slam: ";
 constexpr const char* kResult = "run.json";
 constexpr const char* kSummary = "summary.json";
@@ -114,7 +115,8 @@ Attempt attempt(const SweepOrder& order, const fs::path& folder, const std::func
   made.outcome.failure = end.failure();
   if (made.outcome.failure.compare(0, kSpokenBy.size(), kSpokenBy) == 0)
     made.outcome.failure.erase(0, kSpokenBy.size());
-  made.once_more = !made.outcome.failure.empty() && end.code != kUsersFault;
+  // What the user is to mend would be the same once more.
+  made.once_more = !made.outcome.failure.empty() && end.code != kExitWrongUsageOrInput;
   if (!made.outcome.failure.empty()) return made;
   try {
     SweepFigures figures = figures_of(folder, order.relations);
@@ -185,12 +187,8 @@ std::optional<SweepOutcome> make_run(const SweepOrder& order, const std::functio
 }
 
 std::string order_text(const SweepOrder& order) {
-  const Json json =
-      Json::array({order.program.string(), order.log.string(), order.relations.string(), order.settings,
-                   order.key, order.folder.string(), static_cast<int>(order.keep)});
-  std::string text;
-  Json::to_cbor(json, text);  // unlike JSON it holds file names of any encoding
-  return text;
+  return cbor_text({order.program.string(), order.log.string(), order.relations.string(), order.settings,
+                    order.key, order.folder.string(), static_cast<int>(order.keep)});
 }
 
 SweepOrder read_order(const std::string& text) {

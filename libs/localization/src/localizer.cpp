@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "psi_slam/logs/inverse_pose.h"
+
 namespace psi_slam {
 namespace {
 
@@ -12,10 +14,6 @@ using mrpt::math::TPose2D;
 // Refined straight from the prediction, a pose that scores this share of the searched one is preferred: along
 // a corridor the search's best is decided by noise.
 constexpr double kPredictionShare = 0.95;
-
-TPose2D inverse(const TPose2D& a_T_b) {
-  return TPose2D(0, 0, 0) - a_T_b;
-}
 
 }  // namespace
 

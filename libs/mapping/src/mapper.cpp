@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "psi_slam/logs/inverse_pose.h"
 #include "psi_slam/loop_closure/local_map_constraints.h"
 #include "psi_slam/mapping/carried_frames.h"
 #include "psi_slam/pose_graph/information_matrix.h"
@@ -44,10 +45,6 @@ Eigen::Matrix3d information_of(const DriveStart& start) {
   moved(1, 2) = c * arm.x - s * arm.y;
   return moved.transpose() * noisy_information(Eigen::Matrix3d::Zero(), kStartSigma_m, kStartSigma_rad) *
          moved;
-}
-
-TPose2D inverse(const TPose2D& a_T_b) {
-  return TPose2D(0, 0, 0) - a_T_b;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "psi_slam/base/user_error.h"
 #include "psi_slam/local_maps/front_end.h"
 #include "psi_slam/localization/localizer.h"
+#include "psi_slam/logs/inverse_pose.h"
 
 namespace psi_slam {
 namespace {
@@ -25,7 +26,7 @@ struct Sighting {
 };
 
 DriveStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& seen) {
-  const TPose2D map_T_start = seen.map_T_robot + (TPose2D(0, 0, 0) - seen.start_T_robot);
+  const TPose2D map_T_start = seen.map_T_robot + inverse(seen.start_T_robot);
   DriveStart start;
   double nearest_m = std::numeric_limits<double>::infinity();
   for (std::size_t node = 0; node < mapped.node_frames.size(); ++node) {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ using ChildWorkers = std::function<void(const std::vector<ChildWords>&, const Ch
 /// So many at a time on this machine.
 ChildWorkers local_child_workers(int processes);
 
-/// As run_child(), but one that cannot be started has failed with that as its last words.
-ChildEnd run_to_end(const ChildWords& words, const std::function<bool()>& stop);
+/// As run_child(), but one that cannot be started has failed with that as its last words; none where `stop`
+/// ended it.
+std::optional<ChildEnd> run_to_end(const ChildWords& words, const std::function<bool()>& stop);
 
 /// For a wire; read_*() take what these made.
 std::string child_words_text(const ChildWords& words);

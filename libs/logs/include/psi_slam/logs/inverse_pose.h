@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+namespace psi_slam {
+
+/// b_T_a. MRPT has it of a pose with matrices only, CPose2D.
+inline mrpt::math::TPose2D inverse(const mrpt::math::TPose2D& a_T_b) {
+  return mrpt::math::TPose2D(0, 0, 0) - a_T_b;
+}
+
+}  // namespace psi_slam

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "psi_slam/config/option_table.h"
+#include "config/option_table.h"
 
 namespace psi_slam {
 

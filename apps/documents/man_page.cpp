@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "command_words.h"
-#include "psi_slam/config/ini_file.h"
+#include "config/ini_file.h"
 #include "roff_text.h"
 
 namespace psi_slam {

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "psi_slam/config/option_table.h"
+#include "config/option_table.h"
 
 namespace psi_slam {
 

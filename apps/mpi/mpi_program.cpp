@@ -9,8 +9,8 @@
 #include <iostream>
 #include <sstream>
 
-#include "psi_slam/base/exit_code.h"
-#include "psi_slam/base/user_error.h"
+#include "base/exit_code.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

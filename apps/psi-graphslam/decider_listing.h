@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/graphslam/decider_catalogue.h"
+#include "mrpt/decider_catalogue.h"
 
 namespace psi_slam {
 

@@ -11,10 +11,10 @@
 #include "decider_listing.h"
 #include "graphslam_command_line.h"
 #include "interrupt_signals.h"
-#include "psi_slam/base/atomic_file.h"
-#include "psi_slam/base/exit_code.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/graphslam/graphslam_settings.h"
+#include "base/atomic_file.h"
+#include "base/exit_code.h"
+#include "psi_slam/user_error.h"
+#include "mrpt/graphslam_settings.h"
 
 namespace psi_slam {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "document_options.h"
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/graphslam/graphslam_run.h"
+#include "mrpt/graphslam_run.h"
 
 namespace psi_slam {
 

@@ -10,8 +10,8 @@
 #include "bench_command.h"
 #include "document_options.h"
 #include "mpi_program.h"
-#include "psi_slam/base/exit_code.h"
-#include "psi_slam/batch/child_workers.h"
+#include "base/exit_code.h"
+#include "batch/child_workers.h"
 
 namespace psi_slam {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "psi_slam/results/number_text.h"
+#include "base/number_text.h"
 #include "svg_parts.h"
 
 namespace psi_slam {

@@ -6,8 +6,8 @@
 
 #include "bench_command.h"
 #include "document_options.h"
-#include "psi_slam/base/exit_code.h"
-#include "psi_slam/base/user_error.h"
+#include "base/exit_code.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 

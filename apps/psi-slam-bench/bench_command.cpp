@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "benchmark_logs.h"
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "benchmark_logs.h"
-#include "psi_slam/batch/child_workers.h"
-#include "psi_slam/batch/seed_range.h"
+#include "batch/child_workers.h"
+#include "batch/seed_range.h"
 #include "psi_slam_app.h"
 #include "work_progress.h"
 

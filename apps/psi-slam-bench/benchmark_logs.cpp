@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "mapped_run.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/batch/log_name.h"
-#include "psi_slam/config/apply_settings.h"
-#include "psi_slam/config/ini_file.h"
-#include "psi_slam/logs/open_log.h"
-#include "psi_slam/results/relations_metric.h"
+#include "psi_slam/user_error.h"
+#include "batch/log_name.h"
+#include "config/apply_settings.h"
+#include "config/ini_file.h"
+#include "psi_slam/open_log.h"
+#include "evaluation/relations_metric.h"
 
 namespace psi_slam {
 namespace {
@@ -30,7 +30,7 @@ class PlaceCollector {
     ++frames_;
   }
 
-  PlaceMemory finish() {
+  KeyframeStore finish() {
     keep(front_end_.finish());
     return std::move(memory_);
   }
@@ -41,7 +41,7 @@ class PlaceCollector {
   }
 
   FrontEnd front_end_;
-  PlaceMemory memory_;
+  KeyframeStore memory_;
   std::size_t frames_ = 0;
 };
 

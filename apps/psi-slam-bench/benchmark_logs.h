@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/loop_closure/place_memory.h"
-#include "psi_slam/mapping/mapper.h"
-#include "psi_slam/session/settings.h"
+#include "loop_closure/keyframe_store.h"
+#include "psi_slam/mapper.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 
@@ -42,7 +42,7 @@ Settings benchmark_settings(const std::filesystem::path& ini,
 struct MappedLog {
   std::string name;
   MapperOptions options;
-  PlaceMemory memory;                           ///< of the whole log
+  KeyframeStore memory;                           ///< of the whole log
   std::vector<mrpt::math::TPose2D> map_T_node;  ///< optimised
   std::vector<std::string> adaptive_matcher;    ///< by node: what the adaptive matcher uses there
   double translation_error_m = 0;               ///< mean over the true relations

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "psi_slam/matching/make_matcher.h"
+#include "matching/make_matcher.h"
 
 namespace psi_slam {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "loop_cases.h"
-#include "psi_slam/mapping/mapper.h"
-#include "psi_slam/matching/matcher.h"
+#include "psi_slam/mapper.h"
+#include "matching/matcher.h"
 
 namespace psi_slam {
 

@@ -7,12 +7,12 @@
 #include <set>
 #include <utility>
 
-#include "psi_slam/base/random_draws.h"
-#include "psi_slam/pose_graph/constraint_error.h"
-#include "psi_slam/pose_graph/marginal_covariance.h"
-#include "psi_slam/pose_graph/path_covariance.h"
-#include "psi_slam/pose_graph/pose_graph.h"
-#include "psi_slam/pose_graph/sparse_pose_adjustment.h"
+#include "base/random_draws.h"
+#include "pose_graph/constraint_error.h"
+#include "pose_graph/marginal_covariance.h"
+#include "pose_graph/path_covariance.h"
+#include "psi_slam/pose_graph.h"
+#include "pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/mapping/mapping_result.h"
-#include "psi_slam/results/trajectory_file.h"
+#include "psi_slam/mapping_result.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "mapped_run.h"
-#include "psi_slam/logs/open_log.h"
-#include "psi_slam/loop_closure/contradicted_loops.h"
-#include "psi_slam/mapping/carried_frames.h"
+#include "psi_slam/open_log.h"
+#include "loop_closure/outlier_loops.h"
+#include "mapping/carried_frames.h"
 
 namespace psi_slam {
 namespace {
@@ -91,7 +91,7 @@ FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double s
   const auto defend = [&](double doubtful_share) {
     return [&trial, doubtful_share](PoseGraph& graph, SparsePoseAdjustment& solver,
                                     const std::vector<std::size_t>& loops) {
-      switch_off_contradicted_loops(graph, solver, loops, trial.max_chi, doubtful_share);
+      switch_off_outlier_loops(graph, solver, loops, trial.max_chi, doubtful_share);
     };
   };
   const auto optimize_only = [](PoseGraph& graph, SparsePoseAdjustment& solver,

@@ -13,8 +13,8 @@
 #include "benchmark_logs.h"
 #include "false_loops.h"
 #include "log_identity.h"
-#include "psi_slam/batch/seed_range.h"
-#include "psi_slam/pose_graph/sparse_pose_adjustment.h"
+#include "batch/seed_range.h"
+#include "pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {
 

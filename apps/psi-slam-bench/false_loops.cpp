@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "psi_slam/base/random_draws.h"
+#include "base/random_draws.h"
 
 namespace psi_slam {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/base/degrees.h"
-#include "psi_slam/pose_graph/pose_graph.h"
+#include "base/degrees.h"
+#include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
 

@@ -5,8 +5,8 @@
 #include "false_loop_benchmark.h"
 #include "false_loop_report.h"
 #include "match_report.h"
-#include "psi_slam/base/atomic_file.h"
-#include "psi_slam/batch/machine_text.h"
+#include "base/atomic_file.h"
+#include "batch/machine_text.h"
 
 namespace psi_slam {
 namespace {

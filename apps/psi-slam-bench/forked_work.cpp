@@ -8,8 +8,8 @@
 #include <exception>
 #include <stdexcept>
 
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/batch/running_child.h"
+#include "psi_slam/user_error.h"
+#include "batch/running_child.h"
 
 namespace psi_slam {
 namespace {

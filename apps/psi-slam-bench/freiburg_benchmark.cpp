@@ -5,11 +5,11 @@
 
 #include "match_report.h"
 #include "program_identity.h"
-#include "psi_slam/base/file_checksum.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/batch/kept_run.h"
-#include "psi_slam/batch/machine_text.h"
-#include "psi_slam/batch/task_progress.h"
+#include "base/file_checksum.h"
+#include "psi_slam/user_error.h"
+#include "batch/kept_run.h"
+#include "batch/machine_text.h"
+#include "batch/task_progress.h"
 
 namespace psi_slam {
 namespace {

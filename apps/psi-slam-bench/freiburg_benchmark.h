@@ -17,8 +17,8 @@
 #include "benchmark_logs.h"
 #include "freiburg_run.h"
 #include "log_identity.h"
-#include "psi_slam/batch/child_workers.h"
-#include "psi_slam/batch/seed_range.h"
+#include "batch/child_workers.h"
+#include "batch/seed_range.h"
 #include "rival_program.h"
 #include "rival_run.h"
 

@@ -9,9 +9,9 @@
 #include "freiburg_report.h"
 #include "interrupt_signals.h"
 #include "match_report.h"
-#include "psi_slam/base/atomic_file.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/batch/machine_text.h"
+#include "base/atomic_file.h"
+#include "psi_slam/user_error.h"
+#include "batch/machine_text.h"
 #include "published_figures.h"
 #include "rival_benchmark.h"
 

@@ -5,7 +5,7 @@
 
 #include "bar_plot.h"
 #include "freiburg_figures.h"
-#include "psi_slam/results/number_text.h"
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "freiburg_benchmark.h"
-#include "psi_slam/batch/seed_spread.h"
+#include "batch/seed_spread.h"
 
 namespace psi_slam {
 

@@ -8,8 +8,8 @@
 #include "freiburg_figures.h"
 #include "freiburg_rivals.h"
 #include "program_identity.h"
-#include "psi_slam/batch/markdown_cells.h"
-#include "psi_slam/results/number_text.h"
+#include "batch/markdown_cells.h"
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "psi_slam/batch/markdown_cells.h"
-#include "psi_slam/results/number_text.h"
+#include "batch/markdown_cells.h"
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "benchmark_logs.h"
 #include "mapped_run.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/results/loop_judgement.h"
-#include "psi_slam/results/mapped_trajectory.h"
-#include "psi_slam/session/mapping_session.h"
+#include "psi_slam/user_error.h"
+#include "evaluation/loop_judgement.h"
+#include "exports/mapped_trajectory.h"
+#include "psi_slam/mapping_session.h"
 
 namespace psi_slam {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/batch/run_figures.h"
-#include "psi_slam/session/settings.h"
+#include "batch/run_figures.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "psi_slam/results/number_text.h"
+#include "base/number_text.h"
 #include "svg_parts.h"
 
 namespace psi_slam {

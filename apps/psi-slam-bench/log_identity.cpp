@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "psi_slam/base/file_checksum.h"
+#include "base/file_checksum.h"
 
 namespace psi_slam {
 

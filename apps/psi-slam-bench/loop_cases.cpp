@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "psi_slam/base/random_draws.h"
-#include "psi_slam/loop_closure/scan_context.h"
+#include "base/random_draws.h"
+#include "loop_closure/scan_context.h"
 
 namespace psi_slam {
 namespace {
@@ -20,7 +20,7 @@ struct Pair {
 };
 
 /// Of the path between a node and a local map; 0 for the local map's own nodes.
-double travel_between_m(const PlaceMemory& memory, std::size_t node, const PlacedLocalMap& map) {
+double travel_between_m(const KeyframeStore& memory, std::size_t node, const PlacedLocalMap& map) {
   const double here_m = memory.nodes[node].travelled_m;
   return std::max({0.0, here_m - memory.nodes[map.last_node].travelled_m,
                    memory.nodes[map.first_node].travelled_m - here_m});

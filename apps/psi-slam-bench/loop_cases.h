@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "benchmark_logs.h"
-#include "psi_slam/base/degrees.h"
-#include "psi_slam/local_maps/local_map.h"
-#include "psi_slam/matching/matcher.h"
+#include "base/degrees.h"
+#include "local_maps/local_map.h"
+#include "matching/matcher.h"
 
 namespace psi_slam {
 
@@ -38,7 +38,7 @@ struct CaseOptions {
 struct LoopCase {
   bool positive = false;      ///< the scan was taken in the local map; else far from it
   std::size_t node = 0;       ///< whose scan it is
-  std::size_t local_map = 0;  ///< index in PlaceMemory::local_maps
+  std::size_t local_map = 0;  ///< index in KeyframeStore::local_maps
   std::shared_ptr<const ScanPoints> scan;
   std::shared_ptr<const LocalMap> map;
   mrpt::math::TPose2D anchor_T_node;  ///< the truth, of negatives too: there it lies outside the window

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "psi_slam/results/mapped_trajectory.h"
+#include "exports/mapped_trajectory.h"
 
 namespace psi_slam {
 

@@ -5,10 +5,10 @@
 #include <functional>
 #include <vector>
 
-#include "psi_slam/logs/frame_source.h"
-#include "psi_slam/mapping/mapper.h"
-#include "psi_slam/pose_graph/pose_graph.h"
-#include "psi_slam/results/relations_metric.h"
+#include "psi_slam/frame_source.h"
+#include "psi_slam/mapper.h"
+#include "psi_slam/pose_graph.h"
+#include "evaluation/relations_metric.h"
 
 namespace psi_slam {
 

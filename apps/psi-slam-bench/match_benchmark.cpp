@@ -9,9 +9,9 @@
 #include <iterator>
 #include <map>
 
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/loop_closure/loop_verification.h"
-#include "psi_slam/results/number_text.h"
+#include "psi_slam/user_error.h"
+#include "loop_closure/loop_verification.h"
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {

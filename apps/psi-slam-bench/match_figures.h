@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "loop_cases.h"
-#include "psi_slam/base/degrees.h"
-#include "psi_slam/matching/matcher.h"
+#include "base/degrees.h"
+#include "matching/matcher.h"
 
 namespace psi_slam {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "psi_slam/results/trajectory_file.h"
-#include "psi_slam/simulation/floor_plan.h"
+#include "trajectory/trajectory_file.h"
+#include "simulation/floor_plan.h"
 
 namespace psi_slam {
 

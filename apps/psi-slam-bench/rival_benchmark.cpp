@@ -6,11 +6,11 @@
 #include "freiburg_run.h"
 #include "match_report.h"
 #include "program_identity.h"
-#include "psi_slam/base/file_checksum.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/base/worker_pool.h"
-#include "psi_slam/batch/kept_run.h"
-#include "psi_slam/batch/machine_text.h"
+#include "base/file_checksum.h"
+#include "psi_slam/user_error.h"
+#include "base/worker_pool.h"
+#include "batch/kept_run.h"
+#include "batch/machine_text.h"
 
 namespace psi_slam {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "benchmark_logs.h"
-#include "psi_slam/batch/task_progress.h"
+#include "batch/task_progress.h"
 #include "rival_program.h"
 #include "rival_run.h"
 

@@ -5,10 +5,10 @@
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include "psi_slam/base/atomic_file.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/results/range_observation.h"
-#include "psi_slam/results/robot_action.h"
+#include "base/atomic_file.h"
+#include "psi_slam/user_error.h"
+#include "observations/range_observation.h"
+#include "observations/robot_action.h"
 
 namespace psi_slam {
 std::vector<TimeUs> write_rival_log(FrameSource& source, const std::filesystem::path& path,

@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "psi_slam/base/time_stamp.h"
-#include "psi_slam/logs/frame_source.h"
+#include "psi_slam/time_stamp.h"
+#include "psi_slam/frame_source.h"
 
 namespace psi_slam {
 

@@ -9,9 +9,9 @@
 #include <optional>
 #include <sstream>
 
-#include "psi_slam/base/file_checksum.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/batch/child_process.h"
+#include "base/file_checksum.h"
+#include "psi_slam/user_error.h"
+#include "batch/child_process.h"
 
 namespace psi_slam {
 namespace {

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "psi_slam/base/atomic_file.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/batch/child_process.h"
-#include "psi_slam/config/apply_settings.h"
-#include "psi_slam/logs/open_log.h"
+#include "base/atomic_file.h"
+#include "psi_slam/user_error.h"
+#include "batch/child_process.h"
+#include "config/apply_settings.h"
+#include "psi_slam/open_log.h"
 #include "rival_log.h"
 
 namespace psi_slam {

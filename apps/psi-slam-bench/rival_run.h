@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "benchmark_logs.h"
-#include "psi_slam/batch/run_figures.h"
+#include "batch/run_figures.h"
 #include "rival_program.h"
 
 namespace psi_slam {

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "mapped_run.h"
-#include "psi_slam/base/degrees.h"
-#include "psi_slam/logs/open_log.h"
-#include "psi_slam/results/loop_judgement.h"
-#include "psi_slam/results/number_text.h"
+#include "base/degrees.h"
+#include "psi_slam/open_log.h"
+#include "evaluation/loop_judgement.h"
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "benchmark_logs.h"
 #include "log_identity.h"
-#include "psi_slam/batch/seed_range.h"
-#include "psi_slam/logs/degraded_source.h"
+#include "batch/seed_range.h"
+#include "robustness/degraded_source.h"
 
 namespace psi_slam {
 

@@ -3,8 +3,8 @@
 
 #include "bench_command.h"
 #include "match_report.h"
-#include "psi_slam/base/atomic_file.h"
-#include "psi_slam/batch/machine_text.h"
+#include "base/atomic_file.h"
+#include "batch/machine_text.h"
 #include "robustness_benchmark.h"
 #include "robustness_report.h"
 

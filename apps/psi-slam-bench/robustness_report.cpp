@@ -7,8 +7,8 @@
 
 #include "growth_plot.h"
 #include "program_identity.h"
-#include "psi_slam/batch/seed_spread.h"
-#include "psi_slam/results/number_text.h"
+#include "batch/seed_spread.h"
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {

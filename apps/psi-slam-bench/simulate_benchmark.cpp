@@ -8,10 +8,10 @@
 
 #include "forked_work.h"
 #include "mapped_run.h"
-#include "psi_slam/mapping/mapper.h"
-#include "psi_slam/results/run_summary.h"
-#include "psi_slam/session/settings.h"
-#include "psi_slam/simulation/simulation_random.h"
+#include "psi_slam/mapper.h"
+#include "exports/run_summary.h"
+#include "session/settings.h"
+#include "simulation/simulation_random.h"
 #include "simulate_report.h"
 
 namespace psi_slam {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "covariance_check.h"
-#include "psi_slam/mapping/mapping_result.h"
-#include "psi_slam/results/relations_metric.h"
-#include "psi_slam/simulation/simulated_log.h"
+#include "psi_slam/mapping_result.h"
+#include "evaluation/relations_metric.h"
+#include "simulation/simulated_log.h"
 
 namespace psi_slam {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "growth_plot.h"
-#include "psi_slam/results/number_text.h"
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {

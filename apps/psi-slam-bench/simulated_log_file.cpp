@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "bench_command.h"
-#include "psi_slam/base/atomic_file.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/results/corrected_log.h"
-#include "psi_slam/results/number_text.h"
+#include "base/atomic_file.h"
+#include "psi_slam/user_error.h"
+#include "exports/corrected_log.h"
+#include "base/number_text.h"
 #include "simulate_benchmark.h"
 
 namespace psi_slam {

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "psi_slam/simulation/simulated_log.h"
+#include "simulation/simulated_log.h"
 
 namespace psi_slam {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "svg_parts.h"
 
-#include "psi_slam/results/html_text.h"
-#include "psi_slam/results/number_text.h"
+#include "report/html_text.h"
+#include "base/number_text.h"
 
 namespace psi_slam {
 

@@ -8,11 +8,11 @@
 #include <ostream>
 
 #include "document_options.h"
-#include "psi_slam/base/atomic_file.h"
-#include "psi_slam/base/exit_code.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/results/number_text.h"
-#include "psi_slam/results/relations_metric.h"
+#include "base/atomic_file.h"
+#include "base/exit_code.h"
+#include "psi_slam/user_error.h"
+#include "base/number_text.h"
+#include "evaluation/relations_metric.h"
 
 namespace psi_slam {
 namespace {

@@ -16,8 +16,8 @@
 
 #include "gui_command_line.h"
 #include "main_frame.h"
-#include "psi_slam/base/exit_code.h"
-#include "psi_slam/base/user_error.h"
+#include "base/exit_code.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

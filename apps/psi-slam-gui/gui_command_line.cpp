@@ -3,7 +3,7 @@
 
 #include "command_line.h"
 #include "document_options.h"
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 

@@ -4,7 +4,7 @@
 #include <mrpt/img/CImage.h>
 #include <wx/window.h>
 
-#include "psi_slam/view/loop_legend.h"
+#include "view/loop_legend.h"
 
 namespace psi_slam {
 

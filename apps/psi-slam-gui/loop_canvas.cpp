@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "psi_slam/view/palette.h"
+#include "view/palette.h"
 #include "wx_text.h"
 
 namespace psi_slam {

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "psi_slam/view/loop_picture.h"
+#include "view/loop_picture.h"
 
 class wxGraphicsContext;
 

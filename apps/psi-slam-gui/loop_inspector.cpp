@@ -12,8 +12,8 @@
 
 #include "loop_actions.h"
 #include "loop_canvas.h"
-#include "psi_slam/results/verdict_text.h"
-#include "psi_slam/view/palette.h"
+#include "exports/verdict_text.h"
+#include "view/palette.h"
 #include "wx_text.h"
 
 namespace psi_slam {

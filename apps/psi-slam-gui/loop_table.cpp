@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "psi_slam/results/number_text.h"
-#include "psi_slam/results/verdict_text.h"
-#include "psi_slam/view/loop_residual.h"
+#include "base/number_text.h"
+#include "exports/verdict_text.h"
+#include "view/loop_residual.h"
 
 namespace psi_slam {
 namespace {
@@ -107,7 +107,7 @@ std::string LoopTable::text(std::size_t row, std::size_t column) const {
     case kLocalMap:
       return std::to_string(loop.local_map);
     case kMatcher:
-      return loop.matcher + (loop.by_hand ? ", by hand" : loop.in_last_pass ? ", last pass" : "");
+      return loop.matcher + (loop.by_hand ? ", by hand" : loop.in_final_search ? ", last pass" : "");
     case kResponse:
       return fixed_text(loop.response, 3);
     case kAmbiguity:

@@ -16,7 +16,7 @@
 #include "map_canvas.h"
 #include "message_bar.h"
 #include "plot_panel.h"
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 #include "settings_panel.h"
 #include "transport_bar.h"
 #include "wx_text.h"
@@ -212,9 +212,9 @@ void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
   const bool has_scans = snapshot != nullptr && !snapshot->frames.empty();
   const bool finished = snapshot != nullptr && snapshot->phase == ReplayPhase::kFinished;
   wxMenuBar& menu = *GetMenuBar();
-  menu.Enable(kPlayOrPause, mapping || (snapshot != nullptr && snapshot->phase == ReplayPhase::kLastPass));
+  menu.Enable(kPlayOrPause, mapping || (snapshot != nullptr && snapshot->phase == ReplayPhase::kFinalSearch));
   menu.Enable(kStep, mapping);
-  menu.Enable(kFinish, has_scans && (mapping || snapshot->phase == ReplayPhase::kLastPass));
+  menu.Enable(kFinish, has_scans && (mapping || snapshot->phase == ReplayPhase::kFinalSearch));
   menu.Enable(kRestart, snapshot != nullptr);
   menu.Enable(kExport, finished);
   menu.Enable(kGoOnWithLog, replay_ && replay_->input().recording() != nullptr);
@@ -238,7 +238,7 @@ void MainFrame::step() {
 
 void MainFrame::finish() {
   if (!replay_ || !snapshot_) return;
-  snapshot_->phase == ReplayPhase::kLastPass ? replay_->cut_last_pass() : replay_->finish();
+  snapshot_->phase == ReplayPhase::kFinalSearch ? replay_->cut_final_search() : replay_->finish();
 }
 
 void MainFrame::set_speed(double speed) {

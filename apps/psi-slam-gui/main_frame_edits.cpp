@@ -8,10 +8,10 @@
 #include "main_menu.h"
 #include "map_canvas.h"
 #include "message_bar.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/replay/loop_between_places.h"
-#include "psi_slam/results/number_text.h"
-#include "psi_slam/results/verdict_text.h"
+#include "psi_slam/user_error.h"
+#include "replay/loop_between_places.h"
+#include "base/number_text.h"
+#include "exports/verdict_text.h"
 #include "wx_text.h"
 
 namespace psi_slam {
@@ -67,7 +67,7 @@ void MainFrame::edit_selected(Kind kind, MatcherKind matcher) {
   LoopEdit edit{kind, loop.frame, loop.local_map};
   edit.matcher = matcher;
   // What the last pass found is gone while the map is open again: it is looked for where it was.
-  edit.of_last_pass = kind == Kind::kForce && loop.in_last_pass;
+  edit.of_final_search = kind == Kind::kForce && loop.in_final_search;
   const double window_m = std::max(loop.window.x_m, loop.window.y_m);
   if (kind == Kind::kMatch)
     edit.place = LoopPlace{loop.anchor_T_predicted, {window_m, window_m, loop.window.theta_rad}};

@@ -10,8 +10,8 @@
 #include "map_canvas.h"
 #include "message_bar.h"
 #include "plot_panel.h"
-#include "psi_slam/session/recorded_settings.h"
-#include "psi_slam/session/session_file.h"
+#include "session/recorded_settings.h"
+#include "session/session_file.h"
 #include "settings_panel.h"
 #include "wx_text.h"
 

@@ -4,8 +4,8 @@
 
 #include <wx/menu.h>
 
-#include "psi_slam/matching/make_matcher.h"
-#include "psi_slam/view/map_scene.h"
+#include "matching/make_matcher.h"
+#include "view/map_scene.h"
 
 namespace psi_slam {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "legend_picture.h"
-#include "psi_slam/view/frame_pose.h"
+#include "view/frame_pose.h"
 
 namespace psi_slam {
 namespace {

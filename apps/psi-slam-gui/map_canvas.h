@@ -11,9 +11,9 @@
 #include <optional>
 #include <string>
 
-#include "psi_slam/view/loop_legend.h"
-#include "psi_slam/view/map_camera.h"
-#include "psi_slam/view/map_scene.h"
+#include "view/loop_legend.h"
+#include "view/map_camera.h"
+#include "view/map_scene.h"
 
 namespace psi_slam {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "psi_slam/view/palette.h"
+#include "view/palette.h"
 #include "wx_text.h"
 
 namespace psi_slam {

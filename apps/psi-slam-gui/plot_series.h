@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/replay/replay_snapshot.h"
+#include "replay/replay_snapshot.h"
 
 namespace psi_slam {
 

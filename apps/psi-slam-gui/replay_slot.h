@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/replay/replay.h"
+#include "replay/replay.h"
 
 namespace psi_slam {
 

@@ -7,7 +7,7 @@
 #include <future>
 #include <vector>
 
-#include "psi_slam/session/session_input.h"
+#include "session/session_input.h"
 
 namespace psi_slam {
 

@@ -9,7 +9,7 @@
 
 #include <utility>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 #include "wx_text.h"
 
 namespace psi_slam {

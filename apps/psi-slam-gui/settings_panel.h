@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "psi_slam/session/bound_settings.h"
+#include "session/bound_settings.h"
 
 class wxButton;
 class wxPGProperty;

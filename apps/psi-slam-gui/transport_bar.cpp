@@ -109,10 +109,10 @@ void TransportBar::show(const ReplaySnapshot& snapshot,
 
 void TransportBar::enable(const ReplaySnapshot& snapshot) {
   const bool mapping = snapshot.phase == ReplayPhase::kPaused || snapshot.phase == ReplayPhase::kPlaying;
-  const bool last_pass = snapshot.phase == ReplayPhase::kLastPass;
-  play_->Enable(mapping || last_pass || snapshot.phase == ReplayPhase::kOpening);
+  const bool final_search = snapshot.phase == ReplayPhase::kFinalSearch;
+  play_->Enable(mapping || final_search || snapshot.phase == ReplayPhase::kOpening);
   step_->Enable(mapping);
-  finish_->Enable((mapping && !snapshot.frames.empty()) || last_pass);
+  finish_->Enable((mapping && !snapshot.frames.empty()) || final_search);
   slider_->Enable(mapping || !snapshot.frames.empty());
   const bool plays = goes_on(snapshot);
   if (plays == plays_) return;
@@ -123,7 +123,7 @@ void TransportBar::enable(const ReplaySnapshot& snapshot) {
 
 bool TransportBar::goes_on(const ReplaySnapshot& snapshot) {
   return snapshot.phase == ReplayPhase::kPlaying ||
-         (snapshot.phase == ReplayPhase::kLastPass && !snapshot.last_pass_held);
+         (snapshot.phase == ReplayPhase::kFinalSearch && !snapshot.final_search_held);
 }
 
 void TransportBar::show_slider(std::size_t at, std::size_t count) {
@@ -160,8 +160,8 @@ std::string progress_words(const ReplaySnapshot& snapshot, double waiting_left_s
         progress.remaining_s = std::max(waiting_left_s, progress.remaining_s.value_or(0));
       return "Mapping: " + progress_text(progress);
     }
-    case ReplayPhase::kLastPass:
-      return (snapshot.last_pass_held ? "Finishing, paused: " : "Finishing: ") +
+    case ReplayPhase::kFinalSearch:
+      return (snapshot.final_search_held ? "Finishing, paused: " : "Finishing: ") +
              progress_text(snapshot.progress);
     case ReplayPhase::kFinished:
       return "The map is finished: " + scans + (snapshot.interrupted ? ", stopped before the end" : "");

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/base/time_stamp.h"
-#include "psi_slam/replay/replay_snapshot.h"
+#include "psi_slam/time_stamp.h"
+#include "replay/replay_snapshot.h"
 
 class wxBitmapButton;
 class wxChoice;

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "psi_slam/replay/replay_snapshot.h"
-#include "psi_slam/session/edit_journal.h"
-#include "psi_slam/session/session_input.h"
+#include "replay/replay_snapshot.h"
+#include "session/edit_journal.h"
+#include "session/session_input.h"
 
 namespace psi_slam {
 

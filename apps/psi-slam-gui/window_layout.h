@@ -6,7 +6,7 @@
 #include <wx/confbase.h>
 #include <wx/frame.h>
 
-#include "psi_slam/view/map_scene.h"
+#include "view/map_scene.h"
 
 namespace psi_slam {
 

@@ -8,7 +8,7 @@
 #include "document_options.h"
 #include "mpi_program.h"
 #include "mpi_workers.h"
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 #include "sweep_command.h"
 
 namespace psi_slam {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "mpi_ranks.h"
-#include "psi_slam/batch/sweep.h"
+#include "batch/sweep.h"
 
 namespace psi_slam {
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <string>
 
-#include "psi_slam/mapping/mapping_result.h"
-#include "psi_slam/results/output_folder.h"
-#include "psi_slam/results/run_summary.h"
+#include "psi_slam/mapping_result.h"
+#include "report/output_folder.h"
+#include "exports/run_summary.h"
 
 namespace psi_slam {
 

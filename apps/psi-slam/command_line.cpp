@@ -2,8 +2,8 @@
 #include "command_line.h"
 
 #include "document_options.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/config/nearest_name.h"
+#include "psi_slam/user_error.h"
+#include "config/nearest_name.h"
 
 namespace psi_slam {
 namespace {

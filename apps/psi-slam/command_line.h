@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/config/option_table.h"
-#include "psi_slam/session/bound_settings.h"
+#include "config/option_table.h"
+#include "session/bound_settings.h"
 #include "sweep_command.h"
 
 namespace psi_slam {

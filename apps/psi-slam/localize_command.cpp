@@ -5,12 +5,12 @@
 #include <ostream>
 
 #include "interrupt_signals.h"
-#include "psi_slam/base/exit_code.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/localization/localization_report.h"
-#include "psi_slam/localization/map_file.h"
-#include "psi_slam/logs/open_log.h"
-#include "psi_slam/results/output_folder.h"
+#include "base/exit_code.h"
+#include "psi_slam/user_error.h"
+#include "localization/localization_report.h"
+#include "localization/map_file.h"
+#include "psi_slam/open_log.h"
+#include "report/output_folder.h"
 #include "start_pose.h"
 #include "work_progress.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "command_line.h"
-#include "psi_slam/session/settings.h"
+#include "session/settings.h"
 #include "psi_slam_app.h"
 
 namespace psi_slam {

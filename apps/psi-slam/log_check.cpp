@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "psi_slam/logs/diagnosis_report.h"
-#include "psi_slam/logs/input_doctor.h"
+#include "doctor/diagnosis_report.h"
+#include "doctor/input_doctor.h"
 
 namespace psi_slam {
 

@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "psi_slam/logs/log_options.h"
+#include "psi_slam/log_options.h"
 
 namespace psi_slam {
 

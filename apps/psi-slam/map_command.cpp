@@ -6,12 +6,12 @@
 #include <ostream>
 
 #include "closing_text.h"
-#include "psi_slam/base/exit_code.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/results/output_folder.h"
-#include "psi_slam/results/summary_json.h"
-#include "psi_slam/session/recorded_settings.h"
-#include "psi_slam/session/session_file.h"
+#include "base/exit_code.h"
+#include "psi_slam/user_error.h"
+#include "report/output_folder.h"
+#include "exports/summary_json.h"
+#include "session/recorded_settings.h"
+#include "session/session_file.h"
 
 namespace psi_slam {
 namespace {
@@ -94,7 +94,7 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
            const Streams& streams, std::optional<ProgressLine>& progress_line) {
   if (streams.err_is_terminal && !line.quiet) progress_line.emplace(streams.err);
   session.set_observer([&, told = false](const SessionProgress& progress) mutable {
-    if (!told && progress.phase == SessionProgress::Phase::kLastPass && signals.came()) {
+    if (!told && progress.phase == SessionProgress::Phase::kFinalSearch && signals.came()) {
       told = true;
       if (progress_line) progress_line->clear();
       streams.err << "psi-slam: " << interrupted_text(progress.scans) << '\n';

@@ -7,7 +7,7 @@
 #include "command_line.h"
 #include "interrupt_signals.h"
 #include "progress_line.h"
-#include "psi_slam/session/mapping_session.h"
+#include "psi_slam/mapping_session.h"
 #include "psi_slam_app.h"
 
 namespace psi_slam {

@@ -4,9 +4,9 @@
 #include <ostream>
 
 #include "map_command.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/session/place_drive.h"
-#include "psi_slam/session/recorded_settings.h"
+#include "psi_slam/user_error.h"
+#include "session/place_run.h"
+#include "session/recorded_settings.h"
 #include "start_pose.h"
 #include "work_progress.h"
 
@@ -40,7 +40,7 @@ std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bo
 /// `inputs` has the name of the input that each drive came with.
 void require_joined(const MappingSession& session, const std::vector<std::string>& inputs,
                     const InterruptSignals& signals) {
-  const auto drive = unjoined_drive(session.result());
+  const auto drive = unjoined_run(session.result());
   if (!drive) return;
   if (signals.came())
     throw SystemFailure("interrupted before a loop joined " + inputs[*drive] +
@@ -48,22 +48,22 @@ void require_joined(const MappingSession& session, const std::vector<std::string
   throw UserError(inputs[*drive] + " cannot be merged: no loop was found that joins it to the rest");
 }
 
-void add_drive(MappingSession& session, const SessionInput& input, const CommandLine& line,
+void add_run(MappingSession& session, const SessionInput& input, const CommandLine& line,
                const Settings& settings, const InterruptSignals& signals, WorkProgress progress) {
   const std::string doing = "finding where " + names_of(input.logs()) + " begins";
   progress.show(doing, 0, 1);
   const auto grid = draw_grid_map(session.result().log, mapped_poses(session.result()), settings.map);
   std::optional<mrpt::math::TPose2D> map_T_start;
   if (!line.start.empty()) map_T_start = parse_start(line.start);
-  const DriveStart start = place_drive(session.result(), *grid, input, settings, map_T_start, signals.came(),
+  const RunStart start = place_run(session.result(), *grid, input, settings, map_T_start, signals.came(),
                                        [&](double share) { progress.show(doing, share, 1); });
   progress.clear();
-  session.begin_drive(input, start);
+  session.begin_run(input, start);
 }
 
 }  // namespace
 
-int merge_drives(const CommandLine& line, const Streams& streams) {
+int merge_runs(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
   const std::vector<SessionInput> inputs = open_inputs(line, bound, streams);
   if (!line.start.empty()) parse_start(line.start);
@@ -75,15 +75,15 @@ int merge_drives(const CommandLine& line, const Streams& streams) {
   session.stay_open();
   watch(session, signals, line, streams, progress_line);
   session.run(signals.came());
-  std::vector<std::string> inputs_of_drives(session.drives(), line.inputs.front());
+  std::vector<std::string> inputs_of_runs(session.runs(), line.inputs.front());
   for (auto input = inputs.begin() + 1; input != inputs.end(); ++input) {
     if (signals.came()) throw SystemFailure("interrupted before all drives were read: nothing was merged");
     if (progress_line) progress_line->clear();
-    add_drive(session, *input, line, bound.settings, signals,
+    add_run(session, *input, line, bound.settings, signals,
               WorkProgress(progress_line ? &streams.err : nullptr));
-    inputs_of_drives.resize(session.drives(), line.inputs[static_cast<std::size_t>(input - inputs.begin())]);
+    inputs_of_runs.resize(session.runs(), line.inputs[static_cast<std::size_t>(input - inputs.begin())]);
     session.run(signals.came());
-    require_joined(session, inputs_of_drives, signals);
+    require_joined(session, inputs_of_runs, signals);
   }
   return save_and_export(session, folder, line, streams, progress_line);
 }

@@ -8,6 +8,6 @@
 namespace psi_slam {
 
 /// Returns the exit code. Throws UserError, with nothing written, when a drive cannot be read or placed.
-int merge_drives(const CommandLine& line, const Streams& streams);
+int merge_runs(const CommandLine& line, const Streams& streams);
 
 }  // namespace psi_slam

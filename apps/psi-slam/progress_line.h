@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "psi_slam/session/mapping_session.h"
+#include "psi_slam/mapping_session.h"
 
 namespace psi_slam {
 

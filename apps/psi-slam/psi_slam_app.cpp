@@ -9,10 +9,10 @@
 #include "log_check.h"
 #include "map_command.h"
 #include "merge_command.h"
-#include "psi_slam/base/exit_code.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/config/option_listing.h"
-#include "psi_slam/session/bound_settings.h"
+#include "base/exit_code.h"
+#include "psi_slam/user_error.h"
+#include "config/option_listing.h"
+#include "session/bound_settings.h"
 
 namespace psi_slam {
 namespace {
@@ -51,7 +51,7 @@ int run(const CommandLine& line, const Streams& streams) {
       break;
     }
     case CommandLine::Command::kMerge:
-      code = merge_drives(line, streams);
+      code = merge_runs(line, streams);
       break;
     case CommandLine::Command::kOptions:
       explain_options(line, streams);

@@ -7,8 +7,8 @@
 #include <locale>
 #include <sstream>
 
-#include "psi_slam/base/degrees.h"
-#include "psi_slam/base/user_error.h"
+#include "base/degrees.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 

@@ -5,9 +5,9 @@
 #include <ostream>
 
 #include "interrupt_signals.h"
-#include "psi_slam/base/file_checksum.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/batch/sweep_report.h"
+#include "base/file_checksum.h"
+#include "psi_slam/user_error.h"
+#include "batch/sweep_report.h"
 #include "work_progress.h"
 
 namespace psi_slam {

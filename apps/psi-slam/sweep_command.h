@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "psi_slam/batch/sweep.h"
+#include "batch/sweep.h"
 #include "psi_slam_app.h"
 
 namespace psi_slam {

@@ -27,7 +27,8 @@ function(psi_slam_configure_target target)
 endfunction()
 
 # psi_slam_add_library(NAME SOURCES file... [PUBLIC dependency...] [PRIVATE dependency...])
-# A library of libs/NAME, exported as psi-slam::NAME; its headers are include/psi_slam/NAME/*.h.
+# A library of libs/NAME, exported as psi-slam::NAME. Its own headers lie beside its sources and are included as
+# "NAME/file.h"; the public headers of all libraries are libs/include/psi_slam/*.h.
 function(psi_slam_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target psi_slam_${name})
@@ -35,12 +36,11 @@ function(psi_slam_add_library name)
   add_library(psi-slam::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    $<BUILD_INTERFACE:${psi-slam_SOURCE_DIR}/libs> $<BUILD_INTERFACE:${psi-slam_SOURCE_DIR}/libs/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   psi_slam_configure_target(${target})
-  install(TARGETS ${target} EXPORT psi-slam-targets 
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+  install(TARGETS ${target} EXPORT psi-slam-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 endfunction()
 
 # psi_slam_add_app(NAME [COMPONENT component] SOURCES file... LINK dependency...)
@@ -83,5 +83,8 @@ function(psi_slam_install_package)
   install(FILES ${PROJECT_BINARY_DIR}/psi-slam-config.cmake ${PROJECT_BINARY_DIR}/psi-slam-config-version.cmake
     DESTINATION ${destination} COMPONENT development)
   install(EXPORT psi-slam-targets NAMESPACE psi-slam:: DESTINATION ${destination} COMPONENT development)
+  install(DIRECTORY libs/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+  install(DIRECTORY libs/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+    FILES_MATCHING PATTERN "*.h" PATTERN include EXCLUDE)
   install(DIRECTORY ini/ DESTINATION ${CMAKE_INSTALL_DATADIR}/psi-slam/ini COMPONENT programs)
 endfunction()

@@ -6,8 +6,8 @@
 #include <ostream>
 
 #include "app_run.h"
-#include "psi_slam/results/relations_metric.h"
-#include "psi_slam/results/trajectory_file.h"
+#include "evaluation/relations_metric.h"
+#include "trajectory/trajectory_file.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
 

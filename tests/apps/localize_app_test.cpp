@@ -10,7 +10,7 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
-#include "psi_slam/results/trajectory_file.h"
+#include "trajectory/trajectory_file.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <thread>
 
-#include "psi_slam/localization/localization_report.h"
-#include "psi_slam/session/bound_settings.h"
-#include "psi_slam/session/mapping_session.h"
+#include "localization/localization_report.h"
+#include "session/bound_settings.h"
+#include "psi_slam/mapping_session.h"
 #include "shared_logs.h"
 
 namespace psi_slam {

@@ -8,8 +8,8 @@
 #include "../session/room_log.h"
 #include "app_run.h"
 #include "command_line.h"
-#include "psi_slam/logs/open_log.h"
-#include "psi_slam/results/trajectory_file.h"
+#include "psi_slam/open_log.h"
+#include "trajectory/trajectory_file.h"
 #include "same_results.h"
 #include "temporary_folder.h"
 

@@ -8,12 +8,12 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "psi_slam/logs/open_log.h"
-#include "psi_slam/results/mapped_trajectory.h"
-#include "psi_slam/results/relations_metric.h"
-#include "psi_slam/session/bound_settings.h"
-#include "psi_slam/session/mapping_session.h"
-#include "psi_slam/session/place_drive.h"
+#include "psi_slam/open_log.h"
+#include "exports/mapped_trajectory.h"
+#include "evaluation/relations_metric.h"
+#include "session/bound_settings.h"
+#include "psi_slam/mapping_session.h"
+#include "session/place_run.h"
 #include "shared_logs.h"
 
 namespace psi_slam {
@@ -72,7 +72,7 @@ void merge_halves_of(const std::string& name, double odometry_x_m, double odomet
   merged.run(go_on);
   const MappingResult& half = merged.result();
   const auto grid = draw_grid_map(half.log, mapped_poses(half), bound.settings.map);
-  merged.begin_drive(second, place_drive(half, *grid, second, bound.settings, {}, go_on));
+  merged.begin_run(second, place_run(half, *grid, second, bound.settings, {}, go_on));
   merged.run(go_on);
 
   const RelationsMetric at_once = errors_of(whole.result(), *relations);
@@ -81,7 +81,7 @@ void merge_halves_of(const std::string& name, double odometry_x_m, double odomet
               name.c_str(), at_once.translation_abs_m.mean, at_once.rotation_abs_deg.mean,
               in_two.translation_abs_m.mean, in_two.rotation_abs_deg.mean,
               largest_difference_m(whole.result(), merged.result()));
-  EXPECT_EQ(unjoined_drive(merged.result()), std::nullopt);
+  EXPECT_EQ(unjoined_run(merged.result()), std::nullopt);
   EXPECT_EQ(in_two.skipped, at_once.skipped);
   EXPECT_LT(in_two.translation_abs_m.mean, 1.1 * at_once.translation_abs_m.mean);
   EXPECT_LT(in_two.rotation_abs_deg.mean, 1.1 * at_once.rotation_abs_deg.mean);

@@ -15,7 +15,7 @@ TEST(ProgressLine, says_how_far_and_how_long) {
   EXPECT_EQ(progress_text({Phase::kMapping, 0.43, 5876, 2100.4, 2.8, 3.7}),
             " 43 %   5876 scans   2100 scans/s   0:04 left");
   EXPECT_EQ(progress_text({Phase::kMapping, 0, 1, 10, 0.1, {}}), "  0 %   1 scans   10 scans/s");
-  EXPECT_EQ(progress_text({Phase::kLastPass, 0.25, 5876, 10, 0.1, 61}),
+  EXPECT_EQ(progress_text({Phase::kFinalSearch, 0.25, 5876, 10, 0.1, 61}),
             " 25 %   looking for loops once more   1:01 left");
   EXPECT_EQ(progress_text({Phase::kWriting, 0, 5876, 10, 0.1, {}}),
             "drawing the map and writing the results");
@@ -33,7 +33,7 @@ TEST(ProgressLine, is_not_redrawn_for_every_scan_but_for_every_phase) {
   std::ostringstream terminal;
   ProgressLine line(terminal);
   for (std::size_t scan = 1; scan <= 1000; ++scan) line.show({Phase::kMapping, 0.001, scan, 1, 1, 1});
-  line.show({Phase::kLastPass, 1, 1000, 1, 1, {}});
+  line.show({Phase::kFinalSearch, 1, 1000, 1, 1, {}});
   line.show({Phase::kWriting, 1, 1000, 1, 1, {}});
   const std::string text = terminal.str();
   EXPECT_LT(std::count(text.begin(), text.end(), '\r'), 20);

@@ -15,9 +15,9 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
-#include "psi_slam/base/time_stamp.h"
-#include "psi_slam/pose_graph/g2o_file.h"
-#include "psi_slam/results/trajectory_file.h"
+#include "psi_slam/time_stamp.h"
+#include "pose_graph/g2o_file.h"
+#include "trajectory/trajectory_file.h"
 #include "same_results.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"

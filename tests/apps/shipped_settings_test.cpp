@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "app_run.h"
-#include "psi_slam/config/apply_settings.h"
-#include "psi_slam/config/ini_file.h"
-#include "psi_slam/config/option_listing.h"
-#include "psi_slam/session/settings.h"
+#include "config/apply_settings.h"
+#include "config/ini_file.h"
+#include "config/option_listing.h"
+#include "session/settings.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
-#include "../logs/rawlog_files.h"
+#include "rawlog_files.h"
 #include "../session/room_log.h"
 #include "app_run.h"
-#include "psi_slam/results/trajectory_file.h"
+#include "trajectory/trajectory_file.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/base/atomic_file.h"
+#include "base/atomic_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

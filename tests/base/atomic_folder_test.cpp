@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/base/atomic_folder.h"
+#include "base/atomic_folder.h"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -10,8 +10,8 @@
 #include <set>
 #include <string>
 
-#include "psi_slam/base/atomic_file.h"
-#include "psi_slam/base/user_error.h"
+#include "base/atomic_file.h"
+#include "psi_slam/user_error.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/base/file_checksum.h"
+#include "base/file_checksum.h"
 
 #include <gtest/gtest.h>
 

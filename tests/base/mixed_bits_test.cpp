@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/base/mixed_bits.h"
+#include "base/mixed_bits.h"
 
 #include <gtest/gtest.h>
 

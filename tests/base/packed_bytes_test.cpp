@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/base/packed_bytes.h"
+#include "base/packed_bytes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/base/random_draws.h"
+#include "base/random_draws.h"
 
 #include <gtest/gtest.h>
 

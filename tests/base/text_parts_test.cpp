@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/base/text_parts.h"
+#include "base/text_parts.h"
 
 #include <gtest/gtest.h>
 

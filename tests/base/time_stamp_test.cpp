@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/base/time_stamp.h"
+#include "psi_slam/time_stamp.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/base/worker_pool.h"
+#include "base/worker_pool.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/batch/child_process.h"
+#include "batch/child_process.h"
 
 #include <gmock/gmock.h>
 
 #include <csignal>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/batch/child_workers.h"
+#include "batch/child_workers.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/batch/kept_run.h"
+#include "batch/kept_run.h"
 
 #include <gtest/gtest.h>
 

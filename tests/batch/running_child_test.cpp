@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/batch/running_child.h"
+#include "batch/running_child.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/batch/seed_range.h"
+#include "batch/seed_range.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/batch/sweep_plan.h"
+#include "batch/sweep_plan.h"
 
 #include <gmock/gmock.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/batch/sweep_report.h"
+#include "batch/sweep_report.h"
 
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 
-#include "../results/well_formed.h"
+#include "well_formed.h"
 
 namespace psi_slam {
 namespace {

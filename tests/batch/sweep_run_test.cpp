@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program that does the runs is a script here: what becomes of a run that crashes, hangs or lies.
-#include "psi_slam/batch/sweep_run.h"
+#include "batch/sweep_run.h"
 
 #include <gmock/gmock.h>
 

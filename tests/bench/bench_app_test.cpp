@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command_fixture.h"
-#include "psi_slam/base/time_stamp.h"
-#include "psi_slam/logs/open_log.h"
-#include "psi_slam/results/relations_metric.h"
+#include "psi_slam/time_stamp.h"
+#include "psi_slam/open_log.h"
+#include "evaluation/relations_metric.h"
 #include "shared_logs.h"
 #include "work_progress.h"
 

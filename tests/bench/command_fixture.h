@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench_app.h"
-#include "psi_slam/batch/child_process.h"
+#include "batch/child_process.h"
 #include "room_benchmark.h"
 #include "temporary_folder.h"
 

@@ -7,9 +7,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "psi_slam/base/random_draws.h"
-#include "psi_slam/pose_graph/pose_graph.h"
-#include "psi_slam/pose_graph/sparse_pose_adjustment.h"
+#include "base/random_draws.h"
+#include "psi_slam/pose_graph.h"
+#include "pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "../pose_graph/test_graphs.h"
 #include "false_loop_report.h"
-#include "psi_slam/pose_graph/spanning_tree.h"
+#include "pose_graph/spanning_tree.h"
 
 namespace psi_slam {
 namespace {

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "../pose_graph/test_graphs.h"
-#include "psi_slam/pose_graph/sparse_pose_adjustment.h"
+#include "pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {
 namespace {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "freiburg_report.h"
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 #include "room_benchmark.h"
 #include "temporary_folder.h"
 

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "../results/well_formed.h"
+#include "well_formed.h"
 
 namespace psi_slam {
 namespace {

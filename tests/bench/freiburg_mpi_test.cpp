@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_fixture.h"
-#include "psi_slam/batch/child_workers.h"
+#include "batch/child_workers.h"
 
 namespace psi_slam {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "psi_slam/local_maps/front_end.h"
+#include "local_maps/front_end.h"
 
 namespace psi_slam {
 namespace {

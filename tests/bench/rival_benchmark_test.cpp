@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 #include "rival_files.h"
 #include "room_benchmark.h"
 #include "temporary_folder.h"

@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/logs/open_log.h"
+#include "psi_slam/user_error.h"
+#include "psi_slam/open_log.h"
 #include "room_benchmark.h"
 #include "temporary_folder.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nlohmann/json.hpp>
 
-#include "../results/well_formed.h"
+#include "well_formed.h"
 #include "command_fixture.h"
 #include "robustness_benchmark.h"
 

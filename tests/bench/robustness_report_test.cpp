@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "../results/well_formed.h"
+#include "well_formed.h"
 
 namespace psi_slam {
 namespace {

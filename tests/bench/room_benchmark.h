@@ -7,7 +7,7 @@
 #include <string>
 
 #include "../session/room_log.h"
-#include "psi_slam/base/time_stamp.h"
+#include "psi_slam/time_stamp.h"
 #include "test_files.h"
 
 namespace psi_slam {

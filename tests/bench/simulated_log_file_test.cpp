@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/config/apply_settings.h"
+#include "config/apply_settings.h"
 
 #include <gtest/gtest.h>
 

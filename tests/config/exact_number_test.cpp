@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/config/exact_number.h"
+#include "config/exact_number.h"
 
 #include <gtest/gtest.h>
 

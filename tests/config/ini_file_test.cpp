@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/config/ini_file.h"
+#include "config/ini_file.h"
 
 #include <gmock/gmock.h>
 
-#include "psi_slam/base/atomic_file.h"
+#include "base/atomic_file.h"
 #include "sample_settings.h"
 #include "temporary_folder.h"
 

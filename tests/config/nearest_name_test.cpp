@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/config/nearest_name.h"
+#include "config/nearest_name.h"
 
 #include <gtest/gtest.h>
 

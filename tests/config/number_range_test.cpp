@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/config/number_range.h"
+#include "config/number_range.h"
 
 #include <gtest/gtest.h>
 

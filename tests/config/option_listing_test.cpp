@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/config/option_listing.h"
+#include "config/option_listing.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "psi_slam/config/apply_settings.h"
+#include "config/apply_settings.h"
 #include "sample_settings.h"
 
 namespace psi_slam {

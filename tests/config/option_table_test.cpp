@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/config/option_table.h"
+#include "config/option_table.h"
 
 #include <gmock/gmock.h>
 

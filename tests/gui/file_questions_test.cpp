@@ -9,7 +9,7 @@
 #include "../session/room_log.h"
 #include "gui_run.h"
 #include "message_bar.h"
-#include "psi_slam/session/mapping_session.h"
+#include "psi_slam/mapping_session.h"
 #include "settings_panel.h"
 #include "test_files.h"
 

@@ -24,7 +24,7 @@ TEST(Gaps, between_events_of_a_benchmark_log) {
       .pause(500)
       .gauge("playing")
       .command(kPlayOrPause)
-      .when_phase(ReplayPhase::kLastPass)
+      .when_phase(ReplayPhase::kFinalSearch)
       .gauge("last_pass")
       .when_phase(ReplayPhase::kFinished)
       .pause(1500)

@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -32,7 +32,7 @@ TEST(TransportBar, the_time_left_is_that_of_work_or_of_waiting_whichever_is_long
   EXPECT_THAT(progress_words(snapshot, 0), HasSubstr("0:20 left"));
   EXPECT_THAT(progress_words(snapshot, 119), HasSubstr("1:59 left"));
   EXPECT_THAT(progress_words(snapshot, 7), HasSubstr("0:20 left"));
-  snapshot.phase = ReplayPhase::kLastPass;
+  snapshot.phase = ReplayPhase::kFinalSearch;
   EXPECT_THAT(progress_words(snapshot, 119), Not(HasSubstr("1:59"))) << "nothing is waited for there";
 }
 

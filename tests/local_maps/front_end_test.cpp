@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/local_maps/front_end.h"
+#include "local_maps/front_end.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
@@ -210,10 +210,10 @@ TEST(FrontEnd, a_person_who_walks_ahead_along_a_bare_corridor_does_not_hold_the_
     const SimulatedDrive drive = behind_a_person(ahead_m);
     FrontEndOptions options;
     options.scan.max_range_m = 8;  // as above
-    const double let_pass_m = 25 * options.max_strain_m / options.strain_travel_m;
+    const double let_pass_m = 25 * options.max_doubtful_correction_m / options.doubtful_correction_travel_m;
     EXPECT_LT(errors_of(follow(drive, options), drive).largest_m, let_pass_m) << "of 25 m";
     options.held_share = 1;
-    options.max_strain_m = 100;
+    options.max_doubtful_correction_m = 100;
     EXPECT_GT(errors_of(follow(drive, options), drive).largest_m, 4) << "what it guards against";
   }
 }

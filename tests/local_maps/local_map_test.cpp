@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/local_maps/local_map.h"
+#include "local_maps/local_map.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -11,7 +11,7 @@
 #include <random>
 #include <utility>
 
-#include "psi_slam/local_maps/scan_filter.h"
+#include "local_maps/scan_filter.h"
 #include "simulated_drive.h"
 
 namespace psi_slam {

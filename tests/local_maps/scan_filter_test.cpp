@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/local_maps/scan_filter.h"
+#include "local_maps/scan_filter.h"
 
 #include <gtest/gtest.h>
 

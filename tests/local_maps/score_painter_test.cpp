@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/local_maps/score_painter.h"
+#include "local_maps/score_painter.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "../matching/simulated_walls.h"
-#include "psi_slam/logs/frame.h"
+#include "psi_slam/frame.h"
 
 namespace psi_slam {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/localization/clear_beams.h"
+#include "localization/clear_beams.h"
 
 #include <gtest/gtest.h>
 

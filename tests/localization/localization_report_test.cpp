@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/localization/localization_report.h"
+#include "localization/localization_report.h"
 
 #include <gmock/gmock.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/localization/localizer.h"
+#include "psi_slam/localizer.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 
-#include "psi_slam/localization/localization_report.h"
+#include "localization/localization_report.h"
 #include "simulated_drives.h"
 
 namespace psi_slam {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/localization/map_file.h"
+#include "localization/map_file.h"
 
 #include <gmock/gmock.h>
 
-#include "psi_slam/base/compressed_file.h"
-#include "psi_slam/results/map_server_pair.h"
-#include "psi_slam/results/mrpt_maps.h"
+#include "compression/compressed_file.h"
+#include "exports/map_server_pair.h"
+#include "exports/mrpt_maps.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
-#include "psi_slam/localization/localizer.h"
-#include "psi_slam/results/grid_map.h"
-#include "psi_slam/simulation/simulated_log.h"
+#include "psi_slam/localizer.h"
+#include "psi_slam/grid_map.h"
+#include "simulation/simulated_log.h"
 
 namespace psi_slam {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/logs/log_options.h"
+#include "psi_slam/log_options.h"
 
 #include <limits>
 

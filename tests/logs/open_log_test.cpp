@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/logs/open_log.h"
+#include "psi_slam/open_log.h"
 
 #include "log_files.h"
 #include "shared_logs.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/loop_closure/local_map_constraints.h"
+#include "loop_closure/local_map_constraints.h"
 
 #include <gtest/gtest.h>
 

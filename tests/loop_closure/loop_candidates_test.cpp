@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/loop_closure/loop_candidates.h"
+#include "loop_closure/loop_candidates.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using mrpt::math::TPose2D;
 
 // Thirty metres along x and, a metre beside, back again: a node a metre, a local map every ten nodes.
 struct ThereAndBack {
-  PlaceMemory memory;
+  KeyframeStore memory;
   PoseGraph graph;
 
   ThereAndBack() {

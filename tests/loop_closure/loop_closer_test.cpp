@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/loop_closure/loop_closer.h"
+#include "loop_closure/loop_closer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "psi_slam/matching/correlative_matcher.h"
+#include "matching/correlative_matcher.h"
 #include "two_rounds.h"
 
 namespace psi_slam {
@@ -45,7 +45,7 @@ LoopClosureOptions near_maps_too() {
 }
 
 LoopCloser::Outcome close(const PoseGraph& graph, const Matcher& matcher, int threads = 1,
-                          const PlaceMemory& memory = two_rounds().memory) {
+                          const KeyframeStore& memory = two_rounds().memory) {
   WorkerPool pool(threads);
   LoopCloser closer(near_maps_too(), 5);
   return closer.close(two_rounds().node, memory, graph, matcher, pool);
@@ -82,7 +82,7 @@ TEST(LoopCloser, every_match_has_a_seed_of_its_own) {
 }
 
 TEST(LoopCloser, a_blind_scan_is_not_searched_for) {
-  PlaceMemory memory = two_rounds().memory;
+  KeyframeStore memory = two_rounds().memory;
   memory.nodes[two_rounds().node].points = std::make_shared<const ScanPoints>();
   const AskedMatcher matcher;
   const LoopCloser::Outcome outcome = close(two_rounds().graph(), matcher, 1, memory);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/loop_closure/loop_closure_factor.h"
+#include "loop_closure/loop_closure_factor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/loop_closure/loop_ledger.h"
+#include "loop_closure/loop_ledger.h"
 
 #include <gtest/gtest.h>
 
@@ -127,7 +127,7 @@ TEST_F(LoopLedgerTest, a_last_search_leaves_out_what_is_settled) {
   ledger_.add(loop(Verdict::kAccepted, 0, 1));
   ledger_.add(loop(Verdict::kNotFound, 0, 2));
   LoopRecord searched = loop(Verdict::kRefused, 0, 3);
-  searched.in_last_pass = true;
+  searched.in_final_search = true;
   ledger_.add(searched);
   ledger_.add(loop(Verdict::kRefused, 0, 4));
   ledger_.remove(pair(4), graph_);

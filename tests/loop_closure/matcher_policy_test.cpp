@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/loop_closure/matcher_policy.h"
+#include "loop_closure/matcher_policy.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/loop_closure/range_image.h"
+#include "loop_closure/range_image.h"
 
 #include <gtest/gtest.h>
 

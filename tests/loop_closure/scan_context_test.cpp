@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/loop_closure/scan_context.h"
+#include "loop_closure/scan_context.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
-#include "psi_slam/local_maps/scan_filter.h"
+#include "local_maps/scan_filter.h"
 
 namespace psi_slam {
 namespace {
@@ -31,8 +31,8 @@ NodeScan node_with(const TPose2D& local_T_robot, double travelled_m, const std::
 }
 
 // A straight drive through a frame that is turned; every node sees one point of its own, at (2, 1).
-PlaceMemory straight_drive(int nodes, double step_m) {
-  PlaceMemory memory;
+KeyframeStore straight_drive(int nodes, double step_m) {
+  KeyframeStore memory;
   for (int i = 0; i < nodes; ++i)
     memory.nodes.push_back(
         node_with(TPose2D(3, 4, 0.7) + TPose2D(i * step_m, 0, 0), i * step_m, {{2, 1}}, {{0, -1}}));
@@ -86,7 +86,7 @@ TEST(ScanContext, of_an_early_node_is_what_there_is) {
 }
 
 TEST(ScanContext, a_point_seen_again_counts_once) {
-  PlaceMemory memory;
+  KeyframeStore memory;
   for (int i = 0; i < 5; ++i) {  // all see (5.53, 1.53) and (5.53, 1.75)
     const float x = 5.53F - static_cast<float>(i);
     memory.nodes.push_back(node_with({1.0 * i, 0, 0}, i, {{x, 1.53F}, {x, 1.75F}}, {{0, -1}, {0, -1}}));
@@ -100,7 +100,7 @@ TEST(ScanContext, a_point_seen_again_counts_once) {
 }
 
 TEST(ScanContext, points_and_normals_turn_with_the_robot) {
-  PlaceMemory memory;
+  KeyframeStore memory;
   memory.nodes.push_back(node_with({0, 0, 0}, 0, {{2, 1}}, {{0, -1}}));
   memory.nodes.push_back(node_with({1, 0, M_PI / 2}, 1, {{3, 3}}, {{0.6F, 0.8F}}));
   const ScanPoints context = scan_context(1, memory, {});
@@ -121,7 +121,7 @@ TEST(ScanContext, of_a_building_lies_on_its_walls_and_reaches_behind_the_robot) 
   const SimulatedWalls floor = office_floor();
   const BeamBearings bearings = even_bearings(-M_PI / 2, M_PI / 2, 181);
   std::mt19937_64 random(3);
-  PlaceMemory memory;
+  KeyframeStore memory;
   double travelled_m = 0;
   TPose2D before(0, 0, 0);
   std::vector<TPose2D> truth;

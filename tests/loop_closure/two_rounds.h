@@ -6,16 +6,16 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
-#include "psi_slam/local_maps/front_end.h"
-#include "psi_slam/loop_closure/loop_record.h"
-#include "psi_slam/loop_closure/place_memory.h"
-#include "psi_slam/pose_graph/pose_graph.h"
+#include "local_maps/front_end.h"
+#include "psi_slam/loop_record.h"
+#include "loop_closure/keyframe_store.h"
+#include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
 
 /// Twice round a furnished room with good odometry; local maps of the first round, seen again in the second.
 struct TwoRounds {
-  PlaceMemory memory;
+  KeyframeStore memory;
   std::vector<mrpt::math::TPose2D> truth;  ///< by node
   std::size_t node = 0;                    ///< of the second round
   std::size_t local_map = 0;               ///< of the first, holding a node near that one

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/mapping/joint_refinement.h"
+#include "mapping/joint_refinement.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
-#include "psi_slam/base/random_draws.h"
-#include "psi_slam/local_maps/scan_filter.h"
+#include "base/random_draws.h"
+#include "local_maps/scan_filter.h"
 
 namespace psi_slam {
 namespace {

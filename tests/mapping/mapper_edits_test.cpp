@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "../local_maps/simulated_drive.h"
-#include "psi_slam/loop_closure/loop_edit.h"
-#include "psi_slam/mapping/mapper.h"
+#include "loop_closure/loop_edit.h"
+#include "psi_slam/mapper.h"
 
 namespace psi_slam {
 namespace {
@@ -242,11 +242,11 @@ TEST_F(MapperEditsTest, edited_after_the_end_it_is_what_it_would_have_been_witho
   Mapper straight{MapperOptions{}};
   for (const Frame& frame : round_drive().frames) straight.add(frame);
   MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
-  const auto in_last_pass = std::find_if(
+  const auto in_final_search = std::find_if(
       result.loops.begin(), result.loops.end(),
-      [](const LoopRecord& loop) { return loop.in_last_pass && loop.verdict == LoopVerdict::kAccepted; });
-  ASSERT_NE(in_last_pass, result.loops.end());
-  const LoopEdit edit = edit_of(Kind::kDelete, *in_last_pass);
+      [](const LoopRecord& loop) { return loop.in_final_search && loop.verdict == LoopVerdict::kAccepted; });
+  ASSERT_NE(in_final_search, result.loops.end());
+  const LoopEdit edit = edit_of(Kind::kDelete, *in_final_search);
   mapper_.reopen(std::move(result));
   straight.end_log();
   EXPECT_EQ(mapper_.edit(edit).state, State::kDone);
@@ -266,16 +266,16 @@ TEST_F(MapperEditsTest, a_loop_that_only_the_last_pass_finds_is_forced_as_it_fin
   // Refused on the way and found by the last pass: the match that was refused is not meant.
   std::optional<LoopRecord> chosen;
   for (const LoopRecord& loop : result.loops) {
-    if (!loop.in_last_pass || loop.verdict != LoopVerdict::kAccepted) continue;
+    if (!loop.in_final_search || loop.verdict != LoopVerdict::kAccepted) continue;
     if (!chosen) chosen = loop;
     for (const LoopRecord& other : result.loops)
-      if (!other.in_last_pass && other.verdict == LoopVerdict::kRefused && other.node == loop.node &&
+      if (!other.in_final_search && other.verdict == LoopVerdict::kRefused && other.node == loop.node &&
           other.local_map == loop.local_map)
         chosen = loop;
   }
   ASSERT_TRUE(chosen.has_value());
   LoopEdit edit = edit_of(Kind::kForce, *chosen);
-  edit.of_last_pass = true;
+  edit.of_final_search = true;
   EXPECT_EQ(mapper_.judge(edit, result.frames).state, State::kDone);
   mapper_.reopen(std::move(result));
   EXPECT_EQ(mapper_.edit(edit).state, State::kWaits);
@@ -285,7 +285,7 @@ TEST_F(MapperEditsTest, a_loop_that_only_the_last_pass_finds_is_forced_as_it_fin
     return loop.frame == edit.frame && loop.local_map == edit.local_map;
   });
   ASSERT_NE(found, forced.loops.rend());
-  EXPECT_TRUE(found->in_last_pass);
+  EXPECT_TRUE(found->in_final_search);
   EXPECT_TRUE(found->by_hand);
   EXPECT_EQ(found->verdict, LoopVerdict::kAccepted);
   EXPECT_NEAR(found->anchor_T_node.x, chosen->anchor_T_node.x, 0.05);
@@ -295,13 +295,13 @@ TEST_F(MapperEditsTest, a_loop_that_only_the_last_pass_finds_is_forced_as_it_fin
 TEST_F(MapperEditsTest, a_loop_that_was_added_and_taken_back_leaves_the_last_pass_free_to_find_it) {
   map_all();
   MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
-  const auto only_last_pass = [&](const LoopRecord& loop) {
-    return loop.in_last_pass && loop.verdict == LoopVerdict::kAccepted &&
+  const auto only_final_search = [&](const LoopRecord& loop) {
+    return loop.in_final_search && loop.verdict == LoopVerdict::kAccepted &&
            std::count_if(result.loops.begin(), result.loops.end(), [&](const LoopRecord& other) {
              return other.node == loop.node && other.local_map == loop.local_map;
            }) == 1;
   };
-  const auto found = std::find_if(result.loops.begin(), result.loops.end(), only_last_pass);
+  const auto found = std::find_if(result.loops.begin(), result.loops.end(), only_final_search);
   ASSERT_NE(found, result.loops.end());
   const LoopRecord loop = *found;
   mapper_.reopen(std::move(result));
@@ -312,7 +312,7 @@ TEST_F(MapperEditsTest, a_loop_that_was_added_and_taken_back_leaves_the_last_pas
   EXPECT_EQ(mapper_.edit(edit_of(Kind::kRestore, loop)).state, State::kImpossible);
   const MappingResult again = mapper_.finish();
   EXPECT_TRUE(std::any_of(again.loops.begin(), again.loops.end(), [&](const LoopRecord& now) {
-    return now.node == loop.node && now.local_map == loop.local_map && now.in_last_pass &&
+    return now.node == loop.node && now.local_map == loop.local_map && now.in_final_search &&
            now.verdict == LoopVerdict::kAccepted && !now.by_hand;
   }));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/mapping/mapper.h"
+#include "psi_slam/mapper.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
@@ -126,10 +126,10 @@ TEST(Mapper, accepts_true_loops_and_no_false_one) {
 
 TEST(Mapper, closes_loops_while_it_maps_and_in_the_last_pass) {
   const auto& loops = office_map().loops;
-  for (const bool in_last_pass : {false, true})
+  for (const bool in_final_search : {false, true})
     EXPECT_TRUE(std::any_of(loops.begin(), loops.end(), [&](const LoopRecord& loop) {
-      return loop.in_last_pass == in_last_pass && loop.verdict == LoopVerdict::kAccepted;
-    })) << in_last_pass;
+      return loop.in_final_search == in_final_search && loop.verdict == LoopVerdict::kAccepted;
+    })) << in_final_search;
 }
 
 TEST(Mapper, every_scan_has_a_pose_and_the_graph_fits_them) {
@@ -141,7 +141,7 @@ TEST(Mapper, every_scan_has_a_pose_and_the_graph_fits_them) {
 TEST(Mapper, says_where_the_robot_is_while_it_maps) {
   const SimulatedDrive& drive = office_drive();
   MapperOptions options;
-  options.last_pass.passes = 0;
+  options.final_search.passes = 0;
   Mapper mapper(options);
   EXPECT_EQ(mapper.map_T_robot(), TPose2D(0, 0, 0));
   double largest_m = 0;
@@ -200,7 +200,7 @@ TEST(Mapper, any_number_of_threads_makes_the_same_map) {
 
 TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
   MapperOptions options;
-  options.loop_closure.verification.wide_window_m = options.last_pass.window_m;  // many wait for others
+  options.loop_closure.verification.wide_window_m = options.final_search.window_m;  // many wait for others
   const MappingResult result = map_of(office_drive().frames, options);
   std::size_t counted = 0;
   bool several_at_once = false;
@@ -213,7 +213,7 @@ TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
   for (const LoopRecord& loop : result.loops) {
     const bool constraint =
         loop.verdict == LoopVerdict::kAccepted || loop.verdict == LoopVerdict::kSwitchedOff;
-    constraints += constraint && !loop.in_last_pass ? 1 : 0;
+    constraints += constraint && !loop.in_final_search ? 1 : 0;
   }
   EXPECT_EQ(counted, constraints);
   EXPECT_TRUE(several_at_once) << "loops found at earlier frames were confirmed";
@@ -222,11 +222,11 @@ TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
 TEST(Mapper, counts_attempts_that_found_nothing_too) {
   const MappingResult& result = office_map();
   LoopEffort sum;
-  LoopEffort last_pass;
+  LoopEffort final_search;
   std::size_t accepted = 0;
   for (const auto& [name, matcher] : result.loop_matchers) {
     sum += matcher.effort;
-    last_pass += matcher.last_pass_effort;
+    final_search += matcher.final_search_effort;
     accepted += matcher.accepted;
   }
   const auto not_found = std::count_if(result.loops.begin(), result.loops.end(), [](const LoopRecord& loop) {
@@ -235,7 +235,7 @@ TEST(Mapper, counts_attempts_that_found_nothing_too) {
   EXPECT_EQ(sum.found, result.loops.size() - static_cast<std::size_t>(not_found));
   EXPECT_GT(sum.attempts, sum.found);
   EXPECT_EQ(accepted, accepted_loops(result));
-  EXPECT_GT(last_pass.attempts, 0U);
+  EXPECT_GT(final_search.attempts, 0U);
 
   LoopEffort of_frames;
   for (const FrameRecord& frame : result.frames) {
@@ -245,9 +245,9 @@ TEST(Mapper, counts_attempts_that_found_nothing_too) {
     EXPECT_GE(frame.evaluations, frame.loop_evaluations);
     EXPECT_EQ(frame.loops_tried > 0, frame.loop_evaluations > 0);
   }
-  EXPECT_EQ(of_frames.attempts, sum.attempts - last_pass.attempts);
-  EXPECT_EQ(of_frames.evaluations, sum.evaluations - last_pass.evaluations);
-  EXPECT_NEAR(of_frames.milliseconds, sum.milliseconds - last_pass.milliseconds, 1e-6);
+  EXPECT_EQ(of_frames.attempts, sum.attempts - final_search.attempts);
+  EXPECT_EQ(of_frames.evaluations, sum.evaluations - final_search.evaluations);
+  EXPECT_NEAR(of_frames.milliseconds, sum.milliseconds - final_search.milliseconds, 1e-6);
   std::int64_t of_loops = 0;
   for (const LoopRecord& loop : result.loops) of_loops += loop.evaluations;
   EXPECT_GT(sum.evaluations, of_loops);
@@ -284,16 +284,16 @@ TEST(Mapper, records_the_factor_of_loop_closing) {
 
 TEST(Mapper, searches_loops_by_the_matcher_that_psi_chooses_in_the_last_pass_too) {
   const MappingResult& result = office_map();
-  std::size_t genetic_in_last_pass = 0;
+  std::size_t genetic_in_final_search = 0;
   for (const FrameRecord& frame : result.frames) {
     const MatcherKind kind = matcher_kind(LoopMatcher::kAdaptive, {}, frame.psi);
     EXPECT_EQ(frame.matcher, frame.node ? name(kind) : "");
   }
   for (const LoopRecord& loop : result.loops) {
     EXPECT_EQ(loop.matcher, result.frames[loop.frame].matcher);
-    genetic_in_last_pass += loop.in_last_pass && loop.matcher != "csm" ? 1 : 0;
+    genetic_in_final_search += loop.in_final_search && loop.matcher != "csm" ? 1 : 0;
   }
-  EXPECT_GT(genetic_in_last_pass, 0U);
+  EXPECT_GT(genetic_in_final_search, 0U);
   EXPECT_GT(result.loop_matchers.size(), 1U);
 
   MapperOptions options;
@@ -317,7 +317,7 @@ TEST(Mapper, searches_loops_by_the_matcher_that_psi_chooses_in_the_last_pass_too
 
 TEST(Mapper, contradicted_loops_are_switched_off_without_a_last_pass_too) {
   MapperOptions options;
-  options.last_pass.passes = 0;
+  options.final_search.passes = 0;
   options.max_loop_chi = 1.0;
   const MappingResult result = map_of(office_drive().frames, options);
   expect_consistent(result, office_drive().frames.size());
@@ -405,12 +405,12 @@ TEST(Mapper, refines_all_scans_at_the_end_and_keeps_the_frame_of_the_first) {
 
 TEST(Mapper, refinement_can_be_cut_short) {
   MapperOptions options;
-  options.last_pass.passes = 0;
+  options.final_search.passes = 0;
   Mapper mapper(options);
   for (const Frame& frame : office_drive().frames) mapper.add(frame);
   const MappingResult result = mapper.finish([](double) { return false; });
   EXPECT_TRUE(result.interrupted);
-  EXPECT_TRUE(result.last_pass_cut_short);
+  EXPECT_TRUE(result.final_search_cut_short);
   expect_consistent(result, office_drive().frames.size());
 }
 
@@ -420,7 +420,7 @@ TEST(Mapper, the_last_pass_can_be_cut_short) {
   int calls = 0;
   const MappingResult result = mapper.finish([&](double) { return ++calls < 3; });
   EXPECT_EQ(calls, 3);
-  EXPECT_TRUE(result.last_pass_cut_short);
+  EXPECT_TRUE(result.final_search_cut_short);
   EXPECT_TRUE(result.interrupted);
   expect_consistent(result, office_drive().frames.size());
   EXPECT_LT(result.loops.size(), office_map().loops.size());

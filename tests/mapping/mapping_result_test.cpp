@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/mapping/mapping_result.h"
+#include "psi_slam/mapping_result.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 MappingResult three_drives() {
   MappingResult result;
   result.frames.resize(9);
-  result.drive_frames = {4, 7};
+  result.later_run_frames = {4, 7};
   result.node_frames = {0, 2, 4, 5, 6, 7, 8};
   return result;
 }
@@ -24,37 +24,37 @@ LoopRecord loop(std::size_t anchor, std::size_t node, LoopVerdict verdict = Loop
 }
 
 TEST(MappingResult, tells_the_frames_of_each_drive) {
-  const std::vector<FrameSpan> drives = drives_of(three_drives());
-  ASSERT_EQ(drives.size(), 3U);
-  EXPECT_EQ(drives[0].begin, 0U);
-  EXPECT_EQ(drives[0].end, 4U);
-  EXPECT_EQ(drives[1].begin, 4U);
-  EXPECT_EQ(drives[1].end, 7U);
-  EXPECT_EQ(drives[2].end, 9U);
-  EXPECT_EQ(drives_of({}).size(), 1U);
+  const std::vector<FrameSpan> runs = runs_of(three_drives());
+  ASSERT_EQ(runs.size(), 3U);
+  EXPECT_EQ(runs[0].begin, 0U);
+  EXPECT_EQ(runs[0].end, 4U);
+  EXPECT_EQ(runs[1].begin, 4U);
+  EXPECT_EQ(runs[1].end, 7U);
+  EXPECT_EQ(runs[2].end, 9U);
+  EXPECT_EQ(runs_of({}).size(), 1U);
 }
 
 TEST(MappingResult, a_drive_is_joined_by_accepted_loops_with_others_alone) {
   MappingResult result = three_drives();
-  EXPECT_EQ(unjoined_drive(result), 1U) << "the others are joined to the first";
+  EXPECT_EQ(unjoined_run(result), 1U) << "the others are joined to the first";
   result.loops = {loop(0, 2), loop(5, 6)};
-  EXPECT_EQ(unjoined_drive(result), 2U) << "a loop within the third joins it to nothing";
+  EXPECT_EQ(unjoined_run(result), 2U) << "a loop within the third joins it to nothing";
   result.loops.push_back(loop(3, 5, LoopVerdict::kSwitchedOff));
-  EXPECT_EQ(unjoined_drive(result), 2U);
+  EXPECT_EQ(unjoined_run(result), 2U);
   result.loops.push_back(loop(6, 3));
-  EXPECT_EQ(unjoined_drive(result), std::nullopt);
-  EXPECT_EQ(unjoined_drive({}), std::nullopt) << "one drive needs no loop";
+  EXPECT_EQ(unjoined_run(result), std::nullopt);
+  EXPECT_EQ(unjoined_run({}), std::nullopt) << "one drive needs no loop";
 }
 
 TEST(MappingResult, drives_that_are_joined_in_two_groups_are_not_one_map) {
   MappingResult result = three_drives();
-  result.drive_frames = {2, 4, 7};
+  result.later_run_frames = {2, 4, 7};
   result.loops = {loop(0, 1), loop(6, 3)};
-  EXPECT_EQ(unjoined_drive(result), 2U);
+  EXPECT_EQ(unjoined_run(result), 2U);
   result.loops.push_back(loop(1, 5));
-  EXPECT_EQ(unjoined_drive(result), std::nullopt);
+  EXPECT_EQ(unjoined_run(result), std::nullopt);
   result.loops = {loop(5, 2), loop(1, 5), loop(0, 2)};
-  EXPECT_EQ(unjoined_drive(result), std::nullopt) << "in whatever order";
+  EXPECT_EQ(unjoined_run(result), std::nullopt) << "in whatever order";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/mapping/stage_clock.h"
+#include "mapping/stage_clock.h"
 
 #include <gtest/gtest.h>
 

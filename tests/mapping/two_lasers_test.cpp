@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "psi_slam/mapping/mapper.h"
-#include "psi_slam/simulation/simulated_log.h"
+#include "psi_slam/mapper.h"
+#include "simulation/simulated_log.h"
 
 namespace psi_slam {
 namespace {
@@ -91,7 +91,7 @@ TEST(TwoLasers, map_on_while_one_is_silent) {
     if (i % 90 < 30) continue;
     if (i % 90 < 60) {
       frames[i].companions.clear();
-    } else {  // the rear laser alone, as ScanUniter hands it on
+    } else {  // the rear laser alone, as ScanSynchronizer hands it on
       CompanionScan rear = frames[i].companions[0];
       frames[i].companions.clear();
       frames[i].scan = rear.scan;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/branch_and_bound.h"
+#include "matching/branch_and_bound.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/coarse_cells.h"
+#include "matching/coarse_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/coarse_seeds.h"
+#include "matching/coarse_seeds.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/exhaustive_search.h"
+#include "matching/exhaustive_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/genetic_operators.h"
+#include "matching/genetic_operators.h"
 
 #include <gtest/gtest.h>
 

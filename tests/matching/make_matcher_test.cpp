@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What must hold of every matcher behind the one interface.
-#include "psi_slam/matching/make_matcher.h"
+#include "matching/make_matcher.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "psi_slam/matching/correlative_matcher.h"
+#include "matching/correlative_matcher.h"
 #include "score_grids.h"
 
 namespace psi_slam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/memetic_search.h"
+#include "matching/memetic_search.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "psi_slam/matching/branch_and_bound.h"
+#include "matching/branch_and_bound.h"
 #include "real_scans.h"
 #include "score_grids.h"
 #include "slow_search.h"

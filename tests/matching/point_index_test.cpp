@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/point_index.h"
+#include "matching/point_index.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "psi_slam/base/random_draws.h"
+#include "base/random_draws.h"
 
 namespace psi_slam {
 namespace {

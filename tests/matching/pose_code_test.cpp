@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/pose_code.h"
+#include "matching/pose_code.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "psi_slam/local_maps/front_end.h"
-#include "psi_slam/logs/open_log.h"
+#include "local_maps/front_end.h"
+#include "psi_slam/open_log.h"
 #include "shared_logs.h"
 
 namespace psi_slam {

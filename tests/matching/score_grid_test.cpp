@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/score_grid.h"
+#include "matching/score_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <random>
 
-#include "psi_slam/matching/scan_points.h"
-#include "psi_slam/matching/score_grid.h"
-#include "psi_slam/matching/search_window.h"
+#include "matching/scan_points.h"
+#include "matching/score_grid.h"
+#include "matching/search_window.h"
 #include "simulated_walls.h"
 
 namespace psi_slam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/search_lattice.h"
+#include "matching/search_lattice.h"
 
 #include <gtest/gtest.h>
 

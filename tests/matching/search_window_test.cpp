@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/search_window.h"
+#include "matching/search_window.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "psi_slam/matching/search_lattice.h"
+#include "matching/search_lattice.h"
 
 namespace psi_slam {
 

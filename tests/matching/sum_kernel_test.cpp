@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/sum_kernel.h"
+#include "matching/sum_kernel.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/surface_alignment.h"
+#include "matching/surface_alignment.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "../local_maps/simulated_drive.h"
-#include "psi_slam/local_maps/scan_filter.h"
+#include "local_maps/scan_filter.h"
 
 namespace psi_slam {
 namespace {

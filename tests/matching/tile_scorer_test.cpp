@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/matching/tile_scorer.h"
+#include "matching/tile_scorer.h"
 
 #include <gtest/gtest.h>
 

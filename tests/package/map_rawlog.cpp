@@ -3,7 +3,7 @@
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CRawlog.h>
 #include <mrpt/serialization/CArchive.h>
-#include <psi_slam/mapping/metric_map_builder_psi.h>
+#include <psi_slam/metric_map_builder_psi.h>
 
 #include <iostream>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/angle.h"
+#include "pose_graph/angle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/block_ordering.h"
+#include "pose_graph/block_ordering.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "psi_slam/pose_graph/block_cholesky.h"
+#include "pose_graph/block_cholesky.h"
 #include "test_graphs.h"
 
 namespace psi_slam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/constraint_error.h"
+#include "pose_graph/constraint_error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/g2o_file.h"
+#include "pose_graph/g2o_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "dense_reference.h"
-#include "psi_slam/base/atomic_file.h"
-#include "psi_slam/base/user_error.h"
+#include "base/atomic_file.h"
+#include "psi_slam/user_error.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/graduated_non_convexity.h"
+#include "pose_graph/graduated_non_convexity.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "psi_slam/pose_graph/g2o_file.h"
+#include "pose_graph/g2o_file.h"
 #include "shared_logs.h"
 #include "test_graphs.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/marginal_covariance.h"
+#include "pose_graph/marginal_covariance.h"
 
 #include <gtest/gtest.h>
 
 #include "dense_reference.h"
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

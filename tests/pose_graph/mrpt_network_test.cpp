@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/mrpt_network.h"
+#include "pose_graph/mrpt_network.h"
 
 #include <gmock/gmock.h>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 #include "test_graphs.h"
 
 namespace psi_slam {

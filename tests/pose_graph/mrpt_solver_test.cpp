@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <mrpt/graphslam/levmarq.h>
 
-#include "psi_slam/pose_graph/mrpt_network.h"
-#include "psi_slam/pose_graph/sparse_pose_adjustment.h"
+#include "pose_graph/mrpt_network.h"
+#include "pose_graph/sparse_pose_adjustment.h"
 #include "test_graphs.h"
 
 namespace psi_slam {

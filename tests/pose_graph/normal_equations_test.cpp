@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/normal_equations.h"
+#include "pose_graph/normal_equations.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "dense_reference.h"
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/path_covariance.h"
+#include "pose_graph/path_covariance.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "dense_reference.h"
-#include "psi_slam/pose_graph/marginal_covariance.h"
-#include "psi_slam/pose_graph/sparse_pose_adjustment.h"
+#include "pose_graph/marginal_covariance.h"
+#include "pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/pose_graph.h"
+#include "psi_slam/pose_graph.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <limits>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 #include "test_graphs.h"
 
 namespace psi_slam {

@@ -5,8 +5,8 @@
 #include <ostream>
 
 #include "dense_reference.h"
-#include "psi_slam/pose_graph/g2o_file.h"
-#include "psi_slam/pose_graph/sparse_pose_adjustment.h"
+#include "pose_graph/g2o_file.h"
+#include "pose_graph/sparse_pose_adjustment.h"
 #include "shared_logs.h"
 
 namespace psi_slam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/robust_kernel.h"
+#include "pose_graph/robust_kernel.h"
 
 #include <gtest/gtest.h>
 

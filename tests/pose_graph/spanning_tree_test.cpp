@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/spanning_tree.h"
+#include "pose_graph/spanning_tree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 #include "test_graphs.h"
 
 namespace psi_slam {

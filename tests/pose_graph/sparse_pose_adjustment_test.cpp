@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/pose_graph/sparse_pose_adjustment.h"
+#include "pose_graph/sparse_pose_adjustment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "dense_reference.h"
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

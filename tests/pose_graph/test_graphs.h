@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "psi_slam/pose_graph/angle.h"
-#include "psi_slam/pose_graph/pose_graph.h"
+#include "pose_graph/angle.h"
+#include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
 

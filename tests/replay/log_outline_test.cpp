@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/replay/log_outline.h"
+#include "replay/log_outline.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/replay/log_pace.h"
+#include "replay/log_pace.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/replay/loop_between_places.h"
+#include "replay/loop_between_places.h"
 
 #include <gtest/gtest.h>
 

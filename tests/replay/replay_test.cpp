@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/replay/replay.h"
+#include "replay/replay.h"
 
 #include <gmock/gmock.h>
 
@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "../session/room_log.h"
-#include "psi_slam/session/mapping_session.h"
-#include "psi_slam/session/session_file.h"
+#include "psi_slam/mapping_session.h"
+#include "session/session_file.h"
 #include "same_results.h"
 #include "temporary_folder.h"
 
@@ -312,36 +312,36 @@ TEST_F(ReplayTest, is_closed_at_any_moment) {
     if (scans > 0) replay.play();
     wait_for(replay, [&](const ReplaySnapshot& now) { return now.frames.size() >= scans; });
   }
-  Replay last_pass(path, settings_);
-  last_pass.set_speed(0);
-  last_pass.play();
-  wait_for(last_pass, [](const ReplaySnapshot& now) { return now.phase >= ReplayPhase::kLastPass; });
-  last_pass.close();
-  while (!last_pass.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  Replay final_search(path, settings_);
+  final_search.set_speed(0);
+  final_search.play();
+  wait_for(final_search, [](const ReplaySnapshot& now) { return now.phase >= ReplayPhase::kFinalSearch; });
+  final_search.close();
+  while (!final_search.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-class HeldLastPass : public ReplayTest {
+class HeldFinalSearch : public ReplayTest {
  protected:
   /// A run whose last pass is on and waits.
   std::unique_ptr<Replay> held() {
     auto replay = std::make_unique<Replay>(log(room_log_lines()), settings_);
     replay->set_speed(0);
     replay->play();
-    wait_for(*replay, [](const ReplaySnapshot& now) { return now.phase >= ReplayPhase::kLastPass; });
+    wait_for(*replay, [](const ReplaySnapshot& now) { return now.phase >= ReplayPhase::kFinalSearch; });
     replay->pause();
-    wait_for(*replay, [](const ReplaySnapshot& now) { return now.last_pass_held; });
+    wait_for(*replay, [](const ReplaySnapshot& now) { return now.final_search_held; });
     return replay;
   }
 };
 
-TEST_F(HeldLastPass, waits_and_goes_on_to_the_same_results) {
+TEST_F(HeldFinalSearch, waits_and_goes_on_to_the_same_results) {
   const auto replay = held();
   const SnapshotPtr held = replay->snapshot();
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  EXPECT_EQ(replay->snapshot()->phase, ReplayPhase::kLastPass);
+  EXPECT_EQ(replay->snapshot()->phase, ReplayPhase::kFinalSearch);
   EXPECT_EQ(replay->snapshot()->progress.share, held->progress.share) << "nothing has gone on";
   replay->play();
-  EXPECT_FALSE(wait_for(*replay, ReplayPhase::kFinished)->last_pass_held);
+  EXPECT_FALSE(wait_for(*replay, ReplayPhase::kFinished)->final_search_held);
   EXPECT_FALSE(replay->snapshot()->interrupted);
   map_headless(folder_.path() / "room.log", "headless");
   replay->export_to(out("held"), false);
@@ -349,13 +349,13 @@ TEST_F(HeldLastPass, waits_and_goes_on_to_the_same_results) {
   expect_same_results(out("headless"), out("held"));
 }
 
-TEST_F(HeldLastPass, is_cut_at_once) {
+TEST_F(HeldFinalSearch, is_cut_at_once) {
   const auto replay = held();
-  replay->cut_last_pass();
+  replay->cut_final_search();
   EXPECT_TRUE(wait_for(*replay, ReplayPhase::kFinished)->interrupted);
 }
 
-TEST_F(HeldLastPass, is_closed_at_once) {
+TEST_F(HeldFinalSearch, is_closed_at_once) {
   const auto replay = held();
   replay->close();
   while (!replay->ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -448,7 +448,7 @@ TEST_F(ReplayEditsTest, made_anywhere_they_give_what_the_headless_program_makes_
   wait_for_edit(replay, 1);
   replay.set_speed(0);
   replay.play();
-  wait_for(replay, ReplayPhase::kLastPass);
+  wait_for(replay, ReplayPhase::kFinalSearch);
   const LoopEdit during = delete_first_accepted(*replay.snapshot());
   replay.edit(during);
   const SnapshotPtr finished = wait_until_finished_after_edit(replay, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/replay/shared_history.h"
+#include "replay/shared_history.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/session/edit_history.h"
+#include "session/edit_history.h"
 
 #include <gtest/gtest.h>
 

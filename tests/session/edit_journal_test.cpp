@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/session/edit_journal.h"
+#include "session/edit_journal.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <fstream>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 
@@ -54,14 +54,14 @@ TEST_F(EditJournalTest, comes_back_from_its_file_to_the_last_bit) {
   match.place = LoopPlace{{1.0 / 3, -2e-9, M_PI / 7}, {2.1, 2.1, 0.1}};
   journal.add({match, kEnd});
   LoopEdit force{Kind::kForce, 1, 2};
-  force.of_last_pass = true;
+  force.of_final_search = true;
   journal.add({force, {}});
   journal.add({{Kind::kRestore, 812, 14}, after(1600)});
   journal.write(path_);
   const EditJournal back = EditJournal::read(path_);
   EXPECT_EQ(back.text(), journal.text());
   ASSERT_THAT(back.edits(), SizeIs(4));
-  EXPECT_TRUE(back.edits()[0].edit.of_last_pass);
+  EXPECT_TRUE(back.edits()[0].edit.of_final_search);
   EXPECT_THAT(complaint("force scan=1 local_map=2 attempt=first"),
               HasSubstr("attempt=first is not last_pass"));
   const LoopEdit& read = back.edits()[3].edit;

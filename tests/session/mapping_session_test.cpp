@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/session/mapping_session.h"
+#include "psi_slam/mapping_session.h"
 
 #include <gmock/gmock.h>
 
@@ -10,11 +10,11 @@
 #include <functional>
 #include <thread>
 
-#include "psi_slam/pose_graph/g2o_file.h"
-#include "psi_slam/results/grid_map.h"
-#include "psi_slam/results/report_html.h"
-#include "psi_slam/results/summary_json.h"
-#include "psi_slam/results/trajectory_file.h"
+#include "pose_graph/g2o_file.h"
+#include "psi_slam/grid_map.h"
+#include "report/report_html.h"
+#include "exports/summary_json.h"
+#include "trajectory/trajectory_file.h"
 #include "room_log.h"
 #include "same_results.h"
 #include "temporary_folder.h"
@@ -94,7 +94,7 @@ TEST_F(MappingSessionTest, told_to_stop_in_the_last_pass_it_cuts_that_short) {
   double share = 0;
   MappingSession session(log(room_log_lines()), settings_);
   session.set_observer([&](const SessionProgress& progress) {
-    if (progress.phase != Phase::kLastPass) return;
+    if (progress.phase != Phase::kFinalSearch) return;
     stop = true;
     share = progress.share;
   });
@@ -105,12 +105,12 @@ TEST_F(MappingSessionTest, told_to_stop_in_the_last_pass_it_cuts_that_short) {
   EXPECT_TRUE(session.result().interrupted);
   const RunSummary summary = session.export_to(output());
   EXPECT_TRUE(summary.interrupted);
-  EXPECT_TRUE(summary.last_pass_cut_short);
+  EXPECT_TRUE(summary.final_search_cut_short);
 }
 
 TEST_F(MappingSessionTest, told_to_stop_when_all_is_done_it_was_not_interrupted) {
-  for (const Phase phase : {Phase::kMapping, Phase::kLastPass}) {
-    settings_.mapper.last_pass.passes = phase == Phase::kMapping ? 0 : 2;
+  for (const Phase phase : {Phase::kMapping, Phase::kFinalSearch}) {
+    settings_.mapper.final_search.passes = phase == Phase::kMapping ? 0 : 2;
     std::atomic<bool> stop{false};
     MappingSession session(log(room_log_lines(60)), settings_);
     session.set_observer([&](const SessionProgress& progress) {
@@ -142,7 +142,7 @@ TEST_F(MappingSessionTest, tells_how_far_it_is) {
   });
   session.run(go_on_);
   session.export_to(output());
-  EXPECT_THAT(phases, ElementsAre(Phase::kMapping, Phase::kLastPass, Phase::kWriting));
+  EXPECT_THAT(phases, ElementsAre(Phase::kMapping, Phase::kFinalSearch, Phase::kWriting));
 }
 
 TEST_F(MappingSessionTest, time_for_which_its_observer_holds_it_is_no_work) {

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "../localization/simulated_drives.h"
-#include "psi_slam/session/mapping_session.h"
-#include "psi_slam/session/place_drive.h"
-#include "psi_slam/session/session_file.h"
+#include "psi_slam/mapping_session.h"
+#include "session/place_run.h"
+#include "session/session_file.h"
 #include "same_results.h"
 #include "temporary_folder.h"
 
@@ -23,7 +23,7 @@ SessionInput input_of(const std::string& name, const std::vector<Frame>& frames)
   return SessionInput(recording);
 }
 
-class MergedDrives : public testing::Test {
+class MergedRuns : public testing::Test {
  protected:
   std::unique_ptr<MappingSession> merged(const SessionInput& first, const SessionInput& second,
                                          const std::optional<TPose2D>& start = {}) {
@@ -32,7 +32,7 @@ class MergedDrives : public testing::Test {
     session->run(go_on_);
     const MappingResult& mapped = session->result();
     const auto grid = draw_grid_map(mapped.log, mapped_poses(mapped), settings_.map);
-    session->begin_drive(second, place_drive(mapped, *grid, second, settings_, start, go_on_));
+    session->begin_run(second, place_run(mapped, *grid, second, settings_, start, go_on_));
     session->run(go_on_);
     return session;
   }
@@ -60,14 +60,14 @@ class MergedDrives : public testing::Test {
   const std::atomic<bool> go_on_{false};
 };
 
-TEST_F(MergedDrives, lie_where_they_were_and_no_odometry_joins_them) {
+TEST_F(MergedRuns, lie_where_they_were_and_no_odometry_joins_them) {
   const TrueDrive first = drive_through(5, 1, 150);
   const TrueDrive second = drive_through(5, 2, 80);
   const auto session = merged(input_of("first", first.frames), input_of("second", second.frames));
   const MappingResult& result = session->result();
   ASSERT_EQ(result.frames.size(), first.frames.size() + second.frames.size());
-  ASSERT_EQ(result.drive_frames, std::vector<std::size_t>{first.frames.size()});
-  EXPECT_EQ(unjoined_drive(result), std::nullopt);
+  ASSERT_EQ(result.later_run_frames, std::vector<std::size_t>{first.frames.size()});
+  EXPECT_EQ(unjoined_run(result), std::nullopt);
   const double off_m = worst_m(result, first, second);
   RecordProperty("worst_m", std::to_string(off_m));
   EXPECT_LT(off_m, 0.15);
@@ -80,8 +80,8 @@ TEST_F(MergedDrives, lie_where_they_were_and_no_odometry_joins_them) {
   for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
     const Constraint& constraint = graph.constraint(i);
     if ((constraint.from < first_node) == (constraint.to < first_node)) continue;
-    starts += constraint.kind == Constraint::Kind::kDriveStart ? 1 : 0;
-    EXPECT_TRUE(constraint.kind == Constraint::Kind::kDriveStart ||
+    starts += constraint.kind == Constraint::Kind::kRunStart ? 1 : 0;
+    EXPECT_TRUE(constraint.kind == Constraint::Kind::kRunStart ||
                 constraint.kind == Constraint::Kind::kLoop);
   }
   EXPECT_EQ(starts, 1U);
@@ -90,7 +90,7 @@ TEST_F(MergedDrives, lie_where_they_were_and_no_odometry_joins_them) {
       << "its odometry is told on from where it began";
 }
 
-TEST_F(MergedDrives, saved_with_edits_and_mapped_again_they_are_the_same_bytes) {
+TEST_F(MergedRuns, saved_with_edits_and_mapped_again_they_are_the_same_bytes) {
   const TrueDrive first = drive_through(5, 1, 90);
   const TrueDrive second = drive_through(5, 2, 60);
   const auto with_edits = [&](const std::string& name, const TrueDrive& drive) {
@@ -113,10 +113,10 @@ TEST_F(MergedDrives, saved_with_edits_and_mapped_again_they_are_the_same_bytes) 
   MappingSession again(SessionInput::of_file(folder_.path() / "both.session"), settings_);
   again.run(go_on_);
   expect_same_results(whole, export_of(again, "again"));
-  EXPECT_EQ(again.result().drive_frames, session->result().drive_frames);
+  EXPECT_EQ(again.result().later_run_frames, session->result().later_run_frames);
 }
 
-TEST_F(MergedDrives, interrupted_within_a_recording_of_several_the_rest_is_not_saved) {
+TEST_F(MergedRuns, interrupted_within_a_recording_of_several_the_rest_is_not_saved) {
   const TrueDrive first = drive_through(5, 1, 20);
   TrueDrive others = drive_through(5, 2, 20);
   ASSERT_GT(others.frames.size(), 60U);
@@ -124,7 +124,7 @@ TEST_F(MergedDrives, interrupted_within_a_recording_of_several_the_rest_is_not_s
   const std::size_t of_first = first.frames.size();
   SessionRecording recording;
   recording.facts.logs = {{"b.log", "b", 40}, {"c.log", "c", 20}};
-  recording.facts.drives = {{40, {}}};
+  recording.facts.runs = {{40, {}}};
   recording.facts.edits.add({{LoopEdit::Kind::kDelete, 10, 0}, {EditTime::Kind::kAfterScan, 39}});
   recording.facts.edits.add({{LoopEdit::Kind::kDelete, 50, 0}, {EditTime::Kind::kAfterScan, 59}});
   recording.frames = others.frames;
@@ -133,7 +133,7 @@ TEST_F(MergedDrives, interrupted_within_a_recording_of_several_the_rest_is_not_s
     MappingSession session(input_of("a.log", first.frames), settings_);
     session.stay_open();
     session.run(go_on_);
-    session.begin_drive(inner, {});
+    session.begin_run(inner, {});
     for (std::size_t i = 0; i < steps; ++i) session.step();
     session.finish();
     session.save(folder_.path() / "part.session");
@@ -141,13 +141,13 @@ TEST_F(MergedDrives, interrupted_within_a_recording_of_several_the_rest_is_not_s
     ASSERT_EQ(facts.logs.size(), steps == 0 ? 1U : 2U);
     EXPECT_EQ(facts.logs.front().scans, of_first);
     EXPECT_EQ(facts.logs.back().scans, steps == 0 ? of_first : steps);
-    EXPECT_EQ(facts.drives.size(), steps == 0 ? 0U : 1U);
+    EXPECT_EQ(facts.runs.size(), steps == 0 ? 0U : 1U);
     EXPECT_EQ(facts.edits.edits().size(), steps == 0 ? 0U : 1U);
     EXPECT_EQ(facts.logs.back().scans_left, steps == 30);
   }
 }
 
-TEST_F(MergedDrives, a_short_drive_is_placed_though_it_breaks_off_or_another_is_recorded_behind_it) {
+TEST_F(MergedRuns, a_short_drive_is_placed_though_it_breaks_off_or_another_is_recorded_behind_it) {
   const TrueDrive first = drive_through(5, 1, 60);
   const TrueDrive second = drive_through(5, 2, 12);
   const TrueDrive elsewhere = drive_through(6, 2, 12);
@@ -158,23 +158,23 @@ TEST_F(MergedDrives, a_short_drive_is_placed_though_it_breaks_off_or_another_is_
   const TPose2D near = second.world_T_robot[0] - first.world_T_robot[0];
   const auto start_of = [&](const SessionRecording& drive) {
     const SessionInput input(std::make_shared<const SessionRecording>(drive));
-    return place_drive(mapped, *grid, input, settings_, near, go_on_);
+    return place_run(mapped, *grid, input, settings_, near, go_on_);
   };
   SessionRecording drive;
   drive.frames.assign(second.frames.begin(), second.frames.begin() + 6);
   drive.facts.logs = {{"second", "second", 6}};
-  const DriveStart alone = start_of(drive);
+  const RunStart alone = start_of(drive);
   SessionRecording broken = drive;
   broken.facts.logs[0].broken_off = "second.log:7 is cut off";
   EXPECT_EQ(start_of(broken).node_T_robot, alone.node_T_robot);
   SessionRecording with_another = drive;
-  with_another.facts.drives = {{6, {}}};
+  with_another.facts.runs = {{6, {}}};
   with_another.frames.insert(with_another.frames.end(), elsewhere.frames.begin(), elsewhere.frames.end());
   with_another.facts.logs[0].scans = with_another.frames.size();
   EXPECT_EQ(start_of(with_another).node_T_robot, alone.node_T_robot);
 }
 
-TEST_F(MergedDrives, the_search_for_a_start_tells_how_far_it_is_and_can_be_interrupted) {
+TEST_F(MergedRuns, the_search_for_a_start_tells_how_far_it_is_and_can_be_interrupted) {
   const TrueDrive first = drive_through(5, 1, 60);
   const SessionInput elsewhere = input_of("elsewhere", drive_through(6, 2, 12).frames);
   MappingSession session(input_of("first", first.frames), settings_);
@@ -184,7 +184,7 @@ TEST_F(MergedDrives, the_search_for_a_start_tells_how_far_it_is_and_can_be_inter
   std::vector<double> shares;
   std::atomic<bool> stop{false};
   const auto place = [&] {
-    place_drive(mapped, *grid, elsewhere, settings_, {}, stop, [&](double share) {
+    place_run(mapped, *grid, elsewhere, settings_, {}, stop, [&](double share) {
       shares.push_back(share);
       stop = share > 0.5;
     });
@@ -202,7 +202,7 @@ TEST_F(MergedDrives, the_search_for_a_start_tells_how_far_it_is_and_can_be_inter
   EXPECT_LT(shares.back(), 0.7) << "it ended at once";
 }
 
-TEST_F(MergedDrives, of_two_buildings_are_refused) {
+TEST_F(MergedRuns, of_two_buildings_are_refused) {
   const SessionInput first = input_of("first", drive_through(5, 1, 60).frames);
   const SessionInput elsewhere = input_of("elsewhere", drive_through(6, 2, 12).frames);
   EXPECT_THAT(sentence_of([&] { merged(first, elsewhere); }),

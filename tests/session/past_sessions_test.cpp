@@ -15,11 +15,11 @@
 
 #include <cmath>
 
-#include "psi_slam/base/file_checksum.h"
-#include "psi_slam/session/bound_settings.h"
-#include "psi_slam/session/mapping_session.h"
-#include "psi_slam/session/recorded_settings.h"
-#include "psi_slam/session/session_file.h"
+#include "base/file_checksum.h"
+#include "session/bound_settings.h"
+#include "psi_slam/mapping_session.h"
+#include "session/recorded_settings.h"
+#include "session/session_file.h"
 #include "room_log.h"
 
 namespace psi_slam {
@@ -44,8 +44,8 @@ TEST(PastSessions, version_1_is_read_as_it_was_written) {
   ASSERT_EQ(recording.facts.logs.size(), 2U);
   EXPECT_EQ(recording.facts.logs[0].name, "first.log");
   EXPECT_EQ(recording.facts.logs[1].scans, 48U);
-  ASSERT_EQ(recording.facts.drives.size(), 1U);
-  EXPECT_EQ(recording.facts.drives[0].scan, 55U);
+  ASSERT_EQ(recording.facts.runs.size(), 1U);
+  EXPECT_EQ(recording.facts.runs[0].scan, 55U);
   EXPECT_THAT(recording.facts.edits.text(), testing::HasSubstr("delete scan=45 local_map=0"));
   EXPECT_FALSE(recording.facts.logs[1].scans_left);
   const Frame& frame = recording.frames[20];
@@ -68,7 +68,7 @@ TEST(PastSessions, version_1_is_mapped_to_what_it_was) {
   session.run(std::atomic<bool>(false));
   const MappingResult& result = session.result();
   EXPECT_FALSE(result.interrupted);
-  EXPECT_EQ(unjoined_drive(result), std::nullopt);
+  EXPECT_EQ(unjoined_run(result), std::nullopt);
   EXPECT_LT(distance_m(result.frames[54].map_T_robot, room_pose(2 * M_PI * 54 / 50) - room_pose(0)), 0.03);
   EXPECT_LT(distance_m(result.frames[102].map_T_robot, room_pose(2 * M_PI * 59 / 40) - room_pose(0)), 0.03);
   EXPECT_LT(distance_m(result.frames[102].map_T_robot, {0.4067, 7.9528, 0}), 0.01)
@@ -109,7 +109,7 @@ TEST(PastSessions, version_3_says_what_is_wrong_with_each_log_and_is_mapped_to_w
   EXPECT_EQ(facts.logs[1].skipped.count, 0U);
   EXPECT_FALSE(facts.logs[1].broken_off);
   EXPECT_FALSE(facts.logs[0].scans_left || facts.logs[1].scans_left);
-  ASSERT_EQ(facts.drives.size(), 1U);
+  ASSERT_EQ(facts.runs.size(), 1U);
   BoundSettings bound;
   load_recorded(bound, facts, file);
   MappingSession session(input, bound.settings);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/session/read_ahead.h"
+#include "session/read_ahead.h"
 
 #include <gtest/gtest.h>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -2,10 +2,10 @@
 // A run that was interrupted, saved and gone on with is the run that was not, to the last byte.
 #include <gmock/gmock.h>
 
-#include "psi_slam/session/bound_settings.h"
-#include "psi_slam/session/mapping_session.h"
-#include "psi_slam/session/recorded_settings.h"
-#include "psi_slam/session/session_file.h"
+#include "session/bound_settings.h"
+#include "psi_slam/mapping_session.h"
+#include "session/recorded_settings.h"
+#include "session/session_file.h"
 #include "room_log.h"
 #include "same_results.h"
 #include "temporary_folder.h"

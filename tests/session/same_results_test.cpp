@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "psi_slam/session/mapping_session.h"
+#include "psi_slam/mapping_session.h"
 #include "room_log.h"
 #include "temporary_folder.h"
 

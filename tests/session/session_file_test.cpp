@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/session/session_file.h"
+#include "session/session_file.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "psi_slam/base/file_checksum.h"
+#include "base/file_checksum.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 
@@ -59,7 +59,7 @@ SessionRecording small_recording() {
   }
   recording.facts.program_version = "0.1.0";
   recording.facts.logs = {{"first.log", std::string(64, 'a'), 3}, {"zweiter \"Lauf\".log", "", 1}};
-  recording.facts.drives = {{2, {17, {0.1, 1.0 / 3, -1e-17}, {2.0 / 3, -0.0, 1e-300}}}};
+  recording.facts.runs = {{2, {17, {0.1, 1.0 / 3, -1e-17}, {2.0 / 3, -0.0, 1e-300}}}};
   recording.facts.settings = "[run]\nseed = 7\n";
   recording.facts.edits.add({{LoopEdit::Kind::kDelete, 2, 1}, {EditTime::Kind::kAfterScan, 3}});
   recording.facts.logs[0].skipped = {2, "first.log:7: no number", 5};
@@ -130,12 +130,12 @@ TEST_F(SessionFileTest, brings_everything_back_to_the_last_bit) {
   EXPECT_EQ(back.facts.logs[0].sha256, std::string(64, 'a'));
   EXPECT_EQ(back.facts.logs[1].name, "zweiter \"Lauf\".log");
   EXPECT_EQ(back.facts.logs[1].scans, 1U);
-  ASSERT_EQ(back.facts.drives.size(), 1U);
-  EXPECT_EQ(back.facts.drives[0].scan, 2U);
-  EXPECT_EQ(back.facts.drives[0].start.node, 17U);
-  const DriveStart& start = before.facts.drives[0].start;
-  EXPECT_TRUE(same_bits(back.facts.drives[0].start.node_T_robot, start.node_T_robot));
-  EXPECT_TRUE(same_bits(back.facts.drives[0].start.robot_T_found, start.robot_T_found));
+  ASSERT_EQ(back.facts.runs.size(), 1U);
+  EXPECT_EQ(back.facts.runs[0].scan, 2U);
+  EXPECT_EQ(back.facts.runs[0].start.node, 17U);
+  const RunStart& start = before.facts.runs[0].start;
+  EXPECT_TRUE(same_bits(back.facts.runs[0].start.node_T_robot, start.node_T_robot));
+  EXPECT_TRUE(same_bits(back.facts.runs[0].start.robot_T_found, start.robot_T_found));
   EXPECT_EQ(back.facts.settings, before.facts.settings);
   EXPECT_EQ(back.facts.edits.text(), before.facts.edits.text());
   for (std::size_t i = 0; i < 2; ++i) {
@@ -208,16 +208,16 @@ TEST_F(SessionFileTest, what_does_not_add_up_is_told_though_its_checksum_matches
   };
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames.pop_back(); }), HasSubstr("do not add up"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.logs.clear(); }), HasSubstr("do not add up"));
-  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].scan = 4; }),
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].scan = 4; }),
               HasSubstr("a drive begins"));
-  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].start.node_T_robot.y = -1.1e7; }),
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].start.node_T_robot.y = -1.1e7; }),
               HasSubstr("a drive begins nowhere"));
-  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].start.robot_T_found.x = 1e300; }),
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].start.robot_T_found.x = 1e300; }),
               HasSubstr("a drive begins nowhere"));
-  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives[0].start.robot_T_found.phi = NAN; }),
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].start.robot_T_found.phi = NAN; }),
               HasSubstr("what it says of itself cannot be read"))
       << "JSON has no such number";
-  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.drives.push_back(r.facts.drives[0]); }),
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs.push_back(r.facts.runs[0]); }),
               HasSubstr("its drives do not follow on one another"));
   EXPECT_THAT(complaint([](SessionRecording& r) {
                 r.facts.logs[0].scans = static_cast<std::size_t>(-3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/session/settings.h"
+#include "session/settings.h"
 
 #include <gmock/gmock.h>
 
@@ -7,10 +7,10 @@
 #include <set>
 
 #include "member_count.h"
-#include "psi_slam/base/user_error.h"
-#include "psi_slam/config/apply_settings.h"
-#include "psi_slam/config/ini_file.h"
-#include "psi_slam/config/option_listing.h"
+#include "psi_slam/user_error.h"
+#include "config/apply_settings.h"
+#include "config/ini_file.h"
+#include "config/option_listing.h"
 
 namespace psi_slam {
 namespace {
@@ -51,7 +51,7 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   const std::size_t loops = member_count<LoopClosureOptions>() - 3 + member_count<LoopCandidateOptions>() -
                             1 + member_count<SearchExtent>() + member_count<LoopVerificationOptions>() +
                             member_count<ScanContextOptions>() + member_count<LoopConsensusOptions>() +
-                            member_count<LastPassOptions>() + member_count<JointRefinementOptions>() - 1 +
+                            member_count<FinalSearchOptions>() + member_count<JointRefinementOptions>() - 1 +
                             member_count<SurfaceAlignmentOptions>();
   // The mapper makes no constraints of odometry.
   const std::size_t solver = member_count<PoseAdjustmentOptions>() - 3 + 2 * member_count<RobustKernel>();
@@ -59,7 +59,7 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
                              member_count<PaperGeneticOptions>() + member_count<MemeticGeneticOptions>() +
                              member_count<CoarseCellOptions>();
   // Of MapperOptions nine are structs, and the seed and the threads are those of RunOptions.
-  const std::size_t mapper = member_count<MapperOptions>() - 4 + member_count<LoopKeeperOptions>() - 8 +
+  const std::size_t mapper = member_count<MapperOptions>() - 4 + member_count<BackEndOptions>() - 8 +
                              choice + front_end + matcher + loops + solver;
   const std::size_t files =
       member_count<MapFileOptions>() - 2 + member_count<MapDrawingOptions>() + member_count<GeoReference>();

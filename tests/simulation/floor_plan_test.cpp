@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/simulation/floor_plan.h"
+#include "simulation/floor_plan.h"
 
 #include <gtest/gtest.h>
 

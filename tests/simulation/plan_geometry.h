@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "psi_slam/simulation/floor_plan.h"
+#include "simulation/floor_plan.h"
 
 namespace psi_slam {
 

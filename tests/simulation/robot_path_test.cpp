@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/simulation/robot_path.h"
+#include "simulation/robot_path.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/simulation/scan_simulator.h"
+#include "simulation/scan_simulator.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "plan_geometry.h"
-#include "psi_slam/simulation/robot_path.h"
+#include "simulation/robot_path.h"
 
 namespace psi_slam {
 namespace {

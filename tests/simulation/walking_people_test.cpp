@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/simulation/walking_people.h"
+#include "simulation/walking_people.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/simulation/wheel_odometry.h"
+#include "simulation/wheel_odometry.h"
 
 #include <gtest/gtest.h>
 

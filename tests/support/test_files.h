@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "psi_slam/base/user_error.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 

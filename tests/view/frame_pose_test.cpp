@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/view/frame_pose.h"
+#include "view/frame_pose.h"
 
 #include <cmath>
 
@@ -12,7 +12,7 @@ class FramePoseTest : public ReplayedRoom {};
 
 TEST_F(FramePoseTest, nodes_are_where_the_graph_has_them_and_scans_between_near_where_the_map_has_them) {
   ReplaySnapshot open = *finished_;
-  open.phase = ReplayPhase::kLastPass;  // its nodes alone are where they belong
+  open.phase = ReplayPhase::kFinalSearch;  // its nodes alone are where they belong
   SharedHistory<NodeScan> nodes;        // every scan of the room is one: some less
   std::vector<mrpt::math::TPose2D> poses;
   for (std::size_t i = 0; i < finished_->nodes.size(); i += 4) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/view/loop_legend.h"
+#include "view/loop_legend.h"
 
 #include <gmock/gmock.h>
 
-#include "psi_slam/view/palette.h"
+#include "view/palette.h"
 
 namespace psi_slam {
 namespace {

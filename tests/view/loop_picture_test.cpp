@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/view/loop_picture.h"
+#include "view/loop_picture.h"
 
 #include <cmath>
 
-#include "psi_slam/view/loop_residual.h"
+#include "view/loop_residual.h"
 #include "replayed_room.h"
 
 namespace psi_slam {

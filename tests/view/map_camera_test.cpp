@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/view/map_camera.h"
+#include "view/map_camera.h"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <memory>
 
-#include "psi_slam/view/map_camera.h"
-#include "psi_slam/view/map_scene.h"
-#include "psi_slam/view/palette.h"
+#include "view/map_camera.h"
+#include "view/map_scene.h"
+#include "view/palette.h"
 #include "replayed_room.h"
 
 namespace psi_slam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/view/map_scene.h"
+#include "view/map_scene.h"
 
 #include <mrpt/opengl/CPointCloud.h>
 #include <mrpt/opengl/CSetOfLines.h>
@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "psi_slam/view/palette.h"
+#include "view/palette.h"
 #include "replayed_room.h"
 
 namespace psi_slam {
@@ -88,7 +88,7 @@ TEST_F(MapSceneTest, colours_loops_by_their_matcher_or_their_residual) {
 
 TEST_F(MapSceneTest, draws_the_window_of_the_scan_and_of_the_loops_tried_there) {
   const auto first_loop = std::find_if(finished_->loops->begin(), finished_->loops->end(),
-                                       [](const LoopRecord& loop) { return !loop.in_last_pass; });
+                                       [](const LoopRecord& loop) { return !loop.in_final_search; });
   ASSERT_NE(first_loop, finished_->loops->end());
   const auto lines = [&](std::size_t frame) {
     scene_.show(finished_, map_, frame);

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "../session/room_log.h"
-#include "psi_slam/replay/replay.h"
+#include "replay/replay.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

@@ -7,10 +7,10 @@
 // Any option of psi-slam.ini(5) may be set. The log is an MRPT rawlog or a CARMEN log, plain or gzipped, or a
 // ROS bag.
 #include <mrpt/core/bits_math.h>
-#include <psi_slam/base/time_stamp.h>
-#include <psi_slam/base/user_error.h>
-#include <psi_slam/session/bound_settings.h>
-#include <psi_slam/session/mapping_session.h>
+#include <psi_slam/time_stamp.h>
+#include <psi_slam/user_error.h>
+#include <session/bound_settings.h>
+#include <psi_slam/mapping_session.h>
 
 #include <cstdio>
 #include <iostream>

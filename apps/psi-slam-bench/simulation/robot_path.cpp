@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/robot_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/simulation_random.h"
+#include "simulation/route.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPoint2D;
+
+constexpr double kAhead_m = 0.5;  // of the carrot
+constexpr double kCarrotStep_m = 0.01;
+constexpr double kDriveStep_s = 0.0125;
+constexpr double kTurnPerError = 2.5;  // rad/s for each radian that the robot looks past the carrot
+constexpr double kTurnOnTheSpot_rad = 1.0;
+
+double distance_m(const TPoint2D& a, const TPoint2D& b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+}  // namespace
+
+/// Runs along the line from place to place, and weaves about it.
+class RobotPath::Carrot {
+ public:
+  Carrot(const FloorPlan& plan, const RobotPathOptions& options)
+      : plan_(plan), route_(plan, options.seed), weave_m_(options.weave_m) {
+    SimulationRandom random(options.seed, SimulationRandom::Stream::kRoute, 1);
+    for (double& phase : phases_) phase = random.between(0, 2 * M_PI);
+    from_ = plan_.places[route_.next()].at;
+    to_ = plan_.places[route_.next()].at;
+  }
+
+  void run_ahead_of(const TPoint2D& robot) {
+    while (distance_m(at(), robot) < kAhead_m) {
+      along_m_ += kCarrotStep_m;
+      run_m_ += kCarrotStep_m;
+      while (along_m_ > distance_m(from_, to_)) {
+        along_m_ -= distance_m(from_, to_);
+        from_ = to_;
+        to_ = plan_.places[route_.next()].at;
+      }
+    }
+  }
+
+  TPoint2D at() const {
+    const double length = std::max(distance_m(from_, to_), 1e-9);
+    const double x = (to_.x - from_.x) / length;
+    const double y = (to_.y - from_.y) / length;
+    const double aside =
+        weave_m_ / 2 * (std::sin(run_m_ / 3.1 + phases_[0]) + std::sin(run_m_ / 1.3 + phases_[1]));
+    return {from_.x + along_m_ * x - aside * y, from_.y + along_m_ * y + aside * x};
+  }
+
+ private:
+  const FloorPlan& plan_;
+  Route route_;
+  double weave_m_;
+  double phases_[2] = {0, 0};
+  TPoint2D from_;
+  TPoint2D to_;
+  double along_m_ = 0;  ///< from the one to the other
+  double run_m_ = 0;    ///< in all
+};
+
+RobotPath::RobotPath(const FloorPlan& plan, const RobotPathOptions& options)
+    : options_(options), carrot_(std::make_unique<Carrot>(plan, options)) {
+  const TPoint2D start = carrot_->at();
+  carrot_->run_ahead_of(start);
+  const TPoint2D ahead = carrot_->at();
+  now_.world_T_robot = {start.x, start.y, std::atan2(ahead.y - start.y, ahead.x - start.x)};
+}
+
+RobotPath::~RobotPath() = default;
+RobotPath::RobotPath(RobotPath&&) noexcept = default;
+
+std::optional<PathPose> RobotPath::next() {
+  if (started_) {
+    if (now_.travelled_m >= options_.path_m) return std::nullopt;
+    const double period_s = 1 / options_.scan_rate_hz;
+    const int steps = std::max(1, static_cast<int>(std::lround(period_s / kDriveStep_s)));
+    for (int step = 0; step < steps; ++step) drive_on(period_s / steps);
+  }
+  started_ = true;
+  return now_;
+}
+
+void RobotPath::drive_on(double duration_s) {
+  mrpt::math::TPose2D& pose = now_.world_T_robot;
+  carrot_->run_ahead_of({pose.x, pose.y});
+  const TPoint2D ahead = carrot_->at();
+  const double off = std::remainder(std::atan2(ahead.y - pose.y, ahead.x - pose.x) - pose.phi, 2 * M_PI);
+  const double turn = std::clamp(kTurnPerError * off, -options_.max_turn_rad_s, options_.max_turn_rad_s);
+  const double wanted =
+      std::abs(off) > kTurnOnTheSpot_rad ? 0 : options_.max_speed_m_s * std::pow(std::cos(off), 4);
+  const double change = options_.max_acceleration_m_s2 * duration_s;
+  speed_m_s_ = std::clamp(wanted, std::max(0.0, speed_m_s_ - 3 * change), speed_m_s_ + change);
+  const double way_m = speed_m_s_ * duration_s;
+  const double heading = pose.phi + turn * duration_s / 2;
+  pose = {pose.x + way_m * std::cos(heading), pose.y + way_m * std::sin(heading),
+          std::remainder(pose.phi + turn * duration_s, 2 * M_PI)};
+  now_.travelled_m += way_m;
+  now_.time_s += duration_s;
+}
+
+}  // namespace psi_slam

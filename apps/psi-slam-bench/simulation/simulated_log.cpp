@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/simulated_log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "frames/odometry_interpolator.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr double kVisits = 3;  // to each place
+constexpr TimeUs kStart_us = 1'000'000'000;
+
+}  // namespace
+
+SimulatedLogOptions simulated_log_options(double path_m, std::uint64_t seed) {
+  SimulatedLogOptions options;
+  options.plan.corridors_m = path_m / kVisits;
+  options.path.path_m = path_m;
+  options.plan.seed = options.path.seed = options.scan.seed = options.odometry.seed = seed;
+  options.people_seed = seed;
+  return options;
+}
+
+SimulatedLog::SimulatedLog(const SimulatedLogOptions& options)
+    : options_(options),
+      plan_(draw_floor_plan(options.plan)),
+      path_(plan_, options.path),
+      scanner_(plan_, options.scan),
+      odometry_(options.odometry),
+      people_(plan_, options.people, options.people_seed) {
+  for (const FurtherLaser& laser : options.further_lasers) {
+    if (!(laser.delay_s >= 0 && laser.delay_s * options.path.scan_rate_hz < 1))
+      throw std::invalid_argument(
+          "SimulatedLog: a laser's delay is negative, or not below the time between scans");
+    further_scanners_.emplace_back(plan_, laser.scan);
+  }
+}
+
+std::optional<SimulatedLog::Stop> SimulatedLog::drive_on() {
+  const std::optional<PathPose> path = path_.next();
+  if (!path) return std::nullopt;
+  Stop stop{*path, {0, 0, 0}};
+  if (last_stop_) stop.odom_T_robot = odometry_.move(path->world_T_robot - last_stop_->path.world_T_robot);
+  last_stop_ = stop;
+  return stop;
+}
+
+CompanionScan SimulatedLog::scan_between(std::size_t laser, const Stop& now, const Stop& next) {
+  const double delay_s = options_.further_lasers[laser].delay_s;
+  const double period_s = next.path.time_s - now.path.time_s;
+  const double share = period_s > 0 ? delay_s / period_s : 0;
+  const mrpt::math::TPose2D world_T_robot =
+      interpolate(now.path.world_T_robot, next.path.world_T_robot, share);
+  CompanionScan companion;
+  companion.time_us = kStart_us + static_cast<TimeUs>(std::llround((now.path.time_s + delay_s) * 1e6));
+  companion.frame_T_robot = interpolate(now.odom_T_robot, next.odom_T_robot, share) - now.odom_T_robot;
+  companion.scan =
+      further_scanners_[laser].scan(world_T_robot, people_.at(now.path.time_s + delay_s), frames_);
+  companion.scan.laser = laser + 1;
+  return companion;
+}
+
+std::optional<Frame> SimulatedLog::next() {
+  const std::optional<Stop> now = ahead_ ? std::exchange(ahead_, std::nullopt) : drive_on();
+  if (!now) return std::nullopt;
+  Frame frame;
+  frame.time_us = kStart_us + static_cast<TimeUs>(std::llround(now->path.time_s * 1e6));
+  frame.odom_T_robot = now->odom_T_robot;
+  frame.scan = scanner_.scan(now->path.world_T_robot, people_.at(now->path.time_s), frames_);
+  if (!further_scanners_.empty()) ahead_ = drive_on();
+  for (std::size_t laser = 0; laser < further_scanners_.size(); ++laser)
+    frame.companions.push_back(scan_between(laser, *now, ahead_.value_or(*now)));
+  frame.index = frames_++;
+  now_ = now->path;
+  return frame;
+}
+
+double SimulatedLog::progress() const {
+  return std::clamp(now_.travelled_m / options_.path.path_m, 0.0, 1.0);
+}
+
+}  // namespace psi_slam

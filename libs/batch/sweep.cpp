@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "batch/sweep.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "batch/make_at_a_time.h"
+#include "psi_slam/user_error.h"
+#include "batch/task_progress.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+SweepOrder order_of(const SweepPlan& plan, const SweepRun& run, const SweepOptions& options) {
+  const SweepLog& log = plan.logs[run.log];
+  return {options.program, log.log, log.relations.value_or(fs::path()),
+          run.settings,    run.key, options.output / "runs" / run.folder,
+          options.keep};
+}
+
+std::size_t count(const SweepResult& result, bool (*is_one)(const std::optional<SweepOutcome>&)) {
+  return static_cast<std::size_t>(std::count_if(result.outcomes.begin(), result.outcomes.end(), is_one));
+}
+
+}  // namespace
+
+SweepWorkers local_workers(int processes) {
+  return [processes](const std::vector<SweepOrder>& orders, const SweepWatch& watch) {
+    make_at_a_time(processes, orders.size(), watch,
+                   [&](std::size_t index, const auto& stop) { return make_run(orders[index], stop); });
+  };
+}
+
+std::size_t SweepResult::to_go() const {
+  return count(*this, [](const auto& outcome) { return !outcome; });
+}
+
+std::size_t SweepResult::failed() const {
+  return count(*this, [](const auto& outcome) { return outcome && !outcome->figures; });
+}
+
+std::size_t SweepResult::made_now() const {
+  return count(*this, [](const auto& outcome) { return outcome && outcome->attempts > 0; });
+}
+
+SweepLock::SweepLock(const fs::path& folder) {
+  const fs::path path = folder / ".lock";
+  constexpr int kMode = 0644;
+  file_ = ::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, kMode);
+  if (file_ < 0) throw UserError(path.string() + " cannot be written");
+  if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+  ::close(file_);
+  throw UserError("another sweep is at work in " + folder.string());
+}
+
+SweepLock::~SweepLock() {
+  ::close(file_);
+}
+
+SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const SweepWorkers& workers,
+                      const std::function<bool()>& stop,
+                      const std::function<void(const std::string&, double, double)>& progress) {
+  SweepResult result;
+  std::vector<SweepOrder> orders;
+  std::vector<std::size_t> runs;  // of the orders
+  std::vector<double> work;       // in a unit that is proportional to a run's time
+  double all_work = 0;
+  for (const SweepRun& run : plan.runs) {
+    SweepOrder order = order_of(plan, run, options);
+    result.outcomes.push_back(kept_outcome(order));
+    if (result.outcomes.back()) continue;
+    runs.push_back(result.outcomes.size() - 1);
+    work.push_back(static_cast<double>(plan.logs[run.log].bytes));
+    all_work += work.back();
+    orders.push_back(std::move(order));
+  }
+  TaskProgress running(orders.size(), all_work, progress);
+  SweepWatch watch;
+  watch.stop = stop;
+  watch.working = [&](std::size_t order) { running.tell(plan.runs[runs[order]].folder); };
+  watch.finished = [&](std::size_t order, SweepOutcome outcome) {
+    result.outcomes[runs[order]] = std::move(outcome);
+    running.end(work[order]);
+  };
+  fs::create_directories(options.output / "runs");
+  if (!orders.empty()) workers(orders, watch);
+  return result;
+}
+
+}  // namespace psi_slam

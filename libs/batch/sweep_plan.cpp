@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "batch/sweep_plan.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/file_checksum.h"
+#include "psi_slam/user_error.h"
+#include "batch/log_name.h"
+#include "session/bound_settings.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostRuns = 1'000'000;
+constexpr std::size_t kFolderDigits = 16;  // of the key
+
+/// One thing that varies, and what it is set to.
+struct Choice {
+  std::string column;
+  std::vector<std::string> values;
+};
+
+std::string stem_of(const fs::path& log) {
+  const std::string file = log.filename().string();
+  return log_name_of(file).value_or(file);
+}
+
+void require_file(const fs::path& path, const std::string& what) {
+  if (!fs::is_regular_file(path)) throw UserError(what + path.string() + " is no file");
+}
+
+void measure(SweepLog& log) {
+  log.sha256 = sha256_of_log(log.log);
+  if (!fs::is_directory(log.log)) {
+    log.bytes = fs::file_size(log.log);
+    return;
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(log.log))
+    if (entry.is_regular_file()) log.bytes += entry.file_size();
+}
+
+/// The file of that name in the folder, or beside the log where no folder is given; empty where there is
+/// none.
+fs::path found(const fs::path& log, const std::string& folder, const char* ending) {
+  const fs::path path = (folder.empty() ? log.parent_path() : fs::path(folder)) / (stem_of(log) + ending);
+  return fs::is_regular_file(path) ? path : fs::path();
+}
+
+SweepLog log_of(const std::string& argument, const SweepRequest& request) {
+  SweepLog log;
+  log.log = argument;
+  if (log.log.filename().empty()) log.log = log.log.parent_path();  // "folder/"
+  const std::size_t at = argument.rfind('@');
+  if (at != std::string::npos && !fs::exists(log.log)) {  // a file may have an @ in its name
+    log.log = argument.substr(0, at);
+    log.ini = argument.substr(at + 1);
+    require_file(log.ini, "the settings of " + log.log.string() + ": ");
+  } else {
+    log.ini = found(log.log, request.ini_folder, ".ini");
+  }
+  if (!fs::is_directory(log.log)) require_file(log.log, "the log ");
+  log.name = stem_of(log.log);
+  measure(log);
+  fs::path relations = request.relations;
+  if (relations.empty())
+    relations = found(log.log, {}, ".relations");
+  else
+    require_file(relations, "--relations: ");
+  if (relations.empty()) return log;
+  log.relations = relations;
+  log.relations_sha256 = sha256_of_file(relations);
+  return log;
+}
+
+std::vector<SweepLog> logs_of(const SweepRequest& request) {
+  if (request.logs.empty()) throw UserError("name the logs: psi-slam sweep LOG... -o DIR");
+  if (!request.relations.empty() && request.logs.size() > 1)
+    throw UserError("--relations goes with one log; of several, each has NAME.relations beside it");
+  if (!request.ini_folder.empty() && !fs::is_directory(request.ini_folder))
+    throw UserError("--ini: " + request.ini_folder + " is no folder");
+  std::map<std::string, int> names;
+  std::vector<SweepLog> logs;
+  for (const std::string& argument : request.logs) {
+    logs.push_back(log_of(argument, request));
+    ++names[logs.back().name];
+  }
+  for (SweepLog& log : logs)
+    if (names[log.name] > 1) log.name = log.log.string();
+  return logs;
+}
+
+Choice choice_of(const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos)
+    throw UserError("--set: expected SECTION.KEY=VALUE,VALUE,...: " + assignment);
+  Choice choice{assignment.substr(0, equals), {}};
+  if (choice.column == "run.seed" || choice.column == "run.threads")
+    throw UserError("--set: a sweep takes its " + choice.column.substr(4) +
+                    (choice.column == "run.seed" ? "s from --seeds" : " from --threads"));
+  const bool is_list = choice.column == "log.laser" || choice.column == "log.scan_topic" ||
+                       choice.column == "log.laser_mounts";
+  if (is_list && assignment.find(',', equals) != std::string::npos)
+    throw UserError(
+        "--set: " + choice.column +
+        " is a list itself, and a comma separates the values of a sweep: put it into a settings file, "
+        "-c INI");
+  std::size_t begin = equals + 1;
+  for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
+    comma = assignment.find(',', begin);
+    choice.values.push_back(assignment.substr(begin, comma == std::string::npos ? comma : comma - begin));
+  }
+  return choice;
+}
+
+std::vector<Choice> choices_of(const SweepRequest& request) {
+  std::vector<Choice> choices;
+  if (!request.configs.empty()) choices.push_back({"config", request.configs});
+  for (const std::string& assignment : request.choices) {
+    Choice choice = choice_of(assignment);
+    for (const Choice& other : choices)
+      if (other.column == choice.column)
+        throw UserError("--set: " + choice.column + " is set twice; write its values behind each other: " +
+                        choice.column + "=VALUE,VALUE");
+    choices.push_back(std::move(choice));
+  }
+  return choices;
+}
+
+/// All combinations, the last choice varying fastest.
+std::vector<std::vector<std::string>> combinations(const std::vector<Choice>& choices) {
+  std::vector<std::vector<std::string>> all(1);
+  for (const Choice& choice : choices) {
+    if (all.size() * choice.values.size() > kMostRuns) throw UserError("--set: too many combinations");
+    std::vector<std::vector<std::string>> longer;
+    for (const std::vector<std::string>& values : all) {
+      for (const std::string& value : choice.values) {
+        longer.push_back(values);
+        longer.back().push_back(value);
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+/// The settings of all runs of a log with a combination; the seed is still to be set.
+void set_up(BoundSettings& bound, const SweepLog& log, const std::vector<Choice>& choices,
+            const std::vector<std::string>& values, int threads) {
+  bound.load(log.ini, {});
+  std::vector<std::string> assignments;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i].column == "config")
+      bound.load(values[i], {});
+    else
+      assignments.push_back(choices[i].column + '=' + values[i]);
+  }
+  bound.load({}, assignments);
+  bound.table.set("run.threads", std::to_string(threads), "--threads");
+  check(bound.settings);
+}
+
+std::string key_of(const SweepLog& log, const std::string& settings, const std::string& program_sha256) {
+  return sha256_of_text(log.sha256 + '\n' + log.relations_sha256 + '\n' + program_sha256 + '\n' + settings);
+}
+
+std::string run_text(const SweepPlan& plan, const SweepRun& run) {
+  std::string text = plan.logs[run.log].name;
+  for (std::size_t i = 0; i < plan.columns.size(); ++i) text += ", " + plan.columns[i] + "=" + run.values[i];
+  return text;
+}
+
+void require_all_different(const SweepPlan& plan) {
+  std::map<std::string, const SweepRun*> known;
+  for (const SweepRun& run : plan.runs)
+    if (const auto [other, is_new] = known.emplace(run.key, &run); !is_new)
+      throw UserError("two of the sweep's runs would be the same: " + run_text(plan, *other->second) +
+                      " and " + run_text(plan, run));
+}
+
+/// The columns whose values differ, and "config" where there is more than one: what does not vary is no
+/// column.
+void keep_what_varies(SweepPlan& plan, const std::vector<Choice>& choices) {
+  for (std::size_t i = choices.size(); i-- > 0;) {
+    if (choices[i].values.size() > 1) continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    plan.columns.erase(plan.columns.begin() + at);
+    for (SweepRun& run : plan.runs) run.values.erase(run.values.begin() + at);
+  }
+}
+
+}  // namespace
+
+SweepPlan plan_sweep(const SweepRequest& request, const std::string& program_sha256) {
+  SweepPlan plan;
+  const std::vector<Choice> choices = choices_of(request);
+  const auto settings = combinations(choices);
+  for (const Choice& choice : choices) plan.columns.push_back(choice.column);
+  plan.logs = logs_of(request);
+  if (settings.size() * plan.logs.size() > kMostRuns / request.seeds.count())
+    throw UserError("a sweep has at most " + std::to_string(kMostRuns) + " runs");
+  for (std::size_t log = 0; log < plan.logs.size(); ++log) {
+    for (const std::vector<std::string>& values : settings) {
+      BoundSettings bound;
+      set_up(bound, plan.logs[log], choices, values, request.threads);
+      for (const std::uint64_t seed : request.seeds.all()) {
+        bound.table.set("run.seed", std::to_string(seed), "--seeds");
+        SweepRun run{log, values, seed, settings_file_text(bound.table), {}, {}};
+        run.key = key_of(plan.logs[log], run.settings, program_sha256);
+        run.folder = stem_of(plan.logs[log].log) + "-seed" + std::to_string(seed) + '-' +
+                     run.key.substr(0, kFolderDigits);
+        plan.runs.push_back(std::move(run));
+      }
+    }
+  }
+  require_all_different(plan);
+  keep_what_varies(plan, choices);
+  return plan;
+}
+
+}  // namespace psi_slam

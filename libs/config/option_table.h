@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All options of a program, each described once and bound to a member of the program's settings structs.
+//
+//     void describe(OptionTable& table, FrontEndOptions& options) {
+//       table.section("front_end", "Matching each scan with the active local map")
+//           .number("window_m", options.window_m, above(0).at_most(20), "m", "half-width of the search
+//           window") .angle_deg("window_deg", options.window_rad, above(0).at_most(180), "half-width in
+//           heading") .choice("matcher", options.matcher, {{"csm", Matcher::kCsm}, {"ga", Matcher::kGa}},
+//           "how to search");
+//     }
+#pragma once
+
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "config/option.h"
+
+namespace psi_slam {
+
+struct OptionSection {
+  std::string name;
+  std::string title;  ///< one line
+  std::vector<Option> options;
+};
+
+/// The describing functions take the members by reference: the settings must outlive the table, and must hold
+/// their defaults while they are described. They throw std::logic_error, naming the option, when a
+/// description contradicts itself: a default outside its own range, a key described twice, an angle whose key
+/// does not end in "_deg" or another number whose key does.
+class OptionTable {
+ public:
+  /// The options described next belong to this new section.
+  OptionTable& section(std::string name, std::string title);
+
+  OptionTable& flag(std::string key, bool& member, std::string help);
+
+  /// For int, std::size_t, std::uint64_t, … .
+  template <class Integer>
+  OptionTable& integer(std::string key, Integer& member, NumberRange range, std::string unit,
+                       std::string help);
+
+  OptionTable& number(std::string key, double& member, NumberRange range, std::string unit, std::string help);
+
+  /// The member is in radians; the text and the range are in degrees.
+  OptionTable& angle_deg(std::string key, double& member_rad, NumberRange range_deg, std::string help);
+
+  /// A number that may be left to the program: the text "auto" is the empty member.
+  OptionTable& optional_number(std::string key, std::optional<double>& member, NumberRange range,
+                               std::string unit, std::string help);
+  OptionTable& optional_angle_deg(std::string key, std::optional<double>& member_rad, NumberRange range_deg,
+                                  std::string help);
+
+  template <class Enum>
+  OptionTable& choice(std::string key, Enum& member, std::vector<std::pair<std::string, Enum>> choices,
+                      std::string help);
+
+  /// Any text of one line.
+  OptionTable& text(std::string key, std::string& member, std::string help);
+
+  const std::vector<OptionSection>& sections() const { return sections_; }
+
+  /// The option of that name, "section.key". Throws UserError, beginning with `where` ("my.ini:12", "--set"),
+  /// when there is none; it proposes the name that was probably meant.
+  const Option& option(std::string_view name, std::string_view where) const;
+
+  /// Throws UserError, beginning with `where`, unless there is a section of that name.
+  void require_section(std::string_view name, std::string_view where) const;
+
+  /// Gives an option a new value. Throws UserError, beginning with `where`, when there is no such option or
+  /// it does not take that value; then nothing has changed.
+  void set(std::string_view name, std::string_view text, std::string_view where);
+
+ private:
+  template <class T, class Parse, class Format>
+  OptionTable& add(Option option, T& member, Parse parse, Format format);
+  OptionTable& add_bound(Option option);
+  OptionTable& add_number(Option option, double& member);
+  OptionTable& add_optional_number(Option option, std::optional<double>& member);
+
+  std::vector<OptionSection> sections_;
+};
+
+template <class T, class Parse, class Format>
+OptionTable& OptionTable::add(Option option, T& member, Parse parse, Format format) {
+  option.text = [&member, format] { return format(member); };
+  option.accepts = [parse](std::string_view text) { return std::optional<T>(parse(text)).has_value(); };
+  option.assign = [&member, parse](std::string_view text) {
+    std::optional<T> value = parse(text);
+    if (!value) return false;
+    member = *std::move(value);
+    return true;
+  };
+  return add_bound(std::move(option));
+}
+
+template <class Integer>
+OptionTable& OptionTable::integer(std::string key, Integer& member, NumberRange range, std::string unit,
+                                  std::string help) {
+  static_assert(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>);
+  Option option;
+  option.key = std::move(key);
+  option.unit = std::move(unit);
+  option.help = std::move(help);
+  option.type = OptionType::kInteger;
+  if (std::is_unsigned_v<Integer> && !range.min) range.min = RangeEnd{0, true};
+  option.range = range;
+  const auto parse = [range](std::string_view text) -> std::optional<Integer> {
+    Integer value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return {};
+    if (!range.contains(static_cast<double>(value))) return {};
+    return value;
+  };
+  return add(std::move(option), member, parse, [](Integer value) { return std::to_string(value); });
+}
+
+template <class Enum>
+OptionTable& OptionTable::choice(std::string key, Enum& member,
+                                 std::vector<std::pair<std::string, Enum>> choices, std::string help) {
+  Option option;
+  option.key = std::move(key);
+  option.help = std::move(help);
+  option.type = OptionType::kChoice;
+  for (const auto& [name, value] : choices) option.choices.push_back(name);
+  const auto parse = [choices](std::string_view text) -> std::optional<Enum> {
+    for (const auto& [name, value] : choices)
+      if (name == text) return value;
+    return {};
+  };
+  const auto format = [choices](Enum member_value) -> std::string {
+    for (const auto& [name, value] : choices)
+      if (value == member_value) return name;
+    return "(a value without name)";
+  };
+  return add(std::move(option), member, parse, format);
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/diagnosis_report.h"
+
+#include <mrpt/core/bits_math.h>
+
+#include <cstdarg>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::RAD2DEG;
+using Json = nlohmann::ordered_json;
+
+__attribute__((format(printf, 1, 2))) std::string text(const char* format, ...) {
+  char line[1000];
+  std::va_list values;
+  va_start(values, format);
+  std::vsnprintf(line, sizeof line, format, values);
+  va_end(values);
+  return line;
+}
+
+double share_of(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+const char* name_of(HeadingRelation relation) {
+  switch (relation) {
+    case HeadingRelation::kUnknown:
+      return "unknown";
+    case HeadingRelation::kAgrees:
+      return "agrees";
+    case HeadingRelation::kOpposite:
+      return "opposite";
+    case HeadingRelation::kDegrees:
+      return "degrees";
+    case HeadingRelation::kOppositeDegrees:
+      return "opposite degrees";
+    case HeadingRelation::kNone:
+      return "none";
+    case HeadingRelation::kUnrelated:
+      break;
+  }
+  return "unrelated";
+}
+
+Json to_json(const mrpt::math::TPose2D& pose) {
+  return {{"x_m", pose.x}, {"y_m", pose.y}, {"yaw_rad", pose.phi}};
+}
+
+Json facts_json(const LogFacts& facts) {
+  const TimeFacts& time = facts.time;
+  const RangeFacts& ranges = facts.ranges;
+  return {{"broken_off", facts.broken_off},
+          {"format", facts.format},
+          {"laser", facts.laser},
+          {"scans", facts.scans},
+          {"beams", facts.beams},
+          {"first_bearing_rad", facts.first_bearing_rad},
+          {"last_bearing_rad", facts.last_bearing_rad},
+          {"scans_of_other_shape", facts.scans_of_other_shape},
+          {"robot_T_laser", to_json(facts.robot_T_laser)},
+          {"time",
+           {{"first_s", format_seconds(time.first_us)},
+            {"last_s", format_seconds(time.last_us)},
+            {"duration_s", time.duration_s},
+            {"median_period_s", time.median_period_s},
+            {"gaps", time.gaps},
+            {"largest_gap_s", time.largest_gap_s},
+            {"backward_steps", time.backward_steps},
+            {"largest_backward_step_s", time.largest_backward_step_s},
+            {"repeated_stamps", time.repeated_stamps},
+            {"repeated_scans", time.repeated_scans}}},
+          {"odometry",
+           {{"path_length_m", facts.odometry.path_length_m},
+            {"turned_rad", facts.odometry.turned_rad},
+            {"largest_step_m", facts.odometry.largest_step_m},
+            {"largest_turn_rad", facts.odometry.largest_turn_rad}}},
+          {"ranges",
+           {{"max_range_m", ranges.max_range_m},
+            {"no_return_share", 1 - share_of(ranges.returns, ranges.readings)},
+            {"empty_scans", ranges.empty_scans},
+            {"median_return_m", ranges.median_return_m},
+            {"largest_reading_m", ranges.largest_reading_m},
+            {"ceiling_m", ranges.ceiling_m}}},
+          {"scans_with_two_poses", facts.scans_with_two_poses},
+          {"messages", facts.messages},
+          {"skipped_lines", facts.skipped.count},
+          {"scans_of_other_lasers", facts.other_lasers}};
+}
+
+Json beam_angles_json(const BeamAngleStudy& study) {
+  Json fits = Json::array();
+  for (const BeamAngleFit& fit : study.fits) {
+    Json entry{{"angles", psi_slam::name_of(fit.angles)},
+               {"mean_distance_m", fit.mean_distance_m},
+               {"worse_by_m", fit.worse_by_m},
+               {"significance", fit.significance},
+               {"ruled_out", fit.ruled_out_by_walls || fit.ruled_out_by_turns}};
+    if (study.full_turns > 0) entry["full_turn_error_rad"] = fit.full_turn_error_rad;
+    if (study.knows_heading) entry["laser_heading_rad"] = fit.laser_heading_rad;
+    fits.push_back(entry);
+  }
+  Json json{{"pairs", study.pairs}, {"full_turns", study.full_turns}, {"fits", fits}};
+  if (!study.fits.empty()) json["best"] = psi_slam::name_of(study.best);
+  return json;
+}
+
+}  // namespace
+
+std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis) {
+  const LogFacts& facts = diagnosis.facts;
+  const TimeFacts& time = facts.time;
+  const RangeFacts& ranges = facts.ranges;
+  std::vector<std::string> lines;
+  lines.push_back(text("%s: %s, %zu scans%s%s of %zu beams from %.2f to %.2f degrees",
+                       diagnosis.path.filename().c_str(), facts.format.c_str(), facts.scans,
+                       facts.laser.empty() ? "" : " by ", facts.laser.c_str(), facts.beams,
+                       RAD2DEG(facts.first_bearing_rad), RAD2DEG(facts.last_bearing_rad)));
+  lines.push_back(text("time: %.1f s from %s, a scan every %.3f s", time.duration_s,
+                       format_seconds(time.first_us).c_str(), time.median_period_s));
+  lines.push_back(text("odometry: %.1f m of way, %.0f degrees of turns", facts.odometry.path_length_m,
+                       RAD2DEG(facts.odometry.turned_rad)));
+  lines.push_back(text("ranges: maximum %.2f m, median %.2f m, %.1f %% of the readings are no returns",
+                       static_cast<double>(ranges.max_range_m), static_cast<double>(ranges.median_return_m),
+                       100 * (1 - share_of(ranges.returns, ranges.readings))));
+  lines.push_back(text("laser on the robot: x %.3f m, y %.3f m, yaw %.2f degrees", facts.robot_T_laser.x,
+                       facts.robot_T_laser.y, RAD2DEG(facts.robot_T_laser.phi)));
+  for (const auto& [label, scans] : facts.other_lasers)
+    lines.push_back(text("another laser: %zu scans by \"%s\"", scans, label.c_str()));
+  return lines;
+}
+
+std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study) {
+  std::vector<std::string> lines;
+  if (study.fits.empty()) return lines;
+  lines.push_back(
+      text("beam angles, by %zu pairs of scans and %zu full turns:", study.pairs, study.full_turns));
+  for (const BeamAngleFit& fit : study.fits) {
+    std::string line =
+        text("  %c %-22.*s points to walls %.2f mm (%+.2f mm, %.1f standard errors)",
+             fit.angles == study.best ? '*' : ' ', static_cast<int>(psi_slam::name_of(fit.angles).size()),
+             psi_slam::name_of(fit.angles).data(), 1000 * fit.mean_distance_m, 1000 * fit.worse_by_m,
+             fit.significance);
+    if (study.full_turns > 0)
+      line += text(", a full turn is %.2f degrees off", RAD2DEG(fit.full_turn_error_rad));
+    if (study.knows_heading) line += text(", laser looks %.2f degrees aside", RAD2DEG(fit.laser_heading_rad));
+    if (fit.ruled_out_by_walls || fit.ruled_out_by_turns) line += ": ruled out";
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+std::vector<std::string> describe(const LogDiagnosis& diagnosis) {
+  std::vector<std::string> lines = describe_facts(diagnosis);
+  for (std::string& line : describe_beam_angles(diagnosis.beam_angles)) lines.push_back(std::move(line));
+  for (const Finding& finding : diagnosis.findings) {
+    lines.push_back(std::string(finding.severity == Severity::kWarning ? "warning: " : "note: ") +
+                    finding.sentence);
+    if (!finding.remedy.empty()) lines.push_back("  remedy: " + finding.remedy);
+  }
+  return lines;
+}
+
+Json to_json(const LogDiagnosis& diagnosis) {
+  Json json{{"log", diagnosis.path.string()}, {"facts", facts_json(diagnosis.facts)}};
+  const OdometryAgreement& odometry = diagnosis.odometry;
+  json["odometry_check"] = {{"sound", diagnosis.odometry_is_sound},
+                            {"tracks", odometry.tracks},
+                            {"length_ratio", odometry.length_ratio},
+                            {"heading", name_of(odometry.heading)},
+                            {"lost_reversals", diagnosis.reversals.pairs.size()},
+                            {"jumps", diagnosis.jumps.pairs.size()},
+                            {"revisits", diagnosis.revisits.revisits},
+                            {"revisits_agreeing", diagnosis.revisits.agreeing}};
+  if (diagnosis.mount) {
+    json["laser_mount_estimate"] = {{"robot_T_laser", to_json(diagnosis.mount->robot_T_laser)},
+                                    {"deviation_m", diagnosis.mount->deviation_m},
+                                    {"deviation_rad", diagnosis.mount->deviation_rad},
+                                    {"odometry_scale", diagnosis.mount->odometry_scale}};
+  }
+  json["beam_angles"] = beam_angles_json(diagnosis.beam_angles);
+  json["findings"] = Json::array();
+  for (const Finding& finding : diagnosis.findings) {
+    json["findings"].push_back({{"code", finding.code},
+                                {"severity", finding.severity == Severity::kWarning ? "warning" : "note"},
+                                {"sentence", finding.sentence},
+                                {"remedy", finding.remedy}});
+  }
+  return json;
+}
+
+}  // namespace psi_slam

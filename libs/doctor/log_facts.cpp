@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/log_facts.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace psi_slam {
+namespace {
+
+constexpr double kLeastGap_s = 1.0;
+constexpr double kGapPeriods = 10.0;
+constexpr std::size_t kCentimetresKept = 1'000'000;  // 10 km: millimetres taken for metres still fit
+
+bool same_readings(const std::vector<float>& a, const std::vector<float>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
+TimeFacts time_facts(const std::vector<FrameMark>& marks) {
+  TimeFacts facts;
+  if (marks.empty()) return facts;
+  facts.first_us = marks.front().time_us;
+  facts.last_us = marks.back().time_us;
+  const auto [earliest, latest] =
+      std::minmax_element(marks.begin(), marks.end(),
+                          [](const FrameMark& a, const FrameMark& b) { return a.time_us < b.time_us; });
+  facts.duration_s = seconds(latest->time_us - earliest->time_us);
+  std::vector<double> periods_s;
+  for (std::size_t i = 1; i < marks.size(); ++i)
+    periods_s.push_back(seconds(marks[i].time_us - marks[i - 1].time_us));
+  if (periods_s.empty()) return facts;
+  std::vector<double> sorted_s = periods_s;
+  const auto middle = sorted_s.begin() + static_cast<std::ptrdiff_t>(sorted_s.size() / 2);
+  std::nth_element(sorted_s.begin(), middle, sorted_s.end());
+  facts.median_period_s = *middle;
+  for (const double period_s : periods_s) {
+    if (period_s > std::max(kLeastGap_s, kGapPeriods * facts.median_period_s)) {
+      ++facts.gaps;
+      facts.largest_gap_s = std::max(facts.largest_gap_s, period_s);
+    }
+    if (period_s < 0) {
+      ++facts.backward_steps;
+      facts.largest_backward_step_s = std::max(facts.largest_backward_step_s, -period_s);
+    }
+  }
+  return facts;
+}
+
+OdometryFacts odometry_facts(const std::vector<FrameMark>& marks) {
+  OdometryFacts facts;
+  for (std::size_t i = 1; i < marks.size(); ++i) {
+    const auto& before = marks[i - 1].odom_T_robot;
+    const auto& now = marks[i].odom_T_robot;
+    const double step_m = std::hypot(now.x - before.x, now.y - before.y);
+    const double turn_rad = std::abs(mrpt::math::wrapToPi(now.phi - before.phi));
+    facts.path_length_m += step_m;
+    facts.turned_rad += turn_rad;
+    facts.largest_step_m = std::max(facts.largest_step_m, step_m);
+    facts.largest_turn_rad = std::max(facts.largest_turn_rad, turn_rad);
+  }
+  return facts;
+}
+
+/// Finds the pile of readings at the top of the histogram.
+void find_ceiling(const std::vector<std::size_t>& readings_by_cm, RangeFacts& facts) {
+  if (readings_by_cm.empty()) return;
+  const std::size_t top_cm = readings_by_cm.size() - 1;
+  facts.largest_reading_m = static_cast<float>(top_cm) / 100.0F;
+  const std::size_t pile_from_cm = top_cm - top_cm / 100;
+  const std::size_t compared_from_cm = top_cm - top_cm / 10;
+  std::size_t pile = 0;
+  std::size_t below = 0;
+  for (std::size_t cm = compared_from_cm; cm <= top_cm; ++cm)
+    (cm < pile_from_cm ? below : pile) += readings_by_cm[cm];
+  const bool piles_up =
+      pile > 2 * below && static_cast<double>(pile) > 1e-3 * static_cast<double>(facts.readings);
+  if (!piles_up) return;
+  facts.readings_at_ceiling = pile;
+  std::size_t lowest_cm = top_cm;
+  for (std::size_t cm = pile_from_cm; cm <= top_cm; ++cm)
+    if (readings_by_cm[cm] * 50 > pile) lowest_cm = std::min(lowest_cm, cm);
+  facts.ceiling_m = static_cast<float>(lowest_cm) / 100.0F;
+}
+
+float median_below(const std::vector<std::size_t>& readings_by_cm, std::size_t returns) {
+  std::size_t seen = 0;
+  for (std::size_t cm = 0; cm < readings_by_cm.size(); ++cm) {
+    seen += readings_by_cm[cm];
+    if (2 * seen >= returns) return static_cast<float>(cm) / 100.0F;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void LogFactsCollector::add(const Frame& frame, float max_range_m) {
+  const LaserScan& scan = frame.scan;
+  if (marks_.empty()) {
+    facts_.beams = scan.ranges_m.size();
+    facts_.first_bearing_rad = static_cast<double>(scan.bearings_rad->front());
+    facts_.last_bearing_rad = static_cast<double>(scan.bearings_rad->back());
+    facts_.robot_T_laser = scan.robot_T_laser;
+  }
+  if (scan.ranges_m.size() != facts_.beams) ++facts_.scans_of_other_shape;
+  if (!marks_.empty() && frame.time_us == marks_.back().time_us) {
+    ++facts_.time.repeated_stamps;
+    if (same_readings(scan.ranges_m, last_ranges_m_)) ++facts_.time.repeated_scans;
+  }
+  marks_.push_back({frame.time_us, frame.odom_T_robot});
+  add_ranges(scan, max_range_m);
+  last_ranges_m_ = scan.ranges_m;
+}
+
+void LogFactsCollector::add_ranges(const LaserScan& scan, float max_range_m) {
+  RangeFacts& facts = facts_.ranges;
+  facts.max_range_m = max_range_m;
+  std::size_t returns = 0;
+  for (const float range : scan.ranges_m) {
+    if (!std::isfinite(range)) continue;
+    if (range < max_range_m) ++returns;
+    const auto cm = static_cast<std::size_t>(
+        std::min(static_cast<double>(range) * 100.0 + 0.5, static_cast<double>(kCentimetresKept)));
+    if (cm >= readings_by_cm_.size()) readings_by_cm_.resize(cm + 1);
+    ++readings_by_cm_[cm];
+  }
+  facts.readings += scan.ranges_m.size();
+  facts.returns += returns;
+  if (returns == 0) ++facts.empty_scans;
+}
+
+LogFacts LogFactsCollector::facts() const {
+  LogFacts facts = facts_;
+  facts.scans = marks_.size();
+  const TimeFacts counted = facts.time;
+  facts.time = time_facts(marks_);
+  facts.time.repeated_stamps = counted.repeated_stamps;
+  facts.time.repeated_scans = counted.repeated_scans;
+  facts.odometry = odometry_facts(marks_);
+  find_ceiling(readings_by_cm_, facts.ranges);
+  facts.ranges.median_return_m = median_below(readings_by_cm_, facts.ranges.returns);
+  return facts;
+}
+
+}  // namespace psi_slam

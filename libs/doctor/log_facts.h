@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a log holds, gathered in one pass and without judging it.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "psi_slam/time_stamp.h"
+#include "psi_slam/frame.h"
+#include "frames/skipped_lines.h"
+
+namespace psi_slam {
+
+/// The times between consecutive scans, in the order of the file.
+struct TimeFacts {
+  TimeUs first_us = 0;
+  TimeUs last_us = 0;
+  double duration_s = 0;       ///< from the earliest to the latest scan
+  double median_period_s = 0;  ///< between consecutive scans
+  std::size_t gaps = 0;        ///< periods above 1 s and ten times the median
+  double largest_gap_s = 0;
+  std::size_t backward_steps = 0;  ///< scans that are earlier than the one before
+  double largest_backward_step_s = 0;
+  std::size_t repeated_stamps = 0;  ///< scans with the time of the one before
+  std::size_t repeated_scans = 0;   ///< of these, those with the same ranges, too
+};
+
+struct OdometryFacts {
+  double path_length_m = 0;
+  double turned_rad = 0;  ///< the sum of all turns, either way
+  double largest_step_m = 0;
+  double largest_turn_rad = 0;  ///< between consecutive scans
+};
+
+struct RangeFacts {
+  std::size_t readings = 0;
+  std::size_t returns = 0;
+  std::size_t empty_scans = 0;  ///< without any return
+  float max_range_m = 0;        ///< beyond which a reading is no return
+  float median_return_m = 0;
+  float largest_reading_m = 0;  ///< of all that are finite, no returns too; to 1 cm
+  /// Readings within 1 % of the largest, when far more pile up there than below: what the laser reports for
+  /// "no return". Else 0.
+  std::size_t readings_at_ceiling = 0;
+  float ceiling_m = 0;  ///< the smallest of them
+};
+
+struct LogFacts {
+  std::string broken_off;  ///< what is wrong behind the last readable scan, a sentence; empty in a whole log
+  std::string format;      ///< "CARMEN", "MRPT rawlog"
+  std::string laser;       ///< the message or the sensor's label that the scans come from
+  std::size_t scans = 0;
+  std::size_t beams = 0;  ///< of the first scan
+  double first_bearing_rad = 0;
+  double last_bearing_rad = 0;
+  std::size_t scans_of_other_shape = 0;  ///< with another number of beams than the first
+  mrpt::math::TPose2D robot_T_laser;
+  TimeFacts time;
+  OdometryFacts odometry;
+  RangeFacts ranges;
+  std::size_t scans_with_two_poses = 0;         ///< CARMEN: whose line has another pose beside its odometry
+  std::map<std::string, std::size_t> messages;  ///< CARMEN: lines of each kind
+  SkippedLines skipped;                         ///< messages that were left out
+  std::map<std::string, std::size_t> other_lasers;  ///< rawlog: scans by sensor label
+};
+
+/// What is kept of every frame: scans stay in the file.
+struct FrameMark {
+  TimeUs time_us = 0;
+  mrpt::math::TPose2D odom_T_robot;
+};
+
+class LogFactsCollector {
+ public:
+  /// Takes frames whose ranges were read with an unlimited maximum; `max_range_m` is the one that holds.
+  void add(const Frame& frame, float max_range_m);
+
+  const std::vector<FrameMark>& marks() const { return marks_; }
+
+  /// Of all frames so far; fills everything but what only the reader knows.
+  LogFacts facts() const;
+
+ private:
+  void add_ranges(const LaserScan& scan, float max_range_m);
+
+  LogFacts facts_;
+  std::vector<FrameMark> marks_;
+  std::vector<float> last_ranges_m_;
+  std::vector<std::size_t> readings_by_cm_;
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "doctor/input_doctor.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::DEG2RAD;
+using mrpt::RAD2DEG;
+using mrpt::math::TPose2D;
+
+std::string fixed(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value + 0.0);
+  return text;
+}
+
+std::string percent(double share) {
+  return fixed(100 * share, share < 0.01 ? 2 : 1) + " %";
+}
+
+/// "1 scan", "5 scans".
+std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+double share_of(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+class Judge {
+ public:
+  explicit Judge(const LogDiagnosis& diagnosis) : diagnosis_(diagnosis), facts_(diagnosis.facts) {}
+
+  std::vector<Finding> findings() {
+    judge_reading();
+    judge_time();
+    judge_ranges();
+    judge_motion();
+    if (diagnosis_.odometry_is_sound) judge_sound_odometry();
+    std::stable_sort(findings_.begin(), findings_.end(),
+                     [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+    return std::move(findings_);
+  }
+
+ private:
+  void note(const char* code, std::string sentence, std::string remedy = {}) {
+    findings_.push_back({code, Severity::kNote, std::move(sentence), std::move(remedy)});
+  }
+  void warn(const char* code, std::string sentence, std::string remedy) {
+    findings_.push_back({code, Severity::kWarning, std::move(sentence), std::move(remedy)});
+  }
+
+  /// "12.34 s into the log", by the frame's own stamp.
+  std::string moment(std::size_t frame) const {
+    return fixed(seconds(diagnosis_.marks[frame].time_us - facts_.time.first_us), 2) + " s into the log";
+  }
+
+  void judge_reading() {
+    if (!facts_.broken_off.empty()) {
+      warn("broken_off",
+           facts_.broken_off + "; all else is said of the " + counted(facts_.scans, "scan") +
+               " that could be read",
+           "fetch the log again, or map what there is");
+    }
+    if (facts_.skipped.count > 0) note("skipped_lines", facts_.skipped.sentence());
+  }
+
+  void judge_time() {
+    const TimeFacts& time = facts_.time;
+    if (time.backward_steps > 0) {
+      note("time_backwards", "time runs backwards at " + counted(time.backward_steps, "scan") +
+                                 ", by up to " + fixed(time.largest_backward_step_s, 3) +
+                                 " s; the order of the file is taken as the truth");
+    }
+    if (time.gaps > 0) {
+      note("time_gaps",
+           counted(time.gaps, "gap") + " in time, the largest of " + fixed(time.largest_gap_s, 2) + " s");
+    }
+    if (time.repeated_scans > 0) {
+      warn("repeated_scans",
+           counted(time.repeated_scans, "scan") +
+               " repeat the one before, time and ranges alike: the log was merged "
+               "or converted badly",
+           "remove the repeated lines");
+    }
+    if (time.repeated_stamps > time.repeated_scans) {
+      note("repeated_stamps", counted(time.repeated_stamps - time.repeated_scans, "scan") +
+                                  " have the time of the one before, with other ranges");
+    }
+  }
+
+  void judge_ranges() {
+    const RangeFacts& ranges = facts_.ranges;
+    const double returns = share_of(ranges.returns, ranges.readings);
+    const auto max_range_m = static_cast<double>(ranges.max_range_m);
+    const auto ceiling_m = static_cast<double>(ranges.ceiling_m);
+    if (facts_.scans_of_other_shape > 0) {
+      note("changing_beams", counted(facts_.scans_of_other_shape, "scan") +
+                                 " have another number of beams than the "
+                                 "first, which has " +
+                                 std::to_string(facts_.beams));
+    }
+    if (returns < 0.2 && ranges.largest_reading_m > 500) {
+      warn("range_unit",
+           "readings go up to " + fixed(static_cast<double>(ranges.largest_reading_m), 0) + " and only " +
+               percent(returns) + " of them are below the maximum of " + fixed(max_range_m, 2) +
+               " m: they look like millimetres or centimetres",
+           "write the ranges in metres");
+      return;
+    }
+    if (ceiling_m > 0 && ceiling_m < max_range_m) {
+      warn("max_range",
+           percent(share_of(ranges.readings_at_ceiling, ranges.readings)) + " of the readings pile up at " +
+               fixed(ceiling_m, 2) + " m or just above and none lie beyond, but only those from " +
+               fixed(max_range_m, 2) + " m on count as no return",
+           "log.max_range_m = " + fixed(ceiling_m, 2));
+    }
+    if (returns < 0.3) {
+      warn("few_returns",
+           "only " + percent(returns) + " of the readings are returns below the maximum of " +
+               fixed(max_range_m, 2) + " m",
+           "see that log.max_range_m is the sensor's own");
+    }
+    if (ranges.empty_scans > 0) {
+      const std::string sentence = counted(ranges.empty_scans, "scan") + " have no return at all";
+      if (share_of(ranges.empty_scans, facts_.scans) > 0.05) {
+        warn("empty_scans", sentence, "see that log.max_range_m and log.min_range_m are the sensor's own");
+      } else {
+        note("empty_scans", sentence);
+      }
+    }
+  }
+
+  void judge_motion() {
+    const OdometryAgreement& odometry = diagnosis_.odometry;
+    const OdometryFacts& facts = facts_.odometry;
+    const bool odometry_stands = facts.path_length_m < 0.02 && facts.turned_rad < 0.02;
+    const bool scans_move =
+        odometry.scan_path_m > 0.05 * static_cast<double>(std::max<std::size_t>(odometry.tracks, 1));
+    if (odometry_stands && scans_move) {
+      warn("odometry_still", "odometry never moves, but the scans do", "log odometry, or map without it");
+      return;
+    }
+    if (odometry_stands) {
+      note("robot_still", "the robot stands still in the whole log");
+      return;
+    }
+    judge_length(odometry);
+    judge_heading(odometry);
+    if (odometry.length_samples == 0 || odometry.heading == HeadingRelation::kUnknown) {
+      note("odometry_unchecked",
+           "too few scans could be compared with each other to tell whether odometry is right");
+    }
+  }
+
+  void judge_length(const OdometryAgreement& odometry) {
+    struct Unit {
+      double per_metre;
+      const char* name;
+    };
+    constexpr std::array<Unit, 6> kUnits{{{1000, "millimetres"},
+                                          {100, "centimetres"},
+                                          {39.37, "inches"},
+                                          {3.281, "feet"},
+                                          {0.001, "kilometres"},
+                                          {0.01, "hundreds of metres"}}};
+    const double ratio = odometry.length_ratio;
+    if (ratio == 0 || (ratio > 0.6 && ratio < 1.6)) return;
+    for (const Unit& unit : kUnits) {
+      if (std::abs(std::log(ratio / unit.per_metre)) > std::log(1.3)) continue;
+      warn("odometry_unit",
+           "odometry moves " + fixed(ratio, ratio < 1 ? 4 : 1) +
+               " times as far as the scans: it looks like " + unit.name + ", not metres",
+           "write the positions of the odometry in metres");
+      return;
+    }
+    warn("odometry_unit",
+         "odometry moves " + fixed(ratio, ratio < 0.1 ? 4 : 2) + " times as far as the scans",
+         "see that odometry and ranges are in metres");
+  }
+
+  void judge_heading(const OdometryAgreement& odometry) {
+    const bool follows_its_heading = odometry.odometry_slip_rad < DEG2RAD(20.0);
+    switch (odometry.heading) {
+      case HeadingRelation::kOpposite:
+        if (follows_its_heading) {
+          warn("mirrored_scan", "the scans turn right where odometry turns left: the scan is mirrored",
+               std::string("log.mirrored = ") + (diagnosis_.options.mirrored ? "false" : "true"));
+        } else {
+          warn("odometry_clockwise",
+               "odometry's headings run clockwise: they turn against the scans and against "
+               "odometry's own positions",
+               "write the headings of the odometry counter-clockwise");
+        }
+        return;
+      case HeadingRelation::kDegrees:
+      case HeadingRelation::kOppositeDegrees:
+        warn("odometry_degrees",
+             "odometry's headings turn 57 times as far as the scans: they look like degrees, not "
+             "radians",
+             "write the headings of the odometry in radians");
+        return;
+      case HeadingRelation::kNone:
+        warn("odometry_never_turns", "odometry's heading stands still where the scans turn",
+             "see that the log has the heading of the odometry, in radians");
+        return;
+      case HeadingRelation::kUnrelated:
+        warn("odometry_unrelated", "odometry's turns have nothing to do with those of the scans",
+             "see that odometry and scans come from one robot and one time");
+        return;
+      case HeadingRelation::kAgrees:
+        judge_direction(odometry);
+        return;
+      case HeadingRelation::kUnknown:
+        return;
+    }
+  }
+
+  void judge_direction(const OdometryAgreement& odometry) {
+    const double off_rad = odometry.direction_offset_rad;
+    if (odometry.direction_concentration < 0.8 || std::abs(off_rad) < DEG2RAD(15.0)) return;
+    const double heading_rad = mrpt::math::wrapToPi(facts_.robot_T_laser.phi - off_rad);
+    warn("laser_heading",
+         "the scans move " + fixed(RAD2DEG(off_rad), 0) +
+             " degrees beside where odometry goes: the laser does not look where the log says",
+         "log.laser_yaw_deg = " + fixed(RAD2DEG(heading_rad), 0));
+  }
+
+  void judge_sound_odometry() {
+    judge_reversals();
+    judge_jumps();
+    judge_correction();
+    judge_mount();
+    judge_beam_angles();
+  }
+
+  void judge_reversals() {
+    const LostReversals& reversals = diagnosis_.reversals;
+    const bool many = reversals.pairs.size() >= 4 && reversals.reversed_m > 0.003 * reversals.checked_m;
+    if (!many) return;
+    warn("lost_reversals",
+         "odometry has lost the sign of reversing: at " + counted(reversals.pairs.size(), "place") + ", " +
+             fixed(reversals.reversed_m, 1) + " of the " + fixed(reversals.checked_m, 0) +
+             " m compared, the scans go back where odometry goes ahead, first " +
+             moment(reversals.pairs.front().first),
+         "let the search windows of scan matching reach twice a step back, or repair the odometry");
+  }
+
+  void judge_jumps() {
+    const OdometryJumps& jumps = diagnosis_.jumps;
+    if (jumps.pairs.empty()) return;
+    const auto first = std::min_element(jumps.pairs.begin(), jumps.pairs.end(),
+                                        [](const auto& a, const auto& b) { return a.first < b.first; });
+    const std::string sentence =
+        "odometry jumps at " + counted(jumps.pairs.size(), "place") + ", by up to " +
+        fixed(jumps.largest_m, 2) + " m and " + fixed(RAD2DEG(jumps.largest_turn_rad), 0) +
+        " degrees between two scans that show no such motion, first " + moment(first->first);
+    if (share_of(jumps.pairs.size(), facts_.scans) > 0.01) {
+      warn("odometry_jumps", sentence, "see whether odometry was reset or messages were lost");
+    } else {
+      note("odometry_jumps", sentence);
+    }
+  }
+
+  void judge_correction() {
+    if (facts_.scans_with_two_poses > 0) {
+      note("two_poses", counted(facts_.scans_with_two_poses, "scan") +
+                            " carry a second pose beside their odometry, "
+                            "some mapper's result; the odometry is used");
+    }
+    const RevisitAgreement& revisits = diagnosis_.revisits;
+    if (revisits.agreeing < 8 || share_of(revisits.agreeing, revisits.revisits) < 0.7) return;
+    warn("corrected_odometry",
+         "odometry knows old places again to " + fixed(100 * revisits.median_offset_m, 1) + " cm at " +
+             std::to_string(revisits.agreeing) + " of " + counted(revisits.revisits, "revisit") +
+             ", better than wheels can: it looks corrected by a mapper or simulated",
+         "use the raw log, or judge no mapper by this one");
+  }
+
+  /// The heading that would set the laser right once the best beam angles are used: those shift it, too.
+  double laser_yaw_rad(const LaserMountEstimate& mount) const {
+    const BeamAngleStudy& study = diagnosis_.beam_angles;
+    for (const BeamAngleFit& fit : study.fits) {
+      if (study.knows_heading && fit.angles == study.best)
+        return mrpt::math::wrapToPi(facts_.robot_T_laser.phi + fit.laser_heading_rad);
+    }
+    return mount.robot_T_laser.phi;
+  }
+
+  void judge_mount() {
+    if (!diagnosis_.mount) return;
+    const LaserMountEstimate& mount = *diagnosis_.mount;
+    const TPose2D& stated = facts_.robot_T_laser;
+    const double yaw_rad = laser_yaw_rad(mount);
+    const double off_m = std::hypot(mount.robot_T_laser.x - stated.x, mount.robot_T_laser.y - stated.y);
+    const double off_rad = std::abs(mrpt::math::wrapToPi(yaw_rad - stated.phi));
+    if (off_m > std::max(0.03, 4 * mount.deviation_m) ||
+        off_rad > std::max(DEG2RAD(0.8), 4 * mount.deviation_rad)) {
+      const std::string x = fixed(mount.robot_T_laser.x, 3);
+      const std::string y = fixed(mount.robot_T_laser.y, 3);
+      const std::string yaw = fixed(RAD2DEG(yaw_rad), 2);
+      note("laser_mount",
+           "scans and odometry move as if the laser stood at x " + x + " m, y " + y + " m, yaw " + yaw +
+               " degrees on the robot (good to " + fixed(mount.deviation_m, 3) + " m and " +
+               fixed(RAD2DEG(mount.deviation_rad), 2) + " degrees), not at x " + fixed(stated.x, 3) +
+               " m, y " + fixed(stated.y, 3) + " m, yaw " + fixed(RAD2DEG(stated.phi), 2) + " degrees",
+           "log.laser_x_m = " + x + ", log.laser_y_m = " + y + ", log.laser_yaw_deg = " + yaw);
+    }
+    if (std::abs(mount.odometry_scale - 1) > 0.03) {
+      note("odometry_scale", "odometry counts " + fixed(100 * std::abs(mount.odometry_scale - 1), 1) +
+                                 " % too " + (mount.odometry_scale > 1 ? "much" : "little") + " way");
+    }
+  }
+
+  void judge_beam_angles() {
+    const BeamAngleStudy& study = diagnosis_.beam_angles;
+    if (study.fits.empty()) return;
+    const std::string best(name_of(study.best));
+    const auto used = std::find_if(study.fits.begin(), study.fits.end(), [&](const BeamAngleFit& fit) {
+      return fit.angles == diagnosis_.used_beam_angles;
+    });
+    if (study.best == diagnosis_.used_beam_angles) {
+      note("beam_angles", "beam angles: " + best + " fits best, as used");
+      return;
+    }
+    const std::string sentence =
+        "beam angles: " + best + " fits best, not " + std::string(name_of(diagnosis_.used_beam_angles));
+    const bool is_wrong = used != study.fits.end() && (used->ruled_out_by_walls || used->ruled_out_by_turns);
+    if (is_wrong) {
+      warn("beam_angles", sentence + ", which the scans rule out", "log.beam_angles = " + best);
+    } else {
+      note("beam_angles", sentence + ", which differs only in where the laser looks",
+           "log.beam_angles = " + best);
+    }
+  }
+
+  const LogDiagnosis& diagnosis_;
+  const LogFacts& facts_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> judge(const LogDiagnosis& diagnosis) {
+  return Judge(diagnosis).findings();
+}
+
+}  // namespace psi_slam

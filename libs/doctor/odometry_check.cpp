@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/odometry_check.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <optional>
+
+#include "doctor/scan_alignment.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::DEG2RAD;
+using mrpt::math::TPose2D;
+using mrpt::math::wrapToPi;
+
+constexpr std::size_t kFramesInTrack = 15;
+constexpr double kTrackLength_m =
+    0.5;  // a track ends here: beyond, the first scan sees too little of the last
+const double kTrackTurn_rad = DEG2RAD(25.0);
+constexpr double kGoodCost_m = 0.06;
+constexpr double kGoodShare = 0.6;
+constexpr double kLeastLength_m = 0.1;
+constexpr double kLengthDeviation_m = 0.02;
+const double kHeadingDeviation_rad = DEG2RAD(0.4);
+constexpr std::size_t kFewestSamples = 8;
+const double kLeastTurn_rad = DEG2RAD(1.2);
+constexpr double kDegreesPerRadian = 180.0 / M_PI;
+constexpr double kLeastResultant = 0.35;
+
+struct Step {  // between two consecutive frames of a track
+  double scan_turn_rad;
+  double odometry_turn_rad;
+};
+
+struct Track {
+  TPose2D by_scans;  // the last frame seen from the first
+  TPose2D by_odometry;
+  double length_deviation_m = 0;
+  std::vector<Step> steps;
+};
+
+bool is_good(const ScanAlignment& alignment) {
+  return alignment.cost_m < kGoodCost_m && alignment.matched_share > kGoodShare;
+}
+
+/// Where the scan may be when the way so far says nothing: turned to either side, or ahead.
+std::vector<TPose2D> fan_of_guesses(const TPose2D& around) {
+  std::vector<TPose2D> guesses;
+  for (const double turn_deg : {-40.0, -27.0, -18.0, -9.0, 0.0, 9.0, 18.0, 27.0, 40.0})
+    guesses.push_back(around + TPose2D{0, 0, DEG2RAD(turn_deg)});
+  for (const double ahead_m : {-0.4, 0.4, 0.8}) guesses.push_back(around + TPose2D{ahead_m, 0, 0});
+  return guesses;
+}
+
+std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vector<std::size_t>& frames,
+                            const ScanLibrary& library) {
+  const AlignableScan reference(library.at(frames.front()));
+  Track track;
+  TPose2D now{0, 0, 0};
+  TPose2D last_step{0, 0, 0};
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    const AlignableScan scan(library.at(frames[k]));
+    const TPose2D odometry_step = odometry_between(marks, {frames[k - 1], frames[k]});
+    ScanAlignment alignment = align_scans(reference, scan, std::vector<TPose2D>{now, now + last_step});
+    if (!is_good(alignment)) {
+      std::vector<TPose2D> guesses = fan_of_guesses(now);
+      guesses.push_back(now + odometry_step);
+      alignment = align_scans(reference, scan, guesses);
+    }
+    if (!is_good(alignment) || alignment.heading_deviation_rad() > kHeadingDeviation_rad) break;
+    last_step = alignment.reference_T_scan - now;
+    now = alignment.reference_T_scan;
+    track.by_scans = now;
+    track.by_odometry = odometry_between(marks, {frames.front(), frames[k]});
+    track.length_deviation_m = alignment.deviation_along_m(std::atan2(now.y, now.x));
+    track.steps.push_back({last_step.phi, wrapToPi(odometry_step.phi)});
+    if (now.norm() > kTrackLength_m || std::abs(now.phi) > kTrackTurn_rad) break;
+  }
+  if (track.steps.empty()) return std::nullopt;
+  return track;
+}
+
+double quantile(std::vector<double> values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+void compare_lengths(const std::vector<Track>& tracks, OdometryAgreement& agreement) {
+  std::vector<double> ratios;
+  std::vector<double> slips_rad;
+  std::complex<double> directions = 0;
+  for (const Track& track : tracks) {
+    const double by_scans_m = track.by_scans.norm();
+    const double by_odometry_m = track.by_odometry.norm();
+    agreement.scan_path_m += by_scans_m;
+    agreement.odometry_path_m += by_odometry_m;
+    if (by_scans_m < kLeastLength_m || track.length_deviation_m > kLengthDeviation_m) continue;
+    ratios.push_back(by_odometry_m / by_scans_m);
+    if (by_odometry_m == 0) continue;
+    const double odometry_direction = std::atan2(track.by_odometry.y, track.by_odometry.x);
+    const double scan_direction = std::atan2(track.by_scans.y, track.by_scans.x);
+    directions += std::polar(1.0, scan_direction - odometry_direction);
+    slips_rad.push_back(std::abs(std::remainder(odometry_direction - track.by_odometry.phi / 2, M_PI)));
+  }
+  agreement.length_samples = ratios.size();
+  if (ratios.size() < kFewestSamples) return;
+  agreement.length_ratio = quantile(ratios, 0.5);
+  agreement.length_ratio_low = quantile(ratios, 0.25);
+  agreement.length_ratio_high = quantile(ratios, 0.75);
+  if (slips_rad.size() < kFewestSamples) return;
+  agreement.direction_offset_rad = std::arg(directions);
+  agreement.direction_concentration = std::abs(directions) / static_cast<double>(slips_rad.size());
+  agreement.odometry_slip_rad = quantile(slips_rad, 0.5);
+}
+
+/// Whether odometry turned `factor` times what the scans did. A scan's turn is good to about half a degree;
+/// odometry is not, and often belongs to another moment of a fast turn.
+bool fits(const Step& step, double factor) {
+  const double tolerance_rad = DEG2RAD(0.6) + 0.35 * std::abs(step.scan_turn_rad * factor);
+  return std::abs(wrapToPi(step.odometry_turn_rad - factor * step.scan_turn_rad)) <= tolerance_rad;
+}
+
+/// How well odometry's turns are the scans' in degrees, after both were wrapped as radians: 1 is perfect, and
+/// unrelated turns come near 0. Small turns are looked at first, as errors become 57 times larger, too.
+double degrees_resultant(const std::vector<Step>& steps, double factor) {
+  for (const double most_rad : {DEG2RAD(2.5), DEG2RAD(6.0)}) {
+    std::complex<double> sum = 0;
+    std::size_t count = 0;
+    for (const Step& step : steps) {
+      const double turn_rad = std::abs(step.scan_turn_rad);
+      if (turn_rad < DEG2RAD(0.3) || turn_rad > most_rad) continue;
+      sum += std::polar(1.0, step.odometry_turn_rad - factor * step.scan_turn_rad);
+      ++count;
+    }
+    if (count >= 3 * kFewestSamples) return std::abs(sum) / static_cast<double>(count);
+  }
+  return 0;
+}
+
+void compare_turns(const std::vector<Track>& tracks, OdometryAgreement& agreement) {
+  std::vector<Step> steps;
+  for (const Track& track : tracks) steps.insert(steps.end(), track.steps.begin(), track.steps.end());
+  std::map<HeadingRelation, std::size_t> fitting;
+  for (const Step& step : steps) {
+    if (std::abs(step.scan_turn_rad) < kLeastTurn_rad) continue;
+    ++agreement.turn_samples;
+    if (fits(step, 1)) ++fitting[HeadingRelation::kAgrees];
+    if (fits(step, -1)) ++fitting[HeadingRelation::kOpposite];
+    if (fits(step, 0)) ++fitting[HeadingRelation::kNone];
+  }
+  if (agreement.turn_samples < kFewestSamples) return;
+  agreement.heading = HeadingRelation::kUnrelated;
+  for (const auto& [relation, count] : fitting) {
+    const double share = static_cast<double>(count) / static_cast<double>(agreement.turn_samples);
+    if (share > std::max(0.5, agreement.heading_share)) agreement.heading = relation;
+    agreement.heading_share = std::max(agreement.heading_share, share);
+  }
+  if (agreement.heading != HeadingRelation::kUnrelated) return;
+  const double degrees = degrees_resultant(steps, kDegreesPerRadian);
+  const double opposite_degrees = degrees_resultant(steps, -kDegreesPerRadian);
+  if (std::max(degrees, opposite_degrees) < kLeastResultant) return;
+  agreement.heading =
+      degrees > opposite_degrees ? HeadingRelation::kDegrees : HeadingRelation::kOppositeDegrees;
+  agreement.heading_share = std::max(degrees, opposite_degrees);
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> tracks_from(const std::vector<std::size_t>& starts,
+                                                  std::size_t frames_in_log) {
+  std::vector<std::vector<std::size_t>> tracks;
+  for (const std::size_t start : starts) {
+    std::vector<std::size_t> frames;
+    for (std::size_t i = start; i < std::min(start + kFramesInTrack, frames_in_log); ++i) frames.push_back(i);
+    tracks.push_back(std::move(frames));
+  }
+  return tracks;
+}
+
+OdometryAgreement check_odometry(const std::vector<FrameMark>& marks,
+                                 const std::vector<std::vector<std::size_t>>& tracks,
+                                 const ScanLibrary& library) {
+  std::vector<Track> followed;
+  for (const std::vector<std::size_t>& frames : tracks)
+    if (auto track = follow(marks, frames, library)) followed.push_back(std::move(*track));
+  OdometryAgreement agreement;
+  agreement.tracks = followed.size();
+  compare_lengths(followed, agreement);
+  compare_turns(followed, agreement);
+  return agreement;
+}
+
+}  // namespace psi_slam

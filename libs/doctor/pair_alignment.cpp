@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/pair_alignment.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+using mrpt::math::wrapToPi;
+
+constexpr double kGoodCost_m = 0.05;
+constexpr double kGoodShare = 0.6;
+
+}  // namespace
+
+bool is_reliable(const ScanAlignment& alignment) {
+  return alignment.cost_m < kGoodCost_m && alignment.matched_share > kGoodShare;
+}
+
+std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
+                                     const ScanLibrary& library) {
+  std::vector<AlignedPair> aligned;
+  aligned.reserve(pairs.size());
+  for (const FramePair& pair : pairs) {
+    const TPose2D by_odometry = odometry_between(marks, pair);
+    const AlignableScan reference(library.at(pair.first));
+    const AlignableScan scan(library.at(pair.second));
+    aligned.push_back({pair, by_odometry, align_scans(reference, scan, by_odometry)});
+  }
+  return aligned;
+}
+
+LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const ScanLibrary& library) {
+  constexpr double kLeastMotion_m = 0.12;
+  constexpr double kMostMotion_m = 0.8;  // beyond, the opposite guess is out of reach
+  constexpr double kDetermined_m = 0.02;
+  constexpr double kClearlyBetter = 0.7;  // of the cost of driving as odometry says
+  LostReversals reversals;
+  for (const AlignedPair& pair : pairs) {
+    const TPose2D& odometry = pair.by_odometry;
+    const double way_m = odometry.norm();
+    if (way_m < kLeastMotion_m || way_m > kMostMotion_m) continue;
+    const double direction = std::atan2(odometry.y, odometry.x);
+    /// By how much the scans moved along odometry's motion, as a share of it.
+    const auto share_along = [&](const ScanAlignment& alignment) {
+      const TPose2D& motion = alignment.reference_T_scan;
+      return (motion.x * odometry.x + motion.y * odometry.y) / (way_m * way_m);
+    };
+    const auto went_back = [&](const ScanAlignment& alignment) {
+      const double share = share_along(alignment);
+      return is_reliable(alignment) && alignment.deviation_along_m(direction) < kDetermined_m &&
+             share < -0.4 && share > -2.0;
+    };
+    const AlignableScan reference(library.at(pair.frames.first));
+    const AlignableScan scan(library.at(pair.frames.second));
+    const ScanAlignment back = align_scans(reference, scan, TPose2D{-odometry.x, -odometry.y, odometry.phi});
+    const bool determined =
+        pair.by_scans.deviation_along_m(direction) < kDetermined_m && is_reliable(pair.by_scans);
+    if (!determined && !went_back(back)) continue;
+    ++reversals.pairs_checked;
+    reversals.checked_m += way_m;
+    const bool both_say_so = went_back(pair.by_scans) && went_back(back);
+    const bool better = went_back(back) && back.cost_m < kClearlyBetter * pair.by_scans.cost_m;
+    if (!both_say_so && !better) continue;
+    reversals.pairs.push_back(pair.frames);
+    reversals.reversed_m += back.reference_T_scan.norm();
+  }
+  return reversals;
+}
+
+std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<AlignedPair>& pairs,
+                                                       const TPose2D& stated_mount) {
+  // With A the robot's motion by odometry, B the laser's by scans and X its mount, A X = X B, or for the
+  // translations (R_A - 1) t_X - s R_X t_B = -t_A: linear in t_X and (s cos, s sin) of the mount's heading, s
+  // the scale of odometry. Turns are taken from the scans on both sides, odometry's being the worse.
+  constexpr std::size_t kFewestPairs = 40;
+  constexpr double kNoise_m = 0.02;  // of odometry between the frames of a pair
+  constexpr int kIterations = 20;
+  using Row = Eigen::Matrix<double, 2, 4>;
+  struct Equation {
+    Row row;
+    Eigen::Vector2d value;
+    double weight = 1;
+  };
+  std::vector<Equation> equations;
+  std::size_t turning = 0;
+  for (const AlignedPair& pair : pairs) {
+    const ScanAlignment& scans = pair.by_scans;
+    const double off_rad = wrapToPi(scans.reference_T_scan.phi - pair.by_odometry.phi);
+    const bool determined = scans.deviation_along_m(0) < 0.01 && scans.deviation_along_m(M_PI / 2) < 0.01;
+    if (!is_reliable(scans) || !determined || std::abs(off_rad) > 0.1) continue;
+    const TPose2D laser = (scans.reference_T_scan + stated_mount) - stated_mount;
+    const double turn = laser.phi;
+    if (std::abs(turn) > 0.1) ++turning;
+    // Odometry that turned too far bent its own way by half of that.
+    const double bend = off_rad / 2;
+    const TPose2D& odometry = pair.by_odometry;
+    Equation equation;
+    equation.value = {-(std::cos(bend) * odometry.x - std::sin(bend) * odometry.y),
+                      -(std::sin(bend) * odometry.x + std::cos(bend) * odometry.y)};
+    equation.row << std::cos(turn) - 1, -std::sin(turn), -laser.x, laser.y,  //
+        std::sin(turn), std::cos(turn) - 1, -laser.y, -laser.x;
+    equations.push_back(equation);
+  }
+  if (turning < kFewestPairs || equations.size() - turning < kFewestPairs) return std::nullopt;
+  Eigen::Vector4d solution = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  for (int i = 0; i < kIterations; ++i) {
+    Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
+    for (const Equation& equation : equations) {
+      hessian += equation.weight * equation.row.transpose() * equation.row;
+      gradient += equation.weight * equation.row.transpose() * equation.value;
+    }
+    solution = hessian.ldlt().solve(gradient);
+    covariance = kNoise_m * kNoise_m * hessian.inverse();
+    for (Equation& equation : equations) {  // Cauchy's weights
+      const double residual = (equation.row * solution - equation.value).norm() / kNoise_m;
+      equation.weight = 1 / (1 + residual * residual);
+    }
+  }
+  LaserMountEstimate estimate;
+  estimate.pairs = equations.size();
+  estimate.robot_T_laser = {solution[0], solution[1], std::atan2(solution[3], solution[2])};
+  estimate.odometry_scale = std::hypot(solution[2], solution[3]);
+  estimate.deviation_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
+  estimate.deviation_rad = std::sqrt(std::max(covariance(2, 2), covariance(3, 3))) / estimate.odometry_scale;
+  return estimate;
+}
+
+}  // namespace psi_slam

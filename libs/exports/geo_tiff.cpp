@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exports/geo_tiff.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <gdal_frmts.h>
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "psi_slam/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::maps::COccupancyGridMap2D;
+
+constexpr std::uint8_t kNotSeen = 255;
+
+/// What GDAL has to say becomes part of our sentences instead of lines on standard error.
+class QuietGdal {
+ public:
+  QuietGdal() {
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    CPLErrorReset();
+  }
+  ~QuietGdal() { CPLPopErrorHandler(); }
+  QuietGdal(const QuietGdal&) = delete;
+  QuietGdal& operator=(const QuietGdal&) = delete;
+};
+
+/// A file in memory, gone with its scope.
+class MemoryFile {
+ public:
+  MemoryFile()
+      : name_("/vsimem/psi-slam-" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + ".tif") {}
+  ~MemoryFile() { VSIUnlink(name_.c_str()); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  const std::string& name() const { return name_; }
+  std::string_view bytes() const {
+    vsi_l_offset size = 0;
+    const void* bytes = VSIGetMemFileBuffer(name_.c_str(), &size, FALSE);
+    return {static_cast<const char*>(bytes), bytes == nullptr ? 0 : static_cast<std::size_t>(size)};
+  }
+
+ private:
+  std::string name_;
+};
+
+OGRSpatialReference spatial_reference(int epsg) {
+  const std::string what = "map.epsg = " + std::to_string(epsg);
+  OGRSpatialReference system;
+  if (epsg == 0) {
+    system.SetLocalCS("psi-slam map");
+    system.SetLinearUnits(SRS_UL_METER, 1);
+    return system;
+  }
+  if (system.importFromEPSG(epsg) != OGRERR_NONE)
+    throw UserError(what + ": there is no such coordinate system");
+  if (system.IsProjected() == 0 || std::abs(system.GetLinearUnits() - 1) > 1e-12)
+    throw UserError(what + " (" + system.GetName() + "): expected a projected system in metres, as UTM is");
+  return system;
+}
+
+/// As map.yaml has it: MRPT keeps lengths as floats.
+double to_tenth_of_a_millimetre(float length_m) {
+  return std::round(static_cast<double>(length_m) * 1e4) / 1e4;
+}
+
+/// From column and row, counted from the upper left corner, to easting and northing.
+std::array<double, 6> geo_transform(const COccupancyGridMap2D& grid, const GeoReference& reference) {
+  const double c = std::cos(reference.heading_rad);
+  const double s = std::sin(reference.heading_rad);
+  const double cell_m = std::round(static_cast<double>(grid.getResolution()) * 1e7) / 1e7;
+  const double x = to_tenth_of_a_millimetre(grid.getXMin());
+  const double y = to_tenth_of_a_millimetre(grid.getYMin()) + cell_m * static_cast<double>(grid.getSizeY());
+  return {reference.easting_m + c * x - s * y,  c * cell_m, s * cell_m,
+          reference.northing_m + s * x + c * y, s * cell_m, -c * cell_m};
+}
+
+std::vector<std::uint8_t> occupancy_percent(const COccupancyGridMap2D& grid, int row_from_top) {
+  const auto* cells = grid.getRow(static_cast<int>(grid.getSizeY()) - 1 - row_from_top);
+  std::vector<std::uint8_t> percent(grid.getSizeX());
+  const auto unknown = COccupancyGridMap2D::p2l(0.5F);
+  std::transform(cells, cells + percent.size(), percent.begin(), [&](COccupancyGridMap2D::cellType cell) {
+    if (cell == unknown) return kNotSeen;
+    return static_cast<std::uint8_t>(std::lround(100 * (1 - COccupancyGridMap2D::l2p(cell))));
+  });
+  return percent;
+}
+
+bool write_rows(GDALRasterBand& band, const COccupancyGridMap2D& grid) {
+  const int width = band.GetXSize();
+  for (int row = 0; row < band.GetYSize(); ++row) {
+    std::vector<std::uint8_t> percent = occupancy_percent(grid, row);
+    if (band.RasterIO(GF_Write, 0, row, width, 1, percent.data(), width, 1, GDT_Byte, 0, 0) != CE_None)
+      return false;
+  }
+  return true;
+}
+
+bool write_to(const std::string& name, const COccupancyGridMap2D& grid, const GeoReference& reference) {
+  GDALRegister_GTiff();
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  if (driver == nullptr) return false;
+  CPLStringList options;
+  options.SetNameValue("COMPRESS", "DEFLATE");
+  options.SetNameValue("TILED", "YES");
+  const std::unique_ptr<GDALDataset> file(driver->Create(name.c_str(), static_cast<int>(grid.getSizeX()),
+                                                         static_cast<int>(grid.getSizeY()), 1, GDT_Byte,
+                                                         options.List()));
+  if (!file) return false;
+  const OGRSpatialReference system = spatial_reference(reference.epsg);
+  std::array<double, 6> transform = geo_transform(grid, reference);
+  GDALRasterBand& band = *file->GetRasterBand(1);
+  band.SetDescription("occupancy [percent]");
+  bool written = file->SetSpatialRef(&system) == CE_None &&
+                 file->SetGeoTransform(transform.data()) == CE_None &&
+                 band.SetNoDataValue(kNotSeen) == CE_None && write_rows(band, grid);
+  file->FlushCache(false);
+  return written && CPLGetLastErrorType() < CE_Failure;
+}
+
+}  // namespace
+
+void check_epsg(int epsg) {
+  const QuietGdal quiet;
+  spatial_reference(epsg);
+}
+
+void write_geo_tiff(const std::filesystem::path& path, const COccupancyGridMap2D& grid,
+                    const GeoReference& reference) {
+  const QuietGdal quiet;
+  const MemoryFile memory;
+  if (!write_to(memory.name(), grid, reference))
+    throw SystemFailure("cannot make " + path.string() + ": " + CPLGetLastErrorMsg());
+  write_text_atomically(path, memory.bytes());
+}
+
+}  // namespace psi_slam

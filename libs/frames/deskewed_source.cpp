@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frames/deskewed_source.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "psi_slam/user_error.h"
+#include "frames/odometry_interpolator.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+constexpr double kMostBetweenScans_s = 1.0;
+constexpr double kMostSweeps = 1.5;  // of the time between two scans: beyond, the sweep's time is wrong
+
+}  // namespace
+
+LaserScan deskewed(const LaserScan& scan, const TPose2D& motion) {
+  LaserScan still = scan;
+  still.sweep_time_s = 0;
+  std::vector<float> bearings = *scan.bearings_rad;
+  const TPose2D laser_T_robot = TPose2D{0, 0, 0} - scan.robot_T_laser;
+  const double last = static_cast<double>(bearings.size() - 1);
+  for (std::size_t i = 1; i < bearings.size(); ++i) {
+    const TPose2D moved = interpolate({0, 0, 0}, motion, static_cast<double>(i) / last);
+    const TPose2D first_T_laser = laser_T_robot + moved + scan.robot_T_laser;
+    const auto bearing = static_cast<double>(bearings[i]);
+    double turned = first_T_laser.phi;
+    if (const auto range = static_cast<double>(scan.ranges_m[i]); std::isfinite(range)) {
+      const double x = first_T_laser.x + range * std::cos(bearing + first_T_laser.phi);
+      const double y = first_T_laser.y + range * std::sin(bearing + first_T_laser.phi);
+      still.ranges_m[i] = static_cast<float>(std::hypot(x, y));
+      turned = mrpt::math::wrapToPi(std::atan2(y, x) - bearing);  // bearings run on beyond pi
+    }
+    bearings[i] = static_cast<float>(bearing + turned);
+  }
+  still.bearings_rad = std::make_shared<const std::vector<float>>(std::move(bearings));
+  return still;
+}
+
+DeskewedSource::DeskewedSource(std::unique_ptr<FrameSource> source, std::optional<double> sweep_time_s)
+    : source_(std::move(source)), sweep_time_s_(sweep_time_s) {}
+
+std::optional<TPose2D> DeskewedSource::motion_between(const Mark& from, const Mark& to, double time_s) {
+  const double apart_s = seconds(to.time_us - from.time_us);
+  if (!from.has_odometry || !to.has_odometry || !(apart_s > 0) || apart_s > kMostBetweenScans_s ||
+      time_s > kMostSweeps * apart_s)
+    return std::nullopt;
+  return interpolate({0, 0, 0}, to.odom_T_robot - from.odom_T_robot, time_s / apart_s);
+}
+
+DeskewedSource::Marks DeskewedSource::marks_of(const Frame& frame) {
+  Marks marks{{frame.scan.laser, frame.time_us, frame.odom_T_robot, frame.has_odometry}};
+  for (const CompanionScan& companion : frame.companions)
+    marks.push_back({companion.scan.laser, companion.time_us, frame.odom_T_robot + companion.frame_T_robot,
+                     frame.has_odometry});
+  return marks;
+}
+
+/// The mark of the same laser, else of the first of the frame.
+const DeskewedSource::Mark& DeskewedSource::mark_like(const Mark& mark, const Marks& marks) {
+  const auto same =
+      std::find_if(marks.begin(), marks.end(), [&](const Mark& other) { return other.laser == mark.laser; });
+  return same != marks.end() ? *same : marks.front();
+}
+
+void DeskewedSource::straighten(LaserScan& scan, const Mark& mark, const Marks& behind) const {
+  const double sweep_s = sweep_time_s_.value_or(static_cast<double>(scan.sweep_time_s));
+  if (!(sweep_s > 0) || scan.ranges_m.size() < 2) return;
+  std::optional<TPose2D> motion;
+  if (!behind.empty()) motion = motion_between(mark, mark_like(mark, behind), sweep_s);
+  if (!motion && !before_.empty()) motion = motion_between(mark_like(mark, before_), mark, sweep_s);
+  const bool moves = motion && !(*motion == TPose2D{0, 0, 0});
+  if (moves) scan = deskewed(scan, *motion);
+}
+
+std::optional<Frame> DeskewedSource::read_ahead() {
+  try {
+    return source_->next();
+  } catch (const UserError&) {
+    failure_ = std::current_exception();
+    return std::nullopt;
+  }
+}
+
+std::optional<Frame> DeskewedSource::next() {
+  if (!std::exchange(started_, true)) ahead_ = read_ahead();
+  if (!ahead_) {
+    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+    return std::nullopt;
+  }
+  std::optional<Frame> frame = std::move(ahead_);
+  ahead_ = read_ahead();
+  Marks marks = marks_of(*frame);
+  const Marks behind = ahead_ ? marks_of(*ahead_) : Marks{};
+  straighten(frame->scan, marks[0], behind);
+  for (std::size_t i = 0; i < frame->companions.size(); ++i)
+    straighten(frame->companions[i].scan, marks[i + 1], behind);
+  before_ = std::move(marks);
+  return frame;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frames/laser_choice.h"
+
+#include <mrpt/core/bits_math.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "base/text_parts.h"
+#include "psi_slam/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr const char* kMirrored = "mirrored";
+
+std::vector<std::string> split(std::string_view text, std::string_view separators) {
+  std::vector<std::string> words;
+  while (true) {
+    const std::size_t end = text.find_first_of(separators);
+    words.emplace_back(text.substr(0, end));
+    if (end == std::string_view::npos) return words;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::optional<double> finite_number(const std::string& word) {
+  double value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stopped, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || stopped != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// NAME X Y YAW [mirrored], where the name may have spaces in it.
+std::optional<StatedMount> mount_from(const std::string& text) {
+  std::vector<std::string> words = split(text, " \t");
+  words.erase(std::remove(words.begin(), words.end(), ""), words.end());
+  StatedMount mount;
+  if (!words.empty() && words.back() == kMirrored) {
+    mount.mirrored = true;
+    words.pop_back();
+  }
+  if (words.size() < 4) return std::nullopt;
+  const auto numbers = words.end() - 3;
+  const auto x_m = finite_number(numbers[0]);
+  const auto y_m = finite_number(numbers[1]);
+  const auto yaw_deg = finite_number(numbers[2]);
+  if (!x_m || !y_m || !yaw_deg) return std::nullopt;
+  mount.robot_T_laser = {*x_m, *y_m, mrpt::DEG2RAD(*yaw_deg)};
+  mount.robot_T_laser.normalizePhi();
+  for (auto word = words.begin(); word != numbers; ++word)
+    mount.name += (mount.name.empty() ? "" : " ") + *word;
+  return mount;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+LaserChoice laser_choice(std::string_view option, std::string_view value) {
+  LaserChoice choice;
+  choice.all = value == "all";
+  if (choice.all || value.empty()) return choice;
+  for (const std::string& part : split(value, ",")) {
+    const std::string name(trimmed(part));
+    const char* fault = name.empty()                   ? "\" has a name missing"
+                        : contains(choice.names, name) ? "\" has a name twice"
+                                                       : nullptr;
+    if (fault != nullptr)
+      throw UserError(std::string(option) + " = \"" + std::string(value) + fault +
+                      ", expected one laser, \"all\", or several with a comma between any two");
+    choice.names.push_back(name);
+  }
+  return choice;
+}
+
+bool reads_several_lasers(const LogOptions& options, LogFormat format) {
+  const bool by_topic = is_bag(format) && !options.scan_topic.empty();
+  const LaserChoice choice = by_topic ? laser_choice("log.scan_topic", options.scan_topic)
+                                      : laser_choice("log.laser", options.laser);
+  if (choice.several() && options.robot_T_laser)
+    throw UserError(
+        "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg are for one laser, and several are read: "
+        "expected "
+        "log.laser_mounts, such as \"RLASER -0.3 0 180\" (metres, degrees)");
+  return choice.several();
+}
+
+std::optional<std::size_t> ChosenLasers::number_of(const std::string& name) {
+  if (const auto known = numbers_.find(name); known != numbers_.end()) return known->second;
+  std::size_t number = numbers_.size();
+  if (!choice_.names.empty()) {
+    const auto listed = std::find(choice_.names.begin(), choice_.names.end(), name);
+    if (listed == choice_.names.end()) return std::nullopt;
+    number = static_cast<std::size_t>(listed - choice_.names.begin());
+  } else if (!choice_.all && number > 0) {
+    return std::nullopt;
+  }
+  numbers_[name] = number;
+  return number;
+}
+
+std::vector<std::string> ChosenLasers::names() const {
+  if (!choice_.names.empty()) return choice_.names;
+  std::vector<std::string> names(numbers_.size());
+  for (const auto& [name, number] : numbers_) names[number] = name;
+  return names;
+}
+
+std::vector<StatedMount> stated_mounts(const LogOptions& options) {
+  std::vector<StatedMount> mounts;
+  if (trimmed(options.laser_mounts).empty()) return mounts;
+  for (const std::string& text : split(options.laser_mounts, ",")) {
+    auto mount = mount_from(text);
+    if (!mount)
+      throw UserError("log.laser_mounts has \"" + std::string(trimmed(text)) +
+                      "\", expected a laser's name, x and y in metres and yaw in degrees, such as \"RLASER "
+                      "-0.3 0 180\", and a comma between any two");
+    mounts.push_back(*std::move(mount));
+  }
+  return mounts;
+}
+
+LogOptions options_of_laser(const LogOptions& options, const std::vector<std::string>& names) {
+  LogOptions own = options;
+  for (const StatedMount& mount : stated_mounts(options)) {
+    if (!contains(names, mount.name)) continue;
+    if (!own.robot_T_laser) own.robot_T_laser = mount.robot_T_laser;
+    own.mirrored = own.mirrored || mount.mirrored;
+  }
+  return own;
+}
+
+std::string quoted_list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "\"" : ", \"") + name + "\"";
+  return text;
+}
+
+}  // namespace psi_slam

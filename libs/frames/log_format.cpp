@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frames/log_format.h"
+
+#include <mrpt/containers/yaml.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <tuple>
+
+#include "compression/compressed_file.h"
+#include "base/text_parts.h"
+#include "psi_slam/user_error.h"
+#include "compression/decompression.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExpected =
+    ", expected a CARMEN log or an MRPT .rawlog, plain or gzipped, or a ROS bag (.bag, .db3, .mcap, or the "
+    "folder of a ROS 2 bag)";
+constexpr std::size_t kHeadBytes = std::size_t{256} * 1024;
+
+std::optional<LogFormat> bag_format(std::string_view head) {
+  constexpr std::string_view kSqlite("SQLite format 3\0", 16);
+  if (starts_with(head, "#ROSBAG")) return LogFormat::kRos1Bag;
+  if (starts_with(head, "\x89MCAP")) return LogFormat::kRos2Mcap;
+  if (starts_with(head, kSqlite)) return LogFormat::kRos2Sqlite;
+  return std::nullopt;
+}
+
+/// An MRPT archive begins with an object: one byte, the length of its class's name with the highest bit set,
+/// and the name itself.
+bool is_mrpt_archive(std::string_view head) {
+  if (head.empty()) return false;
+  const auto first = static_cast<unsigned char>(head[0]);
+  const std::string_view name = head.substr(1, first & 0x7FU);
+  if ((first & 0x80U) == 0 || name.size() < 2) return false;
+  const bool is_class = name[0] == 'C' || starts_with(name, "mrpt::");
+  return is_class && std::all_of(name.begin(), name.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+                  c == ':';
+         });
+}
+
+bool is_carmen_message(std::string_view name) {
+  constexpr std::array<std::string_view, 7> kBeginnings{"FLASER", "RLASER", "RAWLASER", "ROBOTLASER",
+                                                        "PARAM",  "ODOM",   "TRUEPOS"};
+  return std::any_of(kBeginnings.begin(), kBeginnings.end(),
+                     [&](std::string_view beginning) { return starts_with(name, beginning); });
+}
+
+/// Text in which a line begins with the name of a CARMEN message.
+bool is_carmen(std::string_view head) {
+  if (head.find('\0') != std::string_view::npos) return false;
+  while (!head.empty()) {
+    const std::size_t end = std::min(head.find('\n'), head.size());
+    const std::string_view line = head.substr(0, end);
+    const std::size_t space = line.find_first_of(" \t");
+    if (space != std::string_view::npos && is_carmen_message(line.substr(0, space))) return true;
+    head.remove_prefix(std::min(end + 1, head.size()));
+  }
+  return false;
+}
+
+bool is_bag_file(const fs::path& path) {
+  return path.extension() == ".db3" || path.extension() == ".mcap";
+}
+
+/// "run_2.db3" comes before "run_10.db3".
+bool by_numbers(const fs::path& a, const fs::path& b) {
+  const auto key = [](const fs::path& path) {
+    const std::string stem = path.stem().string();
+    const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
+    const std::string number = stem.substr(digits);
+    return std::make_tuple(stem.substr(0, digits), number.size(), number);
+  };
+  return key(a) < key(b);
+}
+
+std::vector<fs::path> files_listed(const fs::path& metadata) {
+  std::vector<fs::path> files;
+  try {
+    const auto yaml = mrpt::containers::yaml::FromFile(metadata.string());
+    for (const auto& file : yaml["rosbag2_bagfile_information"]["relative_file_paths"].asSequence()) {
+      const fs::path name = file.as<std::string>();
+      // The first versions of rosbag2 wrote the paths with the folder's own name in front.
+      const fs::path beside = metadata.parent_path() / name;
+      files.push_back(fs::exists(beside) ? beside : metadata.parent_path() / name.filename());
+    }
+  } catch (const std::exception&) {
+    throw UserError(metadata.string() +
+                    " is damaged, expected rosbag2_bagfile_information with relative_file_paths");
+  }
+  return files;
+}
+
+}  // namespace
+
+std::string_view name_of(LogFormat format) {
+  switch (format) {
+    case LogFormat::kCarmen:
+      return "CARMEN";
+    case LogFormat::kMrptRawlog:
+      return "MRPT rawlog";
+    case LogFormat::kRos1Bag:
+      return "ROS 1 bag";
+    case LogFormat::kRos2Sqlite:
+      return "ROS 2 bag (SQLite)";
+    case LogFormat::kRos2Mcap:
+      return "ROS 2 bag (MCAP)";
+    case LogFormat::kRos2Folder:
+      return "ROS 2 bag (folder)";
+  }
+  return "unknown";
+}
+
+bool is_bag(LogFormat format) {
+  return format != LogFormat::kCarmen && format != LogFormat::kMrptRawlog;
+}
+
+std::vector<fs::path> files_of_bag_folder(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / "metadata.yaml", ignored)) return files_listed(folder / "metadata.yaml");
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (is_bag_file(entry.path())) files.push_back(entry.path());
+  std::sort(files.begin(), files.end(), by_numbers);
+  return files;
+}
+
+LogFormat detect_log_format(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) throw UserError(path.string() + " does not exist" + kExpected);
+  if (fs::is_directory(path, ignored)) {
+    if (!files_of_bag_folder(path).empty()) return LogFormat::kRos2Folder;
+    throw UserError(path.string() + " is a folder" + kExpected);
+  }
+  CompressedFile file(path);
+  std::string head(kHeadBytes, '\0');
+  head.resize(file.read(head.data(), head.size()));
+  if (head.empty()) throw UserError(path.string() + " is empty" + kExpected);
+  if (const auto format = bag_format(head)) return *format;
+  if (is_mrpt_archive(head)) return LogFormat::kMrptRawlog;
+  if (is_carmen(head)) return LogFormat::kCarmen;
+  if (is_zstd(head))
+    throw UserError(path.string() + " is compressed by zstd, expected it unpacked: zstd -d unpacks it");
+  throw UserError(path.string() + " is none of the formats that are read" + kExpected);
+}
+
+}  // namespace psi_slam

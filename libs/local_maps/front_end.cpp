@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "local_maps/front_end.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "local_maps/correction_support.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+double length_m(const TPose2D& motion) {
+  return std::hypot(motion.x, motion.y);
+}
+
+MatcherOptions matcher_options(const FrontEndOptions& options) {
+  MatcherOptions matcher;
+  matcher.refinement = options.refinement;
+  return matcher;
+}
+
+constexpr double kSteadyTime_s = 0.5;  // a robot's speed is much the same after this long
+
+}  // namespace
+
+FrontEnd::FrontEnd(const FrontEndOptions& options) : options_(options), matcher_(matcher_options(options)) {}
+
+FrontEndStep FrontEnd::add(const Frame& frame) {
+  FrontEndStep step;
+  step.points = std::make_shared<const ScanPoints>(matching_points(frame, options_.scan));
+  const Motion motion = motion_to(frame);
+  doubtful_correction_m_ *= std::exp(-motion.length_m / options_.doubtful_correction_travel_m);
+  step.local_T_robot = last_local_T_robot_ + motion.odometry;
+  step.window = search_extent(motion);
+  // A blind scan, or one that a turn would not move, cannot be matched (see make_search_window).
+  const bool blind =
+      step.points->points.empty() || step.points->farthest_m <= options_.local_map.resolution_m;
+  if (!active_.empty() && !blind) match(step, motion);
+  const double travel_m = motion.measured ? motion.length_m : std::max(motion.length_m, motion.sigma_m);
+  unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + travel_m;
+  propagate_covariances(step, motion);
+  if (active_.empty() || moved_enough(step.local_T_robot)) insert(step, frame);
+  last_ = Frame{frame.index, frame.time_us, frame.odom_T_robot, {}, frame.has_odometry};
+  constant_velocity_.moved(frame.time_us, step.local_T_robot, step.matched);
+  last_motion_ = step.local_T_robot - last_local_T_robot_;
+  last_local_T_robot_ = step.local_T_robot;
+  misses_ = step.matched ? 0 : misses_ + 1;
+  return step;
+}
+
+FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
+  Motion motion;
+  motion.sigma_m = options_.odometry_sigma_m;
+  motion.sigma_rad = options_.odometry_sigma_rad;
+  if (!last_) return motion;
+  if (!frame.has_odometry || !last_->has_odometry) return steady_motion(frame.time_us);
+  motion.odometry = frame.odom_T_robot - last_->odom_T_robot;
+  motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
+  motion.turn_rad = std::abs(mrpt::math::wrapToPi(motion.odometry.phi));
+  motion.sigma_m += options_.odometry_sigma_per_metre * motion.length_m;
+  motion.sigma_rad += options_.odometry_sigma_per_radian * motion.turn_rad;
+  const double passed_s = std::max(0.0, seconds(frame.time_us - last_->time_us)) / kSteadyTime_s;
+  const double belief = 1 / (1 + passed_s * passed_s);
+  motion.surprise_m =
+      belief * std::hypot(motion.odometry.x - last_motion_.x, motion.odometry.y - last_motion_.y);
+  motion.surprise_rad = belief * std::abs(mrpt::math::wrapToPi(motion.odometry.phi - last_motion_.phi));
+  return motion;
+}
+
+FrontEnd::Motion FrontEnd::steady_motion(TimeUs time_us) const {
+  const PredictedMotion predicted = constant_velocity_.predict(time_us);
+  Motion motion;
+  motion.measured = false;
+  motion.odometry = predicted.motion;
+  motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
+  motion.turn_rad = std::abs(motion.odometry.phi);
+  motion.surprise_m = predicted.sigma_m;
+  motion.surprise_rad = predicted.sigma_rad;
+  motion.sigma_m = options_.odometry_sigma_m + predicted.sigma_m;
+  motion.sigma_rad = options_.odometry_sigma_rad + predicted.sigma_rad;
+  return motion;
+}
+
+SearchExtent FrontEnd::search_extent(const Motion& motion) const {
+  const double lost = 1 + misses_;
+  const double half_m =
+      lost * (options_.window_m + options_.window_per_metre * motion.length_m + motion.surprise_m);
+  const double half_rad = lost * (options_.window_rad + options_.window_rad_per_metre * motion.length_m +
+                                  options_.window_per_radian * motion.turn_rad + motion.surprise_rad);
+  return {std::min(half_m, options_.max_window_m), std::min(half_m, options_.max_window_m),
+          std::min(half_rad, options_.max_window_rad)};
+}
+
+PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const Motion& motion) const {
+  const double sigma_m = options_.prior_sigma_m + options_.prior_per_metre * motion.length_m +
+                         options_.prior_per_surprise * motion.surprise_m;
+  const double sigma_rad = options_.prior_sigma_rad + options_.prior_per_radian * motion.turn_rad +
+                           options_.prior_per_surprise * motion.surprise_rad;
+  PosePrior prior;
+  prior.map_T_robot = map_T_robot;
+  prior.information.diagonal() << 1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m),
+      1 / (sigma_rad * sigma_rad);
+  return prior;
+}
+
+void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
+  const PlacedLocalMap& older = active_.front();
+  std::vector<TPose2D> hypotheses = {motion.odometry};
+  if (motion.surprise_m > options_.max_window_m || motion.surprise_rad > options_.max_window_rad)
+    hypotheses.push_back(last_motion_);
+  std::optional<MatchResult> best;
+  PosePrior best_prior;
+  for (const TPose2D& hypothesis : hypotheses) {
+    const PosePrior prior = this->prior(last_local_T_robot_ + hypothesis - older.local_T_map, motion);
+    MatchProblem problem{older.map->scores(), *step.points, prior.map_T_robot, step.window};
+    problem.min_response = options_.min_response;
+    problem.prior = prior;
+    const MatchResult match = matcher_.match(problem);
+    step.evaluations += match.evaluations;
+    if (!match.found || (best && match.response <= best->response)) continue;
+    best = match;
+    best_prior = prior;
+  }
+  if (!best) return;
+  step.matched = true;
+  step.response = best->response;
+  step.information = best->information;
+  step.local_T_robot = older.local_T_map + best->map_T_robot;
+
+  RefinedPose chosen = {best->map_T_robot, best->refined_response, best->information, 0};
+  const RefinedPose predicted =
+      refine(older.map->scores(), *step.points, best_prior.map_T_robot, options_.refinement, best_prior);
+  if (predicted.mean_score >= options_.prediction_share * best->refined_response) chosen = predicted;
+  if (motion.measured && motion.length_m > 0)  // odometry that stands still may be stalled
+    if (const auto held = held_to_odometry(older.map->scores(), *step.points, chosen, best_prior))
+      chosen = *held;
+  step.information = chosen.information;
+  step.local_T_robot = older.local_T_map + chosen.map_T_robot;
+}
+
+// Along a bare corridor nothing but a handful of points, a person's who walks ahead, decides the position.
+// Each scan's pull by them is small; in sum they hold the robot back.
+std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, const ScanPoints& scan,
+                                                      const RefinedPose& matched, const PosePrior& prior) {
+  constexpr double kLeastPull_m = 1e-3;
+  constexpr double kHeldSigma_m = 5e-3;
+  const TPose2D& pose = matched.map_T_robot;
+  const Eigen::Vector2d pull(pose.x - prior.map_T_robot.x, pose.y - prior.map_T_robot.y);
+  if (pull.norm() < kLeastPull_m) return {};
+  const Eigen::Vector2d along = pull.normalized();
+  PosePrior tight = prior;
+  tight.information.topLeftCorner<2, 2>() += along * along.transpose() / (kHeldSigma_m * kHeldSigma_m);
+  RefinedPose held = refine(grid, scan, TPose2D(prior.map_T_robot.x, prior.map_T_robot.y, pose.phi),
+                            options_.refinement, tight);
+  if (held.mean_score < options_.held_share * matched.mean_score) {
+    const PullScores rest = scores_without_best_spot(grid, scan, pose, held.map_T_robot);
+    if (rest.held < options_.held_share * rest.matched) return {};  // enough of the scan asks for it
+  }
+  const Eigen::Vector2d strain = doubtful_correction_m_ + Eigen::Rotation2Dd(-pose.phi).toRotationMatrix() * pull;
+  if (strain.norm() <= std::max(options_.max_doubtful_correction_m, doubtful_correction_m_.norm())) {
+    doubtful_correction_m_ = strain;
+    return {};
+  }
+  Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
+  across.topLeftCorner<2, 2>() -= along * along.transpose();
+  held.information = Eigen::Matrix3d(across * held.information * across);
+  return held;
+}
+
+// A Kalman filter's covariance, for each active map: the motion adds odometry's noise, the match takes away
+// what it determines. So a pose known only by odometry along a corridor is passed on as just that.
+void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& motion) {
+  for (PlacedLocalMap& active : active_) {
+    const TPose2D before = last_local_T_robot_ - active.local_T_map;
+    const TPose2D after = step.local_T_robot - active.local_T_map;
+    Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
+    moved(0, 2) = -(after.y - before.y);
+    moved(1, 2) = after.x - before.x;
+    Eigen::Matrix3d covariance = moved * active.covariance * moved.transpose();
+    covariance.diagonal() += Eigen::Vector3d(motion.sigma_m * motion.sigma_m, motion.sigma_m * motion.sigma_m,
+                                             motion.sigma_rad * motion.sigma_rad);
+    if (step.matched) {
+      Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  // from the matched map's axes to this one's
+      turn.topLeftCorner<2, 2>() =
+          Eigen::Rotation2Dd(active_.front().local_T_map.phi - active.local_T_map.phi).toRotationMatrix();
+      const Eigen::Matrix3d information = turn * step.information * turn.transpose();
+      covariance = (Eigen::Matrix3d::Identity() + covariance * information).inverse() * covariance;
+      covariance = Eigen::Matrix3d(0.5 * (covariance + covariance.transpose()));
+    }
+    active.covariance = covariance;
+  }
+}
+
+bool FrontEnd::moved_enough(const TPose2D& local_T_robot) const {
+  const TPose2D motion = local_T_robot - last_node_local_T_robot_;
+  return length_m(motion) >= options_.node_distance_m ||
+         std::abs(mrpt::math::wrapToPi(motion.phi)) >= options_.node_rotation_rad;
+}
+
+void FrontEnd::begin_local_map(std::size_t node, const TPose2D& local_T_robot) {
+  PlacedLocalMap begun;
+  begun.id = next_local_map_++;
+  begun.anchor = node;
+  begun.local_T_map = local_T_robot;
+  begun.first_node = node;
+  begun.last_node = node;
+  begun.map = std::make_shared<LocalMap>(options_.local_map);
+  active_.push_back(std::move(begun));
+}
+
+void FrontEnd::end_local_maps(FrontEndStep& step, std::size_t count) {
+  const auto end = active_.begin() + static_cast<std::ptrdiff_t>(count);
+  for (auto active = active_.begin(); active != end; ++active) {
+    active->map->finish();
+    step.finished.push_back(*active);
+  }
+  active_.erase(active_.begin(), end);
+}
+
+void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
+  const std::size_t node = next_node_++;
+  step.node = node;
+  const double moved_m = node == 0 ? 0 : length_m(step.local_T_robot - last_node_local_T_robot_);
+  last_node_local_T_robot_ = step.local_T_robot;
+
+  for (const PlacedLocalMap& active : active_)
+    step.memberships.push_back(
+        {active.id, active.anchor, step.local_T_robot - active.local_T_map, active.covariance});
+  if (unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 0) {  // this scan is another miss
+    end_local_maps(step, active_.size());
+    unmatched_travel_m_ = 0;
+  }
+  for (PlacedLocalMap& active : active_) {
+    active.last_node = node;
+    active.travelled_m += moved_m;
+  }
+  const auto share = [&](const PlacedLocalMap& active) {
+    return std::max(static_cast<double>(active.last_node - active.first_node) /
+                        static_cast<double>(options_.nodes_per_local_map),
+                    active.travelled_m / options_.local_map_travel_m);
+  };
+  if (active_.empty() || (active_.size() == 1 && share(active_.front()) >= 0.5))
+    begin_local_map(node, step.local_T_robot);
+  for (PlacedLocalMap& active : active_) {
+    active.map->insert(drawing_beams(frame, step.local_T_robot - active.local_T_map,
+                                     options_.scan.min_range_m, options_.local_map.max_insert_range_m));
+  }
+  if (share(active_.front()) >= 1.0 && active_.size() > 1) {
+    end_local_maps(step, 1);
+    begin_local_map(node, step.local_T_robot);
+    active_.back().map->insert(drawing_beams(frame, TPose2D(0, 0, 0), options_.scan.min_range_m,
+                                             options_.local_map.max_insert_range_m));
+  }
+}
+
+void FrontEnd::begin_run() {
+  FrontEnd anew(options_);
+  anew.next_local_map_ = next_local_map_;
+  anew.next_node_ = next_node_;
+  *this = std::move(anew);
+}
+
+std::vector<PlacedLocalMap> FrontEnd::finish() {
+  std::vector<PlacedLocalMap> finished;
+  for (PlacedLocalMap& active : active_) {
+    active.map->finish();
+    finished.push_back(active);
+  }
+  active_.clear();
+  return finished;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "local_maps/local_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+#include "local_maps/score_painter.h"
+
+namespace psi_slam {
+namespace {
+
+using Grid = mrpt::maps::COccupancyGridMap2D;
+
+constexpr double kGrowthStep_m = 5.0;  // grids grow in steps this large, so that they grow seldom
+
+}  // namespace
+
+LocalMap::LocalMap(const LocalMapOptions& options)
+    : options_(options),
+      grid_(std::in_place, -kGrowthStep_m, kGrowthStep_m, -kGrowthStep_m, kGrowthStep_m,
+            static_cast<float>(options.resolution_m)) {
+  last_scan_.assign(grid_->getRawMap().size(), 0);
+}
+
+LocalMap::LocalMap(const LocalMapOptions& options, const Grid& drawn) : options_(options), grid_(drawn) {
+  options_.resolution_m = static_cast<double>(drawn.getResolution());
+  finish();
+}
+
+void LocalMap::grow_to_hold(const std::vector<Beams>& scans) {
+  double x_min = static_cast<double>(grid_->getXMin());
+  double x_max = static_cast<double>(grid_->getXMax());
+  double y_min = static_cast<double>(grid_->getYMin());
+  double y_max = static_cast<double>(grid_->getYMax());
+  const double margin = 4 * options_.resolution_m;
+  bool grow = false;
+  const auto hold = [&](const mrpt::math::TPoint2D& p) {
+    while (p.x - margin < x_min) x_min -= kGrowthStep_m, grow = true;
+    while (p.x + margin > x_max) x_max += kGrowthStep_m, grow = true;
+    while (p.y - margin < y_min) y_min -= kGrowthStep_m, grow = true;
+    while (p.y + margin > y_max) y_max += kGrowthStep_m, grow = true;
+  };
+  for (const Beams& beams : scans) {
+    hold(beams.origin);
+    for (const auto& end : beams.ends) hold(end);
+  }
+  if (!grow) return;
+  grid_->resizeGrid(static_cast<float>(x_min), static_cast<float>(x_max), static_cast<float>(y_min),
+                    static_cast<float>(y_max), 0.5F, false);
+  last_scan_.assign(grid_->getRawMap().size(), 0);
+  scan_ = 0;
+  scores_fit_ = false;
+}
+
+void LocalMap::add_to_dirty(const Region& region) {
+  if (dirty_.x_end <= dirty_.x) {
+    dirty_ = region;
+    return;
+  }
+  dirty_.x = std::min(dirty_.x, region.x);
+  dirty_.y = std::min(dirty_.y, region.y);
+  dirty_.x_end = std::max(dirty_.x_end, region.x_end);
+  dirty_.y_end = std::max(dirty_.y_end, region.y_end);
+}
+
+void LocalMap::draw_hit(int x, int y) {
+  static_assert(Grid::OCCGRID_CELLTYPE_MIN < 0);
+  const std::size_t cell = static_cast<std::size_t>(x) + static_cast<std::size_t>(y) * grid_->getSizeX();
+  if (last_scan_[cell] == scan_) return;
+  last_scan_[cell] = scan_;
+  const Grid::cellType hit = Grid::p2l(static_cast<float>(options_.hit_probability));
+  Grid::updateCell_fast_occupied(grid_->getRow(y) + x, hit,
+                                 static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MIN + hit));
+}
+
+// Bresenham's line, without its last cell.
+void LocalMap::draw_way(int x0, int y0, int x1, int y1) {
+  const Grid::cellType miss = Grid::p2l(static_cast<float>(1 - options_.miss_probability));
+  const auto threshold = static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MAX - miss);
+  const auto size_x = static_cast<std::ptrdiff_t>(grid_->getSizeX());
+  Grid::cellType* cells = grid_->getRow(0);
+  std::uint16_t* scans = last_scan_.data();
+  const int dx = std::abs(x1 - x0);
+  const int dy = std::abs(y1 - y0);
+  const std::ptrdiff_t step_x = x1 > x0 ? 1 : -1;
+  const std::ptrdiff_t step_y = y1 > y0 ? size_x : -size_x;
+  std::ptrdiff_t cell = x0 + y0 * size_x;
+  int error = dx - dy;
+  for (int left = dx + dy; left > 0;) {
+    if (scans[cell] != scan_) {
+      scans[cell] = scan_;
+      Grid::updateCell_fast_free(cells + cell, miss, threshold);
+    }
+    const int twice = 2 * error;
+    if (twice > -dy) error -= dy, cell += step_x, --left;
+    if (twice < dx) error += dx, cell += step_y, --left;
+  }
+}
+
+void LocalMap::insert(const std::vector<Beams>& scans) {
+  grow_to_hold(scans);
+  if (++scan_ == 0) {  // the counter came round
+    std::fill(last_scan_.begin(), last_scan_.end(), std::uint16_t{0});
+    scan_ = 1;
+  }
+  std::vector<Way> ways;
+  for (const Beams& beams : scans) draw_hits(beams, ways);
+  for (const Way& way : ways) draw_way(way.from_x, way.from_y, way.to_x, way.to_y);
+}
+
+// Draws the hits and adds the ways to them, which come last.
+void LocalMap::draw_hits(const Beams& beams, std::vector<Way>& ways) {
+  const int origin_x = grid_->x2idx(beams.origin.x);
+  const int origin_y = grid_->y2idx(beams.origin.y);
+  Region touched = {origin_x, origin_y, origin_x + 1, origin_y + 1};
+  ways.reserve(ways.size() + beams.ends.size());
+  for (std::size_t i = 0; i < beams.ends.size(); ++i) {
+    const int x = grid_->x2idx(beams.ends[i].x);
+    const int y = grid_->y2idx(beams.ends[i].y);
+    ways.push_back({origin_x, origin_y, x, y});
+    touched.x = std::min(touched.x, x);
+    touched.y = std::min(touched.y, y);
+    touched.x_end = std::max(touched.x_end, x + 1);
+    touched.y_end = std::max(touched.y_end, y + 1);
+    if (beams.hits[i]) draw_hit(x, y);
+  }
+  add_to_dirty(touched);
+}
+
+const ScoreGrid& LocalMap::scores() {
+  if (finished_) return scores_;
+  const int width = static_cast<int>(grid_->getSizeX());
+  const int height = static_cast<int>(grid_->getSizeY());
+  if (!scores_fit_) {
+    scores_ = ScoreGrid(static_cast<double>(grid_->getXMin()), static_cast<double>(grid_->getYMin()),
+                        options_.resolution_m, width, height);
+    scores_fit_ = true;
+    dirty_ = {0, 0, width, height};
+  }
+  if (dirty_.x_end > dirty_.x) {
+    ScorePainter painter(options_.smoothing_sigma_m, options_.resolution_m);
+    const int reach = painter.reach_cells();
+    painter.paint(*grid_, std::max(0, dirty_.x - reach), std::max(0, dirty_.y - reach),
+                  std::min(width, dirty_.x_end + reach), std::min(height, dirty_.y_end + reach),
+                  scores_.finest());
+    dirty_ = {};
+  }
+  return scores_;
+}
+
+// All observed cells, and around them what their smoothing reaches.
+LocalMap::Region LocalMap::observed_region() const {
+  const int width = static_cast<int>(grid_->getSizeX());
+  const int height = static_cast<int>(grid_->getSizeY());
+  Region region = {width, height, 0, 0};
+  for (int y = 0; y < height; ++y) {
+    const Grid::cellType* row = grid_->getRow(y);
+    for (int x = 0; x < width; ++x) {
+      if (row[x] == 0) continue;
+      region = {std::min(region.x, x), std::min(region.y, y), std::max(region.x_end, x + 1), y + 1};
+    }
+  }
+  if (region.x_end <= region.x) return {0, 0, 1, 1};
+  const int reach = ScorePainter(options_.smoothing_sigma_m, options_.resolution_m).reach_cells();
+  return {std::max(0, region.x - reach), std::max(0, region.y - reach), std::min(width, region.x_end + reach),
+          std::min(height, region.y_end + reach)};
+}
+
+void LocalMap::finish() {
+  if (finished_) return;
+  scores();
+  const Region region = observed_region();  // grids grow in large steps: the rest is given back
+  const int width = region.x_end - region.x;
+  const int height = region.y_end - region.y;
+  scores_ = scores_.cropped(region.x, region.y, width, height);
+  scores_.build_pyramid();
+  const int half_width = (width + 1) / 2;
+  observed_.assign(static_cast<std::size_t>(half_width) * static_cast<std::size_t>((height + 1) / 2),
+                   std::uint8_t{0});
+  for (int y = 0; y < height; ++y) {
+    const Grid::cellType* row = std::as_const(*grid_).getRow(region.y + y) + region.x;
+    for (int x = 0; x < width; ++x)
+      if (row[x] != 0) observed_[static_cast<std::size_t>(y / 2 * half_width + x / 2)] = 1;
+  }
+  finished_ = true;
+  last_scan_ = std::vector<std::uint16_t>();  // "= {}" would keep its memory
+  grid_.reset();
+}
+
+void LocalMap::pack() {
+  if (!finished_ || packed_) return;
+  std::vector<std::uint8_t> cells = scores_.finest().take_bytes();
+  if (packed_scores_.size() == 0) {
+    packed_scores_ = PackedBytes(cells);
+    packed_observed_ = PackedBytes(observed_);
+  }
+  scores_.drop_pyramid();
+  observed_ = std::vector<std::uint8_t>();
+  packed_ = true;
+}
+
+void LocalMap::unpack() {
+  if (!packed_) return;
+  scores_.finest().give_bytes(packed_scores_.unpacked());
+  scores_.build_pyramid();
+  observed_ = packed_observed_.unpacked();
+  packed_ = false;
+}
+
+bool LocalMap::observed(int x, int y) const {
+  const int width = scores_.finest().width();
+  if (x < 0 || y < 0 || x >= width || y >= scores_.finest().height()) return false;
+  if (finished_) return observed_[static_cast<std::size_t>(y / 2 * ((width + 1) / 2) + x / 2)] != 0;
+  return grid_->getRow(y)[x] != 0;
+}
+
+LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
+                                        const mrpt::math::TPose2D& map_T_robot) const {
+  constexpr int kHitScore = 64;  // a quarter: about one and a half sigma from a wall
+  if (packed_) throw std::logic_error("a packed local map was compared with a scan");
+  Agreement agreement;
+  const ScoreLevel& finest = scores_.finest();
+  const double c = std::cos(map_T_robot.phi);
+  const double s = std::sin(map_T_robot.phi);
+  const double cells_per_m = 1 / scores_.resolution_m();
+  for (const auto& point : scan.points) {
+    const double px = map_T_robot.x + c * static_cast<double>(point.x) - s * static_cast<double>(point.y);
+    const double py = map_T_robot.y + s * static_cast<double>(point.x) + c * static_cast<double>(point.y);
+    const int x = floor_to_int((px - scores_.origin_x_m()) * cells_per_m);
+    const int y = floor_to_int((py - scores_.origin_y_m()) * cells_per_m);
+    if (!observed(x, y)) continue;
+    ++agreement.observed;
+    std::uint8_t best = 0;
+    for (int j = -1; j <= 1; ++j) {
+      const std::uint8_t* row = finest.cell(x, y + j);  // what was observed has a margin around it
+      best = std::max({best, row[-1], row[0], row[1]});
+    }
+    if (best >= kHitScore) ++agreement.hits;
+  }
+  return agreement;
+}
+
+std::size_t LocalMap::memory_bytes() const {
+  const std::size_t grid = grid_ ? grid_->getRawMap().capacity() * sizeof(Grid::cellType) : 0;
+  return grid + last_scan_.capacity() * sizeof(std::uint16_t) + scores_.memory_bytes() +
+         observed_.capacity() + packed_scores_.memory_bytes() + packed_observed_.memory_bytes();
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "local_maps/scan_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+using Point = mrpt::math::TPoint2Df;
+
+constexpr std::ptrdiff_t kReach = 3;  // neighbours on either side that a line is fitted to
+constexpr float kMaxGap_m = 0.4F;     // between neighbours on one surface,
+constexpr float kMaxGapPerMetre =
+    0.15F;  // or this share of their distance: far walls are seen at grazing angles
+constexpr float kMaxResidual_m = 0.04F;  // root mean square, of points on a straight surface
+
+bool on_one_surface(const Point& a, const Point& b) {
+  const float gap = std::hypot(a.x - b.x, a.y - b.y);
+  return gap <= std::max(kMaxGap_m, kMaxGapPerMetre * std::hypot(a.x, a.y));
+}
+
+// The normal of the line through a point and its neighbours, (0, 0) when they do not lie on one.
+Point normal_at(const std::vector<Point>& points, std::size_t index) {
+  const auto size = static_cast<std::ptrdiff_t>(points.size());
+  const auto i = static_cast<std::ptrdiff_t>(index);
+  std::ptrdiff_t first = i;
+  std::ptrdiff_t last = i;
+  while (first > 0 && i - first < kReach && on_one_surface(points[first], points[first - 1])) --first;
+  while (last + 1 < size && last - i < kReach && on_one_surface(points[last], points[last + 1])) ++last;
+  const auto count = static_cast<float>(last - first + 1);
+  if (count < 4) return {0, 0};
+  float mean_x = 0;
+  float mean_y = 0;
+  for (std::ptrdiff_t k = first; k <= last; ++k) mean_x += points[k].x, mean_y += points[k].y;
+  mean_x /= count;
+  mean_y /= count;
+  float xx = 0;
+  float xy = 0;
+  float yy = 0;
+  for (std::ptrdiff_t k = first; k <= last; ++k) {
+    const float dx = points[k].x - mean_x;
+    const float dy = points[k].y - mean_y;
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+  }
+  const float half_difference = 0.5F * (xx - yy);
+  const float root = std::hypot(half_difference, xy);
+  const float smaller = 0.5F * (xx + yy) - root;
+  if (smaller > count * kMaxResidual_m * kMaxResidual_m) return {0, 0};
+  const float along = 0.5F * std::atan2(xy, half_difference);
+  return {-std::sin(along), std::cos(along)};
+}
+
+ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
+                            const ScanFilterOptions& options) {
+  ScanPoints result;
+  result.origin = {static_cast<float>(robot_T_laser.x), static_cast<float>(robot_T_laser.y)};
+  result.points.reserve(scan.ranges_m.size());
+  const double spacing_squared = options.spacing_m * options.spacing_m;
+  double last_x = 0;
+  double last_y = 0;
+  double farthest_squared = 0;
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const auto range = static_cast<double>(scan.ranges_m[i]);
+    if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;  // NaN too
+    const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + robot_T_laser.phi;
+    const double x = robot_T_laser.x + range * std::cos(bearing);
+    const double y = robot_T_laser.y + range * std::sin(bearing);
+    const double gap_squared = (x - last_x) * (x - last_x) + (y - last_y) * (y - last_y);
+    if (!result.points.empty() && gap_squared < spacing_squared) continue;
+    last_x = x;
+    last_y = y;
+    farthest_squared = std::max(farthest_squared, x * x + y * y);
+    result.points.emplace_back(static_cast<float>(x), static_cast<float>(y));
+  }
+  result.points.shrink_to_fit();  // nodes keep theirs
+  result.normals.reserve(result.points.size());
+  for (std::size_t i = 0; i < result.points.size(); ++i)
+    result.normals.push_back(normal_at(result.points, i));
+  result.farthest_m = std::sqrt(farthest_squared);
+  return result;
+}
+
+}  // namespace
+
+ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& options) {
+  return points_seen_from(scan.robot_T_laser, scan, options);
+}
+
+ScanPoints matching_points(const Frame& frame, const ScanFilterOptions& options) {
+  ScanPoints all = matching_points(frame.scan, options);
+  for (const CompanionScan& companion : frame.companions) {
+    const ScanPoints one =
+        points_seen_from(companion.frame_T_robot + companion.scan.robot_T_laser, companion.scan, options);
+    all.other_lasers.push_back({all.points.size(), one.origin});
+    all.points.insert(all.points.end(), one.points.begin(), one.points.end());
+    all.normals.insert(all.normals.end(), one.normals.begin(), one.normals.end());
+    all.farthest_m = std::max(all.farthest_m, one.farthest_m);
+  }
+  return all;
+}
+
+Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, double min_range_m,
+                    double max_range_m) {
+  Beams beams;
+  const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
+  beams.origin = {map_T_laser.x, map_T_laser.y};
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const auto range = static_cast<double>(scan.ranges_m[i]);
+    if (!(range >= min_range_m)) continue;
+    const double drawn = std::min(range, max_range_m);
+    const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + map_T_laser.phi;
+    beams.ends.emplace_back(map_T_laser.x + drawn * std::cos(bearing),
+                            map_T_laser.y + drawn * std::sin(bearing));
+    beams.hits.push_back(range <= max_range_m);
+  }
+  return beams;
+}
+
+std::vector<Beams> drawing_beams(const Frame& frame, const TPose2D& map_T_robot, double min_range_m,
+                                 double max_range_m) {
+  std::vector<Beams> beams;
+  for_each_scan(frame, map_T_robot, [&](const LaserScan& scan, const TPose2D& map_T_robot_then) {
+    beams.push_back(drawing_beams(scan, map_T_robot_then, min_range_m, max_range_m));
+  });
+  return beams;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "localization/map_file.h"
+
+#include <mrpt/containers/yaml.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compression/compressed_file.h"
+#include "psi_slam/user_error.h"
+#include "base/byte_cursor.h"
+#include "base/number_text.h"
+
+namespace psi_slam {
+namespace {
+
+using Grid = mrpt::maps::COccupancyGridMap2D;
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+constexpr double kLeastResolution_m = 0.001;
+constexpr double kMostResolution_m = 1;
+
+void check_resolution(const std::filesystem::path& path, double resolution_m) {
+  if (!(resolution_m >= kLeastResolution_m && resolution_m <= kMostResolution_m))
+    throw UserError(path.string() + ": resolution is " + shortest_text(static_cast<float>(resolution_m)) +
+                    " m, expected 0.001 to 1 m a cell");
+}
+
+void check_yaml(const std::filesystem::path& path, const mrpt::containers::yaml& yaml) {
+  check_resolution(path, yaml["resolution"].as<double>());
+  if (yaml["origin"](2).as<double>() != 0)
+    throw UserError(path.string() + ": a map whose origin is turned cannot be used");
+}
+
+Grid read_yaml(const std::filesystem::path& path) {
+  CompressedFile readable(path);  // says what is wrong with a file that is not there
+  Grid grid;
+  try {
+    const auto yaml = mrpt::containers::yaml::FromFile(path.string());
+    check_yaml(path, yaml);
+    if (!grid.loadFromROSMapServerYAML(path.string()))
+      throw UserError(path.string() + ": the image that it names cannot be read");
+  } catch (const UserError&) {
+    throw;
+  } catch (const std::exception&) {
+    throw UserError(path.string() +
+                    ": no map for map_server, which names image, resolution, origin, negate, occupied_thresh "
+                    "and free_thresh");
+  }
+  return grid;
+}
+
+std::vector<char> all_bytes(const std::filesystem::path& path) {
+  CompressedFile file(path);
+  std::vector<char> bytes;
+  constexpr std::size_t kBlock = std::size_t{1} << 20;
+  std::size_t read = kBlock;
+  while (read > 0) {
+    bytes.resize(bytes.size() + kBlock);
+    read = file.read(bytes.data() + bytes.size() - kBlock, kBlock);
+    bytes.resize(bytes.size() - kBlock + read);
+  }
+  return bytes;
+}
+
+/// What stands in front of the cells of a gridmap.
+struct GridHead {
+  double cells_x = 0;
+  double cells_y = 0;
+  double x_min_m = 0;
+  double x_max_m = 0;
+  double y_min_m = 0;
+  double y_max_m = 0;
+  double resolution_m = 0;
+};
+
+/// Throws MalformedBytes when the bytes end within it.
+GridHead head_of(ByteCursor& cursor) {
+  constexpr std::uint8_t kLengthOfName = 0x7F;
+  cursor.take(cursor.number<std::uint8_t>() & kLengthOfName);
+  if (cursor.number<std::uint8_t>() >= 2) cursor.number<std::uint8_t>();  // version; bits of a cell
+  GridHead head;
+  for (double* count : {&head.cells_x, &head.cells_y}) *count = cursor.number<std::uint32_t>();
+  for (double* metres : {&head.x_min_m, &head.x_max_m, &head.y_min_m, &head.y_max_m, &head.resolution_m})
+    *metres = static_cast<double>(cursor.number<float>());
+  return head;
+}
+
+/// MRPT makes a grid of any size that its counts claim.
+void check_gridmap(const std::filesystem::path& path, std::string_view bytes) {
+  ByteCursor cursor(bytes);
+  const GridHead head = head_of(cursor);
+  check_resolution(path, head.resolution_m);
+  const auto agree = [&](double cells, double from_m, double to_m) {
+    return std::abs(cells - (to_m - from_m) / head.resolution_m) <= 1.5;
+  };
+  const bool agrees =
+      agree(head.cells_x, head.x_min_m, head.x_max_m) && agree(head.cells_y, head.y_min_m, head.y_max_m);
+  if (!agrees || head.cells_x * head.cells_y > static_cast<double>(cursor.left()))
+    throw UserError(path.string() + ": a damaged gridmap: it announces " + fixed_text(head.cells_x, 0) +
+                    " x " + fixed_text(head.cells_y, 0) + " cells, which neither its limits nor its " +
+                    std::to_string(bytes.size()) + " bytes bear out");
+}
+
+Grid read_gridmap(const std::filesystem::path& path) {
+  const std::vector<char> bytes = all_bytes(path);
+  mrpt::io::CMemoryStream stream;
+  stream.assignMemoryNotOwn(bytes.data(), bytes.size());
+  Grid grid;
+  try {
+    check_gridmap(path, {bytes.data(), bytes.size()});
+    mrpt::serialization::archiveFrom(stream) >> grid;
+  } catch (const UserError&) {
+    throw;
+  } catch (const std::exception&) {
+    throw UserError(path.string() + ": no whole gridmap of MRPT");
+  }
+  return grid;
+}
+
+}  // namespace
+
+Grid read_map_file(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  const bool is_yaml = ends_with(name, ".yaml") || ends_with(name, ".yml");
+  if (!is_yaml && !ends_with(name, ".gridmap.gz") && !ends_with(name, ".gridmap"))
+    throw UserError(path.string() + " is no map: expected map.yaml or map.gridmap.gz as a run writes them");
+  Grid grid = is_yaml ? read_yaml(path) : read_gridmap(path);
+  const auto& cells = grid.getRawMap();
+  if (std::none_of(cells.begin(), cells.end(), [](Grid::cellType cell) { return cell < 0; }))
+    throw UserError(path.string() + ": a map without a single wall");
+  return grid;
+}
+
+}  // namespace psi_slam

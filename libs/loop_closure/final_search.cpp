@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_closure/final_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "loop_closure/loop_attempt.h"
+
+namespace psi_slam {
+namespace {
+
+// Pairs matched between two reports of the progress.
+constexpr std::size_t kBatch = 64;
+
+/// Where the nodes of a local map lie: what is farther from it than the reach is so from all of them.
+struct Box {
+  double x_min, y_min, x_max, y_max;
+
+  Box(const PlacedLocalMap& local_map, const PoseGraph& graph)
+      : x_min(graph.pose(local_map.first_node).x),
+        y_min(graph.pose(local_map.first_node).y),
+        x_max(x_min),
+        y_max(y_min) {
+    for (std::size_t node = local_map.first_node + 1; node <= local_map.last_node; ++node) {
+      const mrpt::math::TPose2D& pose = graph.pose(node);
+      x_min = std::min(x_min, pose.x);
+      y_min = std::min(y_min, pose.y);
+      x_max = std::max(x_max, pose.x);
+      y_max = std::max(y_max, pose.y);
+    }
+  }
+
+  bool is_near(const mrpt::math::TPose2D& here, double reach_m) const {
+    return x_min - here.x <= reach_m && here.x - x_max <= reach_m && y_min - here.y <= reach_m &&
+           here.y - y_max <= reach_m;
+  }
+};
+
+bool is_near(std::size_t node, const PlacedLocalMap& local_map, const PoseGraph& graph, double reach_m) {
+  const mrpt::math::TPose2D& here = graph.pose(node);
+  for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other) {
+    const mrpt::math::TPose2D& there = graph.pose(other);
+    if (std::hypot(there.x - here.x, there.y - here.y) <= reach_m) return true;
+  }
+  return false;
+}
+
+struct Pair {
+  std::size_t node = 0;
+  LoopCandidate candidate;
+};
+
+std::vector<Pair> pairs_near_each_other(
+    const KeyframeStore& memory, const PoseGraph& graph, const FinalSearchOptions& options,
+    const std::function<bool(std::size_t node, std::size_t local_map)>& known) {
+  std::vector<Pair> pairs;
+  for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
+    const PlacedLocalMap& local_map = memory.local_maps[m];
+    const Box box(local_map, graph);
+    for (std::size_t node = 0; node < memory.nodes.size(); ++node) {
+      if (!box.is_near(graph.pose(node), options.reach_m)) continue;
+      if (node >= local_map.first_node && node <= local_map.last_node) continue;
+      if (!begins_stretch(node, memory.nodes, options.travel_m) || known(node, m) ||
+          !is_near(node, local_map, graph, options.reach_m))
+        continue;
+      Pair pair;
+      pair.node = node;
+      pair.candidate.local_map = m;
+      pair.candidate.anchor_T_node = graph.pose(node) - graph.pose(local_map.anchor);
+      pair.candidate.extent = {options.window_m, options.window_m, options.window_rad};
+      pairs.push_back(pair);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+FinalSearchOutcome final_search(const KeyframeStore& memory, const PoseGraph& graph,
+                          const std::function<const Matcher&(std::size_t)>& matcher_of,
+                          const LoopVerificationOptions& verification, const FinalSearchOptions& options,
+                          const std::function<bool(std::size_t, std::size_t)>& known, std::uint64_t run_seed,
+                          WorkerPool& pool, const std::function<bool(double)>& progress) {
+  const std::vector<Pair> pairs = pairs_near_each_other(memory, graph, options, known);
+  FinalSearchOutcome outcome;
+  for (std::size_t begin = 0; begin < pairs.size(); begin += kBatch) {
+    const std::size_t end = std::min(begin + kBatch, pairs.size());
+    std::vector<std::size_t> local_maps;
+    for (std::size_t i = begin; i < end; ++i) local_maps.push_back(pairs[i].candidate.local_map);
+    unpack_local_maps(memory, local_maps, pool);
+    auto attempts = map_in_parallel<LoopAttempt>(pool, end - begin, [&](std::size_t index) {
+      const auto& [node, candidate] = pairs[begin + index];
+      return attempt_loop(node, *memory.nodes[node].points, candidate, memory, matcher_of(node), verification,
+                          run_seed);
+    });
+    for (std::size_t i = 0; i < attempts.size(); ++i) {
+      outcome.effort[matcher_of(pairs[begin + i].node).name()] += attempts[i].effort;
+      if (!attempts[i].loop || attempts[i].loop->verdict == LoopVerdict::kNotFound) continue;
+      attempts[i].loop->in_final_search = true;
+      outcome.loops.push_back(*std::move(attempts[i].loop));
+    }
+    if (!progress(static_cast<double>(end) / static_cast<double>(pairs.size()))) break;
+  }
+  if (pairs.empty()) progress(1);
+  return outcome;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_closure/loop_attempt.h"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "loop_closure/two_decimals.h"
+
+namespace psi_slam {
+namespace {
+
+// A blind scan has no points, or none that a turn would move (see make_search_window).
+bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
+  return !scan.points.empty() && scan.farthest_m > std::as_const(*local_map.map).scores().resolution_m();
+}
+
+}  // namespace
+
+LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCandidate& candidate,
+                         const KeyframeStore& memory, const Matcher& matcher,
+                         const LoopVerificationOptions& verification, std::uint64_t run_seed) {
+  LoopAttempt attempt;
+  const NodeScan& here = memory.nodes[node];
+  const PlacedLocalMap& local_map = memory.local_maps[candidate.local_map];
+  if (!can_be_searched(scan, local_map)) return attempt;
+  MatchProblem problem{std::as_const(*local_map.map).scores(), scan, candidate.anchor_T_node,
+                       candidate.extent};
+  problem.min_response = kReportedShare * min_response(candidate.extent, verification);
+  problem.measure_ambiguity = true;
+  problem.seed = {run_seed, here.frame, local_map.id};
+  const auto start = std::chrono::steady_clock::now();
+  const MatchResult match = matcher.match(problem);
+  const auto time = std::chrono::steady_clock::now() - start;
+  attempt.effort.attempts = 1;
+  attempt.effort.found = match.found ? 1 : 0;
+  attempt.effort.evaluations = match.evaluations;
+  attempt.effort.milliseconds = std::chrono::duration<double, std::milli>(time).count();
+
+  LoopRecord& loop = attempt.loop.emplace();
+  loop.frame = here.frame;
+  loop.node = node;
+  loop.local_map = candidate.local_map;
+  loop.anchor = local_map.anchor;
+  loop.matcher = matcher.name();
+  loop.anchor_T_predicted = candidate.anchor_T_node;
+  loop.window = candidate.extent;
+  loop.evaluations = match.evaluations;
+  loop.milliseconds = attempt.effort.milliseconds;
+  if (!match.found) {
+    loop.anchor_T_node = candidate.anchor_T_node;
+    loop.verdict = LoopVerdict::kNotFound;
+    loop.reason = "nothing in its window scores " + two_decimals(problem.min_response);
+    return attempt;
+  }
+  loop.anchor_T_node = match.map_T_robot;
+  loop.covariance = match.covariance;
+  loop.response = match.response;
+  loop.ambiguity = match.ambiguity.value_or(0);
+  loop.moved_m = std::hypot(match.map_T_robot.x - candidate.anchor_T_node.x,
+                            match.map_T_robot.y - candidate.anchor_T_node.y);
+  verify(loop, scan, memory, verification);
+  return attempt;
+}
+
+}  // namespace psi_slam

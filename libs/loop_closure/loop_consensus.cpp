@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_closure/loop_consensus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace psi_slam {
+namespace {
+
+constexpr double kLeastWeight = 0.05;
+
+double weight(const LoopConsensus::Vote& vote) {
+  return std::max(kLeastWeight, 1 - vote.ambiguity);
+}
+
+}  // namespace
+
+// Where `a` would have the robot now is compared with where `b` has it.
+bool LoopConsensus::agree(const Vote& a, const Vote& b, const PoseGraph& graph) const {
+  const mrpt::math::TPose2D carried =
+      graph.pose(a.anchor) + a.anchor_T_robot + (b.local_T_robot - a.local_T_robot);
+  const mrpt::math::TPose2D off = graph.pose(b.anchor) + b.anchor_T_robot - carried;
+  return std::hypot(off.x, off.y) <= options_.same_place_m && std::abs(off.phi) <= options_.same_heading_rad;
+}
+
+std::vector<std::size_t> LoopConsensus::add(const Vote& vote, const PoseGraph& graph,
+                                            const std::function<bool(std::size_t)>& still_waits) {
+  const auto too_old = [&](const Vote& old) {
+    return vote.travelled_m - old.travelled_m > options_.memory_m;
+  };
+  votes_.erase(std::remove_if(votes_.begin(), votes_.end(), too_old), votes_.end());
+  votes_.push_back(vote);
+  std::vector<Vote> counted;
+  std::copy_if(votes_.begin(), votes_.end(), std::back_inserter(counted),
+               [&](const Vote& one) { return !still_waits || still_waits(one.loop); });
+
+  double together = 0;
+  double first_m = vote.travelled_m;
+  for (const Vote& other : counted) {
+    if (!agree(other, vote, graph)) continue;
+    together += weight(other);
+    first_m = std::min(first_m, other.travelled_m);
+  }
+  if (together < options_.min_weight || vote.travelled_m - first_m < options_.min_span_m) return {};
+  for (const Vote& rival : counted) {
+    if (agree(rival, vote, graph)) continue;
+    double against = 0;
+    for (const Vote& other : counted)
+      if (!agree(other, vote, graph) && agree(other, rival, graph)) against += weight(other);
+    if (against > options_.max_rival_share * together) return {};
+  }
+
+  std::vector<std::size_t> confirmed;
+  for (const Vote& other : counted)
+    if (agree(other, vote, graph)) confirmed.push_back(other.loop);
+  votes_.clear();
+  return confirmed;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_closure/loop_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "loop_closure/outlier_loops.h"
+#include "pose_graph/information_matrix.h"
+
+namespace psi_slam {
+namespace {
+
+LoopPair pair_of(const LoopRecord& loop) {
+  return {loop.node, loop.local_map};
+}
+
+void delete_by_hand(LoopRecord& loop, const char* reason) {
+  loop.verdict = LoopVerdict::kDeleted;
+  loop.reason = reason;
+  loop.by_hand = true;
+}
+
+void accept_by_hand(LoopRecord& loop) {
+  loop.verdict = LoopVerdict::kAccepted;
+  loop.reason.clear();
+  loop.by_hand = true;
+}
+
+}  // namespace
+
+std::size_t LoopLedger::add(LoopRecord loop) {
+  const auto wanted = by_hand_.find(pair_of(loop));
+  if (wanted != by_hand_.end()) {
+    wanted->second.before.push_back({loops_.size(), loop, std::nullopt});
+    if (wanted->second.kind == LoopEdit::Kind::kDelete)
+      delete_by_hand(loop, "deleted by hand");
+    else if (wanted->second.kind == LoopEdit::Kind::kForce && loop.verdict != LoopVerdict::kNotFound &&
+             (!wanted->second.of_final_search || loop.in_final_search))
+      accept_by_hand(loop);
+  }
+  return enter(std::move(loop));
+}
+
+std::size_t LoopLedger::enter(LoopRecord loop) {
+  loops_.push_back(std::move(loop));
+  constraint_of_.emplace_back();
+  return loops_.size() - 1;
+}
+
+std::optional<double> LoopLedger::accept(std::size_t index, PoseGraph& graph) {
+  LoopRecord& loop = loops_.at(index);
+  const bool may_be = loop.verdict == LoopVerdict::kAccepted || loop.verdict == LoopVerdict::kPending;
+  if (!may_be || constraint_of_[index]) return std::nullopt;
+  loop.verdict = LoopVerdict::kAccepted;
+  Constraint constraint;
+  constraint.from = loop.anchor;
+  constraint.to = loop.node;
+  constraint.from_T_to = loop.anchor_T_node;
+  constraint.information = noisy_information(loop.covariance, noise_.sigma_m, noise_.sigma_rad);
+  constraint.kind = Constraint::Kind::kLoop;
+  link(index, graph.add_constraint(constraint));
+  const mrpt::math::TPose2D off = loop.anchor_T_node - (graph.pose(loop.node) - graph.pose(loop.anchor));
+  return std::max(std::hypot(off.x, off.y) / noise_.sigma_m, std::abs(off.phi) / noise_.sigma_rad);
+}
+
+void LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi) {
+  std::vector<std::size_t> constraints;
+  std::vector<std::size_t> loops;
+  for (const auto& [constraint, loop] : constraints_) {
+    const auto wanted = by_hand_.find(pair_of(loops_[loop]));
+    if (wanted != by_hand_.end() && wanted->second.kind == LoopEdit::Kind::kForce) continue;
+    constraints.push_back(constraint);
+    loops.push_back(loop);
+  }
+  const std::vector<double> chi = switch_off_outlier_loops(graph, solver, constraints, max_chi);
+  for (std::size_t i = 0; i < chi.size(); ++i) {
+    LoopRecord& loop = loops_[loops[i]];
+    const bool fits = graph.enabled(constraints[i]);
+    loop.verdict = fits ? LoopVerdict::kAccepted : LoopVerdict::kSwitchedOff;
+    loop.reason = fits ? ""
+                       : "the other constraints contradict it by " + std::to_string(std::lround(chi[i])) +
+                             " standard deviations";
+  }
+}
+
+void LoopLedger::refuse_pending() {
+  for (LoopRecord& loop : loops_) {
+    if (loop.verdict != LoopVerdict::kPending) continue;
+    loop.verdict = LoopVerdict::kRefused;
+    loop.reason = "found in a wide window, and too few other matches agree with it";
+  }
+}
+
+std::set<LoopPair> LoopLedger::searched_pairs() const {
+  std::set<LoopPair> pairs;
+  for (const LoopRecord& loop : loops_) {
+    const bool failed = loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kNotFound ||
+                        (loop.verdict == LoopVerdict::kDeleted && !loop.by_hand);  // taken back
+    if (!failed || loop.in_final_search || loop.by_hand) pairs.insert(pair_of(loop));
+  }
+  return pairs;
+}
+
+void LoopLedger::remove(const LoopPair& pair, PoseGraph& graph) {
+  take_over(pair, LoopEdit::Kind::kDelete, graph);
+  for (const std::size_t loop : attempts_of(pair)) strike(loop, "deleted by hand", graph);
+}
+
+bool LoopLedger::force(const LoopPair& pair, bool of_final_search, PoseGraph& graph) {
+  take_over(pair, LoopEdit::Kind::kForce, graph);
+  by_hand_[pair].of_final_search = of_final_search;
+  const std::vector<std::size_t> attempts = attempts_of(pair);
+  const auto found = std::find_if(attempts.rbegin(), attempts.rend(), [&](std::size_t loop) {
+    return loops_[loop].verdict != LoopVerdict::kNotFound && (!of_final_search || loops_[loop].in_final_search);
+  });
+  if (found == attempts.rend()) return false;
+  for (const std::size_t other : attempts)
+    if (other != *found) strike(other, "another match of the same two was forced by hand", graph);
+  accept_by_hand(loops_[*found]);
+  if (constraint_of_[*found])
+    graph.set_enabled(*constraint_of_[*found], true);
+  else
+    accept(*found, graph);
+  return true;
+}
+
+std::vector<LoopPair> LoopLedger::forced_in_vain() const {
+  std::vector<LoopPair> pairs;
+  for (const auto& [pair, by_hand] : by_hand_) {
+    if (by_hand.kind != LoopEdit::Kind::kForce) continue;
+    const std::vector<std::size_t> attempts = attempts_of(pair);
+    if (std::none_of(attempts.begin(), attempts.end(),
+                     [&](std::size_t loop) { return loops_[loop].verdict == LoopVerdict::kAccepted; }))
+      pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+void LoopLedger::replace(LoopRecord loop, PoseGraph& graph) {
+  const LoopPair pair = pair_of(loop);
+  take_over(pair, LoopEdit::Kind::kMatch, graph);
+  const std::vector<std::size_t> attempts = attempts_of(pair);
+  for (const std::size_t before : attempts) strike(before, "matched again by hand", graph);
+  loop.by_hand = true;
+  const bool accepted = loop.verdict == LoopVerdict::kAccepted;
+  const std::size_t index = attempts.empty() ? enter(loop) : attempts.back();
+  loops_[index] = std::move(loop);
+  if (accepted) accept(index, graph);
+}
+
+bool LoopLedger::restore(const LoopPair& pair, PoseGraph& graph) {
+  const auto wanted = by_hand_.find(pair);
+  if (wanted == by_hand_.end()) return false;
+  for (const std::size_t loop : attempts_of(pair)) {
+    strike(loop, "matched by hand, then taken back", graph);
+    loops_[loop].by_hand = false;
+  }
+  for (const Entry& entry : wanted->second.before) {
+    loops_[entry.loop] = entry.record;
+    if (entry.constraint) {
+      link(entry.loop, *entry.constraint);
+      graph.set_enabled(*entry.constraint, entry.record.verdict == LoopVerdict::kAccepted);
+    } else if (entry.record.verdict == LoopVerdict::kAccepted) {
+      accept(entry.loop, graph);
+    }
+  }
+  by_hand_.erase(wanted);
+  return true;
+}
+
+const LoopRecord* LoopLedger::find(const LoopPair& pair) const {
+  const std::vector<std::size_t> attempts = attempts_of(pair);
+  return attempts.empty() ? nullptr : &loops_[attempts.back()];
+}
+
+std::vector<std::size_t> LoopLedger::attempts_of(const LoopPair& pair) const {
+  std::vector<std::size_t> attempts;
+  for (std::size_t loop = 0; loop < loops_.size(); ++loop)
+    if (pair_of(loops_[loop]) == pair) attempts.push_back(loop);
+  return attempts;
+}
+
+void LoopLedger::take_over(const LoopPair& pair, LoopEdit::Kind kind, PoseGraph& graph) {
+  restore(pair, graph);
+  ByHand& by_hand = by_hand_[pair];
+  by_hand.kind = kind;
+  for (const std::size_t loop : attempts_of(pair))
+    by_hand.before.push_back({loop, loops_[loop], constraint_of_[loop]});
+}
+
+void LoopLedger::link(std::size_t loop, std::size_t constraint) {
+  constraint_of_[loop] = constraint;
+  constraints_.emplace_back(constraint, loop);
+}
+
+void LoopLedger::strike(std::size_t loop, const char* reason, PoseGraph& graph) {
+  if (const auto constraint = std::exchange(constraint_of_[loop], std::nullopt)) {
+    graph.set_enabled(*constraint, false);
+    constraints_.erase(std::find(constraints_.begin(), constraints_.end(), std::pair(*constraint, loop)));
+  }
+  delete_by_hand(loops_[loop], reason);
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_closure/loop_verification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "loop_closure/range_image.h"
+#include "loop_closure/two_decimals.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+constexpr double kReverseTolerance_m = 0.25;
+
+double largest_sigma_m(const Eigen::Matrix3d& covariance) {
+  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
+  const double half_difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
+  return std::sqrt(mean + std::hypot(half_difference, covariance(0, 1)));
+}
+
+// The scans taken around the node, put where the match puts them: what is true of one scan must be true of
+// the run.
+LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeStore& memory,
+                                         double neighbourhood_m) {
+  const LocalMap& map = *memory.local_maps[loop.local_map].map;
+  const NodeScan& here = memory.nodes[loop.node];
+  LocalMap::Agreement sum;
+  const auto add = [&](std::size_t node) {
+    const NodeScan& there = memory.nodes[node];
+    const LocalMap::Agreement one =
+        map.agreement(*there.points, loop.anchor_T_node + (there.local_T_robot - here.local_T_robot));
+    sum.observed += one.observed;
+    sum.hits += one.hits;
+  };
+  const auto near = [&](std::size_t node) {
+    return std::abs(memory.nodes[node].travelled_m - here.travelled_m) <= neighbourhood_m;
+  };
+  for (std::size_t node = loop.node; node-- > 0 && near(node);) add(node);
+  for (std::size_t node = loop.node + 1; node < memory.nodes.size() && near(node); ++node) add(node);
+  return sum;
+}
+
+// The local map's scans taken nearest to the matched pose, seen from the scan.
+RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const KeyframeStore& memory) {
+  const PlacedLocalMap& local_map = memory.local_maps[loop.local_map];
+  const TPose2D& local_T_anchor = memory.nodes[local_map.anchor].local_T_robot;
+  std::size_t nearest = local_map.first_node;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t node = local_map.first_node; node <= local_map.last_node; ++node) {
+    const TPose2D anchor_T_other = memory.nodes[node].local_T_robot - local_T_anchor;
+    const double distance_m =
+        std::hypot(anchor_T_other.x - loop.anchor_T_node.x, anchor_T_other.y - loop.anchor_T_node.y);
+    if (distance_m < nearest_m) nearest_m = distance_m, nearest = node;
+  }
+  const RangeImage image(*memory.nodes[loop.node].points);
+  RangeImage::Agreement sum;
+  const std::size_t first = std::max(local_map.first_node, nearest < 3 ? 0 : nearest - 3);
+  const std::size_t last = std::min(local_map.last_node, nearest + 3);
+  for (std::size_t node = first; node <= last; ++node) {
+    const TPose2D anchor_T_other = memory.nodes[node].local_T_robot - local_T_anchor;
+    const RangeImage::Agreement one =
+        image.compare(*memory.nodes[node].points, anchor_T_other - loop.anchor_T_node, kReverseTolerance_m);
+    sum.agree += one.agree;
+    sum.contradict += one.contradict;
+  }
+  return sum;
+}
+
+std::string objection(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& memory,
+                      const LoopVerificationOptions& options) {
+  const double needed = min_response(loop.window, options);
+  if (loop.response < needed)
+    return "the response " + two_decimals(loop.response) + " is below " + two_decimals(needed);
+  if (!is_wide(loop.window, options) && loop.ambiguity > options.max_ambiguity)
+    return "another place fits as well: its response is " + two_decimals(loop.ambiguity) +
+           " of the best, more than " + two_decimals(options.max_ambiguity);
+  const double sigma_m = largest_sigma_m(loop.covariance);
+  if (sigma_m > options.max_sigma_m)
+    return "the scan does not determine the position: its standard deviation is " + two_decimals(sigma_m) +
+           " m, more than " + two_decimals(options.max_sigma_m) + " m";
+
+  const LocalMap::Agreement own = memory.local_maps[loop.local_map].map->agreement(scan, loop.anchor_T_node);
+  loop.observed_share = static_cast<double>(own.observed) / static_cast<double>(scan.points.size());
+  if (!is_wide(loop.window, options) && loop.observed_share < options.min_observed_share)
+    return "only " + two_decimals(loop.observed_share) +
+           " of the scan lies in space the local map has observed, less than " +
+           two_decimals(options.min_observed_share);
+
+  loop.neighbours_agree = neighbours_agreement(loop, memory, options.neighbourhood_m).share();
+  if (loop.neighbours_agree < options.min_neighbours_agree)
+    return "only " + two_decimals(loop.neighbours_agree) +
+           " of the neighbouring scans' points fit the local map, less than " +
+           two_decimals(options.min_neighbours_agree);
+
+  loop.reverse_agree = reverse_agreement(loop, memory).share();
+  if (loop.reverse_agree < options.min_reverse_agree)
+    return "seen from the other side only " + two_decimals(loop.reverse_agree) +
+           " of the points agree, less than " + two_decimals(options.min_reverse_agree);
+  return {};
+}
+
+}  // namespace
+
+bool is_wide(const SearchExtent& extent, const LoopVerificationOptions& options) {
+  return std::max(extent.x_m, extent.y_m) > options.wide_window_m;
+}
+
+double min_response(const SearchExtent& extent, const LoopVerificationOptions& options) {
+  return is_wide(extent, options) ? options.min_context_response : options.min_response;
+}
+
+void verify(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& memory,
+            const LoopVerificationOptions& options) {
+  loop.reason = objection(loop, scan, memory, options);
+  if (!loop.reason.empty())
+    loop.verdict = LoopVerdict::kRefused;
+  else
+    loop.verdict = is_wide(loop.window, options) ? LoopVerdict::kPending : LoopVerdict::kAccepted;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_closure/range_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace psi_slam {
+namespace {
+
+constexpr std::size_t kBins = 360;
+
+}  // namespace
+
+std::size_t RangeImage::bin(double bearing_rad) {
+  const double turns = bearing_rad / (2 * M_PI);
+  const auto index = static_cast<std::size_t>((turns - std::floor(turns)) * kBins);
+  return std::min(index, kBins - 1);
+}
+
+RangeImage::RangeImage(const ScanPoints& scan) {
+  for_each_laser(scan, [&](const mrpt::math::TPoint2Df& origin, std::size_t first, std::size_t end) {
+    View view{origin, std::vector<float>(kBins, std::numeric_limits<float>::infinity()),
+              std::vector<float>(kBins, 0.0F)};
+    for (std::size_t i = first; i < end; ++i) {
+      const float dx = scan.points[i].x - origin.x;
+      const float dy = scan.points[i].y - origin.y;
+      const std::size_t b = bin(std::atan2(static_cast<double>(dy), static_cast<double>(dx)));
+      const float range = std::hypot(dx, dy);
+      view.nearest_m[b] = std::min(view.nearest_m[b], range);
+      view.farthest_m[b] = std::max(view.farthest_m[b], range);
+    }
+    views_.push_back(std::move(view));
+  });
+}
+
+RangeImage::Verdict RangeImage::View::judge(double x, double y, double tolerance_m) const {
+  const double dx = x - static_cast<double>(origin.x);
+  const double dy = y - static_cast<double>(origin.y);
+  const std::size_t b = bin(std::atan2(dy, dx));
+  if (farthest_m[b] <= 0) return Verdict::kNothing;
+  const double range = std::hypot(dx, dy);
+  if (range > static_cast<double>(farthest_m[b]) + tolerance_m) return Verdict::kNothing;  // hidden
+  return range < static_cast<double>(nearest_m[b]) - tolerance_m ? Verdict::kContradicts : Verdict::kAgrees;
+}
+
+RangeImage::Agreement RangeImage::compare(const ScanPoints& other, const mrpt::math::TPose2D& this_T_other,
+                                          double tolerance_m) const {
+  Agreement result;
+  const double c = std::cos(this_T_other.phi);
+  const double s = std::sin(this_T_other.phi);
+  for (const auto& point : other.points) {
+    const double x = this_T_other.x + c * static_cast<double>(point.x) - s * static_cast<double>(point.y);
+    const double y = this_T_other.y + s * static_cast<double>(point.x) + c * static_cast<double>(point.y);
+    Verdict verdict = Verdict::kNothing;
+    for (const View& view : views_) verdict = std::max(verdict, view.judge(x, y, tolerance_m));
+    if (verdict == Verdict::kAgrees) ++result.agree;
+    if (verdict == Verdict::kContradicts) ++result.contradict;
+  }
+  return result;
+}
+
+}  // namespace psi_slam

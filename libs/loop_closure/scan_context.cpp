@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_closure/scan_context.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_set>
+
+namespace psi_slam {
+namespace {
+
+// One number for each square of the plane.
+std::int64_t square_of(float x, float y, double size_m) {
+  const auto column = static_cast<std::int64_t>(std::floor(static_cast<double>(x) / size_m));
+  const auto row = static_cast<std::int64_t>(std::floor(static_cast<double>(y) / size_m));
+  return row * (std::int64_t{1} << 32) + column;
+}
+
+}  // namespace
+
+ScanPoints scan_context(std::size_t node, const KeyframeStore& memory, const ScanContextOptions& options) {
+  const NodeScan& here = memory.nodes[node];
+  ScanPoints context;
+  context.origin = here.points->origin;
+  std::unordered_set<std::int64_t> taken;
+  double farthest_squared = 0;
+  const auto add = [&](const NodeScan& there) {
+    const mrpt::math::TPose2D here_T_there = there.local_T_robot - here.local_T_robot;
+    const auto c = static_cast<float>(std::cos(here_T_there.phi));
+    const auto s = static_cast<float>(std::sin(here_T_there.phi));
+    const auto x0 = static_cast<float>(here_T_there.x);
+    const auto y0 = static_cast<float>(here_T_there.y);
+    for (std::size_t i = 0; i < there.points->points.size(); ++i) {
+      const auto& point = there.points->points[i];
+      const auto normal =
+          there.points->normals.empty() ? mrpt::math::TPoint2Df(0, 0) : there.points->normals[i];
+      const float x = x0 + c * point.x - s * point.y;
+      const float y = y0 + s * point.x + c * point.y;
+      if (!taken.insert(square_of(x, y, options.point_spacing_m)).second) continue;
+      context.points.emplace_back(x, y);
+      context.normals.emplace_back(c * normal.x - s * normal.y, s * normal.x + c * normal.y);
+      farthest_squared = std::max(farthest_squared, static_cast<double>(x * x + y * y));
+    }
+  };
+  add(here);
+  double last_m = here.travelled_m;
+  for (std::size_t before = node; before-- > 0;) {
+    const NodeScan& there = memory.nodes[before];
+    if (here.travelled_m - there.travelled_m > options.travel_m) break;
+    if (last_m - there.travelled_m < options.node_spacing_m) continue;
+    last_m = there.travelled_m;
+    add(there);
+  }
+  context.farthest_m = std::sqrt(farthest_squared);
+  return context;
+}
+
+}  // namespace psi_slam

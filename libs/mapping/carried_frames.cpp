@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping/carried_frames.h"
+
+#include <algorithm>
+
+namespace psi_slam {
+
+using mrpt::math::TPose2D;
+
+void carry_frames_along(const std::vector<TPose2D>& map_T_node, const std::vector<std::size_t>& node_frames,
+                        std::vector<FrameRecord>& frames, const std::vector<std::size_t>& later_run_frames) {
+  const auto begins_drive = [&](std::size_t frame) {
+    return std::binary_search(later_run_frames.begin(), later_run_frames.end(), frame);
+  };
+  std::size_t node = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    while (node + 1 < node_frames.size() && node_frames[node + 1] <= i) ++node;
+    const TPose2D front_end_T_robot = frames[i].front_end_T_robot;
+    const auto carried = [&](std::size_t by) {
+      return map_T_node[by] + (front_end_T_robot - frames[node_frames[by]].front_end_T_robot);
+    };
+    TPose2D pose = carried(node);
+    if (node + 1 < node_frames.size() && !begins_drive(node_frames[node + 1])) {
+      const TPose2D next = carried(node + 1);
+      const double u = static_cast<double>(i - node_frames[node]) /
+                       static_cast<double>(node_frames[node + 1] - node_frames[node]);
+      const TPose2D off = next - pose;
+      pose = pose + TPose2D(u * off.x, u * off.y, u * off.phi);
+    }
+    frames[i].map_T_robot = pose;
+    frames[i].map_T_robot.normalizePhi();
+  }
+}
+
+}  // namespace psi_slam

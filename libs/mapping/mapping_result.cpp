@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/mapping_result.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace psi_slam {
+
+std::vector<FrameSpan> runs_of(const MappingResult& result) {
+  std::vector<FrameSpan> runs{{0, result.frames.size()}};
+  for (const std::size_t begin : result.later_run_frames) {
+    runs.back().end = begin;
+    runs.push_back({begin, result.frames.size()});
+  }
+  return runs;
+}
+
+std::optional<std::size_t> unjoined_run(const MappingResult& result) {
+  const auto drive_of_node = [&](std::size_t node) {
+    const auto& begins = result.later_run_frames;
+    const auto behind = std::upper_bound(begins.begin(), begins.end(), result.node_frames[node]);
+    return static_cast<std::size_t>(behind - begins.begin());
+  };
+  std::vector<std::size_t> group(result.later_run_frames.size() + 1);  // of each drive: its lowest drive
+  std::iota(group.begin(), group.end(), 0U);
+  for (const LoopRecord& loop : result.loops) {
+    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    const auto [low, high] =
+        std::minmax({group[drive_of_node(loop.node)], group[drive_of_node(loop.anchor)]});
+    std::replace(group.begin(), group.end(), high, low);
+  }
+  const auto unjoined =
+      std::find_if(group.begin(), group.end(), [](std::size_t drive) { return drive != 0; });
+  if (unjoined == group.end()) return std::nullopt;
+  return static_cast<std::size_t>(unjoined - group.begin());
+}
+
+}  // namespace psi_slam

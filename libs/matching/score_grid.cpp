@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/score_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace psi_slam {
+namespace {
+
+int ceil_divide(int a, int b) {
+  return (a + b - 1) / b;
+}
+
+// The maximum over aligned stride x stride blocks of `fine`, then over two neighbouring blocks a side.
+ScoreLevel pool(const ScoreLevel& fine, int stride) {
+  const int blocks_x = ceil_divide(fine.width(), stride);
+  const int blocks_y = ceil_divide(fine.height(), stride);
+  ScoreLevel blocks(blocks_x, blocks_y, stride);
+  for (int y = 0; y < fine.height(); ++y) {
+    const std::uint8_t* row = fine.cell(0, y);
+    std::uint8_t* block = blocks.cell(0, y / stride);
+    for (int x = 0; x < fine.width(); ++x) block[x / stride] = std::max(block[x / stride], row[x]);
+  }
+  // In the margin, cell -1 too sees the first block: it stands for points just left of or below the grid.
+  ScoreLevel pooled(blocks_x, blocks_y, stride);
+  for (int y = -1; y < blocks_y; ++y)
+    for (int x = -1; x < blocks_x; ++x)
+      *pooled.cell(x, y) =
+          std::max({blocks.at(x, y), blocks.at(x + 1, y), blocks.at(x, y + 1), blocks.at(x + 1, y + 1)});
+  return pooled;
+}
+
+using Four = float __attribute__((vector_size(16)));
+using FourBytes = std::uint8_t __attribute__((vector_size(4)));
+
+// Catmull-Rom weights of the four neighbours for u in [0, 1) between the middle two, and their derivatives.
+struct CubicWeights {
+  Four value;
+  Four slope;
+};
+
+float dot(const Four& a, const Four& b) {
+  const Four product = a * b;
+  return (product[0] + product[1]) + (product[2] + product[3]);
+}
+
+CubicWeights cubic_weights(float u) {
+  constexpr Four kCubic = {-0.5F, 1.5F, -1.5F, 0.5F};
+  constexpr Four kSquare = {1.0F, -2.5F, 2.0F, -0.5F};
+  constexpr Four kLinear = {-0.5F, 0.0F, 0.5F, 0.0F};
+  constexpr Four kConstant = {0.0F, 1.0F, 0.0F, 0.0F};
+  return {((kCubic * u + kSquare) * u + kLinear) * u + kConstant,
+          (3.0F * kCubic * u + 2.0F * kSquare) * u + kLinear};
+}
+
+}  // namespace
+
+ScoreLevel::ScoreLevel(int width, int height, int stride_cells)
+    : width_(width),
+      height_(height),
+      stride_cells_(stride_cells),
+      row_bytes_(width + 2 * kMargin),
+      bytes_(
+          static_cast<std::size_t>(row_bytes_) * static_cast<std::size_t>(height + 2 * kMargin) + kRunPadding,
+          0) {}
+
+ScoreGrid::ScoreGrid(double origin_x_m, double origin_y_m, double resolution_m, int width, int height)
+    : origin_x_m_(origin_x_m),
+      origin_y_m_(origin_y_m),
+      resolution_m_(resolution_m),
+      finest_(width, height, 1) {}
+
+ScoreGrid ScoreGrid::cropped(int x, int y, int width, int height) const {
+  ScoreGrid part(origin_x_m_ + x * resolution_m_, origin_y_m_ + y * resolution_m_, resolution_m_, width,
+                 height);
+  for (int row = 0; row < height; ++row)
+    std::copy_n(finest_.cell(x, y + row), width, part.finest_.cell(0, row));
+  return part;
+}
+
+void ScoreGrid::build_pyramid() {
+  pyramid_.clear();
+  for (const int stride : kStrides) pyramid_.push_back(pool(finest_, stride));
+}
+
+ScoreGrid::Sample ScoreGrid::interpolate(double x_m, double y_m) const {
+  const double x = (x_m - origin_x_m_) / resolution_m_ - 0.5;
+  const double y = (y_m - origin_y_m_) / resolution_m_ - 0.5;
+  const int column = floor_to_int(x);
+  const int row = floor_to_int(y);
+  if (!finest_.inside(column - 1, row - 1) || !finest_.inside(column + 2, row + 2)) return {0, 0, 0};
+  const CubicWeights wx = cubic_weights(static_cast<float>(x - column));
+  const CubicWeights wy = cubic_weights(static_cast<float>(y - row));
+  Four across = {};  // the column-wise sums, weighted by rows
+  Four across_slope = {};
+  for (int j = 0; j < 4; ++j) {
+    FourBytes bytes;
+    std::memcpy(&bytes, finest_.cell(column - 1, row - 1 + j), sizeof bytes);
+    const Four scores = __builtin_convertvector(bytes, Four);
+    across += wy.value[j] * scores;
+    across_slope += wy.slope[j] * scores;
+  }
+  const float value = dot(across, wx.value);
+  const float d_dx = dot(across, wx.slope);
+  const float d_dy = dot(across_slope, wx.value);
+  const double per_metre = 1.0 / (255.0 * resolution_m_);
+  return {static_cast<double>(value) / 255.0, static_cast<double>(d_dx) * per_metre,
+          static_cast<double>(d_dy) * per_metre};
+}
+
+std::size_t ScoreGrid::memory_bytes() const {
+  std::size_t bytes = finest_.memory_bytes();
+  for (const ScoreLevel& level : pyramid_) bytes += level.memory_bytes();
+  return bytes;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/sum_kernel_body.h"
+#include "matching/sum_kernel_sets.h"
+
+namespace psi_slam {
+
+SumKernel sum_kernel_avx512() {
+  return &sum_block;
+}
+
+}  // namespace psi_slam

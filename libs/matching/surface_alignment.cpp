@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/surface_alignment.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+using Point = mrpt::math::TPoint2Df;
+
+class Turned {
+ public:
+  explicit Turned(double phi)
+      : c_(static_cast<float>(std::cos(phi))), s_(static_cast<float>(std::sin(phi))) {}
+  Point operator()(const Point& p) const { return {c_ * p.x - s_ * p.y, s_ * p.x + c_ * p.y}; }
+
+ private:
+  float c_, s_;
+};
+
+PointIndex placed_points(const std::vector<SurfaceMap::Part>& parts) {
+  std::vector<Point> placed;
+  for (const SurfaceMap::Part& part : parts) {
+    const Turned turned(part.map_T_robot.phi);
+    for (const Point& point : part.points->points)
+      placed.push_back(turned(point) +
+                       Point(static_cast<float>(part.map_T_robot.x), static_cast<float>(part.map_T_robot.y)));
+  }
+  return PointIndex(std::move(placed));
+}
+
+float dot(const Point& a, const Point& b) {
+  return a.x * b.x + a.y * b.y;
+}
+
+/// The surface near a point: the mean of what several scans saw of it.
+struct Surface {
+  Point point;
+  Point normal;  // unit
+};
+
+class SurfaceSearch {
+ public:
+  SurfaceSearch(const SurfaceMap& map, const SurfaceAlignmentOptions& options)
+      : map_(map), options_(options), least_cosine_(static_cast<float>(std::cos(options.max_turn_rad))) {}
+
+  /// At `at`, of those that face the same way.
+  std::optional<Surface> near(const Point& at, const Point& facing) {
+    map_.index().nearest(at, options_.neighbours, static_cast<float>(options_.max_distance_m), found_);
+    Surface sum{{0, 0}, {0, 0}};
+    float count = 0;
+    for (const std::size_t k : found_) {
+      if (dot(map_.normals()[k], facing) < least_cosine_) continue;
+      sum.point += map_.index().points()[k];
+      sum.normal += map_.normals()[k];
+      ++count;
+    }
+    if (count == 0) return std::nullopt;
+    const float length = std::hypot(sum.normal.x, sum.normal.y);  // not 0: all face `facing`
+    return Surface{{sum.point.x / count, sum.point.y / count},
+                   {sum.normal.x / length, sum.normal.y / length}};
+  }
+
+ private:
+  const SurfaceMap& map_;
+  const SurfaceAlignmentOptions& options_;
+  float least_cosine_;
+  std::vector<std::size_t> found_;
+};
+
+/// The scan alone, per unit variance of a point's noise.
+struct Normals {
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d descent = Eigen::Vector3d::Zero();
+  double weights = 0;
+  double weighted_squares = 0;
+  std::size_t points = 0;
+
+  double variance() const { return weighted_squares / weights; }
+};
+
+Normals compare(const SurfaceMap& map, const SurfacePoints& scan, const TPose2D& pose,
+                const SurfaceAlignmentOptions& options) {
+  Normals normals;
+  const Turned turned(pose.phi);
+  const Point position(static_cast<float>(pose.x), static_cast<float>(pose.y));
+  SurfaceSearch search(map, options);
+  for (std::size_t j = 0; j < scan.points.size(); ++j) {
+    const Point arm = turned(scan.points[j]);
+    const Point at = arm + position;
+    const auto surface = search.near(at, turned(scan.normals[j]));
+    if (!surface) continue;
+    const Point& normal = surface->normal;
+    const auto residual = static_cast<double>(dot(normal, at - surface->point));
+    const double shrink = 1 + residual * residual / (options.kernel_m * options.kernel_m);
+    const double weight = 1 / (shrink * shrink);
+    const Eigen::Vector3d slope(static_cast<double>(normal.x), static_cast<double>(normal.y),
+                                static_cast<double>(arm.x * normal.y - arm.y * normal.x));
+    normals.hessian.noalias() += weight * slope * slope.transpose();
+    normals.descent -= weight * residual * slope;
+    normals.weights += weight;
+    normals.weighted_squares += weight * residual * residual;
+    ++normals.points;
+  }
+  return normals;
+}
+
+}  // namespace
+
+SurfacePoints surface_points(const ScanPoints& scan) {
+  SurfacePoints result;
+  if (scan.normals.empty()) return result;
+  for_each_laser(scan, [&](const Point& origin, std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const Point& normal = scan.normals[i];
+      if (normal.x == 0.0F && normal.y == 0.0F) continue;
+      result.points.push_back(scan.points[i]);
+      const bool away = dot(normal, scan.points[i] - origin) > 0;
+      result.normals.push_back(away ? Point(-normal.x, -normal.y) : normal);
+    }
+  });
+  return result;
+}
+
+SurfaceMap::SurfaceMap(const std::vector<Part>& parts) : index_(placed_points(parts)) {
+  normals_.reserve(index_.points().size());
+  for (const Part& part : parts) {
+    const Turned turned(part.map_T_robot.phi);
+    for (const Point& normal : part.points->normals) normals_.push_back(turned(normal));
+  }
+}
+
+SurfaceAlignment align_to_surfaces(const SurfaceMap& map, const SurfacePoints& scan, const TPose2D& start,
+                                   const TPose2D& held_at, const SurfaceAlignmentOptions& options) {
+  const Eigen::Vector3d prior(1 / (options.prior_sigma_m * options.prior_sigma_m),
+                              1 / (options.prior_sigma_m * options.prior_sigma_m),
+                              1 / (options.prior_sigma_rad * options.prior_sigma_rad));
+  SurfaceAlignment result{start, 0};
+  TPose2D& pose = result.map_T_robot;
+  for (int i = 0; i < options.iterations; ++i) {
+    const Normals scan_alone = compare(map, scan, pose, options);
+    result.points = scan_alone.points;
+    if (scan_alone.points < options.min_points) return {start, scan_alone.points};
+    const Eigen::Vector3d held = scan_alone.variance() * prior;
+    Eigen::Matrix3d hessian = scan_alone.hessian;
+    hessian.diagonal() += held;
+    const Eigen::Vector3d off(held_at.x - pose.x, held_at.y - pose.y,
+                              mrpt::math::wrapToPi(held_at.phi - pose.phi));
+    const Eigen::Vector3d step = hessian.ldlt().solve(scan_alone.descent + held.cwiseProduct(off));
+    if (!step.allFinite()) return {start, scan_alone.points};
+    pose = TPose2D(pose.x + step.x(), pose.y + step.y(), mrpt::math::wrapToPi(pose.phi + step.z()));
+  }
+  return result;
+}
+
+}  // namespace psi_slam

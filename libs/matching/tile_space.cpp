@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/tile_space.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace psi_slam {
+namespace {
+
+// The fewest bits that hold 0 .. count - 1.
+int bits_for(std::size_t count) {
+  int bits = 0;
+  while ((std::uint64_t{1} << bits) < count) ++bits;
+  return bits;
+}
+
+Chromosome from_gray(Chromosome gray) {
+  for (int shift = 1; shift < 64; shift *= 2) gray ^= gray >> shift;
+  return gray;
+}
+
+Chromosome code_of(std::size_t number, bool gray) {
+  return gray ? number ^ (number >> 1) : number;
+}
+
+// The number in the bits [first, first + bits), repaired to be less than `count`.
+int number_in(Chromosome chromosome, int first, int bits, std::size_t count, bool gray) {
+  const Chromosome code = (chromosome >> first) & ((Chromosome{1} << bits) - 1);
+  return static_cast<int>((gray ? from_gray(code) : code) % count);
+}
+
+int ceil_divide(int a, int b) {
+  return (a + b - 1) / b;
+}
+
+}  // namespace
+
+WindowTiles::WindowTiles(const SearchWindow& window, bool gray) : window_(window), gray_(gray) {
+  const int width = 2 * window.n_x + 1;
+  const int height = 2 * window.n_y + 1;
+  const bool one_block = width <= kWhole && height <= kWhole;
+  width_ = one_block ? width : kSide;
+  height_ = one_block ? height : kSide;
+  columns_ = ceil_divide(width, width_);
+  rows_ = ceil_divide(height, height_);
+  theta_bits_ = bits_for(static_cast<std::size_t>(turns()));
+  column_bits_ = bits_for(static_cast<std::size_t>(columns_));
+  row_bits_ = bits_for(static_cast<std::size_t>(rows_));
+}
+
+Chromosome WindowTiles::encode(int theta, int column, int row) const {
+  return code_of(static_cast<std::size_t>(theta + window_.n_theta), gray_) |
+         (code_of(static_cast<std::size_t>(column), gray_) << theta_bits_) |
+         (code_of(static_cast<std::size_t>(row), gray_) << (theta_bits_ + column_bits_));
+}
+
+WindowTiles::Place WindowTiles::decode(Chromosome chromosome) const {
+  const auto number = [&](int first, int bits, int count) {
+    return number_in(chromosome, first, bits, static_cast<std::size_t>(count), gray_);
+  };
+  return {number(0, theta_bits_, turns()) - window_.n_theta, number(theta_bits_, column_bits_, columns_),
+          number(theta_bits_ + column_bits_, row_bits_, rows_)};
+}
+
+Tile WindowTiles::tile(Chromosome chromosome) const {
+  const Place place = decode(chromosome);
+  const int x = place.column * width_;
+  const int y = place.row * height_;
+  return {place.theta,
+          {{x - window_.n_x, y - window_.n_y},
+           std::min(width_, 2 * window_.n_x + 1 - x),
+           std::min(height_, 2 * window_.n_y + 1 - y)}};
+}
+
+Chromosome WindowTiles::repaired(Chromosome chromosome) const {
+  const Place place = decode(chromosome);
+  return encode(place.theta, place.column, place.row);
+}
+
+std::optional<Chromosome> WindowTiles::turned(Chromosome chromosome, int steps) const {
+  const Place place = decode(chromosome);
+  const int theta = place.theta + steps;
+  if (theta < -window_.n_theta || theta > window_.n_theta) return std::nullopt;
+  return encode(theta, place.column, place.row);
+}
+
+CellTiles::CellTiles(const SearchWindow& window, std::vector<Tile> cells, int turns, bool gray)
+    : window_(window),
+      cells_(std::move(cells)),
+      turns_(turns),
+      gray_(gray),
+      turn_bits_(bits_for(static_cast<std::size_t>(turns))),
+      cell_bits_(bits_for(cells_.size())) {}
+
+Chromosome CellTiles::encode(std::size_t cell) const {
+  return encode(Place{cell, turns_ / 2});
+}
+
+Chromosome CellTiles::encode(const Place& place) const {
+  return code_of(static_cast<std::size_t>(place.turn), gray_) | (code_of(place.cell, gray_) << turn_bits_);
+}
+
+// Headings beyond the window's edge stand for the edge's own.
+CellTiles::Place CellTiles::decode(Chromosome chromosome) const {
+  const auto cell =
+      static_cast<std::size_t>(number_in(chromosome, turn_bits_, cell_bits_, cells_.size(), gray_));
+  const int turn = number_in(chromosome, 0, turn_bits_, static_cast<std::size_t>(turns_), gray_);
+  const int first = cells_[cell].theta - turns_ / 2;
+  return {cell, std::clamp(first + turn, -window_.n_theta, window_.n_theta) - first};
+}
+
+Tile CellTiles::tile(Chromosome chromosome) const {
+  const Place place = decode(chromosome);
+  Tile tile = cells_[place.cell];
+  tile.theta += place.turn - turns_ / 2;
+  return tile;
+}
+
+Chromosome CellTiles::repaired(Chromosome chromosome) const {
+  return encode(decode(chromosome));
+}
+
+std::optional<Chromosome> CellTiles::turned(Chromosome chromosome, int steps) const {
+  const Place place = decode(chromosome);
+  const int turn = place.turn + steps;
+  const int theta = cells_[place.cell].theta + turn - turns_ / 2;
+  if (turn < 0 || turn >= turns_ || std::abs(theta) > window_.n_theta) return std::nullopt;
+  return encode(Place{place.cell, turn});
+}
+
+}  // namespace psi_slam

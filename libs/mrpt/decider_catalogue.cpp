@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// MRPT's deciders are templates without a compiled form: this is the one place that makes them.
+#include "mrpt/decider_catalogue.h"
+
+#include <mrpt/graphslam/CGraphSlamEngine.h>
+#include <mrpt/graphslam/ERD/CEmptyERD.h>
+#include <mrpt/graphslam/ERD/CICPCriteriaERD.h>
+#include <mrpt/graphslam/ERD/CLoopCloserERD.h>
+#include <mrpt/graphslam/GSO/CEmptyGSO.h>
+#include <mrpt/graphslam/GSO/CLevMarqGSO.h>
+#include <mrpt/graphslam/NRD/CEmptyNRD.h>
+#include <mrpt/graphslam/NRD/CFixedIntervalsNRD.h>
+#include <mrpt/graphslam/NRD/CICPCriteriaNRD.h>
+#include <mrpt/graphslam/apps_related/TUserOptionsChecker.h>
+
+#include "psi_slam/user_error.h"
+#include "config/nearest_name.h"
+#include "psi_slam/front_end_nrd.h"
+#include "psi_slam/loop_closer_erd.h"
+#include "psi_slam/sparse_pose_gso.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::graphslam::apps::TOptimizerProps;
+using mrpt::graphslam::apps::TRegistrationDeciderProps;
+
+constexpr const char* kActionsOrOdometry =
+    "CActionRobotMovement2D - Format #1, CObservationOdometry - Format #2";
+constexpr const char* kScans = "CObservation2DRangeScan - Format #1, #2";
+
+/// MRPT 2.5.8 leaves its own abstract, and makes a CLevMarqGSO of its name.
+class EmptyOptimizer : public mrpt::graphslam::optimizers::CEmptyGSO<MrptGraph> {
+ protected:
+  void optimizeGraph() override {}
+};
+
+TRegistrationDeciderProps* our_decider(const std::string& name, const std::string& type,
+                                       const std::string& description) {
+  auto* const decider = new TRegistrationDeciderProps;  // MRPT's table deletes it
+  decider->name = name;
+  decider->type = type;
+  decider->description = description;
+  decider->rawlog_format = "Both";
+  decider->observations_used = {kScans, kActionsOrOdometry};
+  decider->is_slam_2d = true;
+  return decider;
+}
+
+DeciderDescription described(const TRegistrationDeciderProps& decider) {
+  return {decider.name, decider.description, decider.rawlog_format, decider.observations_used,
+          decider.name.rfind("CPsi", 0) == 0};
+}
+
+template <class Makers>
+auto made(const Makers& makers, const std::string& name, const std::string& what) {
+  const auto maker = makers.find(name);
+  if (maker != makers.end()) return maker->second();
+  std::vector<std::string> names;
+  for (const auto& one : makers) names.push_back(one.first);
+  const auto near = nearest_name(name, names);
+  throw UserError("there is no " + what + " \"" + name + '"' +
+                  (near ? "; did you mean \"" + *near + "\"?" : " (see psi-graphslam --list-deciders)"));
+}
+
+}  // namespace
+
+class DeciderCatalogue::Checker : public mrpt::graphslam::apps::TUserOptionsChecker<MrptGraph> {
+ public:
+  void createDeciderOptimizerMappings() override {
+    TUserOptionsChecker::createDeciderOptimizerMappings();
+    optimizers_map["CEmptyGSO"] = &createGraphSlamOptimizer<EmptyOptimizer>;
+    node_regs_map["CPsiFrontEndNRD"] = &createNodeRegistrationDecider<CPsiFrontEndNRD>;
+    edge_regs_map["CPsiLoopCloserERD"] = &createEdgeRegistrationDecider<CPsiLoopCloserERD>;
+    optimizers_map["CPsiSpaGSO"] = &createGraphSlamOptimizer<CPsiSpaGSO>;
+  }
+
+  void populateDeciderOptimizerProperties() override {
+    TUserOptionsChecker::populateDeciderOptimizerProperties();
+    regs_descriptions.push_back(our_decider(
+        "CPsiFrontEndNRD", "Node",
+        "Match each scan with a local map and register a node when the robot has moved or turned enough"));
+    regs_descriptions.push_back(our_decider(
+        "CPsiLoopCloserERD", "Edge",
+        "Close loops by matching nodes with local maps, exhaustively or genetically as the factor Psi says; "
+        "needs CPsiFrontEndNRD"));
+    auto* const optimizer = new TOptimizerProps;
+    optimizer->name = "CPsiSpaGSO";
+    optimizer->description = "Sparse pose adjustment, for the edges of any deciders";
+    optimizer->is_slam_2d = true;
+    optimizers_descriptions.push_back(optimizer);
+  }
+};
+
+DeciderCatalogue::DeciderCatalogue() : checker_(std::make_unique<Checker>()) {
+  checker_->createDeciderOptimizerMappings();
+  checker_->populateDeciderOptimizerProperties();
+  for (const TRegistrationDeciderProps* decider : checker_->regs_descriptions) {
+    if (!decider->is_slam_2d) continue;
+    (decider->type == "Node" ? node_deciders_ : edge_deciders_).push_back(described(*decider));
+  }
+  for (const TOptimizerProps* optimizer : checker_->optimizers_descriptions)
+    if (optimizer->is_slam_2d)
+      optimizers_.push_back(
+          {optimizer->name, optimizer->description, "", {}, optimizer->name == "CPsiSpaGSO"});
+}
+
+DeciderCatalogue::~DeciderCatalogue() = default;
+
+std::unique_ptr<NodeDecider> DeciderCatalogue::make_node_decider(const std::string& name) const {
+  return std::unique_ptr<NodeDecider>(made(checker_->node_regs_map, name, "node decider"));
+}
+
+std::unique_ptr<EdgeDecider> DeciderCatalogue::make_edge_decider(const std::string& name) const {
+  return std::unique_ptr<EdgeDecider>(made(checker_->edge_regs_map, name, "edge decider"));
+}
+
+std::unique_ptr<GraphOptimizer> DeciderCatalogue::make_optimizer(const std::string& name) const {
+  return std::unique_ptr<GraphOptimizer>(made(checker_->optimizers_map, name, "optimizer"));
+}
+
+}  // namespace psi_slam

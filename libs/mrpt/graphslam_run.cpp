@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one place that makes MRPT's engine, a template without a compiled form.
+#include "mrpt/graphslam_run.h"
+
+#include <mrpt/graphslam/CGraphSlamEngine.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "mrpt/graphslam_window.h"
+#include "mrpt/no_standard_input.h"
+#include "base/atomic_file.h"
+#include "base/atomic_folder.h"
+#include "psi_slam/user_error.h"
+#include "psi_slam/front_end_nrd.h"
+#include "mrpt/graphslam_settings.h"
+#include "mrpt/log_entries.h"
+#include "frames/laser_choice.h"
+#include "observations/rawlog_objects.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using mrpt::graphs::TNodeID;
+using mrpt::math::TPose2D;
+
+/// MRPT's engine, whose map can be drawn when all is done.
+class Engine : public mrpt::graphslam::CGraphSlamEngine<MrptGraph> {
+ public:
+  template <class... Arguments>
+  explicit Engine(Arguments&&... arguments) : CGraphSlamEngine(std::forward<Arguments>(arguments)...) {
+    m_time_logger.setMinLoggingLevel(getMinLoggingLevel());  // of the figures it prints at its end
+  }
+
+  /// The map of the graph's poses as they are now. Nodes that were registered before the first scan have
+  /// none: MRPT would follow a null pointer.
+  mrpt::maps::COccupancyGridMap2D::Ptr draw_map() {
+    for (auto node = m_nodes_to_laser_scans2D.begin(); node != m_nodes_to_laser_scans2D.end();)
+      node = node->second ? std::next(node) : m_nodes_to_laser_scans2D.erase(node);
+    m_map_is_cached = false;
+    auto map = mrpt::maps::COccupancyGridMap2D::Create();
+    getMap(map);
+    return map;
+  }
+
+  /// MRPT's reports of itself and the deciders, complete when this returns: MRPT would keep them open.
+  void write_reports(const fs::path& folder) {
+    generateReportFiles(folder.string());
+    m_out_streams.clear();
+  }
+};
+
+/// The result of `work` in MRPT's engine. Throws UserError for a mistake of the user, SystemFailure for what
+/// MRPT complains of.
+template <class Work>
+auto in_engine(const Work& work) {
+  try {
+    return work();
+  } catch (const UserError&) {
+    throw;
+  } catch (const mrpt::ExceptionWithCallBackBase& failure) {
+    std::string words = failure.originalWhat.substr(failure.originalWhat.find_first_not_of("\r\n "));
+    throw SystemFailure("MRPT's graph-slam engine gave up: " + words.substr(0, words.find('\n')));
+  }
+}
+
+/// MRPT looks neither at a file's words nor at its length. Returns the number of poses.
+std::size_t check_ground_truth(const fs::path& path) {
+  constexpr std::size_t kWords = 4;
+  std::ifstream file(path);
+  if (!file) throw UserError(path.string() + " cannot be read");
+  std::size_t lines = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++lines;
+    std::istringstream words(line);
+    std::vector<double> values;
+    for (double value = 0; words >> value;) values.push_back(value);
+    if (values.size() != kWords || !words.eof())
+      throw UserError(path.string() + ':' + std::to_string(lines) + ": expected \"time x y theta\"");
+  }
+  return lines;
+}
+
+/// Lets a writer of MRPT's, which may add to the name, write at `path`, so that its files appear whole or not
+/// at all.
+void write_named(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  write_files_atomically(path.parent_path(),
+                         [&](const fs::path& temporary) { write(temporary / path.filename()); });
+}
+
+/// Throws SystemFailure, naming `path`, when the file is missing or lacks the chunk that every PNG ends with.
+void require_whole_png(const fs::path& png, const fs::path& path) {
+  constexpr std::string_view kEnd("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
+  std::ifstream file(png, std::ios::binary);
+  std::string end(kEnd.size(), ' ');
+  file.seekg(-static_cast<std::streamoff>(kEnd.size()), std::ios::end);
+  if (!file.read(end.data(), static_cast<std::streamsize>(end.size())) || end != kEnd)
+    throw SystemFailure("cannot write " + path.string() + ": the disk did not take it");
+}
+
+mrpt::obs::CObservation2DRangeScan::Ptr scan_of(const LogEntry& entry) {
+  if (entry.observations)
+    return entry.observations->getObservationByClass<mrpt::obs::CObservation2DRangeScan>();
+  return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(entry.observation);
+}
+
+}  // namespace
+
+class GraphSlamRun::Implementation {
+ public:
+  Implementation(const GraphSlamSetup& setup, const DeciderCatalogue& catalogue)
+      : general_(read_graphslam_general(setup.ini)),
+        log_(setup.log),
+        node_decider_(catalogue.make_node_decider(setup.node_decider)),
+        edge_decider_(catalogue.make_edge_decider(setup.edge_decider)),
+        optimizer_(catalogue.make_optimizer(setup.optimizer)) {
+    connect_deciders(*node_decider_, *edge_decider_, *optimizer_);
+    if (!setup.ground_truth.empty()) true_poses_ = check_ground_truth(setup.ground_truth);
+    const LogOptions options = log_options(read_graphslam_settings(setup.ini));
+    entries_ = open_log_entries(setup.log, options);
+    front_end_ = dynamic_cast<CPsiFrontEndNRD*>(node_decider_.get());
+    if (front_end_ != nullptr && entries_->are_made()) {
+      LogOptions of_made_entries;
+      if (reads_several_lasers(options, detect_log_format(setup.log))) of_made_entries.laser = "all";
+      front_end_->set_log_options(of_made_entries);
+    }
+    if (setup.visuals) window_ = std::make_unique<GraphSlamWindow>();
+    const NoStandardInput no_input;
+    in_engine([&] {
+      engine_ = std::make_unique<Engine>(setup.ini.string(), setup.log.string(), setup.ground_truth.string(),
+                                         window_ ? &window_->manager() : nullptr, node_decider_.get(),
+                                         edge_decider_.get(), optimizer_.get());
+    });
+  }
+
+  bool step() {
+    if (at_end_ || broken_off_) return false;
+    try {
+      return map_next_entry();
+    } catch (const UserError& error) {
+      if (scans_ == 0) throw;
+      broken_off_ = error.what();
+      return false;
+    }
+  }
+
+  void finish(const std::function<bool(double)>& progress) {
+    if (front_end_ != nullptr && scans_ == 0)
+      throw UserError(log_.string() + ": no scan was read, there is nothing to map");
+    interrupted_ = !at_end_ && !broken_off_;
+    finish_deciders(*node_decider_, *edge_decider_, *optimizer_, [&](double share) {
+      if (!progress || progress(share)) return true;
+      interrupted_ = true;
+      return false;
+    });
+  }
+
+  const std::optional<std::string>& broken_off() const { return broken_off_; }
+  bool interrupted() const { return interrupted_; }
+
+  Trajectory trajectory() const {
+    if (front_end_ != nullptr) return front_end_->trajectory();
+    const auto& nodes = engine_->getGraph().nodes;
+    Trajectory path;
+    for (const PathPose& pose : path_) {
+      const auto node = nodes.find(pose.node);
+      const TPose2D map_T_node = node == nodes.end() ? TPose2D(0, 0, 0) : node->second.asTPose();
+      path.push_back({pose.time_us, map_T_node + pose.node_T_robot});
+    }
+    return path;
+  }
+
+  std::map<std::string, int> edge_counts() const {
+    std::map<std::string, int> counts;
+    edge_decider_->getEdgesStats(&counts);
+    return counts;
+  }
+
+  std::size_t unmatched_scans() const { return front_end_ != nullptr ? front_end_->unmatched() : 0; }
+
+  // MRPT does not tell when the disk is full: what can be, is written by us, and of the map's picture the end
+  // is looked for.
+  void write(const OutputFolder& folder) {
+    write_tum(folder.path() / "trajectory.tum", trajectory());
+    if (general_.save_graph) {
+      std::ostringstream graph;
+      engine_->getGraph().writeAsText(graph);
+      write_text_atomically(folder.path() / general_.save_graph_fname, graph.str());
+    }
+    if (general_.save_map && !engine_->getGraph().nodes.empty())
+      write_map(folder.path() / general_.save_map_fname);
+    if (window_ && general_.save_3DScene)
+      write_named(folder.path() / general_.save_3DScene_fname, [&](const fs::path& file) {
+        const std::string scene = file.string();
+        engine_->save3DScene(&scene);
+      });
+    write_files_atomically(folder.path(), [&](const fs::path& temporary) {
+      in_engine([&] { engine_->write_reports(temporary); });
+    });
+  }
+
+  const Engine& engine() const { return *engine_; }
+  const LogEntries& entries() const { return *entries_; }
+  std::size_t scans() const { return scans_; }
+  void wait_for_window() {
+    if (window_) window_->wait_until_closed();
+  }
+
+ private:
+  struct PathPose {
+    TimeUs time_us = 0;
+    TNodeID node = 0;
+    TPose2D node_T_robot;
+  };
+
+  void write_map(const fs::path& prefix) {
+    write_named(prefix, [&](const fs::path& temporary) {
+      engine_->draw_map()->saveMetricMapRepresentationToFile(temporary.string());
+      require_whole_png(temporary.string() + ".png", prefix.string() + ".png");
+    });
+  }
+
+  bool map_next_entry() {
+    std::optional<LogEntry> entry = entries_->next();
+    at_end_ = !entry;
+    if (!entry) return false;
+    if (true_poses_ && steps_ >= *true_poses_)
+      throw UserError("the file of true poses ends after " + std::to_string(*true_poses_) +
+                      " poses, before the log does");
+    const auto scan = scan_of(*entry);
+    const bool go_on = in_engine([&] {
+      return engine_->_execGraphSlamStep(entry->action, entry->observations, entry->observation, steps_);
+    });
+    ++steps_;
+    if (scan) keep_path(*scan);
+    return go_on;
+  }
+
+  void keep_path(const mrpt::obs::CObservation2DRangeScan& scan) {
+    if (front_end_ == nullptr) path_.push_back(path_pose(scan));
+    ++scans_;
+  }
+
+  PathPose path_pose(const mrpt::obs::CObservation2DRangeScan& scan) const {
+    const std::optional<TimeUs> time = time_us(scan);
+    if (!time) throw UserError("scan " + std::to_string(scans_ + 1) + " of the rawlog has no time stamp");
+    const auto& nodes = engine_->getGraph().nodes;
+    PathPose pose;
+    pose.time_us = *time;
+    pose.node = nodes.empty() ? 0 : nodes.size() - 1;
+    const TPose2D map_T_node = nodes.empty() ? TPose2D(0, 0, 0) : nodes.at(pose.node).asTPose();
+    pose.node_T_robot = engine_->getCurrentRobotPosEstimation().asTPose() - map_T_node;
+    return pose;
+  }
+
+  const GraphSlamGeneral general_;
+  const fs::path log_;
+  std::unique_ptr<NodeDecider> node_decider_;
+  std::unique_ptr<EdgeDecider> edge_decider_;
+  std::unique_ptr<GraphOptimizer> optimizer_;
+  CPsiFrontEndNRD* front_end_ = nullptr;  // the node decider, where it is ours
+  std::unique_ptr<LogEntries> entries_;
+  std::optional<std::size_t> true_poses_;
+  std::unique_ptr<GraphSlamWindow> window_;
+  std::unique_ptr<Engine> engine_;
+  std::size_t steps_ = 0;
+  std::size_t scans_ = 0;
+  bool at_end_ = false;
+  std::optional<std::string> broken_off_;
+  bool interrupted_ = false;
+  std::vector<PathPose> path_;  // of node deciders of MRPT's
+};
+
+GraphSlamRun::GraphSlamRun(const GraphSlamSetup& setup, const DeciderCatalogue& catalogue)
+    : implementation_(std::make_unique<Implementation>(setup, catalogue)) {}
+
+GraphSlamRun::~GraphSlamRun() = default;
+
+bool GraphSlamRun::step() {
+  return implementation_->step();
+}
+
+double GraphSlamRun::progress() const {
+  return implementation_->entries().progress();
+}
+
+void GraphSlamRun::finish(const std::function<bool(double)>& progress) {
+  implementation_->finish(progress);
+}
+
+const std::optional<std::string>& GraphSlamRun::broken_off() const {
+  return implementation_->broken_off();
+}
+
+bool GraphSlamRun::interrupted() const {
+  return implementation_->interrupted();
+}
+
+Trajectory GraphSlamRun::trajectory() const {
+  return implementation_->trajectory();
+}
+
+const MrptGraph& GraphSlamRun::graph() const {
+  return implementation_->engine().getGraph();
+}
+
+std::size_t GraphSlamRun::scans() const {
+  return implementation_->scans();
+}
+
+std::size_t GraphSlamRun::unmatched_scans() const {
+  return implementation_->unmatched_scans();
+}
+
+std::map<std::string, int> GraphSlamRun::edge_counts() const {
+  return implementation_->edge_counts();
+}
+
+void GraphSlamRun::write(const OutputFolder& folder) {
+  implementation_->write(folder);
+}
+
+void GraphSlamRun::wait_for_window() {
+  implementation_->wait_for_window();
+}
+
+}  // namespace psi_slam

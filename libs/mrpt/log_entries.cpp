@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mrpt/log_entries.h"
+
+#include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "psi_slam/user_error.h"
+#include "frames/laser_choice.h"
+#include "frames/log_format.h"
+#include "psi_slam/open_log.h"
+#include "rawlog/rawlog_archive.h"
+#include "observations/range_observation.h"
+#include "observations/robot_action.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::obs::CActionCollection;
+using mrpt::obs::CObservation;
+using mrpt::obs::CSensoryFrame;
+
+/// Stands where a sensory frame has no action: MRPT's engine wants one, for its time.
+CActionCollection::Ptr no_movement(const CSensoryFrame& frame) {
+  constexpr double kVariance = 1e-6;  // MRPT's deciders invert it
+  mrpt::obs::CActionRobotMovement3D action;
+  if (frame.size() > 0) action.timestamp = (*frame.begin())->timestamp;
+  action.poseChange.cov.setDiagonal(kVariance);
+  auto collection = CActionCollection::Create();
+  collection->insert(action);
+  return collection;
+}
+
+/// The scans of one laser only: MRPT's engine and deciders take whichever comes for that of the robot's only
+/// one.
+class RawlogEntries : public LogEntries {
+ public:
+  RawlogEntries(const std::filesystem::path& rawlog, const LogOptions& options)
+      : archive_(rawlog), lasers_(laser_choice("log.laser", options.laser)), laser_(options.laser) {}
+
+  // Objects that are none of the three, as comments, are passed over.
+  std::optional<LogEntry> next() override {
+    LogEntry entry;
+    while (const auto object = archive_.next()) {
+      if (const auto action = std::dynamic_pointer_cast<CActionCollection>(object)) {
+        entry.action = action;
+      } else if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object)) {
+        if (!entry.action || entry.action->size() == 0) entry.action = no_movement(*frame);
+        leave_out_other_lasers(*frame);
+        entry.observations = frame;
+        return entry;
+      } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(object)) {
+        if (is_of_another_laser(*observation)) continue;
+        entry.action.reset();
+        entry.observation = observation;
+        return entry;
+      }
+    }
+    if (!any_scan_ && !other_lasers_.empty())
+      throw UserError("log.laser is \"" + laser_ + "\", expected the label of a laser of " +
+                      archive_.path().string() + ": " +
+                      quoted_list({other_lasers_.begin(), other_lasers_.end()}));
+    return std::nullopt;
+  }
+
+  double progress() const override { return archive_.progress(); }
+  bool are_made() const override { return false; }
+
+ private:
+  bool is_of_another_laser(const CObservation& observation) {
+    if (dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation) == nullptr) return false;
+    const bool is_other = !lasers_.number_of(observation.sensorLabel);
+    if (is_other) other_lasers_.insert(observation.sensorLabel);
+    any_scan_ = any_scan_ || !is_other;
+    return is_other;
+  }
+
+  void leave_out_other_lasers(CSensoryFrame& frame) {
+    for (auto observation = frame.begin(); observation != frame.end();)
+      observation = is_of_another_laser(**observation) ? frame.erase(observation) : std::next(observation);
+  }
+
+  RawlogArchive archive_;
+  ChosenLasers lasers_;
+  std::string laser_;
+  std::set<std::string> other_lasers_;
+  bool any_scan_ = false;
+};
+
+class FrameEntries : public LogEntries {
+ public:
+  explicit FrameEntries(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+
+  std::optional<LogEntry> next() override {
+    const std::optional<Frame> frame = source_->next();
+    if (!frame) return std::nullopt;
+    mrpt::math::TPose2D motion;
+    if (last_ && frame->has_odometry) motion = frame->odom_T_robot - *last_;
+    last_ = frame->odom_T_robot;
+    LogEntry entry;
+    entry.action = CActionCollection::Create(robot_action(motion, frame->time_us));
+    entry.observations = CSensoryFrame::Create();
+    for (const auto& observation : range_observations(*frame)) entry.observations->insert(observation);
+    return entry;
+  }
+
+  double progress() const override { return source_->progress(); }
+  bool are_made() const override { return true; }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
+  std::optional<mrpt::math::TPose2D> last_;
+};
+
+}  // namespace
+
+std::unique_ptr<LogEntries> open_log_entries(const std::filesystem::path& log, const LogOptions& options) {
+  const LogFormat format = detect_log_format(log);
+  if (format == LogFormat::kMrptRawlog && !reads_several_lasers(options, format))
+    return std::make_unique<RawlogEntries>(log, options);
+  return std::make_unique<FrameEntries>(open_log(log, options));
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/metric_map_builder_psi.h"
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "psi_slam/user_error.h"
+#include "mrpt/entry_frames.h"
+#include "pose_graph/marginal_covariance.h"
+#include "rendering/map_image.h"
+#include "observations/range_observation.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::maps::COccupancyGridMap2D;
+using mrpt::math::TPose2D;
+using mrpt::obs::CObservation;
+using mrpt::obs::CSensoryFrame;
+using mrpt::poses::CPose2D;
+using mrpt::poses::CPosePDFGaussian;
+
+// An observation that came alone, as the map keeps it.
+CSensoryFrame::Ptr frame_of(const CObservation::Ptr& observation) {
+  auto frame = CSensoryFrame::Create();
+  frame->insert(observation);
+  return frame;
+}
+
+// What came with the scan that opened a frame, and the scans of other lasers that did not come with it.
+CSensoryFrame::Ptr with_all_scans(const CSensoryFrame::Ptr& kept, const Frame& frame) {
+  const auto came = std::count_if(kept->begin(), kept->end(), [](const CObservation::Ptr& observation) {
+    return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation) != nullptr;
+  });
+  if (static_cast<std::size_t>(came) > frame.companions.size()) return kept;
+  auto all = std::make_shared<CSensoryFrame>(*kept);
+  const auto observations = range_observations(frame);
+  for (std::size_t i = 1; i < observations.size(); ++i) all->insert(observations[i]);
+  return all;
+}
+
+void expect_map_updating(bool enabled) {
+  if (!enabled)
+    throw UserError(
+        "CMetricMapBuilderPsi: map updating is off, expected it on: psi-slam does not localise in "
+        "a fixed map");
+}
+
+}  // namespace
+
+class CMetricMapBuilderPsi::Implementation {
+ public:
+  explicit Implementation(const Options& options) : options_(options) {
+    check_log_options(options.log);
+    start(CPosePDFGaussian());
+  }
+
+  void initialize(const mrpt::maps::CSimpleMap& initial_map, const mrpt::poses::CPosePDF* x0) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!initial_map.empty())
+      throw UserError("CMetricMapBuilderPsi::initialize: the map to begin with has " +
+                      std::to_string(initial_map.size()) +
+                      " frames, expected none: a map made before cannot be gone on with");
+    start(x0 != nullptr ? CPosePDFGaussian(*x0) : estimate());
+  }
+
+  void process(const mrpt::obs::CActionCollection& actions, const CSensoryFrame& observations) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    expect_unfinished();
+    entries_->take(std::make_shared<mrpt::obs::CActionCollection>(actions), nullptr, nullptr);
+    map_ready_scans();
+    // A copy of the list, not of what it holds: the caller may fill the frame anew.
+    const auto kept = std::make_shared<CSensoryFrame>(observations);
+    for (const CObservation::Ptr& observation : *kept) take(observation, kept);
+  }
+
+  void process(const CObservation::Ptr& observation) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    expect_unfinished();
+    if (!observation) throw std::invalid_argument("CMetricMapBuilderPsi: no observation");
+    take(observation, frame_of(observation));
+  }
+
+  void finish() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (finished_) return;
+    entries_->end_of_log();
+    map_ready_scans();
+    MappingResult result = mapper_->finish();
+    graph_ = mapper_->graph();
+    mapper_.reset();
+    newest_marginal_.reset();
+    log_ = std::move(result.log);
+    frames_ = std::move(result.frames);
+    finished_ = true;
+  }
+
+  mrpt::poses::CPose3DPDF::Ptr pose() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::make_shared<mrpt::poses::CPose3DPDFGaussian>(estimate());
+  }
+
+  void simple_map(mrpt::maps::CSimpleMap& map) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    mrpt::math::CMatrixDouble33 covariance = mrpt::math::CMatrixDouble33::Zero();
+    covariance.setDiagonal(3, 1e-6);
+    map.clear();
+    for (std::size_t node = 0; node < node_observations_.size(); ++node) {
+      const CPose2D pose(start_.mean.asTPose() + graph().pose(node));
+      map.insert(CPosePDFGaussian::Create(pose, covariance), node_observations_[node]);
+    }
+  }
+
+  std::size_t nodes() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return node_observations_.size();
+  }
+
+  COccupancyGridMap2D::Ptr grid() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return up_to_date_grid();
+  }
+
+  const mrpt::maps::CMultiMetricMap& metric_map() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const COccupancyGridMap2D::Ptr grid = up_to_date_grid();
+    if (metric_map_.maps.size() != 1 || metric_map_.maps.front() != grid) {
+      metric_map_.maps.clear();
+      metric_map_.maps.push_back(grid);
+    }
+    return metric_map_;
+  }
+
+ private:
+  void start(const CPosePDFGaussian& map_T_start) {
+    start_ = map_T_start;
+    mapper_ = std::make_unique<Mapper>(options_.mapper);
+    entries_.emplace(options_.log, "CMetricMapBuilderPsi: ");
+    waiting_observations_.clear();
+    log_.clear();
+    frames_.clear();
+    graph_ = {};
+    node_frames_.clear();
+    node_observations_.clear();
+    marginals_ = {};
+    newest_marginal_.reset();
+    drawn_grid_.reset();
+    finished_ = false;
+  }
+
+  void expect_unfinished() const {
+    if (finished_)
+      throw std::logic_error("CMetricMapBuilderPsi: the map is finished, initialize() begins another one");
+  }
+
+  void take(const CObservation::Ptr& observation, const CSensoryFrame::Ptr& kept) {
+    const std::size_t scans = entries_->scans();
+    entries_->take(nullptr, nullptr, observation);
+    if (entries_->scans() > scans) waiting_observations_.emplace_back(scans, kept);
+    map_ready_scans();
+  }
+
+  void map_ready_scans() {
+    while (std::optional<Frame> frame = entries_->next()) {
+      // Scans of other lasers joined a frame before this one, or were too many.
+      while (waiting_observations_.front().first != entries_->opened_by()) waiting_observations_.pop_front();
+      const CSensoryFrame::Ptr kept = with_all_scans(waiting_observations_.front().second, *frame);
+      waiting_observations_.pop_front();
+      map(*std::move(frame), kept);
+    }
+  }
+
+  void map(Frame frame, const CSensoryFrame::Ptr& kept) {
+    const std::size_t index = frame.index;
+    if (!mapper_->add(std::move(frame)).node) return;
+    node_frames_.push_back(index);
+    node_observations_.push_back(kept);
+  }
+
+  const std::vector<Frame>& log() const { return finished_ ? log_ : mapper_->log(); }
+  const std::vector<FrameRecord>& frames() const { return finished_ ? frames_ : mapper_->frames(); }
+  const PoseGraph& graph() const { return finished_ ? graph_ : mapper_->graph(); }
+
+  // Of the newest node. The graph changes with its nodes and constraints, and in finish(), only.
+  const Eigen::Matrix3d& newest_marginal() const {
+    const std::pair<std::size_t, std::size_t> state(graph().num_nodes(), graph().num_constraints());
+    if (!newest_marginal_ || marginal_state_ != state) {
+      newest_marginal_ = Eigen::Matrix3d::Zero();
+      if (state.first > 1) {
+        marginals_.update(graph());
+        newest_marginal_ = marginals_.marginal(state.first - 1);
+      }
+      marginal_state_ = state;
+    }
+    return *newest_marginal_;
+  }
+
+  CPosePDFGaussian estimate() const {
+    if (frames().empty()) return start_;
+    CPosePDFGaussian robot(CPose2D(frames().back().map_T_robot));
+    Eigen::Matrix3d covariance = newest_marginal();
+    const double sigma_m = options_.mapper.local_map_sigma_m;
+    const double sigma_rad = options_.mapper.local_map_sigma_rad;
+    covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) robot.cov(i, j) = covariance(i, j);
+    CPosePDFGaussian estimate = start_;
+    estimate += robot;
+    return estimate;
+  }
+
+  // Of each scan: its own pose after finish(), before it where it stood relative to the last node.
+  std::vector<TPose2D> poses() const {
+    std::vector<TPose2D> poses;
+    std::size_t node = 0;
+    for (std::size_t i = 0; i < frames().size(); ++i) {
+      while (node + 1 < node_frames_.size() && node_frames_[node + 1] <= i) ++node;
+      const TPose2D start_T_robot =
+          finished_ ? frames()[i].map_T_robot
+                    : graph().pose(node) +
+                          (frames()[i].front_end_T_robot - frames()[node_frames_[node]].front_end_T_robot);
+      poses.push_back(start_.mean.asTPose() + start_T_robot);
+    }
+    return poses;
+  }
+
+  // Grids that were handed out are left alone: others may be reading them.
+  COccupancyGridMap2D::Ptr up_to_date_grid() const {
+    const bool drawn = drawn_grid_ && drawn_scans_ == log().size() && drawn_finished_ == finished_;
+    if (!drawn) {
+      drawn_grid_ = draw_grid_map(log(), poses(), options_.map);
+      drawn_scans_ = log().size();
+      drawn_finished_ = finished_;
+    }
+    return drawn_grid_;
+  }
+
+  const Options options_;
+  mutable std::mutex mutex_;  // of all that follows
+
+  CPosePDFGaussian start_;
+  std::unique_ptr<Mapper> mapper_;  // gone after finish()
+  std::optional<EntryFrames> entries_;
+  std::deque<std::pair<std::size_t, CSensoryFrame::Ptr>> waiting_observations_;  // of the scans that wait
+
+  std::vector<std::size_t> node_frames_;
+  std::vector<CSensoryFrame::Ptr> node_observations_;
+  std::vector<Frame> log_;  // these three: after finish()
+  std::vector<FrameRecord> frames_;
+  PoseGraph graph_;
+  bool finished_ = false;
+
+  mutable MarginalCovariance marginals_;
+  mutable std::optional<Eigen::Matrix3d> newest_marginal_;
+  mutable std::pair<std::size_t, std::size_t> marginal_state_;  // nodes and constraints it was computed for
+  mutable COccupancyGridMap2D::Ptr drawn_grid_;
+  mutable std::size_t drawn_scans_ = 0;
+  mutable bool drawn_finished_ = false;
+  mutable mrpt::maps::CMultiMetricMap metric_map_;
+};
+
+CMetricMapBuilderPsi::CMetricMapBuilderPsi(const Options& psi_options)
+    : implementation_(std::make_unique<Implementation>(psi_options)) {
+  setLoggerName("CMetricMapBuilderPsi");
+}
+
+CMetricMapBuilderPsi::CMetricMapBuilderPsi() : CMetricMapBuilderPsi(Options()) {}
+
+CMetricMapBuilderPsi::~CMetricMapBuilderPsi() = default;
+
+void CMetricMapBuilderPsi::initialize(const mrpt::maps::CSimpleMap& initial_map,
+                                      const mrpt::poses::CPosePDF* x0) {
+  implementation_->initialize(initial_map, x0);
+}
+
+void CMetricMapBuilderPsi::processActionObservation(mrpt::obs::CActionCollection& action,
+                                                    CSensoryFrame& observations) {
+  expect_map_updating(options.enableMapUpdating);
+  implementation_->process(action, observations);
+}
+
+void CMetricMapBuilderPsi::processObservation(const CObservation::Ptr& observation) {
+  expect_map_updating(options.enableMapUpdating);
+  implementation_->process(observation);
+}
+
+void CMetricMapBuilderPsi::finish() {
+  implementation_->finish();
+}
+
+mrpt::poses::CPose3DPDF::Ptr CMetricMapBuilderPsi::getCurrentPoseEstimation() const {
+  return implementation_->pose();
+}
+
+void CMetricMapBuilderPsi::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map) const {
+  implementation_->simple_map(out_map);
+}
+
+unsigned int CMetricMapBuilderPsi::getCurrentlyBuiltMapSize() {
+  return static_cast<unsigned int>(implementation_->nodes());
+}
+
+#if MRPT_VERSION >= 0x292
+const mrpt::maps::CMultiMetricMap& CMetricMapBuilderPsi::getCurrentlyBuiltMetricMap() const {
+  return implementation_->metric_map();
+}
+#else
+const mrpt::maps::CMultiMetricMap* CMetricMapBuilderPsi::getCurrentlyBuiltMetricMap() const {
+  return &implementation_->metric_map();
+}
+#endif
+
+COccupancyGridMap2D::ConstPtr CMetricMapBuilderPsi::grid() const {
+  return implementation_->grid();
+}
+
+#if MRPT_VERSION >= 0x030000
+void CMetricMapBuilderPsi::saveCurrentEstimationToImage(const std::string& file) {
+#else
+void CMetricMapBuilderPsi::saveCurrentEstimationToImage(const std::string& file, bool /*format_emf_bmp*/) {
+#endif
+  const COccupancyGridMap2D::ConstPtr grid = this->grid();
+  if (std::filesystem::path(file).extension() == ".png") {
+    write_map_image(file, *grid);
+  } else if (!grid->saveAsBitmapFile(file)) {
+    throw SystemFailure("cannot write " + file);
+  }
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/block_cholesky.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace psi_slam {
+namespace {
+
+using Eigen::Matrix3d;
+
+// y -= l * x; written out because the compiler keeps x in registers over a whole column this way.
+inline void subtract_product(const double* l, const double* x, double* y) {
+  for (int c = 0; c < 3; ++c) {
+    const double x0 = x[3 * c];
+    const double x1 = x[3 * c + 1];
+    const double x2 = x[3 * c + 2];
+    for (int r = 0; r < 3; ++r) y[3 * c + r] -= l[r] * x0 + l[3 + r] * x1 + l[6 + r] * x2;
+  }
+}
+
+// The inverse of the Cholesky factor of a symmetric 3x3 matrix of which the lower triangle is read. False
+// when it is not positive definite, judged against the size of what was there before the elimination: a pivot
+// that is only the rounding left over by a subtraction is no pivot.
+inline bool invert_factor(const Matrix3d& a, const Eigen::Vector3d& original_diagonal, Matrix3d& inverse) {
+  constexpr double kRounding = 1e-15;
+  const auto is_pivot = [&](double pivot, int i) { return pivot > kRounding * original_diagonal[i]; };
+  const double p0 = a(0, 0);
+  if (!is_pivot(p0, 0)) return false;
+  const double l00 = std::sqrt(p0);
+  const double l10 = a(1, 0) / l00;
+  const double l20 = a(2, 0) / l00;
+  const double p1 = a(1, 1) - l10 * l10;
+  if (!is_pivot(p1, 1)) return false;
+  const double l11 = std::sqrt(p1);
+  const double l21 = (a(2, 1) - l20 * l10) / l11;
+  const double p2 = a(2, 2) - l20 * l20 - l21 * l21;
+  if (!is_pivot(p2, 2) || !std::isfinite(p0 + p1 + p2)) return false;
+  const double i00 = 1 / l00;
+  const double i11 = 1 / l11;
+  const double i22 = 1 / std::sqrt(p2);
+  const double i10 = -l10 * i00 * i11;
+  inverse << i00, 0, 0,  //
+      i10, i11, 0,       //
+      -(l20 * i00 + l21 * i10) * i22, -l21 * i11 * i22, i22;
+  return true;
+}
+
+}  // namespace
+
+// The columns of row k of L in topological order at the end of pattern_; returns where they begin.
+std::size_t BlockCholesky::reach(const SymmetricBlockMatrix& matrix, std::uint32_t k) {
+  std::size_t top = size();
+  mark_[k] = k;
+  for (std::size_t p = matrix.column_begin[k]; p < matrix.column_begin[k + 1]; ++p) {
+    std::size_t length = 0;
+    for (std::uint32_t i = matrix.rows[p]; mark_[i] != k; i = parent_[i]) {
+      path_[length++] = i;
+      mark_[i] = k;
+    }
+    while (length > 0) pattern_[--top] = path_[--length];
+  }
+  return top;
+}
+
+void BlockCholesky::analyze(const SymmetricBlockMatrix& matrix) {
+  const std::size_t n = matrix.size();
+  parent_.assign(n, kNone);
+  mark_.assign(n, kNone);
+  pattern_.resize(n);
+  path_.resize(n);
+  work_.assign(n, Matrix3d::Zero());
+  std::vector<std::size_t> count(n, 0);
+  for (std::uint32_t k = 0; k < n; ++k) {
+    mark_[k] = k;
+    for (std::size_t p = matrix.column_begin[k]; p < matrix.column_begin[k + 1]; ++p) {
+      for (std::uint32_t i = matrix.rows[p]; mark_[i] != k; i = parent_[i]) {
+        if (parent_[i] == kNone) parent_[i] = k;
+        ++count[i];
+        mark_[i] = k;
+      }
+    }
+  }
+  column_begin_.resize(n + 1);
+  column_begin_[0] = 0;
+  num_products_ = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    column_begin_[i + 1] = column_begin_[i] + count[i];
+    num_products_ += count[i] * (count[i] + 3) / 2;
+  }
+  rows_.resize(column_begin_[n]);
+  blocks_.resize(column_begin_[n]);
+  inverse_diagonal_.resize(n);
+}
+
+bool BlockCholesky::factorize(const SymmetricBlockMatrix& matrix, double lambda) {
+  const std::size_t n = size();
+  std::fill(mark_.begin(), mark_.end(), kNone);
+  column_end_.assign(column_begin_.begin(), column_begin_.end());
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const std::size_t top = reach(matrix, k);
+    for (std::size_t p = matrix.column_begin[k]; p < matrix.column_begin[k + 1]; ++p)
+      work_[matrix.rows[p]] = matrix.blocks[p];
+    Matrix3d diagonal = matrix.diagonal[k];
+    diagonal.diagonal() *= 1 + lambda;
+    for (std::size_t t = top; t < n; ++t) {
+      const std::uint32_t i = pattern_[t];
+      const Matrix3d x = inverse_diagonal_[i] * work_[i];
+      work_[i].setZero();
+      for (std::size_t p = column_begin_[i]; p < column_end_[i]; ++p)
+        subtract_product(blocks_[p].data(), x.data(), work_[rows_[p]].data());
+      diagonal.noalias() -= x.transpose() * x;
+      const std::size_t p = column_end_[i]++;
+      rows_[p] = k;
+      blocks_[p] = x.transpose();
+    }
+    if (!invert_factor(diagonal, matrix.diagonal[k].diagonal(), inverse_diagonal_[k])) return false;
+  }
+  return true;
+}
+
+void BlockCholesky::solve(Eigen::VectorXd& b) const {
+  const std::size_t n = size();
+  for (std::size_t k = 0; k < n; ++k) {
+    auto head = b.segment<3>(3 * static_cast<Eigen::Index>(k));
+    const Eigen::Vector3d x = inverse_diagonal_[k] * head;
+    head = x;
+    for (std::size_t p = column_begin_[k]; p < column_begin_[k + 1]; ++p)
+      b.segment<3>(3 * static_cast<Eigen::Index>(rows_[p])).noalias() -= blocks_[p] * x;
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    auto head = b.segment<3>(3 * static_cast<Eigen::Index>(k));
+    Eigen::Vector3d x = head;
+    for (std::size_t p = column_begin_[k]; p < column_begin_[k + 1]; ++p)
+      x.noalias() -= blocks_[p].transpose() * b.segment<3>(3 * static_cast<Eigen::Index>(rows_[p]));
+    head.noalias() = inverse_diagonal_[k].transpose() * x;
+  }
+}
+
+BlockCholesky::InverseColumns BlockCholesky::inverse_columns(std::size_t k) const {
+  InverseColumns result;
+  std::size_t height = 0;
+  for (auto i = static_cast<std::uint32_t>(k); i != kNone; i = parent_[i]) ++height;
+  result.rows.reserve(height);
+  for (auto i = static_cast<std::uint32_t>(k); i != kNone; i = parent_[i]) result.rows.push_back(i);
+  result.blocks.assign(height, Matrix3d::Zero());
+  result.blocks.front().setIdentity();
+  for (std::size_t step = 0; step < height; ++step) {
+    const std::uint32_t column = result.rows[step];
+    const Matrix3d x = inverse_diagonal_[column] * result.blocks[step];
+    result.blocks[step] = x;
+    std::size_t target = step + 1;  // the rows of a column of L all lie on the column's path to the root
+    for (std::size_t p = column_begin_[column]; p < column_begin_[column + 1]; ++p) {
+      while (result.rows[target] != rows_[p]) ++target;
+      subtract_product(blocks_[p].data(), x.data(), result.blocks[target].data());
+    }
+  }
+  return result;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The error of one constraint, equations 5 and 6: e = z - f(x_i, x_j) with
+// f = [R_i^T (t_j - t_i); theta_j - theta_i], the angle wrapped to (-pi, pi]; e is in the axes of node i.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "pose_graph/angle.h"
+
+namespace psi_slam {
+
+/// A pose with the sine and cosine of its heading at hand: each node has many constraints.
+struct RotatedPose {
+  double x = 0, y = 0, theta = 0;
+  double cosine = 1, sine = 0;
+
+  RotatedPose() = default;
+  explicit RotatedPose(const mrpt::math::TPose2D& pose)
+      : x(pose.x), y(pose.y), theta(pose.phi), cosine(std::cos(pose.phi)), sine(std::sin(pose.phi)) {}
+};
+
+/// e(x_i, x_j) for the measurement z = i_T_j: metres, metres, radians.
+inline Eigen::Vector3d constraint_error(const mrpt::math::TPose2D& i_T_j, const RotatedPose& map_T_i,
+                                        const RotatedPose& map_T_j) {
+  const double dx = map_T_j.x - map_T_i.x;
+  const double dy = map_T_j.y - map_T_i.y;
+  return {i_T_j.x - (map_T_i.cosine * dx + map_T_i.sine * dy),
+          i_T_j.y - (map_T_i.cosine * dy - map_T_i.sine * dx),
+          wrap_to_pi(i_T_j.phi - (map_T_j.theta - map_T_i.theta))};
+}
+
+/// de/dx_i and de/dx_j with x = (x, y, theta) of each node in the map frame.
+struct ConstraintJacobians {
+  Eigen::Matrix3d wrt_i;
+  Eigen::Matrix3d wrt_j;
+};
+
+inline ConstraintJacobians constraint_jacobians(const RotatedPose& map_T_i, const RotatedPose& map_T_j) {
+  const double c = map_T_i.cosine;
+  const double s = map_T_i.sine;
+  const double dx = map_T_j.x - map_T_i.x;
+  const double dy = map_T_j.y - map_T_i.y;
+  ConstraintJacobians jacobians;
+  jacobians.wrt_i << c, s, s * dx - c * dy,  //
+      -s, c, c * dx + s * dy,                //
+      0, 0, 1;
+  jacobians.wrt_j << -c, -s, 0,  //
+      s, -c, 0,                  //
+      0, 0, -1;
+  return jacobians;
+}
+
+/// What one constraint adds to the normal equations H dx = -g of equation 6, J^T Omega J and J^T Omega e.
+struct ConstraintNormals {
+  Eigen::Matrix3d ii;  ///< block (i, i) of H
+  Eigen::Matrix3d ij;  ///< block (i, j) of H
+  Eigen::Matrix3d jj;  ///< block (j, j) of H
+  Eigen::Vector3d i;   ///< of g
+  Eigen::Vector3d j;   ///< of g
+};
+
+/// The same products as constraint_jacobians() gives, at a fraction of the work: with R = diag(R_i, 1) and
+/// U = I + [0 0 -dy; 0 0 dx; 0 0 0] the Jacobians are R^T U and -R^T, so that with W = R Omega R^T
+/// H_jj = W, H_ij = -U^T W, H_ii = U^T W U, g_j = -R Omega e and g_i = -U^T g_j.
+inline ConstraintNormals constraint_normals(const Eigen::Matrix3d& information, const Eigen::Vector3d& error,
+                                            const RotatedPose& map_T_i, const RotatedPose& map_T_j) {
+  const double c = map_T_i.cosine;
+  const double s = map_T_i.sine;
+  const double dx = map_T_j.x - map_T_i.x;
+  const double dy = map_T_j.y - map_T_i.y;
+  const double a = information(0, 0);
+  const double b = information(0, 1);
+  const double d = information(1, 1);
+  const double off = s * c * (a - d);
+  const double w00 = c * c * a - 2 * s * c * b + s * s * d;
+  const double w01 = off + (c * c - s * s) * b;
+  const double w11 = s * s * a + 2 * s * c * b + c * c * d;
+  const double w02 = c * information(0, 2) - s * information(1, 2);
+  const double w12 = s * information(0, 2) + c * information(1, 2);
+  const double w22 = information(2, 2);
+
+  ConstraintNormals normals;
+  normals.jj << w00, w01, w02,  //
+      w01, w11, w12,            //
+      w02, w12, w22;
+  const double u0 = -dy * w00 + dx * w01 + w02;  // the last row of U^T W
+  const double u1 = -dy * w01 + dx * w11 + w12;
+  const double u2 = -dy * w02 + dx * w12 + w22;
+  normals.ij << -w00, -w01, -w02,  //
+      -w01, -w11, -w12,            //
+      -u0, -u1, -u2;
+  normals.ii << w00, w01, u0,  //
+      w01, w11, u1,            //
+      u0, u1, -dy * u0 + dx * u1 + u2;
+  const Eigen::Vector3d weighted = information * error;
+  const double gx = c * weighted.x() - s * weighted.y();
+  const double gy = s * weighted.x() + c * weighted.y();
+  normals.j << -gx, -gy, -weighted.z();
+  normals.i << gx, gy, -dy * gx + dx * gy + weighted.z();
+  return normals;
+}
+
+}  // namespace psi_slam

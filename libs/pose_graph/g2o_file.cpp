@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/g2o_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "base/atomic_file.h"
+#include "base/line_reader.h"
+#include "psi_slam/user_error.h"
+#include "pose_graph/information_matrix.h"
+#include "pose_graph/spanning_tree.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+struct Vertex {
+  std::int64_t id = 0;
+  TPose2D pose;
+  std::size_t line = 0;
+};
+
+struct Edge {
+  std::int64_t from = 0;
+  std::int64_t to = 0;
+  TPose2D from_T_to;
+  Eigen::Matrix3d information;  // in the axes of `from`
+  std::size_t line = 0;
+};
+
+struct Fix {
+  std::int64_t id = 0;
+  std::size_t line = 0;
+};
+
+// The information in the axes of an edge's beginning, given in those of its end: they are turned by theta.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& information, double theta) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() << std::cos(theta), -std::sin(theta), std::sin(theta), std::cos(theta);
+  const Eigen::Matrix3d product = rotation * information * rotation.transpose();
+  return 0.5 * (product + product.transpose());
+}
+
+// The words of a line, taken one by one.
+class Fields {
+ public:
+  Fields(std::string_view line, const LineReader& reader) : rest_(line), reader_(reader) {}
+
+  // Empty at the end of the line.
+  std::string_view word() {
+    constexpr std::string_view kBlank = " \t\r";
+    const std::size_t begin = std::min(rest_.find_first_not_of(kBlank), rest_.size());
+    rest_.remove_prefix(begin);
+    const std::string_view result = rest_.substr(0, rest_.find_first_of(kBlank));
+    rest_.remove_prefix(result.size());
+    return result;
+  }
+
+  std::int64_t id(const char* layout) {
+    const std::string_view text = word();
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+      throw bad("'" + std::string(text) + "' is no vertex id", layout);
+    return value;
+  }
+
+  double number(const char* layout) {
+    std::string_view text = word();
+    const std::string shown(text);
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+      throw bad("'" + shown + "' is no finite number", layout);
+    return value;
+  }
+
+  void end(const char* layout) {
+    const std::string_view text = word();
+    if (!text.empty()) throw bad("'" + std::string(text) + "' is one field too many", layout);
+  }
+
+  UserError bad(const std::string& what, const char* layout) const {
+    return UserError(reader_.place() + ": " + what + ", expected \"" + layout + "\"");
+  }
+
+ private:
+  std::string_view rest_;
+  const LineReader& reader_;
+};
+
+// Where the six numbers of an edge's information stand, as (row, column), and in whose axes they are.
+struct EdgeFormat {
+  const char* layout;
+  std::array<std::array<int, 2>, 6> entries;
+  bool in_axes_of_end;
+};
+constexpr EdgeFormat kG2oEdge{"EDGE_SE2 from to dx dy dtheta Ixx Ixy Ixt Iyy Iyt Itt",
+                              {{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}},
+                              true};
+constexpr EdgeFormat kToroEdge{"EDGE2 from to dx dy dtheta Ixx Ixy Iyy Itt Ixt Iyt",
+                               {{{0, 0}, {0, 1}, {1, 1}, {2, 2}, {0, 2}, {1, 2}}},
+                               false};
+constexpr const char* kFixLayout = "FIX id";
+
+TPose2D read_pose(Fields& fields, const char* layout) {
+  TPose2D pose;
+  pose.x = fields.number(layout);
+  pose.y = fields.number(layout);
+  pose.phi = fields.number(layout);
+  return pose;
+}
+
+Edge read_edge(Fields& fields, const EdgeFormat& format, std::size_t line) {
+  Edge edge;
+  edge.line = line;
+  edge.from = fields.id(format.layout);
+  edge.to = fields.id(format.layout);
+  edge.from_T_to = read_pose(fields, format.layout);
+  for (const auto& [row, column] : format.entries)
+    edge.information(row, column) = edge.information(column, row) = fields.number(format.layout);
+  fields.end(format.layout);
+  if (!is_information_matrix(edge.information))
+    throw fields.bad("the information matrix is not positive semi-definite", format.layout);
+  if (edge.from == edge.to) throw fields.bad("an edge links a vertex to itself", format.layout);
+  if (format.in_axes_of_end) edge.information = turned(edge.information, edge.from_T_to.phi);
+  return edge;
+}
+
+struct Contents {
+  std::vector<Vertex> vertices;
+  std::vector<Edge> edges;
+  std::optional<Fix> fix;
+};
+
+Contents read_lines(const std::filesystem::path& path) {
+  Contents contents;
+  LineReader reader(path);
+  std::string_view line;
+  while (reader.next(line)) {
+    Fields fields(line, reader);
+    const std::string_view tag = fields.word();
+    const std::size_t number = reader.line_number();
+    if (tag.empty() || tag.front() == '#') continue;
+    if (tag == "VERTEX_SE2" || tag == "VERTEX2") {
+      const char* layout = tag == "VERTEX2" ? "VERTEX2 id x y theta" : "VERTEX_SE2 id x y theta";
+      Vertex vertex;
+      vertex.line = number;
+      vertex.id = fields.id(layout);
+      vertex.pose = read_pose(fields, layout);
+      fields.end(layout);
+      contents.vertices.push_back(vertex);
+    } else if (tag == "EDGE_SE2") {
+      contents.edges.push_back(read_edge(fields, kG2oEdge, number));
+    } else if (tag == "EDGE2") {
+      contents.edges.push_back(read_edge(fields, kToroEdge, number));
+    } else if (tag == "FIX") {
+      const Fix fix{fields.id(kFixLayout), number};
+      if (contents.fix && contents.fix->id != fix.id) {
+        throw fields.bad("a second vertex is fixed after line " + std::to_string(contents.fix->line),
+                         kFixLayout);
+      }
+      fields.end(kFixLayout);
+      contents.fix = fix;
+    } else {
+      throw UserError(
+          reader.place() + ": '" + std::string(tag.substr(0, 40)) +
+          "' is no entry of a 2D pose graph, expected VERTEX_SE2, EDGE_SE2, FIX, VERTEX2 or EDGE2");
+    }
+  }
+  return contents;
+}
+
+std::string place(const std::filesystem::path& path, std::size_t line) {
+  return path.string() + ":" + std::to_string(line);
+}
+
+// The node of an id, by the ascending ids.
+std::optional<std::size_t> node_of(const std::vector<std::int64_t>& ids, std::int64_t id) {
+  const auto found = std::lower_bound(ids.begin(), ids.end(), id);
+  if (found == ids.end() || *found != id) return std::nullopt;
+  return static_cast<std::size_t>(found - ids.begin());
+}
+
+void append(std::string& text, double value) {
+  std::array<char, 32> digits{};
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value == 0 ? 0.0 : value);
+  text += ' ';
+  text.append(digits.data(), result.ptr);
+}
+
+}  // namespace
+
+PoseGraphFile read_pose_graph(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    throw UserError(path.string() + " does not exist, expected a pose graph in g2o or TORO format");
+  Contents contents = read_lines(path);
+  if (contents.vertices.empty() && contents.edges.empty())
+    throw UserError(path.string() + " holds no pose graph, expected VERTEX_SE2 and EDGE_SE2 lines");
+
+  PoseGraphFile result;
+  const bool without_poses = contents.vertices.empty();
+  if (without_poses) {
+    for (const Edge& edge : contents.edges) {
+      contents.vertices.push_back({edge.from, {}, edge.line});
+      contents.vertices.push_back({edge.to, {}, edge.line});
+    }
+  }
+  std::stable_sort(contents.vertices.begin(), contents.vertices.end(),
+                   [](const Vertex& a, const Vertex& b) { return a.id < b.id; });
+  for (const Vertex& vertex : contents.vertices) {
+    if (!result.ids.empty() && result.ids.back() == vertex.id) {
+      if (without_poses) continue;
+      throw UserError(place(path, vertex.line) + ": vertex " + std::to_string(vertex.id) +
+                      " comes a second time, expected every id once");
+    }
+    result.ids.push_back(vertex.id);
+    result.graph.add_node(vertex.pose);
+  }
+  const auto existing = [&](std::int64_t id, std::size_t line) {
+    const std::optional<std::size_t> node = node_of(result.ids, id);
+    if (!node) {
+      throw UserError(place(path, line) + ": there is no vertex " + std::to_string(id) +
+                      " in the file, expected a line VERTEX_SE2 (or VERTEX2) for it");
+    }
+    return *node;
+  };
+  for (const Edge& edge : contents.edges) {
+    Constraint constraint;
+    constraint.from = existing(edge.from, edge.line);
+    constraint.to = existing(edge.to, edge.line);
+    constraint.from_T_to = edge.from_T_to;
+    constraint.information = edge.information;
+    const bool successive = constraint.from + 1 == constraint.to || constraint.to + 1 == constraint.from;
+    constraint.kind = successive ? Constraint::Kind::kOdometry : Constraint::Kind::kLoop;
+    result.graph.add_constraint(constraint);
+  }
+  if (contents.fix) result.graph.set_root(existing(contents.fix->id, contents.fix->line));
+  if (without_poses) {
+    const std::vector<TPose2D> poses = spanning_tree_poses(result.graph);
+    for (std::size_t node = 0; node < poses.size(); ++node) result.graph.set_pose(node, poses[node]);
+  }
+  return result;
+}
+
+void write_g2o(const PoseGraph& graph, const std::filesystem::path& path) {
+  std::string text;
+  const auto append_pose = [&](const TPose2D& pose) {
+    append(text, pose.x);
+    append(text, pose.y);
+    append(text, pose.phi);
+  };
+  for (std::size_t node = 0; node < graph.num_nodes(); ++node) {
+    text += "VERTEX_SE2 " + std::to_string(node);
+    append_pose(graph.pose(node));
+    text += '\n';
+  }
+  if (graph.num_nodes() > 0) text += "FIX " + std::to_string(graph.root()) + '\n';
+  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
+    if (!graph.enabled(i)) continue;
+    const Constraint& constraint = graph.constraint(i);
+    text += "EDGE_SE2 " + std::to_string(constraint.from) + ' ' + std::to_string(constraint.to);
+    append_pose(constraint.from_T_to);
+    const Eigen::Matrix3d information = turned(constraint.information, -constraint.from_T_to.phi);
+    for (const auto& [row, column] : kG2oEdge.entries) append(text, information(row, column));
+    text += '\n';
+  }
+  write_text_atomically(path, text);
+}
+
+}  // namespace psi_slam

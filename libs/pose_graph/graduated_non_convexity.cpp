@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/graduated_non_convexity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+// So wide that the kernel weighs every error alike.
+constexpr double kNearlyConvexWidth2 = 1e20;
+
+bool is_enabled_loop(const PoseGraph& graph, std::size_t constraint) {
+  return graph.enabled(constraint) && graph.constraint(constraint).kind == Constraint::Kind::kLoop;
+}
+
+double largest_loop_chi2(const PoseGraph& graph, const std::vector<ConstraintFit>& fits) {
+  double largest = 0;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    if (is_enabled_loop(graph, i)) largest = std::max(largest, fits[i].chi2);
+  return largest;
+}
+
+void set_poses(PoseGraph& graph, const std::vector<TPose2D>& poses) {
+  for (std::size_t node = 0; node < poses.size(); ++node) graph.set_pose(node, poses[node]);
+}
+
+// Gives the solver its options back, whatever happens.
+class OptionsGuard {
+ public:
+  explicit OptionsGuard(SparsePoseAdjustment& solver) : solver_(solver), options_(solver.options()) {}
+  ~OptionsGuard() { solver_.set_options(options_); }
+  OptionsGuard(const OptionsGuard&) = delete;
+  OptionsGuard& operator=(const OptionsGuard&) = delete;
+
+ private:
+  SparsePoseAdjustment& solver_;
+  PoseAdjustmentOptions options_;
+};
+
+}  // namespace
+
+GraduatedReport optimize_graduated(PoseGraph& graph, SparsePoseAdjustment& solver,
+                                   const GraduatedOptions& options) {
+  const OptionsGuard guard(solver);
+  const PoseAdjustmentOptions given = solver.options();
+  const double inlier_width2 = options.inlier_width * options.inlier_width;
+  double milliseconds = 0;
+  const auto solve = [&](double loop_width2, int max_iterations) {
+    PoseAdjustmentOptions round = given;
+    round.max_iterations = max_iterations;
+    round.loop_kernel = {RobustKernel::Type::kGemanMcClure, std::sqrt(loop_width2)};
+    solver.set_options(round);
+    PoseAdjustmentReport report = solver.optimize(graph);
+    milliseconds += report.milliseconds;
+    return report;
+  };
+
+  GraduatedReport report;
+  const std::vector<TPose2D> start = graph.poses();
+  const PoseAdjustmentReport from_start = solve(inlier_width2, given.max_iterations);
+  const std::vector<TPose2D> rival = graph.poses();
+
+  set_poses(graph, start);
+  const PoseAdjustmentReport convex = solve(kNearlyConvexWidth2, options.first_iterations);
+  for (double width2 = 2 * largest_loop_chi2(graph, convex.fits);
+       width2 > inlier_width2 && report.rounds < options.max_rounds; width2 /= options.narrowing) {
+    solve(width2, options.iterations_per_round);
+    ++report.rounds;
+  }
+  report.solution = solve(inlier_width2, given.max_iterations);
+  if (from_start.final_robust_chi2 < report.solution.final_robust_chi2) {
+    report.solution = from_start;
+    set_poses(graph, rival);
+  }
+  report.solution.initial_chi2 = from_start.initial_chi2;
+  report.solution.initial_robust_chi2 = from_start.initial_robust_chi2;
+  report.solution.milliseconds = milliseconds;
+  for (std::size_t i = 0; i < report.solution.fits.size(); ++i) {
+    if (is_enabled_loop(graph, i) && report.solution.fits[i].chi2 > inlier_width2)
+      report.outliers.push_back(i);
+  }
+  return report;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/marginal_covariance.h"
+
+#include "psi_slam/user_error.h"
+#include "pose_graph/constraint_error.h"
+
+namespace psi_slam {
+namespace {
+
+using Columns = BlockCholesky::InverseColumns;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+// The block of H^-1 of two variables: Y_a^T Y_b. Both row lists ascend and end in common.
+Eigen::Matrix3d product(const Columns& a, const Columns& b) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t i = a.rows.size(), j = b.rows.size(); i > 0 && j > 0;) {
+    if (a.rows[i - 1] == b.rows[j - 1]) {
+      --i;
+      --j;
+      sum.noalias() += a.blocks[i].transpose() * b.blocks[j];
+    } else if (a.rows[i - 1] > b.rows[j - 1]) {
+      --i;
+    } else {
+      --j;
+    }
+  }
+  return sum;
+}
+
+Matrix6d joint_of(const Columns& a, const Columns& b) {
+  Matrix6d joint;
+  joint.topLeftCorner<3, 3>() = product(a, a);
+  joint.topRightCorner<3, 3>() = product(a, b);
+  joint.bottomLeftCorner<3, 3>() = joint.topRightCorner<3, 3>().transpose();
+  joint.bottomRightCorner<3, 3>() = product(b, b);
+  return joint;
+}
+
+}  // namespace
+
+void MarginalCovariance::update(const PoseGraph& graph, const std::vector<double>& weights) {
+  equations_.prepare(graph);
+  poses_.clear();
+  for (const mrpt::math::TPose2D& pose : graph.poses()) poses_.emplace_back(pose);
+  // H does not depend on the errors.
+  const std::vector<Eigen::Vector3d> errors(graph.num_constraints(), Eigen::Vector3d::Zero());
+  const std::vector<double> ones(weights.empty() ? graph.num_constraints() : 0, 1.0);
+  equations_.linearize(graph, poses_, errors, weights.empty() ? ones : weights);
+  if (!equations_.factorize(0)) {
+    poses_.clear();
+    throw UserError(
+        "the constraints of the pose graph leave some pose undetermined: their information is singular");
+  }
+}
+
+// No rows for the root, which is certain.
+Columns MarginalCovariance::columns_of(std::size_t node) const {
+  static_cast<void>(poses_.at(node));
+  const std::uint32_t variable = equations_.variable_of(node);
+  return variable == NormalEquations::kHeld ? Columns() : equations_.factor().inverse_columns(variable);
+}
+
+Eigen::Matrix3d MarginalCovariance::marginal(std::size_t node) const {
+  const Columns columns = columns_of(node);
+  return product(columns, columns);
+}
+
+Matrix6d MarginalCovariance::joint(std::size_t a, std::size_t b) const {
+  return joint_of(columns_of(a), columns_of(b));
+}
+
+std::vector<Eigen::Matrix3d> MarginalCovariance::relative(std::size_t a,
+                                                          const std::vector<std::size_t>& others) const {
+  const Columns columns = columns_of(a);
+  std::vector<Eigen::Matrix3d> result;
+  result.reserve(others.size());
+  for (const std::size_t b : others) {
+    const ConstraintJacobians jacobians = constraint_jacobians(poses_[a], poses_.at(b));
+    Eigen::Matrix<double, 3, 6> jacobian;
+    jacobian << jacobians.wrt_i, jacobians.wrt_j;
+    const Matrix6d joint = joint_of(columns, columns_of(b));
+    result.push_back(jacobian * joint * jacobian.transpose());
+  }
+  return result;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/path_covariance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace psi_slam {
+
+// Positions are turned by the angle, headings stay.
+PathCovarianceSearch::Covariance PathCovarianceSearch::turned(const Covariance& a, double cosine,
+                                                              double sine) {
+  const double off = sine * cosine * (a.xx - a.yy);
+  const double cc = cosine * cosine;
+  const double ss = sine * sine;
+  const double both = 2 * sine * cosine * a.xy;
+  return {cc * a.xx - both + ss * a.yy, off + (cc - ss) * a.xy,      cosine * a.xt - sine * a.yt,
+          ss * a.xx + both + cc * a.yy, sine * a.xt + cosine * a.yt, a.tt};
+}
+
+// Of a point that is carried at (dx, dy) from the pose with this covariance.
+PathCovarianceSearch::Covariance PathCovarianceSearch::carried(const Covariance& a, double dx, double dy) {
+  const double xt = a.xt - dy * a.tt;
+  const double yt = a.yt + dx * a.tt;
+  return {a.xx - dy * (a.xt + xt), a.xy + dx * a.xt - dy * yt, xt, a.yy + dx * (a.yt + yt), yt, a.tt};
+}
+
+void PathCovarianceSearch::add(Covariance& a, const Covariance& b) {
+  a.xx += b.xx;
+  a.xy += b.xy;
+  a.xt += b.xt;
+  a.yy += b.yy;
+  a.yt += b.yt;
+  a.tt += b.tt;
+}
+
+// One step of a chain. Forwards, the new node's error is the old one's carried to it plus the measurement's;
+// backwards the measurement's heading error turns the step as the old one's does: both are carried.
+PathCovarianceSearch::Covariance PathCovarianceSearch::extended(const Covariance& at_previous,
+                                                                const GraphLink& link, const Node& previous,
+                                                                const Node& next, bool forwards) {
+  const Node& from = forwards ? previous : next;
+  const Covariance measured =
+      turned({link.xx, link.xy, link.xt, link.yy, link.yt, link.tt}, from.cosine, from.sine);
+  const double dx = next.x - previous.x;
+  const double dy = next.y - previous.y;
+  Covariance result = at_previous;
+  if (!forwards) add(result, measured);
+  result = carried(result, dx, dy);
+  if (forwards) add(result, measured);
+  return result;
+}
+
+// The cost of extended() without the work: a trace needs no rotation of the measurement's position part.
+double PathCovarianceSearch::extended_cost(const Covariance& at_previous, const GraphLink& link,
+                                           const Node& previous, const Node& next, bool forwards,
+                                           double lever2) {
+  double xt = at_previous.xt;
+  double yt = at_previous.yt;
+  double tt = at_previous.tt;
+  if (!forwards) {
+    xt += next.cosine * link.xt - next.sine * link.yt;
+    yt += next.sine * link.xt + next.cosine * link.yt;
+    tt += link.tt;
+  }
+  const double dx = next.x - previous.x;
+  const double dy = next.y - previous.y;
+  return at_previous.xx + at_previous.yy + link.xx + link.yy + 2 * (dx * yt - dy * xt) +
+         (dx * dx + dy * dy) * tt + lever2 * (at_previous.tt + link.tt);
+}
+
+double RelativeUncertainty::position_sigma_m() const {
+  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
+  const double difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
+  return std::sqrt(std::max(0.0, mean + std::hypot(difference, covariance(0, 1))));
+}
+
+PathCovarianceSearch::Node& PathCovarianceSearch::node_at(const PoseGraph& graph, std::size_t index) {
+  Node& node = nodes_.at(index);
+  if (node.run == run_) return node;
+  ++seen_;
+  const mrpt::math::TPose2D& pose = graph.poses()[index];
+  node = Node();
+  node.run = run_;
+  node.x = pose.x;
+  node.y = pose.y;
+  node.cosine = std::cos(pose.phi);
+  node.sine = std::sin(pose.phi);
+  return node;
+}
+
+void PathCovarianceSearch::settle(const PoseGraph& graph, std::uint32_t here) {
+  Node& node = nodes_[here];
+  node.settled = true;
+  if (here == source_) return;
+  const Node& previous = nodes_[node.previous];
+  const GraphLink& link = graph.links()[node.constraint];
+  node.covariance = extended(previous.covariance, link, previous, node, link.to == here);
+}
+
+void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t here, double lever2,
+                                       double max_cost) {
+  const Node& node = nodes_[here];
+  for (const std::uint32_t index : graph.constraints_of(here)) {
+    const GraphLink& link = graph.links()[index];
+    const bool forwards = link.from == here;
+    const std::uint32_t there = forwards ? link.to : link.from;
+    Node& next = node_at(graph, there);
+    if (next.settled || !graph.enabled(index)) continue;
+    const double cost = extended_cost(node.covariance, link, node, next, forwards, lever2);
+    if (!(cost < next.cost) || cost > max_cost) continue;
+    next.cost = cost;
+    next.constraint = index;
+    next.previous = here;
+    queue_.emplace(cost, there);
+  }
+}
+
+void PathCovarianceSearch::run(const PoseGraph& graph, std::size_t source,
+                               const PathCovarianceOptions& options) {
+  if (source >= graph.num_nodes())
+    throw std::out_of_range("path_covariances: the source is no node of the graph");
+  ++run_;
+  seen_ = 0;
+  source_ = source;
+  nodes_.resize(graph.num_nodes());
+  queue_ = {};
+  std::size_t num_wanted = 0;
+  for (const std::size_t target : options.targets) {
+    Node& node = node_at(graph, target);
+    num_wanted += node.wanted ? 0 : 1;
+    node.wanted = true;
+  }
+  const double lever2 = options.heading_lever_m * options.heading_lever_m;
+  const double max_cost = options.max_sigma_m * options.max_sigma_m;
+
+  Node& first = node_at(graph, source);
+  first.cost = 0;
+  first.previous = static_cast<std::uint32_t>(source);
+  queue_.emplace(0.0, static_cast<std::uint32_t>(source));
+  while (!queue_.empty()) {
+    const std::uint32_t here = queue_.top().second;
+    queue_.pop();
+    if (nodes_[here].settled) continue;
+    settle(graph, here);
+    if (nodes_[here].wanted && --num_wanted == 0) break;
+    look_around(graph, here, lever2, max_cost);
+  }
+}
+
+RelativeUncertainty PathCovarianceSearch::of(std::size_t index) const {
+  RelativeUncertainty uncertainty;
+  const Node& node = nodes_.at(index);
+  if (node.run != run_ || !node.settled) return uncertainty;
+  const Node& source = nodes_[source_];
+  const Covariance own = turned(node.covariance, source.cosine, -source.sine);
+  uncertainty.reached = true;
+  uncertainty.previous = node.previous;
+  uncertainty.constraint = node.constraint;
+  uncertainty.covariance << own.xx, own.xy, own.xt, own.xy, own.yy, own.yt, own.xt, own.yt, own.tt;
+  return uncertainty;
+}
+
+std::vector<RelativeUncertainty> path_covariances(const PoseGraph& graph, std::size_t source,
+                                                  const PathCovarianceOptions& options) {
+  PathCovarianceSearch search;
+  search.run(graph, source, options);
+  std::vector<RelativeUncertainty> all;
+  all.reserve(graph.num_nodes());
+  for (std::size_t node = 0; node < graph.num_nodes(); ++node) all.push_back(search.of(node));
+  return all;
+}
+
+}  // namespace psi_slam

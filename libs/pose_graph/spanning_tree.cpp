@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/spanning_tree.h"
+
+#include <cstdint>
+#include <deque>
+
+#include "pose_graph/unreachable_node.h"
+
+namespace psi_slam {
+
+std::vector<mrpt::math::TPose2D> spanning_tree_poses(const PoseGraph& graph) {
+  using mrpt::math::TPose2D;
+  std::vector<TPose2D> poses(graph.num_nodes());
+  if (poses.empty()) return poses;
+  struct Arrival {
+    std::size_t node;
+    TPose2D map_T_node;
+  };
+  std::vector<char> reached(graph.num_nodes(), 0);
+  std::deque<Arrival> by_odometry{{graph.root(), graph.pose(graph.root())}};
+  std::deque<Arrival> by_others;  // taken only when odometry leads no further, so that their number ascends
+  while (!by_odometry.empty() || !by_others.empty()) {
+    std::deque<Arrival>& queue = by_odometry.empty() ? by_others : by_odometry;
+    const Arrival arrival = queue.front();
+    queue.pop_front();
+    if (reached[arrival.node] != 0) continue;
+    reached[arrival.node] = 1;
+    poses[arrival.node] = arrival.map_T_node;
+    for (const std::uint32_t index : graph.constraints_of(arrival.node)) {
+      if (!graph.enabled(index)) continue;
+      const Constraint& constraint = graph.constraint(index);
+      const bool forward = constraint.from == arrival.node;
+      const std::size_t next = forward ? constraint.to : constraint.from;
+      if (reached[next] != 0) continue;
+      const TPose2D node_T_next = forward ? constraint.from_T_to : TPose2D() - constraint.from_T_to;
+      (constraint.kind == Constraint::Kind::kOdometry ? by_odometry : by_others)
+          .push_back({next, arrival.map_T_node + node_T_next});
+    }
+  }
+  for (std::size_t node = 0; node < poses.size(); ++node)
+    if (reached[node] == 0) throw unreachable_node(node, graph.root());
+  return poses;
+}
+
+}  // namespace psi_slam

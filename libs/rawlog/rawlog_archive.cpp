@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rawlog/rawlog_archive.h"
+
+#include <mrpt/maps/registerAllClasses.h>
+#include <mrpt/obs/registerAllClasses.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <exception>
+#include <optional>
+
+#include "compression/compressed_file.h"
+#include "psi_slam/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+/// What mrpt::serialization::archiveFrom() needs of a stream, with one byte of look-ahead: only so can an end
+/// between objects be told from one within.
+class ArchiveStream {
+ public:
+  explicit ArchiveStream(const std::filesystem::path& path) : file_(path) {}
+
+  bool is_at_end() {
+    if (!ahead_) {
+      char byte = 0;
+      if (read_file(&byte, 1) == 1) ahead_ = byte;
+    }
+    return !ahead_;
+  }
+
+  std::size_t Read(void* bytes, std::size_t size) {
+    if (size == 0 || is_at_end()) {
+      ended_early_ = size > 0;
+      return 0;
+    }
+    auto* target = static_cast<char*>(bytes);
+    *target = *ahead_;
+    ahead_.reset();
+    const std::size_t got = 1 + read_file(target + 1, size - 1);
+    ended_early_ = got < size;
+    return got;
+  }
+
+  static std::size_t Write(const void*, std::size_t) { return 0; }
+  std::string getStreamDescription() const { return file_.path().string(); }
+
+  const CompressedFile& file() const { return file_; }
+  bool ended_early() const { return ended_early_; }
+
+  /// Why decompression failed: MRPT wraps exceptions that pass through it.
+  const std::optional<UserError>& failure() const { return failure_; }
+
+ private:
+  std::size_t read_file(char* bytes, std::size_t size) {
+    try {
+      std::size_t done = 0;
+      while (done < size) {
+        const std::size_t got = file_.read(bytes + done, size - done);
+        if (got == 0) break;
+        done += got;
+      }
+      return done;
+    } catch (const UserError& error) {
+      failure_ = error;
+      throw;
+    }
+  }
+
+  CompressedFile file_;
+  std::optional<char> ahead_;
+  std::optional<UserError> failure_;
+  bool ended_early_ = false;
+};
+
+}  // namespace
+
+struct RawlogArchive::State {
+  explicit State(const std::filesystem::path& path) : stream(path), archive(stream) {}
+
+  ArchiveStream stream;
+  mrpt::serialization::CArchiveStreamBase<ArchiveStream> archive;
+  std::size_t objects = 0;
+};
+
+RawlogArchive::RawlogArchive(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {
+  // Logs hold observations whose classes live in libraries that nothing else here refers to.
+  mrpt::obs::registerAllClasses_mrpt_obs();
+  mrpt::maps::registerAllClasses_mrpt_maps();
+}
+
+RawlogArchive::~RawlogArchive() = default;
+
+mrpt::serialization::CSerializable::Ptr RawlogArchive::next() {
+  ArchiveStream& stream = state_->stream;
+  if (stream.is_at_end()) return nullptr;
+  ++state_->objects;
+  try {
+    return state_->archive.ReadObject();
+  } catch (const std::exception&) {
+    if (stream.failure()) throw UserError(*stream.failure());
+    if (stream.ended_early()) throw UserError(place() + ": the file is cut off within this object");
+    throw UserError(place() +
+                    " is damaged or of a class that this version of MRPT does not know, expected an "
+                    "action, a sensory frame or an observation");
+  }
+}
+
+std::string RawlogArchive::place() const {
+  return path().string() + ": object " + std::to_string(state_->objects);
+}
+
+const std::filesystem::path& RawlogArchive::path() const {
+  return state_->stream.file().path();
+}
+
+double RawlogArchive::progress() const {
+  return state_->stream.file().progress();
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "psi_slam/grid_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::maps::COccupancyGridMap2D;
+using mrpt::math::TPose2D;
+
+constexpr int kHitEvidence = 3;
+constexpr int kPassEvidence = -1;
+constexpr int kMaxEvidence = 30'000;
+/// In MRPT's units of 1/16 nat: one pass makes a cell free with 0.82, one hit makes it occupied with 0.99.
+constexpr int kLogOddsOfOnePass = 24;
+
+struct Point {
+  double x = 0;
+  double y = 0;
+};
+
+/// A beam that returned: where it ends, and whether that end is an obstacle.
+struct Ray {
+  Point end;
+  bool hit = false;
+};
+
+/// The rays of one scan, which start where its laser was.
+struct Fan {
+  Point start;
+  std::vector<Ray> rays;
+};
+
+/// Turns scans into rays in the map's frame; sines and cosines of the bearings are kept from scan to scan.
+class RayMaker {
+ public:
+  explicit RayMaker(double max_range_m) : max_range_m_(max_range_m) {}
+
+  const Fan& fan(const LaserScan& scan, const TPose2D& map_T_robot) {
+    if (scan.bearings_rad != bearings_) use_bearings(scan.bearings_rad);
+    const std::size_t beams = scan.ranges_m.size();
+    if (directions_.size() != beams)
+      throw std::invalid_argument("draw_grid_map: " + std::to_string(beams) + " ranges but " +
+                                  std::to_string(directions_.size()) + " bearings");
+    const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
+    if (!std::isfinite(map_T_laser.x) || !std::isfinite(map_T_laser.y) || !std::isfinite(map_T_laser.phi))
+      throw std::invalid_argument("draw_grid_map: a pose is not finite");
+    const double c = std::cos(map_T_laser.phi);
+    const double s = std::sin(map_T_laser.phi);
+    fan_.start = {map_T_laser.x, map_T_laser.y};
+    fan_.rays.clear();
+    for (std::size_t i = 0; i < beams; ++i) {
+      const double range_m = static_cast<double>(scan.ranges_m[i]);
+      if (!std::isfinite(range_m)) continue;
+      const double length = std::min(range_m, max_range_m_);
+      const Point& direction = directions_[i];
+      fan_.rays.push_back({{fan_.start.x + length * (c * direction.x - s * direction.y),
+                            fan_.start.y + length * (s * direction.x + c * direction.y)},
+                           range_m <= max_range_m_});
+    }
+    return fan_;
+  }
+
+ private:
+  void use_bearings(const BeamBearings& bearings) {
+    bearings_ = bearings;
+    directions_.clear();
+    if (!bearings) return;
+    for (const float bearing : *bearings) {
+      const double angle = static_cast<double>(bearing);
+      directions_.push_back({std::cos(angle), std::sin(angle)});
+    }
+  }
+
+  double max_range_m_;
+  BeamBearings bearings_;
+  std::vector<Point> directions_;
+  Fan fan_;
+};
+
+/// A maker for each laser of the robot, since all have bearings of their own.
+class FanMaker {
+ public:
+  explicit FanMaker(double max_range_m) : max_range_m_(max_range_m) {}
+
+  /// Of all scans of a frame; valid until the next call.
+  const std::vector<const Fan*>& fans(const Frame& frame, const TPose2D& map_T_robot) {
+    fans_.clear();
+    for_each_scan(frame, map_T_robot, [&](const LaserScan& scan, const TPose2D& map_T_robot_then) {
+      while (makers_.size() <= scan.laser) makers_.emplace_back(max_range_m_);
+      fans_.push_back(&makers_[scan.laser].fan(scan, map_T_robot_then));
+    });
+    return fans_;
+  }
+
+ private:
+  double max_range_m_;
+  std::deque<RayMaker> makers_;  // whose fans stay where they are
+  std::vector<const Fan*> fans_;
+};
+
+struct Bounds {
+  double x_min = std::numeric_limits<double>::infinity();
+  double y_min = std::numeric_limits<double>::infinity();
+  double x_max = -std::numeric_limits<double>::infinity();
+  double y_max = -std::numeric_limits<double>::infinity();
+
+  void include(const Point& point) {
+    x_min = std::min(x_min, point.x);
+    y_min = std::min(y_min, point.y);
+    x_max = std::max(x_max, point.x);
+    y_max = std::max(y_max, point.y);
+  }
+};
+
+Bounds bounds_of(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot, double max_range_m) {
+  FanMaker maker(max_range_m);
+  Bounds bounds;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    for (const Fan* fan : maker.fans(log[i], map_T_robot[i])) {
+      for (const Ray& ray : fan->rays) bounds.include(ray.end);
+      bounds.include(fan->start);
+    }
+  }
+  if (log.empty()) bounds.include({0, 0});
+  return bounds;
+}
+
+/// Where the cells lie: the corner of cell (0, 0) is that many cells away from the map's origin.
+struct Layout {
+  double resolution_m = 0;
+  std::int64_t x_min = 0;
+  std::int64_t y_min = 0;
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+};
+
+Layout layout_for(const Bounds& bounds, const GridMapOptions& options) {
+  constexpr double kMinMarginCells = 2;  // a ray's digital line may leave its end cells by one
+  Layout layout;
+  for (double resolution_m = options.resolution_m;; resolution_m *= 2) {
+    const double margin = std::max(options.margin_m / resolution_m, kMinMarginCells);
+    const double x_min = std::floor(bounds.x_min / resolution_m - margin);
+    const double y_min = std::floor(bounds.y_min / resolution_m - margin);
+    const double width = std::ceil(bounds.x_max / resolution_m + margin) - x_min;
+    const double height = std::ceil(bounds.y_max / resolution_m + margin) - y_min;
+    if (width * height > static_cast<double>(options.max_cells) && width * height > 100) continue;
+    return {resolution_m, std::llround(x_min), std::llround(y_min), std::llround(width),
+            std::llround(height)};
+  }
+}
+
+/// What the scans say about each cell.
+class Evidence {
+ public:
+  explicit Evidence(const Layout& layout)
+      : layout_(layout), cells_(static_cast<std::size_t>(layout.width * layout.height)) {}
+
+  /// What several lasers saw at once counts once in each cell, obstacles first.
+  void add_frame(const std::vector<const Fan*>& fans) {
+    next_scan();
+    for (const Fan* fan : fans)
+      for (const Ray& ray : fan->rays)
+        if (ray.hit) count(index_of(ray.end), kHitEvidence);
+    for (const Fan* fan : fans)
+      for (const Ray& ray : fan->rays) pass(in_cells(fan->start), in_cells(ray.end));
+  }
+
+  COccupancyGridMap2D::Ptr grid() const {
+    auto grid = COccupancyGridMap2D::Create();
+    const double r = layout_.resolution_m;
+    const auto edge = [r](std::int64_t cell) { return static_cast<float>(static_cast<double>(cell) * r); };
+    grid->setSize(edge(layout_.x_min), edge(layout_.x_min + layout_.width), edge(layout_.y_min),
+                  edge(layout_.y_min + layout_.height), static_cast<float>(r), 0.5F);
+    if (grid->getSizeX() != layout_.width || grid->getSizeY() != layout_.height)
+      throw std::logic_error("draw_grid_map: MRPT made a grid of another size");
+    for (std::int64_t y = 0; y < layout_.height; ++y) {
+      auto* row = grid->getRow(static_cast<int>(y));
+      for (std::int64_t x = 0; x < layout_.width; ++x) {
+        const int evidence = cells_[static_cast<std::size_t>(y * layout_.width + x)].evidence;
+        row[x] = static_cast<COccupancyGridMap2D::cellType>(
+            std::clamp<int>(-evidence * kLogOddsOfOnePass, COccupancyGridMap2D::OCCGRID_CELLTYPE_MIN,
+                            COccupancyGridMap2D::OCCGRID_CELLTYPE_MAX));
+      }
+    }
+    return grid;
+  }
+
+ private:
+  struct Cell {
+    std::int16_t evidence = 0;
+    std::uint16_t last_scan = 0;
+  };
+
+  void next_scan() {
+    if (scan_ == std::numeric_limits<std::uint16_t>::max()) {
+      for (Cell& cell : cells_) cell.last_scan = 0;
+      scan_ = 0;
+    }
+    ++scan_;
+  }
+
+  void count(std::int64_t index, int evidence) {
+    Cell& cell = cells_[static_cast<std::size_t>(index)];
+    if (cell.last_scan == scan_) return;
+    cell.last_scan = scan_;
+    cell.evidence =
+        static_cast<std::int16_t>(std::clamp(cell.evidence + evidence, -kMaxEvidence, kMaxEvidence));
+  }
+
+  Point in_cells(const Point& point) const {
+    return {point.x / layout_.resolution_m - static_cast<double>(layout_.x_min),
+            point.y / layout_.resolution_m - static_cast<double>(layout_.y_min)};
+  }
+
+  std::int64_t index_of(const Point& point) const {
+    const Point cell = in_cells(point);
+    return static_cast<std::int64_t>(cell.y) * layout_.width + static_cast<std::int64_t>(cell.x);
+  }
+
+  /// Counts the cells of the digital line but for the last step, where the hit is; coordinates are in cells.
+  void pass(const Point& start, const Point& end) {
+    if (std::abs(end.x - start.x) >= std::abs(end.y - start.y)) {
+      walk(start.x, start.y, end.x, end.y, 1, layout_.width);
+    } else {
+      walk(start.y, start.x, end.y, end.x, layout_.width, 1);
+    }
+  }
+
+  /// Steps along the axis on which the line is longer; `across` is followed at the middle of each step, in
+  /// fixed point so that every machine takes the same cells.
+  void walk(double along0, double across0, double along1, double across1, std::int64_t along_stride,
+            std::int64_t across_stride) {
+    constexpr int kFractionBits = 32;
+    constexpr double kOne = 4294967296.0;
+    const auto first = static_cast<std::int64_t>(along0);
+    const auto last = static_cast<std::int64_t>(along1);
+    const std::int64_t step = last < first ? -1 : 1;
+    const double slope = along1 == along0 ? 0 : (across1 - across0) / (along1 - along0);
+    const std::int64_t across_step = std::llround(slope * static_cast<double>(step) * kOne);
+    std::int64_t across =
+        std::llround((across0 + (static_cast<double>(first) + 0.5 - along0) * slope) * kOne);
+    std::int64_t index = first * along_stride;
+    for (std::int64_t i = std::abs(last - first); i > 0; --i) {
+      count(index + (across >> kFractionBits) * across_stride, kPassEvidence);
+      index += step * along_stride;
+      across += across_step;
+    }
+  }
+
+  Layout layout_;
+  std::vector<Cell> cells_;
+  std::uint16_t scan_ = 0;
+};
+
+void check(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
+           const GridMapOptions& options) {
+  if (log.size() != map_T_robot.size())
+    throw std::invalid_argument("draw_grid_map: " + std::to_string(log.size()) + " scans but " +
+                                std::to_string(map_T_robot.size()) + " poses");
+  if (!(options.resolution_m > 0) || !(options.max_range_m > 0) || !(options.margin_m >= 0))
+    throw std::invalid_argument(
+        "draw_grid_map: resolution and range must be positive, the margin not negative");
+}
+
+}  // namespace
+
+COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
+                                       const GridMapOptions& options) {
+  check(log, map_T_robot, options);
+  Evidence evidence(layout_for(bounds_of(log, map_T_robot, options.max_range_m), options));
+  FanMaker maker(options.max_range_m);
+  for (std::size_t i = 0; i < log.size(); ++i) evidence.add_frame(maker.fans(log[i], map_T_robot[i]));
+  return evidence.grid();
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rendering/map_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "rendering/cell_state.h"
+#include "rendering/picture_ink.h"
+#include "base/atomic_file.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::maps::COccupancyGridMap2D;
+Pixel mixed(const Pixel& a, const Pixel& b, double share_of_b) {
+  Pixel result;
+  for (int i = 0; i < 4; ++i) result[i] = cv::saturate_cast<std::uint8_t>(a[i] + (b[i] - a[i]) * share_of_b);
+  return result;
+}
+
+/// The cells that one pixel shows.
+struct Block {
+  int cells = 0;
+  int free = 0;
+  int occupied = 0;
+};
+
+Block block_at(const COccupancyGridMap2D& grid, int x_begin, int y_begin, int side) {
+  Block block;
+  const int x_end = std::min(x_begin + side, static_cast<int>(grid.getSizeX()));
+  const int y_end = std::min(y_begin + side, static_cast<int>(grid.getSizeY()));
+  for (int y = std::max(y_begin, 0); y < y_end; ++y) {
+    const auto* row = grid.getRow(y);
+    for (int x = std::max(x_begin, 0); x < x_end; ++x) {
+      block.free += is_free(row[x]) ? 1 : 0;
+      block.occupied += is_occupied(row[x]) ? 1 : 0;
+    }
+  }
+  block.cells = side * side;
+  return block;
+}
+
+/// A wall one cell thin that crosses the block is as dark as a thick one.
+Pixel colour(const Block& block, int side, const Pixel& unknown) {
+  const int open = block.cells - block.occupied;
+  const Pixel ground =
+      open == 0 ? kFreeInk : mixed(unknown, kFreeInk, static_cast<double>(block.free) / open);
+  return mixed(ground, kWallInk, std::min(1.0, static_cast<double>(block.occupied) / side));
+}
+
+/// The raster's own pixels.
+cv::Mat image_of(MapRaster& raster) {
+  return {raster.height_px, raster.width_px, CV_8UC4, raster.pixels.data()};
+}
+
+void add_scale_bar(cv::Mat& image, double resolution_m, const Pixel& ground) {
+  const int unit = std::max(6, std::max(image.cols, image.rows) / 160);
+  const ScaleBarPlace place{2 * unit, image.rows + 5 * unit / 2, unit};
+  cv::copyMakeBorder(image, image, 0, 5 * unit, 0, 0, cv::BORDER_CONSTANT, scalar_of(ground));
+  draw_scale_bar(image, place, scale_bar_m(image.cols * resolution_m, resolution_m), resolution_m);
+}
+
+}  // namespace
+
+SeenCells seen_cells(const COccupancyGridMap2D& grid) {
+  const auto width = static_cast<int>(grid.getSizeX());
+  const auto height = static_cast<int>(grid.getSizeY());
+  SeenCells seen{width, 0, height, 0, 0, 0};
+  for (int y = 0; y < height; ++y) {
+    const auto* row = grid.getRow(y);
+    for (int x = 0; x < width; ++x) {
+      const bool occupied = is_occupied(row[x]);
+      if (!occupied && !is_free(row[x])) continue;
+      ++(occupied ? seen.occupied : seen.free);
+      seen.x_begin = std::min(seen.x_begin, x);
+      seen.x_end = std::max(seen.x_end, x + 1);
+      seen.y_begin = std::min(seen.y_begin, y);
+      seen.y_end = y + 1;
+    }
+  }
+  if (seen.x_end == 0) return {0, width, 0, height, 0, 0};
+  return seen;
+}
+
+MapRaster map_raster(const COccupancyGridMap2D& grid, const MapPictureOptions& options) {
+  const auto cell_m = static_cast<double>(grid.getResolution());
+  const SeenCells seen = seen_cells(grid);
+  const int margin = static_cast<int>(std::lround(options.margin_m / cell_m));
+  const int x_begin = seen.x_begin - margin;
+  const int y_end = seen.y_end + margin;
+  const int width = seen.x_end + margin - x_begin;
+  const int height = y_end - (seen.y_begin - margin);
+  const int cells_a_pixel =
+      std::max(1, (std::max(width, height) + options.max_side_px - 1) / std::max(1, options.max_side_px));
+
+  const Pixel& unknown = options.transparent_unknown ? kTransparentInk : kUnknownInk;
+  MapRaster raster;
+  raster.width_px = (width + cells_a_pixel - 1) / cells_a_pixel;
+  raster.height_px = (height + cells_a_pixel - 1) / cells_a_pixel;
+  raster.resolution_m = cell_m * cells_a_pixel;
+  raster.x_min_m = static_cast<double>(grid.getXMin()) + x_begin * cell_m;
+  raster.y_max_m = static_cast<double>(grid.getYMin()) + y_end * cell_m;
+  raster.pixels.resize(sizeof(Pixel) * static_cast<std::size_t>(raster.width_px) *
+                       static_cast<std::size_t>(raster.height_px));
+  cv::Mat image = image_of(raster);
+  for (int row = 0; row < image.rows; ++row) {
+    auto* pixels = image.ptr<Pixel>(row);
+    for (int column = 0; column < image.cols; ++column)
+      pixels[column] = colour(
+          block_at(grid, x_begin + column * cells_a_pixel, y_end - (row + 1) * cells_a_pixel, cells_a_pixel),
+          cells_a_pixel, unknown);
+  }
+  return raster;
+}
+
+MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions& options) {
+  MapRaster raster = map_raster(grid, options);
+  cv::Mat image = image_of(raster);
+  const int longer = std::max(image.cols, image.rows);
+  const bool reduced = raster.resolution_m > 1.5 * static_cast<double>(grid.getResolution());
+  const int pixels_a_cell = reduced ? 1 : std::max(1, (options.min_side_px + longer - 1) / longer);
+  if (pixels_a_cell > 1) cv::resize(image, image, {}, pixels_a_cell, pixels_a_cell, cv::INTER_NEAREST);
+
+  MapPicture picture;
+  picture.resolution_m = raster.resolution_m / pixels_a_cell;
+  const Pixel& unknown = options.transparent_unknown ? kTransparentInk : kUnknownInk;
+  if (options.scale_bar) add_scale_bar(image, picture.resolution_m, unknown);
+  if (!options.transparent_unknown) cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
+  picture.png = png_bytes(image);
+  picture.width_px = image.cols;
+  picture.height_px = image.rows;
+  picture.x_min_m = raster.x_min_m;
+  picture.y_max_m = raster.y_max_m;
+  return picture;
+}
+
+void write_map_image(const std::filesystem::path& path, const COccupancyGridMap2D& grid,
+                     const MapPictureOptions& options) {
+  write_text_atomically(path, map_picture(grid, options).png);
+}
+
+}  // namespace psi_slam

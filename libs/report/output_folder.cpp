@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/output_folder.h"
+
+#include <unistd.h>
+
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/atomic_folder.h"
+#include "psi_slam/user_error.h"
+#include "exports/corrected_log.h"
+#include "exports/frames_csv.h"
+#include "exports/loops_csv.h"
+#include "exports/mapped_trajectory.h"
+#include "report/report_html.h"
+#include "exports/summary_json.h"
+#include "trajectory/trajectory_file.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The way to `path` must be folders: says which part of it is something else.
+void check_no_file_in_the_way(const fs::path& path) {
+  std::error_code ignored;
+  fs::path part;
+  for (const fs::path& name : path) {
+    part /= name;
+    if (fs::exists(part, ignored) && !fs::is_directory(part, ignored))
+      throw UserError("cannot write to the folder " + path.string() + ": " + part.string() +
+                      " is a file, not a folder");
+  }
+}
+
+/// Where there are several drives, a trajectory and a corrected log for each: their stamps may overlap.
+void write_drives(const fs::path& folder, const MappingResult& result) {
+  const auto file = [&](std::size_t drive, const char* kind) {
+    return folder / ("trajectory-" + std::to_string(drive) + kind);
+  };
+  const fs::path whole_log = folder / "trajectory.carmen";
+  const Trajectory whole = trajectory_of(result.frames);
+  const std::vector<mrpt::math::TPose2D> poses = mapped_poses(result);
+  std::vector<FrameSpan> runs = runs_of(result);
+  std::error_code ignored;  // of what an older map may have left
+  if (runs.size() == 1) {
+    write_corrected_log(whole_log, result.log, poses);
+    runs.clear();
+  } else {
+    fs::remove(whole_log, ignored);
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    write_tum(file(i + 1, ".tum"), Trajectory(whole.begin() + static_cast<std::ptrdiff_t>(runs[i].begin),
+                                              whole.begin() + static_cast<std::ptrdiff_t>(runs[i].end)));
+    write_corrected_log(file(i + 1, ".carmen"), result.log, poses, runs[i]);
+  }
+  for (const char* kind : {".tum", ".carmen"})
+    for (std::size_t older = runs.size() + 1; fs::remove(file(older, kind), ignored);) ++older;
+}
+
+}  // namespace
+
+OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
+  if (path.empty()) throw UserError("the output folder has no name");
+  check_no_file_in_the_way(path);
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error && !fs::is_directory(path))
+    throw UserError("cannot make the output folder " + path.string() + ": " + error.message());
+  remove_leftovers(path);
+  const bool empty = fs::is_empty(path, error);
+  if (error) throw UserError("cannot look into the output folder " + path.string() + ": " + error.message());
+  if (!empty && !force)
+    throw UserError("the output folder " + path.string() +
+                    " is not empty: name a new one, or give --force to replace the results in it");
+  if (::access(path.c_str(), W_OK | X_OK) != 0)
+    throw UserError("cannot write to the output folder " + path.string() + ": no permission");
+  return OutputFolder(path);
+}
+
+void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
+                    const OutputFolder& folder, const MapFileOptions& map_files) {
+  const auto file = [&](const char* name) { return folder.path() / name; };
+  write_tum(file("trajectory.tum"), trajectory_of(result.frames));
+  write_drives(folder.path(), result);
+  write_frames_csv(file("frames.csv"), result.frames);
+  write_loops_csv(file("loops.csv"), result.loops);
+  write_map_files(folder.path(), result, grid, map_files);
+}
+
+void export_account(const MappingResult& result, const RunInfo& info, const RunSummary& summary,
+                    const mrpt::maps::COccupancyGridMap2D& grid, const OutputFolder& folder) {
+  write_text_atomically(folder.path() / "summary.json", summary_json(result, info, summary));
+  write_text_atomically(folder.path() / "report.html", report_html(result, info, summary, grid));
+}
+
+std::vector<mrpt::math::TPose2D> mapped_poses(const MappingResult& result) {
+  std::vector<mrpt::math::TPose2D> poses;
+  poses.reserve(result.frames.size());
+  for (const FrameRecord& frame : result.frames) poses.push_back(frame.map_T_robot);
+  return poses;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rosbag/bag_plan.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "psi_slam/user_error.h"
+#include "base/byte_cursor.h"
+#include "frames/laser_choice.h"
+#include "rosbag/ros_messages.h"
+
+namespace psi_slam {
+namespace {
+
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string list(const Names& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+Names topics_of_type(const std::vector<BagTopic>& topics, const char* type) {
+  Names names;
+  for (const BagTopic& topic : topics)
+    if (topic.type == type && topic.encoding != BagEncoding::kOther) names.push_back(topic.name);
+  return names;
+}
+
+/// A topic's name as the bag has it: users leave out the slash in front, and so do some programs.
+std::string as_in_bag(const std::string& name, const Names& all) {
+  return contains(all, '/' + name) ? '/' + name : name;
+}
+
+bool is_named_like_odometry(std::string frame) {
+  frame.erase(0, frame.rfind('/') + 1);
+  std::transform(frame.begin(), frame.end(), frame.begin(), [](unsigned char c) { return std::tolower(c); });
+  return frame.find("odom") != std::string::npos;
+}
+
+class Planner {
+ public:
+  Planner(const std::filesystem::path& path, const LogOptions& options)
+      : path_(path.string()), options_(options), bag_(open_bag(path)), topics_(bag_->topics()) {}
+
+  BagPlan plan() {
+    choose_scan_topics();
+    choose_transform_topics();
+    choose_odometry_topic();
+    plan_.odom_frame = options_.odom_frame;
+    plan_.base_frame = options_.base_frame;
+    read_until_complete();
+    require_complete();
+    return std::move(plan_);
+  }
+
+ private:
+  void choose_scan_topics() {
+    const Names all = topics_of_type(topics_, kRosLaserScan);
+    if (all.empty()) {
+      Names found;
+      for (const BagTopic& topic : topics_) found.push_back(topic.name + " (" + topic.type + ")");
+      throw UserError(path_ + " has no laser scans, expected a topic of type " + kRosLaserScan + "; found " +
+                      (found.empty() ? "no topic at all" : list(found)));
+    }
+    const bool by_topic = !options_.scan_topic.empty();
+    const char* option = by_topic ? "log.scan_topic" : "log.laser";
+    const LaserChoice choice = laser_choice(option, by_topic ? options_.scan_topic : options_.laser);
+    if (choice.all) plan_.scan_topics = all;
+    for (const std::string& name : choice.names) {
+      const std::string topic = choose(option, name, all, kRosLaserScan);
+      if (contains(plan_.scan_topics, topic))
+        throw UserError(std::string(option) + " names the topic " + topic + " twice, expected each once");
+      plan_.scan_topics.push_back(topic);
+    }
+    if (plan_.scan_topics.empty()) plan_.scan_topics = {choose("log.scan_topic", "", all, kRosLaserScan)};
+    for (const StatedMount& mount : stated_mounts(options_))
+      choose("log.laser_mounts", mount.name, all, kRosLaserScan);
+  }
+
+  void choose_transform_topics() {
+    for (const BagTopic& topic : topics_)
+      if (is_transforms(topic) && !contains(plan_.transform_topics, topic.name))
+        plan_.transform_topics.push_back(topic.name);
+  }
+
+  void choose_odometry_topic() {
+    const Names all = topics_of_type(topics_, kRosOdometry);
+    const std::string& wanted = options_.odometry_topic;
+    const bool by_transform = contains(plan_.transform_topics, as_in_bag(wanted, plan_.transform_topics));
+    if (by_transform || (all.empty() && wanted.empty() && !plan_.transform_topics.empty())) return;
+    if (all.empty() && wanted.empty())
+      throw UserError(path_ + " has no odometry, expected a topic of type " + kRosOdometry + " or " +
+                      kRosTransforms);
+    plan_.odometry_topic = choose("log.odometry_topic", wanted, all, kRosOdometry);
+  }
+
+  std::string choose(const char* option, const std::string& wanted, const Names& all,
+                     const char* type) const {
+    if (wanted.empty() && all.size() > 1)
+      throw UserError(path_ + " has several topics of type " + type + ": " + list(all) + "; expected " +
+                      option + " to name one of them");
+    if (wanted.empty()) return all.front();
+    if (const std::string name = as_in_bag(wanted, all); contains(all, name)) return name;
+    throw UserError(std::string(option) + " is \"" + wanted + "\", expected a topic of type " + type +
+                    " of " + path_ + ": " + (all.empty() ? "it has none" : list(all)));
+  }
+
+  void read_until_complete() {
+    bag_->want(plan_.topics());
+    for (BagMessage message; !is_complete();) {
+      try {
+        if (!bag_->next(message)) return;
+        take(message);
+      } catch (const MalformedBytes& error) {
+        if (is_enough()) return;
+        throw UserError(bag_->place() + ": the message on " + message.topic->name +
+                        " is damaged: " + error.what());
+      } catch (const UserError&) {
+        if (!is_enough()) throw;
+        return;
+      }
+    }
+  }
+
+  void take(const BagMessage& message) {
+    if (is_transforms(*message.topic)) {
+      for (const RosTransform& transform : read_ros_transforms(message)) plan_.transforms.add(transform);
+    } else if (message.topic->type == kRosOdometry) {
+      take_odometry(message);
+    } else {
+      scan_frames_.emplace(message.topic->name, read_ros_laser_scan(message).header.frame);
+    }
+    if (plan_.odometry_topic.empty() && !has_odometry_) find_odometry_transform();
+  }
+
+  void take_odometry(const BagMessage& message) {
+    const std::optional<RosTransform> odometry = read_ros_odometry(message);
+    if (!odometry && no_pose_.empty()) no_pose_ = bag_->place() + ": " + no_pose_text(message.topic->name);
+    if (!odometry) return;
+    has_odometry_ = true;
+    if (plan_.odom_frame.empty()) plan_.odom_frame = odometry->header.frame;
+    if (plan_.base_frame.empty()) plan_.base_frame = odometry->child_frame;
+  }
+
+  /// On the way up from a laser, or from the robot's frame where the user names it.
+  void find_odometry_transform() {
+    Names starts;
+    if (!options_.base_frame.empty()) starts.push_back(options_.base_frame);
+    for (const auto& [topic, frame] : scan_frames_) starts.push_back(frame);
+    for (const std::string& start : starts) {
+      const Names way = plan_.transforms.way_up(start);
+      for (std::size_t i = 1; i < way.size(); ++i) {
+        const bool is_stated_base = way[i - 1] == options_.base_frame;
+        const bool is_odometry = options_.odom_frame.empty()
+                                     ? is_stated_base || is_named_like_odometry(way[i])
+                                     : way[i] == options_.odom_frame;
+        if (!is_odometry) continue;
+        has_odometry_ = true;
+        plan_.odom_frame = way[i];
+        plan_.base_frame = way[i - 1];
+        return;
+      }
+    }
+  }
+
+  bool knows_mount(const std::string& frame) const {
+    return plan_.transforms.base_T_frame(plan_.base_frame, frame).has_value();
+  }
+
+  bool knows_scan_frames() const { return scan_frames_.size() == plan_.scan_topics.size(); }
+
+  bool states_mount(const std::string& topic) const {
+    return options_of_topic(options_, topic).robot_T_laser.has_value();
+  }
+
+  /// Transforms, where there are any, tell of a laser whose mount is stated whether it is upside down.
+  bool is_complete() const {
+    const bool has_transforms = !plan_.transform_topics.empty();
+    return has_odometry_ && knows_scan_frames() &&
+           std::all_of(scan_frames_.begin(), scan_frames_.end(), [&](const auto& scan) {
+             return knows_mount(scan.second) || (!has_transforms && states_mount(scan.first));
+           });
+  }
+
+  /// What a bag that breaks off must have told of before.
+  bool is_enough() const { return has_odometry_ && knows_scan_frames(); }
+
+  void require_complete() const {
+    for (const std::string& topic : plan_.scan_topics)
+      if (scan_frames_.count(topic) == 0) throw UserError(path_ + " has no message on " + topic);
+    if (!has_odometry_ && !no_pose_.empty()) throw UserError(no_pose_ + ", as in all of its messages");
+    if (!has_odometry_ && !plan_.odometry_topic.empty())
+      throw UserError(path_ + " has no message on " + plan_.odometry_topic);
+    if (!has_odometry_) {
+      throw UserError(
+          path_ + " has no odometry, expected a topic of type " + kRosOdometry +
+          " or a transform from a frame named like \"odom\" to the robot's, or log.odom_frame and "
+          "log.base_frame to name them; its transforms: " +
+          plan_.transforms.text());
+    }
+    for (const auto& [topic, frame] : scan_frames_) {
+      if (states_mount(topic) || knows_mount(frame)) continue;
+      throw UserError(path_ + " does not say where the laser of " + topic +
+                      " is on the robot: no transform leads from \"" + plan_.base_frame + "\" to \"" + frame +
+                      "\", expected log.base_frame to name the robot's frame, or " +
+                      (plan_.scan_topics.size() > 1 ? "log.laser_mounts, such as \"" + topic + " 0.2 0 0\""
+                                                    : "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg") +
+                      "; its transforms: " + plan_.transforms.text());
+    }
+  }
+
+  std::string path_;
+  LogOptions options_;
+  std::unique_ptr<BagFile> bag_;
+  std::vector<BagTopic> topics_;
+  BagPlan plan_;
+  std::map<std::string, std::string> scan_frames_;  // by topic
+  std::string no_pose_;                             // where the first odometry without a pose is
+  bool has_odometry_ = false;
+};
+
+}  // namespace
+
+Names BagPlan::topics() const {
+  Names all = scan_topics;
+  if (!odometry_topic.empty()) all.push_back(odometry_topic);
+  all.insert(all.end(), transform_topics.begin(), transform_topics.end());
+  return all;
+}
+
+std::string no_pose_text(const std::string& topic) {
+  return "the odometry on " + topic + " is not finite, or its quaternion is none of length 1";
+}
+
+bool is_transforms(const BagTopic& topic) {
+  return (topic.type == kRosTransforms || topic.type == kRosOldTransforms) &&
+         topic.encoding != BagEncoding::kOther;
+}
+
+LogOptions options_of_topic(const LogOptions& options, const std::string& topic) {
+  std::vector<std::string> names{topic};
+  if (topic.front() == '/') names.push_back(topic.substr(1));  // users leave it out
+  return options_of_laser(options, names);
+}
+
+BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options) {
+  return Planner(path, options).plan();
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rosbag/ros_messages.h"
+
+#include <mrpt/math/CQuaternion.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/byte_cursor.h"
+
+namespace psi_slam {
+namespace {
+
+/// The fields of a message one by one, in either encoding.
+class RosFields {
+ public:
+  explicit RosFields(const BagMessage& message)
+      : cdr_(message.topic->encoding == BagEncoding::kCdr), cursor_(cursor_over(message, alignment_)) {}
+
+  bool is_cdr() const { return cdr_; }
+
+  template <class Number>
+  Number number() {
+    if (cdr_) align(sizeof(Number));
+    return cursor_.number<Number>();
+  }
+
+  std::string text() {
+    const auto size = number<std::uint32_t>();
+    std::string text(cursor_.take(size));
+    if (cdr_ && !text.empty() && text.back() == '\0') text.pop_back();
+    return text;
+  }
+
+  std::vector<float> floats() {
+    const auto count = number<std::uint32_t>();
+    if (count > cursor_.left() / sizeof(float))
+      throw MalformedBytes(std::to_string(count) + " numbers are announced but " +
+                           std::to_string(cursor_.left()) + " bytes are left");
+    std::vector<float> values(count);
+    for (float& value : values) value = number<float>();
+    return values;
+  }
+
+ private:
+  /// Behind the four bytes in front of CDR, which say how it is encoded.
+  static ByteCursor cursor_over(const BagMessage& message, std::size_t& alignment) {
+    if (message.topic->encoding == BagEncoding::kRos1) return ByteCursor(message.bytes);
+    ByteCursor head(message.bytes);
+    head.take(1);
+    const auto kind = head.number<std::uint8_t>();
+    head.take(2);
+    const bool is_plain_cdr2 = kind == 6 || kind == 7;
+    if (kind > 1 && !is_plain_cdr2)
+      throw MalformedBytes("its encoding is of kind " + std::to_string(kind) + ", expected plain CDR");
+    alignment = is_plain_cdr2 ? 4 : 8;
+    return ByteCursor(head.rest(), kind % 2 == 1 ? ByteOrder::kLittleEndian : ByteOrder::kBigEndian);
+  }
+
+  void align(std::size_t size) {
+    const std::size_t step = std::min(size, alignment_);
+    cursor_.take((step - cursor_.offset() % step) % step);
+  }
+
+  std::size_t alignment_ = 8;  // at most; filled with the cursor, so declared in front of it
+  bool cdr_;
+  ByteCursor cursor_;
+};
+
+std::string frame_name(std::string name) {
+  if (!name.empty() && name.front() == '/') name.erase(0, 1);
+  return name;
+}
+
+RosHeader header(RosFields& fields, TimeUs recorded_us) {
+  RosHeader header;
+  if (!fields.is_cdr()) fields.number<std::uint32_t>();  // its number
+  const std::int64_t stamp_s = fields.is_cdr() ? std::int64_t{fields.number<std::int32_t>()}
+                                               : std::int64_t{fields.number<std::uint32_t>()};
+  const auto stamp_ns = std::int64_t{fields.number<std::uint32_t>()};
+  const bool is_stamped = stamp_s != 0 || stamp_ns != 0;
+  header.time_us = is_stamped ? stamp_s * 1'000'000 + (stamp_ns + 500) / 1000 : recorded_us;
+  header.frame = frame_name(fields.text());
+  return header;
+}
+
+/// A place and a quaternion x, y, z, w; none when the one is not finite or the other no rotation.
+std::optional<mrpt::math::TPose3D> pose(RosFields& fields) {
+  double values[7];
+  for (double& value : values) value = fields.number<double>();
+  const auto [x, y, z, qx, qy, qz, qw] = values;
+  const double norm = std::sqrt(qx * qx + qy * qy + qz * qz + qw * qw);
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || !(std::abs(norm - 1) < 0.1))
+    return std::nullopt;
+  const mrpt::math::CQuaternionDouble rotation(qw / norm, qx / norm, qy / norm, qz / norm);
+  mrpt::math::TPose3D pose(x, y, z, 0, 0, 0);
+  rotation.rpy(pose.roll, pose.pitch, pose.yaw);
+  return pose;
+}
+
+}  // namespace
+
+RosLaserScan read_ros_laser_scan(const BagMessage& message) {
+  RosFields fields(message);
+  RosLaserScan scan;
+  scan.header = header(fields, message.recorded_us);
+  scan.angle_min_rad = fields.number<float>();
+  fields.number<float>();  // angle_max, which says the same again
+  scan.angle_increment_rad = fields.number<float>();
+  scan.time_increment_s = fields.number<float>();
+  scan.scan_time_s = fields.number<float>();
+  scan.range_min_m = fields.number<float>();
+  scan.range_max_m = fields.number<float>();
+  scan.ranges_m = fields.floats();
+  return scan;
+}
+
+std::optional<RosTransform> read_ros_odometry(const BagMessage& message) {
+  RosFields fields(message);
+  RosTransform odometry;
+  odometry.header = header(fields, message.recorded_us);
+  odometry.child_frame = frame_name(fields.text());
+  const auto pose_found = pose(fields);
+  if (!pose_found) return std::nullopt;
+  odometry.pose = *pose_found;
+  return odometry;
+}
+
+std::vector<RosTransform> read_ros_transforms(const BagMessage& message) {
+  RosFields fields(message);
+  std::vector<RosTransform> transforms;
+  for (auto left = fields.number<std::uint32_t>(); left > 0; --left) {
+    RosTransform transform;
+    transform.header = header(fields, message.recorded_us);
+    transform.child_frame = frame_name(fields.text());
+    const auto pose_found = pose(fields);
+    if (!pose_found) continue;
+    transform.pose = *pose_found;
+    transforms.push_back(std::move(transform));
+  }
+  return transforms;
+}
+
+}  // namespace psi_slam

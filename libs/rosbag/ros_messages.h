@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The messages of ROS that are read, as far as they are needed, out of the bytes of ROS 1 (packed, little
+// endian) and of ROS 2 (CDR of either byte order, numbers aligned to their size).
+#pragma once
+
+#include <mrpt/math/TPose3D.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "psi_slam/time_stamp.h"
+#include "rosbag/bag_file.h"
+
+namespace psi_slam {
+
+inline constexpr const char* kRosLaserScan = "sensor_msgs/LaserScan";
+inline constexpr const char* kRosOdometry = "nav_msgs/Odometry";
+inline constexpr const char* kRosTransforms = "tf2_msgs/TFMessage";
+inline constexpr const char* kRosOldTransforms = "tf/tfMessage";  ///< the same bytes
+
+struct RosHeader {
+  TimeUs time_us = 0;
+  std::string frame;  ///< without the slash in front that old programs write
+};
+
+struct RosLaserScan {
+  RosHeader header;
+  float angle_min_rad = 0;
+  float angle_increment_rad = 0;
+  float time_increment_s = 0;  ///< between neighbouring beams; 0: not stated
+  float scan_time_s = 0;       ///< between scans; 0: not stated
+  float range_min_m = 0;
+  float range_max_m = 0;
+  std::vector<float> ranges_m;
+};
+
+/// Where `child_frame` is in the frame of the header; from an odometry message or a transform.
+struct RosTransform {
+  RosHeader header;
+  std::string child_frame;
+  mrpt::math::TPose3D pose;
+};
+
+// Each throws MalformedBytes when the message is shorter than it says.
+RosLaserScan read_ros_laser_scan(const BagMessage& message);
+
+/// None when its pose is none: not finite, or no rotation.
+std::optional<RosTransform> read_ros_odometry(const BagMessage& message);
+
+/// Transforms that are none (not finite, or no rotation) are left out: most are of no concern here.
+std::vector<RosTransform> read_ros_transforms(const BagMessage& message);
+
+}  // namespace psi_slam

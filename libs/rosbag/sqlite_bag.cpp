@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rosbag/sqlite_bag.h"
+
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "psi_slam/user_error.h"
+#include "compression/decompression.h"
+#include "base/byte_cursor.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr std::uint64_t kMostOfMessage = std::uint64_t{1} << 30;
+
+std::string text_at(sqlite3_stmt* row, int column) {
+  const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
+  return text == nullptr ? std::string() : std::string(text);
+}
+
+std::string uri_of(const std::filesystem::path& path) {
+  std::string uri = "file:";
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  for (const char c : path.string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '%' || c == '?' || c == '#') {
+      uri += {'%', kDigits[byte / 16], kDigits[byte % 16]};
+    } else {
+      uri += c;
+    }
+  }
+  // A recorder that was killed leaves its last messages in a journal beside the file; without one nothing is
+  // written beside it.
+  const bool has_journal = std::filesystem::exists(path.string() + "-wal");
+  return uri + (has_journal ? "?mode=ro" : "?mode=ro&immutable=1");
+}
+
+}  // namespace
+
+SqliteBag::SqliteBag(const std::filesystem::path& path)
+    : path_(path), database_(nullptr, &sqlite3_close), messages_(nullptr, &sqlite3_finalize) {
+  sqlite3* database = nullptr;
+  const int code =
+      sqlite3_open_v2(uri_of(path).c_str(), &database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+  database_.reset(database);
+  if (code != SQLITE_OK) fail();
+  std::error_code ignored;
+  const auto bytes = std::filesystem::file_size(path, ignored);
+  sqlite3_limit(
+      database, SQLITE_LIMIT_LENGTH,
+      static_cast<int>(std::clamp<std::uintmax_t>(bytes, 1 << 20, std::numeric_limits<int>::max())));
+  // Without it a file that is cut off is refused as a whole.
+  sqlite3_exec(database, "PRAGMA writable_schema = ON", nullptr, nullptr, nullptr);
+  read_topics();
+}
+
+SqliteBag::~SqliteBag() = default;
+
+SqliteBag::Statement SqliteBag::prepare(const std::string& query) const {
+  sqlite3_stmt* statement = nullptr;
+  if (sqlite3_prepare_v2(database_.get(), query.c_str(), -1, &statement, nullptr) != SQLITE_OK) fail();
+  return {statement, &sqlite3_finalize};
+}
+
+bool SqliteBag::step(const Statement& statement) const {
+  const int code = sqlite3_step(statement.get());
+  if (code != SQLITE_ROW && code != SQLITE_DONE) fail();
+  return code == SQLITE_ROW;
+}
+
+void SqliteBag::read_topics() {
+  const Statement rows = prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id");
+  while (step(rows)) {
+    const BagEncoding encoding = text_at(rows.get(), 3) == "cdr" ? BagEncoding::kCdr : BagEncoding::kOther;
+    topics_[sqlite3_column_int64(rows.get(), 0)] = {text_at(rows.get(), 1),
+                                                    ros1_type_name(text_at(rows.get(), 2)), encoding};
+  }
+}
+
+std::vector<BagTopic> SqliteBag::topics() {
+  std::vector<BagTopic> topics;
+  for (const auto& [id, topic] : topics_)
+    if (std::find(topics.begin(), topics.end(), topic) == topics.end()) topics.push_back(topic);
+  return topics;
+}
+
+void SqliteBag::begin_messages() {
+  std::string ids;
+  for (const auto& [id, topic] : topics_)
+    if (is_wanted(topic)) ids += (ids.empty() ? "" : ",") + std::to_string(id);
+  messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages WHERE topic_id IN (" + ids +
+                      ") ORDER BY id");
+  try {
+    const Statement last = prepare("SELECT max(id) FROM messages");
+    if (step(last)) last_id_ = sqlite3_column_int64(last.get(), 0);
+  } catch (const UserError&) {
+    last_id_ = 0;  // the end of the file is missing; then there is no saying how far reading has come
+  }
+}
+
+bool SqliteBag::next(BagMessage& message) {
+  if (!messages_) begin_messages();
+  if (!step(messages_)) return false;
+  sqlite3_stmt* row = messages_.get();
+  id_ = sqlite3_column_int64(row, 0);
+  const auto topic = topics_.find(sqlite3_column_int64(row, 1));
+  if (topic == topics_.end()) fail();
+  const auto* data = static_cast<const char*>(sqlite3_column_blob(row, 3));
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, 3));
+  message = {&topic->second, sqlite3_column_int64(row, 2) / 1000, std::string_view(data, data ? size : 0)};
+  if (!is_zstd(message.bytes)) return true;
+  try {
+    unpacked_ = decompress_zstd_frame(message.bytes, kMostOfMessage);
+  } catch (const MalformedBytes& error) {
+    throw UserError(place() + ": the bag is damaged: " + error.what());
+  }
+  message.bytes = unpacked_;
+  return true;
+}
+
+double SqliteBag::progress() const {
+  if (last_id_ <= 0) return id_ > 0 ? 1 : 0;
+  return std::clamp(static_cast<double>(id_) / static_cast<double>(last_id_), 0.0, 1.0);
+}
+
+std::string SqliteBag::place() const {
+  return path_.string() + ": message " + std::to_string(id_);
+}
+
+void SqliteBag::fail() const {
+  const std::string reason = database_ ? sqlite3_errmsg(database_.get()) : "out of memory";
+  const std::string where =
+      id_ > 0 ? path_.string() + ": behind message " + std::to_string(id_) : path_.string();
+  throw UserError(where + ": the bag is cut off or damaged, or no ROS 2 bag (" + reason + ")");
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/place_run.h"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "session/open_input.h"
+#include "psi_slam/user_error.h"
+#include "local_maps/front_end.h"
+#include "psi_slam/localizer.h"
+#include "frames/inverse_pose.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+// A place that was found is believed when the robot has been followed from it for so long.
+constexpr double kFollowed_m = 2.0;
+
+/// Where the robot was seen last, and its whole way there from its first scan.
+struct Sighting {
+  TPose2D map_T_robot;
+  TPose2D start_T_robot;
+};
+
+RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& seen) {
+  const TPose2D map_T_start = seen.map_T_robot + inverse(seen.start_T_robot);
+  RunStart start;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t node = 0; node < mapped.node_frames.size(); ++node) {
+    const TPose2D& there = mapped.frames[mapped.node_frames[node]].map_T_robot;
+    const double distance_m = std::hypot(there.x - seen.map_T_robot.x, there.y - seen.map_T_robot.y);
+    if (distance_m >= nearest_m) continue;
+    nearest_m = distance_m;
+    start = {node, map_T_start - there, seen.start_T_robot};
+  }
+  return start;
+}
+
+/// The frames of the first drive of an input, up to where it breaks off.
+class FirstRun {
+ public:
+  FirstRun(const SessionInput& input, const Settings& settings) : frames_(open_input(input, settings)) {
+    if (input.recording() && !input.recording()->facts.runs.empty())
+      end_ = input.recording()->facts.runs.front().scan;
+  }
+
+  double progress() const { return frames_->progress(); }
+
+  std::optional<Frame> next() {
+    if (read_ == end_) return std::nullopt;
+    try {
+      std::optional<Frame> frame = frames_->next();
+      if (frame) ++read_;
+      return frame;
+    } catch (const UserError&) {
+      if (read_ == 0) throw;
+      return std::nullopt;  // who maps the drive tells of it
+    }
+  }
+
+ private:
+  std::unique_ptr<FrameSource> frames_;
+  std::size_t end_ = std::numeric_limits<std::size_t>::max();
+  std::size_t read_ = 0;
+};
+
+/// Follows the robot until it is sure where it is; `why_not` says why it is not.
+std::optional<Sighting> find(FirstRun& frames, Localizer& localizer, FrontEnd& way, bool told,
+                             const std::atomic<bool>& stop, const std::function<void(double share)>& tell,
+                             std::string& why_not) {
+  std::optional<Sighting> seen;
+  double followed_m = 0;
+  while (std::optional<Frame> frame = frames.next()) {
+    if (stop) throw SystemFailure("interrupted while a drive was looked for in the map: nothing was merged");
+    if (tell) tell(frames.progress());
+    const LocalizationStep step = localizer.add(*frame);
+    const TPose2D start_T_robot = way.add(*frame).local_T_robot;
+    if (step.search && !step.search->believed()) why_not = step.search->objection;
+    if (step.state == LocalizationStep::State::kLost) {
+      if (told) return std::nullopt;
+      seen.reset();
+      followed_m = 0;
+      continue;
+    }
+    followed_m += step.moved_m;
+    if (step.fits) seen = Sighting{step.map_T_robot, start_T_robot};
+    if (step.fits && followed_m >= kFollowed_m) return seen;
+  }
+  return seen;  // a drive that ends sooner
+}
+
+}  // namespace
+
+RunStart place_run(const MappingResult& mapped, const mrpt::maps::COccupancyGridMap2D& grid,
+                       const SessionInput& drive, const Settings& settings,
+                       const std::optional<TPose2D>& map_T_start, const std::atomic<bool>& stop,
+                       const std::function<void(double share)>& tell) {
+  const LocalizerOptions options = localizer_options(settings);
+  Localizer localizer(make_reference_map(grid, options.search.resolution_m, options.search.smoothing_sigma_m),
+                      options);
+  if (map_T_start) localizer.start_at(*map_T_start);
+  FrontEnd way(settings.mapper.front_end);
+  FirstRun frames(drive, settings);
+  std::string why_not = "it is too short for a search";
+  const auto seen = find(frames, localizer, way, map_T_start.has_value(), stop, tell, why_not);
+  if (seen) return seen_from_nearest_node(mapped, *seen);
+  const std::string name = names_of(drive.logs());
+  if (map_T_start) throw UserError(name + " does not begin near --start: its scans do not fit the map there");
+  throw UserError(name + " cannot be placed in the map of what came before: " + why_not);
+}
+
+}  // namespace psi_slam

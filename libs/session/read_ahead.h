@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads a log in a thread of its own, a bounded number of frames ahead of who takes them. The frames, and
+// what goes wrong, come in the same order as without.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "psi_slam/frame_source.h"
+
+namespace psi_slam {
+
+class ReadAhead : public FrameSource {
+ public:
+  /// Holds up to `capacity` frames, at least 1.
+  explicit ReadAhead(std::unique_ptr<FrameSource> source, std::size_t capacity = 256);
+  ~ReadAhead() override;
+  ReadAhead(const ReadAhead&) = delete;
+  ReadAhead& operator=(const ReadAhead&) = delete;
+
+  /// Throws what the source threw, after the frames that came before.
+  std::optional<Frame> next() override;
+
+  /// Of the frames taken, not of those read ahead.
+  double progress() const override { return progress_; }
+  SkippedLines skipped_lines() const override { return skipped_; }
+
+ private:
+  struct Read {
+    std::optional<Frame> frame;  ///< empty at the end
+    double progress = 0;
+    SkippedLines skipped;
+    std::exception_ptr failure;
+  };
+
+  void read_all();
+  Read read_one() noexcept;
+
+  std::unique_ptr<FrameSource> source_;
+  const std::size_t capacity_;
+  double progress_ = 0;
+  SkippedLines skipped_;
+
+  std::mutex mutex_;  // of what follows
+  std::condition_variable changed_;
+  std::deque<Read> ahead_;
+  bool stop_ = false;
+
+  std::thread thread_;
+};
+
+}  // namespace psi_slam

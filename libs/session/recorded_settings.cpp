@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/recorded_settings.h"
+
+#include <algorithm>
+
+#include "psi_slam/user_error.h"
+#include "config/ini_file.h"
+
+namespace psi_slam {
+namespace {
+
+bool is_kept(const Option& option) {
+  return option.section != "map" && option.section != "localization" && option.name() != "run.threads";
+}
+
+bool is_known(const std::string& name, const OptionTable& table) {
+  const auto& sections = table.sections();
+  return std::any_of(sections.begin(), sections.end(), [&](const OptionSection& section) {
+    return std::any_of(section.options.begin(), section.options.end(),
+                       [&](const Option& option) { return option.name() == name; });
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
+                                       const std::filesystem::path& file) {
+  std::vector<std::string> unknown;
+  for (const IniValue& value : parse_ini(facts.settings, file).values) {
+    const std::string name = value.section + '.' + value.key;
+    if (is_known(name, bound.table))
+      bound.table.set(name, value.text, value.where);
+    else
+      unknown.push_back(file.string() + ": " + name + " is no option any more and is left out");
+  }
+  return unknown;
+}
+
+std::optional<std::string> other_version_text(const std::filesystem::path& file, const SessionFacts& facts) {
+  if (facts.program_version == PSI_SLAM_VERSION) return std::nullopt;
+  return file.string() + " was made by psi-slam " + facts.program_version +
+         ", this is " PSI_SLAM_VERSION ": the map may differ from that one's";
+}
+
+std::map<std::string, std::string> kept_settings(const OptionTable& table) {
+  std::map<std::string, std::string> kept;
+  for (const OptionSection& section : table.sections())
+    for (const Option& option : section.options)
+      if (is_kept(option)) kept[option.name()] = option.text();
+  return kept;
+}
+
+std::vector<ChangedSetting> changed_settings(const std::map<std::string, std::string>& kept,
+                                             const OptionTable& table) {
+  std::vector<ChangedSetting> changed;
+  for (const auto& [name, text] : kept_settings(table))
+    if (const std::string& before = kept.at(name); text != before) changed.push_back({name, before, text});
+  return changed;
+}
+
+std::optional<std::string> changed_settings_text(const std::filesystem::path& file, const SessionFacts& facts,
+                                                 const OptionTable& table) {
+  constexpr std::size_t kNamed = 3;
+  BoundSettings recorded;
+  load_recorded(recorded, facts, file);
+  const std::vector<ChangedSetting> changed = changed_settings(kept_settings(recorded.table), table);
+  if (changed.empty()) return std::nullopt;
+  std::string text = file.string() + " was mapped with other settings and is mapped anew with those of now: ";
+  for (std::size_t i = 0; i < std::min(changed.size(), kNamed); ++i) {
+    const auto said = [](const std::string& value) { return value.empty() ? "empty" : value; };
+    text += (i == 0 ? "" : ", ") + changed[i].name + " was " + said(changed[i].before) + " and is " +
+            said(changed[i].now);
+  }
+  if (changed.size() > kNamed) text += ", and " + std::to_string(changed.size() - kNamed) + " more";
+  return text;
+}
+
+void require_kept(const std::map<std::string, std::string>& kept, const OptionTable& table,
+                  const std::filesystem::path& file) {
+  const std::vector<ChangedSetting> changed = changed_settings(kept, table);
+  if (changed.empty()) return;
+  const auto& [name, before, now] = changed.front();
+  throw UserError(name + " is " + before + " in the session " + file.string() + " and cannot become " + now +
+                  ": a resumed session keeps all settings but [map], [localization] and run.threads");
+}
+
+}  // namespace psi_slam

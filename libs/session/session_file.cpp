@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/session_file.h"
+
+#include <zstd.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "session/frame_bytes.h"
+#include "base/atomic_file.h"
+#include "base/file_checksum.h"
+#include "psi_slam/user_error.h"
+#include "compression/decompression.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kMagic = "psi-slam session";
+constexpr std::size_t kHeadBytes = kMagic.size() + sizeof(std::uint32_t) + 2 * sizeof(std::uint64_t);
+constexpr std::size_t kChecksumBytes = 64;
+constexpr int kCompressionLevel = 9;
+constexpr std::uint32_t kFactsOfEachLog = 3;  // the version with what is wrong with every log
+
+Json pose_json(const mrpt::math::TPose2D& pose) {
+  return Json::array({pose.x, pose.y, pose.phi});
+}
+
+mrpt::math::TPose2D pose_of(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+Json json_of(const SessionFacts& facts) {
+  Json logs = Json::array();
+  for (const RecordedLog& log : facts.logs)
+    logs.push_back({{"name", log.name},
+                    {"sha256", log.sha256},
+                    {"scans", log.scans},
+                    {"skipped_lines",
+                     {{"count", log.skipped.count},
+                      {"first", log.skipped.first},
+                      {"spare_scans", log.skipped.spare_scans}}},
+                    {"broken_off", log.broken_off.value_or("")},
+                    {"scans_left", log.scans_left}});
+  Json runs = Json::array();
+  for (const RecordedRun& drive : facts.runs) {
+    runs.push_back({{"scan", drive.scan},
+                      {"node", drive.start.node},
+                      {"node_T_robot", pose_json(drive.start.node_T_robot)},
+                      {"robot_T_found", pose_json(drive.start.robot_T_found)}});
+  }
+  return {{"program_version", facts.program_version},
+          {"logs", logs},
+          {"drives", runs},
+          {"settings", facts.settings},
+          {"edits", facts.edits.text()}};
+}
+
+/// What is wrong with a log, and whether that is all of it.
+void read_faults(const Json& json, std::uint32_t version, RecordedLog& log) {
+  const Json& skipped = json.at("skipped_lines");
+  log.skipped = {skipped.at("count").get<std::size_t>(), skipped.at("first").get<std::string>()};
+  if (version >= kFactsOfEachLog) log.skipped.spare_scans = skipped.at("spare_scans").get<std::size_t>();
+  if (const auto broken_off = json.at("broken_off").get<std::string>(); !broken_off.empty())
+    log.broken_off = broken_off;
+  log.scans_left = json.at("scans_left").get<bool>();
+}
+
+SessionFacts facts_of(const Json& json, std::uint32_t version, const fs::path& path) {
+  SessionFacts facts;
+  facts.program_version = json.at("program_version").get<std::string>();
+  for (const Json& log : json.at("logs")) {
+    facts.logs.push_back({log.at("name").get<std::string>(), log.at("sha256").get<std::string>(),
+                          log.at("scans").get<std::size_t>()});
+    if (version >= kFactsOfEachLog) read_faults(log, version, facts.logs.back());
+  }
+  // Before, those of the last log stood for all.
+  if (version < kFactsOfEachLog && !facts.logs.empty()) read_faults(json, version, facts.logs.back());
+  for (const Json& drive : json.at("drives"))
+    facts.runs.push_back({drive.at("scan").get<std::size_t>(),
+                            {drive.at("node").get<std::size_t>(), pose_of(drive.at("node_T_robot")),
+                             pose_of(drive.at("robot_T_found"))}});
+  facts.settings = json.at("settings").get<std::string>();
+  facts.edits = EditJournal::parse(json.at("edits").get<std::string>(), path);
+  return facts;
+}
+
+std::string packed(const std::string& bytes) {
+  std::string room(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t used =
+      ZSTD_compress(room.data(), room.size(), bytes.data(), bytes.size(), kCompressionLevel);
+  if (ZSTD_isError(used) != 0) throw SystemFailure("cannot compress the session: out of memory");
+  room.resize(used);
+  return room;
+}
+
+std::string all_bytes(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) throw UserError(path.string() + " does not exist, expected a session");
+  if (fs::is_directory(path, ignored)) throw UserError(path.string() + " is a folder, expected a session");
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw UserError("cannot read " + path.string());
+  return bytes;
+}
+
+/// Throws UserError unless all bytes are as they were written.
+void require_whole(const fs::path& path, std::string_view bytes) {
+  if (bytes.substr(0, kMagic.size()) != kMagic) throw UserError(path.string() + " is no session of psi-slam");
+  if (bytes.size() < kHeadBytes + kChecksumBytes)
+    throw UserError(path.string() + " is cut off: it has only " + std::to_string(bytes.size()) + " bytes");
+  const std::size_t end = bytes.size() - kChecksumBytes;
+  if (bytes.substr(end) == sha256_of_text(bytes.substr(0, end))) return;
+  ByteCursor head(bytes.substr(kMagic.size() + sizeof(std::uint32_t)));
+  const std::uint64_t expected = kHeadBytes + head.number<std::uint64_t>() + kChecksumBytes;
+  if (bytes.size() < expected)
+    throw UserError(path.string() + " is cut off: it has " + std::to_string(bytes.size()) + " of " +
+                    std::to_string(expected) + " bytes");
+  throw UserError(path.string() + " is damaged: its checksum does not match");
+}
+
+void require_consistent(const SessionRecording& recording) {
+  std::size_t scans = 0;
+  for (const RecordedLog& log : recording.facts.logs) {
+    if (log.scans > recording.frames.size()) throw MalformedBytes("a log has more than all of its scans");
+    scans += log.scans;
+  }
+  if (scans != recording.frames.size() || recording.facts.logs.empty())
+    throw MalformedBytes("its logs and its scans do not add up");
+  std::size_t begin = 0;
+  for (const RecordedRun& drive : recording.facts.runs) {
+    if (drive.scan >= recording.frames.size()) throw MalformedBytes("a drive begins beyond its scans");
+    if (!is_possible(drive.start.node_T_robot) || !is_possible(drive.start.robot_T_found))
+      throw MalformedBytes("a drive begins nowhere");
+    if (drive.scan <= begin) throw MalformedBytes("its drives do not follow on one another");
+    begin = drive.scan;
+  }
+}
+
+}  // namespace
+
+bool is_session_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(kMagic.size(), '\0');
+  return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kMagic;
+}
+
+void write_session_file(const fs::path& path, const SessionFacts& facts, const std::vector<Frame>& frames) {
+  std::string content;
+  // Names of files, and lines of logs that are quoted, may be of any encoding.
+  const std::string json = json_of(facts).dump(-1, ' ', false, Json::error_handler_t::replace);
+  append_number(content, std::uint64_t{json.size()});
+  content += json;
+  append_frames(content, frames);
+  const std::string compressed = packed(content);
+  std::string bytes(kMagic);
+  append_number(bytes, kSessionVersion);
+  append_number(bytes, std::uint64_t{compressed.size()});
+  append_number(bytes, std::uint64_t{content.size()});
+  bytes += compressed;
+  bytes += sha256_of_text(bytes);
+  write_text_atomically(path, bytes);
+}
+
+SessionRecording read_session_file(const fs::path& path) {
+  const std::string bytes = all_bytes(path);
+  require_whole(path, bytes);
+  ByteCursor head(std::string_view(bytes).substr(kMagic.size()));
+  const auto version = head.number<std::uint32_t>();
+  if (version == 0 || version > kSessionVersion)
+    throw UserError(path.string() + " is a session of version " + std::to_string(version) +
+                    ", by a newer psi-slam: this one reads versions up to " +
+                    std::to_string(kSessionVersion));
+  try {
+    const auto packed_size = head.number<std::uint64_t>();
+    const auto size = head.number<std::uint64_t>();
+    const std::string content = decompress("zstd", head.take(packed_size), size);
+    ByteCursor cursor(content);
+    const std::string_view json = cursor.take(cursor.number<std::uint64_t>());
+    SessionRecording recording;
+    recording.facts = facts_of(Json::parse(json), version, path);
+    recording.frames = read_frames(cursor, version);
+    if (!cursor.at_end()) throw MalformedBytes("there is something behind its last scan");
+    require_consistent(recording);
+    return recording;
+  } catch (const MalformedBytes& error) {
+    throw UserError(path.string() + " is damaged: " + error.what());
+  } catch (const Json::exception&) {
+    throw UserError(path.string() + " is damaged: what it says of itself cannot be read");
+  }
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parts of describe() of settings.h, each of some sections of the settings.
+#pragma once
+
+#include "config/option_table.h"
+#include "session/settings.h"
+
+namespace psi_slam {
+
+/// Members of a section that the caller has begun.
+void describe_refinement(OptionTable& table, RefinementOptions& refinement);
+
+/// From the search for loops to the refinement of all scans.
+void describe_loops(OptionTable& table, MapperOptions& mapper);
+void describe_map(OptionTable& table, GridMapOptions& map);
+void describe_map_files(OptionTable& table, MapFileOptions& files);
+void describe_localization(OptionTable& table, LocalizerOptions& localization);
+
+}  // namespace psi_slam

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trajectory/trajectory_file.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <cmath>
+
+#include "base/atomic_file.h"
+#include "psi_slam/user_error.h"
+#include "base/number_text.h"
+#include "trajectory/text_lines.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr std::size_t kPlaneWords = 4;
+constexpr std::size_t kTumWords = 8;
+
+bool is_message_name(std::string_view word) {
+  return word[0] >= 'A' && word[0] <= 'Z';
+}
+
+StampedPose plane_pose(const TextLine& line) {
+  return {line.time(0),
+          {line.finite_number(1, "x in metres"), line.finite_number(2, "y in metres"),
+           mrpt::math::wrapToPi(line.finite_number(3, "theta in radians"))}};
+}
+
+StampedPose tum_pose(const TextLine& line) {
+  for (const std::size_t out_of_plane : {3, 4, 5})
+    line.finite_number(out_of_plane, out_of_plane == 3 ? "tz in metres" : "a part of a quaternion");
+  const double q_z = line.finite_number(6, "qz of a quaternion");
+  const double q_w = line.finite_number(7, "qw of a quaternion");
+  if (q_z == 0 && q_w == 0)
+    throw line.error("expected a turn in the plane, found a quaternion with qz = qw = 0");
+  return {line.time(0),
+          {line.finite_number(1, "tx in metres"), line.finite_number(2, "ty in metres"),
+           mrpt::math::wrapToPi(2 * std::atan2(q_z, q_w))}};
+}
+
+StampedPose flaser_pose(const TextLine& line) {
+  constexpr std::size_t kWordsBesideRanges =
+      2 + 9;  // name, n; two poses, time stamp, host, logger's time stamp
+  const std::size_t words = line.words.size();
+  const std::size_t ranges = words < kWordsBesideRanges ? 0 : words - kWordsBesideRanges;
+  if (words < kWordsBesideRanges ||
+      line.finite_number(1, "the number of ranges") != static_cast<double>(ranges))
+    throw line.error(
+        "expected 'FLASER n', n ranges, two poses, time stamp, host and the logger's time stamp, found " +
+        std::to_string(words) + " words that do not add up");
+  const std::size_t x = 2 + ranges;
+  return {line.time(x + 6),
+          {line.finite_number(x, "x in metres"), line.finite_number(x + 1, "y in metres"),
+           mrpt::math::wrapToPi(line.finite_number(x + 2, "theta in radians"))}};
+}
+
+}  // namespace
+
+std::string tum_text(const Trajectory& trajectory) {
+  std::string text;
+  text.reserve(trajectory.size() * 80);
+  for (const StampedPose& stamped : trajectory) {
+    const auto& [x, y, yaw] = stamped.pose;
+    text += format_seconds(stamped.time_us) + ' ' + fixed_text(x, 9) + ' ' + fixed_text(y, 9) + " 0 0 0 " +
+            fixed_text(std::sin(yaw / 2), 12) + ' ' + fixed_text(std::cos(yaw / 2), 12) + '\n';
+  }
+  return text;
+}
+
+void write_tum(const std::filesystem::path& path, const Trajectory& trajectory) {
+  write_text_atomically(path, tum_text(trajectory));
+}
+
+Trajectory read_trajectory(const std::filesystem::path& path) {
+  Trajectory trajectory;
+  bool first = true;
+  bool carmen = false;
+  for_each_text_line(path, [&](const TextLine& line) {
+    if (first) carmen = is_message_name(line.words[0]);
+    first = false;
+    if (carmen) {
+      if (line.words[0] == "FLASER") trajectory.push_back(flaser_pose(line));
+    } else if (line.words.size() == kTumWords) {
+      trajectory.push_back(tum_pose(line));
+    } else if (line.words.size() == kPlaneWords) {
+      trajectory.push_back(plane_pose(line));
+    } else {
+      throw line.error("expected 'timestamp x y theta' or 'timestamp tx ty tz qx qy qz qw', found " +
+                       std::to_string(line.words.size()) + (line.words.size() == 1 ? " word" : " words"));
+    }
+  });
+  if (trajectory.empty())
+    throw UserError(path.string() +
+                    ": no pose in it, expected lines of 'timestamp x y theta', of TUM's format or " +
+                    "CARMEN's FLASER");
+  return trajectory;
+}
+
+}  // namespace psi_slam

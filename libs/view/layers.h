@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is drawn into each layer of a map's scene: a layer is emptied and filled anew.
+#pragma once
+
+#include <mrpt/opengl/CSetOfObjects.h>
+
+#include <cstddef>
+#include <optional>
+
+#include "replay/map_painter.h"
+#include "replay/replay_snapshot.h"
+#include "view/map_scene.h"
+
+namespace psi_slam {
+
+using SceneLayer = mrpt::opengl::CSetOfObjects;
+
+/// Of the layers above the ground: those of one viewport are drawn from the lowest to the highest. Low, or
+/// perspective would shift them.
+namespace height_m {
+inline constexpr double kLocalMaps = 0.005;
+inline constexpr double kOdometry = 0.01;
+inline constexpr double kConstraints = 0.015;
+inline constexpr double kLoops = 0.02;
+inline constexpr double kTrajectory = 0.025;
+inline constexpr double kNodes = 0.03;
+inline constexpr double kScan = 0.035;
+inline constexpr double kWindows = 0.04;
+inline constexpr double kRobot = 0.045;
+inline constexpr double kChosenLoop = 0.05;
+inline constexpr double kMeasure = 0.055;
+}  // namespace height_m
+
+void draw_grid(SceneLayer& layer, const DrawnMap& map);
+
+/// The local maps that are filled at the moment, tinted.
+void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
+void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
+
+/// By odometry alone, from the same start.
+void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot);
+void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot);
+
+void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot);
+/// From each node to the anchors of the local maps that hold its scan.
+void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot);
+void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style);
+/// The loop that a person looks at.
+void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);
+/// Where its match was searched for; added to what the layer holds.
+void draw_loop_window(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);
+
+void draw_robot(SceneLayer& layer, const mrpt::math::TPose2D& map_T_robot);
+void draw_scan(SceneLayer& layer, const Frame& frame, const mrpt::math::TPose2D& map_T_robot);
+/// Where the front end searched for the pose of this scan, and the windows of its loops.
+void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t frame);
+
+void draw_measure(SceneLayer& layer, const Measure& measure);
+
+}  // namespace psi_slam

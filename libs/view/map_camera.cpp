@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "view/map_camera.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace psi_slam {
+namespace {
+
+constexpr double kMargin = 1.08;
+constexpr double kNearest_m = 2;
+
+double half_tangent(const MapCamera& camera) {
+  return std::tan(camera.field_of_view_deg * M_PI / 360);
+}
+
+}  // namespace
+
+std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const PictureSize& size, double x_px,
+                                              double y_px) {
+  const double azimuth = camera.azimuth_deg * M_PI / 180;
+  const double elevation = camera.elevation_deg * M_PI / 180;
+  const Eigen::Vector3d to_eye(std::cos(azimuth) * std::cos(elevation),
+                               std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
+  const Eigen::Vector3d right(-std::sin(azimuth), std::cos(azimuth), 0);
+  const Eigen::Vector3d up = to_eye.cross(right);
+  const double scale = half_tangent(camera);
+  const double aspect = static_cast<double>(size.width_px) / std::max(1, size.height_px);
+  const double across = (2 * x_px / std::max(1, size.width_px) - 1) * scale * aspect;
+  const double above = (1 - 2 * y_px / std::max(1, size.height_px)) * scale;
+  const Eigen::Vector3d direction = across * right + above * up - to_eye;
+  if (direction.z() >= -1e-6) return std::nullopt;
+  const double length = camera.distance_m * to_eye.z() / -direction.z();
+  return mrpt::math::TPoint2D(camera.target.x + camera.distance_m * to_eye.x() + length * direction.x(),
+                              camera.target.y + camera.distance_m * to_eye.y() + length * direction.y());
+}
+
+MapCamera camera_above(const GroundRectangle& rectangle, const PictureSize& size) {
+  MapCamera camera;
+  camera.target = {(rectangle.min.x + rectangle.max.x) / 2, (rectangle.min.y + rectangle.max.y) / 2};
+  const double aspect = static_cast<double>(std::max(1, size.width_px)) / std::max(1, size.height_px);
+  const double half_height_m =
+      std::max((rectangle.max.y - rectangle.min.y) / 2, (rectangle.max.x - rectangle.min.x) / 2 / aspect);
+  camera.distance_m = std::max(kNearest_m, kMargin * half_height_m / half_tangent(camera));
+  return camera;
+}
+
+}  // namespace psi_slam

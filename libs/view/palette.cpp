@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "view/palette.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace psi_slam {
+
+using mrpt::img::TColor;
+
+TColor matcher_colour(const std::string& matcher) {
+  if (matcher == "csm") return {117, 76, 180};
+  if (matcher == "csm_ga") return {0, 122, 204};
+  if (matcher == "ga") return {0, 145, 90};
+  return {140, 140, 140};
+}
+
+TColor verdict_colour(LoopVerdict verdict) {
+  switch (verdict) {
+    case LoopVerdict::kAccepted:
+      return {0, 130, 70};
+    case LoopVerdict::kPending:
+      return {176, 112, 0};
+    case LoopVerdict::kRefused:
+      return {120, 124, 130};
+    case LoopVerdict::kSwitchedOff:
+      return {196, 30, 40};
+    case LoopVerdict::kNotFound:
+      return {160, 164, 170};
+    case LoopVerdict::kDeleted:
+      return {150, 20, 110};
+  }
+  return {};
+}
+
+TColor heat_colour(double share) {
+  constexpr std::array<std::array<double, 3>, 3> kStops{{{26, 150, 65}, {240, 190, 40}, {200, 20, 30}}};
+  const double at = std::clamp(share, 0.0, 1.0) * 2;
+  const auto first = static_cast<std::size_t>(std::min(std::floor(at), 1.0));
+  const double u = at - static_cast<double>(first);
+  const auto mixed = [&](std::size_t channel) {
+    const double value = kStops[first][channel] * (1 - u) + kStops[first + 1][channel] * u;
+    return static_cast<std::uint8_t>(std::lround(value));
+  };
+  return {mixed(0), mixed(1), mixed(2)};
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The colours of the views, the same in scenes, plots, tables and legends.
+#pragma once
+
+#include <mrpt/img/TColor.h>
+
+#include <string>
+
+#include "psi_slam/loop_record.h"
+
+namespace psi_slam {
+
+namespace palette {
+inline constexpr mrpt::img::TColor kBackground{236, 238, 241};
+inline constexpr mrpt::img::TColor kCorrected{31, 97, 171};
+inline constexpr mrpt::img::TColor kOdometry{196, 132, 52, 170};
+inline constexpr mrpt::img::TColor kNode{31, 97, 171};
+inline constexpr mrpt::img::TColor kConstraint{120, 132, 150, 130};
+inline constexpr mrpt::img::TColor kScan{222, 45, 38};
+inline constexpr mrpt::img::TColor kRobot{20, 24, 32};
+inline constexpr mrpt::img::TColor kWindow{214, 112, 0};
+inline constexpr mrpt::img::TColor kOlderMap{0, 120, 140};
+inline constexpr mrpt::img::TColor kNewerMap{140, 70, 160};
+inline constexpr mrpt::img::TColor kChosen{255, 0, 160};
+inline constexpr mrpt::img::TColor kMeasure{200, 0, 90};
+inline constexpr mrpt::img::TColor kBefore{224, 130, 20};
+inline constexpr mrpt::img::TColor kAfter{0, 130, 80};
+}  // namespace palette
+
+/// Of loops and of Psi's ranges, by the matcher's name; grey for "" and others.
+mrpt::img::TColor matcher_colour(const std::string& matcher);
+
+mrpt::img::TColor verdict_colour(LoopVerdict verdict);
+
+/// From green over yellow to red, for 0 .. 1 and more.
+mrpt::img::TColor heat_colour(double share);
+
+}  // namespace psi_slam

@@ -1,0 +1,421 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/input_doctor.h"
+
+#include <gmock/gmock.h>
+#include <zlib.h>
+
+#include <functional>
+#include <sstream>
+
+#include "log_files.h"
+#include "rawlog_files.h"
+#include "shared_logs.h"
+#include "simulated_run.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+std::vector<std::string> warnings_of(const LogDiagnosis& diagnosis) {
+  std::vector<std::string> codes;
+  for (const Finding& finding : diagnosis.findings)
+    if (finding.severity == Severity::kWarning) codes.push_back(finding.code);
+  return codes;
+}
+
+/// The finding of that code; one without sentence if there is none.
+Finding finding_of(const LogDiagnosis& diagnosis, const std::string& code) {
+  for (const Finding& finding : diagnosis.findings)
+    if (finding.code == code) return finding;
+  return {};
+}
+
+// ---- A simulated log, spoilt in one way at a time ----
+
+class InputDoctorTest : public testing::Test {
+ protected:
+  LogDiagnosis diagnose_run(const SimulatedRun& run, const LogOptions& options = {}) {
+    return diagnose_text(carmen_log(run), options);
+  }
+
+  LogDiagnosis diagnose_text(const std::string& log, const LogOptions& options = {}) {
+    write_file(folder_.path() / "log.clf", log);
+    return diagnose(folder_.path() / "log.clf", options);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(InputDoctorTest, finds_nothing_wrong_with_a_sound_log) {
+  const SimulatedRun run = round_trips(2);
+  const LogDiagnosis diagnosis = diagnose_run(run);
+  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
+  EXPECT_TRUE(diagnosis.odometry_is_sound);
+  EXPECT_EQ(diagnosis.facts.format, "CARMEN");
+  EXPECT_EQ(diagnosis.facts.laser, "FLASER");
+  EXPECT_EQ(diagnosis.facts.scans, run.truth.size());
+  EXPECT_EQ(diagnosis.facts.messages.at("FLASER"), run.truth.size());
+  EXPECT_EQ(diagnosis.used_beam_angles, BeamAngles::kLeftOpen);
+  EXPECT_EQ(diagnosis.beam_angles.best, BeamAngles::kLeftOpen);
+  EXPECT_EQ(finding_of(diagnosis, "beam_angles").sentence, "beam angles: left_open fits best, as used");
+  EXPECT_EQ(diagnosis.findings.size(), 1U);
+}
+
+TEST_F(InputDoctorTest, topics_mean_nothing_to_a_log_that_is_no_bag) {
+  LogOptions options;
+  options.scan_topic = "/a,/b";
+  const SimulatedRun run = round_trips(1);
+  EXPECT_EQ(diagnose_run(run, options).facts.scans, run.truth.size());
+  options.laser = "FLASER";
+  EXPECT_EQ(diagnose_run(run, options).facts.laser, "FLASER");
+}
+
+TEST_F(InputDoctorTest, knows_a_mirrored_scan_and_the_key_that_mends_it) {
+  SimulatedRun run = round_trips(1);
+  for (float& bearing : run.bearings_rad) bearing = -bearing;
+  const LogDiagnosis diagnosis = diagnose_run(run);
+  EXPECT_THAT(warnings_of(diagnosis), testing::ElementsAre("mirrored_scan"));
+  EXPECT_EQ(finding_of(diagnosis, "mirrored_scan").remedy, "log.mirrored = true");
+  EXPECT_FALSE(diagnosis.odometry_is_sound);
+  LogOptions mended;
+  mended.mirrored = true;
+  EXPECT_THAT(warnings_of(diagnose_run(run, mended)), testing::IsEmpty());
+}
+
+TEST_F(InputDoctorTest, knows_odometry_in_other_units) {
+  for (const auto& [factor, name] : std::vector<std::pair<double, std::string>>{
+           {1000, "millimetres"}, {100, "centimetres"}, {3.281, "feet"}, {0.001, "kilometres"}}) {
+    SimulatedRun run = round_trips(1);
+    for (TPose2D& pose : run.odometry) {
+      pose.x *= factor;
+      pose.y *= factor;
+    }
+    const LogDiagnosis diagnosis = diagnose_run(run);
+    EXPECT_THAT(warnings_of(diagnosis), testing::ElementsAre("odometry_unit"));
+    EXPECT_THAT(finding_of(diagnosis, "odometry_unit").sentence, testing::HasSubstr("looks like " + name));
+  }
+}
+
+TEST_F(InputDoctorTest, knows_headings_in_degrees_and_clockwise_ones) {
+  SimulatedRun run = round_trips(1);
+  for (TPose2D& pose : run.odometry) pose.phi *= 180 / M_PI;
+  EXPECT_THAT(warnings_of(diagnose_run(run)), testing::ElementsAre("odometry_degrees"));
+  run = round_trips(1);
+  for (TPose2D& pose : run.odometry) {
+    pose = TPose2D{0, 0, 0.7} + pose;
+    pose.phi = -pose.phi;
+  }
+  EXPECT_THAT(warnings_of(diagnose_run(run)), testing::ElementsAre("odometry_clockwise"));
+}
+
+TEST_F(InputDoctorTest, knows_odometry_that_stands_still) {
+  SimulatedRun run = round_trips(1);
+  for (TPose2D& pose : run.odometry) pose = {1, 2, 3};
+  EXPECT_THAT(warnings_of(diagnose_run(run)), testing::ElementsAre("odometry_still"));
+  const LogDiagnosis still = diagnose_run(drive({{0, 0, 100}}));
+  EXPECT_THAT(warnings_of(still), testing::IsEmpty());
+  EXPECT_EQ(finding_of(still, "robot_still").sentence, "the robot stands still in the whole log");
+}
+
+TEST_F(InputDoctorTest, knows_a_laser_that_looks_elsewhere) {
+  SimulatedRun run = round_trips(1);
+  run.robot_T_laser = {0.1, 0, M_PI / 2};
+  const LogDiagnosis diagnosis = diagnose_run(run);
+  EXPECT_THAT(warnings_of(diagnosis), testing::Contains("laser_heading"));
+  EXPECT_THAT(finding_of(diagnosis, "laser_heading").remedy,
+              testing::AnyOf("log.laser_yaw_deg = 90", "log.laser_yaw_deg = 89", "log.laser_yaw_deg = 91"));
+}
+
+TEST_F(InputDoctorTest, measures_the_mount_of_the_laser) {
+  SimulatedRun run = round_trips(2);
+  run.robot_T_laser = {0.2, 0, 0};
+  const Finding finding = finding_of(diagnose_run(run), "laser_mount");
+  EXPECT_EQ(finding.severity, Severity::kNote);
+  double x_m = 0;
+  ASSERT_EQ(std::sscanf(finding.remedy.c_str(), "log.laser_x_m = %lf", &x_m), 1) << finding.remedy;
+  EXPECT_NEAR(x_m, 0.2, 0.02);
+  LogOptions stated;
+  stated.robot_T_laser = TPose2D{0.2, 0, 0};
+  EXPECT_TRUE(finding_of(diagnose_run(run, stated), "laser_mount").sentence.empty());
+}
+
+TEST_F(InputDoctorTest, knows_beam_angles_that_bend_the_walls) {
+  SimulatedRun run = round_trips(2);
+  run.bearings_rad = make_bearings_rad(BeamAngles::kSkipZero, 180, M_PI);
+  const LogDiagnosis diagnosis = diagnose_run(run);
+  EXPECT_EQ(finding_of(diagnosis, "beam_angles").severity, Severity::kWarning);
+  EXPECT_EQ(finding_of(diagnosis, "beam_angles").remedy, "log.beam_angles = skip_zero");
+  LogOptions mended;
+  mended.beam_angles = BeamAngles::kSkipZero;
+  EXPECT_EQ(finding_of(diagnose_run(run, mended), "beam_angles").sentence,
+            "beam angles: skip_zero fits best, as used");
+}
+
+TEST_F(InputDoctorTest, knows_a_log_that_a_mapper_has_corrected) {
+  SimulatedRun run = round_trips(3);
+  run.odometry = run.truth;
+  EXPECT_THAT(warnings_of(diagnose_run(run)), testing::ElementsAre("corrected_odometry"));
+}
+
+TEST_F(InputDoctorTest, says_which_of_two_poses_is_used) {
+  std::string log = carmen_log(round_trips(1));
+  const std::string pose = " 0.000000 0.000000 0.000000";
+  const std::size_t first_pose = log.find(pose + pose);
+  ASSERT_NE(first_pose, std::string::npos);
+  log.replace(first_pose, pose.size(), " 0.100000 0.000000 0.000000");
+  EXPECT_THAT(finding_of(diagnose_text(log), "two_poses").sentence,
+              testing::StartsWith("1 scan carry a second pose"));
+}
+
+TEST_F(InputDoctorTest, knows_the_value_that_stands_for_no_return) {
+  SimulatedRun run = round_trips(1);
+  std::string log;
+  std::istringstream lines(carmen_log(run));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    std::string message;
+    std::size_t readings = 0;
+    fields >> message >> readings;
+    if (message != "FLASER") continue;
+    log += "FLASER 180";
+    for (std::size_t i = 0; i < readings; ++i) {
+      double range = 0;
+      fields >> range;
+      log += " " + std::to_string(range > 6 ? 8.0 : range);
+    }
+    std::string rest;
+    std::getline(fields, rest);
+    log += rest + "\n";
+  }
+  const LogDiagnosis diagnosis = diagnose_text(log);
+  EXPECT_THAT(warnings_of(diagnosis), testing::Contains("max_range"));
+  EXPECT_EQ(finding_of(diagnosis, "max_range").remedy, "log.max_range_m = 8.00");
+  LogOptions mended;
+  mended.max_range_m = 8.0;
+  EXPECT_THAT(warnings_of(diagnose_text(log, mended)), testing::IsEmpty());
+}
+
+TEST_F(InputDoctorTest, knows_ranges_in_millimetres) {
+  const SimulatedRun run = round_trips(1);
+  std::string log = "PARAM robot_front_laser_max 80 host 0\n";
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    log += "FLASER 180";
+    for (const float range : run.ranges_m(i)) log += " " + std::to_string(std::lround(range * 1000));
+    const std::string pose = " " + std::to_string(run.odometry[i].x) + " " +
+                             std::to_string(run.odometry[i].y) + " " + std::to_string(run.odometry[i].phi);
+    log += pose + pose + " " + std::to_string(i) + " host 0\n";
+  }
+  EXPECT_THAT(warnings_of(diagnose_text(log)), testing::Contains("range_unit"));
+}
+
+TEST_F(InputDoctorTest, knows_a_maximum_range_that_blinds_the_laser) {
+  LogOptions options;
+  options.max_range_m = 0.9;
+  EXPECT_THAT(warnings_of(diagnose_run(round_trips(1), options)),
+              testing::AllOf(testing::Contains("few_returns"), testing::Contains("empty_scans")));
+}
+
+TEST_F(InputDoctorTest, knows_repeated_scans) {
+  std::string log = carmen_log(round_trips(1));
+  const std::size_t start = log.find("FLASER", log.size() / 2);
+  const std::size_t end = log.find('\n', start) + 1;
+  log.insert(end, log.substr(start, end - start));
+  const LogDiagnosis diagnosis = diagnose_text(log);
+  EXPECT_THAT(warnings_of(diagnosis), testing::ElementsAre("repeated_scans"));
+  EXPECT_THAT(finding_of(diagnosis, "repeated_scans").sentence, testing::StartsWith("1 scan repeat"));
+}
+
+TEST_F(InputDoctorTest, tells_of_lines_that_do_not_parse) {
+  const std::string log = carmen_log(round_trips(1));
+  const LogDiagnosis diagnosis = diagnose_text("FLASER 3 1.0\n" + log);
+  EXPECT_EQ(diagnosis.facts.skipped.count, 1U);
+  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty()) << "one line is no harm";
+  EXPECT_THAT(finding_of(diagnosis, "skipped_lines").sentence,
+              testing::AllOf(testing::StartsWith("1 message of the log"), testing::HasSubstr(":1: FLASER")));
+}
+
+TEST_F(InputDoctorTest, reads_rawlogs_too) {
+  const SimulatedRun run = round_trips(1);
+  RawlogObjects objects;
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    const TPose2D increment = i == 0 ? TPose2D{0, 0, 0} : run.odometry[i] - run.odometry[i - 1];
+    auto scan = range_scan(static_cast<TimeUs>(1'000'000 + i * 200'000), "LASER", run.ranges_m(i));
+    scan->aperture = static_cast<float>(M_PI);
+    scan->rightToLeft = true;
+    objects.push_back(movement(mrpt::poses::CPose2D(increment)));
+    objects.push_back(sensory_frame({scan, range_scan(1'000'000, "OTHER")}));
+  }
+  write_rawlog(folder_.path() / "log.rawlog", objects);
+  const LogDiagnosis diagnosis = diagnose(folder_.path() / "log.rawlog");
+  EXPECT_EQ(diagnosis.facts.format, "MRPT rawlog");
+  EXPECT_EQ(diagnosis.facts.laser, "LASER");
+  EXPECT_EQ(diagnosis.facts.other_lasers.at("OTHER"), run.truth.size());
+  EXPECT_EQ(diagnosis.used_beam_angles, BeamAngles::kAuto) << "the log states its angles";
+  EXPECT_TRUE(diagnosis.beam_angles.fits.empty());
+  EXPECT_TRUE(diagnosis.odometry_is_sound);
+  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
+}
+
+TEST_F(InputDoctorTest, diagnoses_logs_of_one_scan_or_two) {
+  for (const std::size_t steps : {0, 1}) {
+    const LogDiagnosis diagnosis = diagnose_run(drive({{0.1, 0, steps}}));
+    EXPECT_EQ(diagnosis.facts.scans, steps + 1);
+    EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
+  }
+}
+
+TEST_F(InputDoctorTest, judges_a_log_that_breaks_off_up_to_there) {
+  std::string log = carmen_log(round_trips(1));
+  const LogDiagnosis whole = diagnose_text(log);
+  EXPECT_EQ(whole.facts.broken_off, "");
+  const LogDiagnosis diagnosis = diagnose_text(log + "FLASER 181 1.0");
+  EXPECT_EQ(diagnosis.facts.scans, whole.facts.scans);
+  EXPECT_TRUE(diagnosis.odometry_is_sound);
+  EXPECT_THAT(diagnosis.facts.broken_off, testing::HasSubstr("the file is cut off in this line"));
+  ASSERT_THAT(warnings_of(diagnosis), testing::ElementsAre("broken_off"));
+  EXPECT_EQ(diagnosis.findings.front().code, "broken_off");
+  EXPECT_THAT(
+      diagnosis.findings.front().sentence,
+      testing::AllOf(testing::StartsWith(diagnosis.facts.broken_off),
+                     testing::EndsWith(std::to_string(whole.facts.scans) + " scans that could be read")));
+}
+
+TEST_F(InputDoctorTest, passes_the_sentence_of_a_log_that_cannot_be_read) {
+  EXPECT_THROW(diagnose(folder_.path() / "none"), UserError);
+  EXPECT_THROW(diagnose_text("FLASER 3 1 2\n"), UserError);
+}
+
+// ---- The benchmark's logs, right and spoilt ----
+
+/// Writes a log anew, with every scan's ranges and odometry pose (x, y, heading) changed.
+void rewrite(const std::filesystem::path& from, const std::filesystem::path& to, std::size_t scans,
+             const std::function<void(std::vector<std::string>& ranges, TPose2D& odometry)>& change) {
+  gzFile file = gzopen(from.c_str(), "rb");
+  std::vector<char> buffer(1 << 16);
+  std::string log;
+  while (scans > 0 && gzgets(file, buffer.data(), static_cast<int>(buffer.size())) != nullptr) {
+    std::istringstream fields(buffer.data());
+    std::string message;
+    std::size_t readings = 0;
+    fields >> message >> readings;
+    if (message != "FLASER") continue;
+    --scans;
+    std::vector<std::string> ranges(readings);
+    for (std::string& range : ranges) fields >> range;
+    TPose2D pose;
+    fields >> pose.x >> pose.y >> pose.phi >> pose.x >> pose.y >> pose.phi;
+    change(ranges, pose);
+    log += "FLASER " + std::to_string(readings);
+    for (const std::string& range : ranges) log += " " + range;
+    char text[200];
+    std::snprintf(text, sizeof text, " %.9g %.9g %.9g %.9g %.9g %.9g", pose.x, pose.y, pose.phi, pose.x,
+                  pose.y, pose.phi);
+    std::string stamps;
+    std::getline(fields, stamps);
+    log += text + stamps + "\n";
+  }
+  gzclose(file);
+  write_file(to, log);
+}
+
+class InputDoctorOnKnownLogs : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const auto found = shared_file(std::string(GetParam()) + ".clf.gz");
+    if (!found) GTEST_SKIP() << kNeedsData;
+    log_ = *found;
+  }
+
+  std::vector<std::string> warnings_when(
+      const std::function<void(std::vector<std::string>& ranges, TPose2D& odometry)>& change) {
+    const auto path = folder_.path() / "spoilt.clf";
+    rewrite(log_, path, 3000, change);
+    return warnings_of(diagnose(path));
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path log_;
+};
+
+TEST_P(InputDoctorOnKnownLogs, raises_no_false_alarm) {
+  const LogDiagnosis diagnosis = diagnose(log_);
+  EXPECT_TRUE(diagnosis.odometry_is_sound);
+  ASSERT_TRUE(diagnosis.mount);
+  EXPECT_LT(diagnosis.mount->robot_T_laser.norm(), 0.15);
+  if (std::string(GetParam()) == "fr079") {
+    EXPECT_THAT(warnings_of(diagnosis), testing::ElementsAre("lost_reversals"));
+    EXPECT_GT(diagnosis.reversals.reversed_m, 3.0) << "of 9.6 m";
+    EXPECT_LT(diagnosis.reversals.reversed_m, 10.0);
+  } else {
+    EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
+    EXPECT_EQ(diagnosis.reversals.pairs.size(), 0U);
+  }
+}
+
+TEST_P(InputDoctorOnKnownLogs, rules_out_a_gap_between_the_halves_of_the_scan) {
+  const LogDiagnosis diagnosis = diagnose(log_);
+  ASSERT_FALSE(diagnosis.beam_angles.fits.empty());
+  for (const BeamAngleFit& fit : diagnosis.beam_angles.fits)
+    EXPECT_EQ(fit.ruled_out_by_walls, fit.angles == BeamAngles::kSkipZero) << name_of(fit.angles);
+}
+
+TEST_P(InputDoctorOnKnownLogs, knows_a_mirrored_scan) {
+  EXPECT_THAT(warnings_when([](auto& ranges, TPose2D&) { std::reverse(ranges.begin(), ranges.end()); }),
+              testing::ElementsAre("mirrored_scan"));
+}
+
+TEST_P(InputDoctorOnKnownLogs, knows_millimetres_and_centimetres) {
+  for (const double factor : {1000.0, 100.0})
+    EXPECT_THAT(warnings_when([&](auto&, TPose2D& pose) {
+                  pose.x *= factor;
+                  pose.y *= factor;
+                }),
+                testing::ElementsAre("odometry_unit"));
+}
+
+TEST_P(InputDoctorOnKnownLogs, knows_degrees) {
+  EXPECT_THAT(warnings_when([](auto&, TPose2D& pose) { pose.phi *= 180 / M_PI; }),
+              testing::ElementsAre("odometry_degrees"));
+}
+
+TEST_P(InputDoctorOnKnownLogs, knows_headings_that_run_clockwise) {
+  EXPECT_THAT(warnings_when([](auto&, TPose2D& pose) { pose.phi = -pose.phi; }),
+              testing::ElementsAre("odometry_clockwise"));
+}
+
+TEST_P(InputDoctorOnKnownLogs, knows_odometry_that_stands_still) {
+  EXPECT_THAT(warnings_when([](auto&, TPose2D& pose) {
+                pose = {0, 0, 0};
+              }),
+              testing::ElementsAre("odometry_still"));
+}
+
+INSTANTIATE_TEST_SUITE_P(all, InputDoctorOnKnownLogs,
+                         testing::Values("aces", "intel", "mit-killian", "mit-csail", "fr079"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           for (char& c : name)
+                             if (c == '-') c = '_';
+                           return name;
+                         });
+
+TEST(InputDoctorOnIntel, sees_time_run_backwards_and_does_not_mind) {
+  const auto log = shared_file("intel.clf.gz");
+  if (!log) GTEST_SKIP() << kNeedsData;
+  const LogDiagnosis diagnosis = diagnose(*log);
+  const Finding finding = finding_of(diagnosis, "time_backwards");
+  EXPECT_EQ(finding.severity, Severity::kNote);
+  EXPECT_EQ(
+      finding.sentence,
+      "time runs backwards at 858 scans, by up to 0.897 s; the order of the file is taken as the truth");
+  EXPECT_GE(diagnosis.beam_angles.full_turns, 2U);
+  for (const BeamAngleFit& fit : diagnosis.beam_angles.fits)
+    if (fit.angles == BeamAngles::kCentredStepInclusive) {
+      EXPECT_TRUE(fit.ruled_out_by_turns);
+    }
+}
+
+}  // namespace
+}  // namespace psi_slam

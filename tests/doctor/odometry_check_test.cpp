@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/odometry_check.h"
+
+#include <functional>
+
+#include "log_files.h"
+#include "simulated_run.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+/// The check of a run whose odometry `change` has spoilt, with the scans mirrored or the laser turned if
+/// wanted.
+class OdometryCheckTest : public testing::Test {
+ protected:
+  OdometryAgreement check(const std::function<void(TPose2D&)>& change, const LogOptions& options = {}) {
+    SimulatedRun run = round_trips(1);
+    const auto path = folder_.path() / "log";
+    write_file(path, carmen_log(run));
+    std::vector<FrameMark> marks;
+    for (TPose2D pose : run.odometry) {
+      change(pose);
+      pose.normalizePhi();
+      marks.push_back({static_cast<TimeUs>(marks.size()) * 200'000, pose});
+    }
+    const auto tracks = tracks_from(frames_in_motion(marks, 60), marks.size());
+    ScanLibrary library;
+    for (const auto& track : tracks) library.want(track);
+    library.fetch(path, options);
+    return check_odometry(marks, tracks, library);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(OdometryCheckTest, agrees_with_sound_odometry) {
+  const OdometryAgreement agreement = check([](TPose2D&) {});
+  EXPECT_GT(agreement.tracks, 50U);
+  EXPECT_NEAR(agreement.length_ratio, 1, 0.05);
+  EXPECT_EQ(agreement.heading, HeadingRelation::kAgrees);
+  EXPECT_GT(agreement.heading_share, 0.9);
+  EXPECT_NEAR(agreement.direction_offset_rad, 0, 0.05);
+  EXPECT_GT(agreement.direction_concentration, 0.9);
+  EXPECT_LT(agreement.odometry_slip_rad, 0.1);
+}
+
+TEST_F(OdometryCheckTest, measures_the_unit_of_length) {
+  for (const double factor : {1000.0, 100.0, 0.01, 3.281}) {
+    const OdometryAgreement agreement = check([&](TPose2D& pose) {
+      pose.x *= factor;
+      pose.y *= factor;
+    });
+    EXPECT_NEAR(agreement.length_ratio / factor, 1, 0.05) << factor;
+    EXPECT_EQ(agreement.heading, HeadingRelation::kAgrees) << factor;
+  }
+}
+
+TEST_F(OdometryCheckTest, knows_degrees) {
+  EXPECT_EQ(check([](TPose2D& pose) { pose.phi *= 180 / M_PI; }).heading, HeadingRelation::kDegrees);
+  EXPECT_EQ(check([](TPose2D& pose) { pose.phi *= -180 / M_PI; }).heading, HeadingRelation::kOppositeDegrees);
+}
+
+TEST_F(OdometryCheckTest, tells_a_mirrored_scan_from_headings_that_run_clockwise) {
+  LogOptions mirrored;
+  mirrored.mirrored = true;
+  const OdometryAgreement scan = check([](TPose2D&) {}, mirrored);
+  EXPECT_EQ(scan.heading, HeadingRelation::kOpposite);
+  EXPECT_LT(scan.odometry_slip_rad, 0.1);
+  const OdometryAgreement heading = check([](TPose2D& pose) {
+    pose = TPose2D{0, 0, 0.7} + pose;  // along the walls, a negated right angle would look like reversing
+    pose.phi = -pose.phi;
+  });
+  EXPECT_EQ(heading.heading, HeadingRelation::kOpposite);
+  EXPECT_GT(heading.odometry_slip_rad, 0.4);
+}
+
+TEST_F(OdometryCheckTest, sees_headings_that_never_change_or_mean_nothing) {
+  EXPECT_EQ(check([](TPose2D& pose) { pose.phi = 1; }).heading, HeadingRelation::kNone);
+  EXPECT_EQ(check([](TPose2D& pose) { pose.phi = 1e3 * std::sin(1e4 * pose.x + 77 * pose.phi); }).heading,
+            HeadingRelation::kUnrelated);
+}
+
+TEST_F(OdometryCheckTest, measures_where_the_laser_looks) {
+  for (const double yaw_rad : {M_PI / 2, M_PI - 0.01, -1.0}) {
+    LogOptions options;
+    options.robot_T_laser = TPose2D{0, 0, yaw_rad};
+    const OdometryAgreement agreement = check([](TPose2D&) {}, options);
+    EXPECT_NEAR(mrpt::math::wrapToPi(agreement.direction_offset_rad - yaw_rad), 0, 0.05);
+    EXPECT_GT(agreement.direction_concentration, 0.9);
+  }
+}
+
+TEST_F(OdometryCheckTest, follows_the_scans_when_odometry_stands) {
+  const OdometryAgreement agreement = check([](TPose2D& pose) { pose = {0, 0, 0}; });
+  EXPECT_GT(agreement.scan_path_m, 5);
+  EXPECT_EQ(agreement.odometry_path_m, 0);
+}
+
+TEST(OdometryCheck, says_nothing_about_nothing) {
+  const OdometryAgreement agreement = check_odometry({}, {}, {});
+  EXPECT_EQ(agreement.heading, HeadingRelation::kUnknown);
+  EXPECT_EQ(agreement.length_ratio, 0);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/pair_alignment.h"
+
+#include "log_files.h"
+#include "simulated_run.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::DEG2RAD;
+using mrpt::math::TPose2D;
+
+class PairAlignmentTest : public testing::Test {
+ protected:
+  std::vector<AlignedPair> aligned(const SimulatedRun& run) {
+    const auto path = folder_.path() / "log";
+    write_file(path, carmen_log(run));
+    std::vector<FrameMark> marks;
+    for (const TPose2D& pose : run.odometry) marks.push_back({static_cast<TimeUs>(marks.size()), pose});
+    const auto pairs = pairs_by_motion(marks, 0.25, DEG2RAD(12.0), 5000);
+    library_.want(pairs);
+    library_.fetch(path, {});
+    return align_pairs(marks, pairs, library_);
+  }
+
+  TemporaryFolder folder_;
+  ScanLibrary library_;
+};
+
+/// What a robot says whose wheels count without sign: reversing is added as driving ahead.
+void lose_the_sign_of_reversing(SimulatedRun& run) {
+  std::vector<TPose2D> odometry{run.odometry.front()};
+  for (std::size_t i = 1; i < run.odometry.size(); ++i) {
+    TPose2D step = run.odometry[i] - run.odometry[i - 1];
+    step.x = std::abs(step.x);
+    odometry.push_back(odometry.back() + step);
+  }
+  run.odometry = odometry;
+}
+
+TEST_F(PairAlignmentTest, aligns_what_odometry_puts_near) {
+  const auto pairs = aligned(round_trips(1));
+  ASSERT_GT(pairs.size(), 100U);
+  std::size_t reliable = 0;
+  for (const AlignedPair& pair : pairs) {
+    if (!is_reliable(pair.by_scans)) continue;
+    ++reliable;
+    const TPose2D off = pair.by_scans.reference_T_scan - pair.by_odometry;
+    EXPECT_LT(off.norm(), 0.06);
+  }
+  EXPECT_GT(reliable, pairs.size() * 9 / 10);
+}
+
+TEST_F(PairAlignmentTest, finds_reversing_that_odometry_counts_ahead) {
+  const std::vector<Drive> runs{{0.08, 0, 60}, {-0.08, 0, 40}, {0.08, 0, 20}, {0, 3, 30}, {-0.05, 0, 24}};
+  SimulatedRun run = drive(runs);
+  EXPECT_TRUE(find_lost_reversals(aligned(run), library_).pairs.empty())
+      << "reversing with its sign is right";
+  lose_the_sign_of_reversing(run);
+  library_ = ScanLibrary();
+  const LostReversals reversals = find_lost_reversals(aligned(run), library_);
+  EXPECT_NEAR(reversals.reversed_m, 40 * 0.08 + 24 * 0.05, 0.9);
+  ASSERT_GE(reversals.pairs.size(), 12U);
+  EXPECT_GE(reversals.pairs.front().first, 56U);
+  EXPECT_LE(reversals.pairs.front().first, 66U);
+}
+
+TEST_F(PairAlignmentTest, finds_the_mount_of_the_laser) {
+  SimulatedRun run = round_trips(2);
+  run.robot_T_laser = {0.25, -0.1, DEG2RAD(4.0)};
+  const auto mount = estimate_laser_mount(aligned(run), {0, 0, 0});
+  ASSERT_TRUE(mount);
+  EXPECT_NEAR(mount->robot_T_laser.x, 0.25, 0.02);
+  EXPECT_NEAR(mount->robot_T_laser.y, -0.1, 0.02);
+  EXPECT_NEAR(mount->robot_T_laser.phi, DEG2RAD(4.0), DEG2RAD(0.6));
+  EXPECT_NEAR(mount->odometry_scale, 1, 0.01);
+  EXPECT_LT(mount->deviation_m, 0.02);
+  EXPECT_LT(mount->deviation_rad, DEG2RAD(0.6));
+}
+
+TEST_F(PairAlignmentTest, measures_the_scale_of_odometry) {
+  SimulatedRun run = round_trips(1);
+  for (TPose2D& pose : run.odometry) {
+    pose.x *= 1.05;
+    pose.y *= 1.05;
+  }
+  const auto mount = estimate_laser_mount(aligned(run), {0, 0, 0});
+  ASSERT_TRUE(mount);
+  EXPECT_NEAR(mount->odometry_scale, 1.05, 0.01);
+}
+
+TEST_F(PairAlignmentTest, does_not_guess_a_mount_without_turns) {
+  EXPECT_FALSE(estimate_laser_mount(aligned(drive({{0.05, 0, 140}})), {0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/scan_alignment.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "simulated_run.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::DEG2RAD;
+using mrpt::math::TPose2D;
+
+/// Two scans of the room, and the true motion between them.
+struct TwoScans {
+  AlignableScan reference;
+  AlignableScan scan;
+  TPose2D motion;
+};
+
+TwoScans two_scans(const TPose2D& motion, const TPose2D& robot_T_laser = {0, 0, 0}) {
+  SimulatedRun run;
+  run.truth = {{2.5, 2, 0.3}, TPose2D{2.5, 2, 0.3} + motion};
+  run.robot_T_laser = robot_T_laser;
+  return {AlignableScan(run.scan(0)), AlignableScan(run.scan(1)), motion};
+}
+
+void expect_motion(const ScanAlignment& alignment, const TPose2D& motion) {
+  EXPECT_NEAR(alignment.reference_T_scan.x, motion.x, 0.006);
+  EXPECT_NEAR(alignment.reference_T_scan.y, motion.y, 0.006);
+  EXPECT_NEAR(mrpt::math::wrapToPi(alignment.reference_T_scan.phi - motion.phi), 0, DEG2RAD(0.15));
+  EXPECT_LT(alignment.cost_m, 0.03);
+  EXPECT_GT(alignment.matched_share, 0.8);
+}
+
+TEST(ScanAlignment, finds_the_motion_from_standing_still) {
+  for (const TPose2D motion :
+       {TPose2D{0, 0, 0}, TPose2D{0.2, 0, 0}, TPose2D{-0.15, 0.05, 0.1}, TPose2D{0, 0, -0.15}}) {
+    const TwoScans scans = two_scans(motion);
+    expect_motion(align_scans(scans.reference, scans.scan, TPose2D{0, 0, 0}), motion);
+  }
+}
+
+TEST(ScanAlignment, speaks_of_the_robot_wherever_its_laser_is) {
+  const TPose2D motion{0.1, 0.05, 0.2};
+  const TwoScans scans = two_scans(motion, {0.4, -0.2, 0.5});
+  expect_motion(align_scans(scans.reference, scans.scan, motion + TPose2D{0.05, -0.05, 0.03}), motion);
+}
+
+TEST(ScanAlignment, takes_the_best_of_several_guesses) {
+  const TPose2D motion{0.1, 0, DEG2RAD(60.0)};
+  const TwoScans scans = two_scans(motion);
+  EXPECT_GT(align_scans(scans.reference, scans.scan, TPose2D{0, 0, 0}).cost_m, 0.05)
+      << "too far from the guess";
+  const std::vector<TPose2D> guesses{{0, 0, 0}, {0, 0, DEG2RAD(-55.0)}, {0, 0, DEG2RAD(55.0)}, {2, 0, 0}};
+  const ScanAlignment best = align_scans(scans.reference, scans.scan, guesses);
+  EXPECT_NEAR(best.reference_T_scan.phi, motion.phi, DEG2RAD(0.3));
+  EXPECT_NEAR(best.reference_T_scan.x, motion.x, 0.01);
+}
+
+TEST(ScanAlignment, knows_what_a_corridor_hides) {
+  SimulatedRun run;
+  LaserScan corridor = [&] {
+    LaserScan scan;
+    scan.bearings_rad = std::make_shared<const std::vector<float>>(run.bearings_rad);
+    for (const float bearing : run.bearings_rad) {
+      const double sine = std::abs(std::sin(static_cast<double>(bearing)));
+      scan.ranges_m.push_back(sine > 0.05 ? static_cast<float>(1.0 / sine)
+                                          : std::numeric_limits<float>::quiet_NaN());
+    }
+    return scan;
+  }();
+  const AlignableScan scan(corridor);
+  const ScanAlignment alignment = align_scans(scan, scan, TPose2D{0.1, 0, 0});
+  EXPECT_GT(alignment.deviation_along_m(0), 0.1) << "along the corridor";
+  EXPECT_LT(alignment.deviation_along_m(M_PI / 2), 0.005) << "across";
+  EXPECT_NEAR(alignment.reference_T_scan.x, 0.1, 0.02) << "nothing pulls away from the guess";
+
+  const TwoScans room = two_scans({0.1, 0, 0});
+  const ScanAlignment in_room = align_scans(room.reference, room.scan, TPose2D{0, 0, 0});
+  EXPECT_LT(in_room.deviation_along_m(0), 0.01);
+  EXPECT_LT(in_room.heading_deviation_rad(), DEG2RAD(0.2));
+}
+
+TEST(ScanAlignment, costs_much_when_scans_have_nothing_in_common) {
+  SimulatedRun run;
+  run.truth = {{2.5, 2, 0.3}, {10, 7, 1.5}};
+  const ScanAlignment alignment =
+      align_scans(AlignableScan(run.scan(0)), AlignableScan(run.scan(1)), TPose2D{0, 0, 0});
+  EXPECT_GT(alignment.cost_m, 0.06);
+}
+
+TEST(ScanAlignment, survives_scans_without_returns) {
+  SimulatedRun run;
+  run.truth = {{2.5, 2, 0.3}};
+  LaserScan blind = run.scan(0);
+  for (float& range : blind.ranges_m) range = std::numeric_limits<float>::quiet_NaN();
+  const AlignableScan empty(blind);
+  EXPECT_TRUE(empty.points().empty());
+  const AlignableScan full(run.scan(0));
+  for (const auto& alignment :
+       {align_scans(empty, full, TPose2D{0, 0, 0}), align_scans(full, empty, TPose2D{0, 0, 0})}) {
+    EXPECT_EQ(alignment.matched_share, 0);
+    EXPECT_GE(alignment.cost_m, 0.15);
+  }
+}
+
+TEST(ScanAlignment, thins_scans_of_many_beams_and_sorts_mirrored_ones) {
+  SimulatedRun run;
+  run.truth = {{2.5, 2, 0.3}};
+  run.bearings_rad = make_bearings_rad(BeamAngles::kCentredStepInclusive, 1081, DEG2RAD(270.0));
+  EXPECT_LE(AlignableScan(run.scan(0), 30, 200).points().size(), 200U);
+  for (float& bearing : run.bearings_rad) bearing = -bearing;
+  const auto points = AlignableScan(run.scan(0)).points();
+  for (std::size_t i = 1; i < points.size(); ++i) EXPECT_LT(points[i - 1].bearing_rad, points[i].bearing_rad);
+}
+
+}  // namespace
+}  // namespace psi_slam

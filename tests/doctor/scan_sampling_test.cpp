@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "doctor/scan_sampling.h"
+
+#include <gmock/gmock.h>
+
+#include "log_files.h"
+#include "simulated_run.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+using testing::ElementsAre;
+
+std::vector<FrameMark> marks_of(const std::vector<TPose2D>& poses) {
+  std::vector<FrameMark> marks;
+  for (const TPose2D& pose : poses) marks.push_back({static_cast<TimeUs>(marks.size()) * 200'000, pose});
+  return marks;
+}
+
+std::vector<FrameMark> driven(const std::vector<Drive>& runs) {
+  return marks_of(drive(runs).truth);
+}
+
+TEST(ScanSampling, spreads_starts_over_motion_in_any_unit) {
+  const auto metres = driven({{0, 0, 500}, {0.1, 0, 100}, {0, 0, 500}, {0.1, 0, 100}, {0, 0, 500}});
+  auto millimetres = metres;
+  for (FrameMark& mark : millimetres) mark.odom_T_robot.x *= 1000;
+  const auto starts = frames_in_motion(metres, 20);
+  EXPECT_EQ(starts, frames_in_motion(millimetres, 20));
+  ASSERT_EQ(starts.size(), 20U);
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_GE(starts[i], 500U);
+    EXPECT_LE(starts[i], 600U);
+    EXPECT_GE(starts[i + 10], 1100U);
+    EXPECT_LE(starts[i + 10], 1200U);
+  }
+}
+
+TEST(ScanSampling, spreads_starts_over_time_when_odometry_stands) {
+  EXPECT_THAT(frames_in_motion(driven({{0, 0, 99}}), 4), ElementsAre(12, 37, 61, 86));
+  EXPECT_TRUE(frames_in_motion(driven({}), 4).empty());
+}
+
+TEST(ScanSampling, pairs_frames_by_distance_or_turn) {
+  const auto pairs = pairs_by_motion(driven({{0.1, 0, 10}, {0, 3, 10}}), 0.25, mrpt::DEG2RAD(10.0), 100);
+  ASSERT_GE(pairs.size(), 5U);
+  EXPECT_EQ(pairs[0].first, 0U);
+  EXPECT_EQ(pairs[0].second, 3U);
+  EXPECT_EQ(pairs[1].first, 3U);
+  EXPECT_EQ(pairs.back().second - pairs.back().first, 4U) << "12 degrees";
+  EXPECT_EQ(pairs_by_motion(driven({{0.1, 0, 1000}}), 0.25, 1, 7).size(), 7U);
+}
+
+TEST(ScanSampling, pairs_frames_by_turns_on_the_spot) {
+  const auto pairs = pairs_by_turn(driven({{0.1, 0, 50}, {0, 2, 30}, {0.1, 0, 50}}), mrpt::DEG2RAD(10.0),
+                                   mrpt::DEG2RAD(45.0), 0.5, 100);
+  ASSERT_FALSE(pairs.empty());
+  for (const FramePair& pair : pairs) {
+    EXPECT_GE(pair.second, 50U);
+    EXPECT_LE(pair.first, 80U);
+  }
+}
+
+TEST(ScanSampling, finds_places_that_odometry_visits_again) {
+  const auto there_and_back = driven({{0.1, 0, 200}, {-0.1, 0, 200}});
+  const auto pairs = revisiting_pairs(there_and_back, 0.5, 0.5, 10, 100);
+  ASSERT_GE(pairs.size(), 15U);
+  for (const FramePair& pair : pairs) {
+    EXPECT_LT(odometry_between(there_and_back, pair).norm(), 0.5);
+    EXPECT_GE(pair.second - pair.first, 100U);
+  }
+  EXPECT_TRUE(revisiting_pairs(there_and_back, 0.5, 0.5, 50, 100).empty());
+  EXPECT_TRUE(revisiting_pairs(driven({{0.1, 0, 200}, {0, 3, 60}, {0.1, 0, 200}}), 0.5, 0.5, 10, 100).empty())
+      << "the other way round";
+}
+
+TEST(ScanSampling, finds_full_turns_whichever_way) {
+  for (const double turn_deg : {5.0, -5.0}) {
+    const auto marks = driven({{0.1, 0, 30}, {0, turn_deg, 75}, {0.1, 0, 30}});
+    const auto turns = full_turns(marks, 0.4, 1.5, 10);
+    ASSERT_EQ(turns.size(), 1U);
+    EXPECT_GE(turns[0].size(), 12U);
+    const auto headings_rad = unwrapped_headings(marks);
+    const double turned_rad = headings_rad[turns[0].back()] - headings_rad[turns[0].front()];
+    EXPECT_NEAR(std::abs(turned_rad), 2 * M_PI, 0.05);
+  }
+  EXPECT_TRUE(full_turns(driven({{0, 5, 60}}), 0.4, 1.5, 10).empty()) << "300 degrees";
+  EXPECT_TRUE(full_turns(driven({{0.1, 5, 80}}), 0.4, 1.0, 10).empty()) << "too wide";
+}
+
+TEST(ScanSampling, fetches_the_scans_it_is_asked_for) {
+  const TemporaryFolder folder;
+  const SimulatedRun run = drive({{0.1, 0, 20}});
+  write_file(folder.path() / "log", carmen_log(run));
+  ScanLibrary library;
+  library.want(std::vector<std::size_t>{3, 17});
+  library.want(std::vector<FramePair>{{0, 3}});
+  library.fetch(folder.path() / "log", {});
+  for (const std::size_t i : {0, 3, 17}) EXPECT_NEAR(library.at(i).ranges_m[90], run.ranges_m(i)[90], 0.001);
+  EXPECT_THROW(library.at(4), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every form of the map is opened by a program that is not ours and a room of 6 m x 4 m measured in it.
+#include "exports/map_files.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "foreign_program.h"
+#include "psi_slam/user_error.h"
+#include "psi_slam/grid_map.h"
+#include "report/output_folder.h"
+#include "simulated_room.h"
+#include "temporary_folder.h"
+#include "test_files.h"
+
+namespace psi_slam {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+constexpr double kCell_m = 0.05;
+/// The walls stand on the borders of cells, and may be in either; a hair for rounding.
+constexpr double kClose_m = 1.01 * kCell_m;
+
+class MapFiles : public testing::Test {
+ protected:
+  MapFiles() : result_(walk_around_the_room()), grid_(draw_grid_map(result_.log, mapped_poses(result_))) {
+    options_.png = options_.ros = options_.mrpt = options_.svg = options_.dxf = false;
+  }
+
+  std::filesystem::path write(const std::string& name) {
+    write_map_files(folder_.path(), result_, *grid_, options_);
+    return folder_.path() / name;
+  }
+
+  /// What another program measures in the file; "" where that program is not installed.
+  static ForeignRun measured(const std::filesystem::path& file) {
+    return run_foreign("/usr/bin/python3 '" PSI_SLAM_MEASURE_MAP "' '" + file.string() + "'");
+  }
+
+  /// `numbers` begins with the walls' x_min, x_max, y_min, y_max.
+  void expect_room(const std::vector<double>& numbers, double tolerance_m) const {
+    EXPECT_NEAR(numbers[0], room_.x_min, tolerance_m);
+    EXPECT_NEAR(numbers[1], room_.x_max, tolerance_m);
+    EXPECT_NEAR(numbers[2], room_.y_min, tolerance_m);
+    EXPECT_NEAR(numbers[3], room_.y_max, tolerance_m);
+  }
+
+  const TemporaryFolder folder_;
+  const SimulatedRoom room_;
+  const MappingResult result_;
+  const mrpt::maps::COccupancyGridMap2D::Ptr grid_;
+  MapFileOptions options_;
+};
+
+#define MEASURE_OR_SKIP(run, file)                         \
+  const ForeignRun run = measured(file);                   \
+  if (run.code == ForeignRun::kNotInstalled) GTEST_SKIP(); \
+  ASSERT_EQ(run.code, 0) << run.out
+
+TEST_F(MapFiles, cad_programs_find_the_walls_where_they_are) {
+  options_.dxf = true;
+  MEASURE_OR_SKIP(run, write("map.dxf"));
+  const std::vector<double> numbers = run.numbers();
+  ASSERT_EQ(numbers.size(), 7U) << run.out;
+  expect_room(numbers, kClose_m);
+  EXPECT_GE(numbers[4], 1) << "outlines on the layer WALLS";
+  EXPECT_EQ(numbers[5], 1) << "one line on the layer TRAJECTORY";
+  EXPECT_EQ(numbers[6], 0) << "faults that the reader found";
+}
+
+TEST_F(MapFiles, gdal_reads_the_drawing_too) {
+  options_.dxf = true;
+  const ForeignRun run = run_foreign("ogrinfo -al -so '" + write("map.dxf").string() + "' 2>&1");
+  if (run.code == 127) GTEST_SKIP() << "gdal-bin is not installed";
+  ASSERT_EQ(run.code, 0) << run.out;
+  const std::size_t at = run.out.find("Extent: (");
+  ASSERT_NE(at, std::string::npos) << run.out;
+  double x_min = 0, y_min = 0, x_max = 0, y_max = 0;
+  ASSERT_EQ(
+      std::sscanf(run.out.c_str() + at, "Extent: (%lf, %lf) - (%lf, %lf)", &x_min, &y_min, &x_max, &y_max),
+      4);
+  EXPECT_NEAR(x_max - x_min, 6, kClose_m);
+  EXPECT_NEAR(y_max - y_min, 4, kClose_m);
+}
+
+TEST_F(MapFiles, the_svg_is_drawn_true_to_scale) {
+  options_.svg = true;
+  MEASURE_OR_SKIP(run, write("map.svg"));
+  const std::vector<double> numbers = run.numbers();
+  ASSERT_EQ(numbers.size(), 7U) << run.out;
+  expect_room(numbers, 1.5 * kCell_m);  // half a line's width more
+  EXPECT_NEAR(numbers[4], 60 + 2 * 5, 2) << "millimetres of paper, margins of 5 mm with them";
+  EXPECT_NEAR(numbers[5], numbers[4] * 10, 1) << "pixels at 254 dpi";
+}
+
+TEST_F(MapFiles, at_another_scale_the_drawing_needs_less_paper) {
+  options_.svg = true;
+  options_.print_scale = 50;
+  EXPECT_THAT(read_file(write("map.svg")), HasSubstr("1:50"));
+  MEASURE_OR_SKIP(run, write("map.svg"));
+  EXPECT_NEAR(run.numbers().at(4), 120 + 2 * 5, 4);
+}
+
+TEST_F(MapFiles, the_printed_picture_says_its_dpi_and_the_room_is_6_cm_wide) {
+  options_.print = true;
+  MEASURE_OR_SKIP(run, write("map_print.png"));
+  const std::vector<double> numbers = run.numbers();
+  ASSERT_EQ(numbers.size(), 6U) << run.out;
+  EXPECT_NEAR(numbers[1] - numbers[0], 6 + kCell_m, kClose_m);  // walls are a cell thick
+  EXPECT_NEAR(numbers[3] - numbers[2], 4 + kCell_m, kClose_m);
+  EXPECT_NEAR(numbers[4], 300, 0.05);
+  EXPECT_NEAR(numbers[5], 300, 0.05);
+}
+
+TEST_F(MapFiles, the_geotiff_is_in_the_maps_own_metres_where_no_other_system_is_named) {
+  options_.geotiff = true;
+  MEASURE_OR_SKIP(run, write("map.tif"));
+  const std::vector<double> numbers = run.numbers();
+  ASSERT_GE(numbers.size(), 4U) << run.out;
+  expect_room(numbers, kClose_m);
+  EXPECT_THAT(run.out, EndsWith(" local metre 255.0\n"));
+}
+
+TEST_F(MapFiles, the_geotiff_lies_and_turns_as_its_reference_says) {
+  options_.geotiff = true;
+  options_.earth = {25832, 500'000, 5'400'000, M_PI / 2};  // the map's x axis points north, its y axis west
+  MEASURE_OR_SKIP(run, write("map.tif"));
+  const std::vector<double> numbers = run.numbers();
+  ASSERT_GE(numbers.size(), 4U) << run.out;
+  EXPECT_NEAR(numbers[0], 500'000 - room_.y_max, kClose_m);
+  EXPECT_NEAR(numbers[1], 500'000 - room_.y_min, kClose_m);
+  EXPECT_NEAR(numbers[2], 5'400'000 + room_.x_min, kClose_m);
+  EXPECT_NEAR(numbers[3], 5'400'000 + room_.x_max, kClose_m);
+  EXPECT_THAT(run.out, HasSubstr(" 25832 metre "));
+}
+
+TEST_F(MapFiles, only_what_was_asked_for_is_there) {
+  options_.ros = true;
+  write("map.yaml");
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "map.pgm"));
+  options_.ros = false;
+  options_.dxf = true;
+  write("map.dxf");
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    names.push_back(entry.path().filename().string());
+  EXPECT_THAT(names, ElementsAre("map.dxf")) << "a map.pgm of another map would mislead";
+}
+
+TEST_F(MapFiles, a_folder_that_is_gone_is_told_with_the_files_name) {
+  for (bool MapFileOptions::*wanted :
+       {&MapFileOptions::svg, &MapFileOptions::dxf, &MapFileOptions::print, &MapFileOptions::geotiff}) {
+    MapFileOptions options = options_;
+    options.*wanted = true;
+    EXPECT_THROW(write_map_files(folder_.path() / "missing", result_, *grid_, options), SystemFailure);
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

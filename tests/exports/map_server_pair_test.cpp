@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exports/map_server_pair.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "psi_slam/user_error.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::maps::COccupancyGridMap2D;
+using ::testing::HasSubstr;
+
+std::string contents(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// 3 m x 2 m from (-1.5, 4), free below, unknown above, one obstacle in the cell whose corner is
+/// (-0.5, 4.25).
+COccupancyGridMap2D lopsided_map() {
+  COccupancyGridMap2D grid(-1.5F, 1.5F, 4, 6, 0.25F);
+  for (int x = 0; x < 12; ++x)
+    for (int y = 0; y < 4; ++y) grid.setCell(x, y, 0.99F);
+  grid.setCell(4, 1, 0.01F);
+  return grid;
+}
+
+TEST(MapServerPair, the_image_has_row_0_on_top_and_the_three_values) {
+  const TemporaryFolder folder;
+  write_map_server_pair(folder.path() / "map.yaml", lopsided_map());
+  const std::string header = "P5\n12 8\n255\n";
+  const std::string pgm = contents(folder.path() / "map.pgm");
+  ASSERT_EQ(pgm.substr(0, header.size()), header);
+  ASSERT_EQ(pgm.size(), header.size() + 12 * 8);
+  const auto pixel = [&](int column, int row) {
+    return static_cast<int>(
+        static_cast<unsigned char>(pgm[header.size() + static_cast<std::size_t>(row * 12 + column)]));
+  };
+  EXPECT_EQ(pixel(0, 0), 205) << "unknown on top";
+  EXPECT_EQ(pixel(0, 7), 254) << "free at the bottom";
+  EXPECT_EQ(pixel(4, 6), 0) << "the obstacle in the last row but one";
+  EXPECT_EQ(std::count(pgm.begin() + static_cast<std::ptrdiff_t>(header.size()), pgm.end(), '\0'), 1);
+}
+
+TEST(MapServerPair, the_yaml_names_the_image_and_the_lower_left_corner) {
+  const TemporaryFolder folder;
+  write_map_server_pair(folder.path() / "map.yaml", lopsided_map());
+  EXPECT_EQ(contents(folder.path() / "map.yaml"),
+            "image: map.pgm\n"
+            "resolution: 0.25\n"
+            "origin: [-1.5, 4.0, 0.0]\n"
+            "negate: 0\n"
+            "occupied_thresh: 0.65\n"
+            "free_thresh: 0.196\n"
+            "mode: trinary\n");
+}
+
+TEST(MapServerPair, lengths_are_written_as_a_person_would) {
+  const TemporaryFolder folder;
+  write_map_server_pair(folder.path() / "map.yaml", COccupancyGridMap2D(-37.3F, 10, -1234.55F, 0, 0.05F));
+  EXPECT_THAT(contents(folder.path() / "map.yaml"),
+              HasSubstr("resolution: 0.05\norigin: [-37.3, -1234.55, 0.0]\n"));
+}
+
+TEST(MapServerPair, a_name_that_could_be_taken_for_yaml_is_quoted) {
+  const TemporaryFolder folder;
+  write_map_server_pair(folder.path() / "it's: a #1.yaml", lopsided_map());
+  EXPECT_THAT(contents(folder.path() / "it's: a #1.yaml"), HasSubstr("image: 'it''s: a #1.pgm'\n"));
+}
+
+TEST(MapServerPair, mrpt_loads_it_back_in_place) {
+  const TemporaryFolder folder;
+  const COccupancyGridMap2D written = lopsided_map();
+  write_map_server_pair(folder.path() / "map.yaml", written);
+  COccupancyGridMap2D read;
+  ASSERT_TRUE(read.loadFromROSMapServerYAML((folder.path() / "map.yaml").string()));
+  EXPECT_FLOAT_EQ(read.getXMin(), -1.5F);
+  EXPECT_FLOAT_EQ(read.getYMin(), 4);
+  EXPECT_FLOAT_EQ(read.getResolution(), 0.25F);
+  ASSERT_EQ(read.getSizeX(), 12U);
+  ASSERT_EQ(read.getSizeY(), 8U);
+  EXPECT_LT(read.getPos(-0.4F, 4.3F), 0.35F) << "the obstacle";
+  EXPECT_GT(read.getPos(-0.6F, 4.3F), 0.8F);
+  EXPECT_GT(read.getPos(-0.4F, 4.6F), 0.8F);
+}
+
+TEST(MapServerPair, a_folder_that_is_not_there_is_told) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_map_server_pair(folder.path() / "missing" / "map.yaml", lopsided_map()), SystemFailure);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frames/odometry_interpolator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace psi_slam {
+namespace {
+
+Frame scan_at(TimeUs time_us) {
+  Frame frame;
+  frame.time_us = time_us;
+  return frame;
+}
+
+TEST(OdometryInterpolator, turns_the_shorter_way_round) {
+  const auto middle = interpolate({0, 0, M_PI - 0.1}, {2, 4, -M_PI + 0.3}, 0.5);
+  EXPECT_DOUBLE_EQ(middle.x, 1);
+  EXPECT_DOUBLE_EQ(middle.y, 2);
+  EXPECT_NEAR(middle.phi, -M_PI + 0.1, 1e-12);
+}
+
+TEST(OdometryInterpolator, waits_for_odometry_as_late_as_the_scan) {
+  OdometryInterpolator interpolator;
+  interpolator.add_odometry(1'000'000, {1, 0, 0});
+  interpolator.add_scan(scan_at(1'250'000));
+  EXPECT_FALSE(interpolator.take());
+  interpolator.add_odometry(1'200'000, {2, 0, 0});
+  EXPECT_FALSE(interpolator.take()) << "still earlier than the scan";
+  interpolator.add_odometry(1'400'000, {6, 0, 0.4});
+  const auto frame = interpolator.take();
+  ASSERT_TRUE(frame);
+  EXPECT_NEAR(frame->odom_T_robot.x, 3, 1e-12);
+  EXPECT_NEAR(frame->odom_T_robot.phi, 0.1, 1e-12);
+  EXPECT_FALSE(interpolator.take());
+}
+
+TEST(OdometryInterpolator, gives_the_message_itself_at_its_own_time) {
+  OdometryInterpolator interpolator;
+  interpolator.add_odometry(10, {1, 2, 3});
+  interpolator.add_odometry(20, {4, 5, -3});
+  interpolator.add_scan(scan_at(20));
+  EXPECT_EQ(interpolator.take()->odom_T_robot, (mrpt::math::TPose2D{4, 5, -3}));
+}
+
+TEST(OdometryInterpolator, clamps_at_both_ends) {
+  OdometryInterpolator interpolator;
+  interpolator.add_scan(scan_at(1));
+  EXPECT_FALSE(interpolator.take()) << "no odometry yet";
+  interpolator.add_odometry(10, {1, 0, 0});
+  interpolator.add_odometry(20, {2, 0, 0});
+  interpolator.add_scan(scan_at(30));
+  EXPECT_EQ(interpolator.take()->odom_T_robot.x, 1);
+  EXPECT_FALSE(interpolator.take());
+  interpolator.end_of_log();
+  EXPECT_EQ(interpolator.take()->odom_T_robot.x, 2);
+}
+
+TEST(OdometryInterpolator, keeps_the_order_of_scans_whose_time_runs_backwards) {
+  OdometryInterpolator interpolator;
+  interpolator.add_odometry(0, {0, 0, 0});
+  interpolator.add_scan(scan_at(150));
+  interpolator.add_scan(scan_at(50));
+  interpolator.add_odometry(100, {1, 0, 0});
+  EXPECT_FALSE(interpolator.take());
+  interpolator.add_odometry(200, {2, 0, 0});
+  EXPECT_DOUBLE_EQ(interpolator.take()->odom_T_robot.x, 1.5);
+  EXPECT_DOUBLE_EQ(interpolator.take()->odom_T_robot.x, 0.5);
+}
+
+constexpr TimeUs kSecond = 1'000'000;
+
+std::vector<double> poses_taken(OdometryInterpolator& interpolator) {
+  std::vector<double> poses;
+  while (const auto frame = interpolator.take()) poses.push_back(frame->odom_T_robot.x);
+  return poses;
+}
+
+TEST(OdometryInterpolator, follows_a_clock_that_is_set_back) {
+  for (const TimeUs step : {-3600 * kSecond, -5 * kSecond}) {
+    SCOPED_TRACE(step);
+    OdometryInterpolator interpolator;
+    for (int i = 0; i <= 100; ++i) interpolator.add_odometry(i * kSecond, {1.0 * i, 0, 0});
+    interpolator.add_scan(scan_at(100 * kSecond + kSecond / 4));         // of the old clock, the last
+    interpolator.add_scan(scan_at(100 * kSecond + kSecond / 2 + step));  // of the new clock, the first
+    interpolator.add_scan(scan_at(100 * kSecond + 3 * kSecond / 4 + step));
+    EXPECT_FALSE(interpolator.take()) << "odometry has not told of the new clock yet";
+    interpolator.add_odometry(101 * kSecond + step, {101, 0, 0});
+    EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{100, 101, 101}));
+    interpolator.add_scan(scan_at(101 * kSecond + kSecond / 2 + step));
+    EXPECT_FALSE(interpolator.take());
+    interpolator.add_odometry(102 * kSecond + step, {102, 0, 0});
+    EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{101.5}));
+  }
+}
+
+TEST(OdometryInterpolator, a_scan_between_old_and_new_time_waits_even_as_the_first) {
+  OdometryInterpolator interpolator;
+  for (int i = 3600; i <= 3700; ++i) interpolator.add_odometry(i * kSecond, {1.0 * i, 0, 0});
+  interpolator.add_scan(scan_at(100 * kSecond));
+  EXPECT_FALSE(interpolator.take());
+  interpolator.add_odometry(101 * kSecond, {3701, 0, 0});
+  EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{3701}));
+}
+
+TEST(OdometryInterpolator, what_waits_for_the_old_clock_does_not_wait_for_the_new) {
+  OdometryInterpolator interpolator;
+  interpolator.add_odometry(3600 * kSecond, {1, 0, 0});
+  interpolator.add_scan(scan_at(3605 * kSecond));
+  interpolator.add_odometry(3601 * kSecond, {2, 0, 0});
+  EXPECT_FALSE(interpolator.take());
+  interpolator.add_odometry(0, {3, 0, 0});
+  EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{2}));
+}
+
+TEST(OdometryInterpolator, a_scan_of_no_known_time_gets_a_neighbour_in_the_log) {
+  OdometryInterpolator interpolator;
+  for (int i = 1000; i <= 1100; ++i) {
+    interpolator.add_odometry(i * kSecond, {1.0 * i, 0, 0});
+    if (i == 1050) interpolator.add_scan(scan_at(7 * kSecond));
+  }
+  EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{1050})) << "not the oldest message of all";
+}
+
+TEST(OdometryInterpolator, does_not_wait_forever_when_odometry_has_stopped) {
+  OdometryInterpolator interpolator;
+  interpolator.add_odometry(0, {7, 0, 0});
+  for (std::size_t i = 0; i <= OdometryInterpolator::kMaxWaiting; ++i) interpolator.add_scan(scan_at(100));
+  EXPECT_EQ(interpolator.take()->odom_T_robot.x, 7);
+  EXPECT_FALSE(interpolator.take()) << "the others may still get theirs";
+}
+
+}  // namespace
+}  // namespace psi_slam

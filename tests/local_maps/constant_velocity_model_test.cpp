@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "local_maps/constant_velocity_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+constexpr TimeUs kSecond = 1'000'000;
+
+/// On a circle of 2 m, at so many radians a second.
+TPose2D on_circle(double turn_rad) {
+  return {2 * std::sin(turn_rad), 2 * (1 - std::cos(turn_rad)), turn_rad};
+}
+
+TEST(ConstantVelocityModel, goes_on_along_its_arc) {
+  ConstantVelocityModel robot;
+  robot.moved(0, on_circle(0), false);
+  robot.moved(kSecond / 4, on_circle(0.1), true);
+  const TPose2D motion = robot.predict(3 * kSecond / 4).motion;
+  const TPose2D truth = on_circle(0.3) - on_circle(0.1);
+  EXPECT_NEAR(motion.x, truth.x, 0.005);
+  EXPECT_NEAR(motion.y, truth.y, 0.005);
+  EXPECT_NEAR(motion.phi, truth.phi, 1e-9);
+}
+
+TEST(ConstantVelocityModel, stands_before_anything_is_known) {
+  ConstantVelocityModel robot;
+  EXPECT_EQ(robot.predict(kSecond).sigma_m, 0) << "no pose to move from";
+  robot.moved(0, {3, 4, 1}, false);
+  const PredictedMotion predicted = robot.predict(2 * kSecond);
+  EXPECT_EQ(predicted.motion, TPose2D(0, 0, 0));
+  EXPECT_NEAR(predicted.sigma_m, 1, 1e-9);
+  EXPECT_NEAR(predicted.sigma_rad, M_PI / 3, 1e-9);
+}
+
+TEST(ConstantVelocityModel, is_the_less_certain_the_longer) {
+  ConstantVelocityModel robot;
+  robot.moved(0, {0, 0, 0}, true);
+  robot.moved(kSecond, {1, 0, 0}, true);
+  EXPECT_NEAR(robot.predict(kSecond + kSecond / 10).sigma_m, 0.01, 1e-9);
+  EXPECT_NEAR(robot.predict(2 * kSecond).sigma_m, 1, 1e-9);
+  EXPECT_EQ(robot.predict(kSecond / 2).sigma_m, 0) << "time that runs backwards is none";
+}
+
+TEST(ConstantVelocityModel, predicted_poses_leave_the_speed_alone) {
+  ConstantVelocityModel robot;
+  robot.moved(0, {0, 0, 0}, true);
+  robot.moved(kSecond, {1, 0, 0}, true);
+  robot.moved(2 * kSecond, {1.5, 0, 0}, false);
+  EXPECT_NEAR(robot.predict(3 * kSecond).motion.x, 1, 1e-9);
+  EXPECT_EQ(robot.predict(4 * kSecond).motion.x, 0) << "too long without a match";
+}
+
+TEST(ConstantVelocityModel, scans_of_one_time_tell_no_speed) {
+  ConstantVelocityModel robot;
+  robot.moved(0, {0, 0, 0}, true);
+  robot.moved(0, {0.1, 0, 0}, true);
+  EXPECT_EQ(robot.predict(kSecond).motion, TPose2D(0, 0, 0));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "local_maps/correction_support.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPoint2Df;
+using mrpt::math::TPose2D;
+
+// A scan of what a person at (2, 0) and some other things left, and a grid with all of it where it was seen
+// from one pose; what stands in `both` is there for the other pose, half a metre on, as well.
+const TPose2D kMatched(0, 0, 0);
+const TPose2D kHeld(0.5, 0, 0);
+const std::vector<TPoint2Df> kPerson = {{2, 0}, {2, 0.1F}, {2, 0.2F}, {2, -0.1F}, {2, -0.2F}};
+
+class CorrectionSupport : public testing::Test {
+ protected:
+  void stand(const TPoint2Df& at, bool both) {
+    scan_.points.push_back(at);
+    mark(at.x, at.y);
+    if (both) mark(at.x + 0.5F, at.y);
+  }
+  PullScores scores(const TPose2D& held = kHeld) const {
+    return scores_without_best_spot(grid_, scan_, kMatched, held);
+  }
+
+ private:
+  // A patch, since interpolation looks at several cells around.
+  void mark(float x, float y) {
+    const int column = static_cast<int>((static_cast<double>(x) + 5) / 0.05);
+    const int row = static_cast<int>((static_cast<double>(y) + 5) / 0.05);
+    for (int j = -3; j <= 3; ++j)
+      for (int i = -3; i <= 3; ++i) *grid_.finest().cell(column + i, row + j) = 255;
+  }
+
+  ScoreGrid grid_{-5, -5, 0.05, 200, 200};
+  ScanPoints scan_;
+};
+
+TEST_F(CorrectionSupport, of_one_spot_alone_is_none) {
+  for (const TPoint2Df& point : kPerson) stand(point, false);
+  for (const float y : {-3.0F, -2.0F, 2.0F, 3.0F}) stand({-1, y}, true);
+  EXPECT_NEAR(scores().matched, 1, 1e-6);
+  EXPECT_NEAR(scores().held, 1, 1e-6) << "without the person both poses are as good";
+}
+
+TEST_F(CorrectionSupport, of_two_spots_stays_when_the_better_one_is_left_out) {
+  for (const TPoint2Df& point : kPerson) stand(point, false);
+  stand({-2, 1}, false);  // a door post
+  stand({-2, -1}, true);
+  EXPECT_NEAR(scores().matched, 1, 1e-6);
+  EXPECT_NEAR(scores().held, 0.5, 1e-6);
+}
+
+TEST_F(CorrectionSupport, counts_every_point_where_nothing_is_gained) {
+  for (const TPoint2Df& point : kPerson) stand(point, true);
+  stand({-2, 1}, true);
+  EXPECT_NEAR(scores().matched, 1, 1e-6);
+  EXPECT_NEAR(scores().held, 1, 1e-6);
+  EXPECT_NEAR(scores(kMatched).held, scores(kMatched).matched, 1e-12);
+}
+
+TEST_F(CorrectionSupport, of_a_scan_that_is_all_one_spot_is_nothing) {
+  for (const TPoint2Df& point : kPerson) stand(point, false);
+  EXPECT_EQ(scores().matched, 0);
+  EXPECT_EQ(scores().held, 0);
+}
+
+}  // namespace
+}  // namespace psi_slam

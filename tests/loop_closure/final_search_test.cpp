@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_closure/final_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "matching/correlative_matcher.h"
+#include "two_rounds.h"
+
+namespace psi_slam {
+namespace {
+
+using Known = std::function<bool(std::size_t, std::size_t)>;
+
+// The exact matcher under another name.
+class NamedMatcher : public Matcher {
+ public:
+  explicit NamedMatcher(std::string name) : name_(std::move(name)), exact_(MatcherOptions()) {}
+  MatchResult match(const MatchProblem& problem) const override { return exact_.match(problem); }
+  std::string name() const override { return name_; }
+
+ private:
+  std::string name_;
+  CorrelativeMatcher exact_;
+};
+
+const NamedMatcher kEarly("early");
+const NamedMatcher kLate("late");
+
+bool is_late(std::size_t node) {
+  return node >= two_rounds().node;
+}
+
+FinalSearchOutcome pass(
+    int threads, const Known& known = [](std::size_t, std::size_t) { return false; },
+    const std::function<bool(double)>& progress = [](double) { return true; }) {
+  WorkerPool pool(threads);
+  const auto matcher_of = [](std::size_t node) -> const Matcher& { return is_late(node) ? kLate : kEarly; };
+  return final_search(two_rounds().memory, two_rounds().graph(), matcher_of, {}, {}, known, 1, pool, progress);
+}
+
+TEST(FinalSearch, finds_true_loops_and_nothing_else) {
+  const FinalSearchOutcome outcome = pass(1);
+  std::size_t accepted = 0;
+  for (const LoopRecord& loop : outcome.loops) {
+    EXPECT_TRUE(loop.in_final_search);
+    if (loop.verdict != LoopVerdict::kAccepted) continue;
+    ++accepted;
+    const auto off = loop.anchor_T_node - (two_rounds().truth[loop.node] - two_rounds().truth[loop.anchor]);
+    EXPECT_LT(std::hypot(off.x, off.y), 0.1);
+  }
+  EXPECT_GT(accepted, 10U);
+}
+
+// Every pair, with nothing left out early.
+TEST(FinalSearch, matches_all_pairs_near_each_other) {
+  const TwoRounds& rounds = two_rounds();
+  const PoseGraph graph = rounds.graph();
+  std::size_t near_pairs = 0;
+  FinalSearchOptions options;
+  options.reach_m = 1.5;
+  for (const PlacedLocalMap& local_map : rounds.memory.local_maps) {
+    for (std::size_t node = 0; node < rounds.memory.nodes.size(); ++node) {
+      if (node >= local_map.first_node && node <= local_map.last_node) continue;
+      bool near = false;
+      for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other)
+        near = near || std::hypot(graph.pose(node).x - graph.pose(other).x,
+                                  graph.pose(node).y - graph.pose(other).y) <= options.reach_m;
+      near_pairs += near ? 1 : 0;
+    }
+  }
+  WorkerPool pool(1);
+  const FinalSearchOutcome outcome = final_search(
+      rounds.memory, graph, [](std::size_t) -> const Matcher& { return kEarly; }, {}, options,
+      [](std::size_t, std::size_t) { return false; }, 1, pool, [](double) { return true; });
+  EXPECT_EQ(outcome.effort.at("early").attempts, near_pairs);
+  EXPECT_LT(near_pairs, rounds.memory.nodes.size() * rounds.memory.local_maps.size() / 2);
+}
+
+TEST(FinalSearch, each_node_is_matched_by_its_own_matcher_and_counted_there) {
+  const FinalSearchOutcome outcome = pass(2);
+  ASSERT_EQ(outcome.effort.size(), 2U);
+  std::size_t late = 0;
+  for (const LoopRecord& loop : outcome.loops) {
+    EXPECT_EQ(loop.matcher, is_late(loop.node) ? "late" : "early");
+    late += is_late(loop.node) ? 1 : 0;
+  }
+  EXPECT_GT(late, 0U);
+  EXPECT_EQ(outcome.effort.at("late").found, late);
+  EXPECT_EQ(outcome.effort.at("early").found, outcome.loops.size() - late);
+}
+
+TEST(FinalSearch, known_pairs_are_left_out) {
+  const FinalSearchOutcome all = pass(1);
+  const FinalSearchOutcome some =
+      pass(1, [](std::size_t node, std::size_t local_map) { return local_map == 0 || node < 20; });
+  std::size_t expected = 0;
+  for (const LoopRecord& loop : all.loops) expected += loop.local_map != 0 && loop.node >= 20 ? 1 : 0;
+  EXPECT_EQ(some.loops.size(), expected);
+  EXPECT_LT(some.loops.size(), all.loops.size());
+  for (const LoopRecord& loop : some.loops) EXPECT_TRUE(loop.local_map != 0 && loop.node >= 20);
+}
+
+TEST(FinalSearch, finds_the_same_in_the_same_order_with_any_number_of_threads) {
+  const FinalSearchOutcome alone = pass(1);
+  EXPECT_TRUE(
+      std::is_sorted(alone.loops.begin(), alone.loops.end(), [](const LoopRecord& a, const LoopRecord& b) {
+        return std::pair(a.local_map, a.node) < std::pair(b.local_map, b.node);
+      }));
+  for (const int threads : {2, 4}) {
+    const FinalSearchOutcome together = pass(threads);
+    ASSERT_EQ(together.loops.size(), alone.loops.size());
+    for (std::size_t i = 0; i < alone.loops.size(); ++i) {
+      EXPECT_EQ(together.loops[i].node, alone.loops[i].node);
+      EXPECT_EQ(together.loops[i].anchor_T_node, alone.loops[i].anchor_T_node);
+      EXPECT_EQ(together.loops[i].verdict, alone.loops[i].verdict);
+    }
+    EXPECT_EQ(together.effort.at("late").evaluations, alone.effort.at("late").evaluations);
+  }
+}
+
+TEST(FinalSearch, progress_grows_up_to_the_end_and_reaches_it_where_nothing_is_near_too) {
+  for (const bool nothing : {false, true}) {
+    std::vector<double> shares;
+    const auto known = [&](std::size_t, std::size_t) { return nothing; };
+    const FinalSearchOutcome outcome = pass(2, known, [&](double share) {
+      shares.push_back(share);
+      return true;
+    });
+    EXPECT_EQ(outcome.loops.empty(), nothing);
+    ASSERT_FALSE(shares.empty());
+    EXPECT_GT(shares.front(), 0);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(shares.back(), 1);
+  }
+}
+
+TEST(FinalSearch, ends_where_it_is_told_to_stop) {
+  const auto nothing_known = [](std::size_t, std::size_t) { return false; };
+  int calls = 0;
+  const FinalSearchOutcome cut = pass(2, nothing_known, [&](double) {
+    ++calls;
+    return false;
+  });
+  EXPECT_EQ(calls, 1);
+  EXPECT_LE(cut.loops.size(), pass(2, nothing_known).loops.size());
+}
+
+}  // namespace
+}  // namespace psi_slam

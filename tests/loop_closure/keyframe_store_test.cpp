@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_closure/keyframe_store.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace psi_slam {
+namespace {
+
+std::vector<std::size_t> first_of_stretches(const std::vector<double>& travelled_m, double stretch_m) {
+  std::vector<NodeScan> nodes(travelled_m.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].travelled_m = travelled_m[i];
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (begins_stretch(i, nodes, stretch_m)) first.push_back(i);
+  return first;
+}
+
+FrontEndStep step_at(double x_m, double y_m) {
+  FrontEndStep step;
+  step.local_T_robot = {x_m, y_m, 0.5};
+  step.points = std::make_shared<ScanPoints>();
+  return step;
+}
+
+TEST(RememberNode, keeps_the_scan_and_sums_up_the_way_however_it_bends) {
+  KeyframeStore memory;
+  remember_node(step_at(1, 1), 4, memory);
+  remember_node(step_at(4, 5), 7, memory);
+  const FrontEndStep last = step_at(4, 3);
+  remember_node(last, 9, memory);
+  ASSERT_EQ(memory.nodes.size(), 3u);
+  EXPECT_EQ(memory.nodes[0].travelled_m, 0);
+  EXPECT_DOUBLE_EQ(memory.nodes[1].travelled_m, 5);
+  EXPECT_DOUBLE_EQ(memory.nodes[2].travelled_m, 7);
+  EXPECT_EQ(memory.nodes[2].frame, 9u);
+  EXPECT_EQ(memory.nodes[2].local_T_robot, last.local_T_robot);
+  EXPECT_EQ(memory.nodes[2].points, last.points);
+}
+
+TEST(BeginsStretch, once_in_each_stretch) {
+  EXPECT_EQ(first_of_stretches({0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.1}, 0.5), (std::vector<std::size_t>{0, 3, 5}));
+}
+
+TEST(BeginsStretch, all_nodes_when_they_are_farther_apart) {
+  EXPECT_EQ(first_of_stretches({0, 0.7, 1.2, 3.1}, 0.5), (std::vector<std::size_t>{0, 1, 2, 3}));
+}
+
+TEST(BeginsStretch, all_nodes_when_stretches_have_no_length) {
+  EXPECT_EQ(first_of_stretches({0, 0, 0.1}, 0), (std::vector<std::size_t>{0, 1, 2}));
+}
+
+TEST(BeginsStretch, not_again_while_the_robot_turns_on_the_spot) {
+  EXPECT_EQ(first_of_stretches({0, 0.6, 0.6, 0.6, 0.6}, 0.5), (std::vector<std::size_t>{0, 1}));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_closure/outlier_loops.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+constexpr double kMaxChi = 5;
+
+// Twenty nodes a metre apart by odometry that is good to 0.1 m a metre.
+PoseGraph chain() {
+  PoseGraph graph;
+  for (std::size_t i = 0; i < 20; ++i) {
+    graph.add_node({static_cast<double>(i), 0, 0});
+    if (i == 0) continue;
+    Constraint step;
+    step.from = i - 1;
+    step.to = i;
+    step.from_T_to = {1, 0, 0};
+    step.information = Eigen::Vector3d(100, 100, 1e4).asDiagonal();
+    graph.add_constraint(step);
+  }
+  return graph;
+}
+
+// A loop from the first node, good to 0.02 m, that sees the other `off_m` beside its place.
+std::size_t add_loop(PoseGraph& graph, std::size_t to, double off_m) {
+  Constraint loop;
+  loop.to = to;
+  loop.from_T_to = {static_cast<double>(to), off_m, 0};
+  loop.information = Eigen::Vector3d(2500, 2500, 1e4).asDiagonal();
+  loop.kind = Constraint::Kind::kLoop;
+  return graph.add_constraint(loop);
+}
+
+SparsePoseAdjustment plain_solver() {
+  PoseAdjustmentOptions options;
+  options.loop_kernel = {};
+  return SparsePoseAdjustment(options);
+}
+
+TEST(OutlierLoops, loops_that_agree_stay) {
+  PoseGraph graph = chain();
+  const std::vector<std::size_t> loops = {add_loop(graph, 12, 0.01), add_loop(graph, 19, -0.01)};
+  SparsePoseAdjustment solver = plain_solver();
+  const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kMaxChi);
+  ASSERT_EQ(chi.size(), 2U);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    EXPECT_TRUE(graph.enabled(loops[i]));
+    EXPECT_LT(chi[i], 1);
+  }
+}
+
+TEST(OutlierLoops, a_false_loop_does_not_take_the_true_ones_along_that_it_bent) {
+  PoseGraph graph = chain();
+  std::vector<std::size_t> loops;
+  for (const std::size_t to : {17U, 17U, 17U, 18U, 19U}) loops.push_back(add_loop(graph, to, 0));
+  loops.insert(loops.begin() + 2, add_loop(graph, 17, 8));
+
+  PoseGraph bent = graph;
+  SparsePoseAdjustment solver = plain_solver();
+  const std::vector<ConstraintFit> fits = solver.optimize(bent).fits;
+  EXPECT_GT(fits[loops[0]].chi2, kMaxChi * kMaxChi) << "after one fit true ones seem wrong too";
+
+  const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kMaxChi);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    EXPECT_EQ(graph.enabled(loops[i]), i != 2) << i;
+    if (i == 2)
+      EXPECT_NEAR(chi[i], 8 / 0.02, 1) << "of the graph without it";
+    else
+      EXPECT_LT(chi[i], 0.1) << i;
+  }
+  EXPECT_NEAR(graph.pose(17).y, 0, 1e-3);
+}
+
+TEST(OutlierLoops, false_loops_of_all_sizes_go) {
+  PoseGraph graph = chain();
+  std::vector<std::size_t> loops;
+  for (std::size_t to = 10; to < 20; ++to) loops.push_back(add_loop(graph, to, 0));
+  const std::vector<std::size_t> wrong = {add_loop(graph, 11, 20), add_loop(graph, 14, 2),
+                                          add_loop(graph, 18, -0.5)};
+  loops.insert(loops.end(), wrong.begin(), wrong.end());
+  SparsePoseAdjustment solver = plain_solver();
+  switch_off_outlier_loops(graph, solver, loops, kMaxChi);
+  for (std::size_t i = 0; i < loops.size(); ++i) EXPECT_EQ(graph.enabled(loops[i]), i < 10) << i;
+}
+
+TEST(OutlierLoops, what_fits_after_all_is_switched_on_again) {
+  PoseGraph graph = chain();
+  const std::vector<std::size_t> loops = {add_loop(graph, 15, 0.01), add_loop(graph, 19, 0.0),
+                                          add_loop(graph, 17, 5)};
+  for (const std::size_t loop : loops) graph.set_enabled(loop, false);
+  SparsePoseAdjustment solver = plain_solver();
+  switch_off_outlier_loops(graph, solver, loops, kMaxChi);
+  EXPECT_TRUE(graph.enabled(loops[0]));
+  EXPECT_TRUE(graph.enabled(loops[1]));
+  EXPECT_FALSE(graph.enabled(loops[2]));
+}
+
+TEST(OutlierLoops, a_loop_of_just_the_limit_stays) {
+  PoseGraph graph = chain();
+  const std::vector<std::size_t> loops = {add_loop(graph, 19, 3)};
+  SparsePoseAdjustment solver = plain_solver();
+  PoseGraph copy = graph;
+  const double chi = std::sqrt(solver.optimize(copy).fits[loops[0]].chi2);
+  ASSERT_GT(chi, 0.01);
+  copy = graph;
+  switch_off_outlier_loops(copy, solver, loops, chi * 1.001);
+  EXPECT_TRUE(copy.enabled(loops[0]));
+  copy = graph;
+  switch_off_outlier_loops(copy, solver, loops, chi * 0.999);
+  EXPECT_FALSE(copy.enabled(loops[0]));
+}
+
+TEST(OutlierLoops, a_graph_without_loops_is_optimised) {
+  PoseGraph graph = chain();
+  graph.set_pose(19, {25, 3, 1});
+  SparsePoseAdjustment solver = plain_solver();
+  EXPECT_TRUE(switch_off_outlier_loops(graph, solver, {}, kMaxChi).empty());
+  EXPECT_NEAR(graph.pose(19).x, 19, 1e-6);
+}
+
+}  // namespace
+}  // namespace psi_slam

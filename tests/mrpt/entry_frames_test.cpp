@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mrpt/entry_frames.h"
+
+#include <gmock/gmock.h>
+
+#include <vector>
+
+#include "rawlog_files.h"
+#include "test_files.h"
+
+namespace psi_slam {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<double> ways_m(EntryFrames& entries) {
+  std::vector<double> ways_m;
+  while (const std::optional<Frame> frame = entries.next()) {
+    EXPECT_EQ(frame->index, ways_m.size());
+    ways_m.push_back(frame->odom_T_robot.x);
+  }
+  return ways_m;
+}
+
+TEST(EntryFrames, sum_up_actions) {
+  EntryFrames entries{LogOptions()};
+  entries.take(movement({1, 0, 0}), sensory_frame({range_scan(1'000'000)}), nullptr);
+  entries.take(movement({0.5, 0, 0}), sensory_frame({range_scan(2'000'000)}), nullptr);
+  EXPECT_THAT(ways_m(entries), ElementsAre(1, 1.5));
+}
+
+TEST(EntryFrames, wait_for_the_odometry_behind_them) {
+  EntryFrames entries{LogOptions()};
+  entries.take(nullptr, nullptr, odometry(1'000'000, {1, 0, 0}));
+  entries.take(nullptr, nullptr, range_scan(1'500'000));
+  EXPECT_EQ(entries.scans(), 1u);
+  EXPECT_FALSE(entries.next());
+  entries.take(nullptr, nullptr, odometry(2'000'000, {2, 0, 0}));
+  EXPECT_THAT(ways_m(entries), ElementsAre(1.5));
+}
+
+TEST(EntryFrames, before_the_first_action_stand_at_the_start) {
+  EntryFrames entries{LogOptions()};
+  entries.take(nullptr, nullptr, range_scan(1'000'000));
+  entries.take(movement({1, 0, 0}), sensory_frame({range_scan(2'000'000)}), nullptr);
+  EXPECT_THAT(ways_m(entries), ElementsAre(0, 1));
+}
+
+TEST(EntryFrames, are_of_one_laser) {
+  EntryFrames entries{LogOptions()};
+  entries.take(movement({1, 0, 0}),
+               sensory_frame({range_scan(1'000'000, "FRONT"), range_scan(1'000'000, "REAR")}), nullptr);
+  EXPECT_EQ(entries.scans(), 1u);
+}
+
+TEST(EntryFrames, a_log_without_odometry_is_refused) {
+  EntryFrames entries{LogOptions(), "entries: "};
+  entries.take(nullptr, nullptr, range_scan(1'000'000));
+  EXPECT_FALSE(entries.next());
+  EXPECT_EQ(sentence_of([&] { entries.end_of_log(); }),
+            "entries: no odometry came with 1 scans, expected actions of class CActionRobotMovement2D or "
+            "observations of class CObservationOdometry");
+}
+
+TEST(EntryFrames, odometry_that_never_comes_is_missed_before_the_log_ends) {
+  EntryFrames entries{LogOptions()};
+  const auto endless = [&] {
+    for (TimeUs i = 1; i <= 2000; ++i) entries.take(nullptr, nullptr, range_scan(i * 100'000));
+  };
+  EXPECT_THAT(sentence_of(endless), HasSubstr("no odometry came with 1001 scans"));
+}
+
+TEST(EntryFrames, a_scan_without_time_is_refused) {
+  EntryFrames entries{LogOptions()};
+  const auto scan = range_scan(1'000'000);
+  scan->timestamp = {};
+  EXPECT_EQ(sentence_of([&] { entries.take(nullptr, nullptr, scan); }),
+            "scan 1 has no time stamp, expected one on every observation");
+}
+
+TEST(EntryFrames, of_two_lasers_hold_the_scans_of_both) {
+  LogOptions options;
+  options.laser = "all";
+  EntryFrames entries(options);
+  const auto rear = [](TimeUs time_us) {
+    auto scan = range_scan(time_us, "REAR");
+    scan->sensorPose = mrpt::poses::CPose3D(-0.3, 0, 0, M_PI, 0, 0);
+    return scan;
+  };
+  for (TimeUs t = 0; t < 4; ++t) {
+    const TimeUs time_us = 1'000'000 + t * 100'000;
+    entries.take(nullptr, nullptr, odometry(time_us, {0.1 * static_cast<double>(t), 0, 0}));
+    entries.take(nullptr, nullptr, range_scan(time_us, "FRONT"));
+    if (t != 1) entries.take(nullptr, nullptr, rear(time_us + 50'000));
+  }
+  entries.take(nullptr, nullptr, odometry(1'400'000, {0.4, 0, 0}));
+  EXPECT_EQ(entries.scans(), 7u);
+  entries.end_of_log();
+  std::vector<std::size_t> opened_by;
+  std::vector<std::size_t> companions;
+  while (const std::optional<Frame> frame = entries.next()) {
+    EXPECT_EQ(frame->index, opened_by.size());
+    opened_by.push_back(entries.opened_by());
+    companions.push_back(frame->companions.size());
+    for (const CompanionScan& companion : frame->companions)
+      EXPECT_NEAR(companion.frame_T_robot.x, 0.05, 1e-9);
+  }
+  EXPECT_THAT(opened_by, ElementsAre(0, 2, 3, 5));
+  EXPECT_THAT(companions, ElementsAre(1, 0, 1, 1));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rawlog/rawlog_archive.h"
+
+#include <gmock/gmock.h>
+
+#include "log_files.h"
+#include "rawlog_files.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+class RawlogArchiveTest : public testing::Test {
+ protected:
+  std::size_t read_all() {
+    RawlogArchive archive(path_);
+    std::size_t objects = 0;
+    while (archive.next()) ++objects;
+    EXPECT_EQ(archive.place(), path_.string() + ": object " + std::to_string(objects));
+    EXPECT_EQ(archive.progress(), 1.0);
+    return objects;
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "log.rawlog";
+  RawlogObjects objects_{range_scan(1), movement({1, 2, 3}), sensory_frame({range_scan(2)}),
+                         odometry(3, {0, 0, 0})};
+};
+
+TEST_F(RawlogArchiveTest, gives_every_object_plain_and_gzipped) {
+  write_rawlog(path_, objects_, false);
+  EXPECT_EQ(read_all(), 4U);
+  write_rawlog(path_, objects_, true);
+  EXPECT_EQ(read_all(), 4U);
+}
+
+TEST_F(RawlogArchiveTest, says_wherever_a_plain_file_is_cut_off) {
+  write_rawlog(path_, objects_, false);
+  const std::string whole = read_file(path_);
+  const std::size_t step = 29;  // MRPT takes its time over exceptions
+  for (std::size_t size = 1; size < whole.size(); size += step) {
+    write_file(path_, whole.substr(0, size));
+    RawlogArchive archive(path_);
+    std::size_t objects = 0;
+    const std::string sentence = sentence_of([&] {
+      while (archive.next()) ++objects;
+    });
+    EXPECT_LT(objects, 4U);
+    EXPECT_EQ(sentence, path_.string() + ": object " + std::to_string(objects + 1) +
+                            ": the file is cut off within this object")
+        << "cut after " << size << " bytes";
+  }
+}
+
+TEST_F(RawlogArchiveTest, says_when_a_gzipped_file_is_cut_off) {
+  write_rawlog(path_, objects_, true);
+  std::filesystem::resize_file(path_, std::filesystem::file_size(path_) - 20);
+  EXPECT_EQ(sentence_of([&] { read_all(); }),
+            path_.string() + " is cut off: its compressed data end too early");
+}
+
+TEST_F(RawlogArchiveTest, says_when_an_object_is_unknown_or_damaged) {
+  write_rawlog(path_, {range_scan(1)}, false);
+  write_file(path_, read_file(path_) + "\x8A" + "CObservati" + std::string(40, '\0'));
+  EXPECT_EQ(sentence_of([&] { read_all(); }), path_.string() +
+                                                  ": object 2 is damaged or of a class that this version of "
+                                                  "MRPT does not know, expected an action, a "
+                                                  "sensory frame or an observation");
+}
+
+}  // namespace
+}  // namespace psi_slam

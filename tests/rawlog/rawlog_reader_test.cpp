@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rawlog/rawlog_reader.h"
+
+#include <gmock/gmock.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
+
+#include <cmath>
+
+#include "log_files.h"
+#include "rawlog_files.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+constexpr TimeUs kStart = 1'464'602'099'833'205;  // a time of today, to the microsecond
+
+class RawlogReaderTest : public testing::Test {
+ protected:
+  std::vector<Frame> read(const RawlogObjects& objects, const LogOptions& options = {}) {
+    write_rawlog(path_, objects);
+    RawlogReader reader(path_, options);
+    auto frames = all_frames(reader);
+    EXPECT_EQ(reader.progress(), 1.0);
+    statistics_ = reader.statistics();
+    return frames;
+  }
+
+  std::string sentence_about(const RawlogObjects& objects, const LogOptions& options = {}) {
+    return sentence_of([&] { read(objects, options); });
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "log.rawlog";
+  RawlogStatistics statistics_;
+};
+
+void expect_pose(const TPose2D& found, const TPose2D& expected) {
+  EXPECT_NEAR(found.x, expected.x, 1e-9);
+  EXPECT_NEAR(found.y, expected.y, 1e-9);
+  EXPECT_NEAR(found.phi, expected.phi, 1e-9);
+}
+
+TEST_F(RawlogReaderTest, sums_the_increments_of_actions) {
+  const auto frames = read({sensory_frame({range_scan(kStart)}), movement({1, 0, M_PI / 2}),
+                            sensory_frame({range_scan(kStart + 1)}), movement({2, 1, 0.25}),
+                            movement({0, 0, 0.25}), sensory_frame({range_scan(kStart + 200'002)})});
+  ASSERT_EQ(frames.size(), 3U);
+  expect_pose(frames[0].odom_T_robot, {0, 0, 0});
+  expect_pose(frames[1].odom_T_robot, {1, 0, M_PI / 2});
+  expect_pose(frames[2].odom_T_robot, {0, 2, M_PI / 2 + 0.5});
+  EXPECT_EQ(frames[0].time_us, kStart);
+  EXPECT_EQ(frames[1].time_us, kStart + 1);
+  EXPECT_EQ(frames[2].time_us, kStart + 200'002);
+  EXPECT_EQ(frames[2].index, 2U);
+  EXPECT_EQ(frames[2].scan.ranges_m, (std::vector<float>{1, 2, 3, 4, 5}));
+  EXPECT_TRUE(statistics_.has_actions);
+  EXPECT_EQ(statistics_.sensor_label, "LASER");
+}
+
+TEST_F(RawlogReaderTest, interpolates_absolute_odometry) {
+  const auto frames = read({range_scan(kStart), odometry(kStart + 100, {1, 0, 0}), range_scan(kStart + 125),
+                            odometry(kStart + 200, {2, 4, 0.4}), range_scan(kStart + 300)});
+  ASSERT_EQ(frames.size(), 3U);
+  expect_pose(frames[0].odom_T_robot, {1, 0, 0});
+  expect_pose(frames[1].odom_T_robot, {1.25, 1, 0.1});
+  expect_pose(frames[2].odom_T_robot, {2, 4, 0.4});
+  EXPECT_EQ(frames[2].index, 2U);
+  EXPECT_FALSE(statistics_.has_actions);
+}
+
+TEST_F(RawlogReaderTest, finds_absolute_odometry_in_sensory_frames) {
+  const auto frames = read({sensory_frame({odometry(kStart, {1, 0, 0}), range_scan(kStart)}),
+                            sensory_frame({range_scan(kStart + 50), odometry(kStart + 100, {3, 0, 0})})});
+  ASSERT_EQ(frames.size(), 2U);
+  expect_pose(frames[1].odom_T_robot, {2, 0, 0});
+}
+
+TEST_F(RawlogReaderTest, takes_one_kind_of_odometry_only) {
+  const auto frames =
+      read({movement({1, 0, 0}), sensory_frame({range_scan(kStart), odometry(kStart, {9, 9, 0})}),
+            movement({1, 0, 0}), sensory_frame({range_scan(kStart), odometry(kStart, {9, 9, 0})})});
+  expect_pose(frames.at(1).odom_T_robot, {2, 0, 0});
+}
+
+TEST_F(RawlogReaderTest, takes_the_mean_of_a_movement_that_is_no_odometry) {
+  mrpt::obs::CActionRobotMovement2D action;
+  action.estimationMethod = mrpt::obs::CActionRobotMovement2D::emScan2DMatching;
+  action.poseChange = mrpt::poses::CPosePDF::Ptr(
+      std::make_shared<mrpt::poses::CPosePDFGaussian>(mrpt::poses::CPose2D(0.5, 0, 0)));
+  const auto frames =
+      read({mrpt::obs::CActionCollection::Create(action), sensory_frame({range_scan(kStart)})});
+  expect_pose(frames.at(0).odom_T_robot, {0.5, 0, 0});
+}
+
+TEST_F(RawlogReaderTest, takes_one_laser_of_several) {
+  const RawlogObjects objects{
+      movement({1, 0, 0}), sensory_frame({range_scan(kStart, "FRONT"), range_scan(kStart + 1, "REAR")}),
+      movement({1, 0, 0}), sensory_frame({range_scan(kStart + 2, "FRONT"), range_scan(kStart + 3, "REAR")})};
+  EXPECT_EQ(read(objects).at(1).time_us, kStart + 2);
+  EXPECT_EQ(statistics_.scans_of_other_lasers.at("REAR"), 2U);
+  LogOptions options;
+  options.laser = "REAR";
+  const auto frames = read(objects, options);
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[1].time_us, kStart + 3);
+  expect_pose(frames[1].odom_T_robot, {2, 0, 0});
+  options.laser = "LEFT";
+  EXPECT_EQ(sentence_about(objects, options), "log.laser is \"LEFT\", expected the label of a laser of " +
+                                                  path_.string() + ": \"FRONT\", \"REAR\"");
+}
+
+TEST_F(RawlogReaderTest, gives_several_scans_of_one_laser_in_one_frame) {
+  EXPECT_EQ(read({movement({1, 0, 0}), sensory_frame({range_scan(kStart), range_scan(kStart + 7)})}).size(),
+            2U);
+}
+
+TEST_F(RawlogReaderTest, passes_over_other_observations) {
+  EXPECT_EQ(read({mrpt::obs::CObservationComment::Create(), movement({1, 0, 0}),
+                  sensory_frame({mrpt::obs::CObservationComment::Create(), range_scan(kStart)})})
+                .size(),
+            1U);
+}
+
+TEST_F(RawlogReaderTest, rounds_time_to_the_nearest_microsecond) {
+  const auto scan = range_scan(kStart);
+  scan->timestamp += mrpt::Clock::duration(6);
+  EXPECT_EQ(read({movement({1, 0, 0}), sensory_frame({scan})}).at(0).time_us, kStart + 1);
+}
+
+TEST_F(RawlogReaderTest, says_what_is_missing) {
+  EXPECT_EQ(sentence_about({movement({1, 0, 0}), sensory_frame({})}),
+            path_.string() + " has no laser scans, expected observations of class CObservation2DRangeScan");
+  EXPECT_EQ(sentence_about({range_scan(kStart), range_scan(kStart)}),
+            path_.string() +
+                " has no odometry, expected actions of class CActionRobotMovement2D or observations of class "
+                "CObservationOdometry");
+  const auto scan = range_scan(kStart);
+  scan->timestamp = INVALID_TIMESTAMP;
+  EXPECT_EQ(sentence_about({movement({1, 0, 0}), sensory_frame({scan})}),
+            path_.string() + ": object 2: the scan has no time stamp, expected one on every observation");
+}
+
+TEST_F(RawlogReaderTest, gives_the_frames_before_the_file_is_cut_off) {
+  write_rawlog(
+      path_, {movement({1, 0, 0}), sensory_frame({range_scan(kStart)}), sensory_frame({range_scan(kStart)})},
+      false);
+  std::filesystem::resize_file(path_, std::filesystem::file_size(path_) - 1);
+  RawlogReader reader(path_, {});
+  EXPECT_TRUE(reader.next());
+  EXPECT_EQ(sentence_of([&] { reader.next(); }),
+            path_.string() + ": object 3: the file is cut off within this object");
+}
+
+TEST(RawlogOfTelecomFaculty, is_read_whole) {
+  const std::filesystem::path path =
+      "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "needs " << path << " of Debian's mrpt-common";
+  const auto frames = frames_of(path);
+  ASSERT_EQ(frames.size(), 225U) << "224 steps and the start";
+  EXPECT_EQ(frames[0].scan.ranges_m.size(), 361U);
+  EXPECT_NEAR(frames[0].scan.bearings_rad->front(), -M_PI / 2, 1e-6);
+  EXPECT_NEAR(frames[0].scan.robot_T_laser.x, 0.78, 1e-6);
+  EXPECT_NEAR(seconds(frames.back().time_us - frames.front().time_us), 59, 1);
+  EXPECT_EQ(frames[0].time_us, 1'137'834'225'713'386);
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rendering/map_image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::maps::COccupancyGridMap2D;
+
+/// 3 m x 2 m from (-1.5, 4), cells of 0.25 m: 2 m x 1 m of it free, one obstacle in the cell at (-0.5, 4.25).
+COccupancyGridMap2D lopsided_map() {
+  COccupancyGridMap2D grid(-1.5F, 1.5F, 4, 6, 0.25F);
+  for (int x = 0; x < 8; ++x)
+    for (int y = 0; y < 4; ++y) grid.setCell(x, y, 0.99F);
+  grid.setCell(4, 1, 0.01F);
+  return grid;
+}
+
+/// Width, height and colour type as they stand in the header of a PNG file.
+struct PngHeader {
+  std::uint32_t width;
+  std::uint32_t height;
+  int colour_type;
+};
+
+PngHeader header_of(const std::string& png) {
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(png.at(at + i));
+    return value;
+  };
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  return {number(16), number(20), png.at(25)};
+}
+
+MapPictureOptions plain() {
+  MapPictureOptions options;
+  options.min_side_px = 1;
+  options.margin_m = 0;
+  options.scale_bar = false;
+  return options;
+}
+
+TEST(MapImage, counts_what_was_seen_and_where) {
+  const SeenCells seen = seen_cells(lopsided_map());
+  EXPECT_EQ(seen.x_begin, 0);
+  EXPECT_EQ(seen.x_end, 8);
+  EXPECT_EQ(seen.y_begin, 0);
+  EXPECT_EQ(seen.y_end, 4);
+  EXPECT_EQ(seen.free, 31U);
+  EXPECT_EQ(seen.occupied, 1U);
+}
+
+TEST(MapImage, is_cropped_to_what_was_seen_with_its_margin) {
+  const MapPicture bare = map_picture(lopsided_map(), plain());
+  EXPECT_EQ(bare.width_px, 8);
+  EXPECT_EQ(bare.height_px, 4);
+  EXPECT_NEAR(bare.x_min_m, -1.5, 1e-6);
+  EXPECT_NEAR(bare.y_max_m, 5, 1e-6);
+  EXPECT_NEAR(bare.resolution_m, 0.25, 1e-6);
+  const PngHeader header = header_of(bare.png);
+  EXPECT_EQ(header.width, 8U);
+  EXPECT_EQ(header.height, 4U);
+  EXPECT_EQ(header.colour_type, 2) << "colour without opacity";
+
+  MapPictureOptions wide = plain();
+  wide.margin_m = 0.5;
+  const MapPicture framed = map_picture(lopsided_map(), wide);
+  EXPECT_EQ(framed.width_px, 12);
+  EXPECT_NEAR(framed.x_min_m, -2, 1e-6);
+  EXPECT_NEAR(framed.y_max_m, 5.5, 1e-6);
+}
+
+TEST(MapImage, small_maps_are_enlarged_and_large_ones_reduced_by_whole_numbers) {
+  MapPictureOptions options = plain();
+  options.min_side_px = 100;
+  const MapPicture larger = map_picture(lopsided_map(), options);
+  EXPECT_EQ(larger.width_px, 8 * 13);
+  EXPECT_NEAR(larger.resolution_m, 0.25 / 13, 1e-9);
+  options.min_side_px = 1;
+  options.max_side_px = 3;
+  const MapPicture smaller = map_picture(lopsided_map(), options);
+  EXPECT_EQ(smaller.width_px, 3);
+  EXPECT_NEAR(smaller.resolution_m, 0.75, 1e-6);
+}
+
+TEST(MapImage, a_scale_bar_gets_a_strip_of_its_own) {
+  MapPictureOptions options;
+  const MapPicture with_bar = map_picture(lopsided_map(), options);
+  options.scale_bar = false;
+  EXPECT_GT(with_bar.height_px, map_picture(lopsided_map(), options).height_px);
+}
+
+TEST(MapImage, the_unknown_can_be_transparent) {
+  MapPictureOptions options = plain();
+  options.transparent_unknown = true;
+  EXPECT_EQ(header_of(map_picture(lopsided_map(), options).png).colour_type, 6) << "colour with opacity";
+}
+
+TEST(MapImage, an_empty_map_is_a_picture_too_and_the_same_map_the_same_bytes) {
+  const COccupancyGridMap2D nothing(-1, 1, -1, 1, 0.25F);
+  EXPECT_EQ(map_picture(nothing, plain()).width_px, 8);
+  EXPECT_EQ(map_picture(lopsided_map()).png, map_picture(lopsided_map()).png);
+}
+
+}  // namespace
+}  // namespace psi_slam

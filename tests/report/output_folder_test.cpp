@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/output_folder.h"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "psi_slam/user_error.h"
+#include "psi_slam/grid_map.h"
+#include "simulated_room.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const RunInfo kInfo{"0.1.0", "room.clf", {}};
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+std::string complaint(const fs::path& path, bool force = false) {
+  try {
+    OutputFolder::prepare(path, force);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+void export_room(const OutputFolder& folder) {
+  const MappingResult result = walk_around_the_room();
+  const auto grid = draw_grid_map(result.log, mapped_poses(result));
+  export_results(result, *grid, folder);
+  export_account(result, kInfo, summarize_run(result, *grid), *grid, folder);
+}
+
+TEST(OutputFolder, is_made_with_those_above_it) {
+  const TemporaryFolder temporary;
+  const fs::path path = temporary.path() / "runs" / "first";
+  EXPECT_EQ(OutputFolder::prepare(path, false).path(), path);
+  EXPECT_TRUE(fs::is_directory(path));
+  EXPECT_EQ(complaint(path), "no complaint") << "an empty one is as good as new";
+}
+
+TEST(OutputFolder, with_something_in_it_needs_force) {
+  const TemporaryFolder temporary;
+  std::ofstream(temporary.path() / "thesis.tex") << "years";
+  EXPECT_THAT(complaint(temporary.path()), AllOf(HasSubstr("is not empty"), HasSubstr("--force")));
+  EXPECT_EQ(complaint(temporary.path(), true), "no complaint");
+}
+
+TEST(OutputFolder, what_cannot_be_a_folder_is_told) {
+  const TemporaryFolder temporary;
+  std::ofstream(temporary.path() / "file") << "x";
+  EXPECT_THAT(complaint(temporary.path() / "file"), HasSubstr("is a file, not a folder"));
+  EXPECT_THAT(complaint(temporary.path() / "file" / "below"),
+              HasSubstr((temporary.path() / "file").string() + " is a file"));
+  EXPECT_THAT(complaint(temporary.path() / "file", true), HasSubstr("is a file, not a folder"));
+  EXPECT_THAT(complaint(""), HasSubstr("has no name"));
+  if (fs::exists("/proc/self")) {
+    EXPECT_THAT(complaint("/proc/psi-slam"), HasSubstr("cannot make the output folder /proc/psi-slam"));
+  }
+}
+
+TEST(OutputFolder, holds_all_files_under_their_fixed_names_and_nothing_else) {
+  const TemporaryFolder temporary;
+  export_room(OutputFolder::prepare(temporary.path() / "run", false));
+  EXPECT_EQ(names_in(temporary.path() / "run"),
+            (std::set<std::string>{"frames.csv", "loops.csv", "map.dxf", "map.gridmap.gz", "map.pgm",
+                                   "map.png", "map.simplemap.gz", "map.svg", "map.yaml", "report.html", "summary.json",
+                                   "trajectory.carmen", "trajectory.tum"}));
+}
+
+TEST(OutputFolder, force_replaces_results_and_leaves_other_files_alone) {
+  const TemporaryFolder temporary;
+  std::ofstream(temporary.path() / "notes.txt") << "mine";
+  std::ofstream(temporary.path() / "map.yaml") << "old";
+  export_room(OutputFolder::prepare(temporary.path(), true));
+  EXPECT_EQ(contents(temporary.path() / "notes.txt"), "mine");
+  EXPECT_THAT(contents(temporary.path() / "map.yaml"), HasSubstr("image: map.pgm"));
+}
+
+TEST(OutputFolder, the_same_result_gives_the_same_bytes) {
+  const TemporaryFolder temporary;
+  export_room(OutputFolder::prepare(temporary.path() / "a", false));
+  export_room(OutputFolder::prepare(temporary.path() / "b", false));
+  for (const std::string& name : names_in(temporary.path() / "a")) {
+    if (name == "summary.json" || name == "report.html") continue;  // they tell the memory used
+    EXPECT_EQ(contents(temporary.path() / "a" / name), contents(temporary.path() / "b" / name)) << name;
+  }
+}
+
+/// Runs in a child process, for which files can grow to `limit` bytes only, as on a full disk (its standard
+/// error is a file too).
+[[noreturn]] void export_to_a_full_disk(const fs::path& path, rlim_t limit) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit bytes{limit, limit};
+  setrlimit(RLIMIT_FSIZE, &bytes);
+  try {
+    export_room(OutputFolder::prepare(path, false));
+  } catch (const SystemFailure& failure) {
+    std::fprintf(stderr, "%s\n", failure.what());
+    std::exit(1);
+  }
+  std::exit(0);
+}
+
+TEST(OutputFolderDeathTest, a_full_disk_is_told_with_the_files_name_and_leaves_no_half_file) {
+  const TemporaryFolder temporary;
+  for (const rlim_t limit : {1000, 4096, 10000, 30000}) {
+    const fs::path path = temporary.path() / std::to_string(limit);
+    EXPECT_EXIT(
+        export_to_a_full_disk(path, limit), ::testing::ExitedWithCode(1),
+        "cannot write "
+        ".*/(trajectory.tum|trajectory.carmen|frames.csv|loops.csv|map.*|summary.json|report.html): File "
+        "too large");
+    for (const std::string& name : names_in(path)) {
+      EXPECT_EQ(name.find("partial"), std::string::npos) << name;
+      EXPECT_GT(fs::file_size(path / name), 0U) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/report_html.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "psi_slam/grid_map.h"
+#include "report/output_folder.h"
+#include "simulated_room.h"
+#include "well_formed.h"
+
+namespace psi_slam {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string report_of(const MappingResult& result, const RunInfo& info) {
+  const auto grid = draw_grid_map(result.log, mapped_poses(result));
+  return report_html(result, info, summarize_run(result, *grid), *grid);
+}
+
+std::string report_of_the_room() {
+  return report_of(walk_around_the_room(), {"0.1.0", "room.clf", {{"seed", "1"}}});
+}
+
+std::string without_style_and_script(const std::string& html) {
+  return without(without(html, "<style>", "</style>"), "<script>", "</script>");
+}
+
+/// What the attribute's values are, each up to 40 characters.
+std::vector<std::string> values_of(const std::string& attribute, const std::string& html) {
+  std::vector<std::string> values;
+  const std::string begin = ' ' + attribute + "=\"";
+  for (std::size_t at = 0; (at = html.find(begin, at)) != std::string::npos;) {
+    at += begin.size();
+    values.push_back(html.substr(at, std::min<std::size_t>(html.find('"', at) - at, 40)));
+  }
+  return values;
+}
+
+TEST(WellFormed, sees_what_is_wrong) {
+  EXPECT_EQ(complaint_about("<!DOCTYPE html><p class=\"a b\">x &amp; y<br/></p>"), "");
+  for (const char* wrong :
+       {"<p>", "</p>", "<p></b>", "<p class=a></p>", "<p class=\"<\"></p>", "<p>&x</p>", "<p>></p>", "<p"})
+    EXPECT_NE(complaint_about(wrong), "") << wrong;
+}
+
+TEST(ReportHtml, its_tags_and_drawings_are_well_formed) {
+  const std::string html = without_style_and_script(report_of_the_room());
+  EXPECT_EQ(complaint_about(html), "");
+  EXPECT_THAT(html, HasSubstr("<svg id=\"map\""));
+  EXPECT_THAT(html, HasSubstr("class=\"plot\""));
+}
+
+TEST(ReportHtml, tells_the_scans_of_further_lasers_and_those_left_out) {
+  const MappingResult result = walk_around_the_room();
+  const auto grid = draw_grid_map(result.log, mapped_poses(result));
+  RunSummary summary = summarize_run(result, *grid);
+  EXPECT_THAT(report_html(result, {}, summary, *grid), Not(HasSubstr("Further lasers")));
+  summary.log.companion_scans = 48;
+  summary.log.spare_scans = 1200;
+  EXPECT_THAT(
+      report_html(result, {}, summary, *grid),
+      HasSubstr("<th>Further lasers</th><td>48 scans taken together with those of the first; 1,200 scans "
+                "left out for want of one near enough</td>"));
+}
+
+TEST(ReportHtml, needs_no_network) {
+  const std::string html = report_of_the_room();
+  EXPECT_THAT(html, Not(HasSubstr("://")));
+  EXPECT_THAT(html, Not(HasSubstr("@import")));
+  EXPECT_THAT(html, Not(HasSubstr("<script src")));
+  EXPECT_THAT(html, Not(HasSubstr("<link")));
+  EXPECT_TRUE(values_of("src", html).empty());
+  for (const std::string& reference : values_of("href", html))
+    EXPECT_TRUE(reference.rfind("data:image/png;base64,", 0) == 0 ||
+                reference.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.") == std::string::npos)
+        << reference;
+}
+
+TEST(ReportHtml, shows_the_figures) {
+  const std::string html = report_of_the_room();
+  for (const char* shown :
+       {"room.clf", "20×", "10 <small>nodes</small>", "match scan to local map", "response … is below …",
+        "1 setting", "of 12 tried", "2 matches found", "Mapped by psi-slam 0.1.0 in 0.50 s"})
+    EXPECT_THAT(html, HasSubstr(shown));
+}
+
+TEST(ReportHtml, shows_the_factor_and_the_matchers) {
+  const std::string html = report_of_the_room();
+  for (const char* shown :
+       {"Ψ₁ = 2", "Ψ₂ = 6", "<path class=\"matcher csm\"", "<path class=\"matcher csm_ga\"",
+        "<path class=\"matcher ga\"", "key matcher csm_ga"})
+    EXPECT_THAT(html, HasSubstr(shown));
+  MappingResult one = walk_around_the_room();
+  for (FrameRecord& frame : one.frames)
+    if (frame.node) frame.matcher = "ga";
+  const std::string of_one = report_of(one, {});
+  EXPECT_THAT(of_one, HasSubstr("<path class=\"matcher ga\""));
+  EXPECT_THAT(of_one, Not(HasSubstr("<path class=\"matcher csm\"")));
+  EXPECT_THAT(of_one, Not(HasSubstr("key matcher csm\"")));
+}
+
+TEST(ReportHtml, the_users_texts_cannot_break_it) {
+  const std::string nasty = "<script>alert('&\"')</script>\x01";
+  MappingResult result = walk_around_the_room();
+  result.loops[0].reason = nasty;
+  result.stages[0].name = nasty;
+  result.frames[0].matcher = nasty;
+  result.loops[0].matcher = nasty;
+  const std::string html = report_of(result, {nasty, nasty, {{nasty, nasty}, {"a." + nasty, nasty}}});
+  EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
+  EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(&#39;&amp;&quot;&#39;)&lt;/script&gt;?"));
+  EXPECT_EQ(complaint_about(without_style_and_script(html)), "");
+}
+
+TEST(ReportHtml, an_empty_and_an_interrupted_run_are_shown_too) {
+  MappingResult result;
+  result.interrupted = true;
+  const std::string html = report_of(result, {});
+  EXPECT_THAT(html, HasSubstr("stopped before the end of the log"));
+  EXPECT_THAT(html, HasSubstr("No match was found"));
+  EXPECT_THAT(html, HasSubstr("No times were measured"));
+  EXPECT_THAT(html, Not(HasSubstr("nan")));
+}
+
+TEST(ReportHtml, shows_psi_for_any_thresholds) {
+  for (const auto& [psi_1, psi_2] :
+       {std::pair{-1.0, 1.0}, {0.0, 1e-300}, {-2.0, -1.0}, {1.0, 4.0}, {1e200, 1e300}}) {
+    MappingResult result = walk_around_the_room();
+    result.psi.psi_1 = psi_1;
+    result.psi.psi_2 = psi_2;
+    const std::string html = report_of(result, {});
+    EXPECT_EQ(complaint_about(without_style_and_script(html)), "") << psi_1 << ", " << psi_2;
+    EXPECT_THAT(html, Not(HasSubstr("nan")));
+    EXPECT_THAT(html, Not(HasSubstr("inf")));
+    EXPECT_EQ(html.find("Ψ₁ = ") != std::string::npos, psi_1 > 0);
+    EXPECT_EQ(html.find("Ψ₂ = ") != std::string::npos, psi_2 > 0);
+  }
+}
+
+TEST(ReportHtml, tells_when_the_map_is_coarser_than_asked_for) {
+  const MappingResult result = walk_around_the_room();
+  const auto grid = draw_grid_map(result.log, mapped_poses(result));
+  RunSummary summary = summarize_run(result, *grid);
+  EXPECT_THAT(report_html(result, {}, summary, *grid), Not(HasSubstr("map.max_cells")));
+  summary.map.asked_resolution_m = 0.0125;
+  EXPECT_THAT(report_html(result, {}, summary, *grid),
+              HasSubstr("map.max_cells leaves no room for cells of 0.0125 m: those of the map are 0.05 m."));
+}
+
+TEST(ReportHtml, tells_why_the_log_breaks_off) {
+  MappingResult result = walk_around_the_room();
+  result.broken_off = "a<b.log:41: expected 181 ranges";
+  const std::string html = report_of(result, {});
+  EXPECT_THAT(html,
+              HasSubstr("The log breaks off: a&lt;b.log:41: expected 181 ranges. All below is of the 50 "
+                        "scans before that."));
+  EXPECT_THAT(html, Not(HasSubstr("stopped")));
+}
+
+TEST(ReportHtml, tells_that_the_last_pass_was_cut_short) {
+  MappingResult result = walk_around_the_room();
+  EXPECT_THAT(report_of(result, {}), Not(HasSubstr("cut short")));
+  result.interrupted = result.final_search_cut_short = true;
+  EXPECT_THAT(
+      report_of(result, {}),
+      HasSubstr("of the 50 scans read until then, and what comes after the last of them, the last search "
+                "for loops and the refinement of all scans, was cut short."));
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bags that are cut off or damaged anywhere end in a sentence, never in a crash or in gigabytes of memory,
+// and give what stands before the damage.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <string>
+
+#include "bag_files.h"
+#include "log_files.h"
+#include "doctor/input_doctor.h"
+#include "ros1_files.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using Path = std::filesystem::path;
+
+struct Kind {
+  std::string name;
+  std::function<void(const Path&, const Recording&)> write;
+  friend void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+};
+
+struct Reading {
+  std::size_t frames = 0;
+  std::string sentence;  ///< with which it ended, if with one
+};
+
+Reading read_to_the_end(const Path& path) {
+  Reading reading;
+  try {
+    const auto log = open_log(path);
+    while (log->next()) ++reading.frames;
+    EXPECT_FALSE(log->next()) << "the end stays the end";
+  } catch (const UserError& error) {
+    reading.sentence = error.what();
+  }
+  return reading;
+}
+
+class DamagedBag : public testing::TestWithParam<Kind> {
+ protected:
+  void SetUp() override {
+    GetParam().write(path_, drive_recorded(8));
+    whole_ = read_file(path_);
+  }
+
+  /// Of as many bytes as the whole: they are written over it, which is faster than a new file.
+  Reading read(const std::string& bytes) const {
+    std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    return read_to_the_end(path_);
+  }
+
+  TemporaryFolder folder_;
+  Path path_ = folder_.path() / "bag";
+  std::string whole_;
+};
+
+TEST_P(DamagedBag, cut_off_anywhere_it_gives_what_is_left) {
+  const Reading all = read(whole_);
+  EXPECT_EQ(all.frames, 8U);
+  EXPECT_EQ(all.sentence, "");
+  std::size_t least = 8;
+  // Every length, which all ends of records are among; of SQLite's pages some.
+  const std::size_t step = GetParam().name == "db3" ? 97 : 1;
+  for (std::size_t size = whole_.size() - 1; size > step; size -= step) {
+    std::filesystem::resize_file(path_, size);
+    const Reading reading = read_to_the_end(path_);
+    ASSERT_TRUE(!reading.sentence.empty() || reading.frames == 8) << size;
+    ASSERT_LE(reading.frames, least + 3) << "less of it gives less, but for scans that wait for odometry";
+    if (size + 400 > whole_.size()) {
+      ASSERT_GE(reading.frames, 4U) << "most of it gives most of the frames";
+    }
+    least = std::min(least, reading.frames);
+  }
+  EXPECT_EQ(least, 0U);
+}
+
+TEST_P(DamagedBag, with_bytes_flipped_it_ends_in_a_sentence_or_in_frames) {
+  std::mt19937 random(1);
+  const std::size_t first = GetParam().name == "db3" ? 0 : 13;
+  for (int i = 0; i < 600; ++i) {
+    std::string bytes = whole_;
+    for (int flips = 1 + i % 3; flips > 0; --flips)
+      bytes[first + random() % (bytes.size() - first)] ^= static_cast<char>(1 << random() % 8);
+    read(bytes);
+  }
+}
+
+TEST_P(DamagedBag, lengths_of_gigabytes_are_not_believed) {
+  for (std::size_t at = 13; at + 4 <= std::min<std::size_t>(whole_.size(), 6000); at += 7) {
+    std::string bytes = whole_;
+    bytes.replace(at, 4, "\xF0\xFF\xFF\x7F");
+    read(bytes);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, DamagedBag,
+    testing::Values(Kind{"ros1", [](const Path& p, const Recording& r) { write_ros1_bag(p, r); }},
+                    Kind{"ros1_bz2",
+                         [](const Path& p, const Recording& r) {
+                           write_ros1_bag(p, r, {"bz2", 4, true});
+                         }},
+                    Kind{"ros1_lz4",
+                         [](const Path& p, const Recording& r) {
+                           write_ros1_bag(p, r, {"lz4", 4, true});
+                         }},
+                    Kind{"db3", [](const Path& p, const Recording& r) { write_db3(p, r); }},
+                    Kind{"mcap",
+                         [](const Path& p, const Recording& r) {
+                           write_mcap(p, r, {"", 0, true, true});
+                         }},
+                    Kind{"mcap_lz4",
+                         [](const Path& p, const Recording& r) {
+                           write_mcap(p, r, {"lz4", 4, true, true});
+                         }},
+                    Kind{"mcap_zstd",
+                         [](const Path& p, const Recording& r) {
+                           write_mcap(p, r, {"zstd", 4, true, true});
+                         }}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(DamagedBagInTheDoctor, is_judged_up_to_where_it_breaks_off) {
+  const TemporaryFolder folder;
+  const Path path = folder.path() / "run.mcap";
+  write_mcap(path, drive_recorded(30));
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) * 2 / 3);
+  const LogDiagnosis diagnosis = diagnose(path);
+  EXPECT_THAT(diagnosis.facts.broken_off, testing::HasSubstr("run.mcap: byte"));
+  EXPECT_THAT(diagnosis.facts.broken_off, testing::HasSubstr("the file is cut off"));
+  EXPECT_GT(diagnosis.facts.scans, 8U);
+  EXPECT_EQ(diagnosis.facts.format, "ROS 2 bag (MCAP)");
+  EXPECT_EQ(diagnosis.facts.laser, "/scan");
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rosbag/rosbag_reader.h"
+
+#include <gmock/gmock.h>
+
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "bag_files.h"
+#include "log_files.h"
+#include "ros1_files.h"
+#include "temporary_folder.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+using mrpt::math::TPose3D;
+using testing::HasSubstr;
+using Path = std::filesystem::path;
+
+/// The frames of the same recording as a CARMEN log.
+std::vector<Frame> carmen_frames(const Recording& recording, const TPose2D& mount = {0.2, 0, 0.3}) {
+  TemporaryFolder folder;
+  write_carmen(folder.path() / "log.clf", recording);
+  LogOptions options;
+  options.robot_T_laser = mount;
+  return frames_of(folder.path() / "log.clf", options);
+}
+
+void expect_near(const TPose2D& pose, const TPose2D& expected) {
+  EXPECT_NEAR(pose.x, expected.x, 1e-9);
+  EXPECT_NEAR(pose.y, expected.y, 1e-9);
+  EXPECT_NEAR(pose.phi, expected.phi, 1e-9);
+}
+
+void expect_same_frames(const std::vector<Frame>& frames, const std::vector<Frame>& expected) {
+  ASSERT_EQ(frames.size(), expected.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(frames[i].index, i);
+    EXPECT_EQ(frames[i].time_us, expected[i].time_us);
+    expect_near(frames[i].odom_T_robot, expected[i].odom_T_robot);
+    expect_near(frames[i].scan.robot_T_laser, expected[i].scan.robot_T_laser);
+    EXPECT_EQ(frames[i].scan.ranges_m, expected[i].scan.ranges_m);
+    EXPECT_EQ(*frames[i].scan.bearings_rad, *expected[i].scan.bearings_rad);
+    EXPECT_EQ(frames[i].scan.max_range_m, expected[i].scan.max_range_m);
+  }
+}
+
+// ---- Every kind of bag holds the same frames ----
+
+struct Kind {
+  std::string name;
+  std::function<void(const Path&, const Recording&)> write;
+  friend void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+};
+
+Kind ros1(const std::string& name, const std::string& compression) {
+  return {name, [=](const Path& path, const Recording& r) {
+            write_ros1_bag(path, r, {compression, 7, true});
+          }};
+}
+
+Kind mcap(const std::string& name, const McapLayout& layout) {
+  return {name, [=](const Path& path, const Recording& r) { write_mcap(path, r, layout); }};
+}
+
+/// A folder with the recording in eleven files of one kind.
+Kind folder(const std::string& name, const std::string& suffix, bool with_metadata) {
+  return {name, [=](const Path& path, const Recording& recording) {
+            std::filesystem::create_directory(path);
+            std::string metadata = "rosbag2_bagfile_information:\n  version: 4\n  relative_file_paths:\n";
+            for (std::size_t k = 0; k < 11; ++k) {
+              const auto at = [&](std::size_t part) {
+                return recording.begin() + static_cast<std::ptrdiff_t>(recording.size() * part / 11);
+              };
+              const std::string file = "run_" + std::to_string(k) + suffix;
+              const Recording part(at(k), at(k + 1));
+              suffix == ".db3" ? write_db3(path / file, part) : write_mcap(path / file, part);
+              metadata += "    - " + file + "\n";
+            }
+            if (with_metadata) write_file(path / "metadata.yaml", metadata);
+          }};
+}
+
+const std::vector<Kind> kKinds{
+    ros1("ros1", "none"),
+    ros1("ros1_bz2", "bz2"),
+    ros1("ros1_lz4", "lz4"),
+    {"ros1_gzipped",
+     [](const Path& path, const Recording& recording) {
+       write_ros1_bag(path, recording);
+       write_gzipped(path, read_file(path));
+     }},
+    {"db3", [](const Path& path, const Recording& recording) { write_db3(path, recording); }},
+    {"db3_big_endian",
+     [](const Path& path, const Recording& recording) { write_db3(path, recording, false); }},
+    mcap("mcap", {}),
+    mcap("mcap_lz4", {"lz4", 7, true, true}),
+    mcap("mcap_zstd", {"zstd", 7, true, true}),
+    mcap("mcap_without_chunks", {"", 0, true, true}),
+    mcap("mcap_without_summary", {"zstd", 100, false, true}),
+    mcap("mcap_big_endian", {"", 7, true, false}),
+    folder("folder_of_db3", ".db3", true),
+    folder("folder_of_mcap", ".mcap", true),
+    folder("folder_without_metadata", ".mcap", false),
+};
+
+class EveryKindOfBag : public testing::TestWithParam<Kind> {};
+
+TEST_P(EveryKindOfBag, holds_the_frames_of_the_same_carmen_log) {
+  const TemporaryFolder folder;
+  const Recording recording = drive_recorded(40);
+  GetParam().write(folder.path() / "bag", recording);
+  expect_same_frames(frames_of(folder.path() / "bag"), carmen_frames(recording));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryKindOfBag, testing::ValuesIn(kKinds),
+                         [](const auto& tested) { return tested.param.name; });
+
+class BagOfRosItself : public testing::TestWithParam<const char*> {};
+
+TEST_P(BagOfRosItself, holds_the_frames_of_the_same_carmen_log) {
+  const TemporaryFolder folder;
+  const Recording recording = drive_recorded(200);
+  write_carmen(folder.path() / "log.clf", recording);
+  const std::string command = std::string("/usr/bin/python3 " PSI_SLAM_ROSBAG_TESTS "/write_ros1_bag.py '") +
+                              (folder.path() / "log.clf").string() + "' '" +
+                              (folder.path() / "run.bag").string() + "' " + GetParam();
+  const int status = std::system(command.c_str());
+  if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "needs Debian's python3-rosbag, python3-nav-msgs and so on";
+  ASSERT_EQ(status, 0);
+  expect_same_frames(frames_of(folder.path() / "run.bag"), carmen_frames(recording));
+}
+
+INSTANTIATE_TEST_SUITE_P(Compressions, BagOfRosItself, testing::Values("none", "bz2", "lz4"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+// ---- Topics and frames ----
+
+class RosbagReaderTest : public testing::Test {
+ protected:
+  std::vector<Frame> read(const Recording& recording, const LogOptions& options = {}) {
+    write_mcap(path_, recording);
+    return frames_of(path_, options);
+  }
+
+  std::string sentence_about(const Recording& recording, const LogOptions& options = {}) {
+    return sentence_of([&] { read(recording, options); });
+  }
+
+  /// A robot that stands at (1, 2, 0.5), and one scan.
+  static Recording one_scan(const RecordedScan& scan, const RecordedPose& mount = static_mount()) {
+    return {mount, RecordedPose{"/odom", 1'000'000, "odom", "base_link", {1, 2, 0, 0.5, 0, 0}}, scan};
+  }
+
+  static RecordedScan scan_at(TimeUs time_us = 1'000'000) {
+    RecordedScan scan;
+    scan.time_us = time_us;
+    return scan;
+  }
+
+  TemporaryFolder folder_;
+  Path path_ = folder_.path() / "run.mcap";
+};
+
+TEST_F(RosbagReaderTest, one_of_several_topics_must_be_named) {
+  Recording recording = drive_recorded();
+  RecordedScan rear = scan_at(1'600'000'000'100'000);
+  rear.topic = "/rear_scan";
+  rear.ranges_m = {9, 9};
+  recording.insert(recording.begin() + 5, rear);
+  EXPECT_EQ(sentence_about(recording), path_.string() +
+                                           " has several topics of type sensor_msgs/LaserScan: /scan, "
+                                           "/rear_scan; expected log.scan_topic to name one of them");
+  LogOptions options;
+  for (const char* name : {"/rear_scan", "rear_scan"}) {
+    options.scan_topic = name;
+    EXPECT_EQ(read(recording, options).size(), 1U);
+  }
+  options.scan_topic = "/scan";
+  EXPECT_EQ(read(recording, options).size(), 20U);
+  options.scan_topic = "/front";
+  EXPECT_EQ(sentence_about(recording, options),
+            "log.scan_topic is \"/front\", expected a topic of type sensor_msgs/LaserScan of " +
+                path_.string() + ": /scan, /rear_scan");
+}
+
+TEST_F(RosbagReaderTest, odometry_may_be_a_transform) {
+  Recording recording = drive_recorded();
+  for (Recorded& message : recording) {
+    auto* pose = std::get_if<RecordedPose>(&message);
+    if (pose == nullptr || pose->topic != "/odom") continue;
+    pose->topic = "/tf";
+    pose->child_frame = "base_footprint";
+  }
+  recording.insert(recording.begin(),
+                   RecordedPose{"/tf_static", 1, "base_footprint", "base_link", {0.1, 0, 0.2, 0, 0, 0}});
+  recording.insert(recording.begin() + 3, RecordedPose{"/tf", 2, "map", "odom", {7, 7, 0, 1, 0, 0}});
+  expect_same_frames(read(recording), carmen_frames(drive_recorded(), {0.3, 0, 0.3}));
+  LogOptions options;
+  options.odom_frame = "wheels";
+  EXPECT_THAT(sentence_about(recording, options), HasSubstr("base_footprint < odom"));
+  options.odom_frame = "map";
+  EXPECT_EQ(read(recording, options).front().odom_T_robot, TPose2D(7, 7, 1)) << "odom moves in map";
+}
+
+TEST_F(RosbagReaderTest, a_topic_of_transforms_may_be_named_for_odometry) {
+  Recording recording = drive_recorded();
+  recording.insert(recording.begin(),
+                   RecordedPose{"/tf", 1'600'000'000'000'000, "odom", "base_link", {5, 6, 0, 0, 0, 0}});
+  EXPECT_EQ(read(recording).front().odom_T_robot.y, carmen_frames(drive_recorded()).front().odom_T_robot.y);
+  LogOptions options;
+  options.odometry_topic = "tf";
+  EXPECT_EQ(read(recording, options).back().odom_T_robot, TPose2D(5, 6, 0));
+}
+
+TEST_F(RosbagReaderTest, frames_may_begin_with_a_slash_and_the_mount_may_come_by_tf_behind_the_first_scan) {
+  Recording recording = drive_recorded();
+  recording.erase(recording.begin());
+  RecordedPose mount = static_mount("/laser");
+  mount.topic = "/tf";
+  mount.frame = "/base_link";
+  recording.insert(recording.begin() + 9, mount);
+  expect_same_frames(read(recording), carmen_frames(drive_recorded()));
+}
+
+TEST_F(RosbagReaderTest, the_laser_and_the_robot_may_meet_in_a_frame_above_both) {
+  Recording recording = drive_recorded();
+  recording.erase(recording.begin());
+  RecordedPose mount = static_mount();
+  mount.frame = "body";
+  recording.insert(recording.begin(),
+                   {mount, RecordedPose{"/tf_static", 1, "body", "base_link", {-1, 0, 0, 0, 0, 0}}});
+  expect_same_frames(read(recording), carmen_frames(drive_recorded(), {1.2, 0, 0.3}));
+}
+
+TEST_F(RosbagReaderTest, a_laser_that_hangs_upside_down_has_its_bearings_mirrored) {
+  const auto frame = read(one_scan(scan_at(), static_mount("laser", {0.2, 0.1, 0.4, 0.3, 0, M_PI}))).front();
+  EXPECT_NEAR(frame.scan.robot_T_laser.phi, 0.3, 1e-9);
+  EXPECT_THAT(*frame.scan.bearings_rad, testing::ElementsAre(1.0F, 0.5F, 0.0F, -0.5F, -1.0F));
+  LogOptions options;
+  options.mirrored = true;
+  EXPECT_EQ(read(one_scan(scan_at(), static_mount("laser", {0, 0, 0, 0, 0, M_PI})), options)
+                .front()
+                .scan.bearings_rad->front(),
+            -1.0F)
+      << "mirrored twice";
+  EXPECT_THAT(sentence_about(one_scan(scan_at(), static_mount("laser", {0, 0, 0, 0, 0, 1}))),
+              HasSubstr("the laser is tilted by 57 degrees"));
+}
+
+TEST_F(RosbagReaderTest, a_mount_that_the_bag_lacks_must_be_stated) {
+  Recording recording = drive_recorded();
+  recording.erase(recording.begin());
+  EXPECT_EQ(
+      sentence_about(recording),
+      path_.string() +
+          " does not say where the laser of /scan is on the robot: no transform leads from \"base_link\" to "
+          "\"laser\", expected log.base_frame to name the robot's frame, or log.laser_x_m, log.laser_y_m and "
+          "log.laser_yaw_deg; its transforms: none");
+  LogOptions options;
+  options.robot_T_laser = TPose2D(0.2, 0, 0.3);
+  expect_same_frames(read(recording, options), carmen_frames(drive_recorded()));
+  options.robot_T_laser.reset();
+  options.base_frame = "laser";
+  EXPECT_EQ(read(recording, options).front().scan.robot_T_laser, TPose2D(0, 0, 0));
+}
+
+TEST_F(RosbagReaderTest, readings_that_are_none_are_nan_and_scans_may_change_their_shape) {
+  const float inf = std::numeric_limits<float>::infinity();
+  RecordedScan first = scan_at();
+  first.ranges_m = {inf, -inf, std::nanf(""), 0.05F, 0, -1, 30, 29.5F, 1000};
+  RecordedScan second = scan_at(1'100'000);
+  second.angle_increment_rad = -0.25F;
+  second.ranges_m = {1, 2};
+  RecordedScan empty = scan_at(1'050'000);
+  empty.ranges_m.clear();
+  Recording recording = one_scan(first);
+  recording.insert(recording.end(), {empty, second});
+  const auto frames = read(recording);
+  ASSERT_EQ(frames.size(), 2U) << "a scan without readings is none";
+  ASSERT_EQ(frames[0].scan.ranges_m.size(), 9U);
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(std::isfinite(frames[0].scan.ranges_m[i]), i == 7) << i;
+  EXPECT_THAT(*frames[1].scan.bearings_rad, testing::ElementsAre(-1.0F, -1.25F));
+}
+
+TEST_F(RosbagReaderTest, a_message_without_stamp_has_the_time_of_its_recording) {
+  write_ros1_bag(path_, one_scan(scan_at(0)));
+  std::string bytes = read_file(path_);
+  const std::string recorded_at_0 = "time=" + ros1_time(0);
+  bytes.replace(bytes.find(recorded_at_0), recorded_at_0.size(), "time=" + ros1_time(7'000'000));
+  write_file(path_, bytes);
+  const auto frames = frames_of(path_);
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].time_us, 7'000'000);
+}
+
+TEST_F(RosbagReaderTest, says_what_is_missing) {
+  Recording recording = drive_recorded();
+  const auto without = [&](const char* topic) {
+    Recording rest;
+    for (const Recorded& message : recording)
+      if (topic_of(message) != topic) rest.push_back(message);
+    return rest;
+  };
+  EXPECT_EQ(sentence_about(without("/scan")),
+            path_.string() +
+                " has no laser scans, expected a topic of type sensor_msgs/LaserScan; found /tf_static "
+                "(tf2_msgs/TFMessage), /odom (nav_msgs/Odometry)");
+  EXPECT_THAT(
+      sentence_about(without("/odom")),
+      HasSubstr("has no odometry, expected a topic of type nav_msgs/Odometry or a transform from a frame "
+                "named like \"odom\" to the robot's"));
+}
+
+TEST_F(RosbagReaderTest, odometry_without_a_pose_is_left_out_and_told) {
+  Recording recording = drive_recorded();
+  RecordedPose none{"/odom", 1'600'000'000'500'000, "odom", "base_link", {}};
+  none.pose.x = std::nan("");
+  recording.insert(recording.begin() + 1, none);
+  recording.insert(recording.begin() + 30, none);
+  write_mcap(path_, recording);
+  const auto log = open_log(path_);
+  expect_same_frames(all_frames(*log), carmen_frames(drive_recorded()));
+  EXPECT_EQ(log->skipped_lines().count, 2U);
+  EXPECT_THAT(log->skipped_lines().sentence(),
+              testing::AllOf(testing::StartsWith("2 messages of the log"), HasSubstr("run.mcap: byte"),
+                             HasSubstr("the odometry on /odom is not finite")));
+  EXPECT_THAT(sentence_about({static_mount(), none, scan_at()}),
+              HasSubstr("the odometry on /odom is not finite"));
+}
+
+TEST_F(RosbagReaderTest, a_damaged_message_where_a_stated_mount_is_enough_ends_the_log_behind_its_scans) {
+  Recording recording = drive_recorded();
+  recording.erase(recording.begin());
+  RecordedPose elsewhere = static_mount("camera");
+  elsewhere.topic = "/tf";
+  recording.push_back(elsewhere);
+  RecordedScan last = scan_at(1'600'000'001'000'000);
+  last.ranges_m.assign(7, 1.5F);
+  recording.push_back(last);
+  write_ros1_bag(path_, recording);
+  std::string bytes = read_file(path_);
+  const std::string seven_ranges = ros1_packed(std::uint32_t{7}) + ros1_packed(1.5F);
+  bytes.replace(bytes.find(seven_ranges), 4, ros1_packed(std::uint32_t{70'000}));
+  write_file(path_, bytes);
+  LogOptions options;
+  options.robot_T_laser = TPose2D(0.2, 0, 0.3);
+  const auto log = open_log(path_, options);
+  std::size_t frames = 0;
+  EXPECT_THAT(sentence_of([&] {
+                while (log->next()) ++frames;
+              }),
+              HasSubstr("70000 numbers are announced"));
+  EXPECT_EQ(frames, 20U);
+}
+
+TEST_F(RosbagReaderTest, a_damaged_scan_is_told_with_its_place) {
+  RecordedScan scan = scan_at();
+  scan.angle_increment_rad = 0;
+  EXPECT_EQ(
+      sentence_about(one_scan(scan)),
+      path_.string() +
+          ": byte 33, byte 1148 of the chunk: the scan's angles start at -1.000000 in steps of 0.000000 "
+          "radians, expected finite ones and a step that is not 0");
+}
+
+}  // namespace
+}  // namespace psi_slam

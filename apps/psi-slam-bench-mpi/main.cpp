@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "bench_command.h"
+#include "common/bench_command.h"
 #include "document_options.h"
 #include "mpi_program.h"
 #include "base/exit_code.h"

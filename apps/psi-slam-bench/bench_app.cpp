@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <ostream>
 
-#include "bench_command.h"
+#include "common/bench_command.h"
 #include "document_options.h"
 #include "base/exit_code.h"
 #include "psi_slam/user_error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bar_plot.h"
+#include "common/bar_plot.h"
 
 #include <gmock/gmock.h>
 

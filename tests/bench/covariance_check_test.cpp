@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "covariance_check.h"
+#include "simulate/covariance_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "false_loop_benchmark.h"
+#include "false_loops/false_loop_benchmark.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../pose_graph/test_graphs.h"
-#include "false_loop_report.h"
+#include "false_loops/false_loop_report.h"
 #include "pose_graph/spanning_tree.h"
 
 namespace psi_slam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "forked_work.h"
+#include "simulate/forked_work.h"
 
 #include <gmock/gmock.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg_benchmark.h"
+#include "freiburg/freiburg_benchmark.h"
 
 #include <gmock/gmock.h>
 
-#include "freiburg_report.h"
+#include "freiburg/freiburg_report.h"
 #include "psi_slam/user_error.h"
 #include "room_benchmark.h"
 #include "temporary_folder.h"

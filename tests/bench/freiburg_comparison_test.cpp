@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg_comparison.h"
+#include "freiburg/freiburg_comparison.h"
 
 #include <gmock/gmock.h>
 
@@ -67,15 +67,15 @@ TEST(FreiburgComparison, marks_what_is_unchecked_and_means_of_which_some_runs_fa
   EXPECT_THAT(some, HasSubstr("\n‡ some of these runs failed"));
 }
 
-TEST(FreiburgComparison, rivals_that_were_run_here_are_columns_like_the_others) {
+TEST(FreiburgComparison, baselines_that_were_run_here_are_columns_like_the_others) {
   FreiburgBenchmark benchmark = benchmark_with("intel", 0.02);
-  benchmark.rivals.programs.push_back(
-      {rival_kinds()[0], "/usr/bin/icp-slam", "/some/icp.ini", "MRPT 9", "c"});
-  RivalResult result;
+  benchmark.baselines.programs.push_back(
+      {baseline_kinds()[0], "/usr/bin/icp-slam", "/some/icp.ini", "MRPT 9", "c"});
+  BaselineResult result;
   result.log = "intel";
-  result.rival = "icp-slam";
+  result.baseline = "icp-slam";
   result.figures.emplace().errors.translation_abs_m = {0.01, 0.02};
-  benchmark.rival_results = {result};
+  benchmark.baseline_results = {result};
   const Comparison comparison = compare_with_others(benchmark);
   EXPECT_EQ(best_of(comparison, row_of(comparison, "Intel", 0)).front(), "MRPT icp-slam (run here)");
   EXPECT_THAT(comparison.columns[1].source,

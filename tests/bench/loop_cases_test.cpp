@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop_cases.h"
+#include "match/loop_cases.h"
 
 #include <gtest/gtest.h>
 

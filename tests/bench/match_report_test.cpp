@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "match_report.h"
+#include "match/match_report.h"
 
 #include <gmock/gmock.h>
 

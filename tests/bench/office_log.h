@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "../local_maps/simulated_drive.h"
-#include "benchmark_logs.h"
+#include "common/benchmark_logs.h"
 
 namespace psi_slam {
 

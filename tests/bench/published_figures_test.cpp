@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "published_figures.h"
+#include "freiburg/published_figures.h"
 
 #include <gtest/gtest.h>
 
@@ -31,11 +31,11 @@ TEST(PublishedFigures, each_row_is_of_a_known_log_and_has_a_mean_and_a_source) {
 
 TEST(PublishedFigures, the_paper_has_all_four_of_each_log) {
   EXPECT_EQ(system_of("GA-based (paper)").logs.size(), benchmark_log_titles().size());
-  std::size_t rivals = 0;
+  std::size_t baselines = 0;
   for (const char* name : {"GA-based (paper)", "Karto (paper)", "GMapping (paper)"}) {
     for (const PublishedLog& log : system_of(name).logs) {
       SCOPED_TRACE(std::string(name) + ", " + log.log);
-      rivals += std::string(name) == "GA-based (paper)" ? 0 : 1;
+      baselines += std::string(name) == "GA-based (paper)" ? 0 : 1;
       for (const auto& figure : log.errors) {
         ASSERT_TRUE(figure);
         EXPECT_TRUE(figure->std);
@@ -45,7 +45,7 @@ TEST(PublishedFigures, the_paper_has_all_four_of_each_log) {
       EXPECT_GT(log.errors[3]->mean, log.errors[2]->mean * log.errors[2]->mean - 0.001);
     }
   }
-  EXPECT_EQ(rivals, benchmark_log_titles().size()) << "each log has one of the paper's two rivals";
+  EXPECT_EQ(baselines, benchmark_log_titles().size()) << "each log has one of the paper's two baselines";
 }
 
 TEST(PublishedFigures, what_is_quoted_from_memory_is_said_to_be) {

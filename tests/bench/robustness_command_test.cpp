@@ -3,7 +3,7 @@
 
 #include "well_formed.h"
 #include "command_fixture.h"
-#include "robustness_benchmark.h"
+#include "robustness/robustness_benchmark.h"
 
 namespace psi_slam {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulate_benchmark.h"
+#include "simulate/simulate_benchmark.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ SimulateRow map(double path_m, std::size_t people, double glass_share, std::uint
   options.seed = seed;
   options.people = people;
   options.glass_share = glass_share;
-  return map_simulated_drive(simulated_drive_options(options, path_m), 1, [](double) {});
+  return map_simulated_run(simulated_run_options(options, path_m), 1, [](double) {});
 }
 
 TEST(SimulateBenchmark, maps_a_small_building_close_to_the_truth) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulated_log_file.h"
+#include "simulate/simulated_log_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

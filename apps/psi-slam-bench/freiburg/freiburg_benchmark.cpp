@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "freiburg/freiburg_benchmark.h"
+
+#include <nlohmann/json.hpp>
+
+#include "match/match_report.h"
+#include "common/program_identity.h"
+#include "base/file_checksum.h"
+#include "psi_slam/user_error.h"
+#include "batch/kept_run.h"
+#include "batch/machine_text.h"
+#include "batch/task_progress.h"
+
+namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kSpokenBy = "psi-slam-bench: ";  // before every sentence of the program
+
+/// A run with its place in the benchmark.
+struct Task {
+  FreiburgRun run;
+  std::string name;  // "intel-csm-1"
+  fs::path file;     // what it came to
+  RunKey key;
+  double work = 0;  // in a unit that is proportional to its time
+  const LogIdentity* log = nullptr;
+  FreiburgResult* result = nullptr;
+};
+
+std::string key_of(const FreiburgRun& run, const LogIdentity& log, const std::string& program_sha256) {
+  return sha256_of_text(machine_text() + '\n' + log.sha256 + '\n' + log.relations_sha256 + '\n' +
+                        program_version() + '\n' + program_sha256 + '\n' + settings_text(settings_of(run)));
+}
+
+/// The figures of a run made before, if its file is there and of this key.
+std::optional<FreiburgFigures> kept_figures(const Task& task) {
+  const std::optional<Json> kept = kept_run(task.file, task.key);
+  if (!kept || !kept->contains("figures")) return std::nullopt;
+  return read_figures(kept->at("figures").dump());
+}
+
+void keep_figures(const Task& task, const FreiburgFigures& figures) {
+  const LogIdentity& log = *task.log;
+  keep_run(task.file, task.key,
+           {{"schema", "psi-slam-freiburg-run"},
+            {"schema_version", 1},
+            {"log", log.name},
+            {"log_sha256", log.sha256},
+            {"relations_sha256", log.relations_sha256},
+            {"matcher", task.run.matcher},
+            {"seed", task.run.seed},
+            {"threads", task.run.threads},
+            {"machine", machine_text()},
+            {"program_version", program_version()},
+            {"commit", program_commit()},
+            {"figures", Json::parse(figures_json(figures))},
+            {"settings", settings_text(settings_of(task.run))}});
+}
+
+ChildWords words_of(const FreiburgRun& run, const fs::path& program) {
+  return {program.string(), "freiburg-run",
+          "--log",          run.log.string(),
+          "--ini",          run.ini.string(),
+          "--relations",    run.relations.string(),
+          "--matcher",      run.matcher,
+          "--seed",         std::to_string(run.seed),
+          "--threads",      std::to_string(run.threads)};
+}
+
+/// The figures of a run that has ended, with what it took, or why there are none.
+FreiburgResult result_of(const ChildEnd& end, std::uint64_t seed) {
+  FreiburgResult result;
+  result.seed = seed;
+  result.made = true;
+  result.failure = end.failure();
+  if (result.failure.compare(0, kSpokenBy.size(), kSpokenBy) == 0) result.failure.erase(0, kSpokenBy.size());
+  if (!result.failure.empty()) return result;
+  result.figures = read_figures(end.out);
+  if (!result.figures) {
+    result.failure = "the run printed no figures";
+    return result;
+  }
+  result.figures->wall_s = end.wall_s;
+  result.figures->cpu_s = end.cpu_s;
+  result.figures->peak_memory_mib = end.peak_memory_mib;
+  return result;
+}
+
+FreiburgRun run_of(const BenchmarkLog& log, const std::string& matcher, std::uint64_t seed, int threads) {
+  return {log.log, log.ini, log.relations.value(), matcher, seed, threads};
+}
+
+/// All cells, their runs not made yet.
+FreiburgBenchmark plan(const std::vector<BenchmarkLog>& logs, const FreiburgOptions& options) {
+  FreiburgBenchmark benchmark;
+  benchmark.logs = identities_of(logs);
+  for (const BenchmarkLog& log : logs) {
+    for (const std::string& matcher : options.matchers) {
+      FreiburgCell cell{log.name, matcher, {}};
+      cell.runs.resize(draws_random_numbers(matcher) ? options.seeds.count() : 1);
+      for (std::size_t i = 0; i < cell.runs.size(); ++i) cell.runs[i].seed = options.seeds.first + i;
+      benchmark.cells.push_back(std::move(cell));
+    }
+  }
+  return benchmark;
+}
+
+/// The runs that are not there yet; the results of the others are filled in.
+std::vector<Task> tasks_of(FreiburgBenchmark& benchmark, const std::vector<BenchmarkLog>& logs,
+                           const FreiburgOptions& options) {
+  const std::string program_sha256 = sha256_of_file(options.program);
+  std::vector<Task> tasks;
+  for (std::size_t i = 0; i < benchmark.cells.size(); ++i) {
+    const std::size_t log = i / options.matchers.size();
+    for (FreiburgResult& result : benchmark.cells[i].runs) {
+      Task task;
+      task.run = run_of(logs[log], benchmark.cells[i].matcher, result.seed, options.threads);
+      task.name = logs[log].name + '-' + task.run.matcher + '-' + std::to_string(result.seed);
+      task.file = options.output / "runs" / (task.name + ".json");
+      task.key = {key_of(task.run, benchmark.logs[log], program_sha256), options.processes};
+      task.work = static_cast<double>(fs::file_size(logs[log].log));
+      task.log = &benchmark.logs[log];
+      task.result = &result;
+      result.figures = kept_figures(task);
+      if (!result.figures) tasks.push_back(std::move(task));
+    }
+  }
+  return tasks;
+}
+
+/// Keeps the figures of a task that has ended, and fills in its result.
+void take(const Task& task, const ChildEnd& end, TaskProgress& progress) {
+  const FreiburgResult result = result_of(end, task.run.seed);
+  if (result.figures) keep_figures(task, *result.figures);
+  *task.result = result;
+  progress.end(task.work);
+}
+
+}  // namespace
+
+FreiburgBenchmark run_freiburg_benchmark(
+    const std::vector<BenchmarkLog>& logs, const FreiburgOptions& options, const std::atomic<bool>& stop,
+    const std::function<void(const std::string&, double, double)>& progress) {
+  FreiburgBenchmark benchmark = plan(logs, options);
+  const std::vector<Task> tasks = tasks_of(benchmark, logs, options);
+  double work = 0;
+  for (const Task& task : tasks) work += task.work;
+  TaskProgress running(tasks.size(), work, progress);
+  std::vector<ChildWords> children;
+  for (const Task& task : tasks) children.push_back(words_of(task.run, options.program));
+  const ChildWorkers workers = options.workers ? options.workers : local_child_workers(options.processes);
+  workers(children, {[&] { return stop.load(); }, [&](std::size_t task) { running.tell(tasks[task].name); },
+                     [&](std::size_t task, const ChildEnd& end) { take(tasks[task], end, running); }});
+  if (stop && running.to_go() > 0)
+    throw SystemFailure("interrupted with " + std::to_string(running.to_go()) +
+                        " runs to go: the others are kept in " + (options.output / "runs").string() +
+                        ", and the same command goes on");
+  return benchmark;
+}
+
+}  // namespace psi_slam

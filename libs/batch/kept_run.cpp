@@ -24,7 +24,11 @@ std::optional<Json> kept_run(const std::filesystem::path& path, const RunKey& ke
 void keep_run(const std::filesystem::path& path, const RunKey& key, const Json& content) {
   Json json = {{"key", key.text}, {"processes", key.processes}};
   json.update(content);
-  write_text_atomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
+  write_text_atomically(path, json_file_text(json));
+}
+
+std::string json_file_text(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace psi_slam

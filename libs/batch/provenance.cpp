@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "batch/machine_text.h"
+#include "batch/provenance.h"
 
 #include <algorithm>
 #include <fstream>
+#include <string_view>
 #include <thread>
 
 namespace psi_slam {
+
+std::optional<std::string> log_name_of(const std::string& file) {
+  for (const char* ending :
+       {".clf", ".log", ".rawlog", ".clf.gz", ".log.gz", ".rawlog.gz", ".bag", ".db3", ".mcap"}) {
+    const std::string_view end = ending;
+    if (file.size() > end.size() && file.compare(file.size() - end.size(), end.size(), end) == 0)
+      return file.substr(0, file.size() - end.size());
+  }
+  return std::nullopt;
+}
 
 std::string machine_text() {
   std::string model = "unknown processor";

@@ -4,15 +4,15 @@
 #include <CLI/CLI.hpp>
 #include <ostream>
 
+#include "base/exit_code.h"
 #include "common/bench_command.h"
 #include "document_options.h"
-#include "base/exit_code.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 
 int run_bench_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept {
-  CLI::App app("psi-slam-bench measures how good and how fast the parts of psi-slam are.", "psi-slam-bench");
+  CLI::App app("Measures accuracy and speed of psi-slam and of its parts.", "psi-slam-bench");
   try {
     add_freiburg_command(app, streams);
     add_freiburg_run_command(app, streams);
@@ -21,10 +21,10 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_false_loops_command(app, streams);
     add_robustness_command(app, streams);
     app.require_subcommand(1);
-    app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version, and exit");
+    app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version and exit");
     add_document_options(app);
-    app.parse(
-        std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // last first, as CLI11 takes them
+    app.parse(std::vector<std::string>(arguments.rbegin(),
+                                       arguments.rend()));  // CLI11 expects the last argument first
     return kExitDone;
   } catch (const CLI::Success& asked) {  // --help, --version
     app.exit(asked, streams.out, streams.err);

@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "psi_slam/user_error.h"
 #include "baseline_files.h"
+#include "psi_slam/user_error.h"
 #include "room_benchmark.h"
 #include "temporary_folder.h"
 
@@ -26,8 +26,8 @@ class BaselineBenchmarks : public testing::Test {
 
   BaselineResult run() {
     const std::vector<BaselineResult> results =
-        run_baselines(baselines_in(folder_.path()).programs, find_benchmark_logs(data_, data_), options_, stop_,
-                   [](const std::string&, double done, double all) { EXPECT_LE(done, all); });
+        run_baselines(baselines_in(folder_.path()).programs, find_benchmark_logs(data_, data_), options_,
+                      stop_, [](const std::string&, double done, double all) { EXPECT_LE(done, all); });
     return results.at(0);
   }
 
@@ -38,7 +38,7 @@ class BaselineBenchmarks : public testing::Test {
   std::atomic<bool> stop_{false};
 };
 
-TEST_F(BaselineBenchmarks, what_is_there_is_not_made_again) {
+TEST_F(BaselineBenchmarks, kept_results_are_not_repeated) {
   const BaselineResult first = run();
   ASSERT_TRUE(first.figures) << first.failure;
   EXPECT_TRUE(first.made);
@@ -48,39 +48,39 @@ TEST_F(BaselineBenchmarks, what_is_there_is_not_made_again) {
   EXPECT_EQ(again.figures->errors.translation_abs_m.mean, first.figures->errors.translation_abs_m.mean);
 }
 
-TEST_F(BaselineBenchmarks, other_inputs_are_other_runs) {
+TEST_F(BaselineBenchmarks, changed_inputs_repeat_the_runs) {
   run();
   install(standing_still(190) + "\n# another one");
   EXPECT_TRUE(run().made) << "program";
   const fs::path config = folder_.path() / "share/mrpt/config_files" / baseline_kinds()[0].config;
   write_file(config, "[MappingApplication]\nlogOutput_dir=x\n[ICP]\nALFA = 0.9\n");
-  EXPECT_TRUE(run().made) << "its settings";
+  EXPECT_TRUE(run().made) << "settings of the program";
   write_room_benchmark(data_, data_, 1.5);
   EXPECT_TRUE(run().made) << "relations";
   write_file(data_ / "room.ini", "[log]\nmax_range_m = 9\n");
-  EXPECT_TRUE(run().made) << "how the log is read";
+  EXPECT_TRUE(run().made) << "settings of the reader";
   EXPECT_FALSE(run().made);
 }
 
-TEST_F(BaselineBenchmarks, one_that_did_not_finish_is_tried_again_only_with_more_time) {
+TEST_F(BaselineBenchmarks, a_run_that_did_not_finish_is_repeated_only_with_more_time) {
   install("exec sleep 600");
   options_.time_limit_s = 0.4;
   EXPECT_EQ(run().not_finished_in_s, 0.4);
   options_.time_limit_s = 0.2;
   const BaselineResult kept = run();
   EXPECT_FALSE(kept.made);
-  EXPECT_EQ(kept.not_finished_in_s, 0.4) << "it did not finish in that either";
+  EXPECT_EQ(kept.not_finished_in_s, 0.4) << "it did not finish in 0.4 s either";
   options_.time_limit_s = 0.5;
   EXPECT_TRUE(run().made);
 }
 
-TEST_F(BaselineBenchmarks, one_that_failed_is_tried_again) {
+TEST_F(BaselineBenchmarks, a_failed_run_is_repeated) {
   install("exit 3");
   EXPECT_EQ(run().failure, "ended with code 3");
   EXPECT_TRUE(run().made);
 }
 
-TEST_F(BaselineBenchmarks, interrupted_it_keeps_nothing_of_what_was_under_way) {
+TEST_F(BaselineBenchmarks, keeps_no_result_of_interrupted_runs) {
   stop_ = true;
   EXPECT_THROW(run(), SystemFailure);
   stop_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Baselines that tests install in a folder of their own: shell scripts in bin/, settings in share/.
+// Fake baselines that tests install in a folder: shell scripts in bin/, settings in share/.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,10 @@
 
 namespace psi_slam {
 
-/// A program that tells its version, and with settings and a log does what `script` says: $1 is the file of
-/// the settings, $2 the log, and $output the folder for what it writes.
+/// A program that prints its version, and runs `script` if it gets settings and a log: $1 is the settings
+/// file, $2 the log and $output the output folder.
 inline void install_baseline(const std::filesystem::path& prefix, const BaselineKind& kind,
-                          const std::string& script) {
+                             const std::string& script) {
   namespace fs = std::filesystem;
   const fs::path program = prefix / "bin" / kind.name;
   const fs::path config = prefix / "share/mrpt/config_files" / kind.config;
@@ -32,7 +32,7 @@ inline void install_baseline(const std::filesystem::path& prefix, const Baseline
              "[MappingApplication]\nlogOutput_dir = LOG // a remark\nSAVE_3D_SCENE = 1\n[ICP]\nALFA = 0.8\n");
 }
 
-/// A script that writes so many poses, all of them at the origin.
+/// A script that writes a number of poses at the origin.
 inline std::string standing_still(std::size_t scans, const std::string& columns = "0 0 0") {
   return "i=0; while [ $i -lt " + std::to_string(scans) + " ]; do echo \"$i " + columns +
          "\"; i=$((i+1)); done > \"$output/log_estimated_path.txt\"";

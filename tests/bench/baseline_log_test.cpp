@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg/baseline_log.h"
+#include "freiburg/baseline_run.h"
 
 #include <gmock/gmock.h>
 
-#include "psi_slam/user_error.h"
 #include "psi_slam/open_log.h"
+#include "psi_slam/user_error.h"
 #include "room_benchmark.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {
 namespace {
 
-TEST(BaselineLog, reads_back_as_the_log_that_it_was) {
+TEST(BaselineLog, is_read_back_as_the_same_log) {
   const TemporaryFolder folder;
   write_room_benchmark(folder.path(), folder.path());
   const std::filesystem::path written = folder.path() / "written.rawlog";
@@ -49,7 +49,7 @@ TEST(BaselineLog, reads_back_as_the_log_that_it_was) {
   EXPECT_FALSE(again->next());
 }
 
-TEST(BaselineLog, is_not_left_behind_when_it_is_interrupted) {
+TEST(BaselineLog, is_removed_after_an_interrupt) {
   const TemporaryFolder folder;
   write_room_benchmark(folder.path(), folder.path());
   const std::filesystem::path written = folder.path() / "written.rawlog";

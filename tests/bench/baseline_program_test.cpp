@@ -14,7 +14,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(BaselineProgram, is_found_on_the_search_path_with_its_settings_beside_it) {
+TEST(BaselineProgram, is_found_on_the_search_path_with_its_settings) {
   const TemporaryFolder folder;
   install_baseline(folder.path() / "usr", baseline_kinds()[0], "");
   fs::create_directory_symlink(folder.path() / "usr/bin", folder.path() / "bin");
@@ -28,7 +28,7 @@ TEST(BaselineProgram, is_found_on_the_search_path_with_its_settings_beside_it) {
   EXPECT_THAT(found.missing, testing::ElementsAre("rbpf-slam is not on PATH"));
 }
 
-TEST(BaselineProgram, without_settings_or_program_is_missing) {
+TEST(BaselineProgram, is_missing_without_program_or_settings) {
   const TemporaryFolder folder;
   EXPECT_EQ(baselines_in(folder.path()).missing.size(), baseline_kinds().size());
   install_baseline(folder.path(), baseline_kinds()[0], "");
@@ -39,7 +39,7 @@ TEST(BaselineProgram, without_settings_or_program_is_missing) {
               AllOf(HasSubstr("has no settings"), HasSubstr("icp-slam_demo_classic.ini")));
 }
 
-TEST(BaselineProgram, keeps_its_settings_but_for_what_is_set_otherwise) {
+TEST(BaselineProgram, keeps_its_settings_except_the_changes) {
   const TemporaryFolder folder;
   install_baseline(folder.path(), baseline_kinds()[0], "");
   const std::string settings = baseline_settings(baselines_in(folder.path()).programs.at(0), "/some/where");

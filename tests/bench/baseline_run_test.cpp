@@ -37,14 +37,14 @@ class BaselineRuns : public testing::Test {
   bool stop_ = false;
 };
 
-TEST_F(BaselineRuns, holds_its_path_against_the_relations) {
+TEST_F(BaselineRuns, evaluates_its_path_by_the_relations) {
   const BaselineResult result = result_of("[ -s \"$2\" ] || exit 1\n" + standing_still(190));
   ASSERT_TRUE(result.figures) << result.failure;
   EXPECT_EQ(result.log, "room");
   EXPECT_EQ(result.baseline, "icp-slam");
   EXPECT_EQ(result.figures->scans, 190U);
   EXPECT_EQ(result.figures->relations_used, 17U);
-  EXPECT_GT(result.figures->errors.translation_abs_m.mean, 1) << "it says that the robot stood still";
+  EXPECT_GT(result.figures->errors.translation_abs_m.mean, 1) << "its path stands still";
   EXPECT_NEAR(result.figures->duration_s, 189 * 0.2, 1e-9);
   EXPECT_GT(result.figures->wall_s, 0);
   EXPECT_GT(result.figures->cpu_s, 0);
@@ -53,7 +53,7 @@ TEST_F(BaselineRuns, holds_its_path_against_the_relations) {
   EXPECT_THAT(read_file(run_.folder / "settings.ini"), HasSubstr((run_.folder / "output").string()));
 }
 
-TEST_F(BaselineRuns, its_failures_are_told) {
+TEST_F(BaselineRuns, reports_failures) {
   EXPECT_THAT(result_of("echo '==== MRPT exception ====' >&2\necho 'Message:  no odometry' >&2\n"
                         "echo '[0 ] 0x7fa9' >&2\nexit 255")
                   .failure,
@@ -65,7 +65,7 @@ TEST_F(BaselineRuns, its_failures_are_told) {
   EXPECT_THAT(result_of(standing_still(190, "0 here 0")).failure, HasSubstr("path.txt:1: expected step"));
 }
 
-TEST_F(BaselineRuns, a_hanging_one_is_ended_at_its_time_limit) {
+TEST_F(BaselineRuns, is_killed_at_its_time_limit) {
   run_.time_limit_s = 0.3;
   const BaselineResult result = result_of("exec sleep 600");
   EXPECT_EQ(result.not_finished_in_s, 0.3);
@@ -78,7 +78,7 @@ TEST_F(BaselineRuns, is_interrupted_on_request) {
   EXPECT_EQ(result_of("exec sleep 600").failure, "interrupted");
 }
 
-TEST_F(BaselineRuns, finds_the_yaw_where_the_program_writes_it) {
+TEST_F(BaselineRuns, reads_the_yaw_from_the_column_of_the_program) {
   const fs::path file = folder_.path() / "path.txt";
   write_file(file, "0 1 2 0 0.5 0 0 10\n1 3 4 0 0.75 0 0 11\n");
   const Trajectory path = read_baseline_path(file, baseline_kinds()[1].yaw_column, {10, 20});
@@ -87,7 +87,7 @@ TEST_F(BaselineRuns, finds_the_yaw_where_the_program_writes_it) {
   EXPECT_EQ(path[1].pose, mrpt::math::TPose2D(3, 4, 0.75));
 }
 
-TEST_F(BaselineRuns, the_real_ones_map_the_room) {
+TEST_F(BaselineRuns, installed_baselines_map_the_room) {
   const char* const search_path = std::getenv("PATH");
   const FoundBaselines found = find_baselines(search_path != nullptr ? search_path : "");
   if (found.programs.empty()) GTEST_SKIP() << "needs icp-slam or rbpf-slam: Debian's package mrpt-apps";

@@ -10,7 +10,7 @@
 namespace psi_slam {
 namespace {
 
-/// Remembers the order of its calls with the others.
+/// A matcher that records the order of calls.
 class NotedMatcher : public Matcher {
  public:
   NotedMatcher(std::string name, std::vector<std::string>& calls) : name_(std::move(name)), calls_(calls) {}
@@ -29,7 +29,7 @@ class NotedMatcher : public Matcher {
   std::vector<std::string>& calls_;
 };
 
-TEST(MatchBenchmark, takes_turns_case_by_case) {
+TEST(MatchBenchmark, alternates_between_candidates_case_by_case) {
   CaseOptions options = office_cases();
   options.count = 1;
   std::vector<LoopCase> cases = draw_cases(office_log(), options);
@@ -53,10 +53,10 @@ TEST(MatchBenchmark, takes_turns_case_by_case) {
 
 TEST(MatchBenchmark, exact_matching_finds_the_loops_of_the_office) {
   const CaseOptions options = office_cases();
-  const std::vector<Candidate> field = candidates(CandidateSet::kMatchers, office_log().options);
+  const std::vector<Candidate> all_candidates = candidates(CandidateSet::kMatchers, office_log().options);
   MatchSeries series;
   series.cases = options;
-  run_cases(draw_cases(office_log(), options), field, 0.5, series, [] {});
+  run_cases(draw_cases(office_log(), options), all_candidates, 0.5, series, [] {});
   const MatchFigures csm = series.rows.front().tally.figures();
   EXPECT_EQ(series.rows.front().matcher, "csm");
   EXPECT_EQ(csm.cases, 24U);

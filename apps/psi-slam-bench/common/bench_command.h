@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands of psi-slam-bench, a file each, and what they share.
+// The commands of psi-slam-bench, and the options and steps that they share.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,89 +7,89 @@
 #include <string>
 #include <vector>
 
+#include "batch/child_process.h"
+#include "batch/seeds.h"
+#include "common/bench_report.h"
 #include "common/benchmark_logs.h"
-#include "batch/child_workers.h"
-#include "batch/seed_range.h"
 #include "psi_slam_app.h"
 #include "work_progress.h"
 
 namespace psi_slam {
 
-/// Each adds its command with its options to the program; parsing the command line then runs it. It throws
-/// UserError when the user must mend something. `streams` outlives `app`.
-void add_freiburg_run_command(CLI::App& app, const Streams& streams);  ///< of which `freiburg` starts many
+// Each function adds a command with its options to the program. Parsing the command line runs the command,
+// which throws UserError for wrong input. `streams` must outlive `app`.
+void add_freiburg_run_command(CLI::App& app, const Streams& streams);  ///< one run, for `freiburg` to start
 void add_match_command(CLI::App& app, const Streams& streams);
 void add_simulate_command(CLI::App& app, const Streams& streams);
 void add_false_loops_command(CLI::App& app, const Streams& streams);
 void add_robustness_command(CLI::App& app, const Streams& streams);
 
-/// Who makes the runs of `freiburg`.
+/// Workers of the `freiburg` command.
 struct FreiburgWork {
-  std::filesystem::path program = "/proc/self/exe";  ///< that knows add_freiburg_run_command()
-  /// None: processes of this machine, as many as an option says; then there are baselines to be run, too.
-  ChildWorkers workers{};
-  int runs_at_a_time = 1;    ///< of these workers
-  bool only_parsed = false;  ///< the command does nothing
+  std::filesystem::path program = "/proc/self/exe";  ///< with the command of add_freiburg_run_command()
+  ChildWorkers workers{};    ///< empty: processes of this machine, and options for these and for baselines
+  int runs_at_a_time = 1;    ///< of `workers`
+  bool only_parsed = false;  ///< parse the command line without running the command
 };
 void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgWork& work = {});
 
-/// What the commands that work on real logs are given: the options --data and --ini.
+/// Values of the options --data, --ini and --logs.
 struct DataArguments {
   std::string data;
   std::string ini;
+  std::vector<std::string> names;  ///< of logs; empty: all that have relations
 };
 void add_data_options(CLI::App& command, DataArguments& arguments);
+void add_logs_option(CLI::App& command, DataArguments& arguments);
 
-/// As find_benchmark_logs().
+/// All logs of the folder; see find_benchmark_logs().
 std::vector<BenchmarkLog> logs_of(const DataArguments& arguments);
 
-/// Where a command leaves its results: the options --json and -o; empty where it is not asked to.
+/// The logs for a command to work on, and the names of the other logs in the folder.
+struct ChosenLogs {
+  std::vector<BenchmarkLog> logs;              ///< all with relations
+  std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
+  std::vector<std::string> left_out;           ///< logs that were not asked for
+};
+
+/// The logs that --logs names, or all logs with relations, in the order of the folder. Throws UserError as
+/// logs_of(), for an unknown name, for a named log without relations, and when no log remains.
+ChosenLogs chosen_logs(const DataArguments& arguments);
+
+/// Values of the options --json, --csv and -o; empty: not written.
 struct OutputArguments {
   std::string json;
+  std::string csv;
   std::string output;
 };
-/// `content` is what the folder is for: "match.md and the plots".
+
+/// `content` names the files for the folder -o: "match.md and the plots".
 void add_output_options(CLI::App& command, OutputArguments& arguments, const std::string& content);
 
-/// As check_writable() and prepare_folder(), for `page` in the folder.
+/// Creates the folder for `page` and throws UserError if a file cannot be written. Called before the work,
+/// which takes long.
 void check_outputs(const OutputArguments& arguments, const std::string& page);
 
-/// The option --logs, for chosen_logs().
-void add_logs_option(CLI::App& command, std::vector<std::string>& names);
+/// Writes the files that the options ask for, then prints the page. Throws SystemFailure when it cannot.
+void write_report(const BenchReport& report, const OutputArguments& arguments, const Streams& streams);
 
-/// The option --seeds; `purpose` says what they are for.
+/// Adds --seeds; `purpose` says what the seeds are for.
 void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose);
 
-/// The result of `work`, which is given what it is to report its progress to.
+/// Adds --seed; `purpose` says what the seed is for.
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& purpose);
+
+/// Calls `work` with an observer that shows its progress on a terminal, and returns its result.
 template <class Work>
 auto with_progress(const Streams& streams, const Work& work) {
   WorkProgress progress(streams.err_is_terminal ? &streams.err : nullptr);
   return work([&](const std::string& doing, double done, double all) { progress.show(doing, done, all); });
 }
 
-/// Throws UserError when `file` cannot be written: told before the work, which is long.
+/// Throws UserError when `file` cannot be written.
 void check_writable(const std::filesystem::path& file);
 
-/// Makes the folder if it is not there, and checks that `file` can be written in it, as check_writable().
+/// Creates the folder if necessary and calls check_writable() for `file` in it.
 void prepare_folder(const std::filesystem::path& folder, const std::string& file);
-
-/// The folder of the logs' settings: `given`, or the one that comes with the program if that is empty. Throws
-/// UserError when there is none.
-std::filesystem::path ini_folder(const std::string& given);
-
-/// The logs that a command works on, and the names of the others in the folder.
-struct ChosenLogs {
-  std::vector<BenchmarkLog> logs;              ///< each with its relations
-  std::vector<std::string> without_relations;  ///< that cannot be evaluated
-  std::vector<std::string> left_out;           ///< that were not asked for
-};
-
-/// The logs of the folder that have these names, in the folder's order; when there are no names, all that
-/// have relations. Throws UserError as logs_of(), when a name is not there, when a log that was named has no
-/// relations, and when no log remains.
-ChosenLogs chosen_logs(const DataArguments& arguments, const std::vector<std::string>& names);
-
-/// Writes the page to standard output. Throws SystemFailure when it cannot.
-void print_page(const std::string& page, const Streams& streams);
 
 }  // namespace psi_slam

@@ -5,57 +5,18 @@
 #include <map>
 #include <utility>
 
-#include "common/mapped_run.h"
-#include "psi_slam/user_error.h"
-#include "batch/log_name.h"
+#include "batch/provenance.h"
 #include "config/apply_settings.h"
 #include "config/ini_file.h"
-#include "psi_slam/open_log.h"
-#include "evaluation/relations_metric.h"
+#include "exports/mapped_trajectory.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
-namespace {
 
 namespace fs = std::filesystem;
 
-/// The front end once more beside the mapper, which keeps its local maps to itself: it gives the same ones.
-class PlaceCollector {
- public:
-  explicit PlaceCollector(const FrontEndOptions& options) : front_end_(options) {}
-
-  void add(const Frame& frame) {
-    const FrontEndStep step = front_end_.add(frame);
-    if (step.node) remember_node(step, frames_, memory_);
-    keep(step.finished);
-    ++frames_;
-  }
-
-  KeyframeStore finish() {
-    keep(front_end_.finish());
-    return std::move(memory_);
-  }
-
- private:
-  void keep(const std::vector<PlacedLocalMap>& finished) {
-    for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, memory_);
-  }
-
-  FrontEnd front_end_;
-  KeyframeStore memory_;
-  std::size_t frames_ = 0;
-};
-
-/// By node: the matcher that Psi chose there when the log was mapped.
-std::vector<std::string> adaptive_matchers(const MappingResult& result) {
-  std::vector<std::string> names;
-  for (const std::size_t frame : result.node_frames) names.push_back(result.frames[frame].matcher);
-  return names;
-}
-
-}  // namespace
-
 std::vector<BenchmarkLog> find_benchmark_logs(const fs::path& data, const fs::path& ini) {
-  if (!fs::is_directory(data)) throw UserError(data.string() + " is no folder");
+  if (!fs::is_directory(data)) throw UserError(data.string() + " is not a folder");
   std::map<std::string, fs::path> files;
   for (const auto& entry : fs::directory_iterator(data)) {
     const auto name = log_name_of(entry.path().filename().string());
@@ -71,7 +32,7 @@ std::vector<BenchmarkLog> find_benchmark_logs(const fs::path& data, const fs::pa
     BenchmarkLog log{name, file, ini / (name + ".ini"), {}};
     if (!fs::exists(log.ini))
       throw UserError(file.string() + " has no settings: expected " + log.ini.string() +
-                      " with the facts of its sensor");
+                      " with the parameters of its sensor");
     const fs::path relations = data / (name + ".relations");
     if (fs::exists(relations)) log.relations = relations;
     logs.push_back(std::move(log));
@@ -101,32 +62,27 @@ Settings benchmark_settings(const fs::path& ini, const std::vector<std::string>&
   return settings;
 }
 
-MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
-                  const std::function<void(double)>& progress) {
-  const Settings settings = benchmark_settings(log.ini);
-  MappedLog mapped;
-  mapped.name = log.name;
-  mapped.options = settings.mapper;
-  FrontEndOptions& front_end = mapped.options.front_end;
-  front_end.local_map_travel_m *=
-      static_cast<double>(nodes_per_local_map) / static_cast<double>(front_end.nodes_per_local_map);
-  front_end.nodes_per_local_map = nodes_per_local_map;
-
-  const std::unique_ptr<FrameSource> source = open_log(log.log, log_options(settings));
-  Mapper mapper(mapped.options);
-  PlaceCollector places(front_end);
-  while (std::optional<Frame> frame = source->next()) {
-    places.add(*frame);
+MappedRun map_source(FrameSource& source, const MapperOptions& options,
+                     const std::function<void(double)>& progress) {
+  Mapper mapper(options);
+  while (std::optional<Frame> frame = source.next()) {
     mapper.add(std::move(*frame));
-    progress(source->progress());
+    progress(source.progress());
   }
-  mapped.memory = places.finish();
-  const MappingResult result = mapper.finish();
-  mapped.map_T_node = result.graph.poses();
-  mapped.adaptive_matcher = adaptive_matchers(result);
-  mapped.translation_error_m =
-      error_of(result.frames, read_relations(log.relations.value())).translation_abs_m.mean;
-  return mapped;
+  MappedRun run;
+  run.result = mapper.finish();
+  run.graph = mapper.graph();
+  return run;
+}
+
+std::size_t loops_accepted(const MappingResult& result) {
+  return static_cast<std::size_t>(
+      std::count_if(result.loops.begin(), result.loops.end(),
+                    [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
+}
+
+RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations) {
+  return evaluate_relations(trajectory_of(frames), relations);
 }
 
 }  // namespace psi_slam

@@ -6,17 +6,16 @@
 #include <memory>
 #include <utility>
 
-#include "common/mapped_run.h"
-#include "psi_slam/open_log.h"
 #include "loop_closure/outlier_loops.h"
 #include "mapping/carried_frames.h"
+#include "psi_slam/open_log.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kWorstFirstOnly = 1;  // as the doubtful share
+constexpr double kWorstFirstOnly = 1;  // doubtful share that switches off only the worst loops
 
 std::vector<std::size_t> loops_on(const PoseGraph& graph) {
   std::vector<std::size_t> loops;
@@ -25,7 +24,7 @@ std::vector<std::size_t> loops_on(const PoseGraph& graph) {
   return loops;
 }
 
-/// The trial's graph with false loops, to be settled again and again.
+/// The graph of the trial with false loops, for several treatments.
 class SpoiltGraph {
  public:
   SpoiltGraph(const LoopTrial& trial, const FalseLoopOptions& options)
@@ -111,12 +110,12 @@ FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double s
 
 FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& logs,
                                             const FalseLoopBenchmarkOptions& options,
-                                            const FalseLoopObserver& observer) {
+                                            const ProgressObserver& observer) {
   FalseLoopBenchmark benchmark;
   benchmark.identities = identities_of(logs);
   const auto trials =
       static_cast<double>(options.kinds.size() * options.shares_percent.size() * options.seeds.count());
-  const double work = 2 * trials;  // of a log: its mapping takes about as long as the trials
+  const double work = 2 * trials;  // of one log: mapping takes about as long as the trials
   const double all = work * static_cast<double>(logs.size());
   double done = 0;
   for (const BenchmarkLog& log : logs) {
@@ -124,7 +123,7 @@ FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& log
     const std::vector<Relation> relations = read_relations(log.relations.value());
     const auto source = open_log(log.log, log_options(settings));
     MapperOptions mapper = mapper_options(settings);
-    mapper.joint_refinement.rounds = 0;  // else the graph would not be at its optimum
+    mapper.joint_refinement.rounds = 0;  // it would move the graph away from its optimum
     const MappedRun run = map_source(
         *source, mapper, [&](double share) { observer("mapping " + log.name, done + trials * share, all); });
     done += trials;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many false loops the back end survives: they are added to the finished graph of a log, and the back end
-// settles them as after a run.
+// Robustness of the back end to false loops: adds false loops to the finished graph of a log and lets the
+// back end find them.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +10,26 @@
 #include <string>
 #include <vector>
 
+#include "batch/seeds.h"
+#include "batch/workers.h"
+#include "common/bench_report.h"
 #include "common/benchmark_logs.h"
 #include "false_loops/false_loops.h"
-#include "common/log_identity.h"
-#include "batch/seed_range.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {
 
 struct FalseLoopBenchmarkOptions {
-  std::vector<double> shares_percent{10, 20, 50, 100, 200, 500};  ///< of the loops that the run accepted
+  std::vector<double> shares_percent{10, 20, 50, 100, 200, 500};  ///< in percent of the accepted loops
   std::vector<FalseLoopKind> kinds{FalseLoopKind::kScattered, FalseLoopKind::kGroups, FalseLoopKind::kNearby};
   SeedRange seeds;
 };
 
-/// A graph with loops known to be true, and how good poses of its nodes are.
+/// A graph with true loops, and the error of poses of its nodes.
 struct LoopTrial {
-  PoseGraph graph;                            ///< at its optimum, which false loops are told from the true by
-  std::vector<mrpt::math::TPose2D> unlooped;  ///< the poses of the nodes before any loop was closed
-  double max_chi = 5;                         ///< of MapperOptions
+  PoseGraph graph;                            ///< at its optimum
+  std::vector<mrpt::math::TPose2D> unlooped;  ///< poses of the nodes before any loop was closed
+  double max_chi = 5;                         ///< as in MapperOptions
   PoseAdjustmentOptions solver;
   struct Error {
     double translation_m = 0;
@@ -37,7 +38,7 @@ struct LoopTrial {
   std::function<Error(const std::vector<mrpt::math::TPose2D>& map_T_node)> error;
 };
 
-/// What was made of the false loops.
+/// Result of one treatment of the false loops.
 struct LoopTrialOutcome {
   LoopTrial::Error error;
   std::size_t false_kept = 0;
@@ -52,10 +53,10 @@ struct FalseLoopRow {
   std::uint64_t seed = 1;  ///< of the false loops
   std::size_t true_loops = 0;
   std::size_t false_loops = 0;
-  LoopTrialOutcome undefended;   ///< optimised with all loops on, from the poses before any loop
-  LoopTrialOutcome worst_first;  ///< switching off the worst only, from there
-  LoopTrialOutcome defended;     ///< as the mapper does it, from there
-  LoopTrialOutcome from_map;     ///< as the mapper does it, from the map as it stood
+  LoopTrialOutcome undefended;   ///< optimised with all loops, from the poses before any loop
+  LoopTrialOutcome worst_first;  ///< the worst loops switched off one by one, from the poses before any loop
+  LoopTrialOutcome defended;     ///< the method of the mapper, from the poses before any loop
+  LoopTrialOutcome from_map;     ///< the method of the mapper, from the finished map
 };
 
 struct FalseLoopLog {
@@ -68,22 +69,19 @@ struct FalseLoopLog {
 
 struct FalseLoopBenchmark {
   std::vector<LogIdentity> identities;
-  std::vector<std::string> without_relations;  ///< logs of the folder that cannot be evaluated
+  std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
   std::vector<FalseLoopLog> logs;
   std::vector<FalseLoopRow> rows;  ///< by log, kind, share, seed
 };
 
-/// Is told what is being done, and how much of all the work is done.
-using FalseLoopObserver = std::function<void(const std::string& doing, double done, double all)>;
-
-/// One share of one kind.
+/// Tries one share of one kind with all treatments.
 FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double share_percent,
                             std::uint64_t seed);
 
-/// Maps each log once, and tries each share of each kind with each seed. Throws UserError as open_log() and
-/// read_relations() do.
+/// Maps each log once and tries each share of each kind with each seed. Throws UserError as open_log() and
+/// read_relations().
 FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& logs,
                                             const FalseLoopBenchmarkOptions& options,
-                                            const FalseLoopObserver& observer);
+                                            const ProgressObserver& observer);
 
 }  // namespace psi_slam

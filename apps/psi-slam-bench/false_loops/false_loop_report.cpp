@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "false_loops/false_loop_report.h"
 
-#include <nlohmann/json.hpp>
+#include <cmath>
 
-#include "common/growth_plot.h"
-#include "common/program_identity.h"
-#include "batch/seed_spread.h"
 #include "base/number_text.h"
+#include "batch/kept_run.h"
+#include "common/log_plots.h"
 
 namespace psi_slam {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string cell(const std::string& text) {
-  return ' ' + text + " |";
-}
-
-/// The trials of a share of a kind on a log, one a seed.
+/// The trials of one share of one kind on a log, one for each seed.
 using Trials = std::vector<FalseLoopRow>;
 
 std::vector<Trials> cases_of(const FalseLoopBenchmark& benchmark) {
@@ -26,146 +21,156 @@ std::vector<Trials> cases_of(const FalseLoopBenchmark& benchmark) {
   });
 }
 
-/// What was made of the false loops in one way, over the seeds.
-struct Outcomes {
-  Outcomes(const Trials& trials, LoopTrialOutcome FalseLoopRow::*way)
-      : translation_m(over(trials, way, [](const auto& one) { return one.error.translation_m; })),
-        rotation_deg(over(trials, way, [](const auto& one) { return one.error.rotation_deg; })),
-        false_kept(over(trials, way, [](const auto& one) { return one.false_kept; })),
-        true_lost(over(trials, way, [](const auto& one) { return one.true_lost; })),
-        milliseconds(over(trials, way, [](const auto& one) { return one.milliseconds; })) {}
+/// How a trial treats the false loops.
+using Treatment = LoopTrialOutcome FalseLoopRow::*;
 
-  std::string counts() const {
-    const int decimals = false_kept.count > 1 ? 1 : 0;
-    return fixed_text(false_kept.mean, decimals) + " / " + fixed_text(true_lost.mean, decimals);
-  }
+using Column = ColumnOf<Trials>;
 
-  SeedSpread translation_m;
-  SeedSpread rotation_deg;
-  SeedSpread false_kept;
-  SeedSpread true_lost;
-  SeedSpread milliseconds;
+/// A column with the statistics of one figure of a treatment.
+template <class ValueOf>
+Column figure_column(const std::string& head, const std::string& key, Treatment treatment, int decimals,
+                     const ValueOf& value_of) {
+  return {{head, key}, [=](const Trials& trials) {
+            const auto of_trial = [&](const FalseLoopRow& trial) { return value_of(trial.*treatment); };
+            return cell(spread_over(trials, of_trial), decimals);
+          }};
+}
 
- private:
-  template <class ValueOf>
-  static SeedSpread over(const Trials& trials, LoopTrialOutcome FalseLoopRow::*way, const ValueOf& value_of) {
-    return spread_over(trials, [&](const FalseLoopRow& trial) { return value_of(trial.*way); });
-  }
+SeedSpread translation_error_m(const Trials& trials, Treatment treatment) {
+  return spread_over(trials,
+                     [&](const FalseLoopRow& trial) { return (trial.*treatment).error.translation_m; });
+}
+
+/// The columns of a treatment named `key` in JSON. An empty head is missing in Markdown.
+struct TreatmentColumns {
+  Treatment treatment;
+  std::string key;
+  std::string translation_head;
+  int translation_decimals;
+  std::string rotation_head{};
+  std::string counts_head{};
+  std::string time_head{};
 };
 
-std::string row_text(const Trials& trials) {
-  const FalseLoopRow& first = trials.front();
-  const Outcomes undefended(trials, &FalseLoopRow::undefended);
-  const Outcomes worst_first(trials, &FalseLoopRow::worst_first);
-  const Outcomes defended(trials, &FalseLoopRow::defended);
-  const Outcomes from_map(trials, &FalseLoopRow::from_map);
-  return '|' + cell(first.log) + cell(name_of(first.kind)) + cell(fixed_text(first.share_percent, 0)) +
-         cell(std::to_string(first.false_loops)) + cell(spread_text(undefended.translation_m, 3)) +
-         cell(spread_text(worst_first.translation_m, 4)) + cell(worst_first.counts()) +
-         cell(spread_text(defended.translation_m, 4)) + cell(spread_text(defended.rotation_deg, 3)) +
-         cell(defended.counts()) + cell(fixed_text(defended.milliseconds.mean, 0)) +
-         cell(spread_text(from_map.translation_m, 4)) + cell(from_map.counts()) + '\n';
+void add_columns(const TreatmentColumns& of, std::vector<Column>& columns) {
+  const Treatment treatment = of.treatment;
+  columns.push_back(
+      figure_column(of.translation_head, of.key + ".translation_error_m", treatment, of.translation_decimals,
+                    [](const LoopTrialOutcome& outcome) { return outcome.error.translation_m; }));
+  columns.push_back(
+      figure_column(of.rotation_head, of.key + ".rotation_error_deg", treatment, 3,
+                    [](const LoopTrialOutcome& outcome) { return outcome.error.rotation_deg; }));
+  const auto false_kept = [](const LoopTrialOutcome& outcome) { return outcome.false_kept; };
+  const auto true_lost = [](const LoopTrialOutcome& outcome) { return outcome.true_lost; };
+  columns.push_back(
+      {{of.counts_head}, [=](const Trials& trials) {
+         const auto mean = [&](const auto& count) {
+           return spread_over(trials, [&](const auto& trial) { return count(trial.*treatment); }).mean;
+         };
+         const int decimals = trials.size() > 1 ? 1 : 0;
+         return cell(fixed_text(mean(false_kept), decimals) + " / " + fixed_text(mean(true_lost), decimals));
+       }});
+  columns.push_back(figure_column({}, of.key + ".false_kept", treatment, 1, false_kept));
+  columns.push_back(figure_column({}, of.key + ".true_lost", treatment, 1, true_lost));
+  columns.push_back({{of.time_head, of.key + ".time_ms"}, [=](const Trials& trials) {
+                       const SeedSpread time_ms = spread_over(
+                           trials, [&](const auto& trial) { return (trial.*treatment).milliseconds; });
+                       return ReportCell{fixed_text(time_ms.mean, 0), spread_json(time_ms)};
+                     }});
 }
 
-std::string logs_text(const std::vector<FalseLoopLog>& logs) {
-  std::string text =
-      "| log | nodes | loops | error of its map [m] | [deg] | without loops [m] | [deg] |\n"
-      "|---|---:|---:|---:|---:|---:|---:|\n";
-  for (const FalseLoopLog& log : logs)
-    text += '|' + cell(log.name) + cell(std::to_string(log.nodes)) + cell(std::to_string(log.loops)) +
-            cell(fixed_text(log.map.translation_m, 4)) + cell(fixed_text(log.map.rotation_deg, 3)) +
-            cell(fixed_text(log.front_end.translation_m, 4)) +
-            cell(fixed_text(log.front_end.rotation_deg, 3)) + '\n';
-  return text;
+ReportTable cases_table(const FalseLoopBenchmark& benchmark) {
+  std::vector<Column> columns{
+      {{"log", "log", true}, [](const Trials& trials) { return cell(trials.front().log); }},
+      {{"kind", "kind", true}, [](const Trials& trials) { return cell(name_of(trials.front().kind)); }},
+      {{"share %", "share_percent"},
+       [](const Trials& trials) { return cell(trials.front().share_percent, 0); }},
+      {{{}, "seeds"},
+       [](const Trials& trials) {
+         return ReportCell{{}, seeds_of(trials)};
+       }},
+      {{{}, "true_loops"}, [](const Trials& trials) { return cell(trials.front().true_loops); }},
+      {{"false loops", "false_loops"},
+       [](const Trials& trials) { return cell(trials.front().false_loops); }}};
+  add_columns({&FalseLoopRow::undefended, "undefended", "undefended [m]", 3}, columns);
+  add_columns({&FalseLoopRow::worst_first, "worst_first", "worst first [m]", 4, {}, "kept / lost"}, columns);
+  add_columns({&FalseLoopRow::defended, "defended", "defended [m]", 4, "[deg]", "kept / lost", "ms"},
+              columns);
+  add_columns({&FalseLoopRow::from_map, "from_map", "from the map [m]", 4, {}, "kept / lost"}, columns);
+  return table_of(columns, cases_of(benchmark));
 }
 
-Json error_json(const LoopTrial::Error& error) {
-  return {{"translation_error_m", error.translation_m}, {"rotation_error_deg", error.rotation_deg}};
+ReportTable graphs_table(const std::vector<FalseLoopLog>& logs) {
+  using Log = FalseLoopLog;
+  return table_of<Log>(
+      {{{"log", "name", true}, [](const Log& log) { return cell(log.name); }},
+       {{"nodes", "nodes"}, [](const Log& log) { return cell(log.nodes); }},
+       {{"loops", "loops"}, [](const Log& log) { return cell(log.loops); }},
+       {{"error of its map [m]", "map.translation_error_m"},
+        [](const Log& log) { return cell(log.map.translation_m, 4); }},
+       {{"[deg]", "map.rotation_error_deg"}, [](const Log& log) { return cell(log.map.rotation_deg, 3); }},
+       {{"without loops [m]", "without_loops.translation_error_m"},
+        [](const Log& log) { return cell(log.front_end.translation_m, 4); }},
+       {{"[deg]", "without_loops.rotation_error_deg"},
+        [](const Log& log) { return cell(log.front_end.rotation_deg, 3); }}},
+      logs);
 }
 
-Json outcomes_json(const Outcomes& outcomes) {
-  return {{"translation_error_m", spread_json(outcomes.translation_m)},
-          {"rotation_error_deg", spread_json(outcomes.rotation_deg)},
-          {"false_kept", spread_json(outcomes.false_kept)},
-          {"true_lost", spread_json(outcomes.true_lost)},
-          {"time_ms", spread_json(outcomes.milliseconds)}};
-}
-
-Json row_json(const Trials& trials) {
-  const FalseLoopRow& first = trials.front();
-  return {{"log", first.log},
-          {"kind", name_of(first.kind)},
-          {"share_percent", first.share_percent},
-          {"seeds", seeds_of(trials)},
-          {"true_loops", first.true_loops},
-          {"false_loops", first.false_loops},
-          {"undefended", outcomes_json({trials, &FalseLoopRow::undefended})},
-          {"worst_first", outcomes_json({trials, &FalseLoopRow::worst_first})},
-          {"defended", outcomes_json({trials, &FalseLoopRow::defended})},
-          {"from_map", outcomes_json({trials, &FalseLoopRow::from_map})}};
-}
-
-}  // namespace
-
-std::string false_loop_markdown(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
-                                const std::string& machine) {
+std::string markdown_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
+                        const std::string& machine) {
   const FalseLoopOptions how;
   std::string text = "# False loops survived\n\n" + measured_by(machine) + "; " + seeds_text(options.seeds) +
                      " of the false loops. Errors are means over the true relations.\n\n";
   text +=
-      "- share: false loops added to the finished graph, in percent of the loops that the run accepted\n"
-      "- scattered: between random nodes and local maps, at a random place and heading within " +
-      fixed_text(how.reach_m, 0) + " m of the map's anchor\n- groups: " + std::to_string(how.smallest_group) +
-      " to " + std::to_string(how.largest_group) +
-      " successive nodes agree with each other on such a place\n- nearby: true loops, moved by " +
-      fixed_text(how.min_error_m, 0) + " to " + fixed_text(how.nearby_m, 0) + " m and turned by up to " +
+      "- share: number of false loops added to the finished graph, in percent of the loops that the run "
+      "accepted\n"
+      "- scattered: loops between random nodes and local maps, at a random position within " +
+      fixed_text(how.reach_m, 0) +
+      " m of the anchor and with a random heading\n- groups: " + std::to_string(how.smallest_group) + " to " +
+      std::to_string(how.largest_group) +
+      " successive nodes agree on the same wrong place\n- nearby: true loops, moved by " +
+      fixed_text(how.min_error_m, 0) + " to " + fixed_text(how.nearby_m, 0) + " m and rotated by up to " +
       fixed_text(how.min_error_rad * 180 / M_PI, 0) +
       " degrees\n"
-      "- undefended: optimised with all of them; worst first: the worst are switched off until none is "
-      "contradicted; defended: as psi-slam does it. All begin at the poses before any loop was closed; "
-      "\"from the map\" begins at the finished map.\n"
-      "- kept / lost: false loops that stay on / true ones that are switched off\n"
-      "- of several seeds errors are mean ± standard deviation of the sample [worst], the other figures "
-      "means; the logs are mapped once\n\n";
-  text += logs_text(benchmark.logs);
-  text +=
-      "\n| log | kind | share % | false loops | undefended [m] | worst first [m] | kept / lost | defended "
-      "[m] | "
-      "[deg] | kept / lost | ms | from the map [m] | kept / lost |\n|---|---|";
-  for (int column = 0; column < 11; ++column) text += "---:|";
-  text += '\n';
-  for (const Trials& trials : cases_of(benchmark)) text += row_text(trials);
-  return text + '\n' + logs_markdown(benchmark.identities, benchmark.without_relations);
+      "- undefended: the graph is optimised with all loops. Worst first: the worst loops are switched off "
+      "until "
+      "no loop contradicts the others. Defended: the method of psi-slam. All three start from the poses "
+      "before "
+      "any loop was closed; \"from the map\" starts from the finished map.\n"
+      "- kept / lost: false loops that stay on / true loops that are switched off\n"
+      "- over several seeds, errors are mean ± standard deviation of the sample [worst], other figures are "
+      "means; each log is mapped once\n\n";
+  return text + graphs_table(benchmark.logs).markdown() + '\n' + cases_table(benchmark).markdown() + '\n' +
+         logs_section(benchmark.identities, benchmark.without_relations);
 }
 
-std::string false_loop_json(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
-                            const std::string& machine) {
-  Json logs = Json::array();
-  for (const FalseLoopLog& log : benchmark.logs)
-    logs.push_back({{"name", log.name},
-                    {"nodes", log.nodes},
-                    {"loops", log.loops},
-                    {"map", error_json(log.map)},
-                    {"without_loops", error_json(log.front_end)}});
-  Json files = Json::array();
-  for (const LogIdentity& log : benchmark.identities) files.push_back(log_json(log));
-  Json rows = Json::array();
-  for (const Trials& trials : cases_of(benchmark)) rows.push_back(row_json(trials));
-  const Json json = {{"schema", "psi-slam-false-loops"},
-                     {"schema_version", 1},
-                     {"program_version", program_version()},
-                     {"commit", program_commit()},
-                     {"machine", machine},
-                     {"seeds", options.seeds.all()},
-                     {"files", files},
-                     {"logs", logs},
-                     {"rows", rows}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+Json json_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
+             const std::string& machine) {
+  Json json = report_json("psi-slam-false-loops", machine);
+  json.update({{"seeds", options.seeds.all()},
+               {"files", logs_table(benchmark.identities).json()},
+               {"logs", graphs_table(benchmark.logs).json()},
+               {"rows", cases_table(benchmark).json()}});
+  return json;
+}
+
+}  // namespace
+
+BenchReport false_loop_report(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
+                              const std::string& machine) {
+  BenchReport report{"false-loops.md",
+                     markdown_of(benchmark, options, machine),
+                     json_file_text(json_of(benchmark, options, machine)),
+                     cases_table(benchmark).csv(),
+                     {}};
+  for (const FalseLoopKind kind : options.kinds)
+    report.plots.push_back({"false-loops-" + name_of(kind) + ".svg", false_loop_plot(benchmark, kind)});
+  return report;
 }
 
 std::string false_loop_plot(const FalseLoopBenchmark& benchmark, FalseLoopKind kind) {
   GrowthPlot plot;
-  plot.title = "Error by the share of false loops, " + name_of(kind) + " (dark: defended, light: not)";
+  plot.title = "Error by the share of false loops, " + name_of(kind) + " (dark: defended, light: undefended)";
   plot.unit = "m";
   plot.labels = {"0 %"};
   for (const FalseLoopLog& log : benchmark.logs) {
@@ -179,11 +184,11 @@ std::string false_loop_plot(const FalseLoopBenchmark& benchmark, FalseLoopKind k
       const FalseLoopRow& first = trials.front();
       if (first.log != log.name || first.kind != kind) continue;
       if (plot.lines.empty()) plot.labels.push_back(fixed_text(first.share_percent, 0) + " %");
-      const SeedSpread errors = Outcomes(trials, &FalseLoopRow::defended).translation_m;
+      const SeedSpread errors = translation_error_m(trials, &FalseLoopRow::defended);
       defended.values.push_back(errors.mean);
       defended.low.push_back(errors.min);
       defended.high.push_back(errors.max);
-      undefended.values.push_back(Outcomes(trials, &FalseLoopRow::undefended).translation_m.mean);
+      undefended.values.push_back(translation_error_m(trials, &FalseLoopRow::undefended).mean);
     }
     plot.lines.push_back(std::move(defended));
     plot.lines.push_back(std::move(undefended));

@@ -14,7 +14,7 @@ using mrpt::math::TPose2D;
 
 struct Material {
   std::vector<std::size_t> anchors;
-  std::vector<Constraint> loops;  ///< that are on
+  std::vector<Constraint> loops;  ///< enabled ones
 };
 
 Material material_of(const PoseGraph& graph) {
@@ -43,7 +43,7 @@ bool is_false(const TPose2D& place, const TPose2D& truth, const FalseLoopOptions
   return std::hypot(error.x, error.y) >= options.min_error_m || std::abs(error.phi) >= options.min_error_rad;
 }
 
-/// Successive nodes, or one, in the same wrong place.
+/// One node, or several successive nodes, at one wrong place.
 std::vector<Constraint> draw_elsewhere(const Material& material, const std::vector<TPose2D>& map_T_node,
                                        const FalseLoopOptions& options, RandomDraws& draws) {
   std::size_t group = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// False loops, made up for a pose graph: what a matcher would add that takes one place for another.
+// Random false loops for a pose graph, like those of a matcher that mistakes one place for another.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -15,9 +15,9 @@
 namespace psi_slam {
 
 enum class FalseLoopKind {
-  kScattered,  ///< each says something else
-  kGroups,     ///< some successive nodes all say the same wrong place in the same local map
-  kNearby,     ///< true loops, metres off: within what odometry's uncertainty cannot tell
+  kScattered,  ///< independent of each other
+  kGroups,     ///< several successive nodes agree on the same wrong place
+  kNearby,     ///< true loops moved by metres, within the uncertainty of odometry
 };
 
 /// "scattered", "groups", "nearby".
@@ -28,18 +28,18 @@ struct FalseLoopOptions {
   std::size_t count = 0;
   std::size_t smallest_group = 5;
   std::size_t largest_group = 10;
-  double reach_m = 10;  ///< the wrong place is at most this far from the anchor: the local map would be there
-  double nearby_m = 3;  ///< nearby ones are off by min_error_m to this, and turned by up to min_error_rad
-  double min_error_m = 1;  ///< a loop is false when it is at least so far off the truth, ...
-  double min_error_rad = radians_from_degrees(20.0L);  ///< ... or turned by so much
+  double reach_m = 10;  ///< largest distance of the wrong place from the anchor
+  double nearby_m = 3;  ///< nearby loops are moved by min_error_m to this and rotated by up to min_error_rad
+  double min_error_m = 1;  ///< a loop is false if it is at least this far off the truth
+  double min_error_rad = radians_from_degrees(20.0L);  ///< or rotated by at least this
   std::uint64_t seed = 1;
 };
 
-/// Adds loops between nodes and anchors of the graph's local maps, both drawn at random, and returns their
-/// constraints' numbers. The node's place in the local map is drawn anywhere within reach, with any heading;
-/// the information is that of a loop of the graph, drawn too. The successive nodes of a group move as
-/// `map_T_node`, the truth, says, so that they agree with each other to the millimetre: worse than any
-/// matcher's. None when the graph has no loop that is on.
+/// Adds loops between random nodes and random anchors of local maps, and returns the indices of their
+/// constraints. The place in the local map is random within reach, with any heading; the information is that
+/// of a random loop of the graph. The successive nodes of a group move as in the truth `map_T_node`, so that
+/// they agree exactly, which is harder than the output of any matcher. Adds nothing to a graph without
+/// enabled loops.
 std::vector<std::size_t> add_false_loops(PoseGraph& graph, const std::vector<mrpt::math::TPose2D>& map_T_node,
                                          const FalseLoopOptions& options);
 

@@ -3,14 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "freiburg/freiburg_run.h"
-#include "match/match_report.h"
-#include "common/program_identity.h"
 #include "base/file_checksum.h"
-#include "psi_slam/user_error.h"
 #include "base/worker_pool.h"
 #include "batch/kept_run.h"
-#include "batch/machine_text.h"
+#include "batch/provenance.h"
+#include "common/bench_report.h"
+#include "freiburg/freiburg_run.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -28,17 +27,18 @@ struct Task {
   BaselineResult* result = nullptr;
 };
 
-/// The baseline is given what our reader makes of the log, so the reader's settings count too. Another build of
-/// this program is no reason to let the baselines run again.
+/// Includes the settings of our reader, which provides the input. Does not include the checksum of this
+/// program, so that a new build does not repeat the runs.
 std::string key_of(const BaselineRun& run) {
   std::string text = machine_text() + '\n' + sha256_of_file(run.log.log) + '\n' +
                      sha256_of_file(run.log.relations.value()) + '\n' + program_version() + '\n' +
                      settings_text(benchmark_settings(run.log.ini));
-  text += run.baseline.version + '\n' + run.baseline.sha256 + '\n' + baseline_settings(run.baseline, "output");
+  text +=
+      run.baseline.version + '\n' + run.baseline.sha256 + '\n' + baseline_settings(run.baseline, "output");
   return sha256_of_text(text);
 }
 
-/// True when it was made before and need not be again.
+/// Reads a kept result. Returns false if the run must be made.
 bool read_kept(const Task& task, BaselineResult& result) {
   const std::optional<Json> kept = kept_run(task.file, task.key);
   if (!kept) return false;
@@ -56,7 +56,7 @@ bool read_kept(const Task& task, BaselineResult& result) {
   }
 }
 
-/// A failure is not kept: it is tried again.
+/// Keeps a result. A failure is not kept, so that the run is repeated.
 void keep(const Task& task, const BaselineResult& result) {
   if (!result.figures && !result.not_finished_in_s) return;
   Json content = {{"schema", "psi-slam-rival-run"},
@@ -70,9 +70,10 @@ void keep(const Task& task, const BaselineResult& result) {
   keep_run(task.file, task.key, content);
 }
 
-/// The runs that are not there yet; the results of the others are filled in.
-std::vector<Task> tasks_of(const std::vector<BaselineProgram>& baselines, const std::vector<BenchmarkLog>& logs,
-                           const BaselineOptions& options, std::vector<BaselineResult>& results) {
+/// The runs without kept results. Fills in the kept results of the others.
+std::vector<Task> tasks_of(const std::vector<BaselineProgram>& baselines,
+                           const std::vector<BenchmarkLog>& logs, const BaselineOptions& options,
+                           std::vector<BaselineResult>& results) {
   std::vector<Task> tasks;
   results.resize(logs.size() * baselines.size());
   auto result = results.begin();
@@ -95,8 +96,9 @@ std::vector<Task> tasks_of(const std::vector<BaselineProgram>& baselines, const 
 }  // namespace
 
 std::vector<BaselineResult> run_baselines(const std::vector<BaselineProgram>& baselines,
-                                    const std::vector<BenchmarkLog>& logs, const BaselineOptions& options,
-                                    const std::atomic<bool>& stop, const TaskProgress::Observer& observer) {
+                                          const std::vector<BenchmarkLog>& logs,
+                                          const BaselineOptions& options, const std::atomic<bool>& stop,
+                                          const ProgressObserver& observer) {
   std::vector<BaselineResult> results;
   const std::vector<Task> tasks = tasks_of(baselines, logs, options, results);
   double work = 0;
@@ -107,7 +109,7 @@ std::vector<BaselineResult> run_baselines(const std::vector<BaselineProgram>& ba
     if (stop) return;
     const Task& task = tasks[index];
     const BaselineResult result = run_baseline(task.run, [&] {
-      progress.tell(task.run.baseline.kind.name + " on " + task.run.log.name);
+      progress.show(task.run.baseline.kind.name + " on " + task.run.log.name);
       return stop.load();
     });
     if (stop && !result.figures) return;
@@ -115,9 +117,9 @@ std::vector<BaselineResult> run_baselines(const std::vector<BaselineProgram>& ba
     *task.result = result;
     progress.end(task.work);
   });
-  if (stop && progress.to_go() > 0)
-    throw SystemFailure("interrupted with " + std::to_string(progress.to_go()) +
-                        " runs of baselines to go: the others are kept, and the same command goes on");
+  if (stop && progress.remaining() > 0)
+    throw SystemFailure("interrupted with " + std::to_string(progress.remaining()) +
+                        " runs of baselines to go: finished runs are kept; repeat the command to continue");
   return results;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every baseline that is installed here on every log, each run in a process of its own. What one came to is kept
-// and not made again as long as the log, its relations, how it is read, the baseline and its settings are the
-// same; one that did not finish is tried again only with more time.
+// Runs every installed baseline on every log, each run in a process of its own. A result is kept and not
+// repeated while the log, its relations, the settings of its reader, the baseline and its settings stay the
+// same. A run that did not finish is repeated only with a larger time limit.
 #pragma once
 
 #include <atomic>
@@ -9,24 +9,22 @@
 #include <string>
 #include <vector>
 
-#include "common/benchmark_logs.h"
-#include "batch/task_progress.h"
-#include "freiburg/baseline_program.h"
+#include "batch/workers.h"
 #include "freiburg/baseline_run.h"
 
 namespace psi_slam {
 
 struct BaselineOptions {
-  double time_limit_s = 600;  ///< of each run
-  int processes = 1;          ///< at a time
-  std::filesystem::path
-      output;  ///< what is kept is output/runs/LOG-RIVAL.json, the rest output/baselines/LOG-RIVAL
+  double time_limit_s = 600;     ///< of each run
+  int processes = 1;             ///< runs at a time
+  std::filesystem::path output;  ///< for runs/LOG-BASELINE.json, and for the files of the runs
 };
 
-/// Results by log, then baseline. `logs` need their relations. Once `stop` is true no more runs are begun and
-/// those under way are ended; then, and when a file cannot be written, throws SystemFailure.
+/// Results by log, then baseline. All `logs` need relations. When `stop` becomes true, ends the running
+/// processes and throws SystemFailure. Also throws SystemFailure when a file cannot be written.
 std::vector<BaselineResult> run_baselines(const std::vector<BaselineProgram>& baselines,
-                                    const std::vector<BenchmarkLog>& logs, const BaselineOptions& options,
-                                    const std::atomic<bool>& stop, const TaskProgress::Observer& observer);
+                                          const std::vector<BenchmarkLog>& logs,
+                                          const BaselineOptions& options, const std::atomic<bool>& stop,
+                                          const ProgressObserver& observer);
 
 }  // namespace psi_slam

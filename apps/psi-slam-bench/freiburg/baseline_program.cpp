@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "base/file_checksum.h"
-#include "psi_slam/user_error.h"
 #include "batch/child_process.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -32,7 +32,7 @@ std::optional<fs::path> find_program(const std::string& name, const std::string&
   return std::nullopt;
 }
 
-/// It has no option to tell it, but says it whenever it is started.
+/// Version in the program's first output; there is no option for it.
 std::string version_of(const fs::path& program) {
   constexpr std::string_view kBefore = "MRPT C++ Library: ";
   ChildProcess child;
@@ -50,13 +50,14 @@ std::string version_of(const fs::path& program) {
 
 const std::vector<BaselineKind>& baseline_kinds() {
   constexpr std::size_t kPlaneYaw = 3;
-  constexpr std::size_t kSpaceYaw = 4;  // behind z
+  constexpr std::size_t kSpaceYaw = 4;  // after z
   static const std::vector<BaselineKind> kKinds{
       {"icp-slam",
        "icp-slam/icp-slam_demo_classic.ini",
        {{"SHOW_PROGRESS_3D_REAL_TIME", "0"}, {"SAVE_3D_SCENE", "0"}},
-       "Where it goes astray hangs on trifles, so its one figure is one of many: begun one, two or three "
-       "scans later it came to 0.68, 0.42 and 1.96 m on MIT CSAIL.",
+       "Its error depends on small changes of the input, so one figure is only a sample: started one, two or "
+       "three "
+       "scans later, it has errors of 0.68, 0.42 and 1.96 m on MIT CSAIL.",
        kPlaneYaw},
       {"rbpf-slam",
        "rbpf-slam/gridmapping_RBPF_grid_ICPbased_malaga.ini",
@@ -64,7 +65,7 @@ const std::vector<BaselineKind>& baseline_kinds() {
         {"SAVE_3D_SCENE", "0"},
         {"SAVE_MAP_IMAGES", "0"},
         {"RANDOM_SEED", "1"}},
-       "Its path is where it believed to be when each scan came, not where its best particle had been.",
+       "Its path has the estimate at the time of each scan, not the final path of its best particle.",
        kSpaceYaw}};
   return kKinds;
 }

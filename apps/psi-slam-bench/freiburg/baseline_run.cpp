@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "freiburg/baseline_run.h"
 
-#include <cmath>
+#include <mrpt/io/CFileOutputStream.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/serialization/CArchive.h>
+
 #include <fstream>
 #include <sstream>
 
 #include "base/atomic_file.h"
-#include "psi_slam/user_error.h"
 #include "batch/child_process.h"
 #include "config/apply_settings.h"
+#include "observations/range_observation.h"
+#include "observations/robot_action.h"
 #include "psi_slam/open_log.h"
-#include "freiburg/baseline_log.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -19,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPathFile = "log_estimated_path.txt";
 
-/// MRPT's programs say it in a line of their own, before where in the program it was.
+/// Reason of a failure: MRPT's programs print it in a line that starts with "Message:".
 std::string failure_of(const ChildEnd& end) {
   constexpr std::string_view kBefore = "Message:";
   const std::size_t begin = end.err.find(kBefore);
@@ -29,7 +33,7 @@ std::string failure_of(const ChildEnd& end) {
                                     : end.err.substr(first, end.err.find('\n', first) - first);
 }
 
-/// The files of a run; the log, which is large, goes at the end of the scope.
+/// The files of a run. The destructor deletes the log, which is large.
 class BaselineFiles {
  public:
   explicit BaselineFiles(const fs::path& folder)
@@ -38,7 +42,7 @@ class BaselineFiles {
     fs::remove_all(output, failed);
     if (failed) throw SystemFailure("cannot remove " + output.string() + ": " + failed.message());
     fs::create_directories(folder, failed);
-    if (failed) throw SystemFailure("cannot make the folder " + folder.string() + ": " + failed.message());
+    if (failed) throw SystemFailure("cannot create the folder " + folder.string() + ": " + failed.message());
   }
   ~BaselineFiles() {
     std::error_code ignored;
@@ -56,17 +60,37 @@ RunFigures figures_of(const BaselineRun& run, const BaselineFiles& files, const 
                       const std::vector<TimeUs>& times) {
   const Trajectory path = read_baseline_path(files.output / kPathFile, run.baseline.kind.yaw_column, times);
   RunFigures figures = evaluate_path(path, read_relations(run.log.relations.value()));
-  figures.wall_s = end.wall_s;
-  figures.cpu_s = end.cpu_s;
-  figures.peak_memory_mib = end.peak_memory_mib;
+  set_effort(figures, end);
   return figures;
 }
 
 }  // namespace
 
-Trajectory read_baseline_path(const fs::path& file, std::size_t yaw_column, const std::vector<TimeUs>& times) {
+std::vector<TimeUs> write_baseline_log(FrameSource& source, const std::filesystem::path& path,
+                                       const std::function<bool()>& stop) {
+  std::vector<TimeUs> times;
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    mrpt::io::CFileOutputStream file(temporary.string());
+    auto archive = mrpt::serialization::archiveFrom(file);
+    mrpt::math::TPose2D odom_T_last;
+    while (const std::optional<Frame> frame = source.next()) {
+      if (stop()) throw SystemFailure("interrupted");
+      const mrpt::math::TPose2D motion =
+          times.empty() || !frame->has_odometry ? mrpt::math::TPose2D() : frame->odom_T_robot - odom_T_last;
+      odom_T_last = frame->odom_T_robot;
+      mrpt::obs::CSensoryFrame observations;
+      for (const auto& observation : range_observations(*frame)) observations.insert(observation);
+      archive << robot_action(motion, frame->time_us) << observations;
+      times.push_back(frame->time_us);
+    }
+  });
+  return times;
+}
+
+Trajectory read_baseline_path(const fs::path& file, std::size_t yaw_column,
+                              const std::vector<TimeUs>& times) {
   std::ifstream lines(file);
-  if (!lines) throw UserError("it wrote no path: expected " + file.string());
+  if (!lines) throw UserError("the program wrote no path: expected " + file.string());
   Trajectory path;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
@@ -74,14 +98,14 @@ Trajectory read_baseline_path(const fs::path& file, std::size_t yaw_column, cons
     for (double value = 0; words >> value;) values.push_back(value);
     const std::string place = file.string() + ':' + std::to_string(path.size() + 1) + ": ";
     if (values.size() <= yaw_column || !words.eof())
-      throw UserError(place + "expected step, x, y and so on to the yaw");
+      throw UserError(place + "expected the columns step, x, y up to the yaw");
     if (path.size() == times.size() || values[0] != static_cast<double>(path.size()))
       throw UserError(place + "expected the poses of steps 0 to " + std::to_string(times.size() - 1));
     path.push_back({times[path.size()], {values[1], values[2], values[yaw_column]}});
   }
   if (path.size() != times.size())
-    throw UserError("it wrote " + std::to_string(path.size()) + " poses for " + std::to_string(times.size()) +
-                    " scans");
+    throw UserError("the program wrote " + std::to_string(path.size()) + " poses for " +
+                    std::to_string(times.size()) + " scans");
   return path;
 }
 

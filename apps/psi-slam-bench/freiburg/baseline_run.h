@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Somebody else's mapper run on one of our logs, and its path held against the true relations as ours is. It
-// is given every scan, as our reader has it, with the odometry between and the laser's mount.
+// Runs a baseline on one of our logs and evaluates its path as ours. The baseline gets every scan that our
+// reader finds, with the odometry between the scans and the mount of the laser.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "common/benchmark_logs.h"
 #include "batch/run_figures.h"
+#include "common/benchmark_logs.h"
 #include "freiburg/baseline_program.h"
+#include "psi_slam/time_stamp.h"
 
 namespace psi_slam {
 
 struct BaselineRun {
   BaselineProgram baseline;
-  BenchmarkLog log;              ///< with its relations
-  std::filesystem::path folder;  ///< for what it is given and what it writes
+  BenchmarkLog log;              ///< with relations
+  std::filesystem::path folder;  ///< for the input and the output of the baseline
   double time_limit_s = 0;
 };
 
@@ -26,19 +28,27 @@ struct BaselineResult {
   std::string log;
   std::string baseline;  ///< the name of its kind
   std::optional<RunFigures> figures;
-  std::optional<double> not_finished_in_s;  ///< it was ended at this time limit
-  std::string failure;                      ///< why there are no figures, if it was not the time limit
-  bool made = false;                        ///< now; else it was there
+  std::optional<double> not_finished_in_s;  ///< the time limit that ended the run
+  std::string failure;                      ///< another reason for missing figures
+  bool made = false;                        ///< now; otherwise kept from before
 };
 
-/// Runs it to its end, or until `stop` is true: then its failure is "interrupted". Whatever goes wrong with
-/// it is its failure. The folder keeps its settings and what it wrote. Throws SystemFailure when the folder
+/// Runs the baseline to its end, or until `stop` returns true: then its failure is "interrupted". An error of
+/// the baseline is its failure. Settings and output stay in the folder. Throws SystemFailure when the folder
 /// cannot be written.
 BaselineResult run_baseline(const BaselineRun& run, const std::function<bool()>& stop);
 
-/// The path in a file of lines "step x y ... yaw ...", a step for each of the times. Throws UserError where
-/// it is not so.
+/// Writes all frames as a rawlog of actions and sensory frames, which MRPT's programs read: the motion since
+/// the previous frame by odometry, then the scan with its beams and the mount of its laser. The first motion
+/// is zero. The noise of odometry is MRPT's default. Returns the times of the frames. Throws SystemFailure
+/// when `stop`, called before each frame, returns true or when the file cannot be written, and UserError as
+/// the source.
+std::vector<TimeUs> write_baseline_log(FrameSource& source, const std::filesystem::path& path,
+                                       const std::function<bool()>& stop);
+
+/// Reads a path from lines "step x y ... yaw ...", with one step for each of the times. Throws UserError for
+/// another content.
 Trajectory read_baseline_path(const std::filesystem::path& file, std::size_t yaw_column,
-                           const std::vector<TimeUs>& times);
+                              const std::vector<TimeUs>& times);
 
 }  // namespace psi_slam

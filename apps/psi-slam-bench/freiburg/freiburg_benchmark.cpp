@@ -3,13 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "match/match_report.h"
-#include "common/program_identity.h"
 #include "base/file_checksum.h"
-#include "psi_slam/user_error.h"
 #include "batch/kept_run.h"
-#include "batch/machine_text.h"
-#include "batch/task_progress.h"
+#include "batch/provenance.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -17,15 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kSpokenBy = "psi-slam-bench: ";  // before every sentence of the program
-
 /// A run with its place in the benchmark.
 struct Task {
   FreiburgRun run;
   std::string name;  // "intel-csm-1"
-  fs::path file;     // what it came to
+  fs::path file;     // for its result
   RunKey key;
-  double work = 0;  // in a unit that is proportional to its time
+  double work = 0;  // bytes of the log
   const LogIdentity* log = nullptr;
   FreiburgResult* result = nullptr;
 };
@@ -35,7 +30,7 @@ std::string key_of(const FreiburgRun& run, const LogIdentity& log, const std::st
                         program_version() + '\n' + program_sha256 + '\n' + settings_text(settings_of(run)));
 }
 
-/// The figures of a run made before, if its file is there and of this key.
+/// The figures in the file of an earlier run with the same key.
 std::optional<FreiburgFigures> kept_figures(const Task& task) {
   const std::optional<Json> kept = kept_run(task.file, task.key);
   if (!kept || !kept->contains("figures")) return std::nullopt;
@@ -70,22 +65,19 @@ ChildWords words_of(const FreiburgRun& run, const fs::path& program) {
           "--threads",      std::to_string(run.threads)};
 }
 
-/// The figures of a run that has ended, with what it took, or why there are none.
+/// The figures of a finished run with its time and memory, or the reason of its failure.
 FreiburgResult result_of(const ChildEnd& end, std::uint64_t seed) {
   FreiburgResult result;
   result.seed = seed;
   result.made = true;
-  result.failure = end.failure();
-  if (result.failure.compare(0, kSpokenBy.size(), kSpokenBy) == 0) result.failure.erase(0, kSpokenBy.size());
+  result.failure = end.failure_without("psi-slam-bench: ");
   if (!result.failure.empty()) return result;
   result.figures = read_figures(end.out);
   if (!result.figures) {
     result.failure = "the run printed no figures";
     return result;
   }
-  result.figures->wall_s = end.wall_s;
-  result.figures->cpu_s = end.cpu_s;
-  result.figures->peak_memory_mib = end.peak_memory_mib;
+  set_effort(*result.figures, end);
   return result;
 }
 
@@ -93,7 +85,7 @@ FreiburgRun run_of(const BenchmarkLog& log, const std::string& matcher, std::uin
   return {log.log, log.ini, log.relations.value(), matcher, seed, threads};
 }
 
-/// All cells, their runs not made yet.
+/// All cells, without results.
 FreiburgBenchmark plan(const std::vector<BenchmarkLog>& logs, const FreiburgOptions& options) {
   FreiburgBenchmark benchmark;
   benchmark.logs = identities_of(logs);
@@ -108,7 +100,7 @@ FreiburgBenchmark plan(const std::vector<BenchmarkLog>& logs, const FreiburgOpti
   return benchmark;
 }
 
-/// The runs that are not there yet; the results of the others are filled in.
+/// The runs without kept results. Fills in the kept results of the others.
 std::vector<Task> tasks_of(FreiburgBenchmark& benchmark, const std::vector<BenchmarkLog>& logs,
                            const FreiburgOptions& options) {
   const std::string program_sha256 = sha256_of_file(options.program);
@@ -131,7 +123,7 @@ std::vector<Task> tasks_of(FreiburgBenchmark& benchmark, const std::vector<Bench
   return tasks;
 }
 
-/// Keeps the figures of a task that has ended, and fills in its result.
+/// Fills in the result of a finished task, and keeps its figures.
 void take(const Task& task, const ChildEnd& end, TaskProgress& progress) {
   const FreiburgResult result = result_of(end, task.run.seed);
   if (result.figures) keep_figures(task, *result.figures);
@@ -141,9 +133,9 @@ void take(const Task& task, const ChildEnd& end, TaskProgress& progress) {
 
 }  // namespace
 
-FreiburgBenchmark run_freiburg_benchmark(
-    const std::vector<BenchmarkLog>& logs, const FreiburgOptions& options, const std::atomic<bool>& stop,
-    const std::function<void(const std::string&, double, double)>& progress) {
+FreiburgBenchmark run_freiburg_benchmark(const std::vector<BenchmarkLog>& logs,
+                                         const FreiburgOptions& options, const std::atomic<bool>& stop,
+                                         const ProgressObserver& progress) {
   FreiburgBenchmark benchmark = plan(logs, options);
   const std::vector<Task> tasks = tasks_of(benchmark, logs, options);
   double work = 0;
@@ -152,12 +144,12 @@ FreiburgBenchmark run_freiburg_benchmark(
   std::vector<ChildWords> children;
   for (const Task& task : tasks) children.push_back(words_of(task.run, options.program));
   const ChildWorkers workers = options.workers ? options.workers : local_child_workers(options.processes);
-  workers(children, {[&] { return stop.load(); }, [&](std::size_t task) { running.tell(tasks[task].name); },
+  workers(children, {[&] { return stop.load(); }, [&](std::size_t task) { running.show(tasks[task].name); },
                      [&](std::size_t task, const ChildEnd& end) { take(tasks[task], end, running); }});
-  if (stop && running.to_go() > 0)
-    throw SystemFailure("interrupted with " + std::to_string(running.to_go()) +
-                        " runs to go: the others are kept in " + (options.output / "runs").string() +
-                        ", and the same command goes on");
+  if (stop && running.remaining() > 0)
+    throw SystemFailure("interrupted with " + std::to_string(running.remaining()) +
+                        " runs to go: finished runs are kept in " + (options.output / "runs").string() +
+                        "; repeat the command to continue");
   return benchmark;
 }
 

@@ -1,55 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <memory>
 #include <ostream>
 
+#include "batch/provenance.h"
 #include "common/bench_command.h"
-#include "freiburg/freiburg_comparison.h"
+#include "freiburg/baseline_benchmark.h"
 #include "freiburg/freiburg_report.h"
 #include "interrupt_signals.h"
-#include "match/match_report.h"
-#include "base/atomic_file.h"
 #include "psi_slam/user_error.h"
-#include "batch/machine_text.h"
-#include "freiburg/published_figures.h"
-#include "freiburg/baseline_benchmark.h"
+#include "report/html_text.h"
 
 namespace psi_slam {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPage = "freiburg.md";
-
 struct FreiburgArguments {
   DataArguments data;
-  std::string json;
-  std::string output = "out/freiburg";
-  std::vector<std::string> names;  ///< of logs; empty: all
+  OutputArguments output{{}, {}, "out/freiburg"};
   FreiburgOptions options;
   bool baselines = false;
   double baseline_limit_s = BaselineOptions().time_limit_s;
 };
 
-/// Throws UserError when a name is there twice.
+/// Throws UserError for a name that occurs twice.
 void check_once(const std::vector<std::string>& names, const std::string& option) {
   for (auto name = names.begin(); name != names.end(); ++name)
     if (std::find(names.begin(), name, *name) != name)
       throw UserError(option + ": " + *name + " is named twice");
-}
-
-void write_files(const FreiburgArguments& arguments, const FreiburgBenchmark& benchmark,
-                 const std::string& page, const std::string& machine) {
-  const fs::path folder = arguments.output;
-  if (!arguments.json.empty())
-    write_text_atomically(arguments.json, freiburg_json(benchmark, arguments.options, machine));
-  write_text_atomically(folder / kPage, page);
-  const Comparison comparison = compare_with_others(benchmark);
-  for (const LogIdentity& log : benchmark.logs) {
-    const std::string plot = comparison_plot(comparison, benchmark_log_title(log.name));
-    if (!plot.empty()) write_text_atomically(folder / ("freiburg-" + log.name + ".svg"), plot);
-  }
 }
 
 std::size_t failed_runs(const FreiburgBenchmark& benchmark) {
@@ -59,14 +40,15 @@ std::size_t failed_runs(const FreiburgBenchmark& benchmark) {
   return failed;
 }
 
-/// How many baselines came to no path, in the time that they had.
+/// Number of runs of baselines that gave no path within the time limit.
 std::size_t failed_baselines(const FreiburgBenchmark& benchmark) {
-  return static_cast<std::size_t>(std::count_if(benchmark.baseline_results.begin(),
-                                                benchmark.baseline_results.end(),
-                                                [](const BaselineResult& baseline) { return !baseline.figures; }));
+  return static_cast<std::size_t>(
+      std::count_if(benchmark.baseline_results.begin(), benchmark.baseline_results.end(),
+                    [](const BaselineResult& baseline) { return !baseline.figures; }));
 }
 
-/// Those that were asked for; the missing ones are told. Throws UserError when all are missing.
+/// The installed baselines if --baselines is given, with a warning for each missing one. Throws UserError
+/// when all are missing.
 FoundBaselines baselines_of(const FreiburgArguments& arguments, const Streams& streams) {
   if (!arguments.baselines) return {};
   const char* const search_path = std::getenv("PATH");
@@ -74,86 +56,82 @@ FoundBaselines baselines_of(const FreiburgArguments& arguments, const Streams& s
   if (baselines.programs.empty()) {
     std::string why;
     for (const std::string& missing : baselines.missing) why += (why.empty() ? "" : ", ") + missing;
-    throw UserError("--baselines: " + why + "; Debian's package mrpt-apps has them");
+    throw UserError("--baselines: " + why + "; install Debian's package mrpt-apps");
   }
   for (const std::string& missing : baselines.missing)
     streams.err << "psi-slam-bench: warning: --baselines: " << missing << '\n';
   return baselines;
 }
 
-BaselineOptions baseline_options(const FreiburgArguments& arguments) {
-  return {arguments.baseline_limit_s, arguments.options.processes, arguments.options.output};
-}
-
 void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
   check_once(arguments.options.matchers, "--matchers");
-  const ChosenLogs chosen = chosen_logs(arguments.data, arguments.names);
+  const ChosenLogs chosen = chosen_logs(arguments.data);
   for (const BenchmarkLog& log : chosen.logs)
-    benchmark_settings(log.ini);  // wrong ones are told before the work
-  if (!arguments.json.empty()) check_writable(arguments.json);
-  prepare_folder(arguments.output, kPage);
-  prepare_folder(fs::path(arguments.output) / "runs", "any.json");
-  arguments.options.output = arguments.output;
+    benchmark_settings(log.ini);  // throws for wrong settings before the work begins
+  check_outputs(arguments.output, "freiburg.md");
+  arguments.options.output = arguments.output.output;
+  prepare_folder(arguments.options.output / "runs", "any.json");
   const FoundBaselines baselines = baselines_of(arguments, streams);
   FreiburgBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
     const InterruptSignals signals;
     FreiburgBenchmark ours = run_freiburg_benchmark(chosen.logs, arguments.options, signals.came(), progress);
     ours.baseline_results =
-        run_baselines(baselines.programs, chosen.logs, baseline_options(arguments), signals.came(), progress);
+        run_baselines(baselines.programs, chosen.logs,
+                      {arguments.baseline_limit_s, arguments.options.processes, arguments.options.output},
+                      signals.came(), progress);
     return ours;
   });
   benchmark.baselines = baselines;
   benchmark.without_relations = chosen.without_relations;
   benchmark.left_out = chosen.left_out;
 
-  const std::string machine = machine_text();
-  const std::string page = freiburg_markdown(benchmark, arguments.options, machine);
-  write_files(arguments, benchmark, page, machine);
-  print_page(page, streams);
+  write_report(freiburg_report(benchmark, arguments.options, machine_text()), arguments.output, streams);
   if (const std::size_t failed = failed_baselines(benchmark); failed > 0)
-    streams.err << "psi-slam-bench: of the baselines' runs " << failed
-                << " came to nothing: the page says which and why\n";
+    streams.err << "psi-slam-bench: " << counted(failed, "run", "runs")
+                << " of baselines gave no path: the page lists them with their reasons\n";
   if (const std::size_t failed = failed_runs(benchmark); failed > 0)
-    throw SystemFailure(std::to_string(failed) + (failed == 1 ? " run" : " runs") +
-                        " failed: the page says which and why");
+    throw SystemFailure(counted(failed, "run", "runs") + " failed: the page lists them with their reasons");
 }
 
-/// A run in this process, its figures on standard output: what the benchmark starts processes for.
+/// Makes one run in this process and prints its figures. The benchmark starts a process for each run.
 void run_once(const FreiburgRun& run, const Streams& streams) {
   streams.out << figures_json(map_and_evaluate(run)) << std::endl;
   if (!streams.out) throw SystemFailure("cannot write to standard output");
 }
 
-void add_processes_option(CLI::App& freiburg, FreiburgArguments& arguments) {
-  freiburg
-      .add_option("--processes", arguments.options.processes, "Runs at a time; more than 1 spoils the times")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-}
-
 void add_work_options(CLI::App& freiburg, FreiburgArguments& arguments) {
-  add_seeds_option(freiburg, arguments.options.seeds, "Of the runs of each random matcher");
+  add_seeds_option(freiburg, arguments.options.seeds, "Seeds of the runs of each random matcher");
   freiburg
       .add_option("--matchers", arguments.options.matchers,
-                  "Which of csm, csm_ga, ga, adaptive and adaptive_paper; default: all")
+                  "Matchers to run, of csm, csm_ga, ga, adaptive and adaptive_paper; default: all")
       ->delimiter(',')
       ->check(CLI::IsMember(freiburg_matchers()))
       ->type_name("NAME,...");
-  add_logs_option(freiburg, arguments.names);
-  freiburg.add_option("--threads", arguments.options.threads, "Threads of each run")
+  add_logs_option(freiburg, arguments.data);
+  freiburg.add_option("--threads", arguments.options.threads, "Number of threads of each run")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
 }
 
-void add_baseline_options(CLI::App& freiburg, FreiburgArguments& arguments) {
-  CLI::Option* const baselines = freiburg.add_flag(
-      "--baselines", arguments.baselines,
-      "Run MRPT's icp-slam and rbpf-slam too, where they are on PATH, with the settings that they ship with");
-  constexpr double kMost_s = 1e6;
-  freiburg.add_option("--baseline-limit-s", arguments.baseline_limit_s, "Seconds after which a baseline is stopped")
-      ->needs(baselines)
-      ->check(CLI::Range(0.1, kMost_s))
+/// The options for runs on this machine.
+void add_local_options(CLI::App& freiburg, FreiburgArguments& arguments) {
+  freiburg
+      .add_option("--processes", arguments.options.processes,
+                  "Number of runs at a time; measured times are only meaningful with 1")
+      ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  constexpr double kMost_s = 1e6;
+  const auto add = [&](const char* flag_name, const char* limit_name) {
+    CLI::Option* const flag = freiburg.add_flag(
+        flag_name, arguments.baselines,
+        "Also run MRPT's icp-slam and rbpf-slam, if they are on PATH, with their shipped settings");
+    CLI::Option* const limit = freiburg.add_option(limit_name, arguments.baseline_limit_s,
+                                                   "Seconds after which the run of a baseline is stopped");
+    limit->needs(flag)->check(CLI::Range(0.1, kMost_s))->capture_default_str();
+    return std::array<CLI::Option*, 2>{flag, limit};
+  };
+  add("--baselines", "--baseline-limit-s");
+  for (CLI::Option* const old_name : add("--rivals", "--rival-limit-s")) old_name->group("");  // hidden
 }
 
 }  // namespace
@@ -163,22 +141,13 @@ void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgW
   arguments->options.program = work.program;
   arguments->options.workers = work.workers;
   arguments->options.processes = work.runs_at_a_time;
-  CLI::App* const freiburg = app.add_subcommand(
-      "freiburg", "Map the logs of the Freiburg benchmark, and compare with what others reached");
+  CLI::App* const freiburg =
+      app.add_subcommand("freiburg", "Map the logs of the Freiburg benchmark and compare with other systems");
   add_data_options(*freiburg, arguments->data);
-  freiburg
-      ->add_option("--json", arguments->json, "Write the figures to this file; one that is there is replaced")
-      ->type_name("FILE");
-  freiburg
-      ->add_option("-o,--output", arguments->output,
-                   "Folder for freiburg.md, the plots and the runs; runs that are there are not made again")
-      ->type_name("DIR")
-      ->capture_default_str();
+  add_output_options(*freiburg, arguments->output,
+                     "freiburg.md, the plots and the results of runs, which are not repeated");
   add_work_options(*freiburg, *arguments);
-  if (!work.workers) {
-    add_processes_option(*freiburg, *arguments);
-    add_baseline_options(*freiburg, *arguments);
-  }
+  if (!work.workers) add_local_options(*freiburg, *arguments);
   freiburg->callback([arguments, &streams, only_parsed = work.only_parsed] {
     if (!only_parsed) run_freiburg(*arguments, streams);
   });
@@ -187,7 +156,7 @@ void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgW
 void add_freiburg_run_command(CLI::App& app, const Streams& streams) {
   const auto run = std::make_shared<FreiburgRun>();
   CLI::App* const once = app.add_subcommand("freiburg-run", "One run of the Freiburg benchmark");
-  once->group("");  // not for people: hidden from --help
+  once->group("");  // hidden: only the freiburg command calls it
   once->add_option("--log", run->log)->required();
   once->add_option("--ini", run->ini)->required();
   once->add_option("--relations", run->relations)->required();

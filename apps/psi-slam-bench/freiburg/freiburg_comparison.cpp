@@ -3,21 +3,22 @@
 
 #include <algorithm>
 
-#include "common/bar_plot.h"
-#include "freiburg/freiburg_figures.h"
 #include "base/number_text.h"
+#include "batch/report_table.h"
+#include "common/log_plots.h"
+#include "freiburg/freiburg_figures.h"
 
 namespace psi_slam {
 namespace {
 
-/// The matcher whose figures stand for us.
+/// The matcher whose figures represent psi-slam.
 std::string our_matcher(const FreiburgBenchmark& benchmark) {
   for (const FreiburgCell& cell : benchmark.cells)
     if (cell.matcher == "adaptive") return cell.matcher;
   return benchmark.cells.empty() ? "adaptive" : benchmark.cells.front().matcher;
 }
 
-/// The benchmark's logs by its own order, then what else was mapped.
+/// The logs of the Freiburg benchmark, then other mapped logs.
 std::vector<BenchmarkLogTitle> logs_of(const FreiburgBenchmark& benchmark) {
   std::vector<BenchmarkLogTitle> logs = benchmark_log_titles();
   for (const LogIdentity& log : benchmark.logs) {
@@ -40,8 +41,9 @@ std::string column_name(const BaselineProgram& baseline) {
 }
 
 std::string source_of(const BaselineProgram& baseline) {
-  return baseline.version + ", run here on the same log, every scan, with " + baseline.config.filename().string() +
-         " as it ships; set otherwise: " + changes_text(baseline.kind) + ". " + baseline.kind.remark;
+  return baseline.version + ", run here on every scan of the same log, with the shipped settings " +
+         baseline.config.filename().string() + " except " + changes_text(baseline.kind) + ". " +
+         baseline.kind.remark;
 }
 
 PublishedErrors errors_of(const RunFigures& figures) {
@@ -53,7 +55,7 @@ PublishedErrors errors_of(const RunFigures& figures) {
   return errors;
 }
 
-/// The baselines that were run here, as systems like the others.
+/// The baselines that were run here, in the form of published systems.
 std::vector<PublishedSystem> baseline_systems(const FreiburgBenchmark& benchmark) {
   std::vector<PublishedSystem> systems;
   for (const BaselineProgram& baseline : benchmark.baselines.programs) {
@@ -82,20 +84,19 @@ std::string value_text(const PublishedFigure& value) {
          (value.unchecked ? kUncheckedMark : "");
 }
 
-std::string cell_of(const Comparison& comparison, const ComparisonRow& row, std::size_t column) {
-  if (!row.values[column]) return " – |";
+ReportCell cell_of(const Comparison& comparison, const ComparisonRow& row, std::size_t column) {
+  if (!row.values[column]) return empty_cell();
   const bool some_failed = comparison.columns[column].ours && row.failed > 0;
-  const std::string bold = row.best[column] ? "**" : "";
-  return ' ' + bold + value_text(*row.values[column]) + (some_failed ? kFailedMark : "") + bold + " |";
+  return {value_text(*row.values[column]) + (some_failed ? kFailedMark : ""), {}, row.best[column]};
 }
 
-/// To the marks of the table.
+/// The footnotes for the marks in the table.
 std::string footnotes(const std::string& table) {
   std::string text;
   if (table.find(kUncheckedMark) != std::string::npos)
-    text += "\n† quoted from memory of the source and not compared with it: unchecked.\n";
+    text += "\n† quoted from memory and not checked against the source.\n";
   if (table.find(kFailedMark) != std::string::npos)
-    text += "\n‡ some of these runs failed: the mean is that of the others.\n";
+    text += "\n‡ some runs failed; the mean is over the others.\n";
   return text;
 }
 
@@ -104,7 +105,7 @@ std::string footnotes(const std::string& table) {
 Comparison compare_with_others(const FreiburgBenchmark& benchmark) {
   const std::string matcher = our_matcher(benchmark);
   Comparison comparison;
-  comparison.columns.push_back({"psi-slam, " + matcher, "this run: means over the seeds.", true});
+  comparison.columns.push_back({"psi-slam, " + matcher, "this benchmark; means over the seeds.", true});
   std::vector<PublishedSystem> others = baseline_systems(benchmark);
   others.insert(others.end(), published_systems().begin(), published_systems().end());
   for (const PublishedSystem& system : others)
@@ -130,18 +131,14 @@ Comparison compare_with_others(const FreiburgBenchmark& benchmark) {
 }
 
 std::string comparison_table(const Comparison& comparison) {
-  std::string text = "| log | error |";
-  std::string rule = "|---|---|";
-  for (const ComparisonColumn& column : comparison.columns) {
-    text += ' ' + column.name + " |";
-    rule += "---:|";
-  }
-  text += '\n' + rule + '\n';
+  ReportTable table{{{"log", {}, true}, {"error", {}, true}}, {}};
+  for (const ComparisonColumn& column : comparison.columns) table.columns.push_back({column.name});
   for (const ComparisonRow& row : comparison.rows) {
-    text += "| " + row.log + " | " + kPathFigures[row.figure].name + " |";
-    for (std::size_t i = 0; i < row.values.size(); ++i) text += cell_of(comparison, row, i);
-    text += '\n';
+    std::vector<ReportCell>& cells = table.rows.emplace_back();
+    cells = {cell(row.log), cell(kPathFigures[row.figure].name)};
+    for (std::size_t i = 0; i < row.values.size(); ++i) cells.push_back(cell_of(comparison, row, i));
   }
+  const std::string text = table.markdown();
   return text + footnotes(text);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ours beside the others: a column for each system, a row for each figure of each log.
+// psi-slam compared with other systems: a column for each system, a row for each error of each log.
 #pragma once
 
 #include <optional>
@@ -19,26 +19,27 @@ struct ComparisonColumn {
 
 struct ComparisonRow {
   std::string log;                                     ///< "Intel"
-  std::size_t figure;                                  ///< of kPathFigures
+  std::size_t figure;                                  ///< index in kPathFigures
   std::vector<std::optional<PublishedFigure>> values;  ///< by column
-  std::vector<bool> best;  ///< by column: of the least mean of the row; several when they are equal
-  std::size_t failed = 0;  ///< of our runs: ours is the mean of the others
+  std::vector<bool> best;                              ///< by column: true for the least mean of the row
+  std::size_t failed = 0;  ///< number of our runs that failed; our figures are those of the others
 };
 
 struct Comparison {
   std::vector<ComparisonColumn> columns;
-  std::vector<ComparisonRow> rows;  ///< four for each of the benchmark's logs, then for each other log mapped
+  std::vector<ComparisonRow> rows;  ///< four for each log
 };
 
-/// Ours is the adaptive matcher, or the first of those that ran if it did not.
+/// The adaptive matcher represents psi-slam, or the first matcher if the adaptive one was not run. Rows are
+/// the logs of the Freiburg benchmark, then other mapped logs.
 Comparison compare_with_others(const FreiburgBenchmark& benchmark);
 
-/// A Markdown table, the best of each row bold. Ours is marked where some of its runs failed, and so are the
-/// figures of others that are unchecked; the footnotes to the marks that are there follow the table.
+/// A Markdown table with the best figure of each row in bold, followed by footnotes for marked figures: ours
+/// if some runs failed, and published ones that are unchecked.
 std::string comparison_table(const Comparison& comparison);
 
-/// A page of bars of the mean translational error for a log by title ("Intel"); empty where no run of ours
-/// has one.
+/// Bars of the mean translational error on the log with this title ("Intel"), as SVG. Empty without figures
+/// of psi-slam.
 std::string comparison_plot(const Comparison& comparison, const std::string& log);
 
 }  // namespace psi_slam

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the runs of one log with one matcher come to over the seeds: the mean and how far they spread, never
-// the best one.
+// Figures of one log with one matcher over all seeds: means and spreads, not the best run.
 #pragma once
 
 #include <array>
@@ -8,29 +7,29 @@
 #include <optional>
 #include <vector>
 
+#include "batch/seeds.h"
 #include "freiburg/freiburg_benchmark.h"
-#include "batch/seed_spread.h"
 
 namespace psi_slam {
 
 struct CellFigures {
-  std::size_t runs = 0;    ///< that did not fail
-  std::size_t failed = 0;  ///< that did
-  PathErrors errors;       ///< means over the seeds, of the means and of the standard deviations
-  std::array<SeedSpread, kPathFigures.size()> spread;  ///< of the means, in the order of kPathFigures
-  double relations_used = 0;                           ///< means over the seeds, all that follow
+  std::size_t runs = 0;    ///< successful runs
+  std::size_t failed = 0;  ///< failed runs
+  PathErrors errors;       ///< means and standard deviations of the runs, averaged over the seeds
+  std::array<SeedSpread, kPathFigures.size()> spread;  ///< of the mean errors, in the order of kPathFigures
+  double relations_used = 0;                           ///< mean over the seeds
   double relations_skipped = 0;
   SeedSpread loops_accepted;
   SeedSpread loops_judged;
   SeedSpread loops_false;
-  std::optional<SeedSpread> loop_recall;  ///< of the runs that have one; none when no run has
+  std::optional<SeedSpread> loop_recall;  ///< of the runs that have a recall; may be empty
   SeedSpread wall_s;
   SeedSpread cpu_s;
   SeedSpread real_time_factor;
   SeedSpread peak_memory_mib;
 };
 
-/// None when every run failed.
+/// Empty if every run failed.
 std::optional<CellFigures> figures_of(const FreiburgCell& cell);
 
 }  // namespace psi_slam

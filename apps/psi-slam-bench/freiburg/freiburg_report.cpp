@@ -2,83 +2,128 @@
 #include "freiburg/freiburg_report.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
+#include "batch/kept_run.h"
 #include "freiburg/freiburg_comparison.h"
 #include "freiburg/freiburg_figures.h"
-#include "freiburg/freiburg_baselines.h"
-#include "common/program_identity.h"
-#include "batch/markdown_cells.h"
-#include "base/number_text.h"
+#include "report/html_text.h"
 
 namespace psi_slam {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string range_text(const SeedSpread& spread) {
-  if (spread.count < 2) return "–";
-  return fixed_text(spread.std, 5) + " (" + fixed_text(spread.min, 4) + " – " + fixed_text(spread.max, 4) +
-         ')';
+/// A cell of the benchmark with its figures; without figures if every run failed.
+struct CellRow {
+  const FreiburgCell* cell;
+  std::optional<CellFigures> figures;
+};
+
+using CellColumn = ColumnOf<CellRow>;
+
+std::vector<CellRow> rows_of(const FreiburgBenchmark& benchmark, bool with_failed) {
+  std::vector<CellRow> rows;
+  for (const FreiburgCell& cell : benchmark.cells)
+    if (auto figures = figures_of(cell); figures || with_failed) rows.push_back({&cell, std::move(figures)});
+  return rows;
 }
 
-/// "10", "8, 2 failed", "1 run: draws no random numbers".
-std::string runs_text(const FreiburgCell& cell, const CellFigures& figures) {
-  std::string text = std::to_string(figures.runs);
-  if (figures.failed > 0) text += ", " + std::to_string(figures.failed) + " failed";
-  if (!draws_random_numbers(cell.matcher)) text += " run: draws no random numbers";
+/// "10", "8, 2 failed", "1 run: draws no random numbers"; the reason if every run failed.
+std::string runs_text(const CellRow& row) {
+  if (!row.figures) return "failed: " + row.cell->runs.front().failure;
+  std::string text = std::to_string(row.figures->runs);
+  if (row.figures->failed > 0) text += ", " + std::to_string(row.figures->failed) + " failed";
+  if (!draws_random_numbers(row.cell->matcher)) text += " run: draws no random numbers";
   return text;
 }
 
-/// The reason if it is the same for all runs.
-std::string failed_row(const FreiburgCell& cell) {
-  return "| " + cell.log + " | " + cell.matcher + " | failed: " + cell_text(cell.runs.front().failure);
+/// A column of the figures, empty for a cell whose runs all failed.
+template <class CellOf>
+CellColumn figure_column(const std::string& head, const std::string& key, const CellOf& cell_of) {
+  return {{head, key},
+          [cell_of](const CellRow& row) { return row.figures ? cell_of(*row.figures) : empty_cell(); }};
 }
 
-/// "0.2 of 512.0 | 93.1": two cells.
-std::string judged_text(const CellFigures& figures) {
-  return fixed_text(figures.loops_false.mean, 1) + " of " + fixed_text(figures.loops_judged.mean, 1) + " | " +
-         (figures.loop_recall ? fixed_text(100 * figures.loop_recall->mean, 1) : "–");
+/// A column with the mean over the seeds in Markdown, and all statistics in JSON.
+CellColumn mean_column(const std::string& head, const std::string& key, SeedSpread CellFigures::*spread,
+                       int decimals) {
+  return figure_column(head, key, [=](const CellFigures& figures) {
+    const SeedSpread& over_seeds = figures.*spread;
+    return ReportCell{fixed_text(over_seeds.mean, decimals), spread_json(over_seeds)};
+  });
 }
 
-std::string matchers_table(const FreiburgBenchmark& benchmark) {
-  std::string text = "| log | matcher | runs |" + path_figure_heads();
-  constexpr std::size_t kOthers = 8;
-  text +=
-      " relations used | loops accepted | false of judged | recall % | wall [s] | CPU [s] | × real time | "
-      "peak [MiB] |\n|---|---|---|" +
-      repeated("---:|", kPathFigures.size() + kOthers) + '\n';
-  for (const FreiburgCell& cell : benchmark.cells) {
-    const auto figures = figures_of(cell);
-    if (!figures) {
-      text += failed_row(cell) + repeated(" | –", kPathFigures.size() + kOthers) + " |\n";
-      continue;
-    }
-    text += "| " + cell.log + " | " + cell.matcher + " | " + runs_text(cell, *figures);
-    for (const PathFigure& figure : kPathFigures) text += " | " + errors_text(figures->errors.*figure.errors);
-    text += " | " + fixed_text(figures->relations_used, 0) + " | " +
-            fixed_text(figures->loops_accepted.mean, 1) + " | " + judged_text(*figures) + " | " +
-            fixed_text(figures->wall_s.mean, 2) + " | " + fixed_text(figures->cpu_s.mean, 2) + " | " +
-            fixed_text(figures->real_time_factor.mean, 0) + " | " +
-            fixed_text(figures->peak_memory_mib.mean, 0) + " |\n";
-  }
-  return text;
+std::vector<CellColumn> name_columns() {
+  return {{{"log", "log", true}, [](const CellRow& row) { return cell(row.cell->log); }},
+          {{"matcher", "matcher", true}, [](const CellRow& row) { return cell(row.cell->matcher); }},
+          {{{}, "random"},
+           [](const CellRow& row) {
+             return ReportCell{{}, draws_random_numbers(row.cell->matcher)};
+           }},
+          {{"runs", "runs", true}, [](const CellRow& row) {
+             return ReportCell{runs_text(row), row.figures ? row.figures->runs : 0};
+           }}};
 }
 
-std::string spread_table(const FreiburgBenchmark& benchmark) {
-  std::string text = "| log | matcher | runs |";
-  for (std::size_t i = 0; i < kPaperFigures; ++i) text += ' ' + std::string(kPathFigures[i].name) + " |";
-  text += "\n|---|---|---:|" + repeated("---:|", kPaperFigures) + '\n';
-  for (const FreiburgCell& cell : benchmark.cells) {
-    const auto figures = figures_of(cell);
-    if (!figures) continue;
-    const bool random = draws_random_numbers(cell.matcher);
-    text += "| " + cell.log + " | " + cell.matcher + " | " + runs_text(cell, *figures);
-    for (std::size_t i = 0; i < kPaperFigures; ++i)
-      text += " | " + (random ? range_text(figures->spread[i]) : "0 by construction");
-    text += " |\n";
-  }
-  return text;
+Json failed_runs(const FreiburgCell& cell) {
+  Json failed = Json::array();
+  for (const FreiburgResult& run : cell.runs)
+    if (!run.figures) failed.push_back({{"seed", run.seed}, {"reason", run.failure}});
+  return failed;
+}
+
+ReportTable matchers_table(const FreiburgBenchmark& benchmark) {
+  std::vector<CellColumn> columns = name_columns();
+  columns.push_back({{{}, "failed"}, [](const CellRow& row) {
+                       return ReportCell{{}, failed_runs(*row.cell)};
+                     }});
+  for (std::size_t i = 0; i < kPathFigures.size(); ++i)
+    columns.push_back(
+        figure_column(kPathFigures[i].name, kPathFigures[i].key, [i](const CellFigures& figures) {
+          const MeanAndStd& errors = figures.errors.*kPathFigures[i].errors;
+          const SeedSpread& spread = figures.spread[i];
+          return ReportCell{
+              errors_text(errors),
+              {{"mean", errors.mean},
+               {"std", errors.std},
+               {"over_seeds", {{"std", spread.std}, {"min", spread.min}, {"max", spread.max}}}}};
+        }));
+  columns.push_back(figure_column("relations used", "relations_used", [](const CellFigures& figures) {
+    return cell(figures.relations_used, 0);
+  }));
+  columns.push_back(figure_column({}, "relations_skipped", [](const CellFigures& figures) {
+    return cell(figures.relations_skipped, 0);
+  }));
+  columns.push_back(mean_column("loops accepted", "loops_accepted", &CellFigures::loops_accepted, 1));
+  columns.push_back(figure_column("false of judged", {}, [](const CellFigures& figures) {
+    return cell(fixed_text(figures.loops_false.mean, 1) + " of " + fixed_text(figures.loops_judged.mean, 1));
+  }));
+  columns.push_back(mean_column({}, "loops_judged", &CellFigures::loops_judged, 1));
+  columns.push_back(mean_column({}, "loops_false", &CellFigures::loops_false, 1));
+  columns.push_back(figure_column("recall %", "loop_recall", [](const CellFigures& figures) {
+    const auto& recall = figures.loop_recall;
+    return recall ? ReportCell{fixed_text(100 * recall->mean, 1), spread_json(*recall)}
+                  : ReportCell{"–", nullptr};
+  }));
+  columns.push_back(mean_column("wall [s]", "wall_s", &CellFigures::wall_s, 2));
+  columns.push_back(mean_column("CPU [s]", "cpu_s", &CellFigures::cpu_s, 2));
+  columns.push_back(mean_column("× real time", "real_time_factor", &CellFigures::real_time_factor, 0));
+  columns.push_back(mean_column("peak [MiB]", "peak_memory_mib", &CellFigures::peak_memory_mib, 0));
+  return table_of(columns, rows_of(benchmark, true));
+}
+
+ReportTable spread_table(const FreiburgBenchmark& benchmark) {
+  std::vector<CellColumn> columns = name_columns();
+  for (std::size_t i = 0; i < kPaperFigures; ++i)
+    columns.push_back({{kPathFigures[i].name}, [i](const CellRow& row) {
+                         if (!draws_random_numbers(row.cell->matcher)) return cell("0 by construction");
+                         const SeedSpread& spread = row.figures->spread[i];
+                         if (spread.count < 2) return empty_cell();
+                         return cell(fixed_text(spread.std, 5) + " (" + fixed_text(spread.min, 4) + " – " +
+                                     fixed_text(spread.max, 4) + ')');
+                       }});
+  return table_of(columns, rows_of(benchmark, false));
 }
 
 std::string failures_text(const FreiburgBenchmark& benchmark) {
@@ -98,7 +143,7 @@ std::string sources_text(const Comparison& comparison) {
   return text;
 }
 
-/// Logs of the benchmark that no row of ours stands for, and why.
+/// The logs of the Freiburg benchmark that were not mapped, and why.
 std::string missing_text(const FreiburgBenchmark& benchmark) {
   std::string text;
   for (const BenchmarkLogTitle& title : benchmark_log_titles()) {
@@ -109,45 +154,84 @@ std::string missing_text(const FreiburgBenchmark& benchmark) {
     const bool unrelated =
         std::any_of(benchmark.without_relations.begin(), benchmark.without_relations.end(), is_it);
     const bool left_out = std::any_of(benchmark.left_out.begin(), benchmark.left_out.end(), is_it);
-    text += "- " + title.title + ": " +
-            (unrelated  ? "its log is in the folder without relations, and was not mapped."
-             : left_out ? "its log was not asked for, and was not mapped."
+    text += "- " + title.title + " was not mapped: " +
+            (unrelated  ? "its log is in the folder, but not its relations."
+             : left_out ? "--logs does not name it."
                         : "its log is not in the folder.") +
             '\n';
   }
   return text.empty() ? text : text + '\n';
 }
 
-Json cell_json(const FreiburgCell& cell) {
-  Json failed = Json::array();
-  for (const FreiburgResult& run : cell.runs)
-    if (!run.figures) failed.push_back({{"seed", run.seed}, {"reason", run.failure}});
-  Json json = {{"log", cell.log},
-               {"matcher", cell.matcher},
-               {"random", draws_random_numbers(cell.matcher)},
-               {"runs", cell.runs.size() - failed.size()},
-               {"failed", failed}};
-  const auto figures = figures_of(cell);
-  if (!figures) return json;
-  for (std::size_t i = 0; i < kPathFigures.size(); ++i) {
-    const MeanAndStd& errors = figures->errors.*kPathFigures[i].errors;
-    const SeedSpread& spread = figures->spread[i];
-    json[kPathFigures[i].key] = {
-        {"mean", errors.mean},
-        {"std", errors.std},
-        {"over_seeds", {{"std", spread.std}, {"min", spread.min}, {"max", spread.max}}}};
+/// A column of the figures of a baseline, empty for a run without figures.
+template <class CellOf>
+ColumnOf<BaselineResult> baseline_column(const std::string& head, const CellOf& cell_of) {
+  return {{head}, [cell_of](const BaselineResult& run) {
+            return run.figures ? cell_of(*run.figures) : empty_cell();
+          }};
+}
+
+ReportTable baselines_table(const std::vector<BaselineResult>& results) {
+  std::vector<ColumnOf<BaselineResult>> columns{
+      {{"log", {}, true}, [](const BaselineResult& run) { return cell(run.log); }},
+      {{"system", {}, true}, [](const BaselineResult& run) { return cell(run.baseline); }}};
+  for (const PathFigure& figure : kPathFigures)
+    columns.push_back(baseline_column(figure.name, [&figure](const RunFigures& figures) {
+      return cell(errors_text(figures.errors.*figure.errors));
+    }));
+  columns[2].cell_of = [shown = columns[2].cell_of](const BaselineResult& run) {
+    if (run.figures) return shown(run);
+    return cell(run.not_finished_in_s ? "not finished in " + fixed_text(*run.not_finished_in_s, 0) + " s"
+                                      : "failed: " + run.failure);
+  };
+  columns.push_back(baseline_column("relations used",
+                                    [](const RunFigures& figures) { return cell(figures.relations_used); }));
+  columns.push_back(
+      baseline_column("wall [s]", [](const RunFigures& figures) { return cell(figures.wall_s, 2); }));
+  columns.push_back(
+      baseline_column("CPU [s]", [](const RunFigures& figures) { return cell(figures.cpu_s, 2); }));
+  columns.push_back(baseline_column(
+      "× real time", [](const RunFigures& figures) { return cell(figures.real_time_factor(), 0); }));
+  columns.push_back(baseline_column(
+      "peak [MiB]", [](const RunFigures& figures) { return cell(figures.peak_memory_mib, 0); }));
+  return table_of(columns, results);
+}
+
+std::string baselines_text(const FreiburgBenchmark& benchmark) {
+  if (benchmark.baselines.programs.empty() && benchmark.baselines.missing.empty()) return {};
+  std::string text = "## Baselines, run live\n\n";
+  for (const BaselineProgram& baseline : benchmark.baselines.programs)
+    text += "- " + baseline.kind.name + ": " + baseline.version + ", with the shipped settings " +
+            baseline.config.string() + " except the output folder and " + changes_text(baseline.kind) + '\n';
+  for (const std::string& missing : benchmark.baselines.missing) text += "- not run: " + missing + '\n';
+  text +=
+      "\nEach baseline ran once on every scan that our own reader finds in the log, with the odometry "
+      "between the "
+      "scans and the mount of the laser. Times and memory are those of its whole process, which reads the "
+      "log, "
+      "maps it and writes path and map.\n\n";
+  if (!benchmark.baseline_results.empty())
+    text += baselines_table(benchmark.baseline_results).markdown() + '\n';
+  return text;
+}
+
+Json baselines_json(const FreiburgBenchmark& benchmark) {
+  Json programs = Json::array();
+  for (const BaselineProgram& baseline : benchmark.baselines.programs)
+    programs.push_back({{"rival", baseline.kind.name},
+                        {"version", baseline.version},
+                        {"sha256", baseline.sha256},
+                        {"config", baseline.config.string()},
+                        {"changes", changes_text(baseline.kind)}});
+  Json runs = Json::array();
+  for (const BaselineResult& result : benchmark.baseline_results) {
+    Json run = {{"log", result.log}, {"rival", result.baseline}};
+    if (result.figures) run["figures"] = run_figures_json(*result.figures);
+    if (result.not_finished_in_s) run["not_finished_in_s"] = *result.not_finished_in_s;
+    if (!result.failure.empty()) run["failure"] = result.failure;
+    runs.push_back(run);
   }
-  json["relations_used"] = figures->relations_used;
-  json["relations_skipped"] = figures->relations_skipped;
-  json["loops_accepted"] = spread_json(figures->loops_accepted);
-  json["loops_judged"] = spread_json(figures->loops_judged);
-  json["loops_false"] = spread_json(figures->loops_false);
-  json["loop_recall"] = figures->loop_recall ? spread_json(*figures->loop_recall) : Json(nullptr);
-  json["wall_s"] = spread_json(figures->wall_s);
-  json["cpu_s"] = spread_json(figures->cpu_s);
-  json["real_time_factor"] = spread_json(figures->real_time_factor);
-  json["peak_memory_mib"] = spread_json(figures->peak_memory_mib);
-  return json;
+  return {{"programs", programs}, {"missing", benchmark.baselines.missing}, {"runs", runs}};
 }
 
 Json comparison_json(const Comparison& comparison) {
@@ -169,59 +253,67 @@ Json comparison_json(const Comparison& comparison) {
   return rows;
 }
 
-}  // namespace
-
-std::string freiburg_markdown(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
-                              const std::string& machine) {
-  const Comparison comparison = compare_with_others(benchmark);
-  std::string text = "# Freiburg benchmark\n\n";
-  text += measured_by(machine) + ", " + (options.processes == 1 ? "" : "at most ") +
-          std::to_string(options.processes) + (options.processes == 1 ? " run" : " runs") +
-          " at a time with " + std::to_string(options.threads) +
-          (options.threads == 1 ? " thread" : " threads") + " each, " + seeds_text(options.seeds) + ".\n\n";
+std::string markdown_of(const FreiburgBenchmark& benchmark, const Comparison& comparison,
+                        const FreiburgOptions& options, const std::string& machine) {
+  const std::string runs = counted(static_cast<std::size_t>(options.processes), "run", "runs");
+  std::string text = "# Freiburg benchmark\n\n" + measured_by(machine) + ", " +
+                     (options.processes == 1 ? "" : "at most ") + runs + " at a time with " +
+                     counted(static_cast<std::size_t>(options.threads), "thread", "threads") + " each, " +
+                     seeds_text(options.seeds) + ".\n\n";
   text +=
       "- errors: metric of Kümmerle et al. 2009 over all true relations, mean ± standard deviation over the "
-      "relations; means over the seeds, never the best seed\n"
-      "- Cartographer's variant of the translational error is what the tool of Hess et al. computes\n"
-      "- false of judged: of the accepted loops, those that the true relations contradict, of those that a "
-      "relation speaks of; recall: of the relations that join two passes of a place, those whose "
-      "neighbourhoods a loop joins; means over the seeds\n"
-      "- times and memory: of the whole process that reads the log, maps it and evaluates the path; no map "
-      "is "
-      "drawn; × real time: the recording's length over wall time\n\n";
-  text += "## Ours beside the others\n\n" + comparison_table(comparison) +
-          "\nBold is the least mean of each row. Systems marked live or run here were mapped on these "
-          "logs; maps that were lost keep their figures. Where the figures come from:\n\n" +
+      "relations; means over all seeds, not of the best seed\n"
+      "- Cartographer's variant of the translational error is the one that the tool of Hess et al. computes\n"
+      "- false of judged: how many accepted loops contradict the true relations, of those that a relation "
+      "can "
+      "judge; mean over the seeds\n"
+      "- recall: share of the relations between two passes of one place that are confirmed by a loop between "
+      "their neighbourhoods; mean over the seeds\n"
+      "- times and memory: of the whole process, which reads the log, maps it and evaluates the path, but "
+      "draws "
+      "no map; × real time: length of the recording over wall time\n\n";
+  text += "## psi-slam and other systems\n\n" + comparison_table(comparison) +
+          "\nThe least mean of each row is bold. Systems marked \"live\" or \"run here\" mapped these logs; "
+          "their "
+          "figures are included even where the map is lost. Sources of the figures:\n\n" +
           sources_text(comparison) + '\n' + missing_text(benchmark);
-  text += baselines_markdown(benchmark);
-  text += "## Every matcher on every log\n\n" + matchers_table(benchmark) + '\n';
+  text += baselines_text(benchmark);
+  text += "## Every matcher on every log\n\n" + matchers_table(benchmark).markdown() + '\n';
   text +=
-      "## Spread of the means over the seeds\n\nStandard deviation of the sample (least – most); – where a "
-      "single run tells nothing of it.\n\n" +
-      spread_table(benchmark) + '\n';
-  text += failures_text(benchmark) + logs_markdown(benchmark.logs, benchmark.without_relations);
-  return text;
+      "## Spread of the means over the seeds\n\nStandard deviation of the sample (least – greatest); – for a "
+      "single run.\n\n" +
+      spread_table(benchmark).markdown() + '\n';
+  return text + failures_text(benchmark) + logs_section(benchmark.logs, benchmark.without_relations);
 }
 
-std::string freiburg_json(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
-                          const std::string& machine) {
-  Json logs = Json::array();
-  for (const LogIdentity& log : benchmark.logs) logs.push_back(log_json(log));
-  Json cells = Json::array();
-  for (const FreiburgCell& cell : benchmark.cells) cells.push_back(cell_json(cell));
-  const Json json = {{"schema", "psi-slam-freiburg-benchmark"},
-                     {"schema_version", 1},
-                     {"program_version", program_version()},
-                     {"commit", program_commit()},
-                     {"machine", machine},
-                     {"seeds", options.seeds.all()},
-                     {"processes", options.processes},
-                     {"threads", options.threads},
-                     {"logs", logs},
-                     {"cells", cells},
-                     {"rivals", baselines_json(benchmark)},
-                     {"comparison", comparison_json(compare_with_others(benchmark))}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+Json json_of(const FreiburgBenchmark& benchmark, const Comparison& comparison, const FreiburgOptions& options,
+             const std::string& machine) {
+  Json json = report_json("psi-slam-freiburg-benchmark", machine);
+  json.update({{"seeds", options.seeds.all()},
+               {"processes", options.processes},
+               {"threads", options.threads},
+               {"logs", logs_table(benchmark.logs).json()},
+               {"cells", matchers_table(benchmark).json()},
+               {"rivals", baselines_json(benchmark)},
+               {"comparison", comparison_json(comparison)}});
+  return json;
+}
+
+}  // namespace
+
+BenchReport freiburg_report(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
+                            const std::string& machine) {
+  const Comparison comparison = compare_with_others(benchmark);
+  BenchReport report{"freiburg.md",
+                     markdown_of(benchmark, comparison, options, machine),
+                     json_file_text(json_of(benchmark, comparison, options, machine)),
+                     matchers_table(benchmark).csv(),
+                     {}};
+  for (const LogIdentity& log : benchmark.logs) {
+    const std::string plot = comparison_plot(comparison, benchmark_log_title(log.name));
+    if (!plot.empty()) report.plots.push_back({"freiburg-" + log.name + ".svg", plot});
+  }
+  return report;
 }
 
 }  // namespace psi_slam

@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Freiburg benchmark for people (Markdown) and for programs (JSON).
 #pragma once
 
-#include <string>
-
+#include "common/bench_report.h"
 #include "freiburg/freiburg_benchmark.h"
 
 namespace psi_slam {
 
-/// The page: how it was measured, ours beside the others, every matcher on every log, the logs' checksums.
-std::string freiburg_markdown(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
-                              const std::string& machine);
-
-///     {"schema": "psi-slam-freiburg-benchmark", "cells": [{"log": "intel", "matcher": "ga", "runs": 10,
-///       "failed": [{"seed": 3, "reason": "..."}],
-///       "translation_abs_m": {"mean": 0.02, "std": 0.01, "over_seeds": {"std": 0, "min": 0.02, "max":
-///       0.02}},
-///       ..., "wall_s": {"mean": ..., "std": ..., "min": ..., "max": ...}, ...}],
-///      "comparison": [{"log": "Intel", "figure": "translation_abs_m",
-///       "systems": [{"system": "Cartographer", "mean": ..., "std": ..., "best": false}]}], ...}
-std::string freiburg_json(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
-                          const std::string& machine);
+/// The report of the `freiburg` command: psi-slam compared with published systems and baselines, every
+/// matcher on every log, and the checksums of the logs. Each log has a plot. In JSON, "cells" has the
+/// statistics over the seeds of each matcher on each log, "comparison" has the systems for each error of each
+/// log, and "rivals" has the baselines:
+///
+///     {"programs": [{"rival": "icp-slam", "version": "...", "sha256": "...", "config": "...", "changes":
+///       "..."}],
+///      "missing": ["rbpf-slam is not on PATH"],
+///      "runs": [{"log": "intel", "rival": "icp-slam", "figures": {...}}, {..., "not_finished_in_s": 600},
+///       {..., "failure": "..."}]}
+BenchReport freiburg_report(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
+                            const std::string& machine);
 
 }  // namespace psi_slam

@@ -4,11 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "common/benchmark_logs.h"
-#include "common/mapped_run.h"
-#include "psi_slam/user_error.h"
 #include "evaluation/loop_judgement.h"
 #include "exports/mapped_trajectory.h"
 #include "psi_slam/mapping_session.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 
@@ -64,9 +63,7 @@ FreiburgFigures map_and_evaluate(const FreiburgRun& run) {
 
 std::string figures_json(const FreiburgFigures& figures) {
   Json json = run_figures_json(figures);
-  json["loops_accepted"] = figures.loops_accepted;
-  json["loops_judged"] = figures.loops_judged;
-  json["loops_false"] = figures.loops_false;
+  FreiburgFigures::visit_loops(figures, [&json](const char* key, const auto& value) { json[key] = value; });
   json["loop_recall"] = figures.loop_recall ? Json(*figures.loop_recall) : Json(nullptr);
   return json.dump();
 }
@@ -76,9 +73,8 @@ std::optional<FreiburgFigures> read_figures(const std::string& text) {
     const Json json = Json::parse(text);
     FreiburgFigures figures;
     static_cast<RunFigures&>(figures) = read_run_figures(json);
-    json.at("loops_accepted").get_to(figures.loops_accepted);
-    json.at("loops_judged").get_to(figures.loops_judged);
-    json.at("loops_false").get_to(figures.loops_false);
+    FreiburgFigures::visit_loops(figures,
+                                 [&json](const char* key, auto& value) { json.at(key).get_to(value); });
     const Json& recall = json.at("loop_recall");
     if (!recall.is_null()) figures.loop_recall = recall.get<double>();
     return figures;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run of the Freiburg benchmark: a log mapped once with one matcher of loops and one seed, and its path
-// held against the true relations (R. Kuemmerle et al., "On Measuring the Accuracy of SLAM Algorithms",
-// 2009).
+// One run of the Freiburg benchmark: maps a log once with one matcher and one seed, and evaluates the path
+// against the true relations (R. Kümmerle et al., "On measuring the accuracy of SLAM algorithms", 2009).
 #pragma once
 
 #include <cstddef>
@@ -25,35 +24,44 @@ struct FreiburgRun {
   int threads = 1;
 };
 
-/// "csm", "csm_ga", "ga", "adaptive" as loop_closure.matcher has them; "adaptive_paper" is adaptive with the
-/// genetic search of the paper.
+/// "csm", "csm_ga", "ga" and "adaptive", the values of loop_closure.matcher, and "adaptive_paper": the
+/// adaptive matcher with the genetic search of the paper.
 const std::vector<std::string>& freiburg_matchers();
 
-/// False for csm: it searches exhaustively, and nothing else in a run draws random numbers.
+/// False for csm, which searches exhaustively. No other part of a run draws random numbers.
 bool draws_random_numbers(const std::string& matcher);
 
-/// The defaults, the log's own file, and what the run sets. Throws UserError as benchmark_settings().
+/// The defaults, overridden by the log's own settings and by those of the run. Throws UserError as
+/// benchmark_settings().
 Settings settings_of(const FreiburgRun& run);
 
-/// Every setting, "section.key = value" a line: equal texts are equal settings.
+/// All settings, with a line "section.key = value" for each. Equal texts mean equal settings.
 std::string settings_text(const Settings& settings);
 
 struct FreiburgFigures : RunFigures {
   std::size_t loops_accepted = 0;
-  std::size_t loops_judged = 0;       ///< of those, the ones of which a true relation speaks,
-  std::size_t loops_false = 0;        ///< and of those, the ones that it contradicts: see loop_judgement.h
-  std::optional<double> loop_recall;  ///< none when no relation joins two passes of a place
+  std::size_t loops_judged = 0;       ///< accepted loops that a true relation can judge: see loop_judgement.h
+  std::size_t loops_false = 0;        ///< judged loops that contradict the relation
+  std::optional<double> loop_recall;  ///< empty if no relation connects two passes of one place
+
+  /// Calls visit(key, member) for each figure of the loops but the recall.
+  template <class Figures, class Visit>
+  static void visit_loops(Figures& figures, const Visit& visit) {
+    visit("loops_accepted", figures.loops_accepted);
+    visit("loops_judged", figures.loops_judged);
+    visit("loops_false", figures.loops_false);
+  }
 };
 
-/// Maps and evaluates; no map is drawn and no file written. Throws UserError as MappingSession and
-/// evaluate_relations() do, and when the log breaks off: figures of a part of it would not be the
-/// benchmark's.
+/// Maps the log and evaluates its path, without drawing a map or writing files. Throws UserError as
+/// MappingSession and evaluate_relations(), and when the log ends early: figures of a part would not be
+/// comparable.
 FreiburgFigures map_and_evaluate(const FreiburgRun& run);
 
-/// The figures as JSON text of one line, which reads back to the same figures.
+/// The figures as one line of JSON, for read_figures().
 std::string figures_json(const FreiburgFigures& figures);
 
-/// None where the text is not what figures_json() writes.
+/// Reads the text of figures_json(). Empty for other text.
 std::optional<FreiburgFigures> read_figures(const std::string& json);
 
 }  // namespace psi_slam

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What others reached on the logs of the Freiburg benchmark: figures that they published, and figures that
-// their programs gave on these very logs. Each system says where its figures come from.
+// Figures of other systems on the logs of the Freiburg benchmark: published ones, and results of their
+// programs on these logs. Each system names the source of its figures.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace psi_slam {
 
-/// A mean over the relations, with its standard deviation where that was published.
+/// A mean over the relations, with its standard deviation if that was published.
 struct PublishedFigure {
   double mean = 0;
   std::optional<double> std;
-  bool unchecked = false;  ///< quoted from memory of its source, not compared with it
+  bool unchecked = false;  ///< quoted from memory and not checked against the source
 };
 
-/// In the order of kPathFigures; what was not published is empty.
+/// In the order of kPathFigures; empty where nothing was published.
 using PublishedErrors = std::array<std::optional<PublishedFigure>, kPaperFigures>;
 
 struct PublishedLog {
@@ -28,17 +28,17 @@ struct PublishedLog {
 };
 
 struct PublishedSystem {
-  std::string name;    ///< the head of its column
-  std::string source;  ///< a sentence, or several
+  std::string name;    ///< head of the column in the comparison
+  std::string source;  ///< one or more sentences
   std::vector<PublishedLog> logs;
 
-  /// None where it has nothing for that log.
+  /// Null if the system has no figures for that log.
   const PublishedErrors* errors_of(const std::string& log) const;
 };
 
 const std::vector<PublishedSystem>& published_systems();
 
-/// The six logs of the benchmark: as files are named, and as people know them.
+/// One of the six logs of the benchmark: the name of its file and its usual name.
 struct BenchmarkLogTitle {
   std::string log;
   std::string title;
@@ -48,7 +48,7 @@ const std::vector<BenchmarkLogTitle>& benchmark_log_titles();
 /// "hospital" is "fr-hospital"; every other name is itself.
 std::string benchmark_log_name(const std::string& name);
 
-/// As people know it; a log that is none of the benchmark's by its own name.
+/// The usual name of a log of the benchmark; the name itself for other logs.
 std::string benchmark_log_title(const std::string& name);
 
 }  // namespace psi_slam

@@ -10,7 +10,7 @@
 namespace psi_slam {
 namespace {
 
-/// One idea of the memetic search taken away.
+/// The memetic search without one of its steps.
 struct Ablation {
   const char* name;
   void (*apply)(MemeticGeneticOptions&);
@@ -55,7 +55,7 @@ std::vector<Candidate> candidates(CandidateSet set, const MapperOptions& options
   const auto ga = make(MatcherKind::kGa, genetic);
   std::vector<Candidate> all{
       {"csm", csm}, {"csm_ga", csm_ga}, {"ga", ga}, {"ga_paper", make(MatcherKind::kGa, paper)}};
-  if (field == CandidateSet::kMatchers) return all;
+  if (set == CandidateSet::kMatchers) return all;
   const std::vector<std::shared_ptr<const Matcher>> choices{csm, csm_ga, ga};
   all.insert(all.end() - 1, Candidate("adaptive", choices));
   for (const Ablation& ablation : kAblations) {

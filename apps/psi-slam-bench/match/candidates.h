@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The matchers that are compared: those of the settings, the paper's own, and the genetic one with one idea
-// after the other switched off.
+// The matchers that the benchmark compares: those of the settings, the one of the paper, and the genetic
+// matcher with one of its steps switched off at a time.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "match/loop_cases.h"
-#include "psi_slam/mapper.h"
 #include "matching/matcher.h"
+#include "psi_slam/mapper.h"
 
 namespace psi_slam {
 
@@ -18,7 +18,7 @@ class Candidate {
  public:
   Candidate(std::string name, std::shared_ptr<const Matcher> matcher)
       : name_(std::move(name)), matchers_{std::move(matcher)} {}
-  /// One that takes, for each case, the one of these that the case names.
+  /// A candidate that uses, for each case, the matcher that the case names.
   Candidate(std::string name, std::vector<std::shared_ptr<const Matcher>> adaptive)
       : name_(std::move(name)), matchers_(std::move(adaptive)) {}
 
@@ -31,11 +31,11 @@ class Candidate {
 };
 
 enum class CandidateSet {
-  kAll,       ///< with every ablation
+  kAll,       ///< with all ablations
   kMatchers,  ///< csm, csm_ga, ga and ga_paper
 };
 
-/// The first is exact CSM, which the others are compared with.
+/// The first candidate is exact CSM, with which the others are compared.
 std::vector<Candidate> candidates(CandidateSet set, const MapperOptions& options);
 
 }  // namespace psi_slam

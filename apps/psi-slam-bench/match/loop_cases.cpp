@@ -8,18 +8,46 @@
 
 #include "base/random_draws.h"
 #include "loop_closure/scan_context.h"
+#include "psi_slam/open_log.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
+/// A second front end that repeats the work of the mapper, whose local maps are not accessible.
+class PlaceCollector {
+ public:
+  explicit PlaceCollector(const FrontEndOptions& options) : front_end_(options) {}
+
+  void add(const Frame& frame) {
+    const FrontEndStep step = front_end_.add(frame);
+    if (step.node) remember_node(step, frames_, memory_);
+    keep(step.finished);
+    ++frames_;
+  }
+
+  KeyframeStore finish() {
+    keep(front_end_.finish());
+    return std::move(memory_);
+  }
+
+ private:
+  void keep(const std::vector<PlacedLocalMap>& finished) {
+    for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, memory_);
+  }
+
+  FrontEnd front_end_;
+  KeyframeStore memory_;
+  std::size_t frames_ = 0;
+};
+
 struct Pair {
   std::size_t node = 0;
   std::size_t local_map = 0;
 };
 
-/// Of the path between a node and a local map; 0 for the local map's own nodes.
+/// Length of the path between a node and a local map; 0 for nodes of the local map.
 double travel_between_m(const KeyframeStore& memory, std::size_t node, const PlacedLocalMap& map) {
   const double here_m = memory.nodes[node].travelled_m;
   return std::max({0.0, here_m - memory.nodes[map.last_node].travelled_m,
@@ -37,7 +65,7 @@ double nearest_node_m(const MappedLog& log, std::size_t node, const PlacedLocalM
   return std::sqrt(nearest);
 }
 
-/// All pairs that may be a case, by local maps, then nodes.
+/// All pairs for cases, by local map, then node.
 std::vector<Pair> pairs(const MappedLog& log, const CaseOptions& options, bool positive) {
   std::vector<Pair> result;
   for (std::size_t m = 0; m < log.memory.local_maps.size(); ++m) {
@@ -110,6 +138,35 @@ void draw(const MappedLog& log, const CaseOptions& options, bool positive, std::
 }
 
 }  // namespace
+
+MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
+                  const std::function<void(double)>& progress) {
+  const Settings settings = benchmark_settings(log.ini);
+  MappedLog mapped;
+  mapped.name = log.name;
+  mapped.options = settings.mapper;
+  FrontEndOptions& front_end = mapped.options.front_end;
+  front_end.local_map_travel_m *=
+      static_cast<double>(nodes_per_local_map) / static_cast<double>(front_end.nodes_per_local_map);
+  front_end.nodes_per_local_map = nodes_per_local_map;
+
+  const std::unique_ptr<FrameSource> source = open_log(log.log, log_options(settings));
+  Mapper mapper(mapped.options);
+  PlaceCollector places(front_end);
+  while (std::optional<Frame> frame = source->next()) {
+    places.add(*frame);
+    mapper.add(std::move(*frame));
+    progress(source->progress());
+  }
+  mapped.memory = places.finish();
+  const MappingResult result = mapper.finish();
+  mapped.map_T_node = result.graph.poses();
+  for (const std::size_t frame : result.node_frames)
+    mapped.adaptive_matcher.push_back(result.frames[frame].matcher);
+  mapped.translation_error_m =
+      error_of(result.frames, read_relations(log.relations.value())).translation_abs_m.mean;
+  return mapped;
+}
 
 std::vector<LoopCase> draw_cases(const MappedLog& log, const CaseOptions& options) {
   std::vector<LoopCase> cases;

@@ -9,15 +9,15 @@
 #include <iterator>
 #include <map>
 
-#include "psi_slam/user_error.h"
-#include "loop_closure/loop_verification.h"
 #include "base/number_text.h"
+#include "loop_closure/loop_verification.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
 const std::size_t kUsualNodesPerLocalMap = FrontEndOptions().nodes_per_local_map;
-constexpr std::size_t kFewerCases = 5;  // the series over sizes draw one case where the others draw five
+constexpr std::size_t kFewerCases = 5;  // series over sizes draw a fifth of the cases
 
 std::string md5_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -42,7 +42,7 @@ MatchBenchmark plan(const MatchBenchmarkOptions& options) {
   fewer.cases = std::max<std::size_t>(1, options.cases / kFewerCases);
   for (const double window_m : {2.0, 4.0, 8.0, 16.0}) {
     MatchSeries series = make_series("±" + fixed_text(window_m, 0) + " m", fewer);
-    // As far away as negative cases of the usual window, so that windows of all sizes have the same pairs.
+    // The same distance for windows of all sizes, so that all have the same negative pairs.
     series.cases.clear_m += series.cases.window_m - window_m;
     series.cases.window_m = window_m;
     series.set = CandidateSet::kMatchers;
@@ -58,7 +58,7 @@ MatchBenchmark plan(const MatchBenchmarkOptions& options) {
   return benchmark;
 }
 
-/// All series, by the local maps that they need: a log is mapped once for each size.
+/// All series by the size of their local maps: a log is mapped once for each size.
 std::map<std::size_t, std::vector<MatchSeries*>> series_by_nodes(MatchBenchmark& benchmark) {
   std::map<std::size_t, std::vector<MatchSeries*>> result;
   const auto add = [&result](MatchSeries& series) { result[series.nodes_per_local_map].push_back(&series); };
@@ -84,7 +84,7 @@ CaseCounts count(const std::vector<LoopCase>& cases) {
   return counts;
 }
 
-/// What the log could not give, as a clause; else empty.
+/// The cases that the log lacks, as a clause; may be empty.
 std::string missing_cases(const CaseCounts& counts, const MatchSeries& series) {
   const auto missing = [&](std::size_t got, const char* kind) {
     if (got >= series.cases.count) return std::string();
@@ -93,19 +93,18 @@ std::string missing_cases(const CaseCounts& counts, const MatchSeries& series) {
   const std::string positive = missing(counts.positive, "positive");
   const std::string negative = missing(counts.negative, "negative");
   if (positive.empty() && negative.empty()) return {};
-  return series.title + ": it has only " + positive + (positive.empty() || negative.empty() ? "" : " and ") +
-         negative;
+  return series.title + ": the log has only " + positive +
+         (positive.empty() || negative.empty() ? "" : " and ") + negative;
 }
 
 void add_remark(LogNote& note, const std::string& remark) {
   note.remark += (note.remark.empty() ? "" : "; ") + remark;
 }
 
-/// The logs one after the other, and how far the work is. The time left is told by matches: mapping is quick
-/// beside them.
+/// Runs the benchmark log by log. Progress counts matches: mapping takes much less time.
 class BenchmarkRun {
  public:
-  BenchmarkRun(const MatchBenchmarkOptions& options, std::size_t logs, const BenchObserver& observer)
+  BenchmarkRun(const MatchBenchmarkOptions& options, std::size_t logs, const ProgressObserver& observer)
       : observer_(observer), benchmark_(plan(options)), by_nodes_(series_by_nodes(benchmark_)) {
     for (const auto& [nodes, all_series] : by_nodes_) all_ += static_cast<double>(logs) * planned(all_series);
   }
@@ -115,7 +114,7 @@ class BenchmarkRun {
     note.name = log.name;
     note.md5 = md5_of(log.log);
     note.used = log.relations.has_value();
-    if (!note.used) add_remark(note, "left out: there are no relations to check its map against");
+    if (!note.used) add_remark(note, "left out: it has no relations to check its map");
     for (const auto& [nodes, all_series] : by_nodes_) {
       if (note.used) run(log, nodes, all_series, note);
       done_ += planned(all_series);
@@ -145,8 +144,8 @@ class BenchmarkRun {
     if (usual) note.translation_error_m = mapped.translation_error_m;
     if (mapped.translation_error_m > kTrustedError_m) {
       if (usual) note.used = false;
-      add_remark(note, "left out" + of_maps + ": its map is " + fixed_text(mapped.translation_error_m, 3) +
-                           " m off the true relations, so its poses cannot be trusted as truth");
+      add_remark(note, "left out" + of_maps + ": the error of its map over the true relations, " +
+                           fixed_text(mapped.translation_error_m, 3) + " m, is too large for a truth");
       return;
     }
     double matches = 0;
@@ -159,16 +158,16 @@ class BenchmarkRun {
       }
       const std::string missing = missing_cases(counts, *series);
       if (!missing.empty()) add_remark(note, missing);
-      const std::vector<Candidate> field = candidates(series->set, mapped.options);
-      run_cases(cases, field, accepted_response(series->cases, mapped.options.loop_closure.verification),
-                *series, [&] {
-                  matches += static_cast<double>(field.size());
+      const std::vector<Candidate> all_candidates = candidates(series->set, mapped.options);
+      run_cases(cases, all_candidates,
+                accepted_response(series->cases, mapped.options.loop_closure.verification), *series, [&] {
+                  matches += static_cast<double>(all_candidates.size());
                   observer_(log.name + ", " + series->title, done_ + matches, all_);
                 });
     }
   }
 
-  const BenchObserver& observer_;
+  const ProgressObserver& observer_;
   MatchBenchmark benchmark_;
   const std::map<std::size_t, AllSeries> by_nodes_;
   double done_ = 0;
@@ -192,7 +191,7 @@ void run_cases(const std::vector<LoopCase>& cases, const std::vector<Candidate>&
     problem.min_response = kReportedShare * accepted_response;
     problem.measure_ambiguity = true;
     problem.seed = loop_case.seed;
-    // Each case begins with another candidate, so that all find the local map out of the cache as often.
+    // Each case starts with another candidate, so that cache misses hit all candidates alike.
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       const std::size_t at = (i + k) % candidates.size();
       const Matcher& matcher = candidates[at].matcher(loop_case);
@@ -209,12 +208,12 @@ void run_cases(const std::vector<LoopCase>& cases, const std::vector<Candidate>&
 }
 
 MatchBenchmark run_match_benchmark(const std::vector<BenchmarkLog>& logs,
-                                   const MatchBenchmarkOptions& options, const BenchObserver& observer) {
+                                   const MatchBenchmarkOptions& options, const ProgressObserver& observer) {
   BenchmarkRun run(options, logs.size(), observer);
   for (const BenchmarkLog& log : logs) run.run(log);
   MatchBenchmark benchmark = run.take_result();
   if (std::none_of(benchmark.logs.begin(), benchmark.logs.end(), [](const LogNote& log) { return log.used; }))
-    throw UserError("no log can be used: " + benchmark.logs.front().name + " is " +
+    throw UserError("no log can be used: " + benchmark.logs.front().name + " was " +
                     benchmark.logs.front().remark);
   return benchmark;
 }

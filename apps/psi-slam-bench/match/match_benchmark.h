@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The benchmark of the matchers: every matcher on every case.
+// Compares the matchers: runs every candidate on every case.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "batch/workers.h"
 #include "common/benchmark_logs.h"
 #include "match/candidates.h"
 #include "match/loop_cases.h"
@@ -14,7 +15,7 @@
 
 namespace psi_slam {
 
-/// A table: cases of one kind, drawn from every log.
+/// Cases of one kind, drawn from every log: one table of the report.
 struct MatchSeries {
   std::string title;
   CaseOptions cases;
@@ -25,23 +26,23 @@ struct MatchSeries {
     std::string matcher;
     MatchTally tally;
   };
-  std::vector<Row> rows;  ///< as far as cases were run; the first is exact CSM
+  std::vector<Row> rows;  ///< by candidate, of the cases run so far; the first is exact CSM
 };
 
 struct MatchBenchmarkOptions {
-  std::size_t cases = 250;  ///< of each kind from each log
+  std::size_t cases = 250;  ///< positive and negative cases from each log
   std::uint64_t seed = 1;
-  bool windows = false;  ///< also over window sizes and sizes of local maps
+  bool windows = false;  ///< also compare over window sizes and sizes of local maps
 };
 
-/// What became of a log.
+/// Use of a log in the benchmark.
 struct LogNote {
   std::string name;
-  std::string md5;  ///< of the file
+  std::string md5;  ///< of the log file
   std::optional<double> translation_error_m;
   std::size_t positive = 0;  ///< cases of the first series
   std::size_t negative = 0;
-  std::string remark;  ///< why it is left out, or what it could not give; else empty
+  std::string remark;  ///< reason for leaving the log out, or missing cases; may be empty
   bool used = true;
 };
 
@@ -49,23 +50,20 @@ struct MatchBenchmark {
   std::vector<LogNote> logs;
   MatchSeries scans;
   MatchSeries contexts;
-  std::vector<MatchSeries> windows;     ///< by half-width; empty unless asked for
-  std::vector<MatchSeries> local_maps;  ///< by nodes a local map; empty unless asked for
+  std::vector<MatchSeries> windows;     ///< by half-width; may be empty
+  std::vector<MatchSeries> local_maps;  ///< by nodes of a local map; may be empty
 };
 
-/// Is told what is being done, and how much of all the work that counts for the time left is done.
-using BenchObserver = std::function<void(const std::string& doing, double done, double all)>;
-
-/// A map farther from the true relations than this is no truth to draw cases from.
+/// Largest error of a map over the true relations for which its poses serve as truth.
 inline constexpr double kTrustedError_m = 0.2;
 
-/// Runs every candidate on every case, interleaved case by case, in this thread, and adds to the rows of the
-/// series, which has none or those of these candidates. `after_case` is called after every case.
+/// Runs every candidate on every case in this thread, case by case, and adds the results to the rows of the
+/// series. Calls `after_case` after each case.
 void run_cases(const std::vector<LoopCase>& cases, const std::vector<Candidate>& candidates,
                double accepted_response, MatchSeries& series, const std::function<void()>& after_case);
 
-/// Maps the logs one by one, draws and runs their cases. Throws UserError when no log can be used.
+/// Maps each log, draws its cases and runs them. Throws UserError when no log can be used.
 MatchBenchmark run_match_benchmark(const std::vector<BenchmarkLog>& logs,
-                                   const MatchBenchmarkOptions& options, const BenchObserver& observer);
+                                   const MatchBenchmarkOptions& options, const ProgressObserver& observer);
 
 }  // namespace psi_slam

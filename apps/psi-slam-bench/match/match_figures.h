@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a matcher made of a case, and the figures over all cases.
+// Judges the match of a case, and sums up the figures of a matcher over all cases.
 #pragma once
 
 #include <cstddef>
@@ -7,23 +7,23 @@
 #include <optional>
 #include <vector>
 
-#include "match/loop_cases.h"
 #include "base/degrees.h"
+#include "match/loop_cases.h"
 #include "matching/matcher.h"
 
 namespace psi_slam {
 
-/// A positive case is a success when the match is at most this far from the truth.
+/// Largest distance of a successful match from the truth.
 inline constexpr double kSuccess_m = 0.3;
 inline constexpr double kSuccess_rad = radians_from_degrees(3.5L);
 
 struct Judgement {
   bool success = false;       ///< positive cases: found within the limits above
-  bool same_optimum = false;  ///< positive cases: what exact CSM found, or as good
-  bool false_accept = false;  ///< negative cases: found, and loop closing would accept its response
+  bool same_optimum = false;  ///< positive cases: at least as good as exact CSM's match, or none by either
+  bool false_accept = false;  ///< negative cases: found with a response that loop closing would accept
 };
 
-/// `exact` is exact CSM's match of the same case.
+/// `exact` is the match of exact CSM in the same case.
 Judgement judge(const LoopCase& loop_case, const MatchResult& match, const MatchResult& exact,
                 double accepted_response);
 
@@ -38,20 +38,20 @@ struct MatchFigures {
   std::size_t cases = 0;
   std::size_t positive = 0;
   std::size_t negative = 0;
-  std::optional<double> success_rate;       ///< over the positive cases, none without any
-  std::optional<double> same_optimum_rate;  ///< likewise
-  std::optional<double> false_accept_rate;  ///< over the negative cases, none without any
+  std::optional<double> success_rate;       ///< of the positive cases; empty without positive cases
+  std::optional<double> same_optimum_rate;  ///< of the positive cases; empty without positive cases
+  std::optional<double> false_accept_rate;  ///< of the negative cases; empty without negative cases
   double evaluations = 0;                   ///< mean
   TimeFigures time_ms;
-  std::optional<double>
-      repaired_share;  ///< of the codes that became poses, those that lay outside the window
+  /// Share of the decoded codes that lay outside the window.
+  std::optional<double> repaired_share;
 };
 
 class MatchTally {
  public:
   void add(const LoopCase& loop_case, const Judgement& judgement, const MatchResult& match, double time_ms);
 
-  /// A percentile p is the value at rank floor(p n / 100), from 0.
+  /// The percentile p of n values is the value of rank floor(p n / 100), counted from 0.
   MatchFigures figures() const;
 
  private:

@@ -22,7 +22,7 @@ DegradedSource::DegradedSource(std::unique_ptr<FrameSource> source, const Degrad
 
 std::optional<Frame> DegradedSource::next() {
   while (auto frame = source_->next()) {
-    spoil_odometry(*frame);  // of frames that are left out too: the noise does not depend on how many are
+    spoil_odometry(*frame);  // also of skipped frames, so that the noise does not depend on keep_every_nth
     if (read_++ % options_.keep_every_nth != 0) continue;
     frame->index = kept_++;
     narrow(frame->scan);

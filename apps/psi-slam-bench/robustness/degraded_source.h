@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log made worse, to see what a program makes of it: fewer scans, a narrower laser, noisier odometry or
-// none.
+// A frame source that degrades a log: fewer scans, a narrower field of view, noisier odometry or none.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -17,23 +16,23 @@
 namespace psi_slam {
 
 struct DegradationOptions {
-  /// Odometry's error becomes about so many times its natural one, which is `natural_noise`: to each step
-  /// between scans of the log, normal noise of sqrt(scale^2 - 1) times that is added, whose variance grows
-  /// with the step's way and turn. 1 or less leaves odometry as it is.
+  /// Factor for the error of odometry. Adds normal noise of sqrt(scale^2 - 1) times `natural_noise` to each
+  /// step between scans of the log; its variance grows with the distance and rotation of the step. Odometry
+  /// stays unchanged for a scale of 1 or less.
   double odometry_noise_scale = 1;
   OdometryNoise natural_noise;
-  std::size_t keep_every_nth = 1;           ///< scans, from the first on; the others are not there at all
-  std::optional<double> field_of_view_rad;  ///< straight ahead of the laser; beams beside it are no returns
-  bool no_odometry = false;                 ///< frames say that they have none
+  std::size_t keep_every_nth = 1;           ///< keeps every nth scan, starting with the first
+  std::optional<double> field_of_view_rad;  ///< centred ahead of the laser; other beams have no return
+  bool no_odometry = false;                 ///< removes odometry from the frames
   std::uint64_t seed = 1;                   ///< of the noise
 };
 
 class DegradedSource : public FrameSource {
  public:
-  /// Throws std::invalid_argument when no scan would be kept, or the field of view is not positive.
+  /// Throws std::invalid_argument if keep_every_nth is 0 or the field of view is not positive.
   DegradedSource(std::unique_ptr<FrameSource> source, const DegradationOptions& options);
 
-  /// Numbered anew.
+  /// Frame indices count the kept scans.
   std::optional<Frame> next() override;
   double progress() const override { return source_->progress(); }
   SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
@@ -47,7 +46,7 @@ class DegradedSource : public FrameSource {
   RandomDraws draws_;
   std::size_t read_ = 0;
   std::size_t kept_ = 0;
-  std::optional<mrpt::math::TPose2D> last_odom_T_robot_;  ///< of the log
+  std::optional<mrpt::math::TPose2D> last_odom_T_robot_;  ///< of the previous frame in the log
   mrpt::math::TPose2D spoilt_odom_T_robot_;
 };
 

@@ -15,16 +15,16 @@ using mrpt::math::TPose2D;
 constexpr double kStretch_m = 1;
 constexpr double kStretch_rad = 1;
 
-/// How far odometry is off over a stretch.
+/// Error of odometry over a stretch.
 struct StretchError {
-  double way_m = 0;     // by odometry, which does not tremble while the robot stands
-  double turn_rad = 0;  // back and forth added up
+  double way_m = 0;     // by odometry, which has no jitter while the robot stands
+  double turn_rad = 0;  // sum of absolute rotations
   double squared_m2 = 0;
   double squared_rad2 = 0;
 };
 
-/// The errors of the steps added up, turned by the map's headings: what a wrong heading makes of the way
-/// after it is no error of the way.
+/// Sums the errors of the steps in the frame of the map, so that a wrong heading does not add to the error of
+/// the position.
 class Stretch {
  public:
   void add(const TPose2D& odometry_motion, const TPose2D& map_motion, double map_heading_rad) {
@@ -64,7 +64,7 @@ std::vector<StretchError> stretch_errors(const std::vector<TPose2D>& odom_T_robo
   return errors;
 }
 
-/// Variances a metre and a radian: the least squares of squared_rad2 = a way + b turn, neither negative.
+/// Variances per metre and per radian: least squares of squared_rad2 = a way + b turn with a, b >= 0.
 void split_heading(const std::vector<StretchError>& errors, OdometryNoise& noise) {
   double ww = 0, wt = 0, tt = 0, we = 0, te = 0;
   for (const StretchError& error : errors) {
@@ -77,7 +77,7 @@ void split_heading(const std::vector<StretchError>& errors, OdometryNoise& noise
   const double determinant = ww * tt - wt * wt;
   double a = determinant > 1e-9 * ww * tt ? (we * tt - te * wt) / determinant : -1;
   double b = determinant > 1e-9 * ww * tt ? (te * ww - we * wt) / determinant : -1;
-  if (a < 0 || b < 0) {  // one of them explains more than all: the other is nothing
+  if (a < 0 || b < 0) {  // a negative one is set to 0
     const bool way_only = a >= 0 || (b < 0 && ww >= tt);
     a = way_only && ww > 0 ? we / ww : 0;
     b = !way_only && tt > 0 ? te / tt : 0;
@@ -91,7 +91,7 @@ void split_heading(const std::vector<StretchError>& errors, OdometryNoise& noise
 OdometryNoise measure_odometry_noise(const std::vector<TPose2D>& odom_T_robot,
                                      const std::vector<TPose2D>& map_T_robot) {
   if (odom_T_robot.size() != map_T_robot.size())
-    throw std::invalid_argument("measure_odometry_noise: a pose of odometry for each pose of the map");
+    throw std::invalid_argument("measure_odometry_noise: odometry and map have different numbers of poses");
   const std::vector<StretchError> errors = stretch_errors(odom_T_robot, map_T_robot);
   OdometryNoise noise;
   double way_m = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How noisy odometry is, as a random walk: errors of successive stretches are independent, so that their
-// variances grow with the way and the turn that odometry tells.
+// Noise of odometry as a random walk: errors of successive stretches are independent, so that their variances
+// grow with the distance and the rotation that odometry measures.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -10,16 +10,17 @@
 namespace psi_slam {
 
 struct OdometryNoise {
-  double sigma_m_per_root_m = 0;      ///< of the position, along each axis, after a metre
-  double sigma_rad_per_root_m = 0;    ///< of the heading, after a metre straight ahead
-  double sigma_rad_per_root_rad = 0;  ///< of the heading, after a radian on the spot
+  double sigma_m_per_root_m = 0;      ///< of the position along each axis, after 1 m
+  double sigma_rad_per_root_m = 0;    ///< of the heading, after 1 m straight ahead
+  double sigma_rad_per_root_rad = 0;  ///< of the heading, after 1 rad on the spot
 };
 
-/// Of odometry against where the robot was, pose by pose: the root mean squares of their differences over
-/// successive stretches of at least 1 m or 1 rad by odometry. Positions are compared along the true headings,
-/// so that a turn wrongly measured is no error of the way after it. The heading's is split between way and
-/// turn by least squares; a drive whose ways and turns come in one proportion tells their sum only. Throws
-/// std::invalid_argument when the two are not of one length. No stretch, no noise.
+/// Measures the noise of odometry against the true poses of the robot: root mean squares of the differences
+/// over successive stretches of at least 1 m or 1 rad by odometry. Compares positions along the true
+/// headings, so that a wrong heading does not add to the error of the position. Splits the error of the
+/// heading between distance and rotation by least squares; the split is ambiguous if both are always in the
+/// same proportion. Zero without a complete stretch. Throws std::invalid_argument for paths of different
+/// lengths.
 OdometryNoise measure_odometry_noise(const std::vector<mrpt::math::TPose2D>& odom_T_robot,
                                      const std::vector<mrpt::math::TPose2D>& map_T_robot);
 

@@ -5,11 +5,10 @@
 #include <memory>
 #include <utility>
 
-#include "common/mapped_run.h"
 #include "base/degrees.h"
-#include "psi_slam/open_log.h"
-#include "evaluation/loop_judgement.h"
 #include "base/number_text.h"
+#include "evaluation/loop_judgement.h"
+#include "psi_slam/open_log.h"
 
 namespace psi_slam {
 namespace {
@@ -88,7 +87,7 @@ class LogRuns {
   RobustnessRow as_it_is_;
 };
 
-/// The cases in their order, with each seed if they draw random numbers, else with the first.
+/// The cases in order, with all seeds if they draw random numbers, otherwise with the first.
 std::vector<RobustnessCase> runs_of(const SeedRange& seeds) {
   std::vector<RobustnessCase> runs;
   for (RobustnessCase degraded : robustness_cases(seeds.first))
@@ -127,7 +126,7 @@ bool draws_random_numbers(const RobustnessCase& degraded) {
 }
 
 RobustnessBenchmark run_robustness_benchmark(const std::vector<BenchmarkLog>& logs, const SeedRange& seeds,
-                                             const RobustnessObserver& observer) {
+                                             const ProgressObserver& observer) {
   const std::vector<RobustnessCase> runs = runs_of(seeds);
   const auto own = std::count_if(runs.begin(), runs.end(), [](const RobustnessCase& degraded) {
     return !is_the_log_itself(degraded.degradation);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What psi-slam makes of logs that are worse than they were recorded: fewer scans, a narrower laser, noisier
-// odometry or none.
+// Maps degraded logs: with fewer scans, a narrower field of view, noisier odometry or no odometry.
 #pragma once
 
 #include <cstddef>
@@ -10,35 +9,36 @@
 #include <string>
 #include <vector>
 
+#include "batch/seeds.h"
+#include "batch/workers.h"
+#include "common/bench_report.h"
 #include "common/benchmark_logs.h"
-#include "common/log_identity.h"
-#include "batch/seed_range.h"
 #include "robustness/degraded_source.h"
 
 namespace psi_slam {
 
-/// One way to make a log worse.
+/// One way to degrade a log.
 struct RobustnessCase {
-  std::string series;  ///< the curve it belongs to: "odometry noise", ...
-  std::string name;    ///< its place there: "x 2"
+  std::string series;  ///< curve of the plot: "odometry noise", ...
+  std::string name;    ///< place on the curve: "× 2"
   DegradationOptions degradation;
 };
 
-/// True when the case draws random numbers, so that another seed makes another log.
+/// True if the degraded log depends on the seed.
 bool draws_random_numbers(const RobustnessCase& degraded);
 
-/// Each series begins with the log as it is. The odometry noise is of scale 1 until the log is known.
+/// All cases. Each series starts with the unchanged log. The natural noise is not set: it depends on the log.
 std::vector<RobustnessCase> robustness_cases(std::uint64_t seed);
 
 struct RobustnessRow {
   std::string log;
   RobustnessCase degraded;
   std::uint64_t seed = 1;          ///< of the noise
-  double translation_error_m = 0;  ///< means over the true relations
-  double rotation_error_deg = 0;
-  std::size_t relations = 0;  ///< that could be answered: those in gaps too long are not
+  double translation_error_m = 0;  ///< mean over the true relations
+  double rotation_error_deg = 0;   ///< mean over the true relations
+  std::size_t relations = 0;       ///< evaluated relations; those in long gaps of the path are not evaluated
   std::size_t scans = 0;
-  std::size_t unmatched = 0;  ///< scans that the front end could not match, without the first
+  std::size_t unmatched = 0;  ///< scans that the front end could not match, except the first
   std::size_t loops = 0;      ///< accepted
   std::optional<double> loop_precision;
   std::optional<double> loop_recall;
@@ -46,22 +46,19 @@ struct RobustnessRow {
 
 struct RobustnessLog {
   std::string name;
-  OdometryNoise natural;  ///< of its odometry, against the map of the log as it is
+  OdometryNoise natural;  ///< noise of its odometry, measured against the map of the unchanged log
 };
 
 struct RobustnessBenchmark {
   std::vector<LogIdentity> identities;
-  std::vector<std::string> without_relations;  ///< logs of the folder that cannot be evaluated
+  std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
   std::vector<RobustnessLog> logs;
   std::vector<RobustnessRow> rows;  ///< by log, then case, then seed
 };
 
-/// Is told what is being done, and how much of all the work is done.
-using RobustnessObserver = std::function<void(const std::string& doing, double done, double all)>;
-
-/// Maps each log once for each case that differs, and once for each seed where the case draws random numbers.
-/// Throws UserError as open_log() and read_relations() do.
+/// Maps each log once for each different case, or once for each seed if the case depends on it. Throws
+/// UserError as open_log() and read_relations().
 RobustnessBenchmark run_robustness_benchmark(const std::vector<BenchmarkLog>& logs, const SeedRange& seeds,
-                                             const RobustnessObserver& observer);
+                                             const ProgressObserver& observer);
 
 }  // namespace psi_slam

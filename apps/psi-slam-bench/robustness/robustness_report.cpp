@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "common/growth_plot.h"
-#include "common/program_identity.h"
-#include "batch/seed_spread.h"
 #include "base/number_text.h"
+#include "batch/kept_run.h"
+#include "common/log_plots.h"
 
 namespace psi_slam {
 namespace {
@@ -17,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kDegrees = 180 / M_PI;
 
-/// The rows of a case on a log, one a seed.
+/// The runs of one case on a log, one for each seed.
 using Runs = std::vector<RobustnessRow>;
 
 std::vector<Runs> cases_of(const RobustnessBenchmark& benchmark) {
@@ -26,73 +24,71 @@ std::vector<Runs> cases_of(const RobustnessBenchmark& benchmark) {
   });
 }
 
-/// Of the runs that have one; none when no run has.
-SeedSpread spread_of_known(const Runs& runs, std::optional<double> RobustnessRow::*share) {
-  std::vector<double> known;
-  for (const RobustnessRow& run : runs)
-    if (run.*share) known.push_back(*(run.*share));
-  return spread_of(known);
-}
-
-std::string percent(const SeedSpread& share) {
-  return share.count > 0 ? fixed_text(100 * share.mean, 1) : "–";
-}
-
-Json json_or_null(const SeedSpread& share) {
-  return share.count > 0 ? spread_json(share) : Json(nullptr);
-}
-
 template <class Figure>
 SeedSpread over_seeds(const Runs& runs, Figure RobustnessRow::*figure) {
   return spread_over(runs, [figure](const RobustnessRow& run) { return run.*figure; });
 }
 
-/// The mean, without decimals where there is one run.
-std::string count_text(const SeedSpread& counts) {
-  return fixed_text(counts.mean, counts.count > 1 ? 1 : 0);
+/// Mean in percent, over the runs that have the share.
+ReportCell percent(const Runs& runs, std::optional<double> RobustnessRow::*share) {
+  std::vector<double> known;
+  for (const RobustnessRow& run : runs)
+    if (run.*share) known.push_back(*(run.*share));
+  const SeedSpread spread = spread_of(known);
+  return {spread.count > 0 ? fixed_text(100 * spread.mean, 1) : "–", spread_json(spread)};
 }
 
-std::string logs_text(const std::vector<RobustnessLog>& logs) {
-  std::string text =
-      "| log | odometry's natural noise [m / √m] | [deg / √m] | [deg / √rad] |\n|---|---:|---:|---:|\n";
-  for (const RobustnessLog& log : logs)
-    text += "| " + log.name + " | " + fixed_text(log.natural.sigma_m_per_root_m, 4) + " | " +
-            fixed_text(kDegrees * log.natural.sigma_rad_per_root_m, 3) + " | " +
-            fixed_text(kDegrees * log.natural.sigma_rad_per_root_rad, 3) + " |\n";
-  return text;
+/// Mean of a count, without decimals for a single run.
+template <class Figure>
+ReportCell mean_count(const Runs& runs, Figure RobustnessRow::*figure) {
+  const SeedSpread counts = over_seeds(runs, figure);
+  return {fixed_text(counts.mean, counts.count > 1 ? 1 : 0), spread_json(counts)};
 }
 
-std::string row_text(const Runs& runs) {
-  const RobustnessRow& first = runs.front();
-  return "| " + first.log + " | " + first.degraded.series + " | " + first.degraded.name + " | " +
-         std::to_string(runs.size()) + " | " +
-         spread_text(over_seeds(runs, &RobustnessRow::translation_error_m), 4) + " | " +
-         spread_text(over_seeds(runs, &RobustnessRow::rotation_error_deg), 3) + " | " +
-         count_text(over_seeds(runs, &RobustnessRow::relations)) + " | " +
-         count_text(over_seeds(runs, &RobustnessRow::loops)) + " | " +
-         percent(spread_of_known(runs, &RobustnessRow::loop_precision)) + " | " +
-         percent(spread_of_known(runs, &RobustnessRow::loop_recall)) + " | " +
-         count_text(over_seeds(runs, &RobustnessRow::unmatched)) + " of " +
-         count_text(over_seeds(runs, &RobustnessRow::scans)) + " |\n";
+ReportTable noise_table(const std::vector<RobustnessLog>& logs) {
+  using Log = RobustnessLog;
+  return table_of<Log>(
+      {{{"log", "name", true}, [](const Log& log) { return cell(log.name); }},
+       {{"natural noise of odometry [m / √m]", "natural_odometry_noise.m_per_root_m"},
+        [](const Log& log) { return cell(log.natural.sigma_m_per_root_m, 4); }},
+       {{"[deg / √m]", "natural_odometry_noise.deg_per_root_m"},
+        [](const Log& log) { return cell(kDegrees * log.natural.sigma_rad_per_root_m, 3); }},
+       {{"[deg / √rad]", "natural_odometry_noise.deg_per_root_rad"},
+        [](const Log& log) { return cell(kDegrees * log.natural.sigma_rad_per_root_rad, 3); }}},
+      logs);
 }
 
-Json row_json(const Runs& runs) {
-  const RobustnessRow& first = runs.front();
-  return {{"log", first.log},
-          {"series", first.degraded.series},
-          {"case", first.degraded.name},
-          {"seeds", seeds_of(runs)},
-          {"translation_error_m", spread_json(over_seeds(runs, &RobustnessRow::translation_error_m))},
-          {"rotation_error_deg", spread_json(over_seeds(runs, &RobustnessRow::rotation_error_deg))},
-          {"relations", spread_json(over_seeds(runs, &RobustnessRow::relations))},
-          {"scans", spread_json(over_seeds(runs, &RobustnessRow::scans))},
-          {"unmatched_scans", spread_json(over_seeds(runs, &RobustnessRow::unmatched))},
-          {"loops", spread_json(over_seeds(runs, &RobustnessRow::loops))},
-          {"loop_precision", json_or_null(spread_of_known(runs, &RobustnessRow::loop_precision))},
-          {"loop_recall", json_or_null(spread_of_known(runs, &RobustnessRow::loop_recall))}};
+ReportTable cases_table(const RobustnessBenchmark& benchmark) {
+  return table_of<Runs>(
+      {{{"log", "log", true}, [](const Runs& runs) { return cell(runs.front().log); }},
+       {{"series", "series", true}, [](const Runs& runs) { return cell(runs.front().degraded.series); }},
+       {{"case", "case", true}, [](const Runs& runs) { return cell(runs.front().degraded.name); }},
+       {{"runs", "seeds"},
+        [](const Runs& runs) {
+          return ReportCell{std::to_string(runs.size()), seeds_of(runs)};
+        }},
+       {{"error [m]", "translation_error_m"},
+        [](const Runs& runs) { return cell(over_seeds(runs, &RobustnessRow::translation_error_m), 4); }},
+       {{"[deg]", "rotation_error_deg"},
+        [](const Runs& runs) { return cell(over_seeds(runs, &RobustnessRow::rotation_error_deg), 3); }},
+       {{"relations", "relations"},
+        [](const Runs& runs) { return mean_count(runs, &RobustnessRow::relations); }},
+       {{"loops", "loops"}, [](const Runs& runs) { return mean_count(runs, &RobustnessRow::loops); }},
+       {{"precision %", "loop_precision"},
+        [](const Runs& runs) { return percent(runs, &RobustnessRow::loop_precision); }},
+       {{"recall %", "loop_recall"},
+        [](const Runs& runs) { return percent(runs, &RobustnessRow::loop_recall); }},
+       {{"unmatched", "unmatched_scans"},
+        [](const Runs& runs) {
+          ReportCell unmatched = mean_count(runs, &RobustnessRow::unmatched);
+          unmatched.text += " of " + mean_count(runs, &RobustnessRow::scans).text;
+          return unmatched;
+        }},
+       {{{}, "scans"}, [](const Runs& runs) { return mean_count(runs, &RobustnessRow::scans); }}},
+      cases_of(benchmark));
 }
 
-/// The series of the rows, each once, in their order.
+/// The names of the series, in the order of the rows.
 std::vector<std::string> series_of(const RobustnessBenchmark& benchmark) {
   std::vector<std::string> series;
   for (const RobustnessRow& row : benchmark.rows)
@@ -106,61 +102,8 @@ std::string file_of(std::string series) {
   return "robustness-" + series + ".svg";
 }
 
-}  // namespace
-
-std::string robustness_markdown(const RobustnessBenchmark& benchmark, const SeedRange& seeds,
-                                const std::string& machine) {
-  std::string text = "# Logs made worse\n\n" + measured_by(machine) + "; " + seeds_text(seeds) +
-                     " of the noise. Errors are means over the true relations.\n\n";
-  text +=
-      "- odometry noise × k: to each step of odometry normal noise of √(k² - 1) times its natural noise is "
-      "added, so that its error is about k times what it was. The natural noise is odometry's error against "
-      "the map of the log as it is, over stretches of 1 m or 1 rad, as a random walk: its variance grows "
-      "with the way and the turn.\n"
-      "- no odometry: the robot is predicted to go on at its speed\n"
-      "- scans kept: the others are not there at all; relations of their times are answered by "
-      "interpolation, "
-      "whose errors count\n"
-      "- field of view: beams beside it are no returns\n"
-      "- precision, recall: of the accepted loops, by the true relations\n"
-      "- unmatched: scans that the front end could not match with its local map\n"
-      "- runs: one for each seed where the case draws random numbers, else one; of several, errors are mean "
-      "± standard deviation of the sample [worst], the other figures means\n\n";
-  text += logs_text(benchmark.logs);
-  text +=
-      "\n| log | | | runs | error [m] | [deg] | relations | loops | precision % | recall % | unmatched |\n"
-      "|---|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
-  for (const Runs& runs : cases_of(benchmark)) text += row_text(runs);
-  return text + '\n' + logs_markdown(benchmark.identities, benchmark.without_relations);
-}
-
-std::string robustness_json(const RobustnessBenchmark& benchmark, const SeedRange& seeds,
-                            const std::string& machine) {
-  Json logs = Json::array();
-  for (const RobustnessLog& log : benchmark.logs)
-    logs.push_back({{"name", log.name},
-                    {"natural_odometry_noise",
-                     {{"m_per_root_m", log.natural.sigma_m_per_root_m},
-                      {"deg_per_root_m", kDegrees * log.natural.sigma_rad_per_root_m},
-                      {"deg_per_root_rad", kDegrees * log.natural.sigma_rad_per_root_rad}}}});
-  Json files = Json::array();
-  for (const LogIdentity& log : benchmark.identities) files.push_back(log_json(log));
-  Json rows = Json::array();
-  for (const Runs& runs : cases_of(benchmark)) rows.push_back(row_json(runs));
-  const Json json = {{"schema", "psi-slam-robustness"},
-                     {"schema_version", 1},
-                     {"program_version", program_version()},
-                     {"commit", program_commit()},
-                     {"machine", machine},
-                     {"seeds", seeds.all()},
-                     {"files", files},
-                     {"logs", logs},
-                     {"rows", rows}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
-}
-
-std::vector<RobustnessPlot> robustness_plots(const RobustnessBenchmark& benchmark) {
-  std::vector<RobustnessPlot> plots;
+std::vector<BenchReport::Plot> plots_of(const RobustnessBenchmark& benchmark) {
+  std::vector<BenchReport::Plot> plots;
   for (const std::string& series : series_of(benchmark)) {
     GrowthPlot plot;
     plot.title = "Error by " + series;
@@ -179,9 +122,50 @@ std::vector<RobustnessPlot> robustness_plots(const RobustnessBenchmark& benchmar
       }
       plot.lines.push_back(std::move(line));
     }
-    plots.push_back({series, file_of(series), growth_svg(plot)});
+    plots.push_back({file_of(series), growth_svg(plot)});
   }
   return plots;
+}
+
+std::string markdown_of(const RobustnessBenchmark& benchmark, const SeedRange& seeds,
+                        const std::string& machine) {
+  std::string text = "# Degraded logs\n\n" + measured_by(machine) + "; " + seeds_text(seeds) +
+                     " of the noise. Errors are means over the true relations.\n\n";
+  text +=
+      "- odometry noise × k: adds normal noise of √(k² - 1) times the natural noise to each step of the "
+      "odometry, which multiplies its error by about k. The natural noise is the error of odometry against "
+      "the "
+      "map of the unchanged log, over stretches of 1 m or 1 rad. It is modelled as a random walk: its "
+      "variance "
+      "grows with distance and rotation.\n"
+      "- no odometry: the constant-velocity model predicts the motion of the robot\n"
+      "- scans kept: all other scans are removed from the log. Relations at their times are evaluated by "
+      "interpolation, which adds to the errors.\n"
+      "- field of view: beams outside the field of view have no return\n"
+      "- precision, recall: of the accepted loops, judged by the true relations\n"
+      "- unmatched: scans that the front end could not match with its local map\n"
+      "- runs: one for each seed if the case draws random numbers, otherwise one. Over several runs, errors "
+      "are mean ± standard deviation of the sample [worst], other figures are means.\n\n";
+  return text + noise_table(benchmark.logs).markdown() + '\n' + cases_table(benchmark).markdown() + '\n' +
+         logs_section(benchmark.identities, benchmark.without_relations);
+}
+
+Json json_of(const RobustnessBenchmark& benchmark, const SeedRange& seeds, const std::string& machine) {
+  Json json = report_json("psi-slam-robustness", machine);
+  json.update({{"seeds", seeds.all()},
+               {"files", logs_table(benchmark.identities).json()},
+               {"logs", noise_table(benchmark.logs).json()},
+               {"rows", cases_table(benchmark).json()}});
+  return json;
+}
+
+}  // namespace
+
+BenchReport robustness_report(const RobustnessBenchmark& benchmark, const SeedRange& seeds,
+                              const std::string& machine) {
+  return {"robustness.md", markdown_of(benchmark, seeds, machine),
+          json_file_text(json_of(benchmark, seeds, machine)), cases_table(benchmark).csv(),
+          plots_of(benchmark)};
 }
 
 }  // namespace psi_slam

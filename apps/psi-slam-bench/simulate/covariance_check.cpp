@@ -11,22 +11,22 @@
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/marginal_covariance.h"
 #include "pose_graph/path_covariance.h"
-#include "psi_slam/pose_graph.h"
 #include "pose_graph/sparse_pose_adjustment.h"
+#include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
-// Of the pairs drawn: each first node with several others, which costs little more than one.
+// Random pairs: each first node is combined with several others, which costs little more than with one.
 constexpr std::size_t kFirsts = 30;
 constexpr std::size_t kOthers = 20;
 
 class TrueNodes {
  public:
   TrueNodes(const MappingResult& result, const Trajectory& truth) : result_(result), truth_(truth) {}
-  /// The pose of b seen from a.
+  /// Pose of node b in the frame of node a.
   TPose2D a_T_b(std::size_t a, std::size_t b) const { return pose(b) - pose(a); }
 
  private:
@@ -109,7 +109,7 @@ std::vector<NormalisedErrors> check_covariances(const MappingResult& result, con
   std::vector<NormalisedErrors> errors = {normalised_errors("scans in local maps", std::move(of_maps)),
                                           normalised_errors("loops", std::move(of_loops))};
   if (graph.num_nodes() > 1) {
-    SparsePoseAdjustment().optimize(graph);  // covariances are those of the optimum
+    SparsePoseAdjustment().optimize(graph);  // covariances are defined at the optimum
     PairSquares squares = squares_of_pairs(graph, true_nodes, seed);
     errors.push_back(normalised_errors("any two nodes, by the best path", std::move(squares.best_path)));
     errors.push_back(normalised_errors("any two nodes, by the whole graph", std::move(squares.whole_graph)));

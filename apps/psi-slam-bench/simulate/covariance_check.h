@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether covariances mean what they say: an error e divided by its covariance, e^T C^-1 e, follows the
-// chi-square distribution of three degrees of freedom when C is the error's (Bar-Shalom's test of
-// consistency).
+// Checks covariances: the normalised error e^T C^-1 e follows the chi-square distribution with three degrees
+// of freedom if C is the covariance of the error e (Bar-Shalom's test of consistency).
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -17,7 +16,7 @@
 
 namespace psi_slam {
 
-/// Of the chi-square distribution of three degrees of freedom.
+/// Median and 95 % point of the chi-square distribution with three degrees of freedom.
 inline constexpr double kChiSquareMedian = 2.366;
 inline constexpr double kChiSquare95 = 7.815;
 
@@ -25,21 +24,21 @@ inline constexpr double kChiSquare95 = 7.815;
 struct NormalisedErrors {
   std::string of;  ///< "scans in local maps", ...
   std::size_t count = 0;
-  double mean = 0;       ///< over 3: 1 where the covariance is right, 4 where deviations are taken for half
-  double median = 0;     ///< over kChiSquareMedian: as the mean, blind to the few worst
-  double beyond_95 = 0;  ///< share above kChiSquare95: 0.05 where the covariance is right
+  double mean = 0;       ///< divided by 3: 1 for correct covariances, 4 for standard deviations half as large
+  double median = 0;     ///< divided by kChiSquareMedian: 1 for correct covariances, robust to outliers
+  double beyond_95 = 0;  ///< share above kChiSquare95: 0.05 for correct covariances
 };
 
 /// e^T Omega e of equation 5 between a measured relative pose and the true one.
 double normalised_square(const mrpt::math::TPose2D& measured, const mrpt::math::TPose2D& truth,
                          const Eigen::Matrix3d& information);
 
-/// Zeros for no squares.
+/// Zeros without squares.
 NormalisedErrors normalised_errors(std::string of, std::vector<double> squares);
 
-/// Of the graph at its optimum, not of the poses refined after it: of the constraints in the finished graph,
-/// local maps' and loops' apart, and of the poses of pairs of nodes drawn at random, by the best path, which
-/// loops are looked for by, and by the whole graph. `truth` has a pose for each frame.
+/// Normalised errors of the optimised graph without the final scan refinement: of local-map constraints, of
+/// loops, and of random pairs of nodes. For pairs, the covariance follows from the best path, as in the loop
+/// search, and from the whole graph. `truth` has a pose for each frame.
 std::vector<NormalisedErrors> check_covariances(const MappingResult& result, const Trajectory& truth,
                                                 std::uint64_t seed);
 

@@ -8,13 +8,13 @@
 #include <exception>
 #include <stdexcept>
 
+#include "batch/child_process.h"
 #include "psi_slam/user_error.h"
-#include "batch/running_child.h"
 
 namespace psi_slam {
 namespace {
 
-// The first character of each message, which ends with a zero.
+// First character of a message. Messages end with a zero.
 constexpr char kReport = 'r';
 constexpr char kResult = 't';
 constexpr char kUserError = 'u';
@@ -25,7 +25,7 @@ void send(int pipe, char kind, const std::string& text) {
   for (std::size_t sent = 0; sent < message.size();) {
     const ssize_t written = ::write(pipe, message.data() + sent, message.size() - sent);
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) ::_exit(1);  // nobody listens any more
+    if (written <= 0) ::_exit(1);  // the parent no longer reads
     sent += static_cast<std::size_t>(written);
   }
 }
@@ -39,11 +39,11 @@ void send(int pipe, char kind, const std::string& text) {
   } catch (const std::exception& error) {
     send(pipe, kFailure, error.what());
   }
-  ::_exit(0);  // neither destructors nor streams of the parent
+  ::_exit(0);  // without destructors and stream buffers of the parent
 }
 
-/// Takes the messages, up to the zero that each ends with, and leaves the rest. The last one that is no
-/// report is kept in `last`.
+/// Removes complete messages from `bytes`. Passes reports to `observer` and stores the last other message in
+/// `last`.
 void take_messages(std::string& bytes, std::string& last,
                    const std::function<void(const std::string&)>& observer) {
   std::size_t begin = 0;
@@ -79,7 +79,7 @@ ForkedResult run_forked(
   const EndedChild end = child.wait();
   if (last.empty()) {
     throw SystemFailure(WIFSIGNALED(end.status)
-                            ? "a child process was ended by signal " + std::to_string(WTERMSIG(end.status))
+                            ? "a child process was killed by signal " + std::to_string(WTERMSIG(end.status))
                             : "a child process ended without a result");
   }
   if (last[0] == kUserError) throw UserError(last.substr(1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Work done in a process of its own, so that its memory can be told apart from what was done before.
+// Runs a function in a child process, so that its memory can be measured separately.
 #pragma once
 
 #include <functional>
@@ -8,13 +8,13 @@
 namespace psi_slam {
 
 struct ForkedResult {
-  std::string text;            ///< that the work returned
-  double peak_memory_mib = 0;  ///< the most that it ever held in memory
+  std::string text;            ///< returned by the function
+  double peak_memory_mib = 0;  ///< largest resident set of the child
 };
 
-/// Runs `work` in a child process and waits for it. What it reports on the way, a line each, is given to
-/// `observer` in this process. An exception of the work is thrown here again: a UserError as such, everything
-/// else, and a child that dies, as SystemFailure. To be called when this process has no other threads.
+/// Runs `work` in a child process and waits for its end. Passes each text that `work` reports to `observer`
+/// in this process. Throws UserError if `work` does, and SystemFailure for other exceptions or if the child
+/// dies. This process must have no other threads.
 ForkedResult run_forked(
     const std::function<std::string(const std::function<void(const std::string&)>&)>& work,
     const std::function<void(const std::string&)>& observer);

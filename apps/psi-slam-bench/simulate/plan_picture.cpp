@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulate/plan_picture.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "base/number_text.h"
+#include "simulate/simulate_report.h"
 
 namespace psi_slam {
 namespace {
 
 constexpr double kMargin_m = 2;
-constexpr double kWidth = 1200;           // of the picture, pixels
-constexpr double kBetweenPoints_m = 0.1;  // of the path
+constexpr double kWidth = 1200;           // of the picture, in pixels
+constexpr double kBetweenPoints_m = 0.1;  // distance of the drawn points of the path
 
 struct Layer {
   Material material;
@@ -25,7 +24,7 @@ constexpr std::array<Layer, 4> kLayers = {{{Material::kFurniture, "furniture", "
                                            {Material::kGlass, "glass", "#30a8c8"},
                                            {Material::kWall, "walls", "#222222"}}};
 
-/// Metres with y upwards, as they are; pictures have y downwards.
+/// Point in metres with y downwards, as SVG has it.
 std::string point_text(const mrpt::math::TPoint2D& point) {
   return fixed_text(point.x, 2) + ',' + fixed_text(-point.y, 2);
 }

@@ -4,15 +4,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "simulate/forked_work.h"
-#include "common/mapped_run.h"
-#include "psi_slam/mapper.h"
+#include "common/benchmark_logs.h"
 #include "exports/run_summary.h"
+#include "psi_slam/mapper.h"
 #include "session/settings.h"
-#include "simulation/simulation_random.h"
+#include "simulate/forked_work.h"
 #include "simulate/simulate_report.h"
+#include "simulation/simulation_random.h"
 
 namespace psi_slam {
 namespace {
@@ -21,7 +22,7 @@ using mrpt::math::TPose2D;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kPeoplePer_m = 500;
-constexpr double kScansShare = 0.6;  // of the progress; the rest is the last pass
+constexpr double kScansShare = 0.6;  // of the progress; the rest is the final search
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -49,6 +50,22 @@ void compare_with_truth(const MappingResult& result, const Trajectory& truth, st
 
 }  // namespace
 
+// The functions that nlohmann::json finds by the type of their arguments.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeanAndP99, mean, p99)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NormalisedErrors, of, count, mean, median, beyond_95)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SimulateRow, path_m, scans, rooms, corridors_m, nodes, local_maps,
+                                   error_mean_m, error_max_m, relation_mean_m, relation_mean_deg,
+                                   odometry_error_mean_m, loops, false_loops, covariances, scan_ms, add_s,
+                                   finish_s, peak_memory_mib, stages_s)
+
+std::string row_text(const SimulateRow& row) {
+  return nlohmann::json(row).dump();
+}
+
+SimulateRow row_of_text(const std::string& text) {
+  return nlohmann::json::parse(text).get<SimulateRow>();
+}
+
 MeanAndP99 mean_and_p99(std::vector<double> values) {
   if (values.empty()) return {};
   const double sum = std::accumulate(values.begin(), values.end(), 0.0);
@@ -58,11 +75,11 @@ MeanAndP99 mean_and_p99(std::vector<double> values) {
 }
 
 SimulatedLogOptions simulated_run_options(const SimulateOptions& options, double path_m) {
-  SimulatedLogOptions drive = simulated_log_options(path_m, options.seed);
-  drive.plan.glass_share = options.glass_share;
-  drive.people = static_cast<std::size_t>(
+  SimulatedLogOptions run = simulated_log_options(path_m, options.seed);
+  run.plan.glass_share = options.glass_share;
+  run.people = static_cast<std::size_t>(
       std::lround(std::ceil(static_cast<double>(options.people) * path_m / kPeoplePer_m)));
-  return drive;
+  return run;
 }
 
 std::vector<Relation> draw_relations(const Trajectory& truth, std::size_t count, std::uint64_t seed) {
@@ -97,12 +114,12 @@ std::size_t count_false_loops(const MappingResult& result, const Trajectory& tru
       }));
 }
 
-SimulateRow map_simulated_run(const SimulatedLogOptions& drive, int threads,
-                                const std::function<void(double)>& progress) {
+SimulateRow map_simulated_run(const SimulatedLogOptions& run, int threads,
+                              const std::function<void(double)>& progress) {
   Settings settings;
   settings.run.threads = threads;
   Mapper mapper(mapper_options(settings));
-  SimulatedLog log(drive);
+  SimulatedLog log(run);
   Trajectory truth;
   std::vector<double> times_ms;
   while (std::optional<Frame> frame = log.next()) {
@@ -130,13 +147,12 @@ SimulateRow map_simulated_run(const SimulatedLogOptions& drive, int threads,
   row.add_s = std::accumulate(times_ms.begin(), times_ms.end(), 0.0) / 1e3;
   row.scan_ms = mean_and_p99(std::move(times_ms));
   for (const StageTiming& stage : result.stages) row.stages_s.emplace_back(stage.name, stage.total_s);
-  compare_with_truth(result, truth, drive.path.seed, row);
+  compare_with_truth(result, truth, run.path.seed, row);
   return row;
 }
 
-std::vector<SimulateRow> run_simulate_benchmark(
-    const SimulateOptions& options,
-    const std::function<void(const std::string& doing, double done, double all)>& observer) {
+std::vector<SimulateRow> run_simulate_benchmark(const SimulateOptions& options,
+                                                const ProgressObserver& observer) {
   const double all_m = std::accumulate(options.path_m.begin(), options.path_m.end(), 0.0);
   double done_m = 0;
   std::vector<SimulateRow> rows;
@@ -146,19 +162,19 @@ std::vector<SimulateRow> run_simulate_benchmark(
     const ForkedResult child = run_forked(
         [&](const std::function<void(const std::string&)>& report) {
           int reported = 0;
-          const SimulateRow row = map_simulated_run(simulated_run_options(options, path_m),
-                                                      options.threads, [&](double share) {
-                                                        const int now = static_cast<int>(1000 * share);
-                                                        if (now == reported) return;
-                                                        reported = now;
-                                                        report(std::to_string(now));
-                                                      });
-          return row_json_text(row);
+          const SimulateRow row =
+              map_simulated_run(simulated_run_options(options, path_m), options.threads, [&](double share) {
+                const int now = static_cast<int>(1000 * share);
+                if (now == reported) return;
+                reported = now;
+                report(std::to_string(now));
+              });
+          return row_text(row);
         },
         [&](const std::string& per_mille) {
           observer(doing, done_m + path_m * std::stoi(per_mille) / 1000, all_m);
         });
-    rows.push_back(row_of_json(child.text));
+    rows.push_back(row_of_text(child.text));
     done_m += path_m;
   }
   return rows;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The benchmark of scale: simulated drives of growing length are mapped and compared with the truth.
+// Maps simulated runs of growing length and compares the maps with the truth.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "simulate/covariance_check.h"
-#include "psi_slam/mapping_result.h"
+#include "batch/workers.h"
 #include "evaluation/relations_metric.h"
+#include "psi_slam/mapping_result.h"
+#include "simulate/covariance_check.h"
 #include "simulation/simulated_log.h"
 
 namespace psi_slam {
@@ -20,17 +21,17 @@ struct SimulateOptions {
   std::vector<double> path_m = {500, 1000, 2000, 5000, 10000};
   std::uint64_t seed = 1;
   std::size_t people = 5;    ///< for every 500 m of path
-  double glass_share = 0.1;  ///< of rooms' fronts and outer walls
-  int threads = 1;           ///< that match loops
+  double glass_share = 0.1;  ///< of the front walls of rooms and of the outer walls
+  int threads = 1;           ///< for matching loops
 };
 
-/// The mean, and the least of the values that 99 of 100 do not exceed.
+/// Mean, and the least value that 99 % of the values do not exceed.
 struct MeanAndP99 {
   double mean = 0;
   double p99 = 0;
 };
 
-/// One drive, mapped.
+/// Figures of one mapped run.
 struct SimulateRow {
   double path_m = 0;
   std::size_t scans = 0;
@@ -39,55 +40,57 @@ struct SimulateRow {
   std::size_t nodes = 0;
   std::size_t local_maps = 0;
 
-  double error_mean_m = 0;  ///< distance from the truth, both laid on each other at the first scan
+  double error_mean_m = 0;  ///< distance from the truth, with both paths aligned at the first scan
   double error_max_m = 0;
-  double relation_mean_m = 0;  ///< of the relations metric over pairs of scans drawn at random
+  double relation_mean_m = 0;  ///< relations metric over random pairs of scans
   double relation_mean_deg = 0;
-  double odometry_error_mean_m = 0;  ///< as error_mean_m, of odometry alone
+  double odometry_error_mean_m = 0;  ///< as error_mean_m, for odometry alone
 
-  std::size_t loops = 0;        ///< constraints that the finished graph keeps
-  std::size_t false_loops = 0;  ///< of these, those that the truth contradicts
+  std::size_t loops = 0;        ///< in the finished graph
+  std::size_t false_loops = 0;  ///< of these, loops that contradict the truth
 
   std::vector<NormalisedErrors> covariances;  ///< see check_covariances()
 
   MeanAndP99 scan_ms;          ///< of Mapper::add
   double add_s = 0;            ///< of all scans
-  double finish_s = 0;         ///< of all that comes after the last scan
-  double peak_memory_mib = 0;  ///< of the process that made and mapped the drive, up to the finished map
-  std::vector<std::pair<std::string, double>> stages_s;  ///< the mapper's own account of its time
+  double finish_s = 0;         ///< after the last scan
+  double peak_memory_mib = 0;  ///< of simulation and mapping, up to the finished map
+  std::vector<std::pair<std::string, double>> stages_s;  ///< times of the stages of the mapper
 };
 
-/// A loop is false when it is farther than this from the truth.
+/// A loop is false if it is farther than this from the truth.
 inline constexpr double kFalseLoop_m = 0.5;
 inline constexpr double kFalseLoop_deg = 5;
 
-/// Pairs of scans for the relations metric.
+/// Number of pairs of scans for the relations metric.
 inline constexpr std::size_t kRelations = 2000;
 
-/// Zeros for no values.
+/// Zeros without values.
 MeanAndP99 mean_and_p99(std::vector<double> values);
 
-/// The drive of one length: with the options' seed, people and glass.
+/// A run of one length with the seed, people and glass of the options.
 SimulatedLogOptions simulated_run_options(const SimulateOptions& options, double path_m);
 
-/// True relations between random pairs of scans. `truth` is not empty.
+/// True relations between random pairs of scans. `truth` must not be empty.
 std::vector<Relation> draw_relations(const Trajectory& truth, std::size_t count, std::uint64_t seed);
 
-/// Distances between two paths of the same scans, laid on each other at their first poses.
+/// Distances between two paths of the same scans, aligned at their first poses.
 ErrorSummary trajectory_error_m(const std::vector<mrpt::math::TPose2D>& path, const Trajectory& truth);
 
-/// The loops that the graph keeps and the truth contradicts.
+/// Number of loops in the finished graph that contradict the truth.
 std::size_t count_false_loops(const MappingResult& result, const Trajectory& truth);
 
-/// Makes and maps one drive in this process with the default settings. `progress` is
-/// called with the share done, in [0, 1].
-SimulateRow map_simulated_run(const SimulatedLogOptions& drive, int threads,
-                                const std::function<void(double)>& progress);
+/// Simulates and maps a run in this process with the default settings. Calls `progress` with the share that
+/// is done, in [0, 1].
+SimulateRow map_simulated_run(const SimulatedLogOptions& run, int threads,
+                              const std::function<void(double)>& progress);
 
-/// Every length in a child process of its own. The observer is told what is being done, how many metres are
-/// done, and of how many.
-std::vector<SimulateRow> run_simulate_benchmark(
-    const SimulateOptions& options,
-    const std::function<void(const std::string& doing, double done, double all)>& observer);
+/// Maps a run of each length, each in a child process of its own. Work is counted in metres of path.
+std::vector<SimulateRow> run_simulate_benchmark(const SimulateOptions& options,
+                                                const ProgressObserver& observer);
+
+/// Messages from the child process; every figure is restored exactly.
+std::string row_text(const SimulateRow& row);
+SimulateRow row_of_text(const std::string& text);
 
 }  // namespace psi_slam

@@ -2,112 +2,161 @@
 #include "simulate/simulate_report.h"
 
 #include <cmath>
-#include <functional>
-#include <nlohmann/json.hpp>
 #include <utility>
 
-#include "common/growth_plot.h"
 #include "base/number_text.h"
+#include "batch/kept_run.h"
+#include "common/log_plots.h"
+#include "report/html_text.h"
 
 namespace psi_slam {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Rows = std::vector<SimulateRow>;
+using Column = ColumnOf<SimulateRow>;
 
-Json json_of(const NormalisedErrors& errors) {
-  return {{"of", errors.of},
-          {"count", errors.count},
-          {"mean", errors.mean},
-          {"median", errors.median},
-          {"beyond_95", errors.beyond_95}};
+Column path_column() {
+  return {{"path", "path_m"}, [](const SimulateRow& row) {
+            return ReportCell{metres_text(row.path_m), row.path_m};
+          }};
 }
 
-NormalisedErrors normalised_errors_of(const Json& json) {
-  return {json.at("of"), json.at("count"), json.at("mean"), json.at("median"), json.at("beyond_95")};
+Column column(const std::string& head, const std::string& key, double SimulateRow::*value, int decimals) {
+  return {{head, key}, [=](const SimulateRow& row) { return cell(row.*value, decimals); }};
 }
 
-Json json_of(const SimulateRow& row) {
-  Json stages = Json::object();
-  for (const auto& [stage, time_s] : row.stages_s) stages[stage] = time_s;
-  Json covariances = Json::array();
-  for (const NormalisedErrors& errors : row.covariances) covariances.push_back(json_of(errors));
-  return {{"path_m", row.path_m},
-          {"scans", row.scans},
-          {"rooms", row.rooms},
-          {"corridors_m", row.corridors_m},
-          {"nodes", row.nodes},
-          {"local_maps", row.local_maps},
-          {"error_mean_m", row.error_mean_m},
-          {"error_max_m", row.error_max_m},
-          {"relation_mean_m", row.relation_mean_m},
-          {"relation_mean_deg", row.relation_mean_deg},
-          {"odometry_error_mean_m", row.odometry_error_mean_m},
-          {"loops", row.loops},
-          {"false_loops", row.false_loops},
-          {"covariances", covariances},
-          {"scan_ms", {{"mean", row.scan_ms.mean}, {"p99", row.scan_ms.p99}}},
-          {"add_s", row.add_s},
-          {"finish_s", row.finish_s},
-          {"peak_memory_mib", row.peak_memory_mib},
-          {"stages_s", stages}};
+Column column(const std::string& head, const std::string& key, std::size_t SimulateRow::*count) {
+  return {{head, key}, [=](const SimulateRow& row) { return cell(row.*count); }};
 }
 
-std::string drives_text(const std::vector<SimulateRow>& rows) {
-  std::string text =
-      "| path | scans | corridors [m] | rooms | nodes | local maps | error mean [m] | error max [m] | "
-      "relations [m] | relations [deg] | odometry [m] | loops | false |\n"
-      "|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
-  for (const SimulateRow& row : rows)
-    text += "| " + metres_text(row.path_m) + " | " + std::to_string(row.scans) + " | " +
-            fixed_text(row.corridors_m, 0) + " | " + std::to_string(row.rooms) + " | " +
-            std::to_string(row.nodes) + " | " + std::to_string(row.local_maps) + " | " +
-            fixed_text(row.error_mean_m, 3) + " | " + fixed_text(row.error_max_m, 3) + " | " +
-            fixed_text(row.relation_mean_m, 3) + " | " + fixed_text(row.relation_mean_deg, 2) + " | " +
-            fixed_text(row.odometry_error_mean_m, 1) + " | " + std::to_string(row.loops) + " | " +
-            std::to_string(row.false_loops) + " |\n";
-  return text;
+std::vector<Column> map_columns() {
+  return {path_column(),
+          column("scans", "scans", &SimulateRow::scans),
+          column("corridors [m]", "corridors_m", &SimulateRow::corridors_m, 0),
+          column("rooms", "rooms", &SimulateRow::rooms),
+          column("nodes", "nodes", &SimulateRow::nodes),
+          column("local maps", "local_maps", &SimulateRow::local_maps),
+          column("error mean [m]", "error_mean_m", &SimulateRow::error_mean_m, 3),
+          column("error max [m]", "error_max_m", &SimulateRow::error_max_m, 3),
+          column("relations [m]", "relation_mean_m", &SimulateRow::relation_mean_m, 3),
+          column("relations [deg]", "relation_mean_deg", &SimulateRow::relation_mean_deg, 2),
+          column("odometry [m]", "odometry_error_mean_m", &SimulateRow::odometry_error_mean_m, 1),
+          column("loops", "loops", &SimulateRow::loops),
+          column("false", "false_loops", &SimulateRow::false_loops)};
 }
 
-std::string cost_text(const std::vector<SimulateRow>& rows) {
-  std::string text =
-      "| path | a scan, mean [ms] | a scan, p99 [ms] | all scans [s] | after the last [s] | "
-      "memory [MiB] |";
-  std::string rule = "|---:|---:|---:|---:|---:|---:|";
+std::vector<Column> cost_columns() {
+  return {{{"per scan, mean [ms]", "scan_ms.mean"},
+           [](const SimulateRow& row) { return cell(row.scan_ms.mean, 2); }},
+          {{"per scan, p99 [ms]", "scan_ms.p99"},
+           [](const SimulateRow& row) { return cell(row.scan_ms.p99, 2); }},
+          column("all scans [s]", "add_s", &SimulateRow::add_s, 1),
+          column("after the last scan [s]", "finish_s", &SimulateRow::finish_s, 1),
+          column("memory [MiB]", "peak_memory_mib", &SimulateRow::peak_memory_mib, 0)};
+}
+
+ReportTable cost_table(const Rows& rows) {
+  std::vector<Column> columns = cost_columns();
+  columns.insert(columns.begin(), path_column());
   if (!rows.empty())
-    for (const auto& [stage, time_s] : rows.front().stages_s) {
-      text += ' ' + stage + " [s] |";
-      rule += "---:|";
-    }
-  text += '\n' + rule + '\n';
-  for (const SimulateRow& row : rows) {
-    text += "| " + metres_text(row.path_m) + " | " + fixed_text(row.scan_ms.mean, 2) + " | " +
-            fixed_text(row.scan_ms.p99, 2) + " | " + fixed_text(row.add_s, 1) + " | " +
-            fixed_text(row.finish_s, 1) + " | " + fixed_text(row.peak_memory_mib, 0) + " |";
-    for (const auto& [stage, time_s] : row.stages_s) text += ' ' + fixed_text(time_s, 1) + " |";
-    text += '\n';
-  }
-  return text;
+    for (std::size_t i = 0; i < rows.front().stages_s.size(); ++i)
+      columns.push_back({{rows.front().stages_s[i].first + " [s]"},
+                         [i](const SimulateRow& row) { return cell(row.stages_s.at(i).second, 1); }});
+  return table_of(columns, rows);
 }
 
-std::string covariances_text(const std::vector<SimulateRow>& rows) {
-  std::string text =
-      "Normalised errors: squared errors over their covariances, which follow the chi-square distribution of "
-      "three degrees of freedom where the covariances are right. Mean and median are given over those of "
-      "that "
-      "distribution, and should be 1; of all, 5 % should lie beyond its 95 % point. More is too sure, less "
-      "too careful.\n\n"
-      "| path | of | poses | mean | median | beyond 95 % point |\n|---:|---|---:|---:|---:|---:|\n";
+/// The errors of one kind of poses of one run.
+struct CovarianceRow {
+  double path_m;
+  NormalisedErrors errors;
+};
+
+ReportTable covariances_table(const std::vector<CovarianceRow>& rows) {
+  using Row = CovarianceRow;
+  return table_of<Row>(
+      {{{"path"}, [](const Row& row) { return cell(metres_text(row.path_m)); }},
+       {{"of", "of", true}, [](const Row& row) { return cell(row.errors.of); }},
+       {{"poses", "count"}, [](const Row& row) { return cell(row.errors.count); }},
+       {{"mean", "mean"}, [](const Row& row) { return cell(row.errors.mean, 2); }},
+       {{"median", "median"}, [](const Row& row) { return cell(row.errors.median, 2); }},
+       {{"beyond 95 % point", "beyond_95"},
+        [](const Row& row) {
+          return ReportCell{fixed_text(100 * row.errors.beyond_95, 1) + " %", row.errors.beyond_95};
+        }}},
+      rows);
+}
+
+std::vector<CovarianceRow> covariances_of(const SimulateRow& row) {
+  std::vector<CovarianceRow> covariances;
+  for (const NormalisedErrors& errors : row.covariances) covariances.push_back({row.path_m, errors});
+  return covariances;
+}
+
+/// All figures, for JSON and CSV.
+ReportTable figures_table(const Rows& rows) {
+  std::vector<Column> columns = map_columns();
+  columns.push_back({{{}, "covariances"}, [](const SimulateRow& row) {
+                       return ReportCell{{}, covariances_table(covariances_of(row)).json()};
+                     }});
+  for (const Column& column : cost_columns()) columns.push_back(column);
+  columns.push_back({{{}, "stages_s"}, [](const SimulateRow& row) {
+                       Json stages = Json::object();
+                       for (const auto& [stage, time_s] : row.stages_s) stages[stage] = time_s;
+                       return ReportCell{{}, stages};
+                     }});
+  return table_of(columns, rows);
+}
+
+std::string markdown_of(const Rows& rows, const SimulateOptions& options, const std::string& machine) {
+  std::string text = "# Simulated runs of growing length\n\n" + measured_by(machine) + ", " +
+                     counted(static_cast<std::size_t>(options.threads), "thread", "threads") +
+                     ", default settings; seed " + std::to_string(options.seed) + ", " +
+                     std::to_string(options.people) + " people for every 500 m, " +
+                     fixed_text(100 * options.glass_share, 0) +
+                     " % glass. Each run has its own building and its own process.\n\n";
+  text +=
+      "- error: distance from the truth, with both paths aligned at the first scan\n"
+      "- relations: metric of Kümmerle et al. over " +
+      std::to_string(kRelations) +
+      " random pairs of scans\n"
+      "- odometry: mean error of odometry alone\n"
+      "- false: loops of the finished map that are more than " +
+      fixed_text(kFalseLoop_m, 1) + " m or " + fixed_text(kFalseLoop_deg, 0) +
+      " degrees off the truth\n"
+      "- times are those of the mapper, without the simulation of the scans\n\n";
+  std::vector<CovarianceRow> covariances;
   for (const SimulateRow& row : rows)
-    for (const NormalisedErrors& errors : row.covariances)
-      text += "| " + metres_text(row.path_m) + " | " + errors.of + " | " + std::to_string(errors.count) +
-              " | " + fixed_text(errors.mean, 2) + " | " + fixed_text(errors.median, 2) + " | " +
-              fixed_text(100 * errors.beyond_95, 1) + " % |\n";
-  return text;
+    for (const CovarianceRow& covariance : covariances_of(row)) covariances.push_back(covariance);
+  return text + table_of(map_columns(), rows).markdown() + '\n' + cost_table(rows).markdown() +
+         "\nNormalised errors are squared errors divided by their covariances. With correct covariances they "
+         "follow "
+         "the chi-square distribution with three degrees of freedom. Mean and median are divided by those of "
+         "this "
+         "distribution and should be 1; 5 % of the errors should lie beyond its 95 % point. Larger values "
+         "mean that "
+         "the covariances are too small, smaller values that they are too large.\n\n" +
+         covariances_table(covariances).markdown();
 }
 
-GrowthPlot plot_of(
-    const std::vector<SimulateRow>& rows, std::string title, std::string unit,
-    const std::vector<std::pair<std::string, std::function<double(const SimulateRow&)>>>& lines) {
+Json json_of(const Rows& rows, const SimulateOptions& options, const std::string& machine) {
+  Json json = report_json("psi-slam-simulate-benchmark", machine);
+  json.update({{"seed", options.seed},
+               {"people_per_500_m", options.people},
+               {"glass_share", options.glass_share},
+               {"threads", options.threads},
+               {"drives", figures_table(rows).json()}});
+  return json;
+}
+
+/// A line of a plot and its value for each run.
+struct PlotLine {
+  std::string name;
+  std::function<double(const SimulateRow&)> value;
+};
+
+std::string growth_over_path(const Rows& rows, std::string title, std::string unit,
+                             const std::vector<PlotLine>& lines) {
   GrowthPlot plot;
   plot.title = std::move(title);
   plot.unit = std::move(unit);
@@ -116,7 +165,28 @@ GrowthPlot plot_of(
     plot.lines.push_back({name, {}});
     for (const SimulateRow& row : rows) plot.lines.back().values.push_back(value(row));
   }
-  return plot;
+  return growth_svg(plot);
+}
+
+double time_per_scan_ms(const SimulateRow& row) {
+  return 1e3 * (row.add_s + row.finish_s) / static_cast<double>(row.scans);
+}
+
+std::vector<BenchReport::Plot> plots_of(const Rows& rows) {
+  using Row = SimulateRow;
+  return {{"simulate-error.svg",
+           growth_over_path(rows, "Error over the length of the path", "m",
+                            {{"odometry", [](const Row& row) { return row.odometry_error_mean_m; }},
+                             {"largest", [](const Row& row) { return row.error_max_m; }},
+                             {"mean", [](const Row& row) { return row.error_mean_m; }},
+                             {"relations", [](const Row& row) { return row.relation_mean_m; }}})},
+          {"simulate-time.svg", growth_over_path(rows, "Time per scan over the length of the path", "ms",
+                                                 {{"p99", [](const Row& row) { return row.scan_ms.p99; }},
+                                                  {"mean", [](const Row& row) { return row.scan_ms.mean; }},
+                                                  {"mean, all work", time_per_scan_ms}})},
+          {"simulate-memory.svg",
+           growth_over_path(rows, "Peak memory over the length of the path", "MiB",
+                            {{"memory", [](const Row& row) { return row.peak_memory_mib; }}})}};
 }
 
 }  // namespace
@@ -127,95 +197,9 @@ std::string metres_text(double metres) {
   return fixed_text(metres / 1000, std::abs(std::remainder(whole, 1000)) < 50 ? 0 : 1) + " km";
 }
 
-std::string simulate_markdown(const std::vector<SimulateRow>& rows, const SimulateOptions& options,
-                              const std::string& machine) {
-  std::string text = "# Simulated drives of growing length\n\n";
-  text += "psi-slam " PSI_SLAM_VERSION ", " + machine + ", " + std::to_string(options.threads) +
-          (options.threads == 1 ? " thread" : " threads") + ", default settings; seed " +
-          std::to_string(options.seed) + ", " + std::to_string(options.people) + " people for every 500 m, " +
-          fixed_text(100 * options.glass_share, 0) +
-          " % glass. Each drive has a building and a process of its own.\n\n";
-  text +=
-      "- error: distance from the truth, both paths laid on each other at the first scan\n"
-      "- relations: metric of Kümmerle et al. over " +
-      std::to_string(kRelations) +
-      " pairs of scans drawn at random\n"
-      "- odometry: mean error of odometry alone, as error\n"
-      "- false: of the loops that the map keeps, those more than " +
-      fixed_text(kFalseLoop_m, 1) + " m or " + fixed_text(kFalseLoop_deg, 0) +
-      " degrees off the truth\n"
-      "- times are the mapper's alone; making the scans is not counted\n\n";
-  return text + drives_text(rows) + '\n' + cost_text(rows) + '\n' + covariances_text(rows);
-}
-
-std::string simulate_json(const std::vector<SimulateRow>& rows, const SimulateOptions& options,
-                          const std::string& machine) {
-  Json drives = Json::array();
-  for (const SimulateRow& row : rows) drives.push_back(json_of(row));
-  const Json json = {{"schema", "psi-slam-simulate-benchmark"},
-                     {"schema_version", 1},
-                     {"program_version", PSI_SLAM_VERSION},
-                     {"machine", machine},
-                     {"seed", options.seed},
-                     {"people_per_500_m", options.people},
-                     {"glass_share", options.glass_share},
-                     {"threads", options.threads},
-                     {"drives", drives}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
-}
-
-std::string row_json_text(const SimulateRow& row) {
-  return json_of(row).dump();
-}
-
-SimulateRow row_of_json(const std::string& text) {
-  const Json json = Json::parse(text);
-  SimulateRow row;
-  json.at("path_m").get_to(row.path_m);
-  json.at("scans").get_to(row.scans);
-  json.at("rooms").get_to(row.rooms);
-  json.at("corridors_m").get_to(row.corridors_m);
-  json.at("nodes").get_to(row.nodes);
-  json.at("local_maps").get_to(row.local_maps);
-  json.at("error_mean_m").get_to(row.error_mean_m);
-  json.at("error_max_m").get_to(row.error_max_m);
-  json.at("relation_mean_m").get_to(row.relation_mean_m);
-  json.at("relation_mean_deg").get_to(row.relation_mean_deg);
-  json.at("odometry_error_mean_m").get_to(row.odometry_error_mean_m);
-  json.at("loops").get_to(row.loops);
-  json.at("false_loops").get_to(row.false_loops);
-  for (const Json& errors : json.at("covariances")) row.covariances.push_back(normalised_errors_of(errors));
-  json.at("scan_ms").at("mean").get_to(row.scan_ms.mean);
-  json.at("scan_ms").at("p99").get_to(row.scan_ms.p99);
-  json.at("add_s").get_to(row.add_s);
-  json.at("finish_s").get_to(row.finish_s);
-  json.at("peak_memory_mib").get_to(row.peak_memory_mib);
-  for (const auto& [stage, time_s] : json.at("stages_s").items())
-    row.stages_s.emplace_back(stage, time_s.get<double>());
-  return row;
-}
-
-std::string error_plot(const std::vector<SimulateRow>& rows) {
-  return growth_svg(plot_of(rows, "Error by the length of the path", "m",
-                            {{"odometry", [](const SimulateRow& row) { return row.odometry_error_mean_m; }},
-                             {"largest", [](const SimulateRow& row) { return row.error_max_m; }},
-                             {"mean", [](const SimulateRow& row) { return row.error_mean_m; }},
-                             {"relations", [](const SimulateRow& row) { return row.relation_mean_m; }}}));
-}
-
-std::string time_plot(const std::vector<SimulateRow>& rows) {
-  const auto whole = [](const SimulateRow& row) {
-    return 1e3 * (row.add_s + row.finish_s) / static_cast<double>(row.scans);
-  };
-  return growth_svg(plot_of(rows, "Time of a scan by the length of the path", "ms",
-                            {{"p99", [](const SimulateRow& row) { return row.scan_ms.p99; }},
-                             {"mean", [](const SimulateRow& row) { return row.scan_ms.mean; }},
-                             {"mean, all work", whole}}));
-}
-
-std::string memory_plot(const std::vector<SimulateRow>& rows) {
-  return growth_svg(plot_of(rows, "Peak memory by the length of the path", "MiB",
-                            {{"memory", [](const SimulateRow& row) { return row.peak_memory_mib; }}}));
+BenchReport simulate_report(const Rows& rows, const SimulateOptions& options, const std::string& machine) {
+  return {"simulate.md", markdown_of(rows, options, machine), json_file_text(json_of(rows, options, machine)),
+          figures_table(rows).csv(), plots_of(rows)};
 }
 
 }  // namespace psi_slam

@@ -10,11 +10,11 @@
 #include <system_error>
 #include <utility>
 
-#include "common/bench_command.h"
 #include "base/atomic_file.h"
-#include "psi_slam/user_error.h"
-#include "exports/corrected_log.h"
 #include "base/number_text.h"
+#include "common/bench_command.h"
+#include "exports/corrected_log.h"
+#include "psi_slam/user_error.h"
 #include "simulate/simulate_benchmark.h"
 
 namespace psi_slam {
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".clf.gz";
 
-/// Gone at the end of its scope, however that is left.
+/// A file that the destructor deletes.
 struct ScratchFile {
   fs::path path;
 
@@ -37,7 +37,7 @@ struct ScratchFile {
   }
 };
 
-/// `path` without the ending and with another one.
+/// The file beside `log` with another ending.
 fs::path beside(const fs::path& log, const std::string& ending) {
   const std::string name = log.filename().string();
   return log.parent_path() / (name.substr(0, name.size() - std::string(kEnding).size()) + ending);
@@ -73,12 +73,12 @@ void check_simulated_log_file(const fs::path& log) {
   const std::string name = log.filename().string();
   const std::string ending = kEnding;
   if (name.size() <= ending.size() || name.compare(name.size() - ending.size(), ending.size(), ending) != 0)
-    throw UserError(log.string() + " cannot be written as a log: name a file that ends in " + ending);
+    throw UserError(log.string() + " cannot be a log file: choose a name that ends in " + ending);
   check_writable(log);
 }
 
-void write_simulated_log(const fs::path& log, const SimulatedLogOptions& drive) {
-  SimulatedLog simulated(drive);
+void write_simulated_log(const fs::path& log, const SimulatedLogOptions& run) {
+  SimulatedLog simulated(run);
   std::vector<Frame> frames;
   std::vector<mrpt::math::TPose2D> poses;
   Trajectory truth;
@@ -93,7 +93,7 @@ void write_simulated_log(const fs::path& log, const SimulatedLogOptions& drive) 
     compress(plain.path, temporary);
   });
   write_text_atomically(beside(log, ".relations"),
-                        relations_text(draw_relations(truth, kRelations, drive.path.seed)));
+                        relations_text(draw_relations(truth, kRelations, run.path.seed)));
   write_tum(beside(log, ".tum"), truth);
 }
 

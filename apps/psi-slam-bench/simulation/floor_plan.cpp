@@ -13,15 +13,15 @@ namespace {
 
 constexpr double kDoor_m = 1.1;
 constexpr double kHallDoor_m = 1.8;
-constexpr double kDoorToWall_m = 1.0;  // from a door's middle to the room's side walls
+constexpr double kDoorToWall_m = 1.0;  // least distance from the middle of a door to the side walls
 constexpr double kNarrowestRoom_m = 3.2;
 constexpr double kWidestRoom_m = 7.5;
-constexpr double kFurnitureClear_m = 0.6;  // from the way into a room
+constexpr double kFurnitureClear_m = 0.6;  // from the straight path into a room
 constexpr double kHalfWall_m = kWallThickness_m / 2;
 
-/// The corridors across one axis, and the blocks between them.
+/// Positions along one axis of the parallel corridors across it, and of the blocks between them.
 struct Axis {
-  std::vector<double> corridor;  ///< the low edges
+  std::vector<double> corridor;  ///< lower edges
   std::vector<double> width;
 
   double middle(std::size_t i) const { return corridor[i] + width[i] / 2; }
@@ -37,13 +37,13 @@ struct Axis {
   }
 };
 
-/// One row of rooms of a block: side by side along x, all with their fronts at one corridor.
+/// A row of rooms of a block, side by side along x, with their fronts at the same corridor.
 struct RoomRow {
   double x0;
   double x1;
   double y_front;
   double y_back;
-  double y_corridor;  ///< the middle of the corridor in front
+  double y_corridor;  ///< centre line of the corridor in front
 
   double inwards() const { return y_back > y_front ? 1 : -1; }
 };
@@ -63,10 +63,10 @@ class Draughtsman {
   }
 
  private:
-  /// A stretch of a corridor along x, between two crossings.
+  /// A part of a corridor along x between two crossings.
   struct Stretch {
     bool bare = false;
-    std::vector<std::pair<double, std::size_t>> doors;  ///< x and place
+    std::vector<std::pair<double, std::size_t>> doors;  ///< x and index of the place
   };
 
   Stretch& stretch(std::size_t i, std::size_t j) { return stretches_[j * x_.blocks() + i]; }
@@ -156,7 +156,7 @@ class Draughtsman {
     const double deep_y = room.y_front + (room.y_back - room.y_front) * random_.between(0.45, 0.7);
     draw_front(room, door);
     draw_.line(door.from, room.y_front, door.from - random_.between(0, 0.2), room.y_front + in * 0.9,
-               Material::kFurniture);  // the door itself stands open
+               Material::kFurniture);  // the open door leaf
     add_door(stretch, door_x, room.y_corridor, draw_.place(door_x, deep_y, Place::Kind::kRoom));
     furnish(room, door_x);
     draw_in_corridor(room, door);
@@ -174,7 +174,7 @@ class Draughtsman {
     draw_.line(door.to, room.y_front, room.x1, room.y_front, Material::kGlass);
   }
 
-  /// Boxes that keep clear of the straight way in.
+  /// Boxes outside the straight path into the room.
   void furnish(const RoomRow& room, double door_x) {
     const double y_low = std::min(room.y_front, room.y_back) + kHalfWall_m;
     const double y_high = std::max(room.y_front, room.y_back) - kHalfWall_m;
@@ -189,7 +189,7 @@ class Draughtsman {
     }
   }
 
-  /// Pilasters and cupboards along the room's front.
+  /// Pilasters and cupboards in the corridor, along the front of the room.
   void draw_in_corridor(const RoomRow& room, const Opening& door) {
     const double face = room.y_front - room.inwards() * kHalfWall_m;
     if (random_.happens(0.4))
@@ -234,9 +234,9 @@ class Draughtsman {
     }
   }
 
-  /// Panes of wall or glass with pilasters between them, from one end of a wall to the other; bare ones are
-  /// one plain wall. `stroke` takes how far across and along the wall each stroke begins and ends; `inwards`
-  /// is 1 where the building lies on the side of greater coordinates.
+  /// Panes of wall or glass with pilasters between them, from one end of a wall to the other; a bare wall has
+  /// one pane. `stroke` gets the coordinates of both ends of each stroke, across and along the wall.
+  /// `inwards` is 1 if the building lies on the side of larger coordinates, otherwise -1.
   template <class Stroke>
   void draw_panes(double begin, double end, bool bare, double inwards, const Stroke& stroke) {
     for (double at = begin; at < end;) {
@@ -285,7 +285,7 @@ class Draughtsman {
   PlanDrawing draw_;
   Axis x_;
   Axis y_;
-  std::vector<Stretch> stretches_;  ///< of the corridors along x, corridor by corridor
+  std::vector<Stretch> stretches_;  ///< of the corridors along x, by corridor
 };
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace {
 
 constexpr double kHalf = kWallThickness_m / 2;
 
-/// What is left of [from, to] between the openings, which are in order.
+/// The parts of [from, to] outside the openings, which must be sorted.
 std::vector<Opening> solid_parts(double from, double to, const std::vector<Opening>& openings) {
   std::vector<Opening> parts;
   for (const Opening& opening : openings) {

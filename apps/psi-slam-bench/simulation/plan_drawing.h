@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The strokes that a floor plan is drawn with.
+// Drawing operations for a floor plan.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace psi_slam {
 
 inline constexpr double kWallThickness_m = 0.12;
 
-/// An opening of a wall: from .. to along it.
+/// An opening in a wall, from .. to along the wall.
 struct Opening {
   double from = 0;
   double to = 0;
@@ -20,10 +20,10 @@ class PlanDrawing {
  public:
   explicit PlanDrawing(FloorPlan& plan) : plan_(plan) {}
 
-  /// The outline of a box between two corners.
+  /// Outline of a box between two corners.
   void box(double x0, double y0, double x1, double y1, Material material);
 
-  /// A wall along x at `y`, or along y at `x`, between two ends, with an opening where there is one.
+  /// A wall along x at `y`, or along y at `x`, with openings sorted along the wall.
   void wall_along_x(double x0, double x1, double y, const std::vector<Opening>& openings = {});
   void wall_along_y(double y0, double y1, double x, const std::vector<Opening>& openings = {});
 

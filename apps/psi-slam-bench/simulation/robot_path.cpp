@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/simulation_random.h"
 #include "simulation/route.h"
+#include "simulation/simulation_random.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kAhead_m = 0.5;  // of the carrot
+constexpr double kAhead_m = 0.5;  // distance of the carrot
 constexpr double kCarrotStep_m = 0.01;
-constexpr double kDriveStep_s = 0.0125;
-constexpr double kTurnPerError = 2.5;  // rad/s for each radian that the robot looks past the carrot
+constexpr double kStep_s = 0.0125;
+constexpr double kTurnPerError = 2.5;  // rad/s per radian between the heading and the direction of the carrot
 constexpr double kTurnOnTheSpot_rad = 1.0;
 
 double distance_m(const TPoint2D& a, const TPoint2D& b) {
@@ -24,7 +24,7 @@ double distance_m(const TPoint2D& a, const TPoint2D& b) {
 
 }  // namespace
 
-/// Runs along the line from place to place, and weaves about it.
+/// The point that the robot follows: it moves along the line from place to place and weaves about it.
 class RobotPath::Carrot {
  public:
   Carrot(const FloorPlan& plan, const RobotPathOptions& options)
@@ -63,8 +63,8 @@ class RobotPath::Carrot {
   double phases_[2] = {0, 0};
   TPoint2D from_;
   TPoint2D to_;
-  double along_m_ = 0;  ///< from the one to the other
-  double run_m_ = 0;    ///< in all
+  double along_m_ = 0;  ///< from from_ to to_
+  double run_m_ = 0;    ///< in total
 };
 
 RobotPath::RobotPath(const FloorPlan& plan, const RobotPathOptions& options)
@@ -82,14 +82,14 @@ std::optional<PathPose> RobotPath::next() {
   if (started_) {
     if (now_.travelled_m >= options_.path_m) return std::nullopt;
     const double period_s = 1 / options_.scan_rate_hz;
-    const int steps = std::max(1, static_cast<int>(std::lround(period_s / kDriveStep_s)));
-    for (int step = 0; step < steps; ++step) drive_on(period_s / steps);
+    const int steps = std::max(1, static_cast<int>(std::lround(period_s / kStep_s)));
+    for (int step = 0; step < steps; ++step) advance(period_s / steps);
   }
   started_ = true;
   return now_;
 }
 
-void RobotPath::drive_on(double duration_s) {
+void RobotPath::advance(double duration_s) {
   mrpt::math::TPose2D& pose = now_.world_T_robot;
   carrot_->run_ahead_of({pose.x, pose.y});
   const TPoint2D ahead = carrot_->at();

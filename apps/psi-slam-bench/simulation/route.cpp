@@ -6,9 +6,9 @@
 namespace psi_slam {
 namespace {
 
-constexpr double kTakenTheOtherWay = 0.4;  // counts less: corridors are to be gone both ways
+constexpr double kTakenTheOtherWay = 0.4;  // weight of a passage taken in the opposite direction
 constexpr double kTurningBack = 3.0;
-constexpr double kPassedDoors = 0.6;  // share of the doors that the robot passes by
+constexpr double kPassedDoors = 0.6;  // share of the doors that the robot does not enter
 constexpr double kEnteringRoom = 2.0;
 
 }  // namespace

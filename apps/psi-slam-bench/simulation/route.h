@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a robot goes next: an endless walk over the places of a floor plan that takes the passages it has
-// taken least, so that it comes by everywhere, closes rings, and goes every corridor both ways.
+// An endless walk over the places of a floor plan. It prefers the passages that it has taken least, so that
+// it visits all places, closes rings and takes corridors in both directions.
 #pragma once
 
 #include <cstddef>
@@ -14,24 +14,24 @@ namespace psi_slam {
 
 class Route {
  public:
-  /// Starts at a crossing. The plan outlives the route.
+  /// Starts at a crossing. The plan must outlive the route.
   Route(const FloorPlan& plan, std::uint64_t seed);
 
-  /// The place where the walk stands, then each next one, which a passage links with the one before.
+  /// Returns the first place, then the next place at each call. A passage links successive places.
   std::size_t next();
 
  private:
   struct Way {
     std::size_t to = 0;
-    std::size_t back = 0;  ///< the index of the way back, among those from `to`
-    double taken = 0;      ///< times
+    std::size_t back = 0;  ///< index of the opposite way in the ways from `to`
+    double taken = 0;      ///< how often
   };
 
   double reluctance(const Way& way);
 
   const FloorPlan& plan_;
   SimulationRandom random_;
-  std::vector<std::vector<Way>> ways_;  ///< by the place they start from
+  std::vector<std::vector<Way>> ways_;  ///< by start place
   std::size_t here_ = 0;
   std::size_t before_ = 0;
   bool started_ = false;

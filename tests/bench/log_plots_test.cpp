@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/bar_plot.h"
+#include "common/log_plots.h"
 
 #include <gmock/gmock.h>
 
@@ -30,7 +30,7 @@ TEST(BarPlot, a_factor_is_the_same_length_everywhere) {
   EXPECT_NEAR(widths[2] - widths[1], widths[1] - widths[0], 0.2);
 }
 
-TEST(BarPlot, stands_equal_values_none_and_nothing) {
+TEST(BarPlot, accepts_equal_values_zeros_and_no_bars) {
   EXPECT_THAT(bar_widths(bar_svg({"", "m", {{"a", 1}, {"b", 1}}})), testing::Each(testing::Gt(0)));
   EXPECT_THAT(bar_widths(bar_svg({"", "m", {{"a", 0}}})), testing::ElementsAre(0));
   EXPECT_EQ(complaint_about(bar_svg({"", "m", {}})), "");

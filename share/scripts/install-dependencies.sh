@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what psi-slam needs to be built, on Debian 12. Does nothing when all of it is there already.
+# Installs what building psi-slam needs, on Debian 12. Does nothing if everything is installed already.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -64,8 +64,8 @@ check_cmake() {
 }
 
 is_supported_system ||
-  fail "this is $(system_name), but the packages are named for Debian 12: there, install what README.md" \
-    "lists under Dependencies, then run cmake --preset release"
+  fail "this is $(system_name), but this script knows the packages of Debian 12 only. Install what" \
+    "share/doc/install.md lists under Dependencies, then run cmake --preset release"
 
 mapfile -t missing < <(missing_packages)
 if [ "${#missing[@]}" -eq 0 ]; then

@@ -39,8 +39,8 @@ column() {
   awk -F ' *[|] *' -v name="$1" -v column="$2" '$1 == name { print $column }' <<<"$benchmark"
 }
 
-# count_scans FILE: prints the number of laser scans in a CARMEN log. Fails if more than 1 % of the scan lines are garbled,
-# or if there are none.
+# count_scans FILE: prints the number of laser scans in a CARMEN log. Fails if the log has no scans, or if
+# the garbled lines are more than 1 % of the scans.
 count_scans() {
   LC_ALL=C awk '
     $1 == "FLASER" || $1 == "RLASER"    { if (NF == $2 + 11) ++scans; else ++garbled }

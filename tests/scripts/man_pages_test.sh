@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Checks that man shows the manual pages without warnings and that they contain what they should.
+# Checks that man shows the manual pages without warnings and that they contain the expected texts.
 #
 #     man_pages_test.sh BUILD
 set -euo pipefail

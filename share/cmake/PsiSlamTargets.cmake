@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# How every target of the project is made: one function a kind, so that all share the same language level,
-# warnings, layout and installation.
+# Functions that make the targets of the project, one for each kind of target. All targets share language level, warnings,
+# layout and installation.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# The strict warnings of every target.
+# Sets language level, strict warnings and sanitizers of a target.
 function(psi_slam_configure_target target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
-  # One rounding for one expression on every machine: no contraction to fused multiply-add.
+  # No contraction to fused multiply-add, so that every machine rounds each expression alike.
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
     -Wcast-align -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
@@ -27,7 +27,7 @@ function(psi_slam_configure_target target)
 endfunction()
 
 # psi_slam_add_library(NAME SOURCES file... [PUBLIC dependency...] [PRIVATE dependency...])
-# A library of libs/NAME, exported as psi-slam::NAME; its headers are include/psi_slam/NAME/*.h.
+# Adds the library libs/NAME and exports it as psi-slam::NAME. Its headers are include/psi_slam/NAME/*.h.
 function(psi_slam_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target psi_slam_${name})
@@ -44,8 +44,8 @@ function(psi_slam_add_library name)
 endfunction()
 
 # psi_slam_add_app(NAME [COMPONENT component] SOURCES file... LINK dependency...)
-# A program that is installed, with a man page and completion: it has the options of add_document_options().
-# It belongs to the component `programs` unless another one is named.
+# Adds a program and installs it with its man page and completion. The program must have the options of
+# add_document_options(). It belongs to the component `programs` unless COMPONENT names another one.
 function(psi_slam_add_app name)
   cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_COMPONENT)
@@ -60,7 +60,7 @@ function(psi_slam_add_app name)
 endfunction()
 
 # psi_slam_add_tests(NAME LINK dependency...)
-# One program NAME_tests of all tests/NAME/*_test.cpp; each test is known to CTest by its own name.
+# Adds one program NAME_tests with all tests/NAME/*_test.cpp. CTest lists each test under its own name.
 function(psi_slam_add_tests name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*_test.cpp)
@@ -73,7 +73,7 @@ function(psi_slam_add_tests name)
   gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
 endfunction()
 
-# Makes find_package(psi-slam) work for other projects.
+# Installs the files that find_package(psi-slam) needs in other projects.
 function(psi_slam_install_package)
   set(destination ${CMAKE_INSTALL_LIBDIR}/cmake/psi-slam)
   configure_package_config_file(${PROJECT_SOURCE_DIR}/share/cmake/psi-slam-config.cmake.in

@@ -6,10 +6,8 @@
 
 Needs Pillow. draw-front-picture.sh makes the corrected log from any log that psi-slam reads.
 """
-import gzip
 import math
 import sys
-from pathlib import Path
 
 from PIL import Image, ImageDraw, ImageFont
 
@@ -42,8 +40,7 @@ def read_scans(path):
     """The scans of a corrected log. Its heading states mount, beam angles and largest range of each laser."""
     mounts, angles, farthest = {}, {}, {}
     scans = []
-    opener = gzip.open if path.suffix == ".gz" else open
-    with opener(path, "rt", encoding="utf-8") as file:
+    with open(path, encoding="utf-8") as file:
         laser = "front"
         for line in file:
             words = line.split()
@@ -187,7 +184,7 @@ def draw_scale_bar(draw, right, bottom, metres_per_px):
 
 
 def draw_picture(scans):
-    """Both halves have one scale; each is as wide as what it shows."""
+    """Both halves have the same scale; the width of each is that of its content."""
     scans = thinned(scans)
     angle = wall_direction(scans)
     for scan in scans:
@@ -215,7 +212,7 @@ def draw_picture(scans):
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__.split("\n\n")[1].strip())
-    scans = read_scans(Path(sys.argv[1]))
+    scans = read_scans(sys.argv[1])
     if not scans:
         sys.exit(f"front-picture.py: {sys.argv[1]} has no FLASER line")
     draw_picture(scans).save(sys.argv[2], optimize=True)

@@ -15,11 +15,13 @@ complain() {
 
 # anchors PAGE: the anchors that GitHub gives to the headings of a page.
 anchors() {
+  # shellcheck disable=SC2016  # the backquotes are those of Markdown
   sed -n '/^```/,/^```/d; s/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' | sed 's/[^[:alnum:] _-]//g; s/ /-/g'
 }
 
 # links PAGE: its links as lines "TEXT<tab>TARGET", without those in code blocks and to other sites.
 links() {
+  # shellcheck disable=SC2016
   sed '/^```/,/^```/d' "$1" | tr '\n' ' ' | grep -oE '\[[^][]*\]\([^() ]+\)' | sed -E 's/^\[([^][]*)\]\((.*)\)$/\1\t\2/' |
     grep -vE $'\t(https?|mailto):' || true
 }

@@ -27,7 +27,7 @@ function(psi_slam_configure_target target)
 endfunction()
 
 # psi_slam_add_library(NAME SOURCES file... [PUBLIC dependency...] [PRIVATE dependency...])
-# Adds the library libs/NAME and exports it as psi-slam::NAME. Its headers are include/psi_slam/NAME/*.h.
+# A library of libs/NAME, exported as psi-slam::NAME; its headers are include/psi_slam/NAME/*.h.
 function(psi_slam_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target psi_slam_${name})

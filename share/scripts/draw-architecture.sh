@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../doc"
 
 command -v dot >/dev/null || {
-  echo "draw-architecture.sh: sudo apt-get install graphviz" >&2
+  echo "draw-architecture.sh: the program dot is missing. Install it with sudo apt-get install graphviz" >&2
   exit 1
 }
 dot -Tsvg architecture.dot -o architecture.svg

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what psi-slam needs to be built, on Debian 12. Does nothing when all of it is there already.
+# Installs the packages that are needed to build psi-slam on Debian 12. Does nothing if all of them are installed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -64,8 +64,8 @@ check_cmake() {
 }
 
 is_supported_system ||
-  fail "this is $(system_name), but the packages are named for Debian 12: there, install what README.md" \
-    "lists under Dependencies, then run cmake --preset release"
+  fail "this system is $(system_name), but the script needs Debian 12 or later. Install the packages that" \
+    "README.md lists under Dependencies, then run cmake --preset release"
 
 mapfile -t missing < <(missing_packages)
 if [ "${#missing[@]}" -eq 0 ]; then

@@ -27,7 +27,7 @@ function(psi_slam_configure_target target)
 endfunction()
 
 # psi_slam_add_library(NAME SOURCES file... [PUBLIC dependency...] [PRIVATE dependency...])
-# Adds the library libs/NAME and exports it as psi-slam::NAME. Its headers are include/psi_slam/NAME/*.h.
+# A library of libs/NAME, exported as psi-slam::NAME; its headers are include/psi_slam/NAME/*.h.
 function(psi_slam_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target psi_slam_${name})
@@ -73,7 +73,7 @@ function(psi_slam_add_tests name)
   gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
 endfunction()
 
-# Installs the files that find_package(psi-slam) needs in other projects.
+# Makes find_package(psi-slam) work for other projects.
 function(psi_slam_install_package)
   set(destination ${CMAKE_INSTALL_LIBDIR}/cmake/psi-slam)
   configure_package_config_file(${PROJECT_SOURCE_DIR}/share/cmake/psi-slam-config.cmake.in

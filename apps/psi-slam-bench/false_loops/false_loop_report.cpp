@@ -119,27 +119,34 @@ ReportTable graphs_table(const std::vector<FalseLoopLog>& logs) {
 std::string markdown_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
                         const std::string& machine) {
   const FalseLoopOptions how;
-  std::string text = "# False loops survived\n\n" + measured_by(machine) + "; " + seeds_text(options.seeds) +
-                     " of the false loops. Errors are means over the true relations.\n\n";
+  std::string text =
+      "# How false loops are rejected\n\nThis page shows how many false loops a pose graph tolerates. False "
+      "loops are added to finished graphs, and the graphs are optimised again.\n\n" +
+      measured_by(machine) + "; " + seeds_text(options.seeds) +
+      " of the false loops. Errors are means over the true relations.\n\n";
   text +=
-      "- share: number of false loops added to the finished graph, in percent of the loops that the run "
-      "accepted\n"
-      "- scattered: loops between random nodes and local maps, at a random position within " +
+      "- share: number of false loops added to the finished graph, as a percentage of the loops accepted "
+      "during mapping\n"
+      "- scattered: join random nodes and local maps, at a random place and heading within " +
       fixed_text(how.reach_m, 0) +
-      " m of the anchor and with a random heading\n- groups: " + std::to_string(how.smallest_group) + " to " +
-      std::to_string(how.largest_group) +
-      " successive nodes agree on the same wrong place\n- nearby: true loops, moved by " +
+      " m of the "
+      "anchor of the local map\n"
+      "- groups: " +
+      std::to_string(how.smallest_group) + " to " + std::to_string(how.largest_group) +
+      " successive nodes agree on such a random place\n"
+      "- nearby: true loops, shifted by " +
       fixed_text(how.min_error_m, 0) + " to " + fixed_text(how.nearby_m, 0) + " m and rotated by up to " +
       fixed_text(how.min_error_rad * 180 / M_PI, 0) +
       " degrees\n"
-      "- undefended: the graph is optimised with all loops. Worst first: the worst loops are switched off "
-      "until "
-      "no loop contradicts the others. Defended: the method of psi-slam. All three start from the poses "
-      "before "
-      "any loop was closed; \"from the map\" starts from the finished map.\n"
-      "- kept / lost: false loops that stay on / true loops that are switched off\n"
-      "- over several seeds, errors are mean ± standard deviation of the sample [worst], other figures are "
-      "means; each log is mapped once\n\n";
+      "- undefended: the graph is optimised with all loops\n"
+      "- worst first: the loops with the worst residuals are rejected until no outlier loop is left\n"
+      "- defended: outlier loops are rejected as in the mapper\n"
+      "- from the map: as defended, but starts at the finished map. The other columns start at the poses "
+      "before any loop was closed\n"
+      "- kept / lost: false loops kept / true loops rejected\n"
+      "- with several seeds, errors are mean ± sample standard deviation [worst] and other figures are "
+      "means; each log is mapped once\n"
+      "\n";
   return text + graphs_table(benchmark.logs).markdown() + '\n' + cases_table(benchmark).markdown() + '\n' +
          logs_section(benchmark.identities, benchmark.without_relations);
 }

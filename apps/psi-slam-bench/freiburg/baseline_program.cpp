@@ -55,9 +55,8 @@ const std::vector<BaselineKind>& baseline_kinds() {
       {"icp-slam",
        "icp-slam/icp-slam_demo_classic.ini",
        {{"SHOW_PROGRESS_3D_REAL_TIME", "0"}, {"SAVE_3D_SCENE", "0"}},
-       "Its error depends on small changes of the input, so one figure is only a sample: started one, two or "
-       "three "
-       "scans later, it has errors of 0.68, 0.42 and 1.96 m on MIT CSAIL.",
+       "Tiny changes of the input decide where it loses track, so other runs give other figures. Started "
+       "one, two or three scans later, it reaches 0.68, 0.42 and 1.96 m on MIT CSAIL.",
        kPlaneYaw},
       {"rbpf-slam",
        "rbpf-slam/gridmapping_RBPF_grid_ICPbased_malaga.ini",
@@ -65,7 +64,8 @@ const std::vector<BaselineKind>& baseline_kinds() {
         {"SAVE_3D_SCENE", "0"},
         {"SAVE_MAP_IMAGES", "0"},
         {"RANDOM_SEED", "1"}},
-       "Its path has the estimate at the time of each scan, not the final path of its best particle.",
+       "Its path consists of its estimates at the time of each scan. It is not the path of the best "
+       "particle.",
        kSpaceYaw}};
   return kKinds;
 }

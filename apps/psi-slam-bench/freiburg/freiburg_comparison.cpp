@@ -41,9 +41,9 @@ std::string column_name(const BaselineProgram& baseline) {
 }
 
 std::string source_of(const BaselineProgram& baseline) {
-  return baseline.version + ", run here on every scan of the same log, with the shipped settings " +
-         baseline.config.filename().string() + " except " + changes_text(baseline.kind) + ". " +
-         baseline.kind.remark;
+  return baseline.version + ", run here on the same log, every scan, with " +
+         baseline.config.filename().string() +
+         " as shipped; changed settings: " + changes_text(baseline.kind) + ". " + baseline.kind.remark;
 }
 
 PublishedErrors errors_of(const RunFigures& figures) {
@@ -105,7 +105,7 @@ std::string footnotes(const std::string& table) {
 Comparison compare_with_others(const FreiburgBenchmark& benchmark) {
   const std::string matcher = our_matcher(benchmark);
   Comparison comparison;
-  comparison.columns.push_back({"psi-slam, " + matcher, "this benchmark; means over the seeds.", true});
+  comparison.columns.push_back({"psi-slam, " + matcher, "this benchmark, averaged over all seeds.", true});
   std::vector<PublishedSystem> others = baseline_systems(benchmark);
   others.insert(others.end(), published_systems().begin(), published_systems().end());
   for (const PublishedSystem& system : others)

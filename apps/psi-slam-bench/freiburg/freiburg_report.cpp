@@ -115,6 +115,7 @@ ReportTable matchers_table(const FreiburgBenchmark& benchmark) {
 
 ReportTable spread_table(const FreiburgBenchmark& benchmark) {
   std::vector<CellColumn> columns = name_columns();
+  columns.back().column.is_text = false;
   for (std::size_t i = 0; i < kPaperFigures; ++i)
     columns.push_back({{kPathFigures[i].name}, [i](const CellRow& row) {
                          if (!draws_random_numbers(row.cell->matcher)) return cell("0 by construction");
@@ -154,9 +155,9 @@ std::string missing_text(const FreiburgBenchmark& benchmark) {
     const bool unrelated =
         std::any_of(benchmark.without_relations.begin(), benchmark.without_relations.end(), is_it);
     const bool left_out = std::any_of(benchmark.left_out.begin(), benchmark.left_out.end(), is_it);
-    text += "- " + title.title + " was not mapped: " +
-            (unrelated  ? "its log is in the folder, but not its relations."
-             : left_out ? "--logs does not name it."
+    text += "- " + title.title + ": " +
+            (unrelated  ? "its log is in the folder without relations."
+             : left_out ? "--logs does not name its log."
                         : "its log is not in the folder.") +
             '\n';
   }
@@ -199,17 +200,15 @@ ReportTable baselines_table(const std::vector<BaselineResult>& results) {
 
 std::string baselines_text(const FreiburgBenchmark& benchmark) {
   if (benchmark.baselines.programs.empty() && benchmark.baselines.missing.empty()) return {};
-  std::string text = "## Baselines, run live\n\n";
+  std::string text = "## Baselines run here\n\n";
   for (const BaselineProgram& baseline : benchmark.baselines.programs)
-    text += "- " + baseline.kind.name + ": " + baseline.version + ", with the shipped settings " +
-            baseline.config.string() + " except the output folder and " + changes_text(baseline.kind) + '\n';
+    text += "- " + baseline.kind.name + ": " + baseline.version + ", with " + baseline.config.string() +
+            " as shipped, except for its output folder and " + changes_text(baseline.kind) + '\n';
   for (const std::string& missing : benchmark.baselines.missing) text += "- not run: " + missing + '\n';
   text +=
-      "\nEach baseline ran once on every scan that our own reader finds in the log, with the odometry "
-      "between the "
-      "scans and the mount of the laser. Times and memory are those of its whole process, which reads the "
-      "log, "
-      "maps it and writes path and map.\n\n";
+      "\nEach baseline ran once. It received every scan of the log as read by psi-slam, with the same "
+      "odometry and the same laser mount. Times and memory: of its whole process, which reads the log, maps "
+      "it and writes path and map.\n\n";
   if (!benchmark.baseline_results.empty())
     text += baselines_table(benchmark.baseline_results).markdown() + '\n';
   return text;
@@ -256,32 +255,33 @@ Json comparison_json(const Comparison& comparison) {
 std::string markdown_of(const FreiburgBenchmark& benchmark, const Comparison& comparison,
                         const FreiburgOptions& options, const std::string& machine) {
   const std::string runs = counted(static_cast<std::size_t>(options.processes), "run", "runs");
-  std::string text = "# Freiburg benchmark\n\n" + measured_by(machine) + ", " +
-                     (options.processes == 1 ? "" : "at most ") + runs + " at a time with " +
-                     counted(static_cast<std::size_t>(options.threads), "thread", "threads") + " each, " +
-                     seeds_text(options.seeds) + ".\n\n";
+  std::string text =
+      "# Freiburg benchmark\n\nThis page compares psi-slam with other SLAM systems on the logs of the "
+      "Freiburg benchmark.\n\n" +
+      measured_by(machine) + ", " + (options.processes == 1 ? "" : "at most ") + runs + " at a time with " +
+      counted(static_cast<std::size_t>(options.threads), "thread", "threads") + " each, " +
+      seeds_text(options.seeds) + ".\n\n";
   text +=
-      "- errors: metric of Kümmerle et al. 2009 over all true relations, mean ± standard deviation over the "
-      "relations; means over all seeds, not of the best seed\n"
-      "- Cartographer's variant of the translational error is the one that the tool of Hess et al. computes\n"
-      "- false of judged: how many accepted loops contradict the true relations, of those that a relation "
-      "can "
-      "judge; mean over the seeds\n"
-      "- recall: share of the relations between two passes of one place that are confirmed by a loop between "
-      "their neighbourhoods; mean over the seeds\n"
+      "- errors: metric of Kümmerle et al. 2009, mean ± standard deviation over all true relations, "
+      "averaged over all seeds\n"
+      "- translation, Cartographer's variant: translational error as computed by the tool of Hess et al.\n"
+      "- false of judged: accepted loops that a true relation contradicts, out of those that a true "
+      "relation can judge; averaged over all seeds\n"
+      "- recall: share of the relations between two visits to a place whose neighbourhoods a loop joins; "
+      "averaged over all seeds\n"
       "- times and memory: of the whole process, which reads the log, maps it and evaluates the path, but "
-      "draws "
-      "no map; × real time: length of the recording over wall time\n\n";
+      "draws no map\n"
+      "- × real time: length of the recording divided by wall time\n"
+      "\n";
   text += "## psi-slam and other systems\n\n" + comparison_table(comparison) +
-          "\nThe least mean of each row is bold. Systems marked \"live\" or \"run here\" mapped these logs; "
-          "their "
-          "figures are included even where the map is lost. Sources of the figures:\n\n" +
+          "\nBold marks the smallest mean of each row. Systems marked \"live\" or \"run here\" mapped these "
+          "logs; figures of failed maps are included. Sources of the figures:\n\n" +
           sources_text(comparison) + '\n' + missing_text(benchmark);
   text += baselines_text(benchmark);
   text += "## Every matcher on every log\n\n" + matchers_table(benchmark).markdown() + '\n';
   text +=
-      "## Spread of the means over the seeds\n\nStandard deviation of the sample (least – greatest); – for a "
-      "single run.\n\n" +
+      "## Spread of the means over the seeds\n\nSample standard deviation (minimum – maximum) of the means; "
+      "– if there is a single run only.\n\n" +
       spread_table(benchmark).markdown() + '\n';
   return text + failures_text(benchmark) + logs_section(benchmark.logs, benchmark.without_relations);
 }

@@ -58,8 +58,8 @@ PublishedSystem gmapping_of_the_paper() {
 constexpr const char* kKuemmerle =
     "R. Kümmerle, B. Steder, C. Dornhege, M. Ruhnke, G. Grisetti, C. Stachniss and A. Kleiner, On measuring "
     "the "
-    "accuracy of SLAM algorithms, Autonomous Robots 27(4), 2009; only its translational errors are quoted "
-    "here.";
+    "accuracy of SLAM algorithms, Autonomous Robots 27(4), 2009; translation only; its other figures are not "
+    "quoted here.";
 
 PublishedSystem scan_matching() {
   return {"scan matching",
@@ -85,7 +85,8 @@ PublishedSystem particle_filter() {
 
 PublishedSystem graph_mapping() {
   return {"graph mapping",
-          std::string(kKuemmerle) + " The relations of MIT CSAIL were probably made from its own result.",
+          std::string(kKuemmerle) +
+              " The relations of MIT CSAIL were probably made from the result of this system.",
           {{kAces, absolute({0.044, 0.044})},
            {kIntel, absolute({0.031, 0.026})},
            {kKillian, absolute({0.050, 0.056})},
@@ -102,7 +103,7 @@ Figure remembered(double mean_deg) {
 PublishedSystem cartographer() {
   return {"Cartographer",
           "W. Hess, D. Kohler, H. Rapp and D. Andor, Real-time loop closure in 2D LIDAR SLAM, ICRA 2016; "
-          "it has no standard deviations of rotation and no squared errors.",
+          "rotation without standard deviation; squared errors are not quoted.",
           {{kAces, absolute({0.0375, 0.0426}, remembered(0.373))},
            {kIntel, absolute({0.0229, 0.0239}, remembered(0.453))},
            {kKillian, absolute({0.0395, 0.0488}, remembered(0.352))},
@@ -113,21 +114,20 @@ PublishedSystem cartographer() {
 
 PublishedSystem cartographer_trajectories() {
   return {"Cartographer (its paths)",
-          "trajectories of Cartographer published by others, evaluated by us on the same relations; the "
-          "standard deviations were not recorded.",
+          "Cartographer trajectories published by others, measured here with the same relations; the "
+          "standard deviations were not kept.",
           {{kIntel, absolute({0.0224, {}}, Figure{0.388, {}})},
            {kCsail, absolute({0.0364, {}}, Figure{0.331, {}})},
            {kFreiburg, absolute({0.0441, {}}, Figure{0.517, {}})}}};
 }
 
-constexpr const char* kLive = " measured by us on the same files with shipped defaults, every scan.";
+constexpr const char* kLive = " measured here on the same files with shipped defaults and every scan.";
 
 PublishedSystem karto_live() {
   return {"Karto (live)",
           std::string("open_karto with sparse pose adjustment,") + kLive +
-              " It lost the map of Freiburg 079, whose odometry has wrong signs while the robot reverses "
-              "(0.0563 ± 0.0388 m "
-              "with repaired signs), and missed the loops of MIT Killian.",
+              " It failed to map Freiburg 079, where odometry has the wrong sign when the robot reverses "
+              "(0.0563 ± 0.0388 m with corrected signs). It missed the loops of MIT Killian.",
           {{kAces, absolute({0.0492, 0.0424}, Figure{0.708, {}})},
            {kIntel, absolute({0.0213, 0.0144}, Figure{0.722, {}})},
            {kKillian, absolute({1.09, 2.85}, Figure{1.181, {}})},
@@ -138,7 +138,7 @@ PublishedSystem karto_live() {
 PublishedSystem slam_toolbox_live() {
   return {"slam_toolbox (live)",
           std::string("slam_toolbox,") + kLive +
-              " Its map of Intel has doubled walls, its map of MIT Killian false loops.",
+              " Its map of Intel has double walls, and its map of MIT Killian has false loops.",
           {{kAces, absolute({0.0539, 0.0734}, Figure{1.031, {}})},
            {kIntel, absolute({0.3095, 1.0193}, Figure{1.498, {}})},
            {kKillian, absolute({0.522, 2.505}, Figure{1.358, {}})},

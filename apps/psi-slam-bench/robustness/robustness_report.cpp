@@ -129,23 +129,25 @@ std::vector<BenchReport::Plot> plots_of(const RobustnessBenchmark& benchmark) {
 
 std::string markdown_of(const RobustnessBenchmark& benchmark, const SeedRange& seeds,
                         const std::string& machine) {
-  std::string text = "# Degraded logs\n\n" + measured_by(machine) + "; " + seeds_text(seeds) +
-                     " of the noise. Errors are means over the true relations.\n\n";
+  std::string text =
+      "# Degraded logs\n\nThis page shows how the maps get worse if odometry is noisy or missing, scans are "
+      "rare or the field of view is narrow.\n\n" +
+      measured_by(machine) + "; " + seeds_text(seeds) +
+      " of the noise. Errors are means over the true relations.\n\n";
   text +=
-      "- odometry noise × k: adds normal noise of √(k² - 1) times the natural noise to each step of the "
-      "odometry, which multiplies its error by about k. The natural noise is the error of odometry against "
-      "the "
-      "map of the unchanged log, over stretches of 1 m or 1 rad. It is modelled as a random walk: its "
-      "variance "
-      "grows with distance and rotation.\n"
-      "- no odometry: the constant-velocity model predicts the motion of the robot\n"
-      "- scans kept: all other scans are removed from the log. Relations at their times are evaluated by "
-      "interpolation, which adds to the errors.\n"
-      "- field of view: beams outside the field of view have no return\n"
+      "- odometry noise × k: each step of odometry gets normal noise of √(k² - 1) times its natural noise, "
+      "so that its error grows to about k times its original value. The natural noise is measured over "
+      "stretches of 1 m or 1 rad, against the map of the original log. It is a random walk: its variance "
+      "grows with distance and rotation\n"
+      "- no odometry: the constant-velocity model predicts the pose\n"
+      "- scans kept: all other scans are removed. Relations at the times of removed scans use interpolated "
+      "poses, and the error of the interpolation is included\n"
+      "- field of view: beams outside it count as no returns\n"
       "- precision, recall: of the accepted loops, judged by the true relations\n"
-      "- unmatched: scans that the front end could not match with its local map\n"
-      "- runs: one for each seed if the case draws random numbers, otherwise one. Over several runs, errors "
-      "are mean ± standard deviation of the sample [worst], other figures are means.\n\n";
+      "- unmatched: scans that the front end could not match with the active local map\n"
+      "- runs: one per seed if the case uses random numbers, otherwise one. With several runs, errors are "
+      "mean ± sample standard deviation [worst] and other figures are means\n"
+      "\n";
   return text + noise_table(benchmark.logs).markdown() + '\n' + cases_table(benchmark).markdown() + '\n' +
          logs_section(benchmark.identities, benchmark.without_relations);
 }

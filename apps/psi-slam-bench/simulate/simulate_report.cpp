@@ -114,17 +114,18 @@ std::string markdown_of(const Rows& rows, const SimulateOptions& options, const 
                      ", default settings; seed " + std::to_string(options.seed) + ", " +
                      std::to_string(options.people) + " people for every 500 m, " +
                      fixed_text(100 * options.glass_share, 0) +
-                     " % glass. Each run has its own building and its own process.\n\n";
+                     " % glass. Each run has a building and a process of its own.\n\n";
   text +=
       "- error: distance from the truth, with both paths aligned at the first scan\n"
       "- relations: metric of Kümmerle et al. over " +
       std::to_string(kRelations) +
-      " random pairs of scans\n"
-      "- odometry: mean error of odometry alone\n"
-      "- false: loops of the finished map that are more than " +
+      " randomly drawn pairs of scans\n"
+      "- odometry: mean error of odometry alone, measured like error\n"
+      "- false: loops kept by the map that are more than " +
       fixed_text(kFalseLoop_m, 1) + " m or " + fixed_text(kFalseLoop_deg, 0) +
       " degrees off the truth\n"
-      "- times are those of the mapper, without the simulation of the scans\n\n";
+      "- times are the mapper's alone; making the scans is not counted\n"
+      "\n";
   std::vector<CovarianceRow> covariances;
   for (const SimulateRow& row : rows)
     for (const CovarianceRow& covariance : covariances_of(row)) covariances.push_back(covariance);

@@ -25,4 +25,11 @@ void keep_run(const std::filesystem::path& file, const RunKey& key, const nlohma
 /// JSON as the text of a file: indented, with invalid UTF-8 replaced.
 std::string json_file_text(const nlohmann::ordered_json& json);
 
+/// Name of the log that `file` is, without the ending of a log file: "intel" for "intel.clf.gz". Empty for
+/// other endings.
+std::optional<std::string> log_name_of(const std::string& file);
+
+/// Processor and number of processors of this machine: "AMD EPYC, 2 processors".
+std::string machine_text();
+
 }  // namespace psi_slam

@@ -56,6 +56,20 @@ struct ColumnOf {
   std::function<ReportCell(const Row&)> cell_of;
 };
 
+/// Columns of a member of the rows: a text, a count, or a number with `decimals`.
+template <class Row>
+ColumnOf<Row> column(const std::string& head, const std::string& key, std::string Row::*text) {
+  return {{head, key, true}, [=](const Row& row) { return cell(row.*text); }};
+}
+template <class Row>
+ColumnOf<Row> column(const std::string& head, const std::string& key, std::size_t Row::*count) {
+  return {{head, key}, [=](const Row& row) { return cell(row.*count); }};
+}
+template <class Row>
+ColumnOf<Row> column(const std::string& head, const std::string& key, double Row::*value, int decimals) {
+  return {{head, key}, [=](const Row& row) { return cell(row.*value, decimals); }};
+}
+
 template <class Row>
 ReportTable table_of(const std::vector<ColumnOf<Row>>& columns, const std::vector<Row>& rows) {
   ReportTable table;

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "base/file_checksum.h"
-#include "batch/provenance.h"
+#include "batch/kept_run.h"
 #include "psi_slam/user_error.h"
 #include "session/bound_settings.h"
 

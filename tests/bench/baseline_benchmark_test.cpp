@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg/baseline_benchmark.h"
+#include "freiburg/baseline_run.h"
 
 #include <gmock/gmock.h>
 

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "../pose_graph/test_graphs.h"
-#include "false_loops/false_loop_report.h"
 #include "pose_graph/spanning_tree.h"
 
 namespace psi_slam {

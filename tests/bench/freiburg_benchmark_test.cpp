@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include "freiburg/freiburg_report.h"
 #include "psi_slam/user_error.h"
 #include "room_benchmark.h"
 #include "temporary_folder.h"

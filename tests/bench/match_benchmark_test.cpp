@@ -39,7 +39,7 @@ TEST(MatchBenchmark, alternates_between_candidates_case_by_case) {
   std::vector<std::string> calls;
   const auto a = std::make_shared<NotedMatcher>("a", calls);
   const auto b = std::make_shared<NotedMatcher>("b", calls);
-  const Candidate adaptive("adaptive", std::vector<std::shared_ptr<const Matcher>>{a, b});
+  const MatchCandidate adaptive("adaptive", std::vector<std::shared_ptr<const Matcher>>{a, b});
   MatchSeries series;
   series.cases = options;
   int told = 0;
@@ -53,7 +53,8 @@ TEST(MatchBenchmark, alternates_between_candidates_case_by_case) {
 
 TEST(MatchBenchmark, exact_matching_finds_the_loops_of_the_office) {
   const CaseOptions options = office_cases();
-  const std::vector<Candidate> all_candidates = candidates(CandidateSet::kMatchers, office_log().options);
+  const std::vector<MatchCandidate> all_candidates =
+      match_candidates(CandidateSet::kMatchers, office_log().options);
   MatchSeries series;
   series.cases = options;
   run_cases(draw_cases(office_log(), options), all_candidates, 0.5, series, [] {});
@@ -68,7 +69,7 @@ TEST(MatchBenchmark, exact_matching_finds_the_loops_of_the_office) {
 
 TEST(MatchBenchmark, every_row_has_its_own_name) {
   std::vector<std::string> names;
-  for (const Candidate& candidate : candidates(CandidateSet::kAll, MapperOptions()))
+  for (const MatchCandidate& candidate : match_candidates(CandidateSet::kAll, MapperOptions()))
     names.push_back(candidate.name());
   const std::vector<std::string> first(names.begin(), names.begin() + 5);
   EXPECT_THAT(first, testing::ElementsAre("csm", "csm_ga", "ga", "adaptive", "ga_paper"));

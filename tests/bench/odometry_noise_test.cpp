@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robustness/odometry_noise.h"
+#include "robustness/degraded_source.h"
 
 #include <gtest/gtest.h>
 

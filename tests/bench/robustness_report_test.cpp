@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robustness/robustness_report.h"
+#include "robustness/robustness_benchmark.h"
 
 #include <gmock/gmock.h>
 

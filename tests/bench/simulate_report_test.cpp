@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulate/simulate_report.h"
+#include "simulate/simulate_benchmark.h"
 
 #include <gmock/gmock.h>
 

@@ -37,7 +37,7 @@ ReportTable logs_table(const std::vector<LogIdentity>& logs) {
   using Log = LogIdentity;
   const auto checksum = [](const std::string& sha256) { return ReportCell{'`' + sha256 + '`', sha256}; };
   return table_of<Log>(
-      {{{"log", "name", true}, [](const Log& log) { return cell(log.name); }},
+      {column("log", "name", &Log::name),
        {{"SHA-256 of the log", "sha256", true}, [&](const Log& log) { return checksum(log.sha256); }},
        {{"SHA-256 of its relations", "relations_sha256", true},
         [&](const Log& log) { return checksum(log.relations_sha256); }}},

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "batch/provenance.h"
+#include "batch/kept_run.h"
 #include "config/apply_settings.h"
 #include "config/ini_file.h"
 #include "exports/mapped_trajectory.h"

@@ -13,7 +13,6 @@
 #include "batch/seeds.h"
 #include "batch/workers.h"
 #include "common/bench_report.h"
-#include "common/benchmark_logs.h"
 #include "false_loops/false_loops.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 
@@ -83,5 +82,15 @@ FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double s
 FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& logs,
                                             const FalseLoopBenchmarkOptions& options,
                                             const ProgressObserver& observer);
+
+/// The report of the `false-loops` command. In JSON, each element of "rows" has the statistics over the seeds
+/// of each treatment: "undefended", "worst_first", "defended" and "from_map". Each kind of false loops has a
+/// plot.
+BenchReport false_loop_report(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
+                              const std::string& machine);
+
+/// Plot of the error over the share of false loops of one kind, as SVG: a line for each log with bars from
+/// the least to the greatest error of the seeds, and a thin line without the defence.
+std::string false_loop_plot(const FalseLoopBenchmark& benchmark, FalseLoopKind kind);
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "false_loops/false_loop_report.h"
+#include "false_loops/false_loop_benchmark.h"
 
 #include <cmath>
 
@@ -26,19 +26,14 @@ using Treatment = LoopTrialOutcome FalseLoopRow::*;
 
 using Column = ColumnOf<Trials>;
 
-/// A column with the statistics of one figure of a treatment.
+/// Statistics of value_of(outcome) over the trials.
 template <class ValueOf>
-Column figure_column(const std::string& head, const std::string& key, Treatment treatment, int decimals,
-                     const ValueOf& value_of) {
-  return {{head, key}, [=](const Trials& trials) {
-            const auto of_trial = [&](const FalseLoopRow& trial) { return value_of(trial.*treatment); };
-            return cell(spread_over(trials, of_trial), decimals);
-          }};
+SeedSpread spread_of_trials(const Trials& trials, Treatment treatment, const ValueOf& value_of) {
+  return spread_over(trials, [&](const FalseLoopRow& trial) { return value_of(trial.*treatment); });
 }
 
 SeedSpread translation_error_m(const Trials& trials, Treatment treatment) {
-  return spread_over(trials,
-                     [&](const FalseLoopRow& trial) { return (trial.*treatment).error.translation_m; });
+  return spread_of_trials(trials, treatment, [](const auto& outcome) { return outcome.error.translation_m; });
 }
 
 /// The columns of a treatment named `key` in JSON. An empty head is missing in Markdown.
@@ -53,29 +48,31 @@ struct TreatmentColumns {
 };
 
 void add_columns(const TreatmentColumns& of, std::vector<Column>& columns) {
-  const Treatment treatment = of.treatment;
-  columns.push_back(
-      figure_column(of.translation_head, of.key + ".translation_error_m", treatment, of.translation_decimals,
-                    [](const LoopTrialOutcome& outcome) { return outcome.error.translation_m; }));
-  columns.push_back(
-      figure_column(of.rotation_head, of.key + ".rotation_error_deg", treatment, 3,
-                    [](const LoopTrialOutcome& outcome) { return outcome.error.rotation_deg; }));
+  const auto add = [&](const std::string& head, const std::string& key, int decimals, const auto& value_of) {
+    columns.push_back({{head, of.key + '.' + key}, [=, treatment = of.treatment](const Trials& trials) {
+                         return cell(spread_of_trials(trials, treatment, value_of), decimals);
+                       }});
+  };
   const auto false_kept = [](const LoopTrialOutcome& outcome) { return outcome.false_kept; };
   const auto true_lost = [](const LoopTrialOutcome& outcome) { return outcome.true_lost; };
-  columns.push_back(
-      {{of.counts_head}, [=](const Trials& trials) {
-         const auto mean = [&](const auto& count) {
-           return spread_over(trials, [&](const auto& trial) { return count(trial.*treatment); }).mean;
-         };
-         const int decimals = trials.size() > 1 ? 1 : 0;
-         return cell(fixed_text(mean(false_kept), decimals) + " / " + fixed_text(mean(true_lost), decimals));
-       }});
-  columns.push_back(figure_column({}, of.key + ".false_kept", treatment, 1, false_kept));
-  columns.push_back(figure_column({}, of.key + ".true_lost", treatment, 1, true_lost));
-  columns.push_back({{of.time_head, of.key + ".time_ms"}, [=](const Trials& trials) {
-                       const SeedSpread time_ms = spread_over(
-                           trials, [&](const auto& trial) { return (trial.*treatment).milliseconds; });
-                       return ReportCell{fixed_text(time_ms.mean, 0), spread_json(time_ms)};
+  add(of.translation_head, "translation_error_m", of.translation_decimals,
+      [](const LoopTrialOutcome& outcome) { return outcome.error.translation_m; });
+  add(of.rotation_head, "rotation_error_deg", 3,
+      [](const LoopTrialOutcome& outcome) { return outcome.error.rotation_deg; });
+  columns.push_back({{of.counts_head}, [=, treatment = of.treatment](const Trials& trials) {
+                       const int decimals = trials.size() > 1 ? 1 : 0;
+                       return cell(
+                           fixed_text(spread_of_trials(trials, treatment, false_kept).mean, decimals) +
+                           " / " + fixed_text(spread_of_trials(trials, treatment, true_lost).mean, decimals));
+                     }});
+  add({}, "false_kept", 1, false_kept);
+  add({}, "true_lost", 1, true_lost);
+  add({}, "time_ms", 0, [](const LoopTrialOutcome& outcome) { return outcome.milliseconds; });
+  columns.push_back({{of.time_head}, [treatment = of.treatment](const Trials& trials) {
+                       return cell(spread_of_trials(trials, treatment,
+                                                    [](const auto& outcome) { return outcome.milliseconds; })
+                                       .mean,
+                                   0);
                      }});
 }
 
@@ -102,17 +99,19 @@ ReportTable cases_table(const FalseLoopBenchmark& benchmark) {
 
 ReportTable graphs_table(const std::vector<FalseLoopLog>& logs) {
   using Log = FalseLoopLog;
+  using Error = LoopTrial::Error;
+  const auto error = [](const std::string& head, const std::string& key, Error Log::*map,
+                        double Error::*value, int decimals) {
+    return ColumnOf<Log>{{head, key}, [=](const Log& log) { return cell(log.*map.*value, decimals); }};
+  };
   return table_of<Log>(
-      {{{"log", "name", true}, [](const Log& log) { return cell(log.name); }},
-       {{"nodes", "nodes"}, [](const Log& log) { return cell(log.nodes); }},
-       {{"loops", "loops"}, [](const Log& log) { return cell(log.loops); }},
-       {{"error of its map [m]", "map.translation_error_m"},
-        [](const Log& log) { return cell(log.map.translation_m, 4); }},
-       {{"[deg]", "map.rotation_error_deg"}, [](const Log& log) { return cell(log.map.rotation_deg, 3); }},
-       {{"without loops [m]", "without_loops.translation_error_m"},
-        [](const Log& log) { return cell(log.front_end.translation_m, 4); }},
-       {{"[deg]", "without_loops.rotation_error_deg"},
-        [](const Log& log) { return cell(log.front_end.rotation_deg, 3); }}},
+      {column("log", "name", &Log::name), column("nodes", "nodes", &Log::nodes),
+       column("loops", "loops", &Log::loops),
+       error("error of its map [m]", "map.translation_error_m", &Log::map, &Error::translation_m, 4),
+       error("[deg]", "map.rotation_error_deg", &Log::map, &Error::rotation_deg, 3),
+       error("without loops [m]", "without_loops.translation_error_m", &Log::front_end, &Error::translation_m,
+             4),
+       error("[deg]", "without_loops.rotation_error_deg", &Log::front_end, &Error::rotation_deg, 3)},
       logs);
 }
 

@@ -1,33 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
 
-#include "batch/provenance.h"
+#include "batch/kept_run.h"
 #include "common/bench_command.h"
-#include "false_loops/false_loop_report.h"
+#include "false_loops/false_loop_benchmark.h"
 
 namespace psi_slam {
-namespace {
-
-struct FalseLoopsArguments {
-  DataArguments data;
-  OutputArguments output;
-  FalseLoopBenchmarkOptions options;
-};
-
-void run_false_loops(const FalseLoopsArguments& arguments, const Streams& streams) {
-  const ChosenLogs chosen = chosen_logs(arguments.data);
-  check_outputs(arguments.output, "false-loops.md");
-  FalseLoopBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
-    return run_false_loop_benchmark(chosen.logs, arguments.options, progress);
-  });
-  benchmark.without_relations = chosen.without_relations;
-  write_report(false_loop_report(benchmark, arguments.options, machine_text()), arguments.output, streams);
-}
-
-}  // namespace
 
 void add_false_loops_command(CLI::App& app, const Streams& streams) {
-  const auto arguments = std::make_shared<FalseLoopsArguments>();
+  struct Arguments {
+    DataArguments data;
+    OutputArguments output;
+    FalseLoopBenchmarkOptions options;
+  };
+  const auto arguments = std::make_shared<Arguments>();
   CLI::App* const command = app.add_subcommand(
       "false-loops", "Add false loops to the graphs of real logs and measure the errors of the maps");
   add_data_options(*command, arguments->data);
@@ -41,7 +27,16 @@ void add_false_loops_command(CLI::App& app, const Streams& streams) {
       ->type_name("PERCENTS");
   add_seeds_option(*command, arguments->options.seeds, "Seeds of the false loops");
   add_output_options(*command, arguments->output, "false-loops.md and the plots");
-  command->callback([arguments, &streams] { run_false_loops(*arguments, streams); });
+  command->callback([arguments, &streams] {
+    const ChosenLogs chosen = chosen_logs(arguments->data);
+    check_outputs(arguments->output, "false-loops.md");
+    FalseLoopBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
+      return run_false_loop_benchmark(chosen.logs, arguments->options, progress);
+    });
+    benchmark.without_relations = chosen.without_relations;
+    write_report(false_loop_report(benchmark, arguments->options, machine_text()), arguments->output,
+                 streams);
+  });
 }
 
 }  // namespace psi_slam

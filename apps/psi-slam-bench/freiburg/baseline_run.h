@@ -3,6 +3,7 @@
 // reader finds, with the odometry between the scans and the mount of the laser.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "batch/run_figures.h"
+#include "batch/workers.h"
 #include "common/benchmark_logs.h"
 #include "freiburg/baseline_program.h"
 #include "psi_slam/time_stamp.h"
@@ -50,5 +52,21 @@ std::vector<TimeUs> write_baseline_log(FrameSource& source, const std::filesyste
 /// another content.
 Trajectory read_baseline_path(const std::filesystem::path& file, std::size_t yaw_column,
                               const std::vector<TimeUs>& times);
+
+struct BaselineOptions {
+  double time_limit_s = 600;     ///< of each run
+  int processes = 1;             ///< runs at a time
+  std::filesystem::path output;  ///< for runs/LOG-BASELINE.json, and for the files of the runs
+};
+
+/// Runs every baseline on every log, each run in a process of its own. A result is kept and not repeated
+/// while the log, its relations, the settings of its reader, the baseline and its settings stay the same. A
+/// run that did not finish is repeated only with a larger time limit. Returns results by log, then baseline.
+/// All `logs` need relations. When `stop` becomes true, ends the running processes and throws SystemFailure.
+/// Also throws SystemFailure when a file cannot be written.
+std::vector<BaselineResult> run_baselines(const std::vector<BaselineProgram>& baselines,
+                                          const std::vector<BenchmarkLog>& logs,
+                                          const BaselineOptions& options, const std::atomic<bool>& stop,
+                                          const ProgressObserver& observer);
 
 }  // namespace psi_slam

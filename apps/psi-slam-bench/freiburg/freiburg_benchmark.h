@@ -4,6 +4,7 @@
 // while its log, its relations, its settings and the program stay the same.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,6 @@
 #include "batch/child_process.h"
 #include "batch/seeds.h"
 #include "common/bench_report.h"
-#include "common/benchmark_logs.h"
 #include "freiburg/baseline_program.h"
 #include "freiburg/baseline_run.h"
 #include "freiburg/freiburg_run.h"
@@ -47,6 +47,27 @@ struct FreiburgCell {
   std::vector<FreiburgResult> runs;  ///< by seed
 };
 
+/// Figures of one log with one matcher over all seeds: means and spreads, not the best run.
+struct CellFigures {
+  std::size_t runs = 0;    ///< successful runs
+  std::size_t failed = 0;  ///< failed runs
+  PathErrors errors;       ///< means and standard deviations of the runs, averaged over the seeds
+  std::array<SeedSpread, kPathFigures.size()> spread;  ///< of the mean errors, in the order of kPathFigures
+  double relations_used = 0;                           ///< mean over the seeds
+  double relations_skipped = 0;
+  SeedSpread loops_accepted;
+  SeedSpread loops_judged;
+  SeedSpread loops_false;
+  std::optional<SeedSpread> loop_recall;  ///< of the runs that have a recall; may be empty
+  SeedSpread wall_s;
+  SeedSpread cpu_s;
+  SeedSpread real_time_factor;
+  SeedSpread peak_memory_mib;
+};
+
+/// Empty if every run failed.
+std::optional<CellFigures> figures_of(const FreiburgCell& cell);
+
 struct FreiburgBenchmark {
   std::vector<LogIdentity> logs;
   std::vector<FreiburgCell> cells;             ///< by log, then matcher
@@ -63,5 +84,18 @@ struct FreiburgBenchmark {
 FreiburgBenchmark run_freiburg_benchmark(const std::vector<BenchmarkLog>& logs,
                                          const FreiburgOptions& options, const std::atomic<bool>& stop,
                                          const ProgressObserver& progress);
+
+/// The report of the `freiburg` command: psi-slam compared with published systems and baselines, every
+/// matcher on every log, and the checksums of the logs. Each log has a plot. In JSON, "cells" has the
+/// statistics over the seeds of each matcher on each log, "comparison" has the systems for each error of each
+/// log, and "rivals" has the baselines:
+///
+///     {"programs": [{"rival": "icp-slam", "version": "...", "sha256": "...", "config": "...", "changes":
+///       "..."}],
+///      "missing": ["rbpf-slam is not on PATH"],
+///      "runs": [{"log": "intel", "rival": "icp-slam", "figures": {...}}, {..., "not_finished_in_s": 600},
+///       {..., "failure": "..."}]}
+BenchReport freiburg_report(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
+                            const std::string& machine);
 
 }  // namespace psi_slam

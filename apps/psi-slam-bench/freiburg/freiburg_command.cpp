@@ -5,10 +5,10 @@
 #include <memory>
 #include <ostream>
 
-#include "batch/provenance.h"
+#include "batch/kept_run.h"
 #include "common/bench_command.h"
-#include "freiburg/baseline_benchmark.h"
-#include "freiburg/freiburg_report.h"
+#include "freiburg/baseline_run.h"
+#include "freiburg/freiburg_benchmark.h"
 #include "interrupt_signals.h"
 #include "psi_slam/user_error.h"
 #include "report/html_text.h"

@@ -6,7 +6,7 @@
 #include "base/number_text.h"
 #include "batch/report_table.h"
 #include "common/log_plots.h"
-#include "freiburg/freiburg_figures.h"
+#include "freiburg/freiburg_benchmark.h"
 
 namespace psi_slam {
 namespace {

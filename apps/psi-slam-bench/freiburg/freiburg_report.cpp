@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg/freiburg_report.h"
+#include "freiburg/freiburg_benchmark.h"
 
 #include <algorithm>
 
 #include "base/number_text.h"
 #include "batch/kept_run.h"
 #include "freiburg/freiburg_comparison.h"
-#include "freiburg/freiburg_figures.h"
 #include "report/html_text.h"
 
 namespace psi_slam {

@@ -32,7 +32,7 @@ constexpr Ablation kAblations[] = {
 
 }  // namespace
 
-const Matcher& Candidate::matcher(const LoopCase& loop_case) const {
+const Matcher& MatchCandidate::matcher(const LoopCase& loop_case) const {
   if (matchers_.size() == 1) return *matchers_.front();
   const auto named = std::find_if(matchers_.begin(), matchers_.end(), [&](const auto& matcher) {
     return matcher->name() == loop_case.adaptive_matcher;
@@ -42,7 +42,7 @@ const Matcher& Candidate::matcher(const LoopCase& loop_case) const {
   return **named;
 }
 
-std::vector<Candidate> candidates(CandidateSet set, const MapperOptions& options) {
+std::vector<MatchCandidate> match_candidates(CandidateSet set, const MapperOptions& options) {
   GeneticOptions genetic = options.genetic;
   genetic.variant = GeneticVariant::kMemetic;
   const auto make = [&options](MatcherKind kind, const GeneticOptions& how) {
@@ -53,11 +53,11 @@ std::vector<Candidate> candidates(CandidateSet set, const MapperOptions& options
   const auto csm = make(MatcherKind::kCsm, genetic);
   const auto csm_ga = make(MatcherKind::kCsmGa, genetic);
   const auto ga = make(MatcherKind::kGa, genetic);
-  std::vector<Candidate> all{
+  std::vector<MatchCandidate> all{
       {"csm", csm}, {"csm_ga", csm_ga}, {"ga", ga}, {"ga_paper", make(MatcherKind::kGa, paper)}};
   if (set == CandidateSet::kMatchers) return all;
   const std::vector<std::shared_ptr<const Matcher>> choices{csm, csm_ga, ga};
-  all.insert(all.end() - 1, Candidate("adaptive", choices));
+  all.insert(all.end() - 1, MatchCandidate("adaptive", choices));
   for (const Ablation& ablation : kAblations) {
     GeneticOptions without = genetic;
     ablation.apply(without.memetic);

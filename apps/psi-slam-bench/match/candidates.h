@@ -14,12 +14,12 @@
 namespace psi_slam {
 
 /// A row of the tables.
-class Candidate {
+class MatchCandidate {
  public:
-  Candidate(std::string name, std::shared_ptr<const Matcher> matcher)
+  MatchCandidate(std::string name, std::shared_ptr<const Matcher> matcher)
       : name_(std::move(name)), matchers_{std::move(matcher)} {}
   /// A candidate that uses, for each case, the matcher that the case names.
-  Candidate(std::string name, std::vector<std::shared_ptr<const Matcher>> adaptive)
+  MatchCandidate(std::string name, std::vector<std::shared_ptr<const Matcher>> adaptive)
       : name_(std::move(name)), matchers_(std::move(adaptive)) {}
 
   const std::string& name() const { return name_; }
@@ -36,6 +36,6 @@ enum class CandidateSet {
 };
 
 /// The first candidate is exact CSM, with which the others are compared.
-std::vector<Candidate> candidates(CandidateSet set, const MapperOptions& options);
+std::vector<MatchCandidate> match_candidates(CandidateSet set, const MapperOptions& options);
 
 }  // namespace psi_slam

@@ -130,7 +130,7 @@ class BenchmarkRun {
     double matches = 0;
     for (const MatchSeries* series : all_series)
       matches += 2 * static_cast<double>(series->cases.count) *
-                 static_cast<double>(candidates(series->set, MapperOptions()).size());
+                 static_cast<double>(match_candidates(series->set, MapperOptions()).size());
     return matches;
   }
 
@@ -158,7 +158,7 @@ class BenchmarkRun {
       }
       const std::string missing = missing_cases(counts, *series);
       if (!missing.empty()) add_remark(note, missing);
-      const std::vector<Candidate> all_candidates = candidates(series->set, mapped.options);
+      const std::vector<MatchCandidate> all_candidates = match_candidates(series->set, mapped.options);
       run_cases(cases, all_candidates,
                 accepted_response(series->cases, mapped.options.loop_closure.verification), *series, [&] {
                   matches += static_cast<double>(all_candidates.size());
@@ -176,10 +176,10 @@ class BenchmarkRun {
 
 }  // namespace
 
-void run_cases(const std::vector<LoopCase>& cases, const std::vector<Candidate>& candidates,
+void run_cases(const std::vector<LoopCase>& cases, const std::vector<MatchCandidate>& candidates,
                double accepted_response, MatchSeries& series, const std::function<void()>& after_case) {
   if (series.rows.empty())
-    for (const Candidate& candidate : candidates) series.rows.push_back({candidate.name(), {}});
+    for (const MatchCandidate& candidate : candidates) series.rows.push_back({candidate.name(), {}});
   std::vector<MatchResult> matches(candidates.size());
   std::vector<double> times_ms(candidates.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "batch/workers.h"
-#include "common/benchmark_logs.h"
+#include "common/bench_report.h"
 #include "match/candidates.h"
 #include "match/loop_cases.h"
 #include "match/match_figures.h"
@@ -59,11 +59,21 @@ inline constexpr double kTrustedError_m = 0.2;
 
 /// Runs every candidate on every case in this thread, case by case, and adds the results to the rows of the
 /// series. Calls `after_case` after each case.
-void run_cases(const std::vector<LoopCase>& cases, const std::vector<Candidate>& candidates,
+void run_cases(const std::vector<LoopCase>& cases, const std::vector<MatchCandidate>& candidates,
                double accepted_response, MatchSeries& series, const std::function<void()>& after_case);
 
 /// Maps each log, draws its cases and runs them. Throws UserError when no log can be used.
 MatchBenchmark run_match_benchmark(const std::vector<BenchmarkLog>& logs,
                                    const MatchBenchmarkOptions& options, const ProgressObserver& observer);
+
+/// The report of the `match` command. JSON has the rows of the single scans as "matchers", and those of scans
+/// with their context as "context", over window sizes as "windows" and over sizes of local maps as
+/// "local_maps". A rate without cases is null. CSV has the rows of all series.
+BenchReport match_report(const MatchBenchmark& benchmark, const MatchBenchmarkOptions& options,
+                         const std::string& machine);
+
+/// Plots of the mean time as SVG: over the half-width of the window, and over the size of the local maps.
+std::string window_plot(const MatchBenchmark& benchmark);
+std::string local_map_plot(const MatchBenchmark& benchmark);
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "match/match_report.h"
+#include "match/match_benchmark.h"
 
 #include <cmath>
 
@@ -49,25 +49,30 @@ std::vector<CandidateRow> rows_of(const std::vector<MatchSeries>& all_series) {
 /// The table of several series; `series_head` is the head of the column that names them.
 ReportTable table_of_series(const std::vector<MatchSeries>& all_series, const std::string& series_head) {
   using Row = CandidateRow;
+  const auto share = [](const std::string& head, const std::string& key,
+                        std::optional<double> MatchFigures::*value) {
+    return ColumnOf<Row>{{head, key}, [=](const Row& row) { return percent(row.figures.*value); }};
+  };
+  const auto time = [](const std::string& head, const std::string& key, double TimeFigures::*value) {
+    return ColumnOf<Row>{{head, key},
+                         [=](const Row& row) { return milliseconds(row.figures.time_ms.*value); }};
+  };
   return table_of<Row>(
-      {{{series_head, "series", true}, [](const Row& row) { return cell(row.series); }},
-       {{"matcher", "matcher", true}, [](const Row& row) { return cell(row.matcher); }},
+      {column(series_head, "series", &Row::series),
+       column("matcher", "matcher", &Row::matcher),
        {{"cases", "cases"}, [](const Row& row) { return cell(row.figures.cases); }},
-       {{"success %", "success_rate"}, [](const Row& row) { return percent(row.figures.success_rate); }},
-       {{"same optimum %", "same_optimum_rate"},
-        [](const Row& row) { return percent(row.figures.same_optimum_rate); }},
-       {{"false accepts %", "false_accept_rate"},
-        [](const Row& row) { return percent(row.figures.false_accept_rate); }},
+       share("success %", "success_rate", &MatchFigures::success_rate),
+       share("same optimum %", "same_optimum_rate", &MatchFigures::same_optimum_rate),
+       share("false accepts %", "false_accept_rate", &MatchFigures::false_accept_rate),
        {{"evaluations", "evaluations"},
         [](const Row& row) {
           return ReportCell{fixed_text(row.figures.evaluations, 0), rounded(row.figures.evaluations, 1)};
         }},
-       {{"mean ms", "time_ms.mean"}, [](const Row& row) { return milliseconds(row.figures.time_ms.mean); }},
-       {{"p50 ms", "time_ms.p50"}, [](const Row& row) { return milliseconds(row.figures.time_ms.p50); }},
-       {{"p95 ms", "time_ms.p95"}, [](const Row& row) { return milliseconds(row.figures.time_ms.p95); }},
-       {{"p99 ms", "time_ms.p99"}, [](const Row& row) { return milliseconds(row.figures.time_ms.p99); }},
-       {{"repaired %", "repaired_share"},
-        [](const Row& row) { return percent(row.figures.repaired_share); }}},
+       time("mean ms", "time_ms.mean", &TimeFigures::mean),
+       time("p50 ms", "time_ms.p50", &TimeFigures::p50),
+       time("p95 ms", "time_ms.p95", &TimeFigures::p95),
+       time("p99 ms", "time_ms.p99", &TimeFigures::p99),
+       share("repaired %", "repaired_share", &MatchFigures::repaired_share)},
       rows_of(all_series));
 }
 
@@ -103,7 +108,7 @@ std::string sizes_text(const std::string& title, const std::string& series_head,
 
 ReportTable logs_table(const std::vector<LogNote>& logs) {
   using Log = LogNote;
-  return table_of<Log>({{{"log", "name", true}, [](const Log& log) { return cell(log.name); }},
+  return table_of<Log>({column("log", "name", &Log::name),
                         {{"MD5", "md5", true},
                          [](const Log& log) {
                            return ReportCell{'`' + log.md5 + '`', log.md5};

@@ -12,7 +12,6 @@
 #include "batch/seeds.h"
 #include "batch/workers.h"
 #include "common/bench_report.h"
-#include "common/benchmark_logs.h"
 #include "robustness/degraded_source.h"
 
 namespace psi_slam {
@@ -60,5 +59,11 @@ struct RobustnessBenchmark {
 /// UserError as open_log() and read_relations().
 RobustnessBenchmark run_robustness_benchmark(const std::vector<BenchmarkLog>& logs, const SeedRange& seeds,
                                              const ProgressObserver& observer);
+
+/// The report of the `robustness` command. In JSON, "logs" has the natural noise of each log's odometry, and
+/// "rows" has the statistics over the seeds of each case: {"mean", "std", "min", "max"}. A precision or
+/// recall without loops or relations is null. Each series has a plot of the error of each log.
+BenchReport robustness_report(const RobustnessBenchmark& benchmark, const SeedRange& seeds,
+                              const std::string& machine);
 
 }  // namespace psi_slam

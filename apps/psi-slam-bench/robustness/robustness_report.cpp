@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robustness/robustness_report.h"
+#include "robustness/robustness_benchmark.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +39,7 @@ ReportCell percent(const Runs& runs, std::optional<double> RobustnessRow::*share
 }
 
 /// Mean of a count, without decimals for a single run.
-template <class Figure>
-ReportCell mean_count(const Runs& runs, Figure RobustnessRow::*figure) {
+ReportCell mean_count(const Runs& runs, std::size_t RobustnessRow::*figure) {
   const SeedSpread counts = over_seeds(runs, figure);
   return {fixed_text(counts.mean, counts.count > 1 ? 1 : 0), spread_json(counts)};
 }
@@ -48,7 +47,7 @@ ReportCell mean_count(const Runs& runs, Figure RobustnessRow::*figure) {
 ReportTable noise_table(const std::vector<RobustnessLog>& logs) {
   using Log = RobustnessLog;
   return table_of<Log>(
-      {{{"log", "name", true}, [](const Log& log) { return cell(log.name); }},
+      {column("log", "name", &Log::name),
        {{"natural noise of odometry [m / √m]", "natural_odometry_noise.m_per_root_m"},
         [](const Log& log) { return cell(log.natural.sigma_m_per_root_m, 4); }},
        {{"[deg / √m]", "natural_odometry_noise.deg_per_root_m"},
@@ -59,6 +58,17 @@ ReportTable noise_table(const std::vector<RobustnessLog>& logs) {
 }
 
 ReportTable cases_table(const RobustnessBenchmark& benchmark) {
+  using Row = RobustnessRow;
+  const auto error = [](const std::string& head, const std::string& key, double Row::*figure, int decimals) {
+    return ColumnOf<Runs>{{head, key},
+                          [=](const Runs& runs) { return cell(over_seeds(runs, figure), decimals); }};
+  };
+  const auto count = [](const std::string& head, const std::string& key, std::size_t Row::*figure) {
+    return ColumnOf<Runs>{{head, key}, [=](const Runs& runs) { return mean_count(runs, figure); }};
+  };
+  const auto share = [](const std::string& head, const std::string& key, std::optional<double> Row::*figure) {
+    return ColumnOf<Runs>{{head, key}, [=](const Runs& runs) { return percent(runs, figure); }};
+  };
   return table_of<Runs>(
       {{{"log", "log", true}, [](const Runs& runs) { return cell(runs.front().log); }},
        {{"series", "series", true}, [](const Runs& runs) { return cell(runs.front().degraded.series); }},
@@ -67,24 +77,18 @@ ReportTable cases_table(const RobustnessBenchmark& benchmark) {
         [](const Runs& runs) {
           return ReportCell{std::to_string(runs.size()), seeds_of(runs)};
         }},
-       {{"error [m]", "translation_error_m"},
-        [](const Runs& runs) { return cell(over_seeds(runs, &RobustnessRow::translation_error_m), 4); }},
-       {{"[deg]", "rotation_error_deg"},
-        [](const Runs& runs) { return cell(over_seeds(runs, &RobustnessRow::rotation_error_deg), 3); }},
-       {{"relations", "relations"},
-        [](const Runs& runs) { return mean_count(runs, &RobustnessRow::relations); }},
-       {{"loops", "loops"}, [](const Runs& runs) { return mean_count(runs, &RobustnessRow::loops); }},
-       {{"precision %", "loop_precision"},
-        [](const Runs& runs) { return percent(runs, &RobustnessRow::loop_precision); }},
-       {{"recall %", "loop_recall"},
-        [](const Runs& runs) { return percent(runs, &RobustnessRow::loop_recall); }},
-       {{"unmatched", "unmatched_scans"},
+       error("error [m]", "translation_error_m", &Row::translation_error_m, 4),
+       error("[deg]", "rotation_error_deg", &Row::rotation_error_deg, 3),
+       count("relations", "relations", &Row::relations),
+       count("loops", "loops", &Row::loops),
+       share("precision %", "loop_precision", &Row::loop_precision),
+       share("recall %", "loop_recall", &Row::loop_recall),
+       {{"unmatched", {}},
         [](const Runs& runs) {
-          ReportCell unmatched = mean_count(runs, &RobustnessRow::unmatched);
-          unmatched.text += " of " + mean_count(runs, &RobustnessRow::scans).text;
-          return unmatched;
+          return cell(mean_count(runs, &Row::unmatched).text + " of " + mean_count(runs, &Row::scans).text);
         }},
-       {{{}, "scans"}, [](const Runs& runs) { return mean_count(runs, &RobustnessRow::scans); }}},
+       count({}, "unmatched_scans", &Row::unmatched),
+       count({}, "scans", &Row::scans)},
       cases_of(benchmark));
 }
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/number_text.h"
-#include "simulate/simulate_report.h"
+#include "simulate/simulate_benchmark.h"
 
 namespace psi_slam {
 namespace {

@@ -12,7 +12,6 @@
 #include "psi_slam/mapper.h"
 #include "session/settings.h"
 #include "simulate/forked_work.h"
-#include "simulate/simulate_report.h"
 #include "simulation/simulation_random.h"
 
 namespace psi_slam {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "batch/workers.h"
+#include "common/bench_report.h"
 #include "evaluation/relations_metric.h"
 #include "psi_slam/mapping_result.h"
 #include "simulate/covariance_check.h"
@@ -92,5 +93,16 @@ std::vector<SimulateRow> run_simulate_benchmark(const SimulateOptions& options,
 /// Messages from the child process; every figure is restored exactly.
 std::string row_text(const SimulateRow& row);
 SimulateRow row_of_text(const std::string& text);
+
+/// "500 m", "10 km".
+std::string metres_text(double metres);
+
+/// The report of the `simulate` command. JSON has an object for each run in "drives". The plots show how
+/// error, time and memory grow with the length of the path.
+BenchReport simulate_report(const std::vector<SimulateRow>& rows, const SimulateOptions& options,
+                            const std::string& machine);
+
+/// The floor plan with the true path of the robot, as SVG.
+std::string plan_svg(const FloorPlan& plan, const Trajectory& truth);
 
 }  // namespace psi_slam

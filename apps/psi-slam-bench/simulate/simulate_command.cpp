@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <memory>
 
-#include "batch/provenance.h"
+#include "batch/kept_run.h"
 #include "common/bench_command.h"
 #include "psi_slam/user_error.h"
-#include "simulate/simulate_report.h"
+#include "simulate/simulate_benchmark.h"
 #include "simulate/simulated_log_file.h"
 
 namespace psi_slam {

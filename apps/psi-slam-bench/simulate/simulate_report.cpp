@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulate/simulate_report.h"
+#include "simulate/simulate_benchmark.h"
 
 #include <cmath>
 #include <utility>
@@ -20,14 +20,6 @@ Column path_column() {
   return {{"path", "path_m"}, [](const SimulateRow& row) {
             return ReportCell{metres_text(row.path_m), row.path_m};
           }};
-}
-
-Column column(const std::string& head, const std::string& key, double SimulateRow::*value, int decimals) {
-  return {{head, key}, [=](const SimulateRow& row) { return cell(row.*value, decimals); }};
-}
-
-Column column(const std::string& head, const std::string& key, std::size_t SimulateRow::*count) {
-  return {{head, key}, [=](const SimulateRow& row) { return cell(row.*count); }};
 }
 
 std::vector<Column> map_columns() {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/simulated_log_file.h"
 
-#include <zlib.h>
-
-#include <array>
 #include <fstream>
-#include <memory>
+#include <iterator>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -13,6 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "common/bench_command.h"
+#include "compression/gzip_file.h"
 #include "exports/corrected_log.h"
 #include "psi_slam/user_error.h"
 #include "simulate/simulate_benchmark.h"
@@ -41,20 +39,6 @@ struct ScratchFile {
 fs::path beside(const fs::path& log, const std::string& ending) {
   const std::string name = log.filename().string();
   return log.parent_path() / (name.substr(0, name.size() - std::string(kEnding).size()) + ending);
-}
-
-void compress(const fs::path& plain, const fs::path& gzipped) {
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(::gzopen(gzipped.c_str(), "wb6"), ::gzclose);
-  std::ifstream source(plain, std::ios::binary);
-  std::array<char, 1 << 16> buffer{};
-  bool failed = !file || !source;
-  while (!failed && source) {
-    source.read(buffer.data(), buffer.size());
-    const auto count = static_cast<unsigned>(source.gcount());
-    failed = count > 0 && ::gzwrite(file.get(), buffer.data(), count) != static_cast<int>(count);
-  }
-  if (failed || ::gzflush(file.get(), Z_FINISH) != Z_OK)
-    throw SystemFailure("cannot write " + gzipped.string());
 }
 
 std::string relations_text(const std::vector<Relation>& relations) {
@@ -87,11 +71,11 @@ void write_simulated_log(const fs::path& log, const SimulatedLogOptions& run) {
     truth.push_back({frame->time_us, simulated.world_T_robot()});
     frames.push_back(*std::move(frame));
   }
-  write_atomically(log, [&](const fs::path& temporary) {
-    const ScratchFile plain(temporary.string() + ".plain");
-    write_corrected_log(plain.path, frames, poses);
-    compress(plain.path, temporary);
-  });
+  const ScratchFile plain(log.string() + ".plain");
+  write_corrected_log(plain.path, frames, poses);
+  std::ifstream file(plain.path, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  write_text_atomically(log, gzipped(text.data(), text.size()));
   write_text_atomically(beside(log, ".relations"),
                         relations_text(draw_relations(truth, kRelations, run.path.seed)));
   write_tum(beside(log, ".tum"), truth);

@@ -5,11 +5,78 @@
 #include <cmath>
 #include <utility>
 
-#include "simulation/plan_drawing.h"
 #include "simulation/simulation_random.h"
 
 namespace psi_slam {
 namespace {
+
+constexpr double kWallThickness_m = 0.12;
+
+/// An opening in a wall, from .. to along the wall.
+struct Opening {
+  double from = 0;
+  double to = 0;
+};
+
+/// Drawing operations for a floor plan.
+class PlanDrawing {
+ public:
+  explicit PlanDrawing(FloorPlan& plan) : plan_(plan) {}
+
+  /// Outline of a box between two corners.
+  void box(double x0, double y0, double x1, double y1, Material material);
+
+  /// A wall along x at `y`, or along y at `x`, with openings sorted along the wall.
+  void wall_along_x(double x0, double x1, double y, const std::vector<Opening>& openings = {});
+  void wall_along_y(double y0, double y1, double x, const std::vector<Opening>& openings = {});
+
+  void line(double x0, double y0, double x1, double y1, Material material);
+
+  std::size_t place(double x, double y, Place::Kind kind);
+  void passage(std::size_t from, std::size_t to) { plan_.passages.push_back({from, to}); }
+
+ private:
+  FloorPlan& plan_;
+};
+
+constexpr double kHalfWall_m = kWallThickness_m / 2;
+
+/// The parts of [from, to] outside the openings, which must be sorted.
+std::vector<Opening> solid_parts(double from, double to, const std::vector<Opening>& openings) {
+  std::vector<Opening> parts;
+  for (const Opening& opening : openings) {
+    parts.push_back({from, opening.from});
+    from = opening.to;
+  }
+  parts.push_back({from, to});
+  return parts;
+}
+
+void PlanDrawing::line(double x0, double y0, double x1, double y1, Material material) {
+  plan_.segments.push_back({{x0, y0}, {x1, y1}, material});
+}
+
+void PlanDrawing::box(double x0, double y0, double x1, double y1, Material material) {
+  line(x0, y0, x1, y0, material);
+  line(x1, y0, x1, y1, material);
+  line(x1, y1, x0, y1, material);
+  line(x0, y1, x0, y0, material);
+}
+
+void PlanDrawing::wall_along_x(double x0, double x1, double y, const std::vector<Opening>& openings) {
+  for (const Opening& part : solid_parts(x0, x1, openings))
+    box(part.from, y - kHalfWall_m, part.to, y + kHalfWall_m, Material::kWall);
+}
+
+void PlanDrawing::wall_along_y(double y0, double y1, double x, const std::vector<Opening>& openings) {
+  for (const Opening& part : solid_parts(y0, y1, openings))
+    box(x - kHalfWall_m, part.from, x + kHalfWall_m, part.to, Material::kWall);
+}
+
+std::size_t PlanDrawing::place(double x, double y, Place::Kind kind) {
+  plan_.places.push_back({{x, y}, kind});
+  return plan_.places.size() - 1;
+}
 
 constexpr double kDoor_m = 1.1;
 constexpr double kHallDoor_m = 1.8;
@@ -17,7 +84,6 @@ constexpr double kDoorToWall_m = 1.0;  // least distance from the middle of a do
 constexpr double kNarrowestRoom_m = 3.2;
 constexpr double kWidestRoom_m = 7.5;
 constexpr double kFurnitureClear_m = 0.6;  // from the straight path into a room
-constexpr double kHalfWall_m = kWallThickness_m / 2;
 
 /// Positions along one axis of the parallel corridors across it, and of the blocks between them.
 struct Axis {

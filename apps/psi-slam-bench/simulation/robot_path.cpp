@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "simulation/route.h"
 #include "simulation/simulation_random.h"
 
 namespace psi_slam {
@@ -17,6 +17,74 @@ constexpr double kCarrotStep_m = 0.01;
 constexpr double kStep_s = 0.0125;
 constexpr double kTurnPerError = 2.5;  // rad/s per radian between the heading and the direction of the carrot
 constexpr double kTurnOnTheSpot_rad = 1.0;
+
+constexpr double kTakenTheOtherWay = 0.4;  // weight of a passage taken in the opposite direction
+constexpr double kTurningBack = 3.0;
+constexpr double kPassedDoors = 0.6;  // share of the doors that the robot does not enter
+constexpr double kEnteringRoom = 2.0;
+
+/// An endless walk over the places of a floor plan. It prefers the passages that it has taken least, so that
+/// it visits all places, closes rings and takes corridors in both directions.
+class Route {
+ public:
+  /// Starts at a crossing. The plan must outlive the route.
+  Route(const FloorPlan& plan, std::uint64_t seed);
+
+  /// Returns the first place, then the next place at each call. A passage links successive places.
+  std::size_t next();
+
+ private:
+  struct Way {
+    std::size_t to = 0;
+    std::size_t back = 0;  ///< index of the opposite way in the ways from `to`
+    double taken = 0;      ///< how often
+  };
+
+  double reluctance(const Way& way);
+
+  const FloorPlan& plan_;
+  SimulationRandom random_;
+  std::vector<std::vector<Way>> ways_;  ///< by start place
+  std::size_t here_ = 0;
+  std::size_t before_ = 0;
+  bool started_ = false;
+};
+
+Route::Route(const FloorPlan& plan, std::uint64_t seed)
+    : plan_(plan), random_(seed, SimulationRandom::Stream::kRoute), ways_(plan.places.size()) {
+  for (const Passage& passage : plan.passages) {
+    std::vector<Way>& from = ways_[passage.from];
+    std::vector<Way>& to = ways_[passage.to];
+    from.push_back({passage.to, to.size(), 0});
+    to.push_back({passage.from, from.size() - 1, 0});
+  }
+  while (plan.places[here_].kind != Place::Kind::kCrossing) ++here_;
+  before_ = here_;
+}
+
+double Route::reluctance(const Way& way) {
+  double reluctance = way.taken + kTakenTheOtherWay * ways_[way.to][way.back].taken + 0.3 * random_.share();
+  const bool into_room = plan_.places[way.to].kind == Place::Kind::kRoom;
+  if (into_room && random_.happens(kPassedDoors)) reluctance += kEnteringRoom;
+  if (way.to == before_) reluctance += kTurningBack;
+  return reluctance;
+}
+
+std::size_t Route::next() {
+  if (!started_) {
+    started_ = true;
+    return here_;
+  }
+  std::vector<Way>& ways = ways_[here_];
+  std::vector<double> reluctances;
+  for (const Way& way : ways) reluctances.push_back(reluctance(way));
+  Way& way = ways[static_cast<std::size_t>(std::min_element(reluctances.begin(), reluctances.end()) -
+                                           reluctances.begin())];
+  ++way.taken;
+  before_ = here_;
+  here_ = way.to;
+  return here_;
+}
 
 double distance_m(const TPoint2D& a, const TPoint2D& b) {
   return std::hypot(b.x - a.x, b.y - a.y);

@@ -3,9 +3,15 @@
 
 #include <utility>
 
+#include "exports/geo_tiff.h"
 #include "session/read_ahead.h"
 
 namespace psi_slam {
+
+void check(const Settings& settings) {
+  check_values(settings);
+  check_epsg(settings.map_files.earth.epsg);
+}
 
 std::unique_ptr<FrameSource> open_input(const SessionInput& input, const Settings& settings) {
   check(settings);

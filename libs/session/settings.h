@@ -45,6 +45,9 @@ void describe(OptionTable& table, Settings& settings);
 /// set.)
 void check(const Settings& settings);
 
+/// check() without the coordinate system map.epsg, which only GDAL knows.
+void check_values(const Settings& settings);
+
 /// What the reader of the log takes. Where the mount is stated in part, the rest of it is 0.
 LogOptions log_options(const Settings& settings);
 

@@ -4,7 +4,6 @@
 
 #include "psi_slam/user_error.h"
 #include "config/exact_number.h"
-#include "exports/geo_tiff.h"
 #include "session/settings.h"
 
 namespace psi_slam {
@@ -68,12 +67,11 @@ void check_matchers(const MapperOptions& mapper) {
 
 }  // namespace
 
-void check(const Settings& settings) {
+void check_values(const Settings& settings) {
   check_ranges(settings);
   check_windows(settings.mapper);
   check_matchers(settings.mapper);
   check_log_options(log_options(settings));
-  check_epsg(settings.map_files.earth.epsg);
 }
 
 LogOptions log_options(const Settings& settings) {

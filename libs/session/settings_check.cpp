@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <thread>
 
-#include "psi_slam/user_error.h"
 #include "config/exact_number.h"
+#include "psi_slam/user_error.h"
 #include "session/settings.h"
 
 namespace psi_slam {
@@ -54,7 +54,7 @@ void check_windows(const MapperOptions& mapper) {
                   {"loop_closure.window_y_m", loops.max_window.y_m});
   require_at_most({"loop_closure.min_window_theta_deg", loops.min_window_rad, true},
                   {"loop_closure.window_theta_deg", loops.max_window.theta_rad, true});
-  require_at_most({"last_pass.window_m", mapper.final_search.window_m},
+  require_at_most({"final_search.window_m", mapper.final_search.window_m},
                   {"verification.wide_window_m", mapper.loop_closure.verification.wide_window_m});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of describe() of settings.h, each of some sections of the settings.
+// Parts of describe() of settings.h that describe some of the sections.
 #pragma once
 
 #include "config/option_table.h"
@@ -7,13 +7,10 @@
 
 namespace psi_slam {
 
-/// Members of a section that the caller has begun.
+/// Describes the options refine_* in the current section of the table.
 void describe_refinement(OptionTable& table, RefinementOptions& refinement);
 
-/// From the search for loops to the refinement of all scans.
+/// Describes the sections from [loop_closure] to [joint_refinement].
 void describe_loops(OptionTable& table, MapperOptions& mapper);
-void describe_map(OptionTable& table, GridMapOptions& map);
-void describe_map_files(OptionTable& table, MapFileOptions& files);
-void describe_localization(OptionTable& table, LocalizerOptions& localization);
 
 }  // namespace psi_slam

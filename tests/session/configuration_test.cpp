@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <functional>
 
 #include "psi_slam/user_error.h"
 #include "session/settings.h"
@@ -24,14 +25,14 @@ std::string message_of(const std::function<void()>& action) {
   return "no error";
 }
 
-TEST(ConfigurationTest, BeginsWithTheDefaults) {
+TEST(Configuration, begins_with_the_defaults) {
   const Configuration configuration;
   EXPECT_EQ(configuration.value("map.resolution_m"), "0.05");
   EXPECT_EQ(static_cast<const GridMapOptions&>(configuration).resolution_m, GridMapOptions().resolution_m);
   EXPECT_THAT(configuration.warnings(), IsEmpty());
 }
 
-TEST(ConfigurationTest, PassesValuesToThePartThatUsesThem) {
+TEST(Configuration, passes_values_to_the_part_that_uses_them) {
   Configuration configuration;
   configuration.set("run.seed", "7");
   configuration.set("log.laser_x_m", "0.2");
@@ -42,7 +43,7 @@ TEST(ConfigurationTest, PassesValuesToThePartThatUsesThem) {
   EXPECT_EQ(static_cast<const LogOptions&>(configuration).robot_T_laser->x, 0.2);
 }
 
-TEST(ConfigurationTest, RestoresItselfFromItsText) {
+TEST(Configuration, is_restored_from_its_text) {
   const TemporaryFolder folder;
   Configuration configuration;
   configuration.set("front_end.window_theta_deg", "12.5");
@@ -52,7 +53,7 @@ TEST(ConfigurationTest, RestoresItselfFromItsText) {
   EXPECT_EQ(restored.text(), configuration.text());
 }
 
-TEST(ConfigurationTest, CopiesAreIndependent) {
+TEST(Configuration, copies_are_independent) {
   Configuration configuration;
   configuration.set("run.seed", "7");
   Configuration copy = configuration;
@@ -61,7 +62,7 @@ TEST(ConfigurationTest, CopiesAreIndependent) {
   EXPECT_EQ(copy.value("run.seed"), "8");
 }
 
-TEST(ConfigurationTest, NamesTheMistake) {
+TEST(Configuration, names_the_mistake) {
   Configuration configuration;
   EXPECT_THAT(message_of([&] { configuration.set("map.resolution", "1"); }), HasSubstr("did you mean"));
   EXPECT_THAT(message_of([&] { configuration.set("map.resolution_m", "wide"); }), HasSubstr("wide"));

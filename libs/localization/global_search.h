@@ -16,6 +16,7 @@
 #include "loop_closure/scan_context.h"
 #include "matching/correlative_matcher.h"
 #include "matching/make_matcher.h"
+#include "psi_slam/localizer.h"
 
 namespace psi_slam {
 
@@ -32,22 +33,6 @@ struct GlobalSearchOptions {
   double min_observed_share = 0.5;  ///< of the scans' points, in space that the map shows
   double min_agree = 0.75;          ///< of the scans' points in observed space, on something occupied
   double min_clear_share = 0.9;     ///< of the scans' beams, that go through no wall of the map
-};
-
-/// The best place of the map; what was not looked at any more is 0.
-struct FoundPlace {
-  bool found = false;  ///< false: no place of the map comes near min_response
-  mrpt::math::TPose2D map_T_robot;
-  double response = 0;
-  double ambiguity = 0;
-  double observed_share = 0;
-  double agree = 0;
-  double clear_share = 0;
-  std::string objection;   ///< why it is not to be believed, as a clause; empty: it is
-  bool ambiguous = false;  ///< the objection is that another place fits as well
-  std::int64_t evaluations = 0;
-
-  bool believed() const { return found && objection.empty(); }
 };
 
 class GlobalSearch {

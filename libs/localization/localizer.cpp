@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "frames/inverse_pose.h"
+#include "localization/localizer_options.h"
 
 namespace psi_slam {
 namespace {
@@ -17,7 +18,38 @@ constexpr double kPredictionShare = 0.95;
 
 }  // namespace
 
-Localizer::Localizer(ReferenceMap map, const LocalizerOptions& options)
+class Localizer::Implementation {
+ public:
+  Implementation(ReferenceMap map, const LocalizerOptions& options);
+  void start_at(const TPose2D& map_T_robot);
+  LocalizationStep add(const Frame& frame);
+
+ private:
+  bool tracking() const { return map_T_local_.has_value(); }
+  void track(const FrontEndStep& motion, LocalizationStep& step);
+  PosePrior prior_at(const TPose2D& map_T_robot) const;
+  bool match_near(const FrontEndStep& motion, LocalizationStep& step) const;
+  void search(std::size_t frame, LocalizationStep& step);
+  void find_again();
+
+  LocalizerOptions options_;
+  GlobalSearch search_;
+  CorrelativeMatcher matcher_;
+  std::optional<FrontEnd> front_end_;
+  TPose2D last_local_T_robot_;
+  std::optional<TPose2D> map_T_local_;  ///< of the front end's frame; none while lost
+  bool near_told_start_ = false;        ///< no scan has fitted since
+  double misfit_m_ = 0;                 ///< since the last scan that fitted
+  TimeUs fitted_us_ = 0;
+  TimeUs now_us_ = 0;
+
+  // While lost.
+  KeyframeStore memory_;  ///< of the way since the robot was lost
+  LoopConsensus consensus_;
+  PoseGraph map_frame_;  ///< its one node is the map: what the places found are seen from
+};
+
+Localizer::Implementation::Implementation(ReferenceMap map, const LocalizerOptions& options)
     : options_(options),
       search_(std::move(map), options.search),
       matcher_(options.search.match),
@@ -26,12 +58,12 @@ Localizer::Localizer(ReferenceMap map, const LocalizerOptions& options)
   map_frame_.add_node({0, 0, 0});
 }
 
-void Localizer::start_at(const TPose2D& map_T_robot) {
+void Localizer::Implementation::start_at(const TPose2D& map_T_robot) {
   map_T_local_ = map_T_robot;
   near_told_start_ = true;
 }
 
-LocalizationStep Localizer::add(const Frame& frame) {
+LocalizationStep Localizer::Implementation::add(const Frame& frame) {
   const FrontEndStep motion = front_end_->add(frame);
   LocalizationStep step;
   step.time_us = now_us_ = frame.time_us;
@@ -48,7 +80,7 @@ LocalizationStep Localizer::add(const Frame& frame) {
   return step;
 }
 
-void Localizer::track(const FrontEndStep& motion, LocalizationStep& step) {
+void Localizer::Implementation::track(const FrontEndStep& motion, LocalizationStep& step) {
   step.state = LocalizationStep::State::kTracking;
   step.map_T_robot = *map_T_local_ + motion.local_T_robot;
   step.fits = match_near(motion, step);
@@ -66,7 +98,7 @@ void Localizer::track(const FrontEndStep& motion, LocalizationStep& step) {
   find_again();
 }
 
-PosePrior Localizer::prior_at(const TPose2D& map_T_robot) const {
+PosePrior Localizer::Implementation::prior_at(const TPose2D& map_T_robot) const {
   const double information_m = 1 / (options_.prior_sigma_m * options_.prior_sigma_m);
   const double information_rad = 1 / (options_.prior_sigma_rad * options_.prior_sigma_rad);
   PosePrior prior;
@@ -75,7 +107,7 @@ PosePrior Localizer::prior_at(const TPose2D& map_T_robot) const {
   return prior;
 }
 
-bool Localizer::match_near(const FrontEndStep& motion, LocalizationStep& step) const {
+bool Localizer::Implementation::match_near(const FrontEndStep& motion, LocalizationStep& step) const {
   const LocalMap& map = *search_.map().fine;
   const ScanPoints& scan = *motion.points;
   if (scan.points.empty() || scan.farthest_m <= map.scores().resolution_m()) return false;
@@ -105,7 +137,7 @@ bool Localizer::match_near(const FrontEndStep& motion, LocalizationStep& step) c
   return true;
 }
 
-void Localizer::search(std::size_t frame, LocalizationStep& step) {
+void Localizer::Implementation::search(std::size_t frame, LocalizationStep& step) {
   const std::size_t node = memory_.nodes.size() - 1;
   const NodeScan& here = memory_.nodes[node];
   const FoundPlace& place = step.search.emplace(search_.find(node, memory_, {options_.seed, frame, 0}));
@@ -124,13 +156,29 @@ void Localizer::search(std::size_t frame, LocalizationStep& step) {
 }
 
 // What the front end knows of the way until now may lead from where the robot is no more.
-void Localizer::find_again() {
+void Localizer::Implementation::find_again() {
   map_T_local_.reset();
   near_told_start_ = false;
   front_end_.emplace(options_.front_end);
   last_local_T_robot_ = {0, 0, 0};
   memory_ = {};
   consensus_ = LoopConsensus(options_.consensus);
+}
+
+Localizer::Localizer(const mrpt::maps::COccupancyGridMap2D& map, const LocalizerOptions& options)
+    : Localizer(make_reference_map(map, options.search.resolution_m, options.search.smoothing_sigma_m),
+                options) {}
+Localizer::Localizer(const ReferenceMap& map, const LocalizerOptions& options)
+    : implementation_(std::make_unique<Implementation>(map, options)) {}
+Localizer::~Localizer() = default;
+Localizer::Localizer(Localizer&&) noexcept = default;
+Localizer& Localizer::operator=(Localizer&&) noexcept = default;
+
+void Localizer::start_at(const TPose2D& map_T_robot) {
+  implementation_->start_at(map_T_robot);
+}
+LocalizationStep Localizer::add(const Frame& frame) {
+  return implementation_->add(frame);
 }
 
 }  // namespace psi_slam

@@ -26,7 +26,9 @@ Configuration::Configuration() : implementation_(std::make_unique<Implementation
   implementation_->update();
 }
 
-Configuration::Configuration(const Configuration& other) : Configuration() { *this = other; }
+Configuration::Configuration(const Configuration& other) : Configuration() {
+  *this = other;
+}
 
 Configuration& Configuration::operator=(const Configuration& other) {
   implementation_->bound.settings = other.implementation_->bound.settings;
@@ -51,13 +53,21 @@ std::string Configuration::value(std::string_view name) const {
   return implementation_->bound.table.option(name, "Configuration::value").text();
 }
 
-std::string Configuration::text() const { return settings_file_text(implementation_->bound.table); }
+std::string Configuration::text() const {
+  return settings_file_text(implementation_->bound.table);
+}
 
-const std::vector<std::string>& Configuration::warnings() const { return implementation_->warnings; }
+const std::vector<std::string>& Configuration::warnings() const {
+  return implementation_->warnings;
+}
 
-void Configuration::check() const { check_values(implementation_->bound.settings); }
+void Configuration::check() const {
+  check_values(implementation_->bound.settings);
+}
 
-Configuration::operator const Settings&() const { return implementation_->bound.settings; }
+Configuration::operator const Settings&() const {
+  return implementation_->bound.settings;
+}
 
 Configuration::operator const MapperOptions&() const {
   check();

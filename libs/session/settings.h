@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "config/option_table.h"
-#include "psi_slam/localizer.h"
+#include "exports/map_files.h"
+#include "localization/localizer_options.h"
+#include "psi_slam/grid_map.h"
 #include "psi_slam/log_options.h"
 #include "psi_slam/mapper.h"
-#include "psi_slam/grid_map.h"
-#include "exports/map_files.h"
 
 namespace psi_slam {
 

@@ -8,7 +8,8 @@
 #include <cmath>
 #include <vector>
 
-#include "psi_slam/localizer.h"
+#include "localization/localizer_options.h"
+"psi_slam/localizer.h"
 #include "psi_slam/grid_map.h"
 #include "simulation/simulated_log.h"
 

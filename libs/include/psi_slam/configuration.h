@@ -37,8 +37,8 @@ class Configuration {
   Configuration& operator=(const Configuration& other);
   ~Configuration();
 
-  /// Takes the values of a settings file; other options keep theirs. Throws UserError with file and line for an
-  /// unknown section or key and for a value that its option does not accept. Then nothing has changed.
+  /// Takes the values of a settings file; other options keep theirs. Throws UserError with file and line for
+  /// an unknown section or key and for a value that its option does not accept. Then nothing has changed.
   void load(const std::filesystem::path& ini);
 
   /// Gives one option a value: set("map.resolution_m", "0.1"). Angles are in degrees, "auto" and "true" are

@@ -1,90 +1,92 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps track of a robot in a finished map, scan by scan, and finds it where it is lost: at the beginning,
-// unless its start is told, and again after it was carried away.
-//
-// The front end measures its motion, in a frame of the front end's own. While the robot is lost, every metre
-// the last scans are looked for in the whole map (GlobalSearch); it is found when several searches from
-// different places say the same (LoopConsensus). From then on each scan is matched in a small window around
-// where the motion predicts it, until too many in a row do not fit.
+/// @file
+/// Localizes a robot in a finished map.
 #pragma once
 
-#include <optional>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/math/TPose2D.h>
 
-#include "psi_slam/time_stamp.h"
-#include "local_maps/front_end.h"
-#include "localization/global_search.h"
-#include "loop_closure/loop_consensus.h"
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "psi_slam/frame.h"
 
 namespace psi_slam {
 
-struct LocalizerOptions {
-  FrontEndOptions front_end;  ///< that measures the motion
-  GlobalSearchOptions search;
-  LoopConsensusOptions consensus;
-  std::uint64_t seed = 1;
+struct LocalizerOptions;
+struct ReferenceMap;
 
-  double search_travel_m = 1.0;  ///< while lost: between one search and the next
+/// Reads a map that psi-slam or another program wrote: `map.yaml` with the image that it names, or
+/// `map.gridmap.gz`. The extension decides. Throws UserError if the file is unreadable, of another kind,
+/// rotated or without any wall.
+mrpt::maps::COccupancyGridMap2D read_map_file(const std::filesystem::path& path);
 
-  // While tracking.
-  double window_m = 0.3;
-  double window_rad = radians_from_degrees(6.0L);
-  double prior_sigma_m = 0.05;  ///< of the motion's prediction
-  double prior_sigma_rad = radians_from_degrees(2.0L);
-  double start_window_m = 1.0;  ///< around a start that was told
-  double start_window_rad = radians_from_degrees(15.0L);
-  double min_response = 0.3;
-  double min_observed_share = 0.5;  ///< of a scan's points, in space that the map shows
-  double min_agree = 0.6;           ///< of these, on something occupied
-  double max_misfit_m = 2.0;        ///< lost when scans have not fitted for so much travel,
-  double max_misfit_s = 5.0;        ///< or for so long
+/// Best place of a search of the whole map. Figures of checks that were not reached are 0.
+struct FoundPlace {
+  bool found = false;               ///< false: no place of the map comes near the least response
+  mrpt::math::TPose2D map_T_robot;  ///< robot pose in the map
+  double response = 0;              ///< response of the scans there, in [0, 1]
+  double ambiguity = 0;             ///< response of the next best place over `response`, in [0, 1]
+  double observed_share = 0;        ///< fraction of the scans' points in space that the map has observed
+  double agree = 0;                 ///< fraction of these points on occupied cells
+  double clear_share = 0;           ///< fraction of the beams that cross no wall of the map
+  std::string objection;            ///< reason to reject the place, as a clause; empty: accepted
+  bool ambiguous = false;           ///< the objection is that another place fits as well
+  std::int64_t evaluations = 0;     ///< poses scored by the search
+
+  /// Whether the place passed all checks.
+  bool believed() const { return found && objection.empty(); }
 };
 
-/// What became of one scan.
+/// Result of Localizer::add() for one scan.
 struct LocalizationStep {
-  enum class State { kLost, kTracking };
-  TimeUs time_us = 0;
-  State state = State::kLost;
-  mrpt::math::TPose2D map_T_robot;  ///< while tracking
-  bool fits = false;                ///< the scan fits the map there; false: the motion alone says where it is
-  double response = 0;              ///< where it fits
-  double confidence = 0;            ///< where it fits: the share of its points that lie on the map's walls
-  double moved_m = 0;               ///< since the scan before
-  std::optional<FoundPlace> search;  ///< of the whole map, if one was made at this scan
+  /// Whether the pose of the robot is known.
+  enum class State {
+    kLost,      ///< unknown
+    kTracking,  ///< known: see map_T_robot
+  };
+  TimeUs time_us = 0;                ///< time of the scan, microseconds
+  State state = State::kLost;        ///< state after this scan
+  mrpt::math::TPose2D map_T_robot;   ///< robot pose in the map; valid while tracking
+  bool fits = false;                 ///< the scan fits the map; false: the pose follows the motion alone
+  double response = 0;               ///< response of the scan in [0, 1], if it fits
+  double confidence = 0;             ///< fraction of its points on walls of the map, if it fits
+  double moved_m = 0;                ///< travel since the previous scan, metres
+  std::optional<FoundPlace> search;  ///< search of the whole map, if this scan started one
 };
 
+/// Tracks a robot in a finished map, scan by scan.
+///
+/// The front end measures the motion in a frame of its own. While the robot is lost, the last scans are
+/// searched for in the whole map after every metre. The robot is found when several searches from different
+/// places agree. From then on, each scan is matched in a small window around the predicted pose. The robot is
+/// lost again when the scans have not fitted for some travel or time, for example because it was carried
+/// away.
 class Localizer {
  public:
-  Localizer(ReferenceMap map, const LocalizerOptions& options);
+  /// Prepares `map` for searches. Pass a Configuration as `options`.
+  Localizer(const mrpt::maps::COccupancyGridMap2D& map, const LocalizerOptions& options);
+  /// Uses a prepared map, which several localizers can share.
+  Localizer(const ReferenceMap& map, const LocalizerOptions& options);
+  ~Localizer();
+  /// Moves the localizer; the moved-from one can only be destroyed.
+  Localizer(Localizer&&) noexcept;
+  /// Moves the localizer; the moved-from one can only be destroyed.
+  Localizer& operator=(Localizer&&) noexcept;
 
-  /// Before the first scan: the robot is near there.
+  /// Tells that the robot starts near this pose. Call it before the first scan. Without it, the robot starts
+  /// lost.
   void start_at(const mrpt::math::TPose2D& map_T_robot);
 
-  /// The per-scan step.
+  /// Localizes the next scan. Scans have the order of time.
   LocalizationStep add(const Frame& frame);
 
  private:
-  bool tracking() const { return map_T_local_.has_value(); }
-  void track(const FrontEndStep& motion, LocalizationStep& step);
-  PosePrior prior_at(const mrpt::math::TPose2D& map_T_robot) const;
-  bool match_near(const FrontEndStep& motion, LocalizationStep& step) const;
-  void search(std::size_t frame, LocalizationStep& step);
-  void find_again();
-
-  LocalizerOptions options_;
-  GlobalSearch search_;
-  CorrelativeMatcher matcher_;
-  std::optional<FrontEnd> front_end_;
-  mrpt::math::TPose2D last_local_T_robot_;
-  std::optional<mrpt::math::TPose2D> map_T_local_;  ///< of the front end's frame; none while lost
-  bool near_told_start_ = false;                    ///< no scan has fitted since
-  double misfit_m_ = 0;                             ///< since the last scan that fitted
-  TimeUs fitted_us_ = 0;
-  TimeUs now_us_ = 0;
-
-  // While lost.
-  KeyframeStore memory_;  ///< of the way since the robot was lost
-  LoopConsensus consensus_;
-  PoseGraph map_frame_;  ///< its one node is the map: what the places found are seen from
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 
 }  // namespace psi_slam

@@ -4,6 +4,7 @@
 #include "config/apply_settings.h"
 #include "config/ini_file.h"
 #include "config/option_listing.h"
+#include "psi_slam/version.h"
 
 namespace psi_slam {
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Makes the Debian packages of a build, installs them with apt-get on a bare Debian 12 in a folder of its own, maps a
-# log and builds the example there.
+# log and builds the examples there.
 #
 #   share/scripts/check-package.sh [BUILD]        default: build/release, all of it built
 #
@@ -113,11 +113,11 @@ fi
 inside apt-get purge --quiet --quiet --yes psi-slam >"$work/purge.log" 2>&1 || fail "the package cannot be removed"
 if [ -e "$system/usr/share/psi-slam" ]; then fail "the package leaves /usr/share/psi-slam behind"; fi
 
-say "building the example with libpsi-slam-dev there"
+say "building the examples with libpsi-slam-dev there"
 cp "$library" "$system/tmp/libpsi-slam-dev.deb"
 inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/libpsi-slam-dev.deb cmake g++ make \
   >"$work/install-dev.log" 2>&1 || fail "libpsi-slam-dev does not install: $(tail -5 "$work/install-dev.log")"
-inside sh -c "cmake -S /usr/share/doc/libpsi-slam-dev/examples/map-a-log -B /tmp/example && cmake --build /tmp/example" \
-  >"$work/example.log" 2>&1 || fail "the example does not build: $(tail -5 "$work/example.log")"
-inside test -x /tmp/example/map_a_log || fail "the example was not built"
+inside sh -c "cmake -S /usr/share/doc/libpsi-slam-dev/examples -B /tmp/examples && cmake --build /tmp/examples" \
+  >"$work/examples.log" 2>&1 || fail "the examples do not build: $(tail -5 "$work/examples.log")"
+inside test -x /tmp/examples/01_map_a_log || fail "the examples were not built"
 say "the packages are in order"

@@ -3,6 +3,7 @@
 # installation, and runs them.
 #
 #   cmake -D PSI_SLAM_BUILD=DIR -D WORK=DIR [-D CONFIG=Release] [-D CXX=COMPILER] -P package_test.cmake
+cmake_minimum_required(VERSION 3.22)
 foreach(name PSI_SLAM_BUILD WORK)
   if(NOT ${name})
     message(FATAL_ERROR "${name} is not set")

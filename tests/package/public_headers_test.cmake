@@ -2,6 +2,7 @@
 # Public headers are few, and include only each other and headers of other projects.
 #
 #   cmake -D "FOLDERS=DIR;..." -P public_headers_test.cmake      folders that hold psi_slam/*.h
+cmake_minimum_required(VERSION 3.22)
 set(most 20)
 set(headers)
 foreach(folder IN LISTS FOLDERS)

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/line_reader.h"
+#include "compression/line_reader.h"
 #include "psi_slam/time_stamp.h"
 #include "psi_slam/user_error.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "base/line_reader.h"
+#include "compression/line_reader.h"
 #include "base/text_parts.h"
 #include "psi_slam/user_error.h"
 #include "carmen/carmen_mount.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/line_reader.h"
+#include "compression/line_reader.h"
 #include "carmen/carmen_message.h"
 
 namespace psi_slam {

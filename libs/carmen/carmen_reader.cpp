@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/line_reader.h"
+#include "compression/line_reader.h"
 #include "base/text_parts.h"
 #include "psi_slam/user_error.h"
 #include "carmen/carmen_lasers.h"

@@ -17,7 +17,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/packed_bytes.h"
+#include "compression/packed_bytes.h"
 #include "matching/scan_points.h"
 #include "matching/score_grid.h"
 

@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "base/atomic_file.h"
-#include "base/line_reader.h"
+#include "compression/line_reader.h"
 #include "psi_slam/user_error.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/spanning_tree.h"

@@ -9,7 +9,7 @@
 
 #include "session/edit_line.h"
 #include "base/atomic_file.h"
-#include "base/line_reader.h"
+#include "compression/line_reader.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/line_reader.h"
+#include "compression/line_reader.h"
 
 #include <gmock/gmock.h>
 

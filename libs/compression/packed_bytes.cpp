@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/packed_bytes.h"
+#include "compression/packed_bytes.h"
 
 #include <zlib.h>
 

@@ -12,7 +12,9 @@
 
 #include <charconv>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -63,18 +65,36 @@ class OptionTable {
   /// Any text of one line.
   OptionTable& text(std::string key, std::string& member, std::string help);
 
+  /// Accepts an old name: of an option ("old_section.old_key", "section.key") or of a whole section
+  /// ("old_section", "section"). Throws std::logic_error if the new name is not described yet, or if the old
+  /// name is in use.
+  OptionTable& alias(std::string old_name, std::string new_name);
+
   const std::vector<OptionSection>& sections() const { return sections_; }
 
-  /// The option of that name, "section.key". Throws UserError, beginning with `where` ("my.ini:12", "--set"),
-  /// when there is none; it proposes the name that was probably meant.
+  /// Present name of the option that is or was called `name`; unknown names are returned unchanged.
+  std::string current_name(std::string_view name) const;
+
+  /// Whether an option is or was called `name`, "section.key".
+  bool knows(std::string_view name) const;
+
+  /// The option that is or was called `name`, "section.key". Throws UserError that begins with `where`
+  /// ("my.ini:12", "--set") and proposes the nearest name if there is none.
   const Option& option(std::string_view name, std::string_view where) const;
 
-  /// Throws UserError, beginning with `where`, unless there is a section of that name.
+  /// Throws UserError that begins with `where` unless a section is or was called `name`.
   void require_section(std::string_view name, std::string_view where) const;
 
-  /// Gives an option a new value. Throws UserError, beginning with `where`, when there is no such option or
-  /// it does not take that value; then nothing has changed.
+  /// Throws UserError that begins with `where` if the option is unknown or does not accept the text.
+  void check(std::string_view name, std::string_view text, std::string_view where) const;
+
+  /// Gives an option a new value. An old name adds a warning. Throws like check(), and then changes nothing.
   void set(std::string_view name, std::string_view text, std::string_view where);
+
+  /// Returns the warnings since the last call, and forgets them: one sentence without full stop for each old
+  /// name that set() met in one file, such as "my.ini:12: section [last_pass] was renamed; write
+  /// [final_search]".
+  std::vector<std::string> take_warnings();
 
  private:
   template <class T, class Parse, class Format>
@@ -83,7 +103,12 @@ class OptionTable {
   OptionTable& add_number(Option option, double& member);
   OptionTable& add_optional_number(Option option, std::optional<double>& member);
 
+  void warn_of_old_name(std::string_view old_name, const std::string& new_name, std::string_view where);
+
   std::vector<OptionSection> sections_;
+  std::map<std::string, std::string, std::less<>> aliases_;  ///< old to new; sections have no dot
+  std::vector<std::string> warnings_;
+  std::set<std::string> warned_;  ///< warnings without their lines
 };
 
 template <class T, class Parse, class Format>

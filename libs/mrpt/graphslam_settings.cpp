@@ -33,8 +33,8 @@ bool has_no_effect(const std::string& option) {
   return option == "log.every_nth_scan" || option == "loop_closure.enabled" || option.rfind("map.", 0) == 0;
 }
 
-void require_own_section(const IniValue& value) {
-  const std::string section = graphslam_section_of(value.key);
+void require_own_section(const IniValue& value, const std::string& option) {
+  const std::string section = graphslam_section_of(option);
   if (section.empty())
     throw UserError(value.where + ": " + value.key + " has no effect in MRPT's graph-slam engine");
   if (section != value.section)
@@ -61,9 +61,8 @@ std::string graphslam_section_of(const std::string& option) {
 void load_graphslam_settings(const std::filesystem::path& ini, BoundSettings& bound) {
   for (const IniValue& value : read_ini(ini).values) {
     if (!is_deciders_section(value.section) || value.key.find('.') == std::string::npos) continue;
-    const std::string name = bound.table.option(value.key, value.where).name();
-    require_own_section(value);
-    bound.table.set(name, value.text, value.where);
+    require_own_section(value, bound.table.option(value.key, value.where).name());
+    bound.table.set(value.key, value.text, value.where);
   }
   check(bound.settings);
 }

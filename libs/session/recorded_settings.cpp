@@ -13,14 +13,6 @@ bool is_kept(const Option& option) {
   return option.section != "map" && option.section != "localization" && option.name() != "run.threads";
 }
 
-bool is_known(const std::string& name, const OptionTable& table) {
-  const auto& sections = table.sections();
-  return std::any_of(sections.begin(), sections.end(), [&](const OptionSection& section) {
-    return std::any_of(section.options.begin(), section.options.end(),
-                       [&](const Option& option) { return option.name() == name; });
-  });
-}
-
 }  // namespace
 
 std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
@@ -28,11 +20,12 @@ std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts&
   std::vector<std::string> unknown;
   for (const IniValue& value : parse_ini(facts.settings, file).values) {
     const std::string name = value.section + '.' + value.key;
-    if (is_known(name, bound.table))
+    if (bound.table.knows(name))
       bound.table.set(name, value.text, value.where);
     else
       unknown.push_back(file.string() + ": " + name + " is no option any more and is left out");
   }
+  bound.table.take_warnings();  // nobody edits the old names inside a session
   return unknown;
 }
 

@@ -139,5 +139,26 @@ TEST(OptionTable, refuses_descriptions_that_contradict_themselves) {
   EXPECT_THROW(table.number("x_m", number, any_number(), "m", ""), std::logic_error) << "twice";
 }
 
+TEST_F(OptionTableTest, finds_options_by_their_old_names) {
+  table_.alias("scan_matching", "front_end").alias("front_end.rounds", "front_end.passes");
+  EXPECT_EQ(table_.option("scan_matching.rounds", "test").name(), "front_end.passes");
+  EXPECT_EQ(table_.current_name("scan_matching.nodes"), "front_end.nodes");
+  EXPECT_EQ(table_.current_name("front_end.nodes"), "front_end.nodes");
+  EXPECT_TRUE(table_.knows("scan_matching.rounds"));
+  EXPECT_TRUE(table_.knows("front_end.passes"));
+  EXPECT_FALSE(table_.knows("scan_matching.seed"));
+  EXPECT_FALSE(table_.knows("passes"));
+}
+
+TEST_F(OptionTableTest, refuses_aliases_that_contradict_the_description) {
+  EXPECT_THROW(table_.alias("front_end.rounds", "front_end.unknown"), std::logic_error);
+  EXPECT_THROW(table_.alias("old", "unknown"), std::logic_error);
+  EXPECT_THROW(table_.alias("front_end.nodes", "front_end.passes"), std::logic_error);
+  EXPECT_THROW(table_.alias("log", "front_end"), std::logic_error);
+  EXPECT_THROW(table_.alias("old", "front_end.passes"), std::logic_error);
+  table_.alias("old", "front_end");
+  EXPECT_THROW(table_.alias("old", "log"), std::logic_error);
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "psi_slam/user_error.h"
 #include "config/option_table.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 

@@ -8,7 +8,7 @@
 #include "base/exit_code.h"
 #include "psi_slam/user_error.h"
 #include "localization/localization_report.h"
-#include "localization/map_file.h"
+#include "localization/reference_map.h"
 #include "psi_slam/open_log.h"
 #include "report/output_folder.h"
 #include "start_pose.h"
@@ -45,10 +45,7 @@ LocalizedLog localize_all(FrameSource& log, Localizer& localizer, const Interrup
 }  // namespace
 
 int localize(const CommandLine& line, const Settings& settings, const Streams& streams) {
-  const LocalizerOptions options = localizer_options(settings);
-  const auto map = read_map_file(line.map);
-  Localizer localizer(make_reference_map(map, options.search.resolution_m, options.search.smoothing_sigma_m),
-                      options);
+  Localizer localizer(read_map_file(line.map), localizer_options(settings));
   if (!line.start.empty()) localizer.start_at(parse_start(line.start));
   const auto log = open_log(line.log, log_options(settings));
   const InterruptSignals signals;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "localization/clear_beams.h"
 #include "base/number_text.h"
+#include "localization/clear_beams.h"
 
 namespace psi_slam {
 namespace {

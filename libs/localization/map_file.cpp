@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "localization/map_file.h"
 
 #include <mrpt/containers/yaml.h>
 #include <mrpt/io/CMemoryStream.h>
@@ -12,10 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "compression/compressed_file.h"
-#include "psi_slam/user_error.h"
 #include "base/byte_cursor.h"
 #include "base/number_text.h"
+#include "compression/compressed_file.h"
+#include "localization/reference_map.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

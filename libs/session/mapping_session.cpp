@@ -13,8 +13,9 @@
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"
-#include "session/open_input.h"
 #include "session/session_file.h"
+#include "session/session_input.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 namespace {
@@ -199,8 +200,8 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   if (m.after_finish == Mapper::AfterFinish::kNothing) m.mapper.reset();
   m.result.stages.insert(m.result.stages.begin(), m.reading_clock.timing());
   m.result.interrupted =
-      m.result.interrupted || std::any_of(m.logs.begin(), m.logs.end(),
-                                          [](const RecordedLog& log) { return log.scans_left; });
+      m.result.interrupted ||
+      std::any_of(m.logs.begin(), m.logs.end(), [](const RecordedLog& log) { return log.scans_left; });
   m.result.broken_off = m.broken_off;
   m.stages_of_mapping = m.result.stages.size();
 }
@@ -304,8 +305,8 @@ void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
       later.start.node += first_node;
       m.later_runs.push_back(later);
     }
-  m.edits.add(run.edits().of_run(m.scans, inner ? inner->frames.size() : 0,
-                                 m.mapper->memory().local_maps.size()));
+  m.edits.add(
+      run.edits().of_run(m.scans, inner ? inner->frames.size() : 0, m.mapper->memory().local_maps.size()));
   m.recording.reset();  // it is only a part of what is mapped now
   m.log_path = run.log();
   m.log_sha256.clear();

@@ -5,11 +5,10 @@
 #include <limits>
 #include <memory>
 
-#include "session/open_input.h"
-#include "psi_slam/user_error.h"
+#include "frames/inverse_pose.h"
 #include "local_maps/front_end.h"
 #include "psi_slam/localizer.h"
-#include "frames/inverse_pose.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -95,12 +94,10 @@ std::optional<Sighting> find(FirstRun& frames, Localizer& localizer, FrontEnd& w
 }  // namespace
 
 RunStart place_run(const MappingResult& mapped, const mrpt::maps::COccupancyGridMap2D& grid,
-                       const SessionInput& drive, const Settings& settings,
-                       const std::optional<TPose2D>& map_T_start, const std::atomic<bool>& stop,
-                       const std::function<void(double share)>& tell) {
-  const LocalizerOptions options = localizer_options(settings);
-  Localizer localizer(make_reference_map(grid, options.search.resolution_m, options.search.smoothing_sigma_m),
-                      options);
+                   const SessionInput& drive, const Settings& settings,
+                   const std::optional<TPose2D>& map_T_start, const std::atomic<bool>& stop,
+                   const std::function<void(double share)>& tell) {
+  Localizer localizer(grid, localizer_options(settings));
   if (map_T_start) localizer.start_at(*map_T_start);
   FrontEnd way(settings.mapper.front_end);
   FirstRun frames(drive, settings);

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "psi_slam/user_error.h"
 #include "config/ini_file.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -4,6 +4,8 @@
 
 #include "config/exact_number.h"
 #include "exports/geo_tiff.h"
+#include "localization/reference_map.h"
+#include "psi_slam/localizer.h"
 #include "psi_slam/user_error.h"
 #include "session/settings.h"
 
@@ -101,6 +103,14 @@ LocalizerOptions localizer_options(const Settings& settings) {
   options.search.smoothing_sigma_m = settings.mapper.front_end.local_map.smoothing_sigma_m;
   options.seed = settings.run.seed;
   return options;
+}
+
+Localizer Localizer::open(const std::filesystem::path& map, const std::filesystem::path& config,
+                          const std::vector<std::string>& assignments) {
+  BoundSettings bound;
+  bound.load(config, assignments);
+  check(bound.settings);
+  return {read_map_file(map), localizer_options(bound.settings)};
 }
 
 int worker_threads(const RunOptions& run) {

@@ -140,7 +140,8 @@ class MappingSession {
   void export_to(const std::filesystem::path& folder, bool force = false);
 
   /// Writes the mapped scans, all edits and settings to a session file. If only a part of a recorded session
-  /// was mapped again, all its recorded scans are written. Throws SystemFailure if the file cannot be written.
+  /// was mapped again, all its recorded scans are written. Throws SystemFailure if the file cannot be
+  /// written.
   SavedSession save(const std::filesystem::path& file) const;
 
   /// Poses, graph and loops so far. Valid until finish(), and after it with stay_open().

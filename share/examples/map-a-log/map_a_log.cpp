@@ -9,7 +9,7 @@
 #include <mrpt/core/bits_math.h>
 #include <psi_slam/time_stamp.h>
 #include <psi_slam/user_error.h>
-#include <session/bound_settings.h>
+#include <session/settings.h>
 #include <psi_slam/mapping_session.h>
 
 #include <cstdio>

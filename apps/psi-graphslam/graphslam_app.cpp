@@ -102,16 +102,12 @@ int map(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) 
 }
 
 int run(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) {
-  int code = kExitDone;
+  if (!line.lists() && !line.dump_options) return map(line, out, err);
   if (line.lists())
     list_deciders(line, out);
-  else if (line.dump_options)
-    dump_options(out);
   else
-    code = map(line, out, err);
-  out.flush();
-  if (!out) throw SystemFailure("cannot write to standard output");
-  return code;
+    dump_options(out);
+  return kExitDone;
 }
 
 }  // namespace
@@ -119,24 +115,8 @@ int run(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) 
 int run_graphslam_app(const std::vector<std::string>& arguments, std::ostream& out,
                       std::ostream& err) noexcept {
   CLI::App app("psi-graphslam runs MRPT's graph-slam engine with its deciders and psi-slam's.", kName);
-  try {
-    return run(parse_graphslam_command_line(arguments, app), out, err);
-  } catch (const CLI::Success& asked) {  // --help, --version
-    app.exit(asked, out, err);
-    return kExitDone;
-  } catch (const CLI::ParseError& error) {
-    err << kName << ": " << error.what() << " (see psi-graphslam --help)\n";
-    return kExitWrongUsageOrInput;
-  } catch (const UserError& error) {
-    err << kName << ": " << error.what() << '\n';
-    return kExitWrongUsageOrInput;
-  } catch (const std::bad_alloc&) {
-    err << kName << ": there is not enough memory\n";
-    return kExitFailed;
-  } catch (const std::exception& error) {
-    err << kName << ": " << error.what() << '\n';
-    return kExitFailed;
-  }
+  return run_program(app, out, err,
+                     [&] { return run(parse_graphslam_command_line(arguments, app), out, err); });
 }
 
 }  // namespace psi_slam

@@ -7,12 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "document_options.h"
 #include "base/atomic_file.h"
 #include "base/exit_code.h"
-#include "psi_slam/user_error.h"
 #include "base/number_text.h"
+#include "document_options.h"
 #include "evaluation/relations_metric.h"
+#include "psi_slam/user_error.h"
+#include "run_program.h"
 
 namespace psi_slam {
 namespace {
@@ -114,8 +115,6 @@ void evaluate(const EvalOptions& options, std::ostream& out) {
   } else {
     print_table(out, metric);
   }
-  out.flush();
-  if (!out) throw SystemFailure("cannot write the result to standard output");
 }
 
 }  // namespace
@@ -125,18 +124,10 @@ int run_eval_app(const std::vector<std::string>& arguments, std::ostream& out, s
       "Measures a trajectory against true relations: the metric of the Freiburg SLAM benchmark "
       "(Kümmerle et al. 2009) and the variant that Cartographer's tool computes.",
       "psi-slam-eval");
-  try {
+  return run_program(app, out, err, [&] {
     evaluate(parse(arguments, app), out);
     return kExitDone;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error, out, err) == 0 ? kExitDone : kExitWrongUsageOrInput;
-  } catch (const UserError& error) {
-    err << "psi-slam-eval: " << error.what() << '\n';
-    return kExitWrongUsageOrInput;
-  } catch (const std::exception& error) {
-    err << "psi-slam-eval: " << error.what() << '\n';
-    return kExitFailed;
-  }
+  });
 }
 
 }  // namespace psi_slam

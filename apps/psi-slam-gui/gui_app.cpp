@@ -17,7 +17,7 @@
 #include "gui_command_line.h"
 #include "main_frame.h"
 #include "base/exit_code.h"
-#include "psi_slam/user_error.h"
+#include "run_program.h"
 
 namespace psi_slam {
 namespace {
@@ -88,24 +88,14 @@ int run_window(const GuiCommandLine& line, std::ostream& err,
 int run_gui(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err,
             const std::function<void(MainFrame&)>& when_shown) {
   CLI::App app("psi-slam-gui replays a log and shows the map being made.", "psi-slam-gui");
-  try {
+  return run_program(app, out, err, [&] {
     const GuiCommandLine line = parse_gui_command_line(arguments, app);
-    BoundSettings().load(line.config, line.settings);  // what is wrong with them is told here and now
+    BoundSettings bound;
+    bound.load(line.config, line.settings);  // reports mistakes before the window opens
+    for (const std::string& warning : bound.table.take_warnings()) err << "psi-slam-gui: " << warning << '\n';
     if (!line.edits.empty()) EditJournal::read(line.edits);
     return run_window(line, err, when_shown);
-  } catch (const CLI::Success& asked) {  // --help, --version
-    app.exit(asked, out, err);
-    return kExitDone;
-  } catch (const CLI::ParseError& error) {
-    err << "psi-slam-gui: " << error.what() << " (see psi-slam-gui --help)\n";
-    return kExitWrongUsageOrInput;
-  } catch (const UserError& error) {
-    err << "psi-slam-gui: " << error.what() << '\n';
-    return kExitWrongUsageOrInput;
-  } catch (const std::exception& error) {
-    err << "psi-slam-gui: " << error.what() << '\n';
-    return kExitFailed;
-  }
+  });
 }
 
 }  // namespace psi_slam

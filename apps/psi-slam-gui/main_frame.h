@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "file_questions.h"
-#include "session/bound_settings.h"
+#include "session/settings.h"
 #include "replay_slot.h"
 #include "session_reader.h"
 #include "unsaved_work.h"

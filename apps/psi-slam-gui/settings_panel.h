@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "session/bound_settings.h"
+#include "session/settings.h"
 
 class wxButton;
 class wxPGProperty;

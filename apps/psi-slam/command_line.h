@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "config/option_table.h"
-#include "session/bound_settings.h"
+#include "session/settings.h"
 #include "sweep_command.h"
 
 namespace psi_slam {

@@ -4,11 +4,12 @@
 #include <optional>
 #include <ostream>
 
-#include "base/exit_code.h"
 #include "interrupt_signals.h"
-#include "localization/localization_report.h"
-#include "psi_slam/open_log.h"
+#include "base/exit_code.h"
 #include "psi_slam/user_error.h"
+#include "localization/localization_report.h"
+#include "localization/reference_map.h"
+#include "psi_slam/open_log.h"
 #include "report/output_folder.h"
 #include "start_pose.h"
 #include "work_progress.h"

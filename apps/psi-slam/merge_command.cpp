@@ -26,7 +26,7 @@ std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bo
   // What was edited at the end of the first drive was edited before the next.
   if (const auto& recording = inputs.front().recording())
     inputs.front() =
-        inputs.front().with_edits(inputs.front().edits().of_drive(0, recording->frames.size(), 0));
+        inputs.front().with_edits(inputs.front().edits().of_run(0, recording->frames.size(), 0));
   load_settings(line, bound);
   for (std::size_t i = 0; i < inputs.size(); ++i)
     if (const auto& recording = inputs[i].recording())

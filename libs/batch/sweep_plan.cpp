@@ -7,7 +7,7 @@
 #include "base/file_checksum.h"
 #include "psi_slam/user_error.h"
 #include "batch/log_name.h"
-#include "session/bound_settings.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 namespace {

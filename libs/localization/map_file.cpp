@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/localizer.h"
 
 #include <mrpt/containers/yaml.h>
 #include <mrpt/io/CMemoryStream.h>
@@ -15,6 +14,7 @@
 #include "base/byte_cursor.h"
 #include "base/number_text.h"
 #include "compression/compressed_file.h"
+#include "localization/reference_map.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

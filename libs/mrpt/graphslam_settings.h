@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <string>
 
-#include "session/bound_settings.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 

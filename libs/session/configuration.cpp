@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/configuration.h"
 
-#include "session/bound_settings.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 

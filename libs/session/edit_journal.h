@@ -72,7 +72,7 @@ class EditJournal {
 
   /// The same of a drive that is one of several: its scans are numbered from `first_scan`, its local maps
   /// from `first_local_map`; what was made at its end is made after the last of its `scans`.
-  EditJournal of_drive(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
+  EditJournal of_run(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
 
   std::string text() const;
   /// Throws UserError, with file and line, on what is no edit.

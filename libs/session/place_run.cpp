@@ -9,7 +9,6 @@
 #include "local_maps/front_end.h"
 #include "psi_slam/localizer.h"
 #include "psi_slam/user_error.h"
-#include "session/open_input.h"
 
 namespace psi_slam {
 namespace {
@@ -98,8 +97,7 @@ RunStart place_run(const MappingResult& mapped, const mrpt::maps::COccupancyGrid
                    const SessionInput& drive, const Settings& settings,
                    const std::optional<TPose2D>& map_T_start, const std::atomic<bool>& stop,
                    const std::function<void(double share)>& tell) {
-  const LocalizerOptions options = localizer_options(settings);
-  Localizer localizer(grid, options);
+  Localizer localizer(grid, localizer_options(settings));
   if (map_T_start) localizer.start_at(*map_T_start);
   FrontEnd way(settings.mapper.front_end);
   FirstRun frames(drive, settings);

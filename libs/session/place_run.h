@@ -23,8 +23,8 @@ namespace psi_slam {
 /// which says why, when the drive finds no place that it fits, or several; and SystemFailure when `stop`
 /// became true.
 RunStart place_run(const MappingResult& mapped, const mrpt::maps::COccupancyGridMap2D& grid,
-                       const SessionInput& drive, const Settings& settings,
-                       const std::optional<mrpt::math::TPose2D>& map_T_start, const std::atomic<bool>& stop,
-                       const std::function<void(double share)>& tell = {});
+                   const SessionInput& drive, const Settings& settings,
+                   const std::optional<mrpt::math::TPose2D>& map_T_start, const std::atomic<bool>& stop,
+                   const std::function<void(double share)>& tell = {});
 
 }  // namespace psi_slam

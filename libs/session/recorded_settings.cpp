@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
-#include "psi_slam/user_error.h"
 #include "config/ini_file.h"
+#include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
 
 namespace psi_slam {
 namespace {

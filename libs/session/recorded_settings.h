@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "session/bound_settings.h"
 #include "session/session_recording.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 
 /// Takes all settings of a recording, which was read from `file`. Returns a sentence, without its full stop,
-/// for each that this program no longer knows: they are left out. Throws UserError for a value that it does not accept.
+/// for each that this program no longer knows: they are left out. Throws UserError for a value that it does
+/// not accept.
 std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
                                        const std::filesystem::path& file);
 

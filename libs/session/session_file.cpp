@@ -9,11 +9,11 @@
 #include <string>
 #include <string_view>
 
-#include "session/frame_bytes.h"
 #include "base/atomic_file.h"
 #include "base/file_checksum.h"
-#include "psi_slam/user_error.h"
 #include "compression/decompression.h"
+#include "psi_slam/user_error.h"
+#include "session/frame_bytes.h"
 
 namespace psi_slam {
 namespace {
@@ -50,9 +50,9 @@ Json json_of(const SessionFacts& facts) {
   Json runs = Json::array();
   for (const RecordedRun& drive : facts.runs) {
     runs.push_back({{"scan", drive.scan},
-                      {"node", drive.start.node},
-                      {"node_T_robot", pose_json(drive.start.node_T_robot)},
-                      {"robot_T_found", pose_json(drive.start.robot_T_found)}});
+                    {"node", drive.start.node},
+                    {"node_T_robot", pose_json(drive.start.node_T_robot)},
+                    {"robot_T_found", pose_json(drive.start.robot_T_found)}});
   }
   return {{"program_version", facts.program_version},
           {"logs", logs},
@@ -83,8 +83,8 @@ SessionFacts facts_of(const Json& json, std::uint32_t version, const fs::path& p
   if (version < kFactsOfEachLog && !facts.logs.empty()) read_faults(json, version, facts.logs.back());
   for (const Json& drive : json.at("drives"))
     facts.runs.push_back({drive.at("scan").get<std::size_t>(),
-                            {drive.at("node").get<std::size_t>(), pose_of(drive.at("node_T_robot")),
-                             pose_of(drive.at("robot_T_found"))}});
+                          {drive.at("node").get<std::size_t>(), pose_of(drive.at("node_T_robot")),
+                           pose_of(drive.at("robot_T_found"))}});
   facts.settings = json.at("settings").get<std::string>();
   facts.edits = EditJournal::parse(json.at("edits").get<std::string>(), path);
   return facts;

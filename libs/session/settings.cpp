@@ -5,6 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "config/apply_settings.h"
+#include "config/ini_file.h"
+#include "config/option_listing.h"
+#include "psi_slam/version.h"
 #include "session/settings_parts.h"
 
 namespace psi_slam {
@@ -275,6 +279,28 @@ void describe(OptionTable& table, Settings& settings) {
   describe_map_files(table, settings.map_files);
   describe_localization(table, settings.localization);
   describe_run(table, settings.run);
+  table.alias("last_pass", "final_search")
+      .alias("front_end.max_strain_m", "front_end.max_doubtful_correction_m")
+      .alias("front_end.strain_travel_m", "front_end.doubtful_correction_travel_m")
+      .alias("consensus.max_rival_share", "consensus.max_other_place_share");
+}
+
+void BoundSettings::load(const std::filesystem::path& config, const std::vector<std::string>& assignments) {
+  if (!config.empty()) apply(read_ini(config), table);
+  for (const std::string& assignment : assignments) apply_override(assignment, table);
+}
+
+std::string settings_file_text(const OptionTable& table) {
+  return "; Settings of psi-slam " PSI_SLAM_VERSION
+         ". Lines that begin with a semicolon are comments.\n"
+         "; An option that the file does not set keeps its default.\n\n" +
+         dump(table);
+}
+
+std::string settings_file_text(const Settings& settings) {
+  BoundSettings bound;
+  bound.settings = settings;
+  return settings_file_text(bound.table);
 }
 
 }  // namespace psi_slam

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   }
   try {
     const psi_slam::Configuration configuration;  // every option has its default
-    psi_slam::Localizer localizer(psi_slam::read_map_file(argv[1]), configuration);
+    psi_slam::Localizer localizer = psi_slam::Localizer::open(argv[1], configuration);
     const auto log = psi_slam::open_log(argv[2], configuration);
     while (const std::optional<psi_slam::Frame> frame = log->next()) {
       const psi_slam::LocalizationStep step = localizer.add(*frame);

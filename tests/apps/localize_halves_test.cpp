@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "localization/localization_report.h"
-#include "session/bound_settings.h"
+#include "session/settings.h"
 #include "psi_slam/mapping_session.h"
 #include "shared_logs.h"
 

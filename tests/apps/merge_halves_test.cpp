@@ -11,7 +11,7 @@
 #include "psi_slam/open_log.h"
 #include "exports/mapped_trajectory.h"
 #include "evaluation/relations_metric.h"
-#include "session/bound_settings.h"
+#include "session/settings.h"
 #include "psi_slam/mapping_session.h"
 #include "session/place_run.h"
 #include "shared_logs.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/localizer.h"
+#include "localization/reference_map.h"
 
 #include <gmock/gmock.h>
 

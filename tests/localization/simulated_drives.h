@@ -8,8 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "localization/localizer_options.h"
-"psi_slam/localizer.h"
+#include "psi_slam/localizer.h"
 #include "psi_slam/grid_map.h"
 #include "simulation/simulated_log.h"
 

@@ -148,10 +148,10 @@ TEST_F(EditJournalTest, of_a_later_drive_it_counts_on_from_the_drives_before) {
   journal.add({{Kind::kDelete, 8, 1}, {}});
   journal.add({{Kind::kForce, 8, 2}, after(20)});
   journal.add({{Kind::kRestore, 9, 1}, kEnd});
-  EXPECT_EQ(journal.of_drive(100, 50, 7).text(),
+  EXPECT_EQ(journal.of_run(100, 50, 7).text(),
             "# psi-slam loop edits 1\ndelete scan=108 local_map=8 after=99\n"
             "force scan=108 local_map=9 after=120\nrestore scan=109 local_map=8 after=149\n");
-  EXPECT_EQ(journal.of_drive(0, 50, 0).text(),
+  EXPECT_EQ(journal.of_run(0, 50, 0).text(),
             "# psi-slam loop edits 1\ndelete scan=8 local_map=1\nforce scan=8 local_map=2 after=20\n"
             "restore scan=9 local_map=1 after=49\n");
 }

@@ -16,7 +16,7 @@
 #include <cmath>
 
 #include "base/file_checksum.h"
-#include "session/bound_settings.h"
+#include "session/settings.h"
 #include "psi_slam/mapping_session.h"
 #include "session/recorded_settings.h"
 #include "session/session_file.h"

@@ -2,7 +2,7 @@
 // A run that was interrupted, saved and gone on with is the run that was not, to the last byte.
 #include <gmock/gmock.h>
 
-#include "session/bound_settings.h"
+#include "session/settings.h"
 #include "psi_slam/mapping_session.h"
 #include "session/recorded_settings.h"
 #include "session/session_file.h"

@@ -14,7 +14,6 @@
 #include "localization/reference_map.h"
 #include "loop_closure/keyframe_store.h"
 #include "loop_closure/scan_context.h"
-#include "matching/correlative_matcher.h"
 #include "matching/make_matcher.h"
 
 namespace psi_slam {

@@ -22,7 +22,7 @@
 #include "local_maps/scan_filter.h"
 #include "local_maps/constant_velocity_model.h"
 #include "psi_slam/frame.h"
-#include "matching/correlative_matcher.h"
+#include "matching/make_matcher.h"
 
 namespace psi_slam {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The matchers by the names that the `.ini` and the records give them.
+// The matchers of the paper, by the names that `.ini` files and records give them.
 #pragma once
 
 #include <memory>
@@ -9,10 +9,21 @@
 
 namespace psi_slam {
 
+/// Correlative scan matching (CSM), equations 1 and 2: finds the exact best pose of the window, then refines
+/// it below a cell. Olson, "Real-time correlative scan matching", ICRA 2009.
+class CorrelativeMatcher : public WindowMatcher {
+ public:
+  explicit CorrelativeMatcher(const MatcherOptions& options) : WindowMatcher(options) {}
+  std::string name() const override { return "csm"; }
+
+ private:
+  FoundPeaks find_peaks(const SearchLattice& lattice, const PeakRequest& request) const override;
+};
+
 enum class MatcherKind {
-  kCsm,    ///< "csm": the exact best pose of the window
-  kCsmGa,  ///< "csm_ga": coarse cells ranked exhaustively, the best of them searched genetically
-  kGa,     ///< "ga": the whole window searched genetically
+  kCsm,    ///< "csm": CorrelativeMatcher
+  kCsmGa,  ///< "csm_ga": ranks coarse cells exhaustively, searches the best of them genetically
+  kGa,     ///< "ga": searches the whole window genetically
 };
 
 const char* name(MatcherKind kind);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/sum_kernel.h"
 
-#include "matching/sum_kernel_sets.h"
-
 namespace psi_slam {
 namespace {
 

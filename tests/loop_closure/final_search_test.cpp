@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "matching/correlative_matcher.h"
+#include "matching/make_matcher.h"
 #include "two_rounds.h"
 
 namespace psi_slam {

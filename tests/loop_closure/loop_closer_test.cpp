@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "matching/correlative_matcher.h"
+#include "matching/make_matcher.h"
 #include "two_rounds.h"
 
 namespace psi_slam {

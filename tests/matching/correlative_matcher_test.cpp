@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/correlative_matcher.h"
+#include "matching/make_matcher.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>

@@ -12,7 +12,6 @@
 #include <thread>
 #include <vector>
 
-#include "matching/correlative_matcher.h"
 #include "score_grids.h"
 
 namespace psi_slam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/memetic_search.h"
+#include "matching/genetic_search.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "matching/branch_and_bound.h"
+#include "matching/exact_search.h"
 #include "real_scans.h"
 #include "score_grids.h"
 #include "slow_search.h"

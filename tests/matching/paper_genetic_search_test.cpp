@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/paper_genetic_search.h"
+#include "matching/genetic_search.h"
 
 #include <gtest/gtest.h>
 

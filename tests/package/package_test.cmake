@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs a build into a folder of its own, compiles each installed header alone, builds the examples against the
-# installation, and runs them.
+# Installs a build in a new folder. Compiles each installed header alone, builds the examples against the installed
+# files, and runs them.
 #
 #   cmake -D PSI_SLAM_BUILD=DIR -D WORK=DIR [-D CONFIG=Release] [-D CXX=COMPILER] -P package_test.cmake
 cmake_minimum_required(VERSION 3.22)
 foreach(name PSI_SLAM_BUILD WORK)
   if(NOT ${name})
-    message(FATAL_ERROR "${name} is not set")
+    message(FATAL_ERROR "${name} is not set. Usage: cmake -D PSI_SLAM_BUILD=DIR -D WORK=DIR -P package_test.cmake")
   endif()
 endforeach()
 
-# run(STEP COMMAND...): its output is left in `output`.
+# run(STEP COMMAND...): runs the command and sets `output` in the caller. Fails with the name STEP.
 function(run step)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
   if(NOT result EQUAL 0)
@@ -30,7 +30,7 @@ endif()
 
 file(REMOVE_RECURSE ${WORK})
 run("installing" ${CMAKE_COMMAND} --install ${PSI_SLAM_BUILD} --prefix ${WORK}/installed ${config})
-# build_project(NAME SOURCE [OPTION...]): into WORK/NAME, as any user would.
+# build_project(NAME SOURCE [OPTION...]): builds the project SOURCE in WORK/NAME, as a user would.
 function(build_project name source)
   run("configuring ${name}" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/${name}
     -D CMAKE_PREFIX_PATH=${WORK}/installed ${build_type} ${compiler} ${ARGN})
@@ -54,7 +54,7 @@ if(result EQUAL 0 OR NOT complaint MATCHES "no component \"maping\"")
 endif()
 
 foreach(program psi-slam psi-slam-eval)
-  run("the installed ${program}" ${WORK}/installed/bin/${program} --version)
+  run("running the installed ${program}" ${WORK}/installed/bin/${program} --version)
 endforeach()
 foreach(file man/man1/psi-slam-gui.1.gz man/man5/psi-slam.ini.5.gz bash-completion/completions/psi-slam-bench
     zsh/vendor-completions/_psi-slam psi-slam/ini/psi-slam.ini doc/psi-slam/README.md doc/psi-slam/share/doc/architecture.md)
@@ -66,23 +66,23 @@ endforeach()
 set(rawlog "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog")
 if(EXISTS ${rawlog})
   set(pose "-?[0-9.e-]+ -?[0-9.e-]+ -?[0-9.e-]+\n")
-  run("01_map_a_log" ${WORK}/examples/01_map_a_log ${rawlog} ${WORK}/out)
+  run("running 01_map_a_log" ${WORK}/examples/01_map_a_log ${rawlog} ${WORK}/out)
   if(NOT output MATCHES "\n[0-9]+[.][0-9]+ ${pose}")
     message(FATAL_ERROR "01_map_a_log prints no poses:\n${output}")
   endif()
-  run("02_feed_scans_one_by_one" ${WORK}/mapping/program ${rawlog} ${WORK}/fed.png)
+  run("running 02_feed_scans_one_by_one" ${WORK}/mapping/program ${rawlog} ${WORK}/fed.png)
   if(NOT output MATCHES "^${pose}")
     message(FATAL_ERROR "02_feed_scans_one_by_one prints no poses:\n${output}")
   endif()
-  run("03_localize" ${WORK}/examples/03_localize ${WORK}/out/map.yaml ${rawlog})
-  run("04_mrpt_map_builder" ${WORK}/examples/04_mrpt_map_builder ${rawlog} ${WORK}/map.simplemap.gz ${WORK}/map.png)
+  run("running 03_localize" ${WORK}/examples/03_localize ${WORK}/out/map.yaml ${rawlog})
+  run("running 04_mrpt_map_builder" ${WORK}/examples/04_mrpt_map_builder ${rawlog} ${WORK}/map.simplemap.gz ${WORK}/map.png)
   if(NOT output MATCHES "[1-9][0-9]* nodes")
     message(FATAL_ERROR "04_mrpt_map_builder maps nothing:\n${output}")
   endif()
   foreach(name out/report.html out/map.png fed.png map.simplemap.gz map.png)
     file(SIZE ${WORK}/${name} size)
     if(size LESS 1000)
-      message(FATAL_ERROR "${name} has ${size} bytes only")
+      message(FATAL_ERROR "${name} has ${size} bytes, expected at least 1000")
     endif()
   endforeach()
   file(WRITE ${WORK}/wrong.ini "[map]\nresolution = 1\n")
@@ -92,6 +92,6 @@ if(EXISTS ${rawlog})
     message(FATAL_ERROR "01_map_a_log does not name the mistake in its settings: ${result} ${complaint}")
   endif()
 else()
-  message("not run: it needs the data sets of the package mrpt-common")
+  message("The rawlog was not mapped, because the data sets of the package mrpt-common are missing")
 endif()
 file(REMOVE_RECURSE ${WORK})

@@ -119,7 +119,7 @@ void MainFrame::take_edit_news(const ReplaySnapshot& snapshot) {
     words += ": " + outcome.reason;
   else if (loop != nullptr)
     words += std::string(": ") + verdict_text(loop->verdict) +
-             (loop->verdict == LoopVerdict::kDeleted || loop->reason.empty() ? "" : ", " + loop->reason);
+             (loop->verdict == LoopVerdict::kDeleted || !loop->refusal ? "" : ", " + text_of(loop->refusal));
   if (messages_->asks())
     tell(words);  // the question stays
   else

@@ -10,14 +10,12 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
   LoopClosureOptions& loops = mapper.loop_closure;
   MatcherOptions& matcher = mapper.loop_matcher;
   LoopCandidateOptions& candidates = loops.candidates;
+  auto choices = matcher_choices<std::optional<MatcherKind>>();
+  choices.emplace_back("adaptive", std::nullopt);
   table.section("loop_closure", "Loop closing: finding places that the robot has visited before")
       .flag("enabled", mapper.close_loops,
             "Closes loops. Without loops, the map is that of the front end alone.")
-      .choice("matcher", mapper.matcher,
-              {{"csm", LoopMatcher::kCsm},
-               {"csm_ga", LoopMatcher::kCsmGa},
-               {"ga", LoopMatcher::kGa},
-               {"adaptive", LoopMatcher::kAdaptive}},
+      .choice("matcher", mapper.matcher, choices,
               "How to search for loops: csm is exhaustive, csm_ga partly genetic, ga genetic. adaptive "
               "chooses among them by the factor Psi.")
       .number("window_x_m", candidates.max_window.x_m, above(0).at_most(100), "m",

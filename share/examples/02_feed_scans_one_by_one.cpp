@@ -3,7 +3,7 @@
 //
 //     02_feed_scans_one_by_one RAWLOG MAP.png
 //
-// A rawlog of MRPT with pairs of odometry and scan stands for the robot. The program needs only the component
+// A rawlog of MRPT with pairs of odometry and scan replaces the robot. The program needs only the component
 // `mapping` of psi-slam. It prints x [m], y [m] and heading [rad] of the robot after each scan.
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CActionCollection.h>

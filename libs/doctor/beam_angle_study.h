@@ -17,8 +17,8 @@
 #include <optional>
 #include <vector>
 
-#include "frames/beam_angles.h"
 #include "doctor/scan_sampling.h"
+#include "frames/beam_angles.h"
 
 namespace psi_slam {
 

@@ -55,7 +55,7 @@ Json facts_json(const LogFacts& facts) {
   const RangeFacts& ranges = facts.ranges;
   return {{"broken_off", facts.broken_off},
           {"format", facts.format},
-          {"laser", facts.laser},
+          {"laser", facts.contents.laser},
           {"scans", facts.scans},
           {"beams", facts.beams},
           {"first_bearing_rad", facts.first_bearing_rad},
@@ -85,10 +85,10 @@ Json facts_json(const LogFacts& facts) {
             {"median_return_m", ranges.median_return_m},
             {"largest_reading_m", ranges.largest_reading_m},
             {"ceiling_m", ranges.ceiling_m}}},
-          {"scans_with_two_poses", facts.scans_with_two_poses},
-          {"messages", facts.messages},
-          {"skipped_lines", facts.skipped.count},
-          {"scans_of_other_lasers", facts.other_lasers}};
+          {"scans_with_two_poses", facts.contents.scans_with_two_poses},
+          {"messages", facts.contents.messages},
+          {"skipped_lines", facts.contents.skipped.count},
+          {"scans_of_other_lasers", facts.contents.other_lasers}};
 }
 
 Json beam_angles_json(const BeamAngleStudy& study) {
@@ -117,7 +117,7 @@ std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis) {
   std::vector<std::string> lines;
   lines.push_back(text("%s: %s, %zu scans%s%s of %zu beams from %.2f to %.2f degrees",
                        diagnosis.path.filename().c_str(), facts.format.c_str(), facts.scans,
-                       facts.laser.empty() ? "" : " by ", facts.laser.c_str(), facts.beams,
+                       facts.contents.laser.empty() ? "" : " by ", facts.contents.laser.c_str(), facts.beams,
                        RAD2DEG(facts.first_bearing_rad), RAD2DEG(facts.last_bearing_rad)));
   lines.push_back(text("time: %.1f s from %s, a scan every %.3f s", time.duration_s,
                        format_seconds(time.first_us).c_str(), time.median_period_s));
@@ -128,7 +128,7 @@ std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis) {
                        100 * (1 - share_of(ranges.returns, ranges.readings))));
   lines.push_back(text("laser on the robot: x %.3f m, y %.3f m, yaw %.2f degrees", facts.robot_T_laser.x,
                        facts.robot_T_laser.y, RAD2DEG(facts.robot_T_laser.phi)));
-  for (const auto& [label, scans] : facts.other_lasers)
+  for (const auto& [label, scans] : facts.contents.other_lasers)
     lines.push_back(text("another laser: %zu scans by \"%s\"", scans, label.c_str()));
   return lines;
 }

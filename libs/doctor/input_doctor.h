@@ -11,10 +11,10 @@
 
 #include "doctor/beam_angle_study.h"
 #include "doctor/log_facts.h"
-#include "psi_slam/log_options.h"
 #include "doctor/odometry_check.h"
 #include "doctor/odometry_faults.h"
 #include "doctor/pair_alignment.h"
+#include "psi_slam/log_options.h"
 
 namespace psi_slam {
 

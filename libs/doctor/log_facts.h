@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/time_stamp.h"
+#include "frames/log_reader.h"
 #include "psi_slam/frame.h"
-#include "frames/skipped_lines.h"
+#include "psi_slam/time_stamp.h"
 
 namespace psi_slam {
 
@@ -52,7 +52,7 @@ struct RangeFacts {
 struct LogFacts {
   std::string broken_off;  ///< what is wrong behind the last readable scan, a sentence; empty in a whole log
   std::string format;      ///< "CARMEN", "MRPT rawlog"
-  std::string laser;       ///< the message or the sensor's label that the scans come from
+  LogContents contents;    ///< what the reader has found
   std::size_t scans = 0;
   std::size_t beams = 0;  ///< of the first scan
   double first_bearing_rad = 0;
@@ -62,10 +62,6 @@ struct LogFacts {
   TimeFacts time;
   OdometryFacts odometry;
   RangeFacts ranges;
-  std::size_t scans_with_two_poses = 0;         ///< CARMEN: whose line has another pose beside its odometry
-  std::map<std::string, std::size_t> messages;  ///< CARMEN: lines of each kind
-  SkippedLines skipped;                         ///< messages that were left out
-  std::map<std::string, std::size_t> other_lasers;  ///< rawlog: scans by sensor label
 };
 
 /// What is kept of every frame: scans stay in the file.

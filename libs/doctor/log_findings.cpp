@@ -71,7 +71,7 @@ class Judge {
                " that could be read",
            "fetch the log again, or map what there is");
     }
-    if (facts_.skipped.count > 0) note("skipped_lines", facts_.skipped.sentence());
+    if (facts_.contents.skipped.count > 0) note("skipped_lines", facts_.contents.skipped.sentence());
   }
 
   void judge_time() {
@@ -272,8 +272,8 @@ class Judge {
   }
 
   void judge_correction() {
-    if (facts_.scans_with_two_poses > 0) {
-      note("two_poses", counted(facts_.scans_with_two_poses, "scan") +
+    if (facts_.contents.scans_with_two_poses > 0) {
+      note("two_poses", counted(facts_.contents.scans_with_two_poses, "scan") +
                             " carry a second pose beside their odometry, "
                             "some mapper's result; the odometry is used");
     }

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 namespace {
 
@@ -190,7 +192,7 @@ ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& s
   ScanAlignment result;
   rate(match_points(reference, scan, pose, options.last_search_radius_m), options.last_search_radius_m, pose,
        result);
-  const mrpt::math::TPose2D laser_T_robot = mrpt::math::TPose2D{0, 0, 0} - scan.robot_T_laser();
+  const mrpt::math::TPose2D laser_T_robot = inverse(scan.robot_T_laser());
   result.reference_T_scan = reference.robot_T_laser() + pose + laser_T_robot;
   return result;
 }

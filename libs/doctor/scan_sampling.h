@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "psi_slam/frame.h"
 #include "doctor/log_facts.h"
+#include "psi_slam/frame.h"
 #include "psi_slam/log_options.h"
 
 namespace psi_slam {

@@ -8,7 +8,7 @@
 
 #include "compression/gzip_file.h"
 #include "base/atomic_file.h"
-#include "observations/range_observation.h"
+#include "observations/mrpt_objects.h"
 
 namespace psi_slam {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "frames/inverse_pose.h"
+#include "frames/pose_operations.h"
 #include "localization/global_search.h"
 #include "localization/localizer_options.h"
 #include "psi_slam/pose_graph.h"

@@ -5,7 +5,7 @@
 
 #include "psi_slam/user_error.h"
 #include "frames/laser_choice.h"
-#include "observations/rawlog_objects.h"
+#include "observations/mrpt_objects.h"
 
 namespace psi_slam {
 

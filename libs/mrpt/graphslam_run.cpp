@@ -20,7 +20,7 @@
 #include "mrpt/graphslam_settings.h"
 #include "mrpt/log_entries.h"
 #include "frames/laser_choice.h"
-#include "observations/rawlog_objects.h"
+#include "observations/mrpt_objects.h"
 
 namespace psi_slam {
 namespace {

@@ -13,8 +13,7 @@
 #include "frames/log_format.h"
 #include "psi_slam/open_log.h"
 #include "rawlog/rawlog_archive.h"
-#include "observations/range_observation.h"
-#include "observations/robot_action.h"
+#include "observations/mrpt_objects.h"
 
 namespace psi_slam {
 namespace {

@@ -18,7 +18,7 @@
 #include "mrpt/entry_frames.h"
 #include "pose_graph/marginal_covariance.h"
 #include "rendering/map_image.h"
-#include "observations/range_observation.h"
+#include "observations/mrpt_objects.h"
 
 namespace psi_slam {
 namespace {

@@ -5,36 +5,36 @@
 #include <string>
 #include <vector>
 
-#include "rosbag/bag_file.h"
 #include "psi_slam/log_options.h"
+#include "rosbag/bag_file.h"
 #include "rosbag/transform_tree.h"
 
 namespace psi_slam {
 
-/// What of a ROS bag is read.
+/// Topics and frames of a ROS bag that are read.
 struct BagPlan {
-  std::vector<std::string> scan_topics;  ///< by the numbers of the lasers (LaserScan::laser)
-  std::string odometry_topic;  ///< empty: odometry is the transform from odom_frame to base_frame
+  std::vector<std::string> scan_topics;  ///< ordered by LaserScan::laser
+  std::string odometry_topic;            ///< empty: odometry is the transform from odom_frame to base_frame
   std::vector<std::string> transform_topics;
   std::string odom_frame;
-  std::string base_frame;    ///< the robot's: that which odometry moves
-  TransformTree transforms;  ///< as far as they were needed to find the frames
+  std::string base_frame;    ///< the robot's frame, which odometry moves
+  TransformTree transforms;  ///< those that were needed to find the frames
 
-  /// All topics to read.
+  /// Names of all topics to read.
   std::vector<std::string> topics() const;
 };
 
-/// What is wrong with odometry that has no pose.
-std::string no_pose_text(const std::string& topic);
+/// Message about odometry with an invalid pose.
+std::string invalid_pose_text(const std::string& topic);
 
-/// The poses of robots in bags come from a topic of their own or from a transform.
+/// Returns whether the messages of the topic are transforms.
 bool is_transforms(const BagTopic& topic);
 
-/// The options for the laser of a topic, with its stated mount.
+/// Options for the laser of a topic, with its stated mount.
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic);
 
-/// Finds the topics by their types, or by name where the user names them, and the frames by reading on until
-/// all are known. Throws UserError when something is missing, or there are several and none is named.
+/// Finds the topics by their types, or by the names that the user states. Then reads until all frames are
+/// known. Throws UserError if something is missing, or if several topics match and the user names none.
 BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options);
 
 }  // namespace psi_slam

@@ -6,19 +6,20 @@
 #include <memory>
 #include <utility>
 
+#include "frames/beam_angles.h"
 #include "psi_slam/user_error.h"
-#include "frames/range_filter.h"
 
 namespace psi_slam {
 namespace {
 
-/// Drivers that do not know leave it 0, and some state nonsense: longer than there is time between scans, or
-/// than any laser takes.
+/// Sweep time, or 0 if the stated one is implausible: drivers may leave it 0, or state more than the time
+/// between scans or than any laser needs.
 float sweep_time_s(const RosLaserScan& message) {
-  constexpr float kMost_s = 1;
+  constexpr float kMaxSweep_s = 1;
   const float sweep_s = message.time_increment_s * static_cast<float>(message.ranges_m.size() - 1);
-  const float most_s = message.scan_time_s > 0 ? std::min(kMost_s, 1.5F * message.scan_time_s) : kMost_s;
-  return sweep_s > 0 && sweep_s <= most_s ? sweep_s : 0;
+  const float max_sweep_s =
+      message.scan_time_s > 0 ? std::min(kMaxSweep_s, 1.5F * message.scan_time_s) : kMaxSweep_s;
+  return sweep_s > 0 && sweep_s <= max_sweep_s ? sweep_s : 0;
 }
 
 }  // namespace
@@ -37,16 +38,14 @@ std::vector<float> RosLaser::bearings_rad(const Geometry& geometry) const {
       bearings[i] =
           static_cast<float>(static_cast<double>(geometry.angle_min_rad) + static_cast<double>(i) * step_rad);
   } else {
-    const bool as_the_log_says = options_.beam_angles == BeamAngles::kAuto;
+    const bool is_auto = options_.beam_angles == BeamAngles::kAuto;
     const double steps = static_cast<double>(std::max<std::size_t>(geometry.beams - 1, 1));
     const double span_rad = std::min(std::abs(step_rad) * steps, 2 * M_PI);
-    bearings = make_bearings_rad(as_the_log_says ? BeamAngles::kCentredStepInclusive : options_.beam_angles,
+    bearings = make_bearings_rad(is_auto ? BeamAngles::kCentredStepInclusive : options_.beam_angles,
                                  geometry.beams, options_.field_of_view_rad.value_or(span_rad));
-    if (step_rad < 0)
-      for (float& bearing : bearings) bearing = -bearing;
+    if (step_rad < 0) mirror(bearings);
   }
-  if (geometry.clockwise)
-    for (float& bearing : bearings) bearing = -bearing;
+  if (geometry.clockwise) mirror(bearings);
   return bearings;
 }
 
@@ -59,7 +58,7 @@ LaserScan RosLaser::scan(RosLaserScan message, const FloorMount& mount, const st
   if (!has_angles)
     throw UserError(place + ": the scan's angles start at " + std::to_string(geometry.angle_min_rad) +
                     " in steps of " + std::to_string(geometry.angle_increment_rad) +
-                    " radians, expected finite ones and a step that is not 0");
+                    " radians, expected finite angles and a step other than 0");
   if (!bearings_ || !(geometry == geometry_)) {
     bearings_ = std::make_shared<const std::vector<float>>(bearings_rad(geometry));
     geometry_ = geometry;
@@ -68,12 +67,10 @@ LaserScan RosLaser::scan(RosLaserScan message, const FloorMount& mount, const st
   scan.bearings_rad = bearings_;
   scan.robot_T_laser = options_.robot_T_laser.value_or(mount.robot_T_laser);
   scan.sweep_time_s = sweep_time_s(message);
-  const bool states_maximum = std::isfinite(message.range_max_m) && message.range_max_m > 0;
-  scan.max_range_m = static_cast<float>(options_.max_range_m.value_or(
-      states_maximum ? static_cast<double>(message.range_max_m) : kUnstatedMaxRange_m));
-  const double least_m = std::max(options_.min_range_m, static_cast<double>(message.range_min_m));
   scan.ranges_m = std::move(message.ranges_m);
-  mark_no_returns(scan.ranges_m, least_m, static_cast<double>(scan.max_range_m));
+  limit_ranges(scan, options_,
+               std::isfinite(message.range_max_m) ? static_cast<double>(message.range_max_m) : 0,
+               static_cast<double>(message.range_min_m));
   return scan;
 }
 

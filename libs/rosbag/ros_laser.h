@@ -4,21 +4,21 @@
 #include <string>
 #include <vector>
 
-#include "frames/floor_mount.h"
+#include "frames/laser_readings.h"
 #include "psi_slam/frame.h"
 #include "psi_slam/log_options.h"
 #include "rosbag/ros_messages.h"
 
 namespace psi_slam {
 
-/// Turns the scans of one topic of a ROS bag into ours: what the messages state, over that what the user
-/// states. Every message may have another number of beams and other angles.
+/// Turns the scans of one topic into ours. The user's options override the messages. The number of beams and
+/// the angles may differ between messages.
 class RosLaser {
  public:
   explicit RosLaser(const LogOptions& options) : options_(options) {}
 
-  /// `mount` is the laser's by the transforms; a stated pose stands over it, but whether it hangs upside down
-  /// is the transforms' to say. Throws UserError, beginning with `place`, when the angles make no sense.
+  /// `mount` is the laser's mount according to the transforms. A stated pose overrides its pose, but not
+  /// whether it is upside down. Throws UserError that starts with `place` for invalid angles.
   LaserScan scan(RosLaserScan message, const FloorMount& mount, const std::string& place);
 
  private:
@@ -33,7 +33,7 @@ class RosLaser {
   std::vector<float> bearings_rad(const Geometry& geometry) const;
 
   LogOptions options_;
-  Geometry geometry_;  // that of bearings_
+  Geometry geometry_;  // of bearings_
   BeamBearings bearings_;
 };
 

@@ -6,10 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/byte_cursor.h"
+#include "frames/laser_choice.h"
+#include "frames/odometry_interpolator.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_plan.h"
-#include "base/byte_cursor.h"
-#include "frames/odometry_interpolator.h"
 #include "rosbag/ros_laser.h"
 
 namespace psi_slam {
@@ -19,37 +20,30 @@ mrpt::math::TPose2D on_floor(const mrpt::math::TPose3D& pose) {
   return {pose.x, pose.y, pose.yaw};
 }
 
-}  // namespace
-
-class RosbagReader::Implementation {
+class RosbagReader : public LogReader {
  public:
-  Implementation(const std::filesystem::path& path, const LogOptions& options)
+  RosbagReader(const std::filesystem::path& path, const LogOptions& options)
       : plan_(plan_bag(path, options)), bag_(open_bag(path)) {
     bag_->want(plan_.topics());
-    for (const std::string& topic : plan_.scan_topics) {
-      statistics_.scans += (statistics_.scans.empty() ? "" : ", ") + topic;
-      lasers_.emplace_back(options_of_topic(options, topic));
-    }
-    statistics_.odometry =
+    contents_.laser = name_list(plan_.scan_topics);
+    for (const std::string& topic : plan_.scan_topics) lasers_.emplace_back(options_of_topic(options, topic));
+    contents_.odometry =
         plan_.odometry_topic.empty() ? plan_.odom_frame + " -> " + plan_.base_frame : plan_.odometry_topic;
   }
 
-  std::optional<Frame> next() {
+  double progress() const override { return at_end_ ? 1 : bag_->progress(); }
+
+ protected:
+  std::optional<Frame> read_frame() override {
     while (true) {
-      if (auto frame = interpolator_.take()) {
-        frame->index = frames_given_++;
-        return frame;
-      }
+      if (auto frame = interpolator_.take()) return frame;
       if (at_end_) return end();
       read_message();
     }
   }
 
-  double progress() const { return at_end_ ? 1 : bag_->progress(); }
-  const RosbagStatistics& statistics() const { return statistics_; }
-
  private:
-  /// The end of what can be read ends the waiting for odometry; what is wrong there is told behind the scans.
+  /// After an error no odometry follows, so the waiting scans leave first. Then the error is thrown.
   void read_message() {
     try {
       BagMessage message;
@@ -99,8 +93,8 @@ class RosbagReader::Implementation {
       interpolator_.add_odometry(odometry->header.time_us, on_floor(odometry->pose));
       return;
     }
-    if (statistics_.skipped.count++ == 0)
-      statistics_.skipped.first = bag_->place() + ": " + no_pose_text(message.topic->name);
+    if (contents_.skipped.count++ == 0)
+      contents_.skipped.first = bag_->place() + ": " + invalid_pose_text(message.topic->name);
   }
 
   std::size_t laser_of(const std::string& topic) const {
@@ -109,7 +103,7 @@ class RosbagReader::Implementation {
   }
 
   void take_scan(RosLaserScan message, std::size_t laser) {
-    if (message.ranges_m.empty()) return;  // nothing to map
+    if (message.ranges_m.empty()) return;
     const auto robot_T_laser = plan_.transforms.base_T_frame(plan_.base_frame, message.header.frame);
     const FloorMount mount = robot_T_laser ? floor_mount(*robot_T_laser, bag_->place()) : FloorMount{};
     Frame frame;
@@ -121,29 +115,16 @@ class RosbagReader::Implementation {
 
   BagPlan plan_;
   std::unique_ptr<BagFile> bag_;
-  std::vector<RosLaser> lasers_;  // by the topics of the plan
+  std::vector<RosLaser> lasers_;  // in the order of the plan's topics
   OdometryInterpolator interpolator_;
-  RosbagStatistics statistics_;
   std::exception_ptr failure_;
-  std::size_t frames_given_ = 0;
   bool at_end_ = false;
 };
 
-RosbagReader::RosbagReader(const std::filesystem::path& path, const LogOptions& options)
-    : implementation_(std::make_unique<Implementation>(path, options)) {}
+}  // namespace
 
-RosbagReader::~RosbagReader() = default;
-
-std::optional<Frame> RosbagReader::next() {
-  return implementation_->next();
-}
-
-double RosbagReader::progress() const {
-  return implementation_->progress();
-}
-
-const RosbagStatistics& RosbagReader::statistics() const {
-  return implementation_->statistics();
+std::unique_ptr<LogReader> open_bag_log(const std::filesystem::path& path, const LogOptions& options) {
+  return std::make_unique<RosbagReader>(path, options);
 }
 
 }  // namespace psi_slam

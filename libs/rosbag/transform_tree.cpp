@@ -14,7 +14,7 @@ void TransformTree::add(const RosTransform& transform) {
 
 std::vector<std::string> TransformTree::way_up(const std::string& frame) const {
   std::vector<std::string> way{frame};
-  // No way is longer than there are links, unless a damaged tree runs in a circle.
+  // A valid way up has at most as many links as the tree. A damaged tree may contain a cycle.
   while (way.size() <= links_.size()) {
     const auto link = links_.find(way.back());
     if (link == links_.end()) break;

@@ -12,18 +12,18 @@
 
 namespace psi_slam {
 
-/// The frames that /tf and /tf_static tell of, each with the newest pose in its parent.
+/// Frames of /tf and /tf_static, each with the newest pose in its parent.
 class TransformTree {
  public:
   void add(const RosTransform& transform);
 
-  /// The frame and those above it, up to the root.
+  /// Returns the frame and the frames above it, up to the root.
   std::vector<std::string> way_up(const std::string& frame) const;
 
-  /// The pose of `frame` in `base`; none when nothing connects them.
+  /// Returns the pose of `frame` in `base`, or nothing if they are not connected.
   std::optional<mrpt::poses::CPose3D> base_T_frame(const std::string& base, const std::string& frame) const;
 
-  /// "base_link < odom, laser < base_link": each frame with its parent, for sentences.
+  /// Each frame with its parent for messages: "base_link < odom, laser < base_link".
   std::string text() const;
 
  private:
@@ -32,7 +32,7 @@ class TransformTree {
     mrpt::poses::CPose3D parent_T_frame;
   };
 
-  /// The pose of a frame in the one that many steps above it.
+  /// Returns the pose of a frame in the frame that is `steps` above it.
   mrpt::poses::CPose3D above_T_frame(std::string frame, std::size_t steps) const;
 
   std::map<std::string, Link> links_;  // by frame

@@ -7,11 +7,13 @@
 #include <functional>
 #include <sstream>
 
+#include "bag_files.h"
 #include "log_files.h"
 #include "rawlog_files.h"
 #include "shared_logs.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"
+#include "two_lasers.h"
 
 namespace psi_slam {
 namespace {
@@ -48,15 +50,38 @@ class InputDoctorTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(InputDoctorTest, judges_the_first_of_several_lasers) {
+  const auto path = folder_.path() / "log";
+  write_rawlog_of(path, {});
+  LogOptions options;
+  options.laser = "REAR,FRONT";
+  const LogDiagnosis diagnosis = diagnose(path, options);
+  EXPECT_EQ(diagnosis.facts.contents.laser, "REAR");
+  EXPECT_EQ(diagnosis.facts.scans, 20U);
+  EXPECT_EQ(diagnosis.facts.contents.other_lasers.at("FRONT"), 20U);
+}
+
+TEST_F(InputDoctorTest, judges_a_truncated_bag_up_to_its_end) {
+  const auto path = folder_.path() / "run.mcap";
+  write_mcap(path, drive_recorded(30));
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) * 2 / 3);
+  const LogDiagnosis diagnosis = diagnose(path);
+  EXPECT_THAT(diagnosis.facts.broken_off, testing::HasSubstr("run.mcap: byte"));
+  EXPECT_THAT(diagnosis.facts.broken_off, testing::HasSubstr("the file is cut off"));
+  EXPECT_GT(diagnosis.facts.scans, 8U);
+  EXPECT_EQ(diagnosis.facts.format, "ROS 2 bag (MCAP)");
+  EXPECT_EQ(diagnosis.facts.contents.laser, "/scan");
+}
+
 TEST_F(InputDoctorTest, finds_nothing_wrong_with_a_sound_log) {
   const SimulatedRun run = round_trips(2);
   const LogDiagnosis diagnosis = diagnose_run(run);
   EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
   EXPECT_TRUE(diagnosis.odometry_is_sound);
   EXPECT_EQ(diagnosis.facts.format, "CARMEN");
-  EXPECT_EQ(diagnosis.facts.laser, "FLASER");
+  EXPECT_EQ(diagnosis.facts.contents.laser, "FLASER");
   EXPECT_EQ(diagnosis.facts.scans, run.truth.size());
-  EXPECT_EQ(diagnosis.facts.messages.at("FLASER"), run.truth.size());
+  EXPECT_EQ(diagnosis.facts.contents.messages.at("FLASER"), run.truth.size());
   EXPECT_EQ(diagnosis.used_beam_angles, BeamAngles::kLeftOpen);
   EXPECT_EQ(diagnosis.beam_angles.best, BeamAngles::kLeftOpen);
   EXPECT_EQ(finding_of(diagnosis, "beam_angles").sentence, "beam angles: left_open fits best, as used");
@@ -69,7 +94,7 @@ TEST_F(InputDoctorTest, topics_mean_nothing_to_a_log_that_is_no_bag) {
   const SimulatedRun run = round_trips(1);
   EXPECT_EQ(diagnose_run(run, options).facts.scans, run.truth.size());
   options.laser = "FLASER";
-  EXPECT_EQ(diagnose_run(run, options).facts.laser, "FLASER");
+  EXPECT_EQ(diagnose_run(run, options).facts.contents.laser, "FLASER");
 }
 
 TEST_F(InputDoctorTest, knows_a_mirrored_scan_and_the_key_that_mends_it) {
@@ -230,7 +255,7 @@ TEST_F(InputDoctorTest, knows_repeated_scans) {
 TEST_F(InputDoctorTest, tells_of_lines_that_do_not_parse) {
   const std::string log = carmen_log(round_trips(1));
   const LogDiagnosis diagnosis = diagnose_text("FLASER 3 1.0\n" + log);
-  EXPECT_EQ(diagnosis.facts.skipped.count, 1U);
+  EXPECT_EQ(diagnosis.facts.contents.skipped.count, 1U);
   EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty()) << "one line is no harm";
   EXPECT_THAT(finding_of(diagnosis, "skipped_lines").sentence,
               testing::AllOf(testing::StartsWith("1 message of the log"), testing::HasSubstr(":1: FLASER")));
@@ -250,8 +275,8 @@ TEST_F(InputDoctorTest, reads_rawlogs_too) {
   write_rawlog(folder_.path() / "log.rawlog", objects);
   const LogDiagnosis diagnosis = diagnose(folder_.path() / "log.rawlog");
   EXPECT_EQ(diagnosis.facts.format, "MRPT rawlog");
-  EXPECT_EQ(diagnosis.facts.laser, "LASER");
-  EXPECT_EQ(diagnosis.facts.other_lasers.at("OTHER"), run.truth.size());
+  EXPECT_EQ(diagnosis.facts.contents.laser, "LASER");
+  EXPECT_EQ(diagnosis.facts.contents.other_lasers.at("OTHER"), run.truth.size());
   EXPECT_EQ(diagnosis.used_beam_angles, BeamAngles::kAuto) << "the log states its angles";
   EXPECT_TRUE(diagnosis.beam_angles.fits.empty());
   EXPECT_TRUE(diagnosis.odometry_is_sound);

@@ -25,7 +25,7 @@
 #include "psi_slam/user_error.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/mapper.h"
-#include "observations/range_observation.h"
+#include "observations/mrpt_objects.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A line of an edit file, see EditJournal.
+// One line of an edit file; see EditJournal.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace psi_slam {
 
-/// Without a line end.
+/// Text of an edit, without line end.
 std::string edit_line(const TimedEdit& edit);
 
-/// Throws UserError, a sentence without the place, where the line is no edit. It holds no comment.
+/// Parses a line without comment. Throws UserError, without file and line, if the line is no edit.
 TimedEdit parse_edit_line(std::string_view line);
 
 }  // namespace psi_slam

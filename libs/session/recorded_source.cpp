@@ -29,11 +29,11 @@ std::optional<Frame> RecordedSource::next() {
   return frame;
 }
 
-// The log is read beside its recorded frames, so that how far it is and what was skipped are as they were.
+// Reads the log along with its recorded frames, so that its progress and skipped lines are right.
 void RecordedSource::pass_by_recorded() {
   const std::size_t of_logs_before = recording_->frames.size() - recording_->facts.logs.back().scans;
   if (next_ >= of_logs_before && !log_->next())
-    throw UserError(path_.string() + " holds fewer scans than were mapped of it");
+    throw UserError(path_.string() + " holds fewer scans than the session recorded from it");
 }
 
 double RecordedSource::progress() const {
@@ -49,15 +49,16 @@ AppendedSource::AppendedSource(std::shared_ptr<const SessionRecording> recording
                                std::unique_ptr<FrameSource> log, const std::filesystem::path& path)
     : recording_(std::move(recording)), log_(std::move(log)), first_(log_->next()) {
   const std::vector<Frame>& frames = recording_->frames;
-  const char* const other =
-      recording_->facts.logs.back().sha256.empty()
-          ? " cannot be compared with the log of the session (which was gone when it was "
-            "saved) and does not go on behind it: its first scan is of "
-          : " is not the log of the session (its checksum is another) and does not go on "
-            "behind it: its first scan is of ";
+  const char* const other = recording_->facts.logs.back().sha256.empty()
+                                ? " cannot be compared with the log of the session (which was unreadable "
+                                  "when it was saved) and does "
+                                  "not continue it: its first scan is at "
+                                : " is not the log of the session (their checksums differ) and does not "
+                                  "continue it: its first scan "
+                                  "is at ";
   if (first_ && !frames.empty() && first_->time_us <= frames.back().time_us)
-    throw UserError(path.string() + other + format_seconds(first_->time_us) + " s, the session's last of " +
-                    format_seconds(frames.back().time_us) + " s");
+    throw UserError(path.string() + other + format_seconds(first_->time_us) +
+                    " s, the session's last scan at " + format_seconds(frames.back().time_us) + " s");
 }
 
 std::optional<Frame> AppendedSource::next() {
@@ -67,7 +68,7 @@ std::optional<Frame> AppendedSource::next() {
   return frame;
 }
 
-// How long the log is, nobody knows: half of all is as good as any guess.
+// The length of the log is unknown, so the recording counts as half of all.
 double AppendedSource::progress() const {
   const std::size_t recorded = recording_->frames.size();
   return next_ < recorded ? 0.5 * share_of(next_, recorded) : 0.5 + 0.5 * log_->progress();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames that were recorded, and behind them those of a log. What was skipped is told of the last log alone:
-// of those before, the recording says it.
+// Recorded frames, followed by those of a log. skipped_lines() is only about the last log, since the
+// recording has that of the logs before.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@
 
 namespace psi_slam {
 
-/// The recorded frames and what is left of their last log, if it is given. Without it the log ends, or breaks
-/// off, where it did.
+/// The recorded frames and the rest of their last log. Without the log, the frames end as they did when they
+/// were recorded, at the end of the log or with its damage.
 class RecordedSource : public FrameSource {
  public:
   explicit RecordedSource(std::shared_ptr<const SessionRecording> recording)
       : recording_(std::move(recording)) {}
-  /// `log` is the last of the recording, at its beginning, and `path` its name.
+  /// `log` is the last log of the recording, read from its beginning; `path` is its path.
   RecordedSource(std::shared_ptr<const SessionRecording> recording, std::unique_ptr<FrameSource> log,
                  std::filesystem::path path)
       : recording_(std::move(recording)), log_(std::move(log)), path_(std::move(path)) {}
@@ -37,10 +37,10 @@ class RecordedSource : public FrameSource {
   std::size_t next_ = 0;
 };
 
-/// The recorded frames and then all of another log.
+/// The recorded frames, followed by all of another log.
 class AppendedSource : public FrameSource {
  public:
-  /// Throws UserError when the log begins before the recording ends.
+  /// Throws UserError if the log begins before the recording ends.
   AppendedSource(std::shared_ptr<const SessionRecording> recording, std::unique_ptr<FrameSource> log,
                  const std::filesystem::path& path);
 
@@ -51,7 +51,7 @@ class AppendedSource : public FrameSource {
  private:
   std::shared_ptr<const SessionRecording> recording_;
   std::unique_ptr<FrameSource> log_;
-  std::optional<Frame> first_;  ///< of the log
+  std::optional<Frame> first_;  ///< of the log; empty once it was returned
   std::size_t next_ = 0;
 };
 

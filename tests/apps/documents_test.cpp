@@ -2,10 +2,8 @@
 // Manual pages and completion of a made-up program.
 #include <gmock/gmock.h>
 
-#include "bash_completion.h"
 #include "command_words.h"
 #include "document_options.h"
-#include "man_page.h"
 #include "roff_text.h"
 
 namespace psi_slam {

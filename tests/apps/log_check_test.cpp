@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "log_check.h"
+#include "commands.h"
 
 #include <gmock/gmock.h>
 

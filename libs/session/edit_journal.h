@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "loop_closure/loop_edit.h"
@@ -86,5 +87,11 @@ class EditJournal {
   std::vector<TimedEdit> edits_;
   std::size_t taken_ = 0;
 };
+
+/// Text of an edit in the file, without line end.
+std::string edit_line(const TimedEdit& edit);
+
+/// Parses a line of the file, without comment. Throws UserError, without file and line, if it is no edit.
+TimedEdit parse_edit_line(std::string_view line);
 
 }  // namespace psi_slam

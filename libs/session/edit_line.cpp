@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "session/edit_line.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "config/exact_number.h"
 #include "config/nearest_name.h"
 #include "psi_slam/user_error.h"
+#include "session/edit_journal.h"
 
 namespace psi_slam {
 namespace {

@@ -101,7 +101,7 @@ TEST_F(LocalizeApp, interrupted_it_says_that_its_end_is_not_that_of_the_log) {
   const Json summary = Json::parse(run.out);
   EXPECT_EQ(summary["interrupted"], true);
   EXPECT_LT(summary["scans"], 20000);
-  EXPECT_THAT(run.err, HasSubstr("interrupted: its end is that of the " +
+  EXPECT_THAT(run.err, HasSubstr("interrupted: the end of the log means the last of the " +
                                  std::to_string(summary["scans"].get<int>()) + " scans"));
 }
 

@@ -14,6 +14,7 @@
 #include "localization/localization_report.h"
 #include "session/settings.h"
 #include "psi_slam/mapping_session.h"
+#include "report/output_folder.h"
 #include "shared_logs.h"
 
 namespace psi_slam {

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using Json = nlohmann::json;
 
 /// The room, driven through twice: the second time faster, begun at a quarter of the round, its odometry from
-/// zero and its stamps those of the first drive again.
+/// zero and its stamps those of the first run again.
 class MergeApp : public testing::Test {
  protected:
   void SetUp() override {
@@ -40,8 +40,8 @@ class MergeApp : public testing::Test {
     return run_app(arguments);
   }
 
-  /// The second drive lies in the frame of the first where it truly was.
-  void expect_second_drive_in_place(const std::string& out) {
+  /// The second run lies in the frame of the first where it truly was.
+  void expect_second_run_in_place(const std::string& out) {
     const Trajectory second = read_trajectory(file(out) + "/trajectory-2.tum");
     ASSERT_EQ(second.size(), 120U);
     for (std::size_t i = 0; i < second.size(); ++i) {
@@ -69,7 +69,7 @@ class MergeApp : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(MergeApp, finds_where_the_second_drive_began_and_makes_one_map) {
+TEST_F(MergeApp, finds_where_the_second_run_began_and_makes_one_map) {
   const AppRun run = merge({"first.log", "second.log"}, "out", {"--json"});
   ASSERT_EQ(run.code, 0) << run.err;
   const Json summary = Json::parse(run.out);
@@ -81,7 +81,7 @@ TEST_F(MergeApp, finds_where_the_second_drive_began_and_makes_one_map) {
   EXPECT_NEAR(summary["log"]["duration_s"].get<double>(), 2 * 119 * 0.2, 1e-6);
   EXPECT_EQ(read_trajectory(file("out") + "/trajectory-1.tum").size(), 120U);
   EXPECT_EQ(read_trajectory(file("out") + "/trajectory.tum").size(), 240U);
-  expect_second_drive_in_place("out");
+  expect_second_run_in_place("out");
   const double way_m = summary["path_length_m"];
   const double odometry_m = summary["log"]["odometry_length_m"];
   EXPECT_NEAR(way_m, odometry_m, 0.05 * odometry_m) << "the way from one drive to the next is none";
@@ -93,7 +93,7 @@ TEST_F(MergeApp, takes_a_start) {
                     std::to_string(start.phi * 180 / M_PI + 8);
   const AppRun run = merge({"first.log", "second.log"}, "out", {"--start", text});
   ASSERT_EQ(run.code, 0) << run.err;
-  expect_second_drive_in_place("out");
+  expect_second_run_in_place("out");
   const AppRun wrong = merge({"first.log", "second.log"}, "wrong", {"--start", "40,40,0"});
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("second.log does not begin near --start"));
@@ -133,7 +133,7 @@ TEST_F(MergeApp, says_which_settings_of_a_session_are_not_those_of_now) {
   const AppRun run = merge({"first.session", "second.session"}, "out");
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.err, "psi-slam: " + file("second.session") +
-                         " was mapped with other settings and is mapped anew with those of now: "
+                         " was mapped with other settings and is mapped again with the present ones: "
                          "front_end.window_theta_deg was 7.5 and is " +
                          default_text("front_end.window_theta_deg") + ", log.min_range_m was 0.05 and is " +
                          default_text("log.min_range_m") + ", run.seed was 9 and is " +
@@ -178,21 +178,21 @@ TEST_F(MergeApp, another_building_is_refused_in_one_sentence_and_nothing_is_writ
   write_lines(folder_.path() / "second.log", lines);
   const AppRun run = merge({"first.log", "second.log"}, "out", {"--save-session", file("both.session")});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("second.log cannot be placed in the map of what came before: "));
+  EXPECT_THAT(run.err, HasSubstr("second.log cannot be placed in the map of the runs before it: "));
   EXPECT_EQ(run.err.find('\n'), run.err.size() - 1) << run.err;
   EXPECT_TRUE(std::filesystem::is_empty(file("out")));
   EXPECT_FALSE(std::filesystem::exists(file("both.session")));
 }
 
 /// Of three, the second has no loop with the first, for want of any.
-TEST_F(MergeApp, names_the_drive_that_no_loop_joins) {
+TEST_F(MergeApp, names_the_run_that_no_loop_joins) {
   const AppRun run =
       merge({"first.log", "second.log", "first.log"}, "out", {"--set", "loop_closure.enabled=false"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("second.log cannot be merged: no loop was found that joins it to the rest"));
+  EXPECT_THAT(run.err, HasSubstr("second.log cannot be merged: no loop joins it to the other runs"));
 }
 
-TEST_F(MergeApp, a_first_drive_that_breaks_off_is_told_and_merged_up_to_there) {
+TEST_F(MergeApp, a_first_run_that_breaks_off_is_told_and_merged_up_to_there) {
   std::ofstream(file("first.log"), std::ios::app) << "FLASER 181 1.0 2.0";
   const AppRun run =
       merge({"first.log", "second.log"}, "out", {"-q", "--save-session", file("both.session")});
@@ -202,7 +202,7 @@ TEST_F(MergeApp, a_first_drive_that_breaks_off_is_told_and_merged_up_to_there) {
   EXPECT_EQ(resumed.code, run.code);
   EXPECT_EQ(resumed.err, run.err);
   EXPECT_THAT(bytes_of(file("out") + "/report.html"), HasSubstr("first.log:121"));
-  expect_second_drive_in_place("out");
+  expect_second_run_in_place("out");
 }
 
 TEST_F(MergeApp, wrong_usage_is_told_in_a_sentence) {
@@ -210,7 +210,7 @@ TEST_F(MergeApp, wrong_usage_is_told_in_a_sentence) {
               HasSubstr("merge FIRST SECOND -o DIR"));
   EXPECT_THAT(merge({"first.log", "second.log"}, "x", {"--start", "1,2"}).err, HasSubstr("--start 1,2"));
   EXPECT_THAT(merge({"first.log", "second.log", "first.log"}, "x", {"--start", "1,2,3"}).err,
-              HasSubstr("--start goes with two drives"));
+              HasSubstr("--start needs exactly two runs"));
   EXPECT_THAT(run_app({"merge", file("first.log"), file("second.log")}).err, HasSubstr("-o DIR"));
   EXPECT_THAT(merge({"first.log", "none.log"}, "x").err, HasSubstr("none.log does not exist"));
   EXPECT_THAT(run_app({"marge", "a", "b"}).err, HasSubstr("did you mean \"merge\""));

@@ -13,6 +13,8 @@
 #include "evaluation/relations_metric.h"
 #include "session/settings.h"
 #include "psi_slam/mapping_session.h"
+#include "report/output_folder.h"
+#include "session/session_input.h"
 #include "session/place_run.h"
 #include "shared_logs.h"
 
@@ -21,7 +23,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-SessionInput drive_of(const std::string& name, std::vector<Frame> frames, const TPose2D& other_T_odom) {
+SessionInput input_of(const std::string& name, std::vector<Frame> frames, const TPose2D& other_T_odom) {
   auto recording = std::make_shared<SessionRecording>();
   for (Frame& frame : frames) frame.odom_T_robot = other_T_odom + frame.odom_T_robot;
   recording->facts.logs = {{name, name, frames.size()}};
@@ -61,11 +63,11 @@ void merge_halves_of(const std::string& name, double odometry_x_m, double odomet
   const std::atomic<bool> go_on{false};
   const std::vector<Frame> frames = frames_of(*log, bound.settings);
   const auto middle = frames.begin() + static_cast<std::ptrdiff_t>(frames.size() / 2);
-  const SessionInput first = drive_of("first", {frames.begin(), middle}, {0, 0, 0});
+  const SessionInput first = input_of("first", {frames.begin(), middle}, {0, 0, 0});
   const SessionInput second =
-      drive_of("second", {middle, frames.end()}, {odometry_x_m, -3.0, odometry_yaw_rad});
+      input_of("second", {middle, frames.end()}, {odometry_x_m, -3.0, odometry_yaw_rad});
 
-  MappingSession whole(drive_of("whole", frames, {0, 0, 0}), bound.settings);
+  MappingSession whole(input_of("whole", frames, {0, 0, 0}), bound.settings);
   whole.run(go_on);
   MappingSession merged(first, bound.settings);
   merged.stay_open();

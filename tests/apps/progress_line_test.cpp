@@ -16,7 +16,7 @@ TEST(ProgressLine, says_how_far_and_how_long) {
             " 43 %   5876 scans   2100 scans/s   0:04 left");
   EXPECT_EQ(progress_text({Phase::kMapping, 0, 1, 10, 0.1, {}}), "  0 %   1 scans   10 scans/s");
   EXPECT_EQ(progress_text({Phase::kFinalSearch, 0.25, 5876, 10, 0.1, 61}),
-            " 25 %   looking for loops once more   1:01 left");
+            " 25 %   final loop search   1:01 left");
   EXPECT_EQ(progress_text({Phase::kWriting, 0, 5876, 10, 0.1, {}}),
             "drawing the map and writing the results");
 }
@@ -37,7 +37,7 @@ TEST(ProgressLine, is_not_redrawn_for_every_scan_but_for_every_phase) {
   line.show({Phase::kWriting, 1, 1000, 1, 1, {}});
   const std::string text = terminal.str();
   EXPECT_LT(std::count(text.begin(), text.end(), '\r'), 20);
-  EXPECT_NE(text.find("once more"), std::string::npos);
+  EXPECT_NE(text.find("final loop search"), std::string::npos);
   EXPECT_NE(text.find("writing"), std::string::npos);
 }
 

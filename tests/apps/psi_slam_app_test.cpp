@@ -136,7 +136,7 @@ TEST_F(PsiSlamApp, shows_its_progress_on_a_terminal_only) {
   const AppRun run = run_app({log, "-o", output("terminal").string()}, true);
   EXPECT_EQ(run.code, 0);
   EXPECT_THAT(run.err, AllOf(HasSubstr(" scans/s"), HasSubstr(" left"), HasSubstr("writing the results")));
-  EXPECT_EQ(run.err.substr(run.err.size() - 4), "\r\x1b[K") << "the line is gone at the end";
+  EXPECT_EQ(run.err.substr(run.err.size() - 4), "\r\x1b[K") << "the line is erased at the end";
   EXPECT_EQ(run_app({log, "-o", output("file").string()}, false).err, "");
   const AppRun quiet = run_app({log, "-o", output("quiet").string(), "-q"}, true);
   EXPECT_EQ(quiet.out + quiet.err, "");
@@ -188,7 +188,7 @@ TEST_F(PsiSlamApp, an_interrupt_ends_the_mapping_in_good_order) {
   EXPECT_EQ(summary["last_pass_cut_short"], true);
   const std::size_t scans = summary["log"]["scans"];
   EXPECT_LT(scans, 3000U);
-  EXPECT_THAT(run.err, MatchesRegex("psi-slam: interrupted, the map will show the " + std::to_string(scans) +
+  EXPECT_THAT(run.err, MatchesRegex("psi-slam: interrupted: the map will show the " + std::to_string(scans) +
                                     " scans[^\n]+\n"))
       << "told once";
   EXPECT_EQ(names_in(output("out")), all_result_names());
@@ -228,7 +228,7 @@ TEST_F(PsiSlamApp, refuses_a_file_that_holds_no_edits) {
   write_bytes(file, "forget scan=1 local_map=0\n");
   const AppRun run = map(room_log(), "out", {"--edits", file});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("mine.edits:1: \"forget\" is none of delete, force, match and restore"));
+  EXPECT_THAT(run.err, HasSubstr("mine.edits:1: unknown edit \"forget\": expected delete, force, match or restore"));
   EXPECT_FALSE(fs::exists(output("out")));
 }
 

@@ -46,7 +46,7 @@ TEST_F(ResumeApp, interrupted_and_resumed_it_writes_what_an_uninterrupted_run_wr
   process.send(SIGINT);
   const AppRun interrupted = process.finish();
   EXPECT_EQ(interrupted.code, 0) << interrupted.err;
-  EXPECT_THAT(interrupted.out, HasSubstr("The session is " + file("my.session")));
+  EXPECT_THAT(interrupted.out, HasSubstr("The session is saved as " + file("my.session")));
   EXPECT_LT(Json::parse(bytes_of(file("part") + "/summary.json"))["log"]["scans"], 800);
 
   const AppRun resumed = run_app({"--resume", file("my.session"), log, "-o", file("resumed")});
@@ -97,9 +97,9 @@ TEST_F(ResumeApp, wrong_use_is_told_in_one_sentence) {
   expect_refused({"--resume", session, "-o", file("x"), "--set", "front_end.window_m=0.3"},
                  "front_end.window_m is 0.15 in the session " + session + " and cannot become 0.3");
   expect_refused({"--resume", session, "-o", file("x"), "--seed", "9"}, "run.seed is 1 in the session");
-  expect_refused({session, "-o", file("x")}, "my.session is a session, not a log: psi-slam --resume");
-  expect_refused({log, "-o", file("x"), "--save-session", session}, "it is there already");
-  expect_refused({log, "-o", file("y"), "--save-session", file("none/my.session")}, "there is no folder");
+  expect_refused({session, "-o", file("x")}, "my.session is a session, not a log. Resume it with psi-slam --resume");
+  expect_refused({log, "-o", file("x"), "--save-session", session}, "the file exists. Replace it with --force");
+  expect_refused({log, "-o", file("y"), "--save-session", file("none/my.session")}, "does not exist");
   expect_refused({"check", log, "--save-session", session}, "--save-session");
 
   const std::string bytes = bytes_of(session);

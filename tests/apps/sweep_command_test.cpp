@@ -158,7 +158,7 @@ TEST_F(SweepCommand, an_interrupt_keeps_and_reports_what_is_done) {
   process.send(SIGINT);
   const AppRun run = process.finish();
   EXPECT_EQ(run.code, 1);
-  EXPECT_THAT(run.err, HasSubstr("the same command goes on"));
+  EXPECT_THAT(run.err, HasSubstr("The same command resumes the sweep"));
   EXPECT_THAT(table("out"), HasSubstr(",to go,"));
   EXPECT_THAT(table("out"), HasSubstr(",done,"));
 }

@@ -49,14 +49,14 @@ TEST(MapFile, what_is_no_map_is_refused_in_a_sentence) {
   EXPECT_THAT(sentence_of([&] { read_map_file(folder.path() / "none.yaml"); }), HasSubstr("none.yaml"));
   EXPECT_THAT(sentence("map.png", "x"), HasSubstr("expected map.yaml or map.gridmap.gz"));
   EXPECT_THAT(sentence("words.yaml", "image: [1"), HasSubstr("words.yaml"));
-  EXPECT_THAT(sentence("torn.gridmap.gz", "no gridmap"), HasSubstr("no whole gridmap"));
+  EXPECT_THAT(sentence("torn.gridmap.gz", "no gridmap"), HasSubstr("is not a complete gridmap"));
   write_map_server_pair(folder.path() / "empty.yaml", COccupancyGridMap2D(0, 1, 0, 1, 0.05F));
   EXPECT_THAT(sentence_of([&] { read_map_file(folder.path() / "empty.yaml"); }),
-              HasSubstr("without a single wall"));
+              HasSubstr("the map has no wall"));
   write_map_server_pair(folder.path() / "map.yaml", small_map());
   std::string turned = read_file(folder.path() / "map.yaml");
   turned.replace(turned.find(", 0.0]"), 6, ", 0.5]");
-  EXPECT_THAT(sentence("turned.yaml", turned), HasSubstr("origin is turned"));
+  EXPECT_THAT(sentence("turned.yaml", turned), HasSubstr("the origin is rotated"));
 }
 
 TEST(MapFile, cells_of_no_size_are_refused) {
@@ -71,7 +71,7 @@ TEST(MapFile, cells_of_no_size_are_refused) {
     return sentence_of([&] { read_map_file(folder.path() / "other.yaml"); });
   };
   for (const char* value : {"0.00001", "0", "-0.05", "2"})
-    EXPECT_THAT(sentence("resolution: ", value), HasSubstr("expected 0.001 to 1 m a cell")) << value;
+    EXPECT_THAT(sentence("resolution: ", value), HasSubstr("expected 0.001 to 1 m")) << value;
 }
 
 TEST(MapFile, counts_of_a_gridmap_are_not_believed) {
@@ -88,11 +88,11 @@ TEST(MapFile, counts_of_a_gridmap_are_not_believed) {
     write_file(path, bytes);
     return sentence_of([&] { read_map_file(path); });
   };
-  EXPECT_THAT(sentence_with(2, 0x40), HasSubstr("a damaged gridmap: it announces 4194384 x 60 cells"));
-  EXPECT_THAT(sentence_with(27, 0x10), HasSubstr("expected 0.001 to 1 m a cell"));
-  EXPECT_THAT(sentence_with(15, 0x70), HasSubstr("a damaged gridmap"));
+  EXPECT_THAT(sentence_with(2, 0x40), HasSubstr("is damaged: it claims 4194384 x 60 cells"));
+  EXPECT_THAT(sentence_with(27, 0x10), HasSubstr("expected 0.001 to 1 m"));
+  EXPECT_THAT(sentence_with(15, 0x70), HasSubstr("is damaged: it claims"));
   write_file(path, whole.substr(0, whole.size() / 2));
-  EXPECT_THAT(sentence_of([&] { read_map_file(path); }), HasSubstr("a damaged gridmap"));
+  EXPECT_THAT(sentence_of([&] { read_map_file(path); }), HasSubstr("is damaged: it claims"));
 }
 
 }  // namespace

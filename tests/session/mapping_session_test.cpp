@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/mapping_session.h"
+#include "session/settings.h"
+#include "report/output_folder.h"
 
 #include <gmock/gmock.h>
 

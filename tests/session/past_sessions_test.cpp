@@ -18,6 +18,7 @@
 #include "base/file_checksum.h"
 #include "session/settings.h"
 #include "psi_slam/mapping_session.h"
+#include "session/session_input.h"
 #include "session/recorded_settings.h"
 #include "session/session_file.h"
 #include "room_log.h"

@@ -4,6 +4,8 @@
 
 #include "session/settings.h"
 #include "psi_slam/mapping_session.h"
+#include "session/session_input.h"
+#include "report/output_folder.h"
 #include "session/recorded_settings.h"
 #include "session/session_file.h"
 #include "room_log.h"
@@ -245,8 +247,8 @@ TEST_F(ResumedSession, options_that_are_no_more_are_left_out_and_named) {
   facts.settings = "[front_end]\nwindow_m = 0.2\nmagic = 3\n[gone]\nkey = 1\n";
   BoundSettings bound;
   EXPECT_THAT(load_recorded(bound, facts, "old.session"),
-              ElementsAre("old.session: front_end.magic is no option any more and is left out",
-                          "old.session: gone.key is no option any more and is left out"));
+              ElementsAre("old.session: front_end.magic is obsolete and is ignored",
+                          "old.session: gone.key is obsolete and is ignored"));
   EXPECT_EQ(bound.settings.mapper.front_end.window_m, 0.2);
   facts.settings = "[front_end]\nwindow_m = -1\n";
   EXPECT_THAT(sentence_of([&] { load_recorded(bound, facts, "old.session"); }),

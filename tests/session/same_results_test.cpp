@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 
 #include "psi_slam/mapping_session.h"
+#include "session/settings.h"
+#include "report/output_folder.h"
 #include "room_log.h"
 #include "temporary_folder.h"
 

@@ -176,7 +176,7 @@ TEST_F(SessionFileTest, every_flipped_bit_is_noticed) {
 TEST_F(SessionFileTest, a_cut_off_file_is_told) {
   for (std::size_t size = 16; size < bytes_.size(); ++size)
     EXPECT_THAT(complaint_about(bytes_.substr(0, size)), HasSubstr("my.session is cut off")) << size;
-  EXPECT_THAT(complaint_about(bytes_.substr(0, 15)), HasSubstr("is no session of psi-slam"));
+  EXPECT_THAT(complaint_about(bytes_.substr(0, 15)), HasSubstr("is not a session of psi-slam"));
 }
 
 TEST_F(SessionFileTest, a_version_of_the_future_is_told) {
@@ -185,13 +185,13 @@ TEST_F(SessionFileTest, a_version_of_the_future_is_told) {
   EXPECT_THAT(
       complaint_about(sealed(newer)),
       HasSubstr(
-          "my.session is a session of version 4, by a newer psi-slam: this one reads versions up to 3"));
+          "my.session is a session of version 4, made by a newer psi-slam. This one reads versions up to 3"));
 }
 
 TEST_F(SessionFileTest, what_is_none_is_told) {
-  EXPECT_THAT(complaint_about(""), HasSubstr("my.session is no session of psi-slam"));
+  EXPECT_THAT(complaint_about(""), HasSubstr("my.session is not a session of psi-slam"));
   EXPECT_THAT(complaint_about("FLASER 180 1.0 1.0 and so on, for longer than any head"),
-              HasSubstr("my.session is no session of psi-slam"));
+              HasSubstr("my.session is not a session of psi-slam"));
   EXPECT_FALSE(is_session_file(path_));
   EXPECT_THAT(sentence_of([&] { read_session_file(folder_.path() / "none"); }), HasSubstr("does not exist"));
   EXPECT_THAT(sentence_of([&] { read_session_file(folder_.path()); }), HasSubstr("is a folder"));
@@ -209,37 +209,37 @@ TEST_F(SessionFileTest, what_does_not_add_up_is_told_though_its_checksum_matches
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames.pop_back(); }), HasSubstr("do not add up"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.logs.clear(); }), HasSubstr("do not add up"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].scan = 4; }),
-              HasSubstr("a drive begins"));
+              HasSubstr("a run begins"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].start.node_T_robot.y = -1.1e7; }),
-              HasSubstr("a drive begins nowhere"));
+              HasSubstr("a run begins at an invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].start.robot_T_found.x = 1e300; }),
-              HasSubstr("a drive begins nowhere"));
+              HasSubstr("a run begins at an invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].start.robot_T_found.phi = NAN; }),
-              HasSubstr("what it says of itself cannot be read"))
+              HasSubstr("its description is not valid JSON"))
       << "JSON has no such number";
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs.push_back(r.facts.runs[0]); }),
-              HasSubstr("its drives do not follow on one another"));
+              HasSubstr("its runs are out of order"));
   EXPECT_THAT(complaint([](SessionRecording& r) {
                 r.facts.logs[0].scans = static_cast<std::size_t>(-3);
                 r.facts.logs[1].scans = 7;  // together 4, as they should be
               }),
-              HasSubstr("a log has more than all of its scans"));
+              HasSubstr("a log has more scans than the session"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].frame_T_robot.x = 1e300; }),
-              HasSubstr("a pose is none"));
+              HasSubstr("invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[0].odom_T_robot.phi = NAN; }),
-              HasSubstr("a pose is none"));
+              HasSubstr("invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].companions[1].scan.laser = 4'000'000'000; }),
-              HasSubstr("too high a laser"));
+              HasSubstr("number of a laser is too high"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].companions[1].scan.laser = 1; }),
-              HasSubstr("not in their order"));
+              HasSubstr("out of order"));
   EXPECT_THAT(complaint([](SessionRecording& r) {
                 r.frames[3].scan.bearings_rad = std::make_shared<std::vector<float>>(1, NAN);
               }),
-              HasSubstr("the bearing of a beam is none"));
+              HasSubstr("beam bearing is not finite"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].scan.ranges_m.pop_back(); }),
-              HasSubstr("other beams than its sensor"));
+              HasSubstr("another number of beams than its sensor"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].scan.ranges_m.pop_back(); }),
-              HasSubstr("other beams than its sensor"));
+              HasSubstr("another number of beams than its sensor"));
 }
 
 }  // namespace

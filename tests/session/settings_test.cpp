@@ -125,9 +125,9 @@ TEST_F(SettingsTest, refuses_options_that_contradict_each_other) {
             "front_end.window_theta_deg = 50 must not be more than front_end.ma");
   EXPECT_THAT(refusal({"front_end.window_theta_deg=5", "loop_closure.window_x_m=0.1"}),
               HasSubstr("must not be more than loop_closure.window_x_m = 0.1"));
-  EXPECT_EQ(refusal({"loop_closure.window_x_m=8", "last_pass.window_m=1.5"}),
-            "last_pass.window_m = 1.5 must not be more than verification.wide_window_m = 1");
-  EXPECT_THAT(refusal({"last_pass.window_m=0.3", "loop_closure.window_x_m=4", "loop_closure.min_sigma_m=9"}),
+  EXPECT_EQ(refusal({"loop_closure.window_x_m=8", "final_search.window_m=1.5"}),
+            "final_search.window_m = 1.5 must not be more than verification.wide_window_m = 1");
+  EXPECT_THAT(refusal({"final_search.window_m=0.3", "loop_closure.window_x_m=4", "loop_closure.min_sigma_m=9"}),
               HasSubstr("loop_closure.min_sigma_m = 9 must not be more than loop_closure.max_sigma_m"));
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two drives through a simulated building become one map, where they truly were.
+// Two runs through a simulated building become one map, where they truly were.
 #include <gmock/gmock.h>
 
-#include "../localization/simulated_drives.h"
+#include "../localization/simulated_runs.h"
 #include "psi_slam/mapping_session.h"
+#include "session/settings.h"
+#include "session/session_input.h"
+#include "report/output_folder.h"
 #include "session/place_run.h"
 #include "session/session_file.h"
 #include "same_results.h"
@@ -42,8 +45,8 @@ class MergedRuns : public testing::Test {
     return folder_.path() / name;
   }
 
-  /// Of all frames from the truth, both drives in the frame of the first scan.
-  static double worst_m(const MappingResult& result, const TrueDrive& first, const TrueDrive& second) {
+  /// Of all frames from the truth, both runs in the frame of the first scan.
+  static double worst_m(const MappingResult& result, const TrueRun& first, const TrueRun& second) {
     double worst = 0;
     for (std::size_t i = 0; i < result.frames.size(); ++i) {
       const bool in_first = i < first.frames.size();
@@ -61,8 +64,8 @@ class MergedRuns : public testing::Test {
 };
 
 TEST_F(MergedRuns, lie_where_they_were_and_no_odometry_joins_them) {
-  const TrueDrive first = drive_through(5, 1, 150);
-  const TrueDrive second = drive_through(5, 2, 80);
+  const TrueRun first = run_through(5, 1, 150);
+  const TrueRun second = run_through(5, 2, 80);
   const auto session = merged(input_of("first", first.frames), input_of("second", second.frames));
   const MappingResult& result = session->result();
   ASSERT_EQ(result.frames.size(), first.frames.size() + second.frames.size());
@@ -91,16 +94,16 @@ TEST_F(MergedRuns, lie_where_they_were_and_no_odometry_joins_them) {
 }
 
 TEST_F(MergedRuns, saved_with_edits_and_mapped_again_they_are_the_same_bytes) {
-  const TrueDrive first = drive_through(5, 1, 90);
-  const TrueDrive second = drive_through(5, 2, 60);
-  const auto with_edits = [&](const std::string& name, const TrueDrive& drive) {
-    const SessionInput input = input_of(name, drive.frames);
+  const TrueRun first = run_through(5, 1, 90);
+  const TrueRun second = run_through(5, 2, 60);
+  const auto with_edits = [&](const std::string& name, const TrueRun& run) {
+    const SessionInput input = input_of(name, run.frames);
     MappingSession session(input, settings_);
     session.run(go_on_);
     EditJournal edits;
     for (const LoopRecord& loop : session.result().loops)
       if (loop.verdict == LoopVerdict::kAccepted && loop.frame % 2 == 0) {
-        const EditTime times[] = {{}, {EditTime::Kind::kAfterScan, drive.frames.size() - 1}};
+        const EditTime times[] = {{}, {EditTime::Kind::kAfterScan, run.frames.size() - 1}};
         edits.add({{LoopEdit::Kind::kDelete, loop.frame, loop.local_map}, times[edits.edits().size() % 2]});
       }
     EXPECT_FALSE(edits.empty()) << name;
@@ -117,8 +120,8 @@ TEST_F(MergedRuns, saved_with_edits_and_mapped_again_they_are_the_same_bytes) {
 }
 
 TEST_F(MergedRuns, interrupted_within_a_recording_of_several_the_rest_is_not_saved) {
-  const TrueDrive first = drive_through(5, 1, 20);
-  TrueDrive others = drive_through(5, 2, 20);
+  const TrueRun first = run_through(5, 1, 20);
+  TrueRun others = run_through(5, 2, 20);
   ASSERT_GT(others.frames.size(), 60U);
   others.frames.resize(60);
   const std::size_t of_first = first.frames.size();
@@ -147,27 +150,27 @@ TEST_F(MergedRuns, interrupted_within_a_recording_of_several_the_rest_is_not_sav
   }
 }
 
-TEST_F(MergedRuns, a_short_drive_is_placed_though_it_breaks_off_or_another_is_recorded_behind_it) {
-  const TrueDrive first = drive_through(5, 1, 60);
-  const TrueDrive second = drive_through(5, 2, 12);
-  const TrueDrive elsewhere = drive_through(6, 2, 12);
+TEST_F(MergedRuns, a_short_run_is_placed_though_it_breaks_off_or_another_is_recorded_behind_it) {
+  const TrueRun first = run_through(5, 1, 60);
+  const TrueRun second = run_through(5, 2, 12);
+  const TrueRun elsewhere = run_through(6, 2, 12);
   MappingSession session(input_of("first", first.frames), settings_);
   session.run(go_on_);
   const MappingResult& mapped = session.result();
   const auto grid = draw_grid_map(mapped.log, mapped_poses(mapped), settings_.map);
   const TPose2D near = second.world_T_robot[0] - first.world_T_robot[0];
-  const auto start_of = [&](const SessionRecording& drive) {
-    const SessionInput input(std::make_shared<const SessionRecording>(drive));
+  const auto start_of = [&](const SessionRecording& run) {
+    const SessionInput input(std::make_shared<const SessionRecording>(run));
     return place_run(mapped, *grid, input, settings_, near, go_on_);
   };
-  SessionRecording drive;
-  drive.frames.assign(second.frames.begin(), second.frames.begin() + 6);
-  drive.facts.logs = {{"second", "second", 6}};
-  const RunStart alone = start_of(drive);
-  SessionRecording broken = drive;
+  SessionRecording run;
+  run.frames.assign(second.frames.begin(), second.frames.begin() + 6);
+  run.facts.logs = {{"second", "second", 6}};
+  const RunStart alone = start_of(run);
+  SessionRecording broken = run;
   broken.facts.logs[0].broken_off = "second.log:7 is cut off";
   EXPECT_EQ(start_of(broken).node_T_robot, alone.node_T_robot);
-  SessionRecording with_another = drive;
+  SessionRecording with_another = run;
   with_another.facts.runs = {{6, {}}};
   with_another.frames.insert(with_another.frames.end(), elsewhere.frames.begin(), elsewhere.frames.end());
   with_another.facts.logs[0].scans = with_another.frames.size();
@@ -175,8 +178,8 @@ TEST_F(MergedRuns, a_short_drive_is_placed_though_it_breaks_off_or_another_is_re
 }
 
 TEST_F(MergedRuns, the_search_for_a_start_tells_how_far_it_is_and_can_be_interrupted) {
-  const TrueDrive first = drive_through(5, 1, 60);
-  const SessionInput elsewhere = input_of("elsewhere", drive_through(6, 2, 12).frames);
+  const TrueRun first = run_through(5, 1, 60);
+  const SessionInput elsewhere = input_of("elsewhere", run_through(6, 2, 12).frames);
   MappingSession session(input_of("first", first.frames), settings_);
   session.run(go_on_);
   const MappingResult& mapped = session.result();
@@ -193,7 +196,7 @@ TEST_F(MergedRuns, the_search_for_a_start_tells_how_far_it_is_and_can_be_interru
     place();
     ADD_FAILURE() << "it was not interrupted";
   } catch (const SystemFailure& failure) {
-    EXPECT_THAT(failure.what(), HasSubstr("interrupted while a drive was looked for in the map"));
+    EXPECT_THAT(failure.what(), HasSubstr("interrupted before a run was placed in the map"));
   }
   ASSERT_GT(shares.size(), 5U);
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
@@ -203,8 +206,8 @@ TEST_F(MergedRuns, the_search_for_a_start_tells_how_far_it_is_and_can_be_interru
 }
 
 TEST_F(MergedRuns, of_two_buildings_are_refused) {
-  const SessionInput first = input_of("first", drive_through(5, 1, 60).frames);
-  const SessionInput elsewhere = input_of("elsewhere", drive_through(6, 2, 12).frames);
+  const SessionInput first = input_of("first", run_through(5, 1, 60).frames);
+  const SessionInput elsewhere = input_of("elsewhere", run_through(6, 2, 12).frames);
   EXPECT_THAT(sentence_of([&] { merged(first, elsewhere); }),
               HasSubstr("elsewhere cannot be placed in the map"));
   EXPECT_THAT(sentence_of([&] { merged(first, elsewhere, TPose2D(3, 0, 1)); }),

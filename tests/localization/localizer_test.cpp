@@ -16,9 +16,9 @@ using testing::HasSubstr;
 using State = LocalizationStep::State;
 
 constexpr std::uint64_t kBuilding = 1;
-constexpr double kTracked_m = 0.2;  // from the truth
+constexpr double kTracked_m = 0.2;  // largest distance from the truth
 
-/// The first building, driven through and drawn once for all tests.
+/// Map of the first building, made once for all tests.
 const mrpt::maps::COccupancyGridMap2D& building_map() {
   static const auto kMap = map_of(run_through(kBuilding, 1, 200));
   return kMap;
@@ -32,7 +32,7 @@ double worst_m(const std::vector<LocalizationStep>& steps, const TrueRun& truth)
   return worst;
 }
 
-TEST(Localizer, finds_a_robot_of_which_nothing_is_known_and_keeps_track_of_it) {
+TEST(Localizer, finds_and_tracks_a_robot_without_start) {
   for (const MatcherKind matcher : {MatcherKind::kCsm, MatcherKind::kCsmGa, MatcherKind::kGa}) {
     const TrueRun run = run_through(kBuilding, 101, 30);
     LocalizerOptions options;
@@ -60,7 +60,7 @@ TEST(Localizer, the_same_scans_give_the_same_poses) {
   }
 }
 
-TEST(Localizer, told_the_start_it_tracks_from_the_first_scan_on) {
+TEST(Localizer, with_a_start_it_tracks_from_the_first_scan) {
   const TrueRun run = run_through(kBuilding, 102, 20);
   Localizer localizer(reference_of(building_map()), {});
   TPose2D about = run.world_T_robot.front();
@@ -75,7 +75,7 @@ TEST(Localizer, told_the_start_it_tracks_from_the_first_scan_on) {
   EXPECT_EQ(summary.searches, 0);
 }
 
-TEST(Localizer, told_a_wrong_start_it_finds_the_robot_all_the_same) {
+TEST(Localizer, recovers_from_a_wrong_start) {
   const TrueRun run = run_through(kBuilding, 102, 40);
   Localizer localizer(reference_of(building_map()), {});
   localizer.start_at({-30, -30, 0});
@@ -93,11 +93,11 @@ TEST(Localizer, does_not_find_a_robot_in_the_map_of_another_building) {
   EXPECT_THAT(localization_text(summary), HasSubstr("Not found"));
 }
 
-// Odometry tells nothing of being carried: it goes on where it was.
-TEST(Localizer, finds_a_robot_again_that_was_carried_away) {
+// Odometry does not measure the move by hand and continues from before it.
+TEST(Localizer, recovers_when_the_robot_is_moved_by_hand) {
   TrueRun run = run_through(kBuilding, 103, 90);
   const std::size_t third = run.frames.size() / 3;
-  std::size_t away = third;  // to the farthest place of the run that leaves a third of it
+  std::size_t away = third;  // farthest place that leaves a third of the run
   for (std::size_t i = third; i < 2 * third; ++i)
     if (distance_m(run.world_T_robot[i], run.world_T_robot[third]) >
         distance_m(run.world_T_robot[away], run.world_T_robot[third]))
@@ -125,7 +125,7 @@ TEST(Localizer, finds_a_robot_again_that_was_carried_away) {
   EXPECT_LT(distance_m(steps.back().map_T_robot, run.world_T_robot.back()), kTracked_m);
 }
 
-/// A hall that looks the same turned by half a turn, and a run around its middle.
+/// A hall with rotational symmetry of 180 degrees, and a run around its centre.
 TrueRun round_a_symmetric_hall(std::uint64_t seed) {
   static const FloorPlan kHall = [] {
     FloorPlan plan;
@@ -160,7 +160,7 @@ TrueRun round_a_symmetric_hall(std::uint64_t seed) {
   return run;
 }
 
-TEST(Localizer, says_that_a_building_is_ambiguous_instead_of_guessing) {
+TEST(Localizer, reports_an_ambiguous_building_instead_of_guessing) {
   Localizer localizer(reference_of(map_of(round_a_symmetric_hall(1))), {});
   const LocalizationSummary summary = summarize(localize(localizer, round_a_symmetric_hall(2).frames));
   EXPECT_FALSE(summary.found());

@@ -15,7 +15,7 @@ namespace {
 using mrpt::maps::COccupancyGridMap2D;
 using testing::HasSubstr;
 
-/// Free but for a wall along a column, unknown on top; its corner is off the origin.
+/// Free space with one wall and an unknown top; the corner is not at the origin.
 COccupancyGridMap2D small_map() {
   COccupancyGridMap2D grid(-1.5F, 2.5F, 4, 7, 0.05F);
   for (int y = 0; y < 50; ++y)
@@ -23,7 +23,7 @@ COccupancyGridMap2D small_map() {
   return grid;
 }
 
-TEST(MapFile, both_kinds_are_read_back_cell_by_cell_and_in_their_place) {
+TEST(MapFile, reads_both_formats_with_all_cells_in_place) {
   const TemporaryFolder folder;
   const COccupancyGridMap2D map = small_map();
   write_map_server_pair(folder.path() / "map.yaml", map);
@@ -40,7 +40,7 @@ TEST(MapFile, both_kinds_are_read_back_cell_by_cell_and_in_their_place) {
   }
 }
 
-TEST(MapFile, what_is_no_map_is_refused_in_a_sentence) {
+TEST(MapFile, rejects_files_that_are_no_map) {
   const TemporaryFolder folder;
   const auto sentence = [&](const std::string& name, const std::string& bytes) {
     write_file(folder.path() / name, bytes);
@@ -59,7 +59,7 @@ TEST(MapFile, what_is_no_map_is_refused_in_a_sentence) {
   EXPECT_THAT(sentence("turned.yaml", turned), HasSubstr("the origin is rotated"));
 }
 
-TEST(MapFile, cells_of_no_size_are_refused) {
+TEST(MapFile, rejects_cells_without_size) {
   const TemporaryFolder folder;
   write_map_server_pair(folder.path() / "map.yaml", small_map());
   const std::string yaml = read_file(folder.path() / "map.yaml");
@@ -74,14 +74,14 @@ TEST(MapFile, cells_of_no_size_are_refused) {
     EXPECT_THAT(sentence("resolution: ", value), HasSubstr("expected 0.001 to 1 m")) << value;
 }
 
-TEST(MapFile, counts_of_a_gridmap_are_not_believed) {
+TEST(MapFile, checks_the_cell_counts_of_a_gridmap) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "map.gridmap.gz";
   write_grid_map(path, small_map());
   std::string whole;
   CompressedFile file(path);
   for (char byte = 0; file.read(&byte, 1) == 1;) whole += byte;
-  const std::size_t counts = whole.find("Map2D") + 7;  // behind version and bits of a cell
+  const std::size_t counts = whole.find("Map2D") + 7;  // after version and bits of a cell
   const auto sentence_with = [&](std::size_t at, char byte) {
     std::string bytes = whole;
     bytes.at(counts + at) = byte;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives through simulated buildings, with the truth of each scan, and maps drawn at the true poses: their
-// frame is the plan's.
+// Runs through simulated buildings with the true pose of each scan, and maps drawn at the true poses, in the
+// frame of the floor plan.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -8,10 +8,10 @@
 #include <cmath>
 #include <vector>
 
-#include "psi_slam/localizer.h"
-#include "localization/reference_map.h"
 #include "localization/localizer_options.h"
+#include "localization/reference_map.h"
 #include "psi_slam/grid_map.h"
+#include "psi_slam/localizer.h"
 #include "simulation/simulated_log.h"
 
 namespace psi_slam {
@@ -21,7 +21,7 @@ struct TrueRun {
   std::vector<mrpt::math::TPose2D> world_T_robot;  ///< by frame
 };
 
-/// Through the building of seed `plan`, on the way and with the noise of seed `run`.
+/// `plan` is the seed of the building, `run` the seed of path and noise.
 inline TrueRun run_through(std::uint64_t plan, std::uint64_t run, double path_m) {
   constexpr double kCorridors_m = 90;
   SimulatedLogOptions options = simulated_log_options(path_m, run);

@@ -11,7 +11,7 @@
 #include "batch/child_workers.h"
 #include "batch/seed_range.h"
 #include "psi_slam_app.h"
-#include "work_progress.h"
+#include "progress_line.h"
 
 namespace psi_slam {
 

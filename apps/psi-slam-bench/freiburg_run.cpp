@@ -9,6 +9,7 @@
 #include "evaluation/loop_judgement.h"
 #include "exports/mapped_trajectory.h"
 #include "psi_slam/mapping_session.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 

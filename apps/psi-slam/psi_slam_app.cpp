@@ -4,18 +4,14 @@
 #include <ostream>
 
 #include "base/exit_code.h"
-#include "command_line.h"
+#include "commands.h"
 #include "config/option_listing.h"
-#include "localize_command.h"
-#include "log_check.h"
-#include "map_command.h"
-#include "merge_command.h"
 #include "run_program.h"
 
 namespace psi_slam {
 namespace {
 
-int check_log(const CommandLine& line, const Streams& streams) {
+int run_check(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
   load_settings(line, bound, streams);
   const std::string broken_off = check_log(line.log, log_options(bound.settings), line.json, streams.out);
@@ -42,7 +38,7 @@ int run(const CommandLine& line, const Streams& streams) {
     case CommandLine::Command::kMap:
       return map_log(line, streams);
     case CommandLine::Command::kCheck:
-      return check_log(line, streams);
+      return run_check(line, streams);
     case CommandLine::Command::kLocalize:
       return localize(line, streams);
     case CommandLine::Command::kMerge:

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "base/file_checksum.h"
-#include "psi_slam/user_error.h"
 #include "batch/log_name.h"
+#include "psi_slam/user_error.h"
 #include "session/settings.h"
 
 namespace psi_slam {
@@ -205,6 +205,9 @@ SweepPlan plan_sweep(const SweepRequest& request, const std::string& program_sha
     for (const std::vector<std::string>& values : settings) {
       BoundSettings bound;
       set_up(bound, plan.logs[log], choices, values, request.threads);
+      for (std::string& warning : bound.table.take_warnings())
+        if (std::find(plan.warnings.begin(), plan.warnings.end(), warning) == plan.warnings.end())
+          plan.warnings.push_back(std::move(warning));
       for (const std::uint64_t seed : request.seeds.all()) {
         bound.table.set("run.seed", std::to_string(seed), "--seeds");
         SweepRun run{log, values, seed, settings_file_text(bound.table), {}, {}};

@@ -25,7 +25,7 @@ struct SweepRequest {
 };
 
 struct SweepLog {
-  std::string name;  ///< "intel"; the whole path where two files have one name
+  std::string name;                                ///< "intel"; the whole path where two files have one name
   std::filesystem::path log;                       ///< a file, or a folder of one recording
   std::filesystem::path ini;                       ///< its own settings; empty: none
   std::optional<std::filesystem::path> relations;  ///< that are known to be true
@@ -45,8 +45,9 @@ struct SweepRun {
 
 struct SweepPlan {
   std::vector<SweepLog> logs;
-  std::vector<std::string> columns;  ///< what varies besides log and seed: "config", "map.resolution_m"
-  std::vector<SweepRun> runs;        ///< by log, then by setting, then by seed
+  std::vector<std::string> columns;   ///< what varies besides log and seed: "config", "map.resolution_m"
+  std::vector<SweepRun> runs;         ///< by log, then by setting, then by seed
+  std::vector<std::string> warnings;  ///< about renamed settings, each once
 };
 
 /// Lays one over the other: the defaults, the log's own settings, the settings file, the choices, the seed.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "replay/replay.h"
+#include "report/output_folder.h"
 
 #include <algorithm>
 #include <new>

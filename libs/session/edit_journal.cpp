@@ -10,7 +10,6 @@
 #include "base/atomic_file.h"
 #include "compression/line_reader.h"
 #include "psi_slam/user_error.h"
-#include "session/edit_line.h"
 
 namespace psi_slam {
 namespace {

@@ -60,8 +60,8 @@ SessionInput SessionInput::with_edits(EditJournal edits) const {
 std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const {
   if (!recording_) return open_log(log_, options);
   if (log_.empty()) return std::make_unique<RecordedSource>(recording_);
-  if (same_log_) return std::make_unique<RecordedSource>(recording_, open_log(log_, options), log_);
-  return std::make_unique<AppendedSource>(recording_, open_log(log_, options), log_);
+  const auto kind = same_log_ ? RecordedSource::Log::kLast : RecordedSource::Log::kNext;
+  return std::make_unique<RecordedSource>(recording_, kind, open_log(log_, options), log_);
 }
 
 void check(const Settings& settings) {

@@ -9,7 +9,7 @@
 namespace psi_slam {
 namespace {
 
-/// A value with its option's name.
+/// Value and name of an option.
 struct Named {
   const char* name;
   double value;

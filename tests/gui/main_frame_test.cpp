@@ -17,6 +17,8 @@
 #include "message_bar.h"
 #include "exports/verdict_text.h"
 #include "psi_slam/mapping_session.h"
+#include "session/settings.h"
+#include "report/output_folder.h"
 #include "view/palette.h"
 #include "same_results.h"
 #include "settings_panel.h"

@@ -123,7 +123,7 @@ TEST(GraphSlamApp, an_interrupted_run_writes_what_it_has) {
                                 words.string() + " & while [ ! -d " + results.string() +
                                 " ] && kill -0 $!; do sleep 0.01; done; kill -" + signal + " $!; wait $!'";
     EXPECT_EQ(std::system(command.c_str()), 0) << signal;
-    EXPECT_THAT(read_file(words), HasSubstr("psi-graphslam: interrupted, the map will show the ")) << signal;
+    EXPECT_THAT(read_file(words), HasSubstr("psi-graphslam: interrupted: the map will show the ")) << signal;
     EXPECT_THAT(read_file(results / "summary.json"), HasSubstr("\"interrupted\": true"));
     EXPECT_LT(read_trajectory(results / "trajectory.tum").size(), simulated_drive().frames.size());
   }

@@ -10,6 +10,8 @@
 
 #include "../session/room_log.h"
 #include "psi_slam/mapping_session.h"
+#include "session/settings.h"
+#include "report/output_folder.h"
 #include "session/session_file.h"
 #include "same_results.h"
 #include "temporary_folder.h"

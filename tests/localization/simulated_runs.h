@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives through simulated buildings, with the truth of each scan, and maps drawn at the true poses: their
-// frame is the plan's.
+// Runs through simulated buildings with the true pose of each scan, and maps drawn at the true poses, in the
+// frame of the floor plan.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -8,26 +8,28 @@
 #include <cmath>
 #include <vector>
 
-#include "psi_slam/localizer.h"
+#include "localization/localizer_options.h"
+#include "localization/reference_map.h"
 #include "psi_slam/grid_map.h"
+#include "psi_slam/localizer.h"
 #include "simulation/simulated_log.h"
 
 namespace psi_slam {
 
-struct TrueDrive {
+struct TrueRun {
   std::vector<Frame> frames;
   std::vector<mrpt::math::TPose2D> world_T_robot;  ///< by frame
 };
 
-/// Through the building of seed `plan`, on the way and with the noise of seed `drive`.
-inline TrueDrive drive_through(std::uint64_t plan, std::uint64_t drive, double path_m) {
+/// `plan` is the seed of the building, `run` the seed of path and noise.
+inline TrueRun run_through(std::uint64_t plan, std::uint64_t run, double path_m) {
   constexpr double kCorridors_m = 90;
-  SimulatedLogOptions options = simulated_log_options(path_m, drive);
+  SimulatedLogOptions options = simulated_log_options(path_m, run);
   options.plan.seed = plan;
   options.plan.corridors_m = kCorridors_m;
   options.path.scan_rate_hz = 4;
   SimulatedLog log(options);
-  TrueDrive result;
+  TrueRun result;
   while (std::optional<Frame> frame = log.next()) {
     result.frames.push_back(*std::move(frame));
     result.world_T_robot.push_back(log.world_T_robot());
@@ -35,8 +37,8 @@ inline TrueDrive drive_through(std::uint64_t plan, std::uint64_t drive, double p
   return result;
 }
 
-inline mrpt::maps::COccupancyGridMap2D map_of(const TrueDrive& drive) {
-  return *draw_grid_map(drive.frames, drive.world_T_robot);
+inline mrpt::maps::COccupancyGridMap2D map_of(const TrueRun& run) {
+  return *draw_grid_map(run.frames, run.world_T_robot);
 }
 
 inline double distance_m(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b) {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two drives through a simulated building become one map, where they truly were.
+// Merges two runs through a simulated building into one map and compares it with the truth.
 #include <gmock/gmock.h>
 
-#include "../localization/simulated_drives.h"
+#include "../localization/simulated_runs.h"
 #include "psi_slam/mapping_session.h"
+#include "report/output_folder.h"
+#include "same_results.h"
 #include "session/place_run.h"
 #include "session/session_file.h"
-#include "same_results.h"
+#include "session/session_input.h"
+#include "session/settings.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {
@@ -42,8 +45,8 @@ class MergedRuns : public testing::Test {
     return folder_.path() / name;
   }
 
-  /// Of all frames from the truth, both drives in the frame of the first scan.
-  static double worst_m(const MappingResult& result, const TrueDrive& first, const TrueDrive& second) {
+  /// Largest distance of a frame from the truth, with both runs in the frame of the first scan.
+  static double worst_m(const MappingResult& result, const TrueRun& first, const TrueRun& second) {
     double worst = 0;
     for (std::size_t i = 0; i < result.frames.size(); ++i) {
       const bool in_first = i < first.frames.size();
@@ -60,9 +63,9 @@ class MergedRuns : public testing::Test {
   const std::atomic<bool> go_on_{false};
 };
 
-TEST_F(MergedRuns, lie_where_they_were_and_no_odometry_joins_them) {
-  const TrueDrive first = drive_through(5, 1, 150);
-  const TrueDrive second = drive_through(5, 2, 80);
+TEST_F(MergedRuns, are_placed_correctly_without_odometry_between_them) {
+  const TrueRun first = run_through(5, 1, 150);
+  const TrueRun second = run_through(5, 2, 80);
   const auto session = merged(input_of("first", first.frames), input_of("second", second.frames));
   const MappingResult& result = session->result();
   ASSERT_EQ(result.frames.size(), first.frames.size() + second.frames.size());
@@ -81,26 +84,25 @@ TEST_F(MergedRuns, lie_where_they_were_and_no_odometry_joins_them) {
     const Constraint& constraint = graph.constraint(i);
     if ((constraint.from < first_node) == (constraint.to < first_node)) continue;
     starts += constraint.kind == Constraint::Kind::kRunStart ? 1 : 0;
-    EXPECT_TRUE(constraint.kind == Constraint::Kind::kRunStart ||
-                constraint.kind == Constraint::Kind::kLoop);
+    EXPECT_TRUE(constraint.kind == Constraint::Kind::kRunStart || constraint.kind == Constraint::Kind::kLoop);
   }
   EXPECT_EQ(starts, 1U);
   const TPose2D begin = result.frames[first.frames.size()].odom_T_robot;
   EXPECT_LT(distance_m(begin, second.world_T_robot[0] - first.world_T_robot[0]), 1)
-      << "its odometry is told on from where it began";
+      << "its odometry starts where the run began";
 }
 
-TEST_F(MergedRuns, saved_with_edits_and_mapped_again_they_are_the_same_bytes) {
-  const TrueDrive first = drive_through(5, 1, 90);
-  const TrueDrive second = drive_through(5, 2, 60);
-  const auto with_edits = [&](const std::string& name, const TrueDrive& drive) {
-    const SessionInput input = input_of(name, drive.frames);
+TEST_F(MergedRuns, mapping_a_saved_session_again_gives_the_same_bytes) {
+  const TrueRun first = run_through(5, 1, 90);
+  const TrueRun second = run_through(5, 2, 60);
+  const auto with_edits = [&](const std::string& name, const TrueRun& run) {
+    const SessionInput input = input_of(name, run.frames);
     MappingSession session(input, settings_);
     session.run(go_on_);
     EditJournal edits;
     for (const LoopRecord& loop : session.result().loops)
       if (loop.verdict == LoopVerdict::kAccepted && loop.frame % 2 == 0) {
-        const EditTime times[] = {{}, {EditTime::Kind::kAfterScan, drive.frames.size() - 1}};
+        const EditTime times[] = {{}, {EditTime::Kind::kAfterScan, run.frames.size() - 1}};
         edits.add({{LoopEdit::Kind::kDelete, loop.frame, loop.local_map}, times[edits.edits().size() % 2]});
       }
     EXPECT_FALSE(edits.empty()) << name;
@@ -116,9 +118,9 @@ TEST_F(MergedRuns, saved_with_edits_and_mapped_again_they_are_the_same_bytes) {
   EXPECT_EQ(again.result().later_run_frames, session->result().later_run_frames);
 }
 
-TEST_F(MergedRuns, interrupted_within_a_recording_of_several_the_rest_is_not_saved) {
-  const TrueDrive first = drive_through(5, 1, 20);
-  TrueDrive others = drive_through(5, 2, 20);
+TEST_F(MergedRuns, an_interrupted_recording_is_saved_up_to_there) {
+  const TrueRun first = run_through(5, 1, 20);
+  TrueRun others = run_through(5, 2, 20);
   ASSERT_GT(others.frames.size(), 60U);
   others.frames.resize(60);
   const std::size_t of_first = first.frames.size();
@@ -147,36 +149,36 @@ TEST_F(MergedRuns, interrupted_within_a_recording_of_several_the_rest_is_not_sav
   }
 }
 
-TEST_F(MergedRuns, a_short_drive_is_placed_though_it_breaks_off_or_another_is_recorded_behind_it) {
-  const TrueDrive first = drive_through(5, 1, 60);
-  const TrueDrive second = drive_through(5, 2, 12);
-  const TrueDrive elsewhere = drive_through(6, 2, 12);
+TEST_F(MergedRuns, places_a_short_run_despite_damage_or_further_runs) {
+  const TrueRun first = run_through(5, 1, 60);
+  const TrueRun second = run_through(5, 2, 12);
+  const TrueRun elsewhere = run_through(6, 2, 12);
   MappingSession session(input_of("first", first.frames), settings_);
   session.run(go_on_);
   const MappingResult& mapped = session.result();
   const auto grid = draw_grid_map(mapped.log, mapped_poses(mapped), settings_.map);
   const TPose2D near = second.world_T_robot[0] - first.world_T_robot[0];
-  const auto start_of = [&](const SessionRecording& drive) {
-    const SessionInput input(std::make_shared<const SessionRecording>(drive));
+  const auto start_of = [&](const SessionRecording& run) {
+    const SessionInput input(std::make_shared<const SessionRecording>(run));
     return place_run(mapped, *grid, input, settings_, near, go_on_);
   };
-  SessionRecording drive;
-  drive.frames.assign(second.frames.begin(), second.frames.begin() + 6);
-  drive.facts.logs = {{"second", "second", 6}};
-  const RunStart alone = start_of(drive);
-  SessionRecording broken = drive;
+  SessionRecording run;
+  run.frames.assign(second.frames.begin(), second.frames.begin() + 6);
+  run.facts.logs = {{"second", "second", 6}};
+  const RunStart alone = start_of(run);
+  SessionRecording broken = run;
   broken.facts.logs[0].broken_off = "second.log:7 is cut off";
   EXPECT_EQ(start_of(broken).node_T_robot, alone.node_T_robot);
-  SessionRecording with_another = drive;
+  SessionRecording with_another = run;
   with_another.facts.runs = {{6, {}}};
   with_another.frames.insert(with_another.frames.end(), elsewhere.frames.begin(), elsewhere.frames.end());
   with_another.facts.logs[0].scans = with_another.frames.size();
   EXPECT_EQ(start_of(with_another).node_T_robot, alone.node_T_robot);
 }
 
-TEST_F(MergedRuns, the_search_for_a_start_tells_how_far_it_is_and_can_be_interrupted) {
-  const TrueDrive first = drive_through(5, 1, 60);
-  const SessionInput elsewhere = input_of("elsewhere", drive_through(6, 2, 12).frames);
+TEST_F(MergedRuns, the_search_for_the_start_reports_progress_and_can_stop) {
+  const TrueRun first = run_through(5, 1, 60);
+  const SessionInput elsewhere = input_of("elsewhere", run_through(6, 2, 12).frames);
   MappingSession session(input_of("first", first.frames), settings_);
   session.run(go_on_);
   const MappingResult& mapped = session.result();
@@ -193,18 +195,18 @@ TEST_F(MergedRuns, the_search_for_a_start_tells_how_far_it_is_and_can_be_interru
     place();
     ADD_FAILURE() << "it was not interrupted";
   } catch (const SystemFailure& failure) {
-    EXPECT_THAT(failure.what(), HasSubstr("interrupted while a drive was looked for in the map"));
+    EXPECT_THAT(failure.what(), HasSubstr("interrupted before a run was placed in the map"));
   }
   ASSERT_GT(shares.size(), 5U);
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_LT(shares.front(), 0.2);
   EXPECT_GT(shares.back(), 0.5);
-  EXPECT_LT(shares.back(), 0.7) << "it ended at once";
+  EXPECT_LT(shares.back(), 0.7) << "the search ended at once";
 }
 
-TEST_F(MergedRuns, of_two_buildings_are_refused) {
-  const SessionInput first = input_of("first", drive_through(5, 1, 60).frames);
-  const SessionInput elsewhere = input_of("elsewhere", drive_through(6, 2, 12).frames);
+TEST_F(MergedRuns, rejects_runs_of_different_buildings) {
+  const SessionInput first = input_of("first", run_through(5, 1, 60).frames);
+  const SessionInput elsewhere = input_of("elsewhere", run_through(6, 2, 12).frames);
   EXPECT_THAT(sentence_of([&] { merged(first, elsewhere); }),
               HasSubstr("elsewhere cannot be placed in the map"));
   EXPECT_THAT(sentence_of([&] { merged(first, elsewhere, TPose2D(3, 0, 1)); }),

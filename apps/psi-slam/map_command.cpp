@@ -10,7 +10,7 @@
 #include "doctor/diagnosis_report.h"
 #include "doctor/input_doctor.h"
 #include "exports/summary_json.h"
-#include "frames/skipped_lines.h"
+#include "psi_slam/frame_source.h"
 #include "psi_slam/user_error.h"
 #include "session/recorded_settings.h"
 #include "session/session_file.h"

@@ -39,7 +39,8 @@ endfunction()
 
 set(examples ${WORK}/installed/share/doc/libpsi-slam-dev/examples)
 build_project(examples ${examples})
-build_project(headers ${CMAKE_CURRENT_LIST_DIR} -D HEADERS=${WORK}/installed/include)
+build_project(headers ${CMAKE_CURRENT_LIST_DIR} -D HEADERS=${WORK}/installed/include
+  -D README=${WORK}/installed/share/doc/psi-slam/README.md)
 # The mapper alone needs none of these packages.
 set(no_more)
 foreach(package SQLite3 GDAL OpenCV OpenSSL mrpt-graphslam mrpt-slam)

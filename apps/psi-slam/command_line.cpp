@@ -7,6 +7,7 @@
 #include <locale>
 #include <ostream>
 #include <sstream>
+#include <utility>
 
 #include "base/degrees.h"
 #include "config/nearest_name.h"
@@ -17,6 +18,9 @@ namespace psi_slam {
 namespace {
 
 constexpr const char* kSeeHelp = " (see psi-slam --help)";
+constexpr const char* kLogHelp = "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag";
+constexpr const char* kFolderHelp = "Folder for the results, new or empty";
+constexpr const char* kStartType = "X,Y,YAW_DEG";
 constexpr const char* kExamples =
     "\nExamples:\n"
     "  psi-slam check my.log                    show what a log holds and what is wrong with it\n"
@@ -37,12 +41,68 @@ bool is_option(const std::string& argument) {
   return argument.size() > 1 && argument.front() == '-';
 }
 
+void add_text(CLI::App& app, const char* names, std::string& text, const char* help, const char* type) {
+  app.add_option(names, text, help)->type_name(type);
+}
+
 /// Options of all commands that read logs and write a folder.
 void add_run_options(CLI::App& command, CommandLine& line) {
   add_settings_options(command, line.config, line.settings);
   command.add_flag("--force", line.force, "Replace results in a folder that is not empty");
   command.add_flag("--json", line.json, "Print the summary as JSON");
   command.add_flag("-q,--quiet", line.quiet, "Print only warnings and errors");
+}
+
+CLI::App* add_check(CLI::App& app, CommandLine& line) {
+  CLI::App* const check = app.add_subcommand(
+      "check",
+      "Show what a log holds, what looks wrong and how to fix it (exit code 2 if the log is damaged)");
+  add_text(*check, "LOG", line.log, "Log to check", "");
+  add_settings_options(*check, line.config, line.settings);
+  check->add_flag("--json", line.json, "Print the findings as JSON");
+  return check;
+}
+
+CLI::App* add_localize(CLI::App& app, CommandLine& line) {
+  CLI::App* const localize = app.add_subcommand(
+      "localize",
+      "Find and track a robot in a finished map, without start pose (exit code 1 if it is not localized at "
+      "the end)");
+  add_text(*localize, "MAP", line.map, "Map written by psi-slam: map.yaml or map.gridmap.gz", "");
+  add_text(*localize, "LOG", line.log, "Log of a robot in that building", "");
+  add_text(*localize, "-o,--output", line.output,
+           "Folder for localization.csv and trajectory.tum, new or empty", "DIR");
+  add_text(*localize, "--start", line.start, "Rough start of the robot: metres and degrees in the map",
+           kStartType);
+  add_run_options(*localize, line);
+  return localize;
+}
+
+CLI::App* add_merge(CLI::App& app, CommandLine& line) {
+  CLI::App* const merge = app.add_subcommand(
+      "merge", "Make one map of several runs through a building (exit code 2 if a run cannot be placed)");
+  merge->add_option("INPUT", line.inputs, "Logs, or sessions saved by --save-session")->type_name("");
+  add_text(*merge, "-o,--output", line.output, kFolderHelp, "DIR");
+  add_text(*merge, "--start", line.start,
+           "Rough start of the second run: metres and degrees in the map of the first run", kStartType);
+  add_text(*merge, "--save-session", line.save_session, "Save the merged runs to this file, for --resume",
+           "FILE");
+  add_run_options(*merge, line);
+  return merge;
+}
+
+CLI::App* add_options(CLI::App& app, CommandLine& line) {
+  CLI::App* const options = app.add_subcommand("options", "Explain all options of the settings files");
+  options->add_flag("--markdown", line.markdown, "Print a Markdown page");
+  return options;
+}
+
+CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
+  CLI::App* const sweep =
+      app.add_subcommand("sweep", "Map many logs with many settings and compare the results");
+  add_sweep_options(*sweep, line.sweep);
+  add_processes_option(*sweep, line.sweep);
+  return sweep;
 }
 
 /// Throws the error message for an argument that is neither the log nor a known option.
@@ -134,97 +194,43 @@ std::string unknown_argument_text(const std::string& argument, const CLI::App& a
 }
 
 CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::App& app) {
+  using Command = CommandLine::Command;
   CommandLine line;
   std::string log_to_map;
   bool dump_config = false;
-  app.add_option("LOG", log_to_map,
-                 "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag")
-      ->type_name("");
-  app.add_option("-o,--output", line.output, "Folder for the results, new or empty")->type_name("DIR");
-  app.add_option("--edits", line.edits, "File with edits of loops, as psi-slam-gui saves it")
-      ->type_name("FILE");
-  app.add_option("--save-session", line.save_session,
-                 "Save the run to this file, even if it is interrupted, for --resume")
-      ->type_name("FILE");
-  app.add_option("--resume", line.resume,
-                 "Resume a saved run: with the rest of its LOG, with a LOG that continues it, or without LOG")
-      ->type_name("FILE");
+  add_text(app, "LOG", log_to_map, kLogHelp, "");
+  add_text(app, "-o,--output", line.output, kFolderHelp, "DIR");
+  add_run_options(app, line);
+  add_text(app, "--edits", line.edits, "File with edits of loops, as psi-slam-gui saves it", "FILE");
+  add_text(app, "--save-session", line.save_session,
+           "Save the run to this file, even if it is interrupted, for --resume", "FILE");
+  add_text(app, "--resume", line.resume,
+           "Resume a saved run: with the rest of its LOG, with a LOG that continues it, or without LOG",
+           "FILE");
   app.add_option("--seed", line.seed, "Short for --set run.seed=N")->type_name("N");
   app.add_option("--threads", line.threads, "Short for --set run.threads=N")->type_name("N");
-  add_run_options(app, line);
   app.add_flag("-v,--verbose", line.verbose, "Also print the changed settings and the times of all stages");
   app.add_flag("--dump-config", dump_config, "Print a settings file with all options and exit");
   app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version and exit");
-
-  CLI::App* const check = app.add_subcommand(
-      "check",
-      "Show what a log holds, what looks wrong and how to fix it (exit code 2 if the log is damaged)");
-  std::string log_to_check;
-  check->add_option("LOG", log_to_check, "Log to check")->type_name("");
-  add_settings_options(*check, line.config, line.settings);
-  check->add_flag("--json", line.json, "Print the findings as JSON");
-
-  CLI::App* const localize = app.add_subcommand("localize",
-                                                "Find and track a robot in a finished map, without start "
-                                                "pose (exit code 1 if it is not localized at the end)");
-  std::string log_to_localize;
-  localize->add_option("MAP", line.map, "Map written by psi-slam: map.yaml or map.gridmap.gz")->type_name("");
-  localize->add_option("LOG", log_to_localize, "Log of a robot in that building")->type_name("");
-  localize
-      ->add_option("-o,--output", line.output, "Folder for localization.csv and trajectory.tum, new or empty")
-      ->type_name("DIR");
-  localize->add_option("--start", line.start, "Rough start of the robot: metres and degrees in the map")
-      ->type_name("X,Y,YAW_DEG");
-  add_run_options(*localize, line);
-
-  CLI::App* const merge = app.add_subcommand(
-      "merge", "Make one map of several runs through a building (exit code 2 if a run cannot be placed)");
-  merge->add_option("INPUT", line.inputs, "Logs, or sessions saved by --save-session")->type_name("");
-  merge->add_option("-o,--output", line.output, "Folder for the results, new or empty")->type_name("DIR");
-  merge
-      ->add_option("--start", line.start,
-                   "Rough start of the second run: metres and degrees in the map of the first run")
-      ->type_name("X,Y,YAW_DEG");
-  merge->add_option("--save-session", line.save_session, "Save the merged runs to this file, for --resume")
-      ->type_name("FILE");
-  add_run_options(*merge, line);
-
-  CLI::App* const options = app.add_subcommand("options", "Explain all options of the settings files");
-  options->add_flag("--markdown", line.markdown, "Print a Markdown page");
-
-  CLI::App* const sweep =
-      app.add_subcommand("sweep", "Map many logs with many settings and compare the results");
-  add_sweep_options(*sweep, line.sweep);
-  add_processes_option(*sweep, line.sweep);
-
+  const std::vector<std::pair<CLI::App*, Command>> commands{{add_check(app, line), Command::kCheck},
+                                                            {add_localize(app, line), Command::kLocalize},
+                                                            {add_merge(app, line), Command::kMerge},
+                                                            {add_options(app, line), Command::kOptions},
+                                                            {add_sweep(app, line), Command::kSweep}};
   app.require_subcommand(0, 1);
   app.allow_extras();
-  for (CLI::App* command : {check, localize, merge, options, sweep}) command->allow_extras();
+  for (const auto& [command, kind] : commands) command->allow_extras();
   app.footer(kExamples);
   add_document_options(app, default_settings());
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
 
-  if (options->parsed()) {
-    line.command = CommandLine::Command::kOptions;
-  } else if (check->parsed()) {
-    line.command = CommandLine::Command::kCheck;
-    line.log = log_to_check;
-  } else if (sweep->parsed()) {
-    line.command = CommandLine::Command::kSweep;
-  } else if (localize->parsed()) {
-    line.command = CommandLine::Command::kLocalize;
-    line.log = log_to_localize;
-  } else if (merge->parsed()) {
-    line.command = CommandLine::Command::kMerge;
-  } else if (dump_config) {
-    line.command = CommandLine::Command::kDumpConfig;
-  } else {
-    line.log = log_to_map;
-  }
-  const std::vector<CLI::App*> parsed_commands = app.get_subcommands();
-  const CLI::App& command = parsed_commands.empty() ? app : *parsed_commands.front();
+  const CLI::App* parsed = &app;
+  if (dump_config) line.command = Command::kDumpConfig;
+  for (const auto& [command, kind] : commands)
+    if (command->parsed()) parsed = command, line.command = kind;
+  if (line.command == Command::kMap) line.log = log_to_map;
   const std::vector<std::string> unknown = app.remaining(true);
-  if (!unknown.empty()) fail_unknown(unknown.front(), line, command);
+  if (!unknown.empty()) fail_unknown(unknown.front(), line, *parsed);
   if (line.quiet && line.verbose) throw UserError("--quiet contradicts --verbose: give only one of them");
   check_together(line, log_to_map);
   return line;

@@ -8,7 +8,7 @@ namespace psi_slam {
 namespace {
 
 constexpr int kWallScore = 160;           // of 255: inside a wall, not beside it
-constexpr double kSurface_m = 0.25;       // half the thickness of the surface where a beam ends
+constexpr double kSurface_m = 0.25;       // walls this near to the end of a beam are the surface it hit
 constexpr double kLeastIncidence = 0.05;  // sine of the angle between beam and wall
 constexpr double kNoSurface = 0.5;        // incidence if the surface normal is unknown
 

@@ -61,7 +61,7 @@ class WorkClock {
 struct MappingSession::Members {
   enum class State {
     kReading,   ///< the log may have more scans
-    kRead,      ///< no more scans are taken: the log ended, is damaged or was left unread
+    kRead,      ///< all scans are taken: the log ended, is damaged, or finish() was called
     kFinished,  ///< the map is made
   };
 

@@ -18,9 +18,9 @@
 namespace psi_slam {
 
 /// `grid` is the map of `mapped`; `map_T_start` is roughly where the robot begins, if it is known. `progress`
-/// is called after each scan with the share of the run that was read, in [0, 1]. Reads no more scans than
-/// needed. Throws UserError if the run fits nowhere or in several places, and SystemFailure if `stop` became
-/// true.
+/// is called after each scan with the share of the run that was read, in [0, 1]. Reads only as many
+/// scans as needed. Throws UserError if the run fits nowhere or in several places, and SystemFailure if
+/// `stop` became true.
 RunStart place_run(const MappingResult& mapped, const mrpt::maps::COccupancyGridMap2D& grid,
                    const SessionInput& run, const Settings& settings,
                    const std::optional<mrpt::math::TPose2D>& map_T_start, const std::atomic<bool>& stop,

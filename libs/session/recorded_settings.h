@@ -14,9 +14,9 @@
 
 namespace psi_slam {
 
-/// Takes all settings of a recording, which was read from `file`. Returns a sentence, without its full stop,
-/// for each that this program no longer knows: they are left out. Throws UserError for a value that it does
-/// not accept.
+/// Takes all settings of a recording that was read from `file`. Ignores obsolete options and returns a warning
+/// for each, a sentence without full stop. Accepts old names of options without warning. Throws UserError for
+/// a value that is not accepted.
 std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
                                        const std::filesystem::path& file);
 

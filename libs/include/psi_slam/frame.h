@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log of any format is read as a stream of frames. A frame is one laser scan with the odometry pose at the
-// scan's time. If the robot has several lasers, the frame also holds the scans that the other lasers took at
-// nearly the same time.
-//
-// Poses are in SE(2): x forward, y left, yaw counter-clockwise in (-pi, pi]. `a_T_b` is the pose of b in a.
-// MRPT's TPose2D composes poses with `a_T_b + b_T_c`; `a_T_c - a_T_b` is b_T_c.
+/// @file
+/// A log of any format is read as a stream of frames. A frame is one laser scan with the odometry pose at the
+/// scan's time. If the robot has several lasers, the frame also holds the scans that the other lasers took at
+/// nearly the same time.
+///
+/// Poses are in SE(2): x forward, y left, yaw counter-clockwise in (-pi, pi]. `a_T_b` is the pose of b in a.
+/// MRPT's TPose2D composes poses with `a_T_b + b_T_c`; `a_T_c - a_T_b` is b_T_c.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -24,10 +25,10 @@ using BeamBearings = std::shared_ptr<const std::vector<float>>;
 /// One planar range scan. `ranges_m[i]`, metres, was measured along `(*bearings_rad)[i]`. A reading without a
 /// return is NaN: at or beyond the maximum range, zero, negative, not finite or flagged as invalid.
 struct LaserScan {
-  std::vector<float> ranges_m;
-  BeamBearings bearings_rad;
-  float max_range_m = 0;  ///< maximum range of the sensor, metres: readings from here on are no returns
-  mrpt::math::TPose2D robot_T_laser;
+  std::vector<float> ranges_m;  ///< one range for each beam, metres; NaN without return
+  BeamBearings bearings_rad;    ///< one bearing for each beam
+  float max_range_m = 0;        ///< maximum range of the sensor, metres: readings from here on are no returns
+  mrpt::math::TPose2D robot_T_laser;  ///< pose of the laser on the robot
   /// Time from the first beam to the last, seconds; the time stamp is the first beam's. 0: all beams at once,
   /// or unknown.
   float sweep_time_s = 0;
@@ -36,17 +37,17 @@ struct LaserScan {
 
 /// Scan of another laser of the robot, taken at nearly the time of a frame.
 struct CompanionScan {
-  LaserScan scan;
+  LaserScan scan;                     ///< the scan
   TimeUs time_us = 0;                 ///< time of this scan, microseconds
   mrpt::math::TPose2D frame_T_robot;  ///< robot pose at `time_us`, relative to its pose at the frame's time
 };
 
 /// One scan with the robot's odometry at the scan's time.
 struct Frame {
-  std::size_t index = 0;  ///< position in the log, from 0
-  TimeUs time_us = 0;     ///< time of the scan, microseconds
-  mrpt::math::TPose2D odom_T_robot;
-  LaserScan scan;
+  std::size_t index = 0;                    ///< position in the log, from 0
+  TimeUs time_us = 0;                       ///< time of the scan, microseconds
+  mrpt::math::TPose2D odom_T_robot;         ///< pose of the robot by odometry, at `time_us`
+  LaserScan scan;                           ///< scan of the first laser
   bool has_odometry = true;                 ///< false: the motion is unknown and odom_T_robot is meaningless
   std::vector<CompanionScan> companions{};  ///< scans of later lasers, ordered by LaserScan::laser
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Interface to logs of every format.
+/// @file
+/// Interface to logs of every format.
 #pragma once
 
 #include <cstddef>

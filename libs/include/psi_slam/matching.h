@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The terms in which records describe a search for a match: the matcher and the search window.
+/// @file
+/// The terms in which records describe a search for a match: the matcher and the search window.
 #pragma once
 
 #include <array>
 
 namespace psi_slam {
 
+/// Algorithm that searches for a match.
 enum class MatcherKind {
   kCsm,    ///< exhaustive: the best pose of the search window
   kCsmGa,  ///< coarse cells ranked exhaustively, the best of them searched by the genetic algorithm
   kGa,     ///< the whole search window searched by the genetic algorithm
 };
 
+/// All matchers.
 inline constexpr std::array<MatcherKind, 3> kMatcherKinds{MatcherKind::kCsm, MatcherKind::kCsmGa,
                                                           MatcherKind::kGa};
 
@@ -23,9 +26,9 @@ constexpr const char* name(MatcherKind kind) {
 
 /// Half-widths of the region searched around a predicted pose.
 struct SearchExtent {
-  double x_m = 0;
-  double y_m = 0;
-  double theta_rad = 0;
+  double x_m = 0;        ///< along x
+  double y_m = 0;        ///< along y
+  double theta_rad = 0;  ///< in heading
 };
 
 }  // namespace psi_slam

@@ -19,3 +19,7 @@
 #include "psi_slam/time_stamp.h"
 #include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
+
+/// Graph SLAM for 2D lidar and odometry. Poses are mrpt::math::TPose2D in metres and radians, with x forward,
+/// y left and yaw counter-clockwise; `a_T_b` is the pose of b in a.
+namespace psi_slam {}

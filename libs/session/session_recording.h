@@ -11,7 +11,7 @@
 
 #include "psi_slam/frame.h"
 #include "frames/skipped_lines.h"
-#include "mapping/run_start.h"
+#include "psi_slam/mapper.h"
 #include "session/edit_journal.h"
 
 namespace psi_slam {

@@ -9,7 +9,7 @@
 #include "config/option_table.h"
 #include "psi_slam/localizer.h"
 #include "psi_slam/log_options.h"
-#include "psi_slam/mapper.h"
+#include "mapping/mapper_options.h"
 #include "psi_slam/grid_map.h"
 #include "exports/map_files.h"
 

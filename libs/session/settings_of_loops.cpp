@@ -7,14 +7,14 @@ namespace psi_slam {
 namespace {
 
 void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
-  LoopClosureOptions& loops = mapper.loop_closure;
-  MatcherOptions& matcher = mapper.loop_matcher;
+  LoopClosureOptions& loops = mapper.back_end.loop_closure;
+  MatcherOptions& matcher = mapper.back_end.loop_matcher;
   LoopCandidateOptions& candidates = loops.candidates;
   auto choices = matcher_choices<std::optional<MatcherKind>>();
   choices.emplace_back("adaptive", std::nullopt);
   table.section("loop_closure", "Finding places seen before")
       .flag("enabled", mapper.close_loops, "without, the map is the front end's alone")
-      .choice("matcher", mapper.matcher, choices,
+      .choice("matcher", mapper.back_end.matcher, choices,
               "the window is searched exhaustively, in part, genetically or as the factor Psi says")
       .number("window_x_m", candidates.max_window.x_m, above(0).at_most(100), "m",
               "largest half-width of the search window around the prediction, along x")
@@ -173,10 +173,10 @@ void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
               "standard deviation of a node in a local map, on top of the front end's covariance")
       .angle_deg("local_map_sigma_theta_deg", mapper.local_map_sigma_rad, above(0).at_most(180),
                  "the same in heading")
-      .number("loop_sigma_m", mapper.loop_sigma_m, above(0), "m",
+      .number("loop_sigma_m", mapper.back_end.loop_sigma_m, above(0), "m",
               "standard deviation of a loop, on top of its match's own")
-      .angle_deg("loop_sigma_theta_deg", mapper.loop_sigma_rad, above(0).at_most(180), "the same in heading")
-      .number("max_loop_chi", mapper.max_loop_chi, above(0), "sigma",
+      .angle_deg("loop_sigma_theta_deg", mapper.back_end.loop_sigma_rad, above(0).at_most(180), "the same in heading")
+      .number("max_loop_chi", mapper.back_end.max_loop_chi, above(0), "sigma",
               "a loop that the finished graph contradicts by more is switched off");
   describe_kernel(table, "local_map", "of nodes to their local maps", solver.local_map_kernel);
   describe_kernel(table, "loop", "of loops", solver.loop_kernel);
@@ -234,13 +234,13 @@ void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refin
 
 void describe_loops(OptionTable& table, MapperOptions& mapper) {
   describe_loop_closure(table, mapper);
-  describe_psi(table, mapper.psi);
-  describe_genetic(table, mapper.genetic);
-  describe_verification(table, mapper.loop_closure.verification);
-  describe_consensus(table, mapper.loop_consensus);
+  describe_psi(table, mapper.back_end.psi);
+  describe_genetic(table, mapper.back_end.genetic);
+  describe_verification(table, mapper.back_end.loop_closure.verification);
+  describe_consensus(table, mapper.back_end.loop_consensus);
   describe_pose_graph(table, mapper);
-  describe_final_search(table, mapper.final_search);
-  describe_joint_refinement(table, mapper.joint_refinement);
+  describe_final_search(table, mapper.back_end.final_search);
+  describe_joint_refinement(table, mapper.back_end.joint_refinement);
 }
 
 }  // namespace psi_slam

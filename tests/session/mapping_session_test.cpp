@@ -110,7 +110,7 @@ TEST_F(MappingSessionTest, told_to_stop_in_the_last_pass_it_cuts_that_short) {
 
 TEST_F(MappingSessionTest, told_to_stop_when_all_is_done_it_was_not_interrupted) {
   for (const Phase phase : {Phase::kMapping, Phase::kFinalSearch}) {
-    settings_.mapper.final_search.passes = phase == Phase::kMapping ? 0 : 2;
+    settings_.mapper.back_end.final_search.passes = phase == Phase::kMapping ? 0 : 2;
     std::atomic<bool> stop{false};
     MappingSession session(log(room_log_lines(60)), settings_);
     session.set_observer([&](const SessionProgress& progress) {
@@ -228,7 +228,7 @@ TEST_F(MappingSessionTest, a_scan_without_return_among_others_does_no_harm) {
 TEST_F(MappingSessionTest, refuses_contradicting_settings_and_missing_logs_before_anything_else) {
   EXPECT_THAT(sentence_of([&] { MappingSession("/missing/room.log", settings_); }),
               HasSubstr("/missing/room.log does not exist"));
-  settings_.mapper.loop_closure.candidates.min_window_m = 50;
+  settings_.mapper.back_end.loop_closure.candidates.min_window_m = 50;
   EXPECT_THAT(sentence_of([&] { MappingSession("/missing/room.log", settings_); }),
               HasSubstr("loop_closure.min_window_m = 50 must not be more than"));
 }

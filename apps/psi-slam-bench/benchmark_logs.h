@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "loop_closure/keyframe_store.h"
+#include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 #include "session/settings.h"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "loop_cases.h"
+#include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 #include "matching/matcher.h"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "psi_slam/frame_source.h"
+#include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/pose_graph.h"
 #include "evaluation/relations_metric.h"

@@ -160,7 +160,7 @@ class BenchmarkRun {
       const std::string missing = missing_cases(counts, *series);
       if (!missing.empty()) add_remark(note, missing);
       const std::vector<Contestant> field = contestants(series->field, mapped.options);
-      run_cases(cases, field, accepted_response(series->cases, mapped.options.loop_closure.verification),
+      run_cases(cases, field, accepted_response(series->cases, mapped.options.back_end.loop_closure.verification),
                 *series, [&] {
                   matches += static_cast<double>(field.size());
                   observer_(log.name + ", " + series->title, done_ + matches, all_);

@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long each stage of the work takes: mean, spread and extremes over all its calls.
+// Measures the stages of the work: mean, standard deviation and extremes over all calls.
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <string>
+#include <utility>
+
+#include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
-
-/// Time spent in one stage of the work, over all its calls.
-struct StageTiming {
-  std::string name;  ///< as a person reads it: "match scan to local map"
-  std::size_t calls = 0;
-  double mean_ms = 0;
-  double std_ms = 0;
-  double min_ms = 0;
-  double max_ms = 0;
-  double total_s = 0;
-};
 
 class StageClock {
  public:
@@ -32,7 +23,7 @@ class StageClock {
     return ms;
   }
 
-  /// In the midst of time(): what is called here is no part of the stage, such as telling of it, or a pause.
+  /// Runs `call` inside time() without counting it, for example to report progress.
   template <class Call>
   auto leave_out(const Call& call) {
     decltype(call()) result{};

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/connect_deciders.h"
-
+#include "psi_slam/graphslam_deciders.h"
 #include "psi_slam/user_error.h"
-#include "psi_slam/front_end_nrd.h"
-#include "psi_slam/loop_closer_erd.h"
-#include "psi_slam/sparse_pose_gso.h"
 
 namespace psi_slam {
 

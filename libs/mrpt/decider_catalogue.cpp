@@ -15,9 +15,6 @@
 
 #include "psi_slam/user_error.h"
 #include "config/nearest_name.h"
-#include "psi_slam/front_end_nrd.h"
-#include "psi_slam/loop_closer_erd.h"
-#include "psi_slam/sparse_pose_gso.h"
 
 namespace psi_slam {
 namespace {

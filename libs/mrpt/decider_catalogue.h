@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/connect_deciders.h"
+#include "psi_slam/graphslam_deciders.h"
 
 namespace psi_slam {
 

@@ -16,7 +16,7 @@
 #include "base/atomic_file.h"
 #include "base/atomic_folder.h"
 #include "psi_slam/user_error.h"
-#include "psi_slam/front_end_nrd.h"
+#include "exports/mapped_trajectory.h"
 #include "mrpt/graphslam_settings.h"
 #include "mrpt/log_entries.h"
 #include "frames/laser_choice.h"
@@ -164,7 +164,7 @@ class GraphSlamRun::Implementation {
   bool interrupted() const { return interrupted_; }
 
   Trajectory trajectory() const {
-    if (front_end_ != nullptr) return front_end_->trajectory();
+    if (front_end_ != nullptr) return trajectory_of(front_end_->frames());
     const auto& nodes = engine_->getGraph().nodes;
     Trajectory path;
     for (const PathPose& pose : path_) {

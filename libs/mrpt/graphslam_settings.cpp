@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mrpt/graphslam_settings.h"
 
+#include <mrpt/config/CConfigFile.h>
+
 #include <array>
 #include <vector>
 
@@ -12,7 +14,7 @@ namespace {
 
 struct Owner {
   const char* section;
-  std::vector<std::string> options;  ///< sections of psi-slam's, or single options
+  std::vector<std::string> options;  ///< sections of psi-slam, or single options
 };
 
 const std::array<Owner, 3>& owners() {
@@ -27,8 +29,7 @@ const std::array<Owner, 3>& owners() {
   return kOwners;
 }
 
-/// Options without effect there: the app reads every scan, and it is the choice of an edge decider whether
-/// loops are closed.
+/// Options without effect in the engine: it reads every scan, and the edge decider decides on loop closing.
 bool has_no_effect(const std::string& option) {
   return option == "log.every_nth_scan" || option == "loop_closure.enabled" || option.rfind("map.", 0) == 0;
 }
@@ -83,6 +84,15 @@ std::string graphslam_options_text(const OptionTable& table, const std::string& 
               ini_value_text(option.text()) + '\n';
     }
   return text;
+}
+
+DeciderParams read_decider_params(const std::filesystem::path& ini, const std::string& section) {
+  BoundSettings bound;
+  load_graphslam_settings(ini, bound);
+  const mrpt::config::CConfigFile file(ini.string());
+  const int verbosity = file.read_int(section, "class_verbosity", mrpt::system::LVL_INFO, false);
+  return {bound.settings, graphslam_options_text(bound.table, section),
+          static_cast<mrpt::system::VerbosityLevel>(verbosity)};
 }
 
 }  // namespace psi_slam

@@ -14,7 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "psi_slam/mapper.h"
 #include "psi_slam/user_error.h"
+#include "mapping/mapper_options.h"
 #include "mrpt/entry_frames.h"
 #include "pose_graph/marginal_covariance.h"
 #include "rendering/map_image.h"
@@ -60,7 +62,8 @@ void expect_map_updating(bool enabled) {
 
 class CMetricMapBuilderPsi::Implementation {
  public:
-  explicit Implementation(const Options& options) : options_(options) {
+  explicit Implementation(const Options& options)
+      : options_(options), mapper_options_(options.mapper ? *options.mapper : MapperOptions()) {
     check_log_options(options.log);
     start(CPosePDFGaussian());
   }
@@ -144,7 +147,7 @@ class CMetricMapBuilderPsi::Implementation {
  private:
   void start(const CPosePDFGaussian& map_T_start) {
     start_ = map_T_start;
-    mapper_ = std::make_unique<Mapper>(options_.mapper);
+    mapper_ = std::make_unique<Mapper>(mapper_options_);
     entries_.emplace(options_.log, "CMetricMapBuilderPsi: ");
     waiting_observations_.clear();
     log_.clear();
@@ -209,8 +212,8 @@ class CMetricMapBuilderPsi::Implementation {
     if (frames().empty()) return start_;
     CPosePDFGaussian robot(CPose2D(frames().back().map_T_robot));
     Eigen::Matrix3d covariance = newest_marginal();
-    const double sigma_m = options_.mapper.local_map_sigma_m;
-    const double sigma_rad = options_.mapper.local_map_sigma_rad;
+    const double sigma_m = mapper_options_.local_map_sigma_m;
+    const double sigma_rad = mapper_options_.local_map_sigma_rad;
     covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) robot.cov(i, j) = covariance(i, j);
@@ -246,6 +249,7 @@ class CMetricMapBuilderPsi::Implementation {
   }
 
   const Options options_;
+  const MapperOptions mapper_options_;
   mutable std::mutex mutex_;  // of all that follows
 
   CPosePDFGaussian start_;

@@ -31,6 +31,10 @@ std::string failure_of(const Write& write, const std::string& what) {
   return {};
 }
 
+PsiThresholds thresholds(const Settings& settings) {
+  return {settings.mapper.back_end.psi.psi_1, settings.mapper.back_end.psi.psi_2};
+}
+
 }  // namespace
 
 Replay::Replay(const std::filesystem::path& log, const Settings& settings, EditJournal edits)
@@ -41,7 +45,7 @@ Replay::Replay(SessionInput input, const Settings& settings)
       settings_(settings),
       outline_(input_, log_options(settings)),
       painter_(settings.map),
-      maker_(std::make_unique<SnapshotMaker>(settings.mapper.psi, input_.edits().edits())),
+      maker_(std::make_unique<SnapshotMaker>(thresholds(settings), input_.edits().edits())),
       snapshot_(maker_->snapshot(phase_)),
       thread_([this] { run(); }) {}
 

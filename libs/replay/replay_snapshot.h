@@ -99,7 +99,7 @@ struct ReplaySnapshot {
   std::string undo_text;              ///< what Replay::undo() would take back; empty: nothing
   std::string redo_text;
 
-  PsiOptions psi;
+  PsiThresholds psi;
   std::vector<StageTiming> stages;  ///< once finished
   bool interrupted = false;         ///< once finished: not all of the log was mapped, or its last pass cut
   std::optional<ExportOutcome> exported;  ///< the last export that has ended

@@ -20,7 +20,7 @@ bool same_poses(const std::vector<mrpt::math::TPose2D>& a, const std::vector<mrp
 
 }  // namespace
 
-SnapshotMaker::SnapshotMaker(const PsiOptions& psi, const std::vector<TimedEdit>& edits) {
+SnapshotMaker::SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits) {
   now_.psi = psi;
   now_.edits = std::make_shared<std::vector<TimedEdit>>(edits);
 }

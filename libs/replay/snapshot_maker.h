@@ -17,7 +17,7 @@ namespace psi_slam {
 class SnapshotMaker {
  public:
   /// `edits` are those that the run begins with.
-  SnapshotMaker(const PsiOptions& psi, const std::vector<TimedEdit>& edits);
+  SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits);
 
   /// A scan was mapped, with this much of the log read.
   void note_scan(double share) { shares_.push_back(share); }

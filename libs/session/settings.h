@@ -14,7 +14,7 @@
 #include "localization/localizer_options.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/log_options.h"
-#include "psi_slam/mapper.h"
+#include "mapping/mapper_options.h"
 
 namespace psi_slam {
 

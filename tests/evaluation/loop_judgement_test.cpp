@@ -177,7 +177,7 @@ TEST(LoopJudgement, finds_a_moved_loop_of_a_real_log) {
   options.beam_angles = BeamAngles::kCentredStepInclusive;
   options.max_range_m = 50;
   const auto source = open_log(*log, options);
-  Mapper mapper{MapperOptions()};
+  Mapper mapper;
   while (auto frame = source->next()) mapper.add(std::move(*frame));
   MappingResult result = mapper.finish();
   const LoopJudgement before = judge_loops(result, relations);

@@ -7,6 +7,7 @@
 
 #include "../local_maps/simulated_drive.h"
 #include "psi_slam/loop_record.h"
+#include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 
 namespace psi_slam {
@@ -89,7 +90,7 @@ class MapperEditsTest : public testing::Test {
     return false;
   }
 
-  Mapper mapper_{MapperOptions{}};
+  Mapper mapper_;
 };
 
 TEST_F(MapperEditsTest, a_deleted_loop_is_no_constraint_and_the_last_pass_does_not_bring_it_back) {
@@ -127,7 +128,7 @@ TEST_F(MapperEditsTest, the_graph_is_optimised_at_once) {
 TEST_F(MapperEditsTest, what_was_deleted_before_it_was_found_is_never_a_constraint) {
   map_all();
   const LoopRecord loop = first(LoopVerdict::kAccepted);
-  Mapper early{MapperOptions{}};
+  Mapper early;
   EXPECT_EQ(early.edit(edit_of(Kind::kDelete, loop)).state, State::kWaits);
   for (const Frame& frame : round_drive().frames) early.add(frame);
   const MappingResult result = early.finish();
@@ -239,7 +240,7 @@ TEST_F(MapperEditsTest, opened_again_and_finished_it_is_what_it_was) {
 
 TEST_F(MapperEditsTest, edited_after_the_end_it_is_what_it_would_have_been_without_the_finish_before) {
   map_all();
-  Mapper straight{MapperOptions{}};
+  Mapper straight;
   for (const Frame& frame : round_drive().frames) straight.add(frame);
   MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
   const auto in_final_search = std::find_if(

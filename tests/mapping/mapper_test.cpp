@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/mapper.h"
 
+#include "mapping/mapper_options.h"
+
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
 
@@ -141,7 +143,7 @@ TEST(Mapper, every_scan_has_a_pose_and_the_graph_fits_them) {
 TEST(Mapper, says_where_the_robot_is_while_it_maps) {
   const SimulatedDrive& drive = office_drive();
   MapperOptions options;
-  options.final_search.passes = 0;
+  options.back_end.final_search.passes = 0;
   Mapper mapper(options);
   EXPECT_EQ(mapper.map_T_robot(), TPose2D(0, 0, 0));
   double largest_m = 0;
@@ -193,14 +195,14 @@ TEST(Mapper, any_number_of_threads_makes_the_same_map) {
   for (const int threads : {2, 4}) {
     SCOPED_TRACE(threads);
     MapperOptions options;
-    options.threads = threads;
+    options.back_end.threads = threads;
     expect_same_map(office_map(), map_of(office_drive().frames, options));
   }
 }
 
 TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
   MapperOptions options;
-  options.loop_closure.verification.wide_window_m = options.final_search.window_m;  // many wait for others
+  options.back_end.loop_closure.verification.wide_window_m = options.back_end.final_search.window_m;  // many wait for others
   const MappingResult result = map_of(office_drive().frames, options);
   std::size_t counted = 0;
   bool several_at_once = false;
@@ -297,19 +299,19 @@ TEST(Mapper, searches_loops_by_the_matcher_that_psi_chooses_in_the_last_pass_too
   EXPECT_GT(result.loop_matchers.size(), 1U);
 
   MapperOptions options;
-  options.psi.psi_1 = 0.5;
-  options.psi.psi_2 = 3;
+  options.back_end.psi.psi_1 = 0.5;
+  options.back_end.psi.psi_2 = 3;
   const MappingResult by_thresholds = map_of(office_drive().frames, options);
-  std::set<std::string> used;
+  std::set<MatcherKind> used;
   for (const FrameRecord& frame : by_thresholds.frames) {
-    const MatcherKind kind = matcher_kind(std::nullopt, options.psi, frame.psi);
+    const MatcherKind kind = matcher_kind(std::nullopt, options.back_end.psi, frame.psi);
     EXPECT_EQ(frame.matcher, frame.node ? std::optional(kind) : std::nullopt);
     if (frame.node) used.insert(*frame.matcher);
   }
   EXPECT_EQ(used, (std::set<MatcherKind>{kMatcherKinds.begin(), kMatcherKinds.end()}));
   expect_no_false_loop(by_thresholds, office_drive().map_T_robot);
 
-  options.matcher = MatcherKind::kCsmGa;
+  options.back_end.matcher = MatcherKind::kCsmGa;
   const MappingResult fixed = map_of(office_drive().frames, options);
   ASSERT_EQ(fixed.loop_matchers.size(), 1U);
   EXPECT_EQ(fixed.loop_matchers.begin()->first, MatcherKind::kCsmGa);
@@ -317,8 +319,8 @@ TEST(Mapper, searches_loops_by_the_matcher_that_psi_chooses_in_the_last_pass_too
 
 TEST(Mapper, contradicted_loops_are_switched_off_without_a_last_pass_too) {
   MapperOptions options;
-  options.final_search.passes = 0;
-  options.max_loop_chi = 1.0;
+  options.back_end.final_search.passes = 0;
+  options.back_end.max_loop_chi = 1.0;
   const MappingResult result = map_of(office_drive().frames, options);
   expect_consistent(result, office_drive().frames.size());
   std::size_t off = 0;
@@ -386,7 +388,7 @@ TEST(Mapper, finishing_reports_its_progress_up_to_the_end) {
 TEST(Mapper, refines_all_scans_at_the_end_and_keeps_the_frame_of_the_first) {
   const SimulatedDrive& drive = office_drive();
   MapperOptions unrefined;
-  unrefined.joint_refinement.rounds = 0;
+  unrefined.back_end.joint_refinement.rounds = 0;
   const MappingResult before = map_of(drive.frames, unrefined);
   const MappingResult& after = office_map();
   expect_consistent(before, drive.frames.size());
@@ -405,7 +407,7 @@ TEST(Mapper, refines_all_scans_at_the_end_and_keeps_the_frame_of_the_first) {
 
 TEST(Mapper, refinement_can_be_cut_short) {
   MapperOptions options;
-  options.final_search.passes = 0;
+  options.back_end.final_search.passes = 0;
   Mapper mapper(options);
   for (const Frame& frame : office_drive().frames) mapper.add(frame);
   const MappingResult result = mapper.finish([](double) { return false; });

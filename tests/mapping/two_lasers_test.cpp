@@ -51,7 +51,7 @@ struct Errors {
 
 /// Of the path over 20 scans each, which does not depend on where the map begins.
 Errors errors_of(const std::vector<Frame>& frames) {
-  Mapper mapper((MapperOptions()));
+  Mapper mapper;
   for (const Frame& frame : frames) mapper.add(frame);
   const MappingResult result = mapper.finish();
   Errors errors;
@@ -99,7 +99,7 @@ TEST(TwoLasers, map_on_while_one_is_silent) {
       frames[i].odom_T_robot = frames[i].odom_T_robot + rear.frame_T_robot;
     }
   }
-  Mapper mapper((MapperOptions()));
+  Mapper mapper;
   for (const Frame& frame : frames) mapper.add(frame);
   const MappingResult result = mapper.finish();
   double worst_m = 0;

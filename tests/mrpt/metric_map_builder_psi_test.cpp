@@ -60,7 +60,7 @@ void map_rawlog(const std::string& rawlog, CMetricMapBuilderPsi& builder, const 
 }
 
 MappingResult map_by_the_reader(const std::string& rawlog, std::size_t first_scan = 0) {
-  Mapper mapper{MapperOptions{}};
+  Mapper mapper;
   const auto source = open_log(rawlog);
   while (auto frame = source->next())
     if (frame->index >= first_scan) mapper.add(*std::move(frame));

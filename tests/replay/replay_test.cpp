@@ -245,7 +245,7 @@ TEST_F(ReplayTest, what_cannot_be_mapped_is_a_sentence) {
   Replay corrupt(log({"FLASER 181 1.0 2.0", "FLASER 181 1.0"}), settings_);
   corrupt.play();
   EXPECT_THAT(wait_for(corrupt, ReplayPhase::kFailed)->failure, HasSubstr("room.log:1:"));
-  settings_.mapper.loop_closure.candidates.min_window_m = 50;
+  settings_.mapper.back_end.loop_closure.candidates.min_window_m = 50;
   const Replay contradicting(log(room_log_lines(5)), settings_);
   EXPECT_THAT(wait_for(contradicting, ReplayPhase::kFailed)->failure, HasSubstr("loop_closure.min_window_m"));
 }

@@ -59,9 +59,9 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   const std::size_t choice = member_count<PsiOptions>() + member_count<GeneticOptions>() - 3 +
                              member_count<PaperGeneticOptions>() + member_count<MemeticGeneticOptions>() +
                              member_count<CoarseCellOptions>();
-  // Some members of MapperOptions are structs; seed and threads come from RunOptions.
-  const std::size_t mapper = member_count<MapperOptions>() - 4 + member_count<BackEndOptions>() - 8 + choice +
-                             front_end + matcher + loops + solver;
+  // MapperOptions has three structs. BackEndOptions has seven, and its seed and threads are those of RunOptions.
+  const std::size_t mapper = member_count<MapperOptions>() - 3 + member_count<BackEndOptions>() - 9 +
+                             choice + front_end + matcher + loops + solver;
   const std::size_t files =
       member_count<MapFileOptions>() - 2 + member_count<MapDrawingOptions>() + member_count<GeoReference>();
   // The localizer takes front end, consensus, matches, smoothing and seed from the mapper.

@@ -112,7 +112,7 @@ inline MappingResult walk_around_the_room(int scans = 50) {
   result.loops = {refused, accepted};
   result.frames[accepted.frame].loops_accepted = 1;
   result.loop_matchers[MatcherKind::kCsm] = {{12, 2, 600, 45.25}, {2, 0, 200, 10.25}, 1, 0};
-  result.psi = {2, 6, 20, 20};
+  result.psi = {2, 6};
   result.stages = {{"match scan to local map", 50, 1.5, 0.2, 1.1, 2.4, 0.075},
                    {"close loops", 10, 4, 1, 2, 9, 0.04}};
   result.wall_s = 0.5;

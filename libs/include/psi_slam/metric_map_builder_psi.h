@@ -36,19 +36,20 @@
 #include <memory>
 #include <string>
 
-#include "psi_slam/log_options.h"
-#include "psi_slam/mapper.h"
 #include "psi_slam/grid_map.h"
+#include "psi_slam/log_options.h"
 
 namespace psi_slam {
+
+struct MapperOptions;
 
 /// Like all of MRPT's classes of that kind, and as other programs will look for it.
 class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
  public:
   struct Options {
-    LogOptions log;  ///< which laser, its mount and ranges; every_nth_scan is not looked at
-    MapperOptions mapper;
+    LogOptions log;  ///< the laser, its mount and ranges; ignores every_nth_scan
     GridMapOptions map;
+    std::shared_ptr<const MapperOptions> mapper;  ///< null: the defaults
   };
 
   /// Throws UserError when an option of the log makes no sense.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop_closure/back_end.h"
+#include "mapping/back_end.h"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -18,6 +17,13 @@ BackEnd::BackEnd(const BackEndOptions& options)
       pool_(options.threads) {}
 
 NodeLoops BackEnd::close(std::size_t node, const KeyframeStore& memory, PoseGraph& graph) {
+  NodeLoops loops;
+  const double ms = loop_clock_.time([&] { loops = search(node, memory, graph); });
+  loops.milliseconds = ms;
+  return loops;
+}
+
+NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& memory, PoseGraph& graph) {
   matcher_of_node_.push_back(policy_.kind(factor_.value().psi));
   const ChosenMatcher matcher = policy_.matcher(matcher_of_node_.back());
   LoopCloser::Outcome outcome = closer_.close(node, memory, graph, matcher, pool_);
@@ -27,21 +33,21 @@ NodeLoops BackEnd::close(std::size_t node, const KeyframeStore& memory, PoseGrap
   for (LoopRecord& loop : outcome.loops) {
     const bool waits = loop.verdict == LoopVerdict::kPending;
     for (const std::size_t confirmed : confirmed_by(ledger_.add(std::move(loop)), memory, graph)) {
-      const std::optional<double> news = ledger_.accept(confirmed, graph);
-      if (!news) continue;
+      const std::optional<double> residual = ledger_.accept(confirmed, graph);
+      if (!residual) continue;
       ++loops.accepted;
-      loops.news = std::max(loops.news, *news);
-      loops.agreed = loops.agreed || waits;
+      // Loops that waited until others agreed have found the robot's place in the map.
+      schedule_.add_residual(waits ? std::max(*residual, OptimizationSchedule::kUrgentResidual) : *residual);
     }
   }
   factor_.add_frame(loops.accepted);
   return loops;
 }
 
-// The loops that are to become constraints now that this one was found: itself when verification accepted it;
-// when it waits for others to agree, those that waited and it, if they now do.
+// The loops to accept now that this one was found: an accepted loop itself; for a pending loop all pending
+// loops that now agree.
 std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const KeyframeStore& memory,
-                                                  const PoseGraph& graph) {
+                                               const PoseGraph& graph) {
   const LoopRecord& loop = ledger_.loops()[index];
   if (loop.verdict == LoopVerdict::kAccepted) return {index};
   if (loop.verdict != LoopVerdict::kPending) return {};
@@ -49,6 +55,39 @@ std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const Keyframe
   return consensus_.add(
       {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity}, graph,
       [&](std::size_t other) { return ledger_.loops()[other].verdict == LoopVerdict::kPending; });
+}
+
+double BackEnd::optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver) {
+  return schedule_.is_due(graph) ? optimize(graph, solver) : 0;
+}
+
+double BackEnd::optimize(PoseGraph& graph, SparsePoseAdjustment& solver) {
+  return graph_clock_.time([&] {
+    solver.optimize(graph);
+    schedule_.optimized(graph);
+  });
+}
+
+std::map<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& memory, PoseGraph& graph,
+                                                        SparsePoseAdjustment& solver,
+                                                        FinalProgress& progress) {
+  std::map<MatcherKind, LoopEffort> effort;
+  const auto settle = [&] {
+    graph_clock_.time([&] { ledger_.settle(graph, solver, options_.max_loop_chi); });
+  };
+  ledger_.refuse_pending();
+  settle();
+  for (int pass = 0; pass < progress.passes() && !progress.cut_short(); ++pass) {
+    final_search_clock_.time([&] {
+      for (const auto& [matcher, of_pass] : run_final_search(memory, graph, [&](double share) {
+             return final_search_clock_.leave_out([&] { return progress.at(pass + share); });
+           }))
+        effort[matcher] += of_pass;
+    });
+    settle();
+  }
+  ledger_.refuse_pending();
+  return effort;
 }
 
 std::map<MatcherKind, LoopEffort> BackEnd::run_final_search(const KeyframeStore& memory, PoseGraph& graph,
@@ -59,7 +98,7 @@ std::map<MatcherKind, LoopEffort> BackEnd::run_final_search(const KeyframeStore&
   };
   const auto matcher_of = [&](std::size_t node) { return policy_.matcher(matcher_of_node_[node]); };
   FinalSearchOutcome outcome = final_search(memory, graph, matcher_of, options_.loop_closure.verification,
-                                      options_.final_search, known, options_.seed, pool_, progress);
+                                            options_.final_search, known, options_.seed, pool_, progress);
   for (LoopRecord& loop : outcome.loops) {
     const std::size_t entered = ledger_.add(std::move(loop));
     if (ledger_.loops()[entered].verdict == LoopVerdict::kAccepted) ledger_.accept(entered, graph);
@@ -67,8 +106,21 @@ std::map<MatcherKind, LoopEffort> BackEnd::run_final_search(const KeyframeStore&
   return outcome.effort;
 }
 
+void BackEnd::refine(RefinedScans& scans, PoseGraph& graph, FinalProgress& progress) {
+  if (progress.cut_short()) return;
+  refinement_clock_.time([&] {
+    refine_jointly(scans, options_.joint_refinement, pool_, [&](double share) {
+      return refinement_clock_.leave_out([&] { return progress.at(progress.passes() + share); });
+    });
+    const mrpt::math::TPose2D first = scans.map_T_frame[scans.node_frames.front()];
+    for (mrpt::math::TPose2D& pose : scans.map_T_frame) pose = graph.pose(0) + (pose - first);
+    for (std::size_t node = 0; node < scans.node_frames.size(); ++node)
+      graph.set_pose(node, scans.map_T_frame[scans.node_frames[node]]);
+  });
+}
+
 bool BackEnd::match_by_hand(const LoopEdit& edit, std::size_t node, const KeyframeStore& memory,
-                               PoseGraph& graph) {
+                            PoseGraph& graph) {
   LoopCandidate candidate;
   candidate.local_map = edit.local_map;
   const LoopRecord* const before = ledger_.find({node, edit.local_map});
@@ -83,7 +135,8 @@ bool BackEnd::match_by_hand(const LoopEdit& edit, std::size_t node, const Keyfra
     candidate.extent = options_.loop_closure.candidates.max_window;
   }
   const auto matcher = make_matcher(edit.matcher, options_.loop_matcher, options_.genetic);
-  std::optional<LoopRecord> loop = closer_.match(node, candidate, memory, {edit.matcher, *matcher}, pool_);
+  std::optional<LoopRecord> loop;
+  loop_clock_.time([&] { loop = closer_.match(node, candidate, memory, {edit.matcher, *matcher}, pool_); });
   if (!loop) return false;
   if (loop->verdict == LoopVerdict::kPending) loop->verdict = LoopVerdict::kAccepted;
   ledger_.replace(*std::move(loop), graph);
@@ -94,6 +147,10 @@ std::size_t BackEnd::accepted() const {
   return static_cast<std::size_t>(std::count_if(loops().begin(), loops().end(), [](const LoopRecord& loop) {
     return loop.verdict == LoopVerdict::kAccepted;
   }));
+}
+
+std::vector<StageTiming> BackEnd::stages() const {
+  return {loop_clock_.timing(), graph_clock_.timing(), final_search_clock_.timing(), refinement_clock_.timing()};
 }
 
 }  // namespace psi_slam

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr unsigned kBufferBytes = 256 * 1024;
-constexpr std::size_t kMaxBytesPerCall = std::size_t{1} << 30;  // zlib counts in unsigned int
+constexpr std::size_t kMaxBytesPerCall = std::size_t{1} << 30;  // zlib counts bytes as unsigned int
 
 }  // namespace
 
@@ -27,21 +27,21 @@ struct CompressedFile::State {
   fs::path path;
   gzFile file = nullptr;
   std::uintmax_t bytes_on_disk = 0;
-  std::optional<UserError> failure;  // met behind bytes that were given
+  std::optional<UserError> failure;  // met after bytes that were returned
 
   ~State() {
     if (file != nullptr) gzclose(file);
   }
 
-  /// What zlib gave fewer bytes for than it was asked; none at the end.
+  /// Reason why zlib returned fewer bytes than requested; empty at the end of the file.
   std::optional<UserError> failure_now() const {
     int code = Z_OK;
     gzerror(file, &code);
     if (code == Z_OK) return std::nullopt;
     if (code == Z_BUF_ERROR)
-      return UserError(path.string() + " is cut off: its compressed data end too early");
+      return UserError(path.string() + " is cut off: its compressed data are incomplete. Fetch it again");
     if (code == Z_ERRNO) return UserError("cannot read " + path.string() + ": " + std::strerror(errno));
-    return UserError(path.string() + " is damaged: its compressed data do not decompress");
+    return UserError(path.string() + " is damaged: its data cannot be decompressed. Fetch it again");
   }
 };
 

@@ -121,7 +121,7 @@ std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis) {
                        RAD2DEG(facts.first_bearing_rad), RAD2DEG(facts.last_bearing_rad)));
   lines.push_back(text("time: %.1f s from %s, a scan every %.3f s", time.duration_s,
                        format_seconds(time.first_us).c_str(), time.median_period_s));
-  lines.push_back(text("odometry: %.1f m of way, %.0f degrees of turns", facts.odometry.path_length_m,
+  lines.push_back(text("odometry: path of %.1f m, %.0f degrees of turns", facts.odometry.path_length_m,
                        RAD2DEG(facts.odometry.turned_rad)));
   lines.push_back(text("ranges: maximum %.2f m, median %.2f m, %.1f %% of the readings are no returns",
                        static_cast<double>(ranges.max_range_m), static_cast<double>(ranges.median_return_m),
@@ -145,8 +145,9 @@ std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study) {
              psi_slam::name_of(fit.angles).data(), 1000 * fit.mean_distance_m, 1000 * fit.worse_by_m,
              fit.significance);
     if (study.full_turns > 0)
-      line += text(", a full turn is %.2f degrees off", RAD2DEG(fit.full_turn_error_rad));
-    if (study.knows_heading) line += text(", laser looks %.2f degrees aside", RAD2DEG(fit.laser_heading_rad));
+      line += text(", full-turn error %.2f degrees", RAD2DEG(fit.full_turn_error_rad));
+    if (study.knows_heading)
+      line += text(", laser heading off by %.2f degrees", RAD2DEG(fit.laser_heading_rad));
     if (fit.ruled_out_by_walls || fit.ruled_out_by_turns) line += ": ruled out";
     lines.push_back(line);
   }

@@ -55,12 +55,12 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
   return pass;
 }
 
-/// Scans are compared with scans of the same laser: of several, the first is judged.
+/// Selects the first laser, since only scans of one laser are compared with each other.
 LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options) {
   const LogFormat format = detect_log_format(path);
   if (!reads_several_lasers(options, format)) return options;
   if (!is_bag(format)) {
-    options.scan_topic.clear();  // of bags alone
+    options.scan_topic.clear();  // applies to bags only
     const LaserChoice choice = laser_choice("log.laser", options.laser);
     if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
   } else {
@@ -81,7 +81,7 @@ double span_rad(const std::vector<float>& bearings_rad) {
   return std::abs(static_cast<double>(bearings_rad.back() - bearings_rad.front()));
 }
 
-/// The field of view that make_bearings_rad() was given.
+/// Returns the field of view that make_bearings_rad() was called with.
 double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
   if (options.field_of_view_rad) return *options.field_of_view_rad;
   return usual_field_of_view_rad(pass.bearings_rad.size()).value_or(span_rad(pass.bearings_rad));
@@ -94,7 +94,7 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   diagnosis.path = path;
   diagnosis.options = options_of_first_laser(path, options);
   diagnosis.options.every_nth_scan = 1;
-  diagnosis.options.sweep_time_s = 0;  // the log is judged as it was recorded
+  diagnosis.options.sweep_time_s = 0;  // judge the log as recorded
   FirstPass pass = read_once(path, diagnosis.options);
   diagnosis.facts = pass.facts;
   if (!pass.facts.contents.states_beam_angles) {

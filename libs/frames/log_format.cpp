@@ -13,7 +13,7 @@
 
 #include "base/text_parts.h"
 #include "compression/compressed_file.h"
-#include "compression/decompression.h"
+#include "compression/compression.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

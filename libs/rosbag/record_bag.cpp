@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "compression/decompression.h"
+#include "compression/compression.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

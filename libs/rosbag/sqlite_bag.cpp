@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/byte_cursor.h"
-#include "compression/decompression.h"
+#include "compression/compression.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_file.h"
 

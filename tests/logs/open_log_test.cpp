@@ -82,7 +82,7 @@ TEST(OpenLog, reports_a_truncated_gzip_file) {
   const auto path = folder.path() / "cut.clf.gz";
   write_file(path, read_file(*whole).substr(0, 400'000));
   EXPECT_EQ(sentence_of([&] { frames_of(path); }),
-            path.string() + " is cut off: its compressed data end too early");
+            path.string() + " is cut off: its compressed data are incomplete. Fetch it again");
 }
 
 TEST(OpenLog, yields_the_scans_before_the_end_of_a_truncated_gzip_file) {
@@ -96,7 +96,7 @@ TEST(OpenLog, yields_the_scans_before_the_end_of_a_truncated_gzip_file) {
   EXPECT_EQ(sentence_of([&] {
               while (log->next()) ++scans;
             }),
-            path.string() + " is cut off: its compressed data end too early");
+            path.string() + " is cut off: its compressed data are incomplete. Fetch it again");
   EXPECT_GT(scans, 50U);
 }
 

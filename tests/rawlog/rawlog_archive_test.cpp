@@ -56,7 +56,7 @@ TEST_F(RawlogArchiveTest, reports_a_truncated_gzip_file) {
   write_rawlog(path_, objects_, true);
   std::filesystem::resize_file(path_, std::filesystem::file_size(path_) - 20);
   EXPECT_EQ(sentence_of([&] { read_all(); }),
-            path_.string() + " is cut off: its compressed data end too early");
+            path_.string() + " is cut off: its compressed data are incomplete. Fetch it again");
 }
 
 TEST_F(RawlogArchiveTest, reports_an_unknown_or_damaged_object) {

@@ -45,7 +45,7 @@ Reading read_to_the_end(const Path& path) {
 class DamagedBag : public testing::TestWithParam<Kind> {
  protected:
   void SetUp() override {
-    GetParam().write(path_, drive_recorded(8));
+    GetParam().write(path_, recorded_run(8));
     whole_ = read_file(path_);
   }
 

@@ -116,7 +116,7 @@ class EveryKindOfBag : public testing::TestWithParam<Kind> {};
 
 TEST_P(EveryKindOfBag, holds_the_frames_of_the_same_carmen_log) {
   const TemporaryFolder folder;
-  const Recording recording = drive_recorded(40);
+  const Recording recording = recorded_run(40);
   GetParam().write(folder.path() / "bag", recording);
   expect_same_frames(frames_of(folder.path() / "bag"), carmen_frames(recording));
 }
@@ -128,7 +128,7 @@ class BagOfRosItself : public testing::TestWithParam<const char*> {};
 
 TEST_P(BagOfRosItself, holds_the_frames_of_the_same_carmen_log) {
   const TemporaryFolder folder;
-  const Recording recording = drive_recorded(200);
+  const Recording recording = recorded_run(200);
   write_carmen(folder.path() / "log.clf", recording);
   const std::string command = std::string("/usr/bin/python3 " PSI_SLAM_ROSBAG_TESTS "/write_ros1_bag.py '") +
                               (folder.path() / "log.clf").string() + "' '" +
@@ -171,7 +171,7 @@ class RosbagReaderTest : public testing::Test {
 };
 
 TEST_F(RosbagReaderTest, requires_a_topic_if_there_are_several) {
-  Recording recording = drive_recorded();
+  Recording recording = recorded_run();
   RecordedScan rear = scan_at(1'600'000'000'100'000);
   rear.topic = "/rear_scan";
   rear.ranges_m = {9, 9};
@@ -193,7 +193,7 @@ TEST_F(RosbagReaderTest, requires_a_topic_if_there_are_several) {
 }
 
 TEST_F(RosbagReaderTest, odometry_may_be_a_transform) {
-  Recording recording = drive_recorded();
+  Recording recording = recorded_run();
   for (Recorded& message : recording) {
     auto* pose = std::get_if<RecordedPose>(&message);
     if (pose == nullptr || pose->topic != "/odom") continue;
@@ -203,7 +203,7 @@ TEST_F(RosbagReaderTest, odometry_may_be_a_transform) {
   recording.insert(recording.begin(),
                    RecordedPose{"/tf_static", 1, "base_footprint", "base_link", {0.1, 0, 0.2, 0, 0, 0}});
   recording.insert(recording.begin() + 3, RecordedPose{"/tf", 2, "map", "odom", {7, 7, 0, 1, 0, 0}});
-  expect_same_frames(read(recording), carmen_frames(drive_recorded(), {0.3, 0, 0.3}));
+  expect_same_frames(read(recording), carmen_frames(recorded_run(), {0.3, 0, 0.3}));
   LogOptions options;
   options.odom_frame = "wheels";
   EXPECT_THAT(sentence_about(recording, options), HasSubstr("base_footprint < odom"));
@@ -212,33 +212,33 @@ TEST_F(RosbagReaderTest, odometry_may_be_a_transform) {
 }
 
 TEST_F(RosbagReaderTest, the_odometry_topic_may_be_a_topic_of_transforms) {
-  Recording recording = drive_recorded();
+  Recording recording = recorded_run();
   recording.insert(recording.begin(),
                    RecordedPose{"/tf", 1'600'000'000'000'000, "odom", "base_link", {5, 6, 0, 0, 0, 0}});
-  EXPECT_EQ(read(recording).front().odom_T_robot.y, carmen_frames(drive_recorded()).front().odom_T_robot.y);
+  EXPECT_EQ(read(recording).front().odom_T_robot.y, carmen_frames(recorded_run()).front().odom_T_robot.y);
   LogOptions options;
   options.odometry_topic = "tf";
   EXPECT_EQ(read(recording, options).back().odom_T_robot, TPose2D(5, 6, 0));
 }
 
 TEST_F(RosbagReaderTest, accepts_leading_slashes_and_a_mount_on_tf_after_the_first_scan) {
-  Recording recording = drive_recorded();
+  Recording recording = recorded_run();
   recording.erase(recording.begin());
   RecordedPose mount = static_mount("/laser");
   mount.topic = "/tf";
   mount.frame = "/base_link";
   recording.insert(recording.begin() + 9, mount);
-  expect_same_frames(read(recording), carmen_frames(drive_recorded()));
+  expect_same_frames(read(recording), carmen_frames(recorded_run()));
 }
 
 TEST_F(RosbagReaderTest, laser_and_robot_may_have_a_common_parent_frame) {
-  Recording recording = drive_recorded();
+  Recording recording = recorded_run();
   recording.erase(recording.begin());
   RecordedPose mount = static_mount();
   mount.frame = "body";
   recording.insert(recording.begin(),
                    {mount, RecordedPose{"/tf_static", 1, "body", "base_link", {-1, 0, 0, 0, 0, 0}}});
-  expect_same_frames(read(recording), carmen_frames(drive_recorded(), {1.2, 0, 0.3}));
+  expect_same_frames(read(recording), carmen_frames(recorded_run(), {1.2, 0, 0.3}));
 }
 
 TEST_F(RosbagReaderTest, mirrors_the_bearings_of_a_laser_mounted_upside_down) {
@@ -257,7 +257,7 @@ TEST_F(RosbagReaderTest, mirrors_the_bearings_of_a_laser_mounted_upside_down) {
 }
 
 TEST_F(RosbagReaderTest, requires_a_stated_mount_if_the_bag_has_none) {
-  Recording recording = drive_recorded();
+  Recording recording = recorded_run();
   recording.erase(recording.begin());
   EXPECT_EQ(
       sentence_about(recording),
@@ -267,7 +267,7 @@ TEST_F(RosbagReaderTest, requires_a_stated_mount_if_the_bag_has_none) {
           "log.laser_y_m and log.laser_yaw_deg. Transforms of the bag: none");
   LogOptions options;
   options.robot_T_laser = TPose2D(0.2, 0, 0.3);
-  expect_same_frames(read(recording, options), carmen_frames(drive_recorded()));
+  expect_same_frames(read(recording, options), carmen_frames(recorded_run()));
   options.robot_T_laser.reset();
   options.base_frame = "laser";
   EXPECT_EQ(read(recording, options).front().scan.robot_T_laser, TPose2D(0, 0, 0));
@@ -303,7 +303,7 @@ TEST_F(RosbagReaderTest, a_message_without_a_stamp_has_the_time_of_its_recording
 }
 
 TEST_F(RosbagReaderTest, reports_missing_scans_and_odometry) {
-  Recording recording = drive_recorded();
+  Recording recording = recorded_run();
   const auto without = [&](const char* topic) {
     Recording rest;
     for (const Recorded& message : recording)
@@ -321,14 +321,14 @@ TEST_F(RosbagReaderTest, reports_missing_scans_and_odometry) {
 }
 
 TEST_F(RosbagReaderTest, skips_and_reports_odometry_with_an_invalid_pose) {
-  Recording recording = drive_recorded();
+  Recording recording = recorded_run();
   RecordedPose invalid{"/odom", 1'600'000'000'500'000, "odom", "base_link", {}};
   invalid.pose.x = std::nan("");
   recording.insert(recording.begin() + 1, invalid);
   recording.insert(recording.begin() + 30, invalid);
   write_mcap(path_, recording);
   const auto log = open_log(path_);
-  expect_same_frames(all_frames(*log), carmen_frames(drive_recorded()));
+  expect_same_frames(all_frames(*log), carmen_frames(recorded_run()));
   EXPECT_EQ(log->skipped_lines().count, 2U);
   EXPECT_THAT(log->skipped_lines().sentence(),
               testing::AllOf(testing::StartsWith("2 messages of the log"), HasSubstr("run.mcap: byte"),
@@ -338,7 +338,7 @@ TEST_F(RosbagReaderTest, skips_and_reports_odometry_with_an_invalid_pose) {
 }
 
 TEST_F(RosbagReaderTest, a_damaged_message_ends_the_log_after_the_scans_before_it) {
-  Recording recording = drive_recorded();
+  Recording recording = recorded_run();
   recording.erase(recording.begin());
   RecordedPose elsewhere = static_mount("camera");
   elsewhere.topic = "/tf";

@@ -5,7 +5,7 @@
 
 namespace psi_slam {
 
-/// b_T_a. MRPT has it of a pose with matrices only, CPose2D.
+/// Returns b_T_a for a_T_b. MRPT has this function for CPose2D only.
 inline mrpt::math::TPose2D inverse(const mrpt::math::TPose2D& a_T_b) {
   return mrpt::math::TPose2D(0, 0, 0) - a_T_b;
 }

@@ -11,16 +11,15 @@
 #include <string_view>
 #include <utility>
 
-#include "mrpt/graphslam_window.h"
-#include "mrpt/no_standard_input.h"
 #include "base/atomic_file.h"
-#include "base/atomic_folder.h"
-#include "psi_slam/user_error.h"
-#include "psi_slam/front_end_nrd.h"
-#include "mrpt/graphslam_settings.h"
-#include "mrpt/log_entries.h"
 #include "frames/laser_choice.h"
+#include "mrpt/graphslam_settings.h"
+#include "mrpt/graphslam_window.h"
+#include "mrpt/log_entries.h"
+#include "mrpt/no_standard_input.h"
 #include "observations/rawlog_objects.h"
+#include "psi_slam/front_end_nrd.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

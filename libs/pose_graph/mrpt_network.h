@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A pose graph as MRPT's container, and back. Apart from pose_graph.h, since that container's header takes
+// Converts a pose graph to MRPT's container and back. A separate header, because that of the container takes
 // seconds to compile.
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace psi_slam {
 
-/// All nodes, with their numbers as node ids, and the enabled constraints.
+/// Converts all nodes, with their numbers as node ids, and the enabled constraints.
 mrpt::graphs::CNetworkOfPoses2DInf mrpt_network(const PoseGraph& graph);
 
-/// Of a network whose node ids are 0 .. N-1 (else throws UserError naming the first that is missing). MRPT's
-/// edges have no kind: those between successive numbers become odometry, the others loops.
+/// Converts a network with the node ids 0 .. N-1. Edges between successive nodes become odometry, other edges
+/// loops. Throws UserError that names the first missing node.
 PoseGraph pose_graph_of(const mrpt::graphs::CNetworkOfPoses2DInf& network);
 
 }  // namespace psi_slam

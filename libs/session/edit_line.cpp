@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "psi_slam/user_error.h"
-#include "config/exact_number.h"
+#include "base/number_text.h"
 #include "config/nearest_name.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <thread>
 
-#include "psi_slam/user_error.h"
-#include "config/exact_number.h"
+#include "base/number_text.h"
 #include "exports/geo_tiff.h"
+#include "psi_slam/user_error.h"
 #include "session/settings.h"
 
 namespace psi_slam {

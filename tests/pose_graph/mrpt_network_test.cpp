@@ -9,7 +9,7 @@
 namespace psi_slam {
 namespace {
 
-TEST(MrptNetwork, goes_to_MRPT_and_back_with_its_enabled_constraints) {
+TEST(MrptNetwork, converts_to_MRPT_and_back_with_its_enabled_constraints) {
   KnownGraph known = ring(20, 3, 1);
   known.graph.set_enabled(known.graph.num_constraints() - 1, false);
   known.graph.set_root(4);
@@ -25,7 +25,7 @@ TEST(MrptNetwork, goes_to_MRPT_and_back_with_its_enabled_constraints) {
   EXPECT_EQ(loops, 2U);
 }
 
-TEST(MrptNetwork, keeps_several_constraints_of_one_pair_on_the_way_to_MRPT) {
+TEST(MrptNetwork, keeps_several_constraints_of_one_pair) {
   PoseGraph graph;
   graph.add_node({0, 0, 0});
   graph.add_node({1, 0, 0});
@@ -38,12 +38,12 @@ TEST(MrptNetwork, keeps_several_constraints_of_one_pair_on_the_way_to_MRPT) {
   EXPECT_EQ(pose_graph_of(mrpt_network(graph)).num_constraints(), 3U);
 }
 
-TEST(MrptNetwork, makes_an_empty_network_of_an_empty_graph) {
+TEST(MrptNetwork, converts_an_empty_graph) {
   EXPECT_TRUE(mrpt_network(PoseGraph()).nodes.empty());
   EXPECT_EQ(pose_graph_of(mrpt::graphs::CNetworkOfPoses2DInf()).num_nodes(), 0U);
 }
 
-TEST(MrptNetwork, names_the_node_that_a_network_lacks) {
+TEST(MrptNetwork, names_a_missing_node) {
   mrpt::graphs::CNetworkOfPoses2DInf network;
   network.nodes[0] = mrpt::poses::CPose2D();
   network.nodes[2] = mrpt::poses::CPose2D();

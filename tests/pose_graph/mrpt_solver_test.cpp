@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solver beside MRPT's optimize_graph_spa_levmarq, where that converges: exact measurements, disturbed
-// poses. Its error is the logarithm of P1 D P2^-1, in the axes of the map, so that with noise its minimum is
-// another one.
+// Compares the solver with MRPT's optimize_graph_spa_levmarq where that converges: exact measurements,
+// disturbed poses. MRPT's error is the logarithm of P1 D P2^-1 in the axes of the map, so that with noise its
+// minimum differs.
 #include <gtest/gtest.h>
 #include <mrpt/graphslam/levmarq.h>
 
@@ -24,7 +24,7 @@ PoseGraph solved_by_mrpt(const PoseGraph& graph) {
   return result;
 }
 
-// Steps of 1 m, every loop as loose as the odometry.
+// Steps of 1 m; loops have the same information as odometry.
 KnownGraph disturbed_ring(double noise) {
   KnownGraph known = ring(100, 5, noise, 0.05, 0.01);
   Measurer measurer(3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of logs share: writing small logs, and reading them back.
+// Writes small logs for tests and reads them back.
 #pragma once
 
 #include <filesystem>

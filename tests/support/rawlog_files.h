@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of rawlogs share: the objects of a rawlog, and writing them with MRPT.
+// Makes the objects of a rawlog for tests and writes them with MRPT.
 #pragma once
 
 #include <mrpt/io/CFileGZOutputStream.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes recordings as ROS 1 bags by the specification. (Bags of ROS's own library: write_ros1_bag.py.)
+// Writes recordings as ROS 1 bags, by the specification. write_ros1_bag.py makes bags with the library of
+// ROS.
 #pragma once
 
 #include <bzlib.h>
@@ -60,7 +61,7 @@ inline std::string ros1_message(const Recorded& message) {
 struct Ros1Layout {
   std::string compression = "none";  ///< "none", "bz2" or "lz4"
   std::size_t messages_a_chunk = 7;
-  bool is_closed = true;  ///< false: as a recorder that was killed leaves it
+  bool is_closed = true;  ///< false: as left by a recorder that was killed
 };
 
 class Ros1Writer {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot that drives through a furnished room with a laser on it: for tests that must know the truth.
+// A robot with a laser in a furnished room, for tests that need the true poses.
 #pragma once
 
 #include <mrpt/core/bits_math.h>
@@ -31,7 +31,7 @@ inline void add_box(std::vector<Wall>& walls, double x1, double y1, double x2, d
   walls.push_back({x1, y2, x1, y1});
 }
 
-/// A room of 12 m by 9 m with a block in its middle to drive around, and furniture along its walls.
+/// A room of 12 m by 9 m with a block in its middle and furniture along its walls.
 inline std::vector<Wall> furnished_room() {
   std::vector<Wall> walls;
   add_box(walls, 0, 0, 12, 9);
@@ -65,7 +65,7 @@ inline double range_m(const std::vector<Wall>& walls, const mrpt::math::TPose2D&
   return nearest;
 }
 
-/// Where the robot was, what odometry said, and what the laser saw.
+/// True poses, odometry and scans.
 struct SimulatedRun {
   std::vector<mrpt::math::TPose2D> truth;
   std::vector<mrpt::math::TPose2D> odometry;
@@ -97,12 +97,12 @@ struct SimulatedRun {
 };
 
 struct Drive {
-  double ahead_m;   // a step; negative: reversing
-  double turn_deg;  // a step
+  double ahead_m;   // per step; negative: reverse
+  double turn_deg;  // per step
   std::size_t steps;
 };
 
-/// Odometry with errors of two per cent, and a drift of its heading.
+/// Odometry with errors of two per cent and a drift of the heading.
 inline SimulatedRun drive(const std::vector<Drive>& drives, const mrpt::math::TPose2D& start = {2, 1.8, 0}) {
   SimulatedRun run;
   std::mt19937 random(7);
@@ -121,7 +121,7 @@ inline SimulatedRun drive(const std::vector<Drive>& drives, const mrpt::math::TP
   return run;
 }
 
-/// Once around the block with a turn on the spot at each corner, one full turn, and some reversing.
+/// One lap around the block with a turn on the spot at each corner, one full turn, and some reversing.
 inline std::vector<Drive> round_trip() {
   const Drive corner{0.0, 3.0, 30};
   return {{0.0, -4.0, 90},  {0.08, 0.0, 95}, corner,          {0.08, 0.2, 10},
@@ -136,7 +136,7 @@ inline SimulatedRun round_trips(std::size_t count) {
   return drive(drives);
 }
 
-/// A FLASER log of the run, a scan every 0.2 s.
+/// FLASER log of the run, a scan every 0.2 s.
 inline std::string carmen_log(const SimulatedRun& run) {
   std::string log = "# simulated\n";
   char text[200];

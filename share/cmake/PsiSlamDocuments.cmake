@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Man pages and shell completion, which the programs print themselves, and where they are installed.
+# Makes and installs man pages and shell completion. The programs print these documents themselves.
 
-# psi_slam_write_document(PROGRAM OPTION FILE): adds the rule, and FILE to the list `documents` of the caller.
+# psi_slam_write_document(PROGRAM OPTION FILE)
+# Adds a rule that writes the output of PROGRAM OPTION to FILE. Appends FILE to the list `documents` of the caller.
 function(psi_slam_write_document program option file)
   set(script ${PROJECT_SOURCE_DIR}/share/cmake/write-program-document.cmake)
   add_custom_command(OUTPUT ${file}
@@ -10,7 +11,7 @@ function(psi_slam_write_document program option file)
   set(documents ${documents} ${file} PARENT_SCOPE)
 endfunction()
 
-# Man pages, completion, licence and changelog of all programs that psi_slam_add_app() has made.
+# Installs man pages, completion, licence and changelog of all programs made by psi_slam_add_app().
 function(psi_slam_install_documents)
   get_property(programs GLOBAL PROPERTY psi_slam_programs)
   set(man ${PROJECT_BINARY_DIR}/man)
@@ -29,7 +30,7 @@ function(psi_slam_install_documents)
   add_custom_target(psi_slam_program_documents ALL DEPENDS ${documents})
 
   list(JOIN programs " " PROGRAMS)
-  target_compile_definitions(psi_slam_documents PRIVATE PSI_SLAM_PROGRAMS="${PROGRAMS}")  # for SEE ALSO
+  target_compile_definitions(psi_slam_documents PRIVATE PSI_SLAM_PROGRAMS="${PROGRAMS}")  # for the section SEE ALSO
   configure_file(${PROJECT_SOURCE_DIR}/share/cmake/zsh-completion.in ${PROJECT_BINARY_DIR}/_psi-slam @ONLY)
 
   install(FILES ${man}/psi-slam.ini.5.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man5 COMPONENT programs)
@@ -46,7 +47,7 @@ function(psi_slam_install_documents)
   endif()
 endfunction()
 
-# What every Debian package holds: its licence and what changed.
+# Installs the licence and the changelog that every Debian package must contain.
 function(psi_slam_install_legal_documents package component)
   set(folder ${CMAKE_INSTALL_DATADIR}/doc/${package})
   set(changelog ${PROJECT_BINARY_DIR}/changelog.gz)

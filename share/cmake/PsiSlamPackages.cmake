@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The Debian packages that `cpack -G DEB` makes of a build: psi-slam, the programs; libpsi-slam-dev, the library; and
-# psi-slam-mpi, where MPI was found, so that nobody else needs that.
+# Debian packages that `cpack -G DEB` makes from a build:
+#   psi-slam          the programs
+#   libpsi-slam-dev   the library
+#   psi-slam-mpi      the programs for clusters, if CMake found MPI. They are a package of their own, so that psi-slam does
+#                     not depend on MPI.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME psi-slam)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -14,7 +17,7 @@ set(CPACK_STRIP_FILES ON)
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-if(NOT CPACK_DEBIAN_PACKAGE_MAINTAINER)  # who gives packages to others names himself: -D ...="Name <address>"
+if(NOT CPACK_DEBIAN_PACKAGE_MAINTAINER)  # set it if you publish packages: -D ...="Name <address>"
   set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The developers of psi-slam <psi-slam@localhost>")
 endif()
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
@@ -25,35 +28,35 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "mrpt-apps")
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION
-"psi-slam maps what a wheeled robot records: the scans of a 2D lidar and
-the wheel odometry become one consistent floor plan, by graph SLAM with
-genetic loop matching. The package holds psi-slam itself, a window that
-shows the map being made, and programs that measure how good maps are.")
+"psi-slam makes floor plans from the logs of wheeled robots. It combines the
+scans of a 2D lidar and wheel odometry by graph SLAM with genetic loop
+matching. The package contains psi-slam, a window that shows how the map
+is built, and programs that measure the accuracy of maps.")
 
 set(CPACK_DEBIAN_CLUSTER_PACKAGE_NAME psi-slam-mpi)
 set(CPACK_DEBIAN_CLUSTER_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_CLUSTER_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_CLUSTER_PACKAGE_DEPENDS "psi-slam (= ${PROJECT_VERSION}-1), openmpi-bin")
 set(CPACK_COMPONENT_CLUSTER_DESCRIPTION
-"Maps many logs with many settings on the ranks of an MPI job: the sweeps of
-psi-slam and its benchmark on a cluster.")
+"Maps many logs with many settings on the ranks of an MPI job. Runs the
+sweeps and the benchmark of psi-slam on a cluster.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpsi-slam-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)  # static libraries name none
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)  # static libraries have no shared-library dependencies
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libmrpt-dev (>= 1:2.5.8), libeigen3-dev (>= 3.4), libopencv-dev (>= 4.6), libgdal-dev (>= 3.6), \
 libnanoflann-dev, nlohmann-json3-dev (>= 3.11), zlib1g-dev, libbz2-dev, liblz4-dev, libzstd-dev, libsqlite3-dev, libssl-dev, \
 pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "Headers and static libraries of psi-slam, a graph SLAM system for wheeled
-robots, with what CMake's find_package needs, and an example.")
+robots. Contains the files for CMake's find_package and an example.")
 
-# The changelog of the packages; that of the program lies beside it.
-string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)  # SOURCE_DATE_EPOCH, where that is set
+# Changelog of the Debian packages. The changelog of the program is installed beside it.
+string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)  # uses SOURCE_DATE_EPOCH if it is set
 file(WRITE ${PROJECT_BINARY_DIR}/changelog.Debian
   "psi-slam (${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) unstable; urgency=medium\n\n"
-  "  * Packed by CPack; changelog.gz says what is new.\n\n"
+  "  * Packed by CPack; changelog.gz lists the changes.\n\n"
   " -- ${CPACK_DEBIAN_PACKAGE_MAINTAINER}  ${now}\n")
 execute_process(COMMAND gzip --force --best --no-name ${PROJECT_BINARY_DIR}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
 foreach(package psi-slam:programs libpsi-slam-dev:development psi-slam-mpi:cluster)

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# How every target of the project is made: one function a kind, so that all share the same language level,
-# warnings, layout and installation.
+# Functions that make the targets of the project, one for each kind of target. All targets share language level, warnings,
+# layout and installation.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# The strict warnings of every target.
+# Sets language level, strict warnings and sanitizers of a target.
 function(psi_slam_configure_target target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
-  # One rounding for one expression on every machine: no contraction to fused multiply-add.
+  # No contraction to fused multiply-add, so that every machine rounds each expression alike.
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
     -Wcast-align -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
@@ -44,8 +44,8 @@ function(psi_slam_add_library name)
 endfunction()
 
 # psi_slam_add_app(NAME [COMPONENT component] SOURCES file... LINK dependency...)
-# A program that is installed, with a man page and completion: it has the options of add_document_options().
-# It belongs to the component `programs` unless another one is named.
+# Adds a program and installs it with its man page and completion. The program must have the options of
+# add_document_options(). It belongs to the component `programs` unless COMPONENT names another one.
 function(psi_slam_add_app name)
   cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_COMPONENT)
@@ -60,7 +60,7 @@ function(psi_slam_add_app name)
 endfunction()
 
 # psi_slam_add_tests(NAME LINK dependency...)
-# One program NAME_tests of all tests/NAME/*_test.cpp; each test is known to CTest by its own name.
+# Adds one program NAME_tests with all tests/NAME/*_test.cpp. CTest lists each test under its own name.
 function(psi_slam_add_tests name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*_test.cpp)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Writes HEADER, which says what commit of SOURCE is checked out; run at every build, it touches the file only when
-# that has changed.
+# Writes HEADER with the commit that is checked out in SOURCE. Runs at every build and changes the file only if the commit
+# changed.
 cmake_minimum_required(VERSION 3.22)
 find_program(git git)
 set(commit "unknown")

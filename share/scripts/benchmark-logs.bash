@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced by the scripts that run programs over the benchmark's logs, with the scripts' own arguments behind
-# two: the folder of results beneath out/, and the names of the programs as one word list. Sets
+# Common part of the scripts that run programs on the benchmark logs. A script sources this file with these arguments:
+# the name of its results folder in out/, the names of its programs as one string, and its own arguments. This file sets
 #
 #     root, folder, outputs      the source tree, the folder of the logs, the folder for results
-#     app                        where each of the programs is, by its name
+#     app                        the path of each program, by its name
 #
-# and ends the script, with its header as help or with one sentence, where it was called wrongly.
+# It prints the header of the script for --help. It ends the script with a message if the arguments are wrong.
 
 say() {
   echo "$(basename "$0"): $*" >&2
@@ -16,16 +16,16 @@ wrong_usage() {
   exit 2
 }
 
-# has_log LOG: whether the folder has the log and its relations; says so where it has not.
+# has_log LOG: succeeds if the folder has the log and its relations, otherwise prints a message.
 has_log() {
   [ ! -r "$folder/$1.clf.gz" ] || [ ! -r "$folder/$1.relations" ] || return 0
-  say "$folder has no $1.clf.gz with $1.relations"
+  say "$folder: no $1.clf.gz with $1.relations, so this log is skipped"
   return 1
 }
 
-# expect_results NUMBER: of logs that were run.
+# expect_results NUMBER: ends the script with a message if NUMBER, the count of processed logs, is 0.
 expect_results() {
-  [ "$1" -gt 0 ] || wrong_usage "$folder has none of the benchmark's logs; fetch-benchmark-logs.sh fetches them"
+  [ "$1" -gt 0 ] || wrong_usage "$folder: no benchmark logs. Download them with share/scripts/fetch-benchmark-logs.sh -o $folder"
 }
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -39,12 +39,12 @@ case ${1:-} in
     ;;
 esac
 [ $# -eq 1 ] || [ $# -eq 2 ] || wrong_usage "usage: $0 FOLDER [OUTPUT]"
-[ -d "$1" ] || wrong_usage "$1 is no folder"
+[ -d "$1" ] || wrong_usage "$1 is not a folder. Name the folder of the benchmark logs"
 folder=$(cd "$1" && pwd)
 outputs=${2:-$outputs}
 declare -A app
 for program in "${programs[@]}"; do
   path=${PSI_SLAM_BUILD:-$root/build/release}/apps/$program/$program
-  [ -x "$path" ] || wrong_usage "$path is missing; share/scripts/build.sh ${programs[*]} makes it"
+  [ -x "$path" ] || wrong_usage "$path is missing. Build it with share/scripts/build.sh ${programs[*]}"
   app[$program]=$path
 done

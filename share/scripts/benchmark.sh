@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Maps the benchmark's logs with whole runs of the program, measures the paths against the true relations, and prints errors,
-# speed and memory beside what Karto reaches.
+# Maps the benchmark logs with psi-slam and compares the paths with the true relations. Prints errors, speed and memory
+# beside the errors of Karto.
 #
-#     share/scripts/benchmark.sh FOLDER [OUTPUT]     # FOLDER is the one that fetch-benchmark-logs.sh has filled
+#     share/scripts/benchmark.sh FOLDER [OUTPUT]     # FOLDER: filled by fetch-benchmark-logs.sh
 #
-# Needs the programs that share/scripts/build.sh builds; PSI_SLAM_BUILD is the folder where they were built if not
-# build/release. The maps are left in OUTPUT/LOG, by default out/benchmark/LOG. Logs that FOLDER lacks are left out.
-# One thread maps; let nothing else run beside it, or the speed is not the machine's.
+# Needs the programs that share/scripts/build.sh builds. PSI_SLAM_BUILD names the build folder, by default build/release.
+# Writes the maps to OUTPUT/LOG, by default out/benchmark/LOG. Skips logs that FOLDER lacks.
+# Maps with one thread. Run nothing else at the same time, because it would slow the mapping down.
 set -euo pipefail
 
 # shellcheck source=share/scripts/benchmark-logs.bash
@@ -22,7 +22,7 @@ mit-csail   | MIT CSAIL    | 0.0407
 fr079       | Freiburg 079 | 2.89
 "
 
-# row NAME KARTO SUMMARY EVALUATION: one line of the table.
+# row NAME KARTO SUMMARY EVALUATION: prints one line of the table.
 row() {
   python3 - "$@" <<'END'
 import json
@@ -38,7 +38,7 @@ def mean_and_deviation(errors, decimals):
 
 relations = evaluation["relations"]
 if relations["skipped"]:
-    print(f"benchmark.sh: {name}: {relations['skipped']} relations lie outside the trajectory", file=sys.stderr)
+    print(f"benchmark.sh: {name}: skipped {relations['skipped']} relations that lie outside the trajectory", file=sys.stderr)
 print("|", " | ".join([
     name,
     f"{summary['log']['scans']:,}",
@@ -75,13 +75,13 @@ while IFS='|' read -r log name karto; do
 done <<<"$benchmark"
 expect_results "${#rows[@]}"
 
-echo "| log | scans | translation [m] | rotation [deg] | Karto's translation [m] | times faster than recorded | memory |"
+echo "| log | scans | translation [m] | rotation [deg] | Karto: translation [m] | times faster than real time | memory |"
 echo "|---|---|---|---|---|---|---|"
 printf '%s\n' "${rows[@]}"
 cat <<END
 
-Mean ± standard deviation of the absolute errors. Karto: Open Karto with sparse pose adjustment and the settings that
-it ships with, measured on the same logs with the same metric; not run by this script.
+Mean ± standard deviation of the absolute errors. Karto: Open Karto with sparse pose adjustment and default settings,
+measured on the same logs with the same metric. This script does not run Karto.
 
 Commit $(commit | paste -sd ' '), one thread of: $(processor). SHA-256 of the logs:
 

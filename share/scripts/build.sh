@@ -4,8 +4,7 @@
 #
 #     share/scripts/build.sh [TARGET...]     # default: everything
 #
-# Builds with as many jobs as there are processors, but no more than one for every 2 GB of free memory;
-# CMAKE_BUILD_PARALLEL_LEVEL overrides that.
+# Uses one job per processor, but at most one job per 2 GB of free memory. CMAKE_BUILD_PARALLEL_LEVEL overrides this.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -27,8 +26,8 @@ jobs_for_this_machine() {
 }
 
 share/scripts/install-dependencies.sh
-cmake --preset release >&2 || fail "the configuration failed, see CMake's message above"
+cmake --preset release >&2 || fail "the configuration failed. Read the message of CMake above"
 targets=()
 if [ $# -gt 0 ]; then targets=(--target "$@"); fi
 cmake --build --preset release --parallel "${CMAKE_BUILD_PARALLEL_LEVEL:-$(jobs_for_this_machine)}" \
-  "${targets[@]}" >&2 || fail "the build failed, see the compiler's message above"
+  "${targets[@]}" >&2 || fail "the build failed. Read the message of the compiler above"

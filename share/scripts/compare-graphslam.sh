@@ -1,17 +1,24 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs MRPT's graph-slam engine over the benchmark's logs with its own deciders, with ours and with some of each, and
-# prints, as a table, what each comes to: the error of the path over the true relations, the loops, and the time.
+# Runs MRPT's graph-slam engine on the benchmark logs with MRPT's deciders, with psi-slam's, and with combinations of both.
+# Prints a table with the error of each path over the true relations, the number of loops, and the time.
 #
-#     share/scripts/compare-graphslam.sh FOLDER [OUTPUT]     # FOLDER is the one that fetch-benchmark-logs.sh has filled
+#     share/scripts/compare-graphslam.sh FOLDER [OUTPUT]     # FOLDER: filled by fetch-benchmark-logs.sh
 #
-# LOGS are the names of the logs, by default all five. Where there is no FOLDER/LOG.clf.gz, LOG.rawlog is taken with the true
-# poses in LOG.rawlog.GT.txt, as MRPT ships its graphslam-engine-demos; errors are then those of every pose seen from the first.
-# A run may take LIMIT_S seconds of processor time, by default 900, and LIMIT_TIMES times what ours took, by default 10.
-# SET has more settings for our node decider, such as "front_end.min_response=0.05 local_maps.smoothing_sigma_m=0.3".
-# TEAMS are the teams to run by their numbers, by default "1 2 3 4 5 6 7", in the order of the table; 1 is ours.
-# Needs the programs that share/scripts/build.sh builds; PSI_SLAM_BUILD is the folder where they were built if not
-# build/release. The results are left in OUTPUT/LOG/DECIDERS, by default out/graphslam/LOG/DECIDERS.
+# Environment variables:
+#
+#   LOGS            names of the logs; default: all five
+#   LIMIT_S         limit of a run in seconds of processor time; default: 900
+#   LIMIT_TIMES     limit of a run in multiples of the time of team 1; default: 10
+#   SET             more settings for psi-slam's node decider, for example
+#                   "front_end.min_response=0.05 local_maps.smoothing_sigma_m=0.3"
+#   TEAMS           numbers of the combinations to run, in the order of the table; default: "1 2 3 4 5 6 7".
+#                   Team 1 has psi-slam's deciders only
+#   PSI_SLAM_BUILD  the build folder with the programs of share/scripts/build.sh; default: build/release
+#
+# If FOLDER/LOG.clf.gz is missing, the script uses LOG.rawlog with the true poses in LOG.rawlog.GT.txt. MRPT ships its
+# graphslam-engine-demos in this form. The error is then that of each pose relative to the first pose.
+# Writes the results to OUTPUT/LOG/DECIDERS, by default out/graphslam/LOG/DECIDERS.
 set -euo pipefail
 
 # shellcheck source=share/scripts/benchmark-logs.bash
@@ -21,7 +28,7 @@ limit_times=${LIMIT_TIMES:-10}
 read -r -a set <<<"${SET:-}"
 read -r -a numbers <<<"${TEAMS:-1 2 3 4 5 6 7}"
 read -r -a logs <<<"${LOGS:-aces intel mit-killian mit-csail fr079}"
-# Ours first: times are told as shares of its.
+# psi-slam's team comes first, because the table gives times as multiples of its time.
 all_teams=(
   "CPsiFrontEndNRD CPsiLoopCloserERD CPsiSpaGSO"
   "CFixedIntervalsNRD CLoopCloserERD CLevMarqGSO"
@@ -31,11 +38,11 @@ all_teams=(
   "CPsiFrontEndNRD CEmptyERD CPsiSpaGSO"
   "CPsiFrontEndNRD CPsiLoopCloserERD CLevMarqGSO"
 )
-[ "${numbers[0]}" = 1 ] || wrong_usage "TEAMS=\"$TEAMS\" does not begin with 1: the others are compared with ours"
+[ "${numbers[0]}" = 1 ] || wrong_usage "TEAMS=\"$TEAMS\" must begin with 1, because the other teams are compared with team 1"
 teams=()
 for number in "${numbers[@]}"; do teams+=("${all_teams[number - 1]}"); done
 
-# log_file LOG: where it is.
+# log_file LOG: prints the path of the log.
 log_file() {
   local file
   for file in "$folder/$1.clf.gz" "$folder/$1.rawlog"; do
@@ -43,7 +50,7 @@ log_file() {
   done
 }
 
-# relations LOG FILE: the true ones are copied to the file, or made of the true poses.
+# relations LOG FILE: copies the true relations to FILE, or computes them from the true poses.
 relations() {
   if [ -r "$folder/$1.clf.gz" ]; then
     cp "$folder/$1.relations" "$2"
@@ -63,7 +70,7 @@ for time, x, y, yaw in poses[1:]:
 END
 }
 
-# settings LOG: ours, with what its own settings say of the sensor and with SET, in one thread.
+# settings LOG: prints ini/graphslam.ini with one thread, the [log] settings of the log and SET.
 settings() {
   local facts=""
   [ ! -r "$root/ini/$1.ini" ] || facts=$(sed -n '/^\[log\]/,/^\[/{/^[a-z_]* *=/s/^/log./p}' "$root/ini/$1.ini")
@@ -72,12 +79,13 @@ settings() {
     "$root/ini/graphslam.ini" <<<"$facts"
 }
 
-# seconds FOLDER: of processor time that the run there took, in full.
+# seconds FOLDER: prints the processor time of the run in FOLDER, rounded up to seconds.
 seconds() {
   awk 'END { print int($1 + $2 + 1) }' "$1/times"
 }
 
-# run LOG TEAM FOLDER LIMIT_S: one run and its evaluation; how it ended is left in FOLDER/end, its seconds in FOLDER/times.
+# run LOG TEAM FOLDER LIMIT_S: runs the engine and evaluates the path. Writes the times to FOLDER/times and the reason of a
+# failure to FOLDER/end.
 run() {
   local node edge optimizer status=0
   read -r node edge optimizer <<<"$2"
@@ -103,7 +111,7 @@ run() {
   esac
 }
 
-# rows LOG: a line for each team.
+# rows LOG: prints one line of the table per team.
 rows() {
   python3 - "$outputs/$1" "$1" "${teams[@]}" <<'END'
 import json
@@ -159,6 +167,6 @@ for log in "${logs[@]}"; do
 done
 expect_results "${#table[@]}"
 
-echo "| log | node decider | edge decider | optimizer | translation [m] | rotation [deg] | nodes | loops | processor time, as a share of ours |"
+echo "| log | node decider | edge decider | optimizer | translation [m] | rotation [deg] | nodes | loops | processor time, relative to psi-slam |"
 echo "|---|---|---|---|---:|---:|---:|---:|---:|"
 printf '%s\n' "${table[@]}"

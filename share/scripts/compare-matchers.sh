@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Maps the benchmark's logs once with each matcher of loops and prints, as a table, what each comes to in whole runs:
-# the error of the path, the loops accepted, and the time of matching loops, the last pass included.
+# Maps the benchmark logs once with each loop matcher. Prints a table with the error of the path, the number of accepted
+# loops, and the time of loop matching, including the final loop search.
 #
-#     share/scripts/compare-matchers.sh FOLDER [OUTPUT]     # FOLDER is the one that fetch-benchmark-logs.sh has filled
+#     share/scripts/compare-matchers.sh FOLDER [OUTPUT]     # FOLDER: filled by fetch-benchmark-logs.sh
 #
-# Needs the programs that share/scripts/build.sh builds; PSI_SLAM_BUILD is the folder where they were built if not
-# build/release. The maps are left in OUTPUT/MATCHER/LOG, by default out/matchers/MATCHER/LOG.
+# Needs the programs that share/scripts/build.sh builds. PSI_SLAM_BUILD names the build folder, by default build/release.
+# Writes the maps to OUTPUT/MATCHER/LOG, by default out/matchers/MATCHER/LOG.
 set -euo pipefail
 
 # shellcheck source=share/scripts/benchmark-logs.bash
@@ -14,7 +14,7 @@ source "$(dirname "$0")/benchmark-logs.bash" matchers "psi-slam psi-slam-eval" "
 logs=(aces intel mit-killian mit-csail fr079)
 matchers=(csm csm_ga ga adaptive)
 
-# rows LOG: a line for each matcher.
+# rows LOG: prints one line of the table per matcher.
 rows() {
   python3 - "$outputs" "$1" "${matchers[@]}" <<'END'
 import json
@@ -60,6 +60,6 @@ for log in "${logs[@]}"; do
 done
 expect_results "${#table[@]}"
 
-echo "| log | matcher | translation [m] | against csm | loops | against csm | matching loops [s] | share of csm's |"
+echo "| log | matcher | translation [m] | against csm | loops | against csm | loop matching [s] | relative to csm |"
 echo "|---|---|---|---|---|---|---|---|"
 printf '%s\n' "${table[@]}"

@@ -1,13 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Fetches the logs and true relations of the Freiburg SLAM benchmark (Kümmerle et al., "On measuring the accuracy
-# of SLAM algorithms", Autonomous Robots 27(4), 2009) from their public home. This needs the Internet: on a machine
-# without network there is nothing to try.
+# Downloads the logs and true relations of the Freiburg SLAM benchmark from their public home page (Kümmerle et al.,
+# "On measuring the accuracy of SLAM algorithms", Autonomous Robots 27(4), 2009). Needs Internet access.
 #
 #     share/scripts/fetch-benchmark-logs.sh [-o FOLDER] [NAME...]
 #
-# FOLDER is $PSI_SLAM_DATA, else out/benchmark-logs, and gets NAME.clf.gz and NAME.relations; without a NAME all are
-# fetched. Files that are there are kept; an interrupted download goes on where it stopped when it is called again.
+# Writes NAME.clf.gz and NAME.relations to FOLDER. The default of FOLDER is $PSI_SLAM_DATA, or out/benchmark-logs.
+# Without a NAME, downloads all logs. Keeps files that exist. Called again, resumes an interrupted download.
 set -euo pipefail
 
 home_page=${PSI_SLAM_BENCHMARK_URL:-http://ais.informatik.uni-freiburg.de/slamevaluation}
@@ -35,12 +34,13 @@ names() {
   awk -F ' *[|] *' 'NF == 4 { print $1 }' <<<"$benchmark"
 }
 
-# column NAME NUMBER
+# column NAME NUMBER: prints one column of the table above.
 column() {
   awk -F ' *[|] *' -v name="$1" -v column="$2" '$1 == name { print $column }' <<<"$benchmark"
 }
 
-# The number of laser scans in a CARMEN log; fails for anything else. A few lines may be garbled: logs are like that.
+# count_scans FILE: prints the number of laser scans in a CARMEN log. Fails if the log has no scans, or if
+# the garbled lines are more than 1 % of the scans.
 count_scans() {
   LC_ALL=C awk '
     $1 == "FLASER" || $1 == "RLASER"    { if (NF == $2 + 11) ++scans; else ++garbled }
@@ -48,7 +48,7 @@ count_scans() {
     END { if (scans == 0 || garbled > scans / 100) exit 1; print scans }' "$1"
 }
 
-# The number of relations in a file of nothing else; fails for anything else.
+# count_relations FILE: prints the number of relations. Fails if the file contains anything but relations and comments.
 count_relations() {
   LC_ALL=C awk '
     { sub(/\r$/, "") }
@@ -61,16 +61,16 @@ count_relations() {
     END { if (relations == 0) exit 1; print relations }' "$1"
 }
 
-# download URL FILE: continues FILE where it ends. A server that cannot do so sends it all again.
+# download URL FILE: resumes FILE at its end. Starts again from the beginning if the server cannot resume.
 download() {
   if command -v curl >/dev/null; then
     local status=0
     local -a curl=(curl --fail --silent --show-error --location --connect-timeout 20 --retry 3 --output "$2" "$1")
     "${curl[@]}" --continue-at - || status=$?
     case $status in
-      22 | 33 | 36) # the server refused what was asked, or cannot resume
+      22 | 33 | 36) # the server refused the request or cannot resume
         if [ -s "$2" ]; then
-          say "starting $1 again from its beginning"
+          say "downloading $1 again from the beginning"
           status=0
           "${curl[@]}" || status=$?
         fi
@@ -80,27 +80,28 @@ download() {
   elif command -v wget >/dev/null; then
     wget --no-verbose --connect-timeout 20 --tries 3 --continue --output-document "$2" "$1"
   else
-    say "curl or wget is needed: sudo apt-get install curl"
+    say "neither curl nor wget is installed. Install one with sudo apt-get install curl"
     return 1
   fi
 }
 
-# fetch URL FILE KIND: FILE appears when it is complete and is what KIND (scans or relations) says; else fails.
+# fetch URL FILE KIND: downloads FILE and checks that it contains scans or relations, as KIND states. FILE appears only
+# when it is complete.
 fetch() {
   local url=$1 file=$2 kind=$3 count part
   part="$(dirname "$file")/.part-$(basename "$file")"
   if [ -e "$file" ]; then
-    say "$file is there already"
+    say "$file exists, so it is not downloaded"
     return 0
   fi
-  say "fetching $url"
+  say "downloading $url"
   if ! download "$url" "$part"; then
-    say "cannot fetch $url; call again to continue"
+    say "$url: the download failed. Call this script again to resume it"
     return 1
   fi
   if ! count=$("count_$kind" "$part"); then
     rm -f "$part"
-    say "what $url sends is no file of $kind"
+    say "$url: expected a file of $kind, but the server sent something else"
     return 1
   fi
   if [ "$file" != "${file%.gz}" ]; then
@@ -127,10 +128,10 @@ shift $((OPTIND - 1))
 wanted=("$@")
 if [ $# -eq 0 ]; then mapfile -t wanted < <(names); fi
 for name in "${wanted[@]}"; do
-  [ -n "$(column "$name" 2)" ] || wrong_usage "there is no log \"$name\"; the logs are $(names | paste -sd ' ')"
+  [ -n "$(column "$name" 2)" ] || wrong_usage "unknown log \"$name\". The logs are $(names | paste -sd ' ')"
 done
 
-mkdir -p "$folder" || wrong_usage "cannot make the folder $folder"
+mkdir -p "$folder" || wrong_usage "cannot create the folder $folder. Name another one with -o"
 folder=$(cd "$folder" && pwd)
 fetched=()
 missing=()
@@ -144,13 +145,13 @@ for name in "${wanted[@]}"; do
 done
 
 if [ "${#fetched[@]}" -gt 0 ]; then
-  echo "The logs are in $folder. Thanks to those who recorded them and gave them away:"
+  echo "The logs are in $folder. We thank those who recorded and published them:"
   for name in "${fetched[@]}"; do
     echo "  $name: $(column "$name" 4)"
   done
-  echo "and to Rainer Kümmerle and his co-authors for the relations: cite their paper when you publish results."
+  echo "We thank Rainer Kümmerle and his co-authors for the relations. Cite their paper if you publish results."
 fi
 if [ "${#missing[@]}" -gt 0 ]; then
-  say "not fetched: ${missing[*]}; is this machine online, and are the files still listed at $home_page/datasets.php?"
+  say "not downloaded: ${missing[*]}. Check that this machine is online and that $home_page/datasets.php still lists the files"
   exit 1
 fi

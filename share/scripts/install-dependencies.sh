@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what psi-slam needs to be built, on Debian 12. Does nothing when all of it is there already.
+# Installs the packages that are needed to build psi-slam on Debian 12. Does nothing if all of them are installed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -20,12 +20,12 @@ fail() {
   exit 1
 }
 
-# shellcheck disable=SC1091  # the file belongs to the system
+# shellcheck disable=SC1091  # the file is part of the system
 system_name() {
   (. /etc/os-release 2>/dev/null && echo "${PRETTY_NAME:-an unknown system}") || echo "an unknown system"
 }
 
-# Debian 12 or later; Debian's testing release states no version.
+# Succeeds on Debian 12 or later. Debian testing states no version and is accepted.
 # shellcheck disable=SC1091
 is_supported_system() {
   command -v apt-get >/dev/null && command -v dpkg-query >/dev/null || return 1
@@ -46,7 +46,7 @@ as_root() {
   elif command -v sudo >/dev/null; then
     sudo ${CI:+--non-interactive} "$@"
   else
-    fail "installing packages needs root: run this script as root, or install sudo"
+    fail "installing packages needs root. Run this script as root, or install sudo"
   fi
 }
 
@@ -58,22 +58,22 @@ check_cmake() {
   local needed found
   needed=$(sed -n 's/^cmake_minimum_required(VERSION \([0-9.]*\)).*/\1/p' CMakeLists.txt)
   found=$(cmake --version 2>/dev/null | sed -n 's/^cmake version \([0-9.]*\).*/\1/p')
-  [ -n "$found" ] || fail "cmake is installed but does not run"
+  [ -n "$found" ] || fail "cmake is installed but prints no version. Check it with cmake --version"
   [ "$(printf '%s\n' "$needed" "$found" | sort --version-sort | head -n 1)" = "$needed" ] ||
-    fail "CMake $needed or later is needed, but $(command -v cmake) is $found: put a newer one first in PATH"
+    fail "CMake $needed or later is needed, but $(command -v cmake) is version $found. Put a newer one first in PATH"
 }
 
 is_supported_system ||
-  fail "this is $(system_name), but the packages are named for Debian 12: there, install what README.md" \
-    "lists under Dependencies, then run cmake --preset release"
+  fail "this system is $(system_name), but the script needs Debian 12 or later. Install the packages that" \
+    "share/doc/install.md lists under Dependencies, then run cmake --preset release"
 
 mapfile -t missing < <(missing_packages)
 if [ "${#missing[@]}" -eq 0 ]; then
-  echo "install-dependencies.sh: everything psi-slam needs is installed already" >&2
+  echo "install-dependencies.sh: all packages that psi-slam needs are installed" >&2
 else
   echo "install-dependencies.sh: installing ${missing[*]}" >&2
-  apt_get update >&2 || fail "apt-get cannot refresh its lists of packages: is this machine online?"
+  apt_get update >&2 || fail "apt-get update failed. Check that this machine is online"
   apt_get install --yes --no-install-recommends "${missing[@]}" >&2 ||
-    fail "apt-get could not install the packages, see its message above"
+    fail "apt-get install failed. Read its message above"
 fi
 check_cmake

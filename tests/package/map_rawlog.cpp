@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// map_rawlog RAWLOG MAP.simplemap.gz PICTURE.png
+// Maps a rawlog: map_rawlog RAWLOG MAP.simplemap.gz PICTURE.png
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CRawlog.h>
 #include <mrpt/serialization/CArchive.h>

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs a build into a folder of its own, builds the project beside this file and the example against it, and runs
+# Installs a build in a new folder. Builds the project in this folder and the example against the installed files, and runs
 # both.
 #
 #   cmake -D PSI_SLAM_BUILD=DIR -D WORK=DIR [-D CONFIG=Release] [-D CXX=COMPILER] -P package_test.cmake
 foreach(name PSI_SLAM_BUILD WORK)
   if(NOT ${name})
-    message(FATAL_ERROR "${name} is not set")
+    message(FATAL_ERROR "${name} is not set. Usage: cmake -D PSI_SLAM_BUILD=DIR -D WORK=DIR -P package_test.cmake")
   endif()
 endforeach()
 
-# run(STEP COMMAND...): its output is left in `output`.
+# run(STEP COMMAND...): runs the command and sets `output` in the caller. Fails with the name STEP.
 function(run step)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
   if(NOT result EQUAL 0)
@@ -29,7 +29,7 @@ endif()
 
 file(REMOVE_RECURSE ${WORK})
 run("installing" ${CMAKE_COMMAND} --install ${PSI_SLAM_BUILD} --prefix ${WORK}/installed ${config})
-# build_project(NAME SOURCE): into WORK/NAME, as any user would.
+# build_project(NAME SOURCE): builds the project SOURCE in WORK/NAME, as a user would.
 function(build_project name source)
   run("configuring ${name}" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/${name}
     -D CMAKE_PREFIX_PATH=${WORK}/installed ${build_type} ${compiler})
@@ -40,7 +40,7 @@ build_project(build ${CMAKE_CURRENT_LIST_DIR})
 build_project(example ${WORK}/installed/share/doc/libpsi-slam-dev/examples/map-a-log)
 
 foreach(program psi-slam psi-slam-eval)
-  run("the installed ${program}" ${WORK}/installed/bin/${program} --version)
+  run("running the installed ${program}" ${WORK}/installed/bin/${program} --version)
 endforeach()
 foreach(file man/man1/psi-slam-gui.1.gz man/man5/psi-slam.ini.5.gz bash-completion/completions/psi-slam-bench
     zsh/vendor-completions/_psi-slam psi-slam/ini/psi-slam.ini doc/psi-slam/README.md doc/psi-slam/share/doc/architecture.md)
@@ -53,23 +53,23 @@ set(rawlog "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop
 if(EXISTS ${rawlog})
   run("mapping a rawlog" ${WORK}/build/map_rawlog ${rawlog} ${WORK}/map.simplemap.gz ${WORK}/map.png)
   if(NOT output MATCHES "[1-9][0-9]* nodes")
-    message(FATAL_ERROR "the program that was built maps nothing:\n${output}")
+    message(FATAL_ERROR "map_rawlog maps no nodes:\n${output}")
   endif()
   foreach(name map.simplemap.gz map.png)
     file(SIZE ${WORK}/${name} size)
     if(size LESS 1000)
-      message(FATAL_ERROR "${name} has ${size} bytes only")
+      message(FATAL_ERROR "${name} has ${size} bytes, expected at least 1000")
     endif()
   endforeach()
-  run("the example" ${WORK}/example/map_a_log ${rawlog} map.resolution_m=0.1)
+  run("running the example" ${WORK}/example/map_a_log ${rawlog} map.resolution_m=0.1)
   if(NOT output MATCHES "\n[0-9]+[.][0-9]+ -?[0-9.]+ -?[0-9.]+ -?[0-9.]+\n" OR NOT output MATCHES "225 scans, [1-9][0-9]* nodes")
     message(FATAL_ERROR "the example prints no poses:\n${output}")
   endif()
   execute_process(COMMAND ${WORK}/example/map_a_log ${rawlog} map.resolution=1 RESULT_VARIABLE result ERROR_VARIABLE complaint)
   if(NOT result EQUAL 2 OR NOT complaint MATCHES "did you mean")
-    message(FATAL_ERROR "the example does not tell a mistake in its settings: ${result} ${complaint}")
+    message(FATAL_ERROR "the example does not report a misspelt option: ${result} ${complaint}")
   endif()
 else()
-  message("not run: it needs the data sets of the package mrpt-common")
+  message("The rawlog was not mapped, because the data sets of the package mrpt-common are missing")
 endif()
 file(REMOVE_RECURSE ${WORK})

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# benchmark.sh on the beginning of one real log: benchmark_test.sh BUILD_FOLDER
+# Runs benchmark.sh on the beginning of one real log.
+#
+#     benchmark_test.sh BUILD_FOLDER
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -19,7 +21,7 @@ fail() {
 }
 
 expect() {
-  grep -qE -- "$1" "$work/$2" || fail "expected a line like \"$1\""
+  grep -qE -- "$1" "$work/$2" || fail "$2 has no line that matches \"$1\""
 }
 
 mkdir "$work/logs"
@@ -27,17 +29,17 @@ gzip --decompress --stdout "$PSI_SLAM_DATA/intel.clf.gz" | awk '/^FLASER/ && ++s
   gzip >"$work/logs/intel.clf.gz"
 cp "$PSI_SLAM_DATA/intel.relations" "$work/logs"
 "$root/share/scripts/benchmark.sh" "$work/logs" "$work/maps" >"$work/table" 2>"$work/messages" ||
-  fail "exit code $?, expected 0"
+  fail "benchmark.sh ends with exit code $?, expected 0"
 number='[0-9]+([.][0-9]+)?'
 expect '^[|] log [|] scans [|] translation \[m\] [|] rotation \[deg\] [|]' table
 expect "^[|] Intel [|] 400 [|] $number ± $number [|] $number ± $number [|] 0.0213 [|] $number [|] $number GiB [|]$" table
 expect "^    $(sha256sum <"$work/logs/intel.clf.gz" | cut -d ' ' -f 1)  intel.clf.gz$" table
-[ "$(grep -c '^|' "$work/table")" -eq 3 ] || fail "expected a row of the one log only"
+[ "$(grep -c '^|' "$work/table")" -eq 3 ] || fail "the table must have exactly one row, for the log intel"
 expect 'no aces.clf.gz' messages
-expect 'Intel: [0-9]+ relations lie outside' messages
-[ -s "$work/maps/intel/map.png" ] || fail "the map is missing"
+expect 'Intel: skipped [0-9]+ relations that lie outside' messages
+[ -s "$work/maps/intel/map.png" ] || fail "$work/maps/intel/map.png is missing"
 
 mkdir "$work/empty"
 code=0
 "$root/share/scripts/benchmark.sh" "$work/empty" "$work/maps" >"$work/table" 2>"$work/messages" || code=$?
-[ "$code" -eq 2 ] || fail "exit code $code without a log, expected 2"
+[ "$code" -eq 2 ] || fail "benchmark.sh ends with exit code $code if the folder has no logs, expected 2"

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# compare-matchers.sh on the beginning of one real log: compare_matchers_test.sh BUILD_FOLDER
+# Runs compare-matchers.sh on the beginning of one real log.
+#
+#     compare_matchers_test.sh BUILD_FOLDER
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -23,15 +25,15 @@ gzip --decompress --stdout "$PSI_SLAM_DATA/intel.clf.gz" | awk '/^FLASER/ && ++s
   gzip >"$work/logs/intel.clf.gz"
 cp "$PSI_SLAM_DATA/intel.relations" "$work/logs"
 "$root/share/scripts/compare-matchers.sh" "$work/logs" "$work/maps" >"$work/table" 2>"$work/messages" ||
-  fail "exit code $?, expected 0"
+  fail "compare-matchers.sh ends with exit code $?, expected 0"
 for matcher in csm csm_ga ga adaptive; do
   grep -qE "^[|] intel [|] $matcher [|] [0-9.]+ [|] [+-][0-9.]+% [|] [0-9,]+ [|] [+-][0-9,]+ [|] [0-9.]+ [|] [0-9.]+ [|]$" \
-    "$work/table" || fail "expected a row of $matcher"
+    "$work/table" || fail "the row of $matcher is missing"
   [ -s "$work/maps/$matcher/intel/map.png" ] || fail "the map of $matcher is missing"
 done
 grep -qE '^[|] intel [|] csm [|] [0-9.]+ [|] [+]0.0% [|] [1-9][0-9,]* [|] [+]0 [|] [0-9.]+ [|] 1.00 [|]$' "$work/table" ||
-  fail "csm against itself must be the same"
+  fail "the row of csm must compare csm with itself: +0.0%, +0 and 1.00"
 
 status=0
 "$root/share/scripts/compare-matchers.sh" "$work/empty" "$work/none" >"$work/table" 2>"$work/messages" || status=$?
-[ "$status" -eq 2 ] || fail "a folder without logs: exit code $status, expected 2"
+[ "$status" -eq 2 ] || fail "compare-matchers.sh ends with exit code $status if the folder has no logs, expected 2"

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# completion_test.sh BUILD: what the scripts for bash answer, without a terminal.
+# Checks what the bash completion scripts offer. Needs no terminal.
+#
+#     completion_test.sh BUILD
 set -euo pipefail
 build=$1
 work=$(mktemp -d)
@@ -12,11 +14,11 @@ touch my.log my.ini "my other.log"
 failures=0
 for program in "$build"/apps/*/psi-*; do
   [ -f "$program" ] || continue
-  # shellcheck disable=SC1090
+  # shellcheck disable=SC1090  # the build makes the file
   source "$build/completions/${program##*/}"
 done
 
-# answers LINE: what bash would offer behind it.
+# answers LINE: prints the completions of LINE, sorted, each followed by a bar.
 answers() {
   COMP_LINE=$1
   COMP_POINT=${#COMP_LINE}
@@ -26,13 +28,13 @@ answers() {
   printf '%s\n' "${COMPREPLY[@]}" | sort | tr '\n' '|'
 }
 
-# expect LINE ANSWERS: all of them, in order, a bar behind each; * at the end for more.
+# expect LINE ANSWERS: checks that answers LINE prints ANSWERS, which may be a pattern with *.
 expect() {
   local found
   found=$(answers "$1")
-  # shellcheck disable=SC2053  # the pattern is meant
+  # shellcheck disable=SC2053  # $2 may be a pattern
   if [[ $found != $2 ]]; then
-    echo "completion_test.sh: \"$1\" offers $found, expected $2" >&2
+    echo "completion_test.sh: completing \"$1\" offers $found, expected $2" >&2
     failures=$((failures + 1))
   fi
 }
@@ -67,7 +69,7 @@ expect "psi-slam-gui --ed" "--edits|"
 expect "psi-slam-gui --set psi.psi_" "psi.psi_1=|psi.psi_2=|"
 expect "psi-slam-eval --per-relation ma" "maps|"
 expect "psi-slam-bench f" "false-loops|freiburg|"
-expect "psi-slam-bench freiburg --riv" "--rival*"
+expect "psi-slam-bench freiburg --basel" "--baseline*"
 expect "psi-slam-bench match --data ma" "maps|"
 expect "psi-graphslam -r my.l" "my.log|"
 expect "psi-graphslam --ini my.i" "my.ini|"
@@ -81,12 +83,15 @@ if [ -e "$build/completions/psi-slam-sweep-mpi" ]; then
 fi
 expect "psi-slam --man" "|"
 
-# Every key of the settings files is offered.
+# Completion offers every key of the settings file.
 count=$("$build/apps/psi-slam/psi-slam" --dump-config | grep -c '^[a-z_0-9]* = ')
 offered=$(answers "psi-slam --set " | tr '|' '\n' | grep -c '=$')
-[ "$count" -eq "$offered" ] || { echo "completion_test.sh: $count options but $offered offered" >&2; failures=$((failures + 1)); }
+if [ "$count" -ne "$offered" ]; then
+  echo "completion_test.sh: --set offers $offered of $count options" >&2
+  failures=$((failures + 1))
+fi
 
-COMP_WORDBREAKS=$' \t\n"'  # as with zsh, the whole word is answered
+COMP_WORDBREAKS=$' \t\n"'  # zsh does not split words at = and :, so it gets the whole word
 expect "psi-slam --set map.write_dxf=t" "map.write_dxf=true|"
 expect "psi-slam --config=my.i" "--config=my.ini|"
 [ "$failures" -eq 0 ]

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs every command of the README and of the pages in share/doc: the ```sh blocks of a page in their order, in a folder of
-# their own with small made-up logs. Blocks that cannot be run are ```console, with the reason above them.
+# Runs the commands of the README and of the pages in share/doc. The ```sh blocks of a page run in order, in a new folder
+# with small simulated logs. Blocks that cannot run are ```console blocks, with the reason in the line above.
 #
-#     documentation_test.sh SOURCE BUILD [PAGE...]     # default: all that have such blocks
+#     documentation_test.sh SOURCE BUILD [PAGE...]     # default: all pages with sh or console blocks
 set -euo pipefail
 
 source=$(cd "$1" && pwd)
@@ -16,28 +16,30 @@ export PATH
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
+# blocks FILE: prints the contents of all sh blocks.
 blocks() {
   awk '/^```sh$/ { inside = 1; next } /^```/ { inside = 0; next } inside' "$1"
 }
 
-# A block that is not run says why in the line above it.
+# check_reasons FILE: fails if a console block has no reason in the line above it.
 check_reasons() {
   awk -v page="$1" '
     /^```console$/ && before !~ /^<!-- not run .*-->$/ {
-      print page ":" NR ": say above this block why it is not run: <!-- not run ...: ... -->"; wrong = 1 }
+      print page ":" NR ": this console block has no reason. Add a line <!-- not run ...: ... --> above it"; wrong = 1 }
     { before = $0 } END { exit wrong }' "$1"
 }
 
-# The files that the pages speak of: a log with its true relations, and a folder of logs named as in the benchmark.
+# Makes the files that the pages use: a log with its true relations, and a folder with one log of the benchmark.
 write_logs() {
   mkdir -p "$scratch/logs/benchmark-logs"
   cd "$scratch/logs"
   psi-slam-bench simulate --path-m 40 --people 0 --write-log benchmark-logs/intel.clf.gz >simulate.md
   cp benchmark-logs/intel.clf.gz my.log
-  cp my.log new.log  # the robot comes again, started elsewhere for all that its odometry says
+  cp my.log new.log  # a second run of the robot, for merge and localize
   cp benchmark-logs/intel.relations my.relations
 }
 
+# run_page PAGE: runs the commands of the page and prints their number.
 run_page() {
   local folder="$scratch/${1//\//-}" status=0
   mkdir "$folder"
@@ -47,7 +49,7 @@ run_page() {
   blocks "$source/$1" >commands.sh
   bash -euxo pipefail commands.sh >words 2>&1 || status=$?
   if [ "$status" -ne 0 ]; then
-    echo "documentation_test.sh: $1: a command ended with $status; the last words:" >&2
+    echo "documentation_test.sh: $1: a command ended with exit code $status. Its last output:" >&2
     tail -n 20 words >&2
     return 1
   fi
@@ -55,7 +57,7 @@ run_page() {
 }
 
 if [ "$#" -eq 0 ]; then
-  mapfile -t pages < <(cd "$source" && grep -lE '^```(sh|console)$' README.md share/doc/*.md)
+  mapfile -t pages < <(cd "$source" && grep -lE '^```(sh|console)$' README.md CONTRIBUTING.md share/doc/*.md)
   set -- "${pages[@]}"
 fi
 write_logs

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# man_pages_test.sh BUILD: man finds nothing to complain of in the manual pages, and they say what they should.
+# Checks that man shows the manual pages without warnings and that they contain the expected texts.
+#
+#     man_pages_test.sh BUILD
 set -euo pipefail
 build=$1
 command -v man >/dev/null || exit 77
@@ -11,14 +13,14 @@ fail() {
 }
 
 for program in "$build"/apps/*/psi-*; do
-  [ ! -f "$program" ] || [ -f "$build/man/${program##*/}.1.gz" ] || fail "$program has no page"
+  [ ! -f "$program" ] || [ -f "$build/man/${program##*/}.1.gz" ] || fail "${program##*/} has no manual page"
 done
 for page in "$build"/man/*.gz; do
   complaints=$(LC_ALL=C.UTF-8 MANROFFSEQ='' MANWIDTH=80 man --warnings -E UTF-8 -l -Tutf8 -Z "$page" 2>&1 >/dev/null)
   [ -z "$complaints" ] || fail "$page: $complaints"
 done
 shown() { LC_ALL=C.UTF-8 MANWIDTH=200 man -E UTF-8 -l "$build/man/$1" | sed 's/.\x08//g'; }
-expect() { grep -qF -- "$2" <<<"$(shown "$1")" || fail "$1 does not say: $2"; }
+expect() { grep -qF -- "$2" <<<"$(shown "$1")" || fail "$1 lacks: $2"; }
 
 expect psi-slam.1.gz "psi-slam - draws floor plans from the scans of a 2D lidar and wheel odometry"
 expect psi-slam.1.gz "-o, --output DIR"
@@ -37,7 +39,9 @@ if [ -e "$build/apps/psi-slam-sweep-mpi/psi-slam-sweep-mpi" ]; then
   expect psi-slam.1.gz "psi-slam-sweep-mpi(1)"
 fi
 expect psi-slam.ini.5.gz "m, between 0.005 and 10; default 0.05"
-if grep -q "freiburg-run\|man-page" <<<"$(shown psi-slam-bench.1.gz)"; then fail "hidden things are told of"; fi
+if grep -q "freiburg-run\|man-page" <<<"$(shown psi-slam-bench.1.gz)"; then
+  fail "psi-slam-bench.1.gz shows hidden commands or options"
+fi
 count=$("$build/apps/psi-slam/psi-slam" --dump-config | grep -c '^[a-z_0-9]* = ')
 items=$(zcat "$build/man/psi-slam.ini.5.gz" | grep -c '^\.TP$')
-[ "$count" -eq "$items" ] || fail "$count options but $items of them in psi-slam.ini(5)"
+[ "$count" -eq "$items" ] || fail "psi-slam.ini(5) lists $items of $count options"

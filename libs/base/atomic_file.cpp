@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPartial = ".partial-";
 
-// Name of what this process writes.
+// Name for temporary folders of this process.
 std::string partial_name() {
   return std::string(kPartial) + std::to_string(::getpid());
 }

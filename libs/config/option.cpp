@@ -62,18 +62,9 @@ std::string NumberRange::words() const {
 }
 
 std::string Option::expectation() const {
-  switch (type) {
-    case OptionType::kFlag:
-      return "true or false";
-    case OptionType::kInteger:
-    case OptionType::kNumber:
-      return (may_be_auto ? "auto or " : "") + number_expectation(*this);
-    case OptionType::kChoice:
-      return "one of " + joined(choices);
-    case OptionType::kText:
-      return "a text of one line";
-  }
-  return "";
+  if (type == OptionType::kText) return "a text of one line";
+  if (type != OptionType::kInteger && type != OptionType::kNumber) return values();
+  return (may_be_auto ? "auto or " : "") + number_expectation(*this);
 }
 
 std::string Option::values() const {

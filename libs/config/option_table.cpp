@@ -110,7 +110,7 @@ std::pair<std::string_view, std::string_view> parts(std::string_view name) {
   return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
-/// Proposal for an unknown key, as the end of a sentence; empty if there is none.
+/// Proposal for an unknown key, as the end of a sentence; can be empty.
 std::string proposal(const std::vector<OptionSection>& sections, const OptionSection& here,
                      std::string_view key) {
   for (const OptionSection& section : sections)

@@ -78,7 +78,7 @@ class OptionTable {
   bool knows(std::string_view name) const;
 
   /// The option that is or was called `name`, "section.key". Throws UserError that begins with `where`
-  /// ("my.ini:12", "--set") and proposes the nearest name if there is none.
+  /// ("my.ini:12", "--set") and proposes the nearest name if the option is unknown.
   const Option& option(std::string_view name, std::string_view where) const;
 
   /// Throws UserError that begins with `where` unless a section is or was called `name`.

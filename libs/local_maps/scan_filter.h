@@ -25,8 +25,7 @@ ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& optio
 /// separately.
 ScanPoints matching_points(const Frame& frame, const ScanFilterOptions& options);
 
-/// Returns all returns of a scan as beams in the frame of a local map. Beams longer than `max_range_m` are
-/// cut there.
+/// Converts all returns of a scan to beams in the frame of a local map. Cuts beams at `max_range_m`.
 Beams drawing_beams(const LaserScan& scan, const mrpt::math::TPose2D& map_T_robot, double min_range_m,
                     double max_range_m);
 

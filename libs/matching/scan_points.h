@@ -18,7 +18,7 @@ struct LaserPoints {
 /// Points of one scan in the robot's frame, metres.
 struct ScanPoints {
   std::vector<mrpt::math::TPoint2Df> points;
-  /// For each point, the unit normal of its straight surface, or (0, 0) if there is none. Empty: unknown.
+  /// For each point, the unit normal of its straight surface, or (0, 0) without one. Empty: unknown.
   std::vector<mrpt::math::TPoint2Df> normals;
   mrpt::math::TPoint2Df origin{0, 0};  ///< position of the first laser in the robot's frame
   double farthest_m = 0;               ///< d_max of equation 7: largest distance of a point from the robot

@@ -66,7 +66,7 @@ std::vector<std::uint32_t> fill_reducing_order(
   return {indices.data(), indices.data() + indices.size()};
 }
 
-// The columns of row k of L in topological order at the end of pattern_; returns where they begin.
+// Puts the columns of row k of L in topological order at the end of pattern_. Returns the index of the first.
 std::size_t BlockCholesky::reach(const SymmetricBlockMatrix& matrix, std::uint32_t k) {
   std::size_t top = size();
   mark_[k] = k;

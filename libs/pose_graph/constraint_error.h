@@ -61,7 +61,7 @@ inline ConstraintJacobians constraint_jacobians(const RotatedPose& map_T_i, cons
   return jacobians;
 }
 
-/// What one constraint adds to the normal equations H dx = -g of equation 6, J^T Omega J and J^T Omega e.
+/// Terms of one constraint in the normal equations H dx = -g of equation 6, J^T Omega J and J^T Omega e.
 struct ConstraintNormals {
   Eigen::Matrix3d ii;  ///< block (i, i) of H
   Eigen::Matrix3d ij;  ///< block (i, j) of H

@@ -70,7 +70,7 @@ class SparsePoseAdjustment {
   const NormalEquations& equations() const { return equations_; }
 
  private:
-  struct State {  // a set of poses and what the constraints say to it
+  struct State {  // poses, with the errors of the constraints there
     std::vector<RotatedPose> poses;
     std::vector<Eigen::Vector3d> errors;
     std::vector<double> chi2;

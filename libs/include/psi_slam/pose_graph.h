@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pose graph: the poses of the nodes, and the measured relative poses between them (equations 3 to 6).
 //
-// The graph uses flat arrays; mrpt_network() converts it to MRPT's CNetworkOfPoses2DInf. MRPT's container has
-// no place for the kind, kernel and switch of an edge and cannot hold two edges between the same pair of
-// nodes.
+// The graph uses flat arrays, because MRPT's CNetworkOfPoses2DInf has no place for the kind, kernel and
+// switch of an edge. The deciders for MRPT's graph-slam engine convert it.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -43,7 +42,7 @@ struct Constraint {
   enum class Kind {
     kOdometry,  ///< between successive nodes
     kLocalMap,  ///< from the anchor of a local map to a node whose scan the map holds
-    kRunStart,  ///< from a node of an earlier run to the start of a run
+    kRunStart,  ///< from a node of another run to the start of a run
     kLoop,      ///< from a recognised place; only this kind can be entirely false
   };
 

@@ -11,25 +11,25 @@
 
 namespace psi_slam {
 
-/// The lines of a text file, plain or gzipped, without their line ends ("\n" or "\r\n"). Throws UserError as
-/// CompressedFile does, and on a line of more than 16 MB, which is no text.
+/// Reads the lines of a text file, plain or compressed, without their line ends ("\n" or "\r\n"). Throws
+/// UserError as CompressedFile does, and for a line of more than 16 MB.
 class LineReader {
  public:
   explicit LineReader(std::filesystem::path path);
 
-  /// Moves to the next line; false at the end. The view holds until the next call.
+  /// Reads the next line; returns false at the end of the file. The view is valid until the next call.
   bool next(std::string_view& line);
 
-  /// The same for who only looks ahead: what is wrong with the file ends it, too.
+  /// Reads the next line as next() does, but treats a read error as the end of the file. For looking ahead.
   bool next_readable(std::string_view& line);
 
-  /// The number of the line last read, from 1.
+  /// Number of the last line read, from 1.
   std::size_t line_number() const { return line_number_; }
 
-  /// Whether the line last read had a line end; only the last line of a file may lack it.
+  /// Whether the last line read had a line end. Only the last line of a file can lack it.
   bool line_was_ended() const { return line_was_ended_; }
 
-  /// "path:line" of the line last read, as editors take it.
+  /// Place of the last line read: "path:line".
   std::string place() const;
 
   const std::filesystem::path& path() const { return file_.path(); }

@@ -22,7 +22,7 @@ std::vector<std::uint8_t> PackedBytes::unpacked() const {
   uLongf got = bytes.size();
   if (size_ == 0) return bytes;
   if (uncompress(bytes.data(), &got, packed_.data(), packed_.size()) != Z_OK || got != size_)
-    throw std::logic_error("PackedBytes: what was packed cannot be unpacked");
+    throw std::logic_error("PackedBytes: the packed bytes are corrupt");
   return bytes;
 }
 

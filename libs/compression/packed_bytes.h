@@ -7,14 +7,14 @@
 
 namespace psi_slam {
 
-/// Bytes that are not needed for a while, compressed without loss: quickly, rather than as much as can be.
+/// Bytes that are not needed for some time, compressed without loss at the fastest level.
 class PackedBytes {
  public:
   PackedBytes() = default;
   explicit PackedBytes(const std::vector<std::uint8_t>& bytes);
 
   std::vector<std::uint8_t> unpacked() const;
-  std::size_t size() const { return size_; }  ///< of what was packed
+  std::size_t size() const { return size_; }  ///< size of the unpacked bytes
   std::size_t memory_bytes() const { return packed_.capacity(); }
 
  private:

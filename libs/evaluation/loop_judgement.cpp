@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "frames/pose_operations.h"
 #include "trajectory/pose_at_time.h"
 
 namespace psi_slam {
@@ -122,7 +123,7 @@ JudgedLoop judge(const PlacedLoop& loop, const PlacedRelation& relation, bool no
                  const LoopJudgementOptions& options) {
   const PathPoint& node_end = node_at_end1 ? relation.end1 : relation.end2;
   const PathPoint& map_end = node_at_end1 ? relation.end2 : relation.end1;
-  const TPose2D truth = node_at_end1 ? TPose2D() - relation.end1_T_end2 : relation.end1_T_end2;
+  const TPose2D truth = node_at_end1 ? inverse(relation.end1_T_end2) : relation.end1_T_end2;
   const TPose2D error = predicted(loop, node_end, map_end) - truth;
   JudgedLoop judged{loop.loop, relation.relation, std::hypot(error.x, error.y),
                     std::abs(mrpt::math::wrapToPi(error.phi)), way_m(loop, node_end, map_end)};

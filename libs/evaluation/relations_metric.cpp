@@ -9,8 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "trajectory/pose_at_time.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
+#include "trajectory/pose_at_time.h"
 #include "trajectory/text_lines.h"
 
 namespace psi_slam {
@@ -23,8 +24,8 @@ constexpr std::size_t kRelationWords = 8;
 RelationError error_of(const Relation& relation, const PoseAtTime& pose1, const PoseAtTime& pose2) {
   const TPose2D& truth = relation.pose1_T_pose2;
   const TPose2D estimate = pose2.pose - pose1.pose;
-  const TPose2D error = estimate - truth;                             // truth^-1 * estimate
-  const TPose2D cartographer_error = estimate + (TPose2D() - truth);  // estimate * truth^-1
+  const TPose2D error = estimate - truth;                        // truth^-1 * estimate
+  const TPose2D cartographer_error = estimate + inverse(truth);  // estimate * truth^-1
   RelationError result;
   result.relation = relation;
   result.interpolated = pose1.interpolated || pose2.interpolated;

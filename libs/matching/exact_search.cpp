@@ -20,7 +20,7 @@ struct Block {
   LatticePose pose;
 };
 
-// What both searches share: the best candidate so far.
+// Base of both searches: keeps the best candidate.
 class SearchBase {
  public:
   SearchBase(const SearchLattice& lattice, std::uint32_t min_sum,
@@ -89,7 +89,7 @@ class BranchAndBound : private SearchBase {
   }
 
  private:
-  // All blocks of the window whose bound reaches the smallest sum asked for, in descending order of bounds.
+  // All blocks of the window whose bound reaches the smallest sum, in descending order of bounds.
   std::vector<Block> coarse_blocks() {
     const int width = (2 * window_.n_x + kCoarse) / kCoarse;
     const int height = (2 * window_.n_y + kCoarse) / kCoarse;

@@ -11,7 +11,7 @@
 namespace psi_slam {
 
 struct SearchOutcome {
-  std::optional<Candidate> best;  ///< empty if no pose reaches the smallest sum asked for
+  std::optional<Candidate> best;  ///< empty if no pose reaches the smallest sum
   std::int64_t evaluations = 0;   ///< poses scored on any level of the grid
 };
 

@@ -26,11 +26,6 @@ enum class InstructionSet { kBaseline, kAvx2, kAvx512 };
 /// The kernel for one instruction set; null if the machine or the build lacks it. For tests and benchmarks.
 SumKernel sum_kernel_for(InstructionSet set);
 
-const char* name(InstructionSet set);
-
-/// The set that sum_kernel() uses.
-InstructionSet sum_kernel_instruction_set();
-
 // One translation unit each, compiled with the flags of that set.
 SumKernel sum_kernel_baseline();
 SumKernel sum_kernel_avx2();

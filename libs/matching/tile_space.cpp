@@ -7,7 +7,7 @@
 namespace psi_slam {
 namespace {
 
-// The fewest bits that hold 0 .. count - 1.
+// Smallest number of bits that hold 0 .. count - 1.
 int bits_for(std::size_t count) {
   int bits = 0;
   while ((std::uint64_t{1} << bits) < count) ++bits;
@@ -100,7 +100,7 @@ Chromosome CellTiles::encode(const Place& place) const {
   return code_of(static_cast<std::size_t>(place.turn), gray_) | (code_of(place.cell, gray_) << turn_bits_);
 }
 
-// Headings beyond the window's edge stand for the edge's own.
+// Clamps headings to the window.
 CellTiles::Place CellTiles::decode(Chromosome chromosome) const {
   const auto cell =
       static_cast<std::size_t>(number_in(chromosome, turn_bits_, cell_bits_, cells_.size(), gray_));

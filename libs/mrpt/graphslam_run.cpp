@@ -11,10 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "mrpt/graphslam_window.h"
-#include "mrpt/no_standard_input.h"
 #include "base/atomic_file.h"
-#include "base/atomic_folder.h"
 #include "psi_slam/user_error.h"
 #include "exports/mapped_trajectory.h"
 #include "mrpt/graphslam_settings.h"

@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "base/atomic_file.h"
-#include "base/atomic_folder.h"
-#include "psi_slam/user_error.h"
 #include "exports/corrected_log.h"
 #include "exports/frames_csv.h"
 #include "exports/loops_csv.h"
 #include "exports/mapped_trajectory.h"
-#include "report/report_html.h"
 #include "exports/summary_json.h"
+#include "psi_slam/user_error.h"
+#include "report/report_html.h"
 #include "trajectory/trajectory_file.h"
 
 namespace psi_slam {

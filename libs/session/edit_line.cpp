@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/exact_number.h"
+#include "base/number_text.h"
 #include "config/nearest_name.h"
 #include "psi_slam/user_error.h"
 #include "session/edit_journal.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "config/exact_number.h"
+#include "base/number_text.h"
 #include "psi_slam/user_error.h"
 #include "session/settings.h"
 

@@ -16,7 +16,7 @@
 namespace psi_slam {
 namespace {
 
-// The sum of a block by its definition: of each point, the largest score of the coarsest level's cell.
+// Sum of a block by its definition: the scores of the coarsest level under all points.
 std::uint32_t slow_block_sum(const SearchLattice& lattice, const Tile& cell) {
   const ScoreLevel& level = lattice.grid().pyramid(1);
   std::uint32_t sum = 0;
@@ -37,7 +37,7 @@ struct Problem {
   SearchLattice lattice{grid, scan, {1, 1, 0.4}, window_of_steps(21, 18, 7, 0.03)};
 };
 
-TEST(CoarseCells, are_all_there_in_the_order_of_their_sums) {
+TEST(CoarseCells, cover_the_window_in_the_order_of_their_sums) {
   const Problem problem;
   const CoarseCells coarse = rank_coarse_cells(problem.lattice, 4, 1'000'000, 0);
   ASSERT_EQ(coarse.best.size(), 6U * 5U * 4U) << "43 x 37 shifts in blocks of 8, 15 headings in fours";
@@ -45,7 +45,7 @@ TEST(CoarseCells, are_all_there_in_the_order_of_their_sums) {
   for (std::size_t i = 1; i < coarse.best.size(); ++i)
     EXPECT_GE(slow_block_sum(problem.lattice, coarse.best[i - 1]),
               slow_block_sum(problem.lattice, coarse.best[i]));
-  // Together they cover the window: every shift in one block of every heading.
+  // The cells cover the window: every shift is in one block of every heading.
   std::set<std::tuple<int, int, int>> shifts;
   std::set<int> headings;
   for (const Tile& cell : coarse.best) {
@@ -58,7 +58,7 @@ TEST(CoarseCells, are_all_there_in_the_order_of_their_sums) {
   EXPECT_EQ(shifts.size(), 43U * 37U * 4U);
 }
 
-TEST(CoarseCells, the_best_are_the_best_of_all) {
+TEST(CoarseCells, the_kept_cells_are_the_best_of_all) {
   const Problem problem;
   const CoarseCells all = rank_coarse_cells(problem.lattice, 4, 1'000'000, 0);
   const CoarseCells few = rank_coarse_cells(problem.lattice, 4, 9, 0);
@@ -70,7 +70,7 @@ TEST(CoarseCells, the_best_are_the_best_of_all) {
   }
 }
 
-TEST(CoarseCells, below_the_smallest_sum_none_is_kept) {
+TEST(CoarseCells, cells_below_the_smallest_sum_are_dropped) {
   const Problem problem;
   const CoarseCells all = rank_coarse_cells(problem.lattice, 4, 1'000'000, 0);
   const std::uint32_t middle = slow_block_sum(problem.lattice, all.best[all.best.size() / 2]);
@@ -81,7 +81,7 @@ TEST(CoarseCells, below_the_smallest_sum_none_is_kept) {
   EXPECT_EQ(static_cast<std::ptrdiff_t>(upper.best.size()), reach);
 }
 
-// At its own heading, a cell's sum bounds its poses.
+// The sum of a cell bounds the sums of its poses at its own heading.
 TEST(CoarseCells, sums_bound_the_poses_of_their_cells) {
   const Problem problem;
   for (const Tile& cell : rank_coarse_cells(problem.lattice, 4, 20, 0).best)
@@ -99,7 +99,7 @@ TEST(CoarseCells, need_the_pyramid) {
   EXPECT_THROW(rank_coarse_cells(lattice, 4, 10, 0), std::invalid_argument);
 }
 
-TEST(CoarseSeeds, of_one_block_are_every_few_headings) {
+TEST(CoarseSeeds, of_one_block_are_evenly_spaced_headings) {
   std::mt19937_64 random(95);
   const ScoreGrid grid = random_grid(random, 40, 40, 8);
   const ScanPoints scan = random_points(random, 10, 0.5);
@@ -113,7 +113,7 @@ TEST(CoarseSeeds, of_one_block_are_every_few_headings) {
   EXPECT_GT(tiles.tile(seeds.chromosomes.back()).theta, 10 - 4);
 }
 
-TEST(CoarseSeeds, are_few_and_differ_and_one_of_the_first_is_where_the_robot_is) {
+TEST(CoarseSeeds, are_few_and_distinct_and_one_of_the_first_is_at_the_robot) {
   const SimulatedWalls walls = furnished_room();
   const ScoreGrid grid = grid_of(walls);
   std::mt19937_64 random(96);

@@ -14,13 +14,13 @@
 namespace psi_slam {
 namespace {
 
-TEST(ExhaustiveSearch, finds_what_three_loops_find_ties_included) {
+TEST(ExhaustiveSearch, equals_three_plain_loops_including_ties) {
   std::mt19937_64 random(31);
   std::uniform_int_distribution<int> steps(1, 9);
   std::uniform_real_distribution<double> metres(-2, 3);
   int ties = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    // Two levels and few points: the highest sum is reached in many places.
+    // With two score levels and few points, many poses reach the highest sum.
     const ScoreGrid grid = random_grid(random, 40, 30, trial % 3 == 0 ? 256 : 2);
     const ScanPoints scan = random_points(random, 1 + random() % 30, 1.0);
     const SearchLattice lattice(grid, scan, {metres(random), metres(random), metres(random)},
@@ -36,10 +36,10 @@ TEST(ExhaustiveSearch, finds_what_three_loops_find_ties_included) {
         slow_search(lattice, expected->sum, ExcludedRegion{around_best, 1, 1});
     if (another) ++ties;
   }
-  EXPECT_GT(ties, 100) << "the trials shall try the tie-break";
+  EXPECT_GT(ties, 100) << "the trials must test the tie-break";
 }
 
-TEST(ExhaustiveSearch, leaves_out_the_excluded_region) {
+TEST(ExhaustiveSearch, skips_the_excluded_region) {
   std::mt19937_64 random(32);
   std::uniform_real_distribution<double> metres(-1, 1);
   for (int trial = 0; trial < 100; ++trial) {
@@ -67,7 +67,7 @@ TEST(ExhaustiveSearch, finds_nothing_when_all_is_excluded) {
   EXPECT_TRUE(exhaustive_search(lattice, 0, ExcludedRegion{{0, 0, 0}, 4, 3}).best);
 }
 
-TEST(ExhaustiveSearch, the_smallest_sum_is_reached_by_equality) {
+TEST(ExhaustiveSearch, accepts_a_sum_equal_to_the_smallest) {
   std::mt19937_64 random(34);
   const ScoreGrid grid = random_grid(random, 30, 30, 256);
   const ScanPoints scan = random_points(random, 15, 0.5);
@@ -77,7 +77,7 @@ TEST(ExhaustiveSearch, the_smallest_sum_is_reached_by_equality) {
   EXPECT_FALSE(exhaustive_search(lattice, best->sum + 1).best);
 }
 
-TEST(ExhaustiveSearch, far_from_the_grid_the_centre_is_the_best_of_equals) {
+TEST(ExhaustiveSearch, far_from_the_grid_the_centre_wins_the_tie) {
   std::mt19937_64 random(35);
   const ScoreGrid grid = random_grid(random, 30, 30, 256);
   const ScanPoints scan = random_points(random, 15, 0.5);
@@ -89,8 +89,8 @@ TEST(ExhaustiveSearch, far_from_the_grid_the_centre_is_the_best_of_equals) {
 
 using mrpt::math::TPose2D;
 
-// Both searches, without and with an excluded region, at the smallest sums that matter: none, what is just
-// reached, what is just missed.
+// Compares both searches with and without an excluded region, and with smallest sums of zero, the best sum
+// and one more.
 void expect_equal_outcomes(const SearchLattice& lattice, const std::string& where) {
   const SearchOutcome exhaustive = exhaustive_search(lattice, 0);
   const SearchOutcome fast = branch_and_bound_search(lattice, 0);
@@ -123,8 +123,8 @@ TEST(BranchAndBound, equals_the_exhaustive_search_on_random_grids) {
   }
 }
 
-// Few points on few walls leave most of the window equally bad, and much of it equally good.
-TEST(BranchAndBound, equals_the_exhaustive_search_where_ties_abound) {
+// Few points on few walls give many poses equal sums.
+TEST(BranchAndBound, equals_the_exhaustive_search_with_many_ties) {
   std::mt19937_64 random(42);
   std::uniform_int_distribution<int> cell(0, 79);
   std::uniform_int_distribution<int> steps(3, 24);
@@ -190,7 +190,7 @@ TEST(BranchAndBound, equals_the_exhaustive_search_on_real_scans) {
     std::int64_t fast_poses = 0;
     for (int trial = 0; trial < window.cases; ++trial) {
       const PlacedLocalMap& placed = real.maps[random() % real.maps.size()];
-      // A node of the map itself, seen with a wrong prediction; or any node, which need not fit at all.
+      // A node of the map with a wrong prediction, or any node, which need not match.
       const std::size_t within = placed.first_node + random() % (placed.last_node - placed.first_node + 1);
       const std::size_t node = trial % 3 < 2 ? within : random() % real.nodes.size();
       ScanPoints scan = *real.nodes[node].points;

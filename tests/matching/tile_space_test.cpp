@@ -20,7 +20,7 @@ Key key(const Tile& tile) {
   return {tile.theta, tile.block.first.x, tile.block.first.y};
 }
 
-// All tiles of a space, by trying every string of bits; checks what must hold of each.
+// All tiles of a space, from all strings of bits; checks each of them.
 std::map<Key, Tile> all_tiles(const TileSpace& space) {
   std::map<Key, Tile> tiles;
   std::map<Key, Chromosome> code_of;
@@ -70,7 +70,7 @@ TEST(WindowTiles, small_windows_are_one_block) {
   EXPECT_EQ(large.rows(), 1);
 }
 
-TEST(WindowTiles, encode_names_the_block_that_holds_a_shift) {
+TEST(WindowTiles, encode_gives_the_block_that_contains_a_shift) {
   const SearchWindow window = window_of_steps(40, 30, 6, 0.01);
   for (const bool gray : {false, true}) {
     const WindowTiles space(window, gray);
@@ -113,7 +113,7 @@ TEST(WindowTiles, turn_up_to_the_windows_edge) {
   }
 }
 
-TEST(CellTiles, hold_all_headings_of_their_cells_that_the_window_has) {
+TEST(CellTiles, contain_all_headings_of_their_cells_inside_the_window) {
   const SearchWindow window = window_of_steps(40, 40, 10, 0.01);
   const std::vector<Tile> cells = {{0, {{-8, 0}, 8, 8}}, {9, {{16, -40}, 8, 8}}, {-10, {{32, 8}, 8, 5}}};
   for (const bool gray : {false, true}) {
@@ -132,8 +132,8 @@ TEST(CellTiles, hold_all_headings_of_their_cells_that_the_window_has) {
     for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_EQ(key(space.tile(space.encode(i))), key(cells[i]));
     EXPECT_EQ(key(space.tile(*space.turned(space.encode(0), 1))), Key(1, -8, 0));
     EXPECT_EQ(key(space.tile(*space.turned(space.encode(0), -2))), Key(-2, -8, 0));
-    EXPECT_FALSE(space.turned(space.encode(0), 2)) << "beyond the cell";
-    EXPECT_FALSE(space.turned(space.encode(2), -1)) << "beyond the window";
+    EXPECT_FALSE(space.turned(space.encode(0), 2)) << "outside the cell";
+    EXPECT_FALSE(space.turned(space.encode(2), -1)) << "outside the window";
   }
 }
 

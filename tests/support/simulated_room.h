@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A rectangular room without doors, and what a laser sees in it: what the tests of maps and exports draw.
+// A rectangular room without doors, and laser scans of it, for the tests of maps and exports.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -16,7 +16,7 @@
 
 namespace psi_slam {
 
-/// The room [x_min, x_max] x [y_min, y_max], in metres in the map.
+/// The room [x_min, x_max] x [y_min, y_max], in metres in the map frame.
 struct SimulatedRoom {
   double x_min = -2;
   double x_max = 4;
@@ -45,7 +45,7 @@ struct SimulatedRoom {
   }
 };
 
-/// `count` beams from first to last, evenly.
+/// `count` evenly spaced bearings from first to last.
 inline BeamBearings even_bearings(double first_rad, double last_rad, int count) {
   std::vector<float> bearings;
   for (int i = 0; i < count; ++i)
@@ -53,8 +53,8 @@ inline BeamBearings even_bearings(double first_rad, double last_rad, int count) 
   return std::make_shared<const std::vector<float>>(std::move(bearings));
 }
 
-/// A run of the mapper as it could have been: a walk around the room, every fifth scan a node, and two loops
-/// of which one was refused. All times measured are made up.
+/// A made-up result of the mapper: a walk around the room, every fifth scan a node, one accepted and one
+/// rejected loop, and invented times.
 inline MappingResult walk_around_the_room(int scans = 50) {
   const SimulatedRoom room;
   const BeamBearings bearings = even_bearings(-M_PI / 2, M_PI / 2, 181);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/simulation_random.h"
 
-#include "base/mixed_bits.h"
+#include "base/random_draws.h"
 
 namespace psi_slam {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "config/number_range.h"
+#include "config/option.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace psi_slam {
 namespace {
 
-TEST(NumberRange, holds_its_ends_or_not) {
+TEST(NumberRange, includes_or_excludes_its_ends) {
   EXPECT_TRUE(between(0, 1).contains(0));
   EXPECT_TRUE(between(0, 1).contains(1));
   EXPECT_FALSE(between(0, 1).contains(std::nextafter(1, 2)));
@@ -19,12 +19,12 @@ TEST(NumberRange, holds_its_ends_or_not) {
   EXPECT_TRUE(any_number().contains(-1e300));
 }
 
-TEST(NumberRange, never_holds_what_is_not_finite) {
+TEST(NumberRange, contains_only_finite_numbers) {
   EXPECT_FALSE(any_number().contains(std::nan("")));
   EXPECT_FALSE(at_least(0).contains(std::numeric_limits<double>::infinity()));
 }
 
-TEST(NumberRange, speaks) {
+TEST(NumberRange, has_words) {
   EXPECT_EQ(between(0.01, 20).words(), "between 0.01 and 20");
   EXPECT_EQ(at_least(1).words(), "1 or more");
   EXPECT_EQ(above(0).words(), "above 0");

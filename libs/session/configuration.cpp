@@ -9,7 +9,7 @@ class Configuration::Implementation {
  public:
   /// Keeps the parts of the settings up to date.
   void update() {
-    mapper = mapper_options(bound.settings);
+    mapper = psi_slam::mapper_options(bound.settings);
     localizer = localizer_options(bound.settings);
     log = log_options(bound.settings);
     for (std::string& warning : bound.table.take_warnings()) warnings.push_back(std::move(warning));
@@ -63,6 +63,10 @@ const std::vector<std::string>& Configuration::warnings() const {
 
 void Configuration::check() const {
   check_values(implementation_->bound.settings);
+}
+
+std::shared_ptr<const MapperOptions> Configuration::mapper_options() const {
+  return std::make_shared<const MapperOptions>(static_cast<const MapperOptions&>(*this));
 }
 
 Configuration::operator const Settings&() const {

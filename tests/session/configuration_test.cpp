@@ -38,6 +38,7 @@ TEST(Configuration, passes_values_to_the_part_that_uses_them) {
   configuration.set("log.laser_x_m", "0.2");
   configuration.set("front_end.window_m", "0.5");
   EXPECT_EQ(static_cast<const MapperOptions&>(configuration).front_end.window_m, 0.5);
+  EXPECT_EQ(configuration.mapper_options()->front_end.window_m, 0.5);
   EXPECT_EQ(static_cast<const LocalizerOptions&>(configuration).front_end.window_m, 0.5);
   EXPECT_EQ(static_cast<const LocalizerOptions&>(configuration).seed, 7U);
   EXPECT_EQ(static_cast<const LogOptions&>(configuration).robot_T_laser->x, 0.2);
@@ -60,6 +61,14 @@ TEST(Configuration, copies_are_independent) {
   copy.set("run.seed", "8");
   EXPECT_EQ(configuration.value("run.seed"), "7");
   EXPECT_EQ(copy.value("run.seed"), "8");
+}
+
+TEST(Configuration, warns_about_old_names) {
+  Configuration configuration;
+  configuration.set("last_pass.window_m", "1");
+  EXPECT_EQ(configuration.value("final_search.window_m"), "1");
+  ASSERT_EQ(configuration.warnings().size(), 1U);
+  EXPECT_THAT(configuration.warnings().front(), HasSubstr("final_search"));
 }
 
 TEST(Configuration, names_the_mistake) {

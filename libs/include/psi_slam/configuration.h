@@ -59,6 +59,9 @@ class Configuration {
   /// Throws UserError if two options contradict each other.
   void check() const;
 
+  /// Returns a copy of the options of Mapper, for CMetricMapBuilderPsi::Options. Throws like check().
+  std::shared_ptr<const MapperOptions> mapper_options() const;
+
   /// Returns all settings, unchecked: MappingSession checks them.
   operator const Settings&() const;
   /// Returns the options of Mapper. Throws like check().

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Options for reading logs.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MRPT's interface of metric SLAM, mrpt::slam::CMetricMapBuilder, over psi_slam::Mapper:
-//
-//     psi_slam::CMetricMapBuilderPsi builder;
-//     for each step:  builder.processActionObservation(actions, observations);
-//     (where a log holds observations one by one:  builder.processObservation(observation);)
-//     builder.finish();
-//     builder.saveCurrentMapToFile("map.simplemap.gz");
-//     builder.saveCurrentEstimationToImage("map.png");
-//
-// It takes CObservation2DRangeScan of one laser and odometry, either as actions or as CObservationOdometry:
-// the kind that comes first decides, the other is left unread. All other observations are kept beside their
-// scan in the map but not used. Scans that odometry comes in observations for wait for the odometry behind
-// them, as when a log is read: the estimate is that of the last scan that has its odometry.
-//
-// Loops that close move the whole map, and finish() does so once more: poses and maps are those of the call
-// that asks for them. Of the base's options none has any effect but enableMapUpdating, which must stay true:
-// psi-slam does not localise in a fixed map.
-//
-// All functions may be called from several threads at once. The map that getCurrentlyBuiltMetricMap() points
-// at changes at the next call of that function, by whichever thread, and at no other time; grid() gives one
-// that never changes.
+/// @file
+/// MRPT's interface of metric SLAM, mrpt::slam::CMetricMapBuilder, over psi_slam::Mapper:
+///
+///     psi_slam::CMetricMapBuilderPsi builder;
+///     for each step:  builder.processActionObservation(actions, observations);
+///     (where a log holds observations one by one:  builder.processObservation(observation);)
+///     builder.finish();
+///     builder.saveCurrentMapToFile("map.simplemap.gz");
+///     builder.saveCurrentEstimationToImage("map.png");
+///
+/// It takes CObservation2DRangeScan of one laser and odometry, either as actions or as CObservationOdometry:
+/// the kind that comes first decides, the other is left unread. All other observations are kept beside their
+/// scan in the map but not used. Scans that odometry comes in observations for wait for the odometry behind
+/// them, as when a log is read: the estimate is that of the last scan that has its odometry.
+///
+/// Loops that close move the whole map, and finish() does so once more: poses and maps are those of the call
+/// that asks for them. Of the base's options none has any effect but enableMapUpdating, which must stay true:
+/// psi-slam does not localise in a fixed map.
+///
+/// All functions may be called from several threads at once. The map that getCurrentlyBuiltMetricMap() points
+/// at changes at the next call of that function, by whichever thread, and at no other time; grid() gives one
+/// that never changes.
 #pragma once
 
 #include <mrpt/maps/CMultiMetricMap.h>
@@ -46,14 +47,16 @@ struct MapperOptions;
 /// Like all of MRPT's classes of that kind, and as other programs will look for it.
 class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
  public:
+  /// Options of the builder. A Configuration has all of them.
   struct Options {
-    LogOptions log;  ///< the laser, its mount and ranges; ignores every_nth_scan
-    GridMapOptions map;
-    std::shared_ptr<const MapperOptions> mapper;  ///< null: the defaults
+    LogOptions log;                               ///< the laser, its mount and ranges; ignores every_nth_scan
+    GridMapOptions map;                           ///< the grid that is drawn
+    std::shared_ptr<const MapperOptions> mapper;  ///< Configuration::mapper_options(); null: the defaults
   };
 
   /// Throws UserError when an option of the log makes no sense.
   explicit CMetricMapBuilderPsi(const Options& psi_options);
+  /// Maps with the default options.
   CMetricMapBuilderPsi();
   ~CMetricMapBuilderPsi() override;
 
@@ -65,6 +68,7 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   /// Throws UserError when a scan has no time stamp or no rays, its laser is tilted, or no odometry comes.
   void processActionObservation(mrpt::obs::CActionCollection& action,
                                 mrpt::obs::CSensoryFrame& observations) override;
+  /// Takes one observation of a log without sensory frames. Throws UserError as processActionObservation().
   void processObservation(const mrpt::obs::CObservation::Ptr& observation);
 
   /// The last search for loops and the last optimisation. After it the results can be asked for, but nothing
@@ -79,6 +83,7 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   /// The nodes of the graph with all that was observed there. Each pose comes with a covariance of (1 mm)^2
   /// and (1 mrad)^2, a stand-in that MRPT can invert.
   void getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map) const override;
+  /// Number of nodes of the graph.
   unsigned int getCurrentlyBuiltMapSize() override;
 
   /// One occupancy grid of all scans at their current poses. It is drawn when asked for and lives as long as

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Opens logs of every format.
 #pragma once
 
 #include <filesystem>

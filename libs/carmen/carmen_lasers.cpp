@@ -33,10 +33,6 @@ constexpr double kEnoughTurn_rad = 1.0;
 constexpr double kSameMount_m = 0.002;  // logs are rounded to a micrometre or a millimetre
 constexpr double kSameMount_rad = 0.002;
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) {
   LineReader lines(path);
   Messages found;
@@ -170,15 +166,10 @@ std::vector<float> CarmenLaser::bearings_rad(const CarmenLaserMessage& message,
   return make_bearings_rad(options_.beam_angles, beams, *field_of_view_rad);
 }
 
-bool CarmenLaser::Geometry::operator==(const Geometry& other) const {
-  return beams == other.beams && start_angle_rad == other.start_angle_rad &&
-         field_of_view_rad == other.field_of_view_rad && resolution_rad == other.resolution_rad;
-}
-
 LaserScan CarmenLaser::scan(CarmenLaserMessage message, const CarmenFields& fields) {
   const Geometry geometry{message.ranges_m.size(), message.start_angle_rad, message.field_of_view_rad,
                           message.resolution_rad};
-  if (!bearings_ || !(geometry == geometry_)) {
+  if (!bearings_ || geometry != geometry_) {
     std::vector<float> bearings = bearings_rad(message, fields);
     if (options_.mirrored) mirror(bearings);
     bearings_ = std::make_shared<const std::vector<float>>(std::move(bearings));

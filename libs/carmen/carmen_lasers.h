@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "carmen/carmen_message.h"
@@ -56,13 +57,7 @@ class CarmenLaser {
   mrpt::math::TPose2D robot_T_laser() const;
   std::vector<float> bearings_rad(const CarmenLaserMessage& message, const CarmenFields& fields) const;
 
-  struct Geometry {
-    std::size_t beams = 0;
-    double start_angle_rad = 0;
-    double field_of_view_rad = 0;
-    double resolution_rad = 0;
-    bool operator==(const Geometry& other) const;
-  };
+  using Geometry = std::tuple<std::size_t, double, double, double>;  // beams, first bearing, view, step
 
   std::string message_name_;
   std::string position_;

@@ -5,6 +5,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+
+#include "psi_slam/user_error.h"
+
+struct gzFile_s;  // of zlib
 
 namespace psi_slam {
 
@@ -13,22 +18,23 @@ namespace psi_slam {
 class CompressedFile {
  public:
   explicit CompressedFile(std::filesystem::path path);
-  ~CompressedFile();
-  CompressedFile(CompressedFile&&) noexcept;
-  CompressedFile& operator=(CompressedFile&&) noexcept;
 
   /// Reads the next `size` decompressed bytes and returns their number. It is smaller only at the end and
   /// before damaged or truncated data; then the next call throws UserError.
   std::size_t read(char* bytes, std::size_t size);
 
-  const std::filesystem::path& path() const;
+  const std::filesystem::path& path() const { return path_; }
 
   /// Fraction of the file on disk that has been read, in [0, 1].
   double progress() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::optional<UserError> failure_now() const;
+
+  std::filesystem::path path_;
+  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
+  std::uintmax_t bytes_on_disk_ = 0;
+  std::optional<UserError> failure_;  // met after bytes that were returned
 };
 
 }  // namespace psi_slam

@@ -3,6 +3,7 @@
 
 #include <mrpt/core/bits_math.h>
 
+#include <array>
 #include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -22,28 +23,10 @@ __attribute__((format(printf, 1, 2))) std::string text(const char* format, ...) 
   return line;
 }
 
-double share_of(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
-const char* name_of(HeadingRelation relation) {
-  switch (relation) {
-    case HeadingRelation::kUnknown:
-      return "unknown";
-    case HeadingRelation::kAgrees:
-      return "agrees";
-    case HeadingRelation::kOpposite:
-      return "opposite";
-    case HeadingRelation::kDegrees:
-      return "degrees";
-    case HeadingRelation::kOppositeDegrees:
-      return "opposite degrees";
-    case HeadingRelation::kNone:
-      return "none";
-    case HeadingRelation::kUnrelated:
-      break;
-  }
-  return "unrelated";
+std::string_view name_of(HeadingRelation relation) {
+  constexpr std::array<std::string_view, 7> kNames{"unknown",          "agrees", "opposite", "degrees",
+                                                   "opposite degrees", "none",   "unrelated"};
+  return kNames.at(static_cast<std::size_t>(relation));
 }
 
 Json to_json(const mrpt::math::TPose2D& pose) {
@@ -80,7 +63,7 @@ Json facts_json(const LogFacts& facts) {
             {"largest_turn_rad", facts.odometry.largest_turn_rad}}},
           {"ranges",
            {{"max_range_m", ranges.max_range_m},
-            {"no_return_share", 1 - share_of(ranges.returns, ranges.readings)},
+            {"no_return_share", 1 - ranges.return_share()},
             {"empty_scans", ranges.empty_scans},
             {"median_return_m", ranges.median_return_m},
             {"largest_reading_m", ranges.largest_reading_m},
@@ -125,7 +108,7 @@ std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis) {
                        RAD2DEG(facts.odometry.turned_rad)));
   lines.push_back(text("ranges: maximum %.2f m, median %.2f m, %.1f %% of the readings are no returns",
                        static_cast<double>(ranges.max_range_m), static_cast<double>(ranges.median_return_m),
-                       100 * (1 - share_of(ranges.returns, ranges.readings))));
+                       100 * (1 - ranges.return_share())));
   lines.push_back(text("laser on the robot: x %.3f m, y %.3f m, yaw %.2f degrees", facts.robot_T_laser.x,
                        facts.robot_T_laser.y, RAD2DEG(facts.robot_T_laser.phi)));
   for (const auto& [label, scans] : facts.contents.other_lasers)

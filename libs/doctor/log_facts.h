@@ -47,6 +47,10 @@ struct RangeFacts {
   /// "no return". Otherwise 0.
   std::size_t readings_at_ceiling = 0;
   float ceiling_m = 0;  ///< smallest of these readings
+
+  double return_share() const {
+    return readings == 0 ? 0 : static_cast<double>(returns) / static_cast<double>(readings);
+  }
 };
 
 struct LogFacts {

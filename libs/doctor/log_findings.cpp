@@ -100,7 +100,7 @@ class Judge {
 
   void judge_ranges() {
     const RangeFacts& ranges = facts_.ranges;
-    const double returns = share_of(ranges.returns, ranges.readings);
+    const double returns = ranges.return_share();
     const auto max_range_m = static_cast<double>(ranges.max_range_m);
     const auto ceiling_m = static_cast<double>(ranges.ceiling_m);
     if (facts_.scans_of_other_shape > 0) {

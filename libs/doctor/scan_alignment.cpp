@@ -16,6 +16,9 @@ namespace {
 
 using Point = AlignableScan::Point;
 
+constexpr double kFirstRadius_m = 0.6;  // of the search for the wall of a point
+constexpr double kLastRadius_m = 0.15;
+constexpr int kIterations = 25;
 constexpr double kHuber_m = 0.03;
 constexpr double kLeastNoise_m = 0.01;  // of ranges, so that a perfect fit has a realistic covariance
 constexpr double kDamping_m = 1e-4;     // per matched point; holds the guess in directions without walls
@@ -168,11 +171,11 @@ double ScanAlignment::heading_deviation_rad() const {
 }
 
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
-                          const mrpt::math::TPose2D& guess, const AlignmentOptions& options) {
+                          const mrpt::math::TPose2D& guess) {
   // Pose of the laser relative to the reference's laser; converted to poses of the robot at the end.
   mrpt::math::TPose2D pose = (guess + scan.robot_T_laser()) - reference.robot_T_laser();
-  double radius_m = options.first_search_radius_m;
-  for (int i = 0; i < options.iterations; ++i) {
+  double radius_m = kFirstRadius_m;
+  for (int i = 0; i < kIterations; ++i) {
     const Matching matching = match_points(reference, scan, pose, radius_m);
     if (matching.matches.size() < kFewestMatches) break;
     NormalEquations equations = normal_equations(matching.matches, pose);
@@ -183,23 +186,22 @@ ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& s
     pose.y += step.y();
     pose.phi = mrpt::math::wrapToPi(pose.phi + step.z());
     const bool at_rest = step.head<2>().norm() < 1e-4 && std::abs(step.z()) < 1e-5;
-    if (at_rest && radius_m <= options.last_search_radius_m) break;
-    radius_m = std::max(options.last_search_radius_m, at_rest ? radius_m / 2 : radius_m * 0.8);
+    if (at_rest && radius_m <= kLastRadius_m) break;
+    radius_m = std::max(kLastRadius_m, at_rest ? radius_m / 2 : radius_m * 0.8);
   }
   ScanAlignment result;
-  rate(match_points(reference, scan, pose, options.last_search_radius_m), options.last_search_radius_m, pose,
-       result);
+  rate(match_points(reference, scan, pose, kLastRadius_m), kLastRadius_m, pose, result);
   const mrpt::math::TPose2D laser_T_robot = inverse(scan.robot_T_laser());
   result.reference_T_scan = reference.robot_T_laser() + pose + laser_T_robot;
   return result;
 }
 
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
-                          const std::vector<mrpt::math::TPose2D>& guesses, const AlignmentOptions& options) {
+                          const std::vector<mrpt::math::TPose2D>& guesses) {
   ScanAlignment best;
   best.cost_m = std::numeric_limits<double>::infinity();
   for (const mrpt::math::TPose2D& guess : guesses) {
-    ScanAlignment alignment = align_scans(reference, scan, guess, options);
+    ScanAlignment alignment = align_scans(reference, scan, guess);
     if (alignment.cost_m < best.cost_m) best = alignment;
   }
   return best;

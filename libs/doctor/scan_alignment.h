@@ -36,17 +36,11 @@ class AlignableScan {
   mrpt::math::TPose2D robot_T_laser_;
 };
 
-struct AlignmentOptions {
-  double first_search_radius_m = 0.6;
-  double last_search_radius_m = 0.15;
-  int iterations = 25;
-};
-
 /// Pose of the robot at one scan relative to its pose at another, the reference.
 struct ScanAlignment {
   mrpt::math::TPose2D reference_T_scan;
-  /// Mean distance from the visible points to walls. The last search radius is the limit of each distance and
-  /// counts for unmatched points.
+  /// Mean distance from the visible points to walls. Each distance is limited to 0.15 m, which also counts
+  /// for unmatched points.
   double cost_m = 0;
   double residual_m = 0;     ///< mean distance from the matched points to walls
   double matched_share = 0;  ///< fraction of the points visible from the reference that match, in [0, 1]
@@ -58,13 +52,12 @@ struct ScanAlignment {
   double heading_deviation_rad() const;
 };
 
-/// Aligns from a guess that is off by at most about the first search radius and 10 degrees.
+/// Aligns from a guess that is off by at most about 0.6 m and 10 degrees.
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
-                          const mrpt::math::TPose2D& guess, const AlignmentOptions& options = {});
+                          const mrpt::math::TPose2D& guess);
 
 /// Aligns from several guesses and returns the result with the lowest cost.
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
-                          const std::vector<mrpt::math::TPose2D>& guesses,
-                          const AlignmentOptions& options = {});
+                          const std::vector<mrpt::math::TPose2D>& guesses);
 
 }  // namespace psi_slam

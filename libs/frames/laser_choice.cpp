@@ -56,10 +56,6 @@ std::optional<StatedMount> mount_from(const std::string& text) {
   return mount;
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 }  // namespace
 
 LaserChoice laser_choice(std::string_view option, std::string_view value) {
@@ -134,6 +130,10 @@ LogOptions options_of_laser(const LogOptions& options, const std::vector<std::st
     own.mirrored = own.mirrored || mount.mirrored;
   }
   return own;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 std::string name_list(const std::vector<std::string>& names) {

@@ -64,6 +64,8 @@ std::vector<StatedMount> stated_mounts(const LogOptions& options);
 /// Options for the laser that has any of these names, with its stated mount if there is one.
 LogOptions options_of_laser(const LogOptions& options, const std::vector<std::string>& names);
 
+bool contains(const std::vector<std::string>& names, const std::string& name);
+
 /// Names for a message: a, b.
 std::string name_list(const std::vector<std::string>& names);
 

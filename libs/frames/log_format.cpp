@@ -103,21 +103,9 @@ std::vector<fs::path> files_listed(const fs::path& metadata) {
 }  // namespace
 
 std::string_view name_of(LogFormat format) {
-  switch (format) {
-    case LogFormat::kCarmen:
-      return "CARMEN";
-    case LogFormat::kMrptRawlog:
-      return "MRPT rawlog";
-    case LogFormat::kRos1Bag:
-      return "ROS 1 bag";
-    case LogFormat::kRos2Sqlite:
-      return "ROS 2 bag (SQLite)";
-    case LogFormat::kRos2Mcap:
-      return "ROS 2 bag (MCAP)";
-    case LogFormat::kRos2Folder:
-      return "ROS 2 bag (folder)";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 6> kNames{
+      "CARMEN", "MRPT rawlog", "ROS 1 bag", "ROS 2 bag (SQLite)", "ROS 2 bag (MCAP)", "ROS 2 bag (folder)"};
+  return kNames.at(static_cast<std::size_t>(format));
 }
 
 bool is_bag(LogFormat format) {

@@ -21,7 +21,6 @@ struct LogContents {
   std::map<std::string, std::size_t> messages;      ///< CARMEN: lines of each kind, ignored ones included
   std::size_t scans_with_two_poses = 0;             ///< CARMEN: scans whose pose differs from their odometry
   std::map<std::string, std::size_t> other_lasers;  ///< rawlog: scans of lasers that are not read, by label
-  std::string odometry;                             ///< ROS: the topic, or "odom -> base_link"
 };
 
 /// Reader of one format. Each frame is the scan of one laser, even if several lasers are read:

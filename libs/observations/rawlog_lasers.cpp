@@ -25,11 +25,10 @@ LaserScan RawlogLaser::scan(const mrpt::obs::CObservation2DRangeScan& observatio
   const FloorMount mount = floor_mount(observation.sensorPose, place);
   const bool clockwise = (mount.upside_down == observation.rightToLeft) != options_.mirrored;
   const auto aperture_rad = static_cast<double>(observation.aperture);
-  if (!bearings_ || beams != beams_ || aperture_rad != aperture_rad_ || clockwise != clockwise_) {
+  const std::tuple geometry{beams, aperture_rad, clockwise};
+  if (!bearings_ || geometry != geometry_) {
     bearings_ = std::make_shared<const std::vector<float>>(bearings_rad(beams, aperture_rad, clockwise));
-    beams_ = beams;
-    aperture_rad_ = aperture_rad;
-    clockwise_ = clockwise;
+    geometry_ = geometry;
   }
 
   LaserScan scan;

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "frames/laser_choice.h"
@@ -30,9 +31,7 @@ class RawlogLaser {
   std::vector<float> bearings_rad(std::size_t beams, double aperture_rad, bool clockwise) const;
 
   LogOptions options_;
-  std::size_t beams_ = 0;  // bearings_ depend on this and the next two members
-  double aperture_rad_ = 0;
-  bool clockwise_ = false;
+  std::tuple<std::size_t, double, bool> geometry_;  // of bearings_: beams, aperture, clockwise
   BeamBearings bearings_;
 };
 

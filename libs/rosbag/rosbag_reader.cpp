@@ -2,22 +2,102 @@
 #include "rosbag/rosbag_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/byte_cursor.h"
+#include "frames/beam_angles.h"
 #include "frames/laser_choice.h"
+#include "frames/laser_readings.h"
 #include "frames/odometry_interpolator.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_plan.h"
-#include "rosbag/ros_laser.h"
+#include "rosbag/ros_messages.h"
 
 namespace psi_slam {
 namespace {
 
 mrpt::math::TPose2D on_floor(const mrpt::math::TPose3D& pose) {
   return {pose.x, pose.y, pose.yaw};
+}
+
+/// Sweep time, or 0 if the stated one is implausible: drivers may leave it 0, or state more than the time
+/// between scans or than any laser needs.
+float sweep_time_s(const RosLaserScan& message) {
+  constexpr float kMaxSweep_s = 1;
+  const float sweep_s = message.time_increment_s * static_cast<float>(message.ranges_m.size() - 1);
+  const float max_sweep_s =
+      message.scan_time_s > 0 ? std::min(kMaxSweep_s, 1.5F * message.scan_time_s) : kMaxSweep_s;
+  return sweep_s > 0 && sweep_s <= max_sweep_s ? sweep_s : 0;
+}
+
+/// Turns the scans of one topic into ours. The user's options override the messages. The number of beams and
+/// the angles may differ between messages.
+class RosLaser {
+ public:
+  explicit RosLaser(const LogOptions& options) : options_(options) {}
+
+  /// `mount` is the laser's mount according to the transforms. A stated pose overrides its pose, but not
+  /// whether it is upside down. Throws UserError that starts with `place` for invalid angles.
+  LaserScan scan(RosLaserScan message, const FloorMount& mount, const std::string& place);
+
+ private:
+  using Geometry = std::tuple<std::size_t, float, float, bool>;  // beams, first bearing, step, clockwise
+
+  std::vector<float> bearings_rad(const RosLaserScan& message, bool clockwise) const;
+
+  LogOptions options_;
+  Geometry geometry_;  // of bearings_
+  BeamBearings bearings_;
+};
+
+std::vector<float> RosLaser::bearings_rad(const RosLaserScan& message, bool clockwise) const {
+  const auto step_rad = static_cast<double>(message.angle_increment_rad);
+  const std::size_t beams = message.ranges_m.size();
+  std::vector<float> bearings(beams);
+  if (options_.beam_angles == BeamAngles::kAuto && !options_.field_of_view_rad) {
+    for (std::size_t i = 0; i < beams; ++i)
+      bearings[i] =
+          static_cast<float>(static_cast<double>(message.angle_min_rad) + static_cast<double>(i) * step_rad);
+  } else {
+    const bool is_auto = options_.beam_angles == BeamAngles::kAuto;
+    const double steps = static_cast<double>(std::max<std::size_t>(beams - 1, 1));
+    const double span_rad = std::min(std::abs(step_rad) * steps, 2 * M_PI);
+    bearings = make_bearings_rad(is_auto ? BeamAngles::kCentredStepInclusive : options_.beam_angles, beams,
+                                 options_.field_of_view_rad.value_or(span_rad));
+    if (step_rad < 0) mirror(bearings);
+  }
+  if (clockwise) mirror(bearings);
+  return bearings;
+}
+
+LaserScan RosLaser::scan(RosLaserScan message, const FloorMount& mount, const std::string& place) {
+  const bool clockwise = mount.upside_down != options_.mirrored;
+  const Geometry geometry{message.ranges_m.size(), message.angle_min_rad, message.angle_increment_rad,
+                          clockwise};
+  const bool has_angles = std::isfinite(message.angle_min_rad) &&
+                          std::isfinite(message.angle_increment_rad) &&
+                          (message.ranges_m.size() < 2 || message.angle_increment_rad != 0);
+  if (!has_angles)
+    throw UserError(place + ": the scan's angles start at " + std::to_string(message.angle_min_rad) +
+                    " in steps of " + std::to_string(message.angle_increment_rad) +
+                    " radians, expected finite angles and a step other than 0");
+  if (!bearings_ || geometry != geometry_) {
+    bearings_ = std::make_shared<const std::vector<float>>(bearings_rad(message, clockwise));
+    geometry_ = geometry;
+  }
+  LaserScan scan;
+  scan.bearings_rad = bearings_;
+  scan.robot_T_laser = options_.robot_T_laser.value_or(mount.robot_T_laser);
+  scan.sweep_time_s = sweep_time_s(message);
+  scan.ranges_m = std::move(message.ranges_m);
+  limit_ranges(scan, options_,
+               std::isfinite(message.range_max_m) ? static_cast<double>(message.range_max_m) : 0,
+               static_cast<double>(message.range_min_m));
+  return scan;
 }
 
 class RosbagReader : public LogReader {
@@ -27,8 +107,6 @@ class RosbagReader : public LogReader {
     bag_->want(plan_.topics());
     contents_.laser = name_list(plan_.scan_topics);
     for (const std::string& topic : plan_.scan_topics) lasers_.emplace_back(options_of_topic(options, topic));
-    contents_.odometry =
-        plan_.odometry_topic.empty() ? plan_.odom_frame + " -> " + plan_.base_frame : plan_.odometry_topic;
   }
 
   double progress() const override { return at_end_ ? 1 : bag_->progress(); }

@@ -94,7 +94,8 @@ void map_and_write(GraphSlamRun& run, const GraphSlamSetup& setup, const fs::pat
 
 int map(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) {
   const GraphSlamGeneral general = read_graphslam_general(line.setup.ini);
-  GraphSlamRun run(line.setup, DeciderCatalogue());
+  const auto owned_run = make_graphslam_run(line.setup, DeciderCatalogue());
+  GraphSlamRun& run = *owned_run;
   map_and_write(run, line.setup, line.output.empty() ? general.output_dir_fname : line.output, line.force,
                 out, err);
   if (!run.interrupted()) run.wait_for_window();

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "psi_slam/user_error.h"
 #include "frames/laser_choice.h"
 #include "observations/rawlog_objects.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes frames of what MRPT's programs hand on one by one: either an action with a sensory frame, or a single
-// observation. Scans are those of one laser, or of several that are put together as ScanSynchronizer says. The kind
-// of odometry that comes first decides; scans whose odometry comes in observations wait for the odometry
-// behind them, as when a log is read.
+// observation. Scans are those of one laser, or of several that are put together as ScanSynchronizer says.
+// The kind of odometry that comes first decides; scans whose odometry comes in observations wait for the
+// odometry behind them, as when a log is read.
 #pragma once
 
 #include <mrpt/obs/CActionCollection.h>
@@ -15,11 +15,11 @@
 #include <optional>
 #include <string>
 
+#include "frames/odometry_interpolator.h"
+#include "frames/scan_synchronizer.h"
+#include "observations/rawlog_lasers.h"
 #include "psi_slam/frame.h"
 #include "psi_slam/log_options.h"
-#include "frames/odometry_interpolator.h"
-#include "observations/rawlog_lasers.h"
-#include "frames/scan_synchronizer.h"
 
 namespace psi_slam {
 

@@ -120,7 +120,7 @@ void MappingSession::begin_run(const SessionInput& drive, const RunStart& start)
       runs_.push_back(later);
     }
   edits_.add(
-      drive.edits().of_drive(scans_, inner ? inner->frames.size() : 0, mapper_->memory().local_maps.size()));
+      drive.edits().of_drive(scans_, inner ? inner->frames.size() : 0, mapper_->keyframes().local_maps.size()));
   recording_.reset();  // it is no longer all that there is
   path_ = drive.log();
   log_sha256_.clear();

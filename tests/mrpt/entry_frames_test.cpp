@@ -30,7 +30,7 @@ TEST(EntryFrames, sum_up_actions) {
   EXPECT_THAT(ways_m(entries), ElementsAre(1, 1.5));
 }
 
-TEST(EntryFrames, wait_for_the_odometry_behind_them) {
+TEST(EntryFrames, wait_for_the_next_odometry) {
   EntryFrames entries{LogOptions()};
   entries.take(nullptr, nullptr, odometry(1'000'000, {1, 0, 0}));
   entries.take(nullptr, nullptr, range_scan(1'500'000));
@@ -40,7 +40,7 @@ TEST(EntryFrames, wait_for_the_odometry_behind_them) {
   EXPECT_THAT(ways_m(entries), ElementsAre(1.5));
 }
 
-TEST(EntryFrames, before_the_first_action_stand_at_the_start) {
+TEST(EntryFrames, before_the_first_action_are_at_the_start) {
   EntryFrames entries{LogOptions()};
   entries.take(nullptr, nullptr, range_scan(1'000'000));
   entries.take(movement({1, 0, 0}), sensory_frame({range_scan(2'000'000)}), nullptr);
@@ -63,7 +63,7 @@ TEST(EntryFrames, a_log_without_odometry_is_refused) {
             "observations of class CObservationOdometry");
 }
 
-TEST(EntryFrames, odometry_that_never_comes_is_missed_before_the_log_ends) {
+TEST(EntryFrames, missing_odometry_is_an_error_before_the_log_ends) {
   EntryFrames entries{LogOptions()};
   const auto endless = [&] {
     for (TimeUs i = 1; i <= 2000; ++i) entries.take(nullptr, nullptr, range_scan(i * 100'000));

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adapters for MRPT's graph-slam engine: the front end as a node registration decider, loop closing as an edge
-// registration decider, and sparse pose adjustment as an optimizer.
+// Adapters for MRPT's graph-slam engine: the front end as a node registration decider, loop closing as an
+// edge registration decider, and sparse pose adjustment as an optimizer.
 //
 //     connect_deciders(node_decider, edge_decider, optimizer);
 //     mrpt::graphslam::CGraphSlamEngine<MrptGraph> engine(ini, rawlog, "", nullptr, &node_decider, ...);
 //     engine._execGraphSlamStep(...);  // for each entry
 //     finish_deciders(node_decider, edge_decider, optimizer);
 //
-// Each class has options in its own section of the engine's `.ini` file. Errors are of class UserError and pass
-// through the engine.
+// Each class has options in its own section of the engine's `.ini` file. Errors are of class UserError and
+// pass through the engine.
 #pragma once
 
 #include <mrpt/graphs/CNetworkOfPoses.h>
@@ -38,10 +38,10 @@ struct SharedMap;
 
 /// Matches each scan with the active local map. Registers a node when the robot has moved or turned enough.
 ///
-/// The edges of a node lead to the anchors of the local maps that hold its scan, not to the node before. Scans
-/// matched with one map share its errors, so additional edges between neighbours would count them twice. The
-/// engine takes the first two nodes together and then one node per entry; a second node that is ready waits for
-/// the next entry.
+/// The edges of a node lead to the anchors of the local maps that hold its scan, not to the node before.
+/// Scans matched with one map share its errors, so additional edges between neighbours would count them
+/// twice. The engine takes the first two nodes together and then one node per entry; a second node that is
+/// ready waits for the next entry.
 class CPsiFrontEndNRD : public NodeDecider {
  public:
   CPsiFrontEndNRD();
@@ -110,8 +110,8 @@ class CPsiLoopCloserERD : public EdgeDecider {
   void getEdgesStats(std::map<std::string, int>* edge_type_to_num) const override;
   void getDescriptiveReport(std::string* report_str) const override;
 
-  /// Runs the final loop search, removes outlier loops, and refines the scans of all nodes jointly. Call after
-  /// the last entry and the node decider's finish(). Without CPsiSpaGSO it only refuses pending loops.
+  /// Runs the final loop search, removes outlier loops, and refines the scans of all nodes jointly. Call
+  /// after the last entry and the node decider's finish(). Without CPsiSpaGSO it only refuses pending loops.
   /// `progress` gets the share done; if it returns false, the remaining steps are left out.
   void finish(const std::function<bool(double)>& progress = {});
 
@@ -128,8 +128,8 @@ class CPsiLoopCloserERD : public EdgeDecider {
   std::shared_ptr<SharedMap> map_;
 };
 
-/// Sparse pose adjustment for the edges of any deciders. Optimises at once when the graph contradicts a new edge
-/// by five or more standard deviations; for smaller residuals after the graph has grown by a thousandth.
+/// Sparse pose adjustment for the edges of any deciders. Optimises at once when the graph contradicts a new
+/// edge by five or more standard deviations; for smaller residuals after the graph has grown by a thousandth.
 ///
 /// The engine resets all poses after each new node. Optimised poses return with the next entry, and with
 /// finish() after the last one.
@@ -151,8 +151,8 @@ class CPsiSpaGSO : public GraphOptimizer {
   bool justFullyOptimizedGraph() const override;
   void getDescriptiveReport(std::string* report_str) const override;
 
-  /// Optimises if constraints came since the last time, and leaves the poses in the graph. Call after the last
-  /// entry.
+  /// Optimises if constraints came since the last time, and leaves the poses in the graph. Call after the
+  /// last entry.
   void finish();
 
  protected:

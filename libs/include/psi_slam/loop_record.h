@@ -50,8 +50,8 @@ std::string text_of(LoopRefusal::Reason reason);
 /// The reason as a clause with figures: "the response is too low: 0.48, minimum 0.50". Empty for no refusal.
 std::string text_of(const std::optional<LoopRefusal>& refusal);
 
-/// One attempt to close a loop, and its outcome. Attempts of the final search are recorded only if they found a
-/// match.
+/// One attempt to close a loop, and its outcome. Attempts of the final search are recorded only if they found
+/// a match.
 struct LoopRecord {
   std::size_t frame = 0;      ///< in the log's order
   std::size_t node = 0;       ///< of the graph
@@ -64,13 +64,13 @@ struct LoopRecord {
   mrpt::math::TPose2D anchor_T_node;       ///< matched pose
   /// Covariance of anchor_T_node along the anchor's axes: m, m, rad.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  SearchExtent window;          ///< half-widths searched
-  double response = 0;          ///< in [0, 1]
-  double ambiguity = 0;         ///< response of the second-best distinct peak over the best, in [0, 1]
-  double observed_share = 0;    ///< share of the scan's points in space that the local map observed
-  double neighbours_agree = 0;  ///< share of the neighbouring scans' points that fit the local map
-  double reverse_agree = 0;     ///< share of the local map's points seen from the scan that fit it
-  double moved_m = 0;           ///< distance from the predicted to the matched position
+  SearchExtent window;           ///< half-widths searched
+  double response = 0;           ///< in [0, 1]
+  double ambiguity = 0;          ///< response of the second-best distinct peak over the best, in [0, 1]
+  double observed_share = 0;     ///< share of the scan's points in space that the local map observed
+  double neighbours_agree = 0;   ///< share of the neighbouring scans' points that fit the local map
+  double reverse_agree = 0;      ///< share of the local map's points seen from the scan that fit it
+  double moved_m = 0;            ///< distance from the predicted to the matched position
   std::int64_t evaluations = 0;  ///< poses scored
   double milliseconds = 0;       ///< of matching
 
@@ -101,8 +101,8 @@ struct LoopPlace {
   SearchExtent window;
 };
 
-/// A person's correction of one loop. Scan and local map identify the loop; their numbers are the same in every
-/// run of a log with the same front end.
+/// A person's correction of one loop. Scan and local map identify the loop; their numbers are the same in
+/// every run of a log with the same front end.
 struct LoopEdit {
   enum class Kind {
     kDelete,   ///< removes the loop, whatever its match says

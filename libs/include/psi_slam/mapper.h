@@ -61,8 +61,8 @@ class Mapper {
   /// reference is valid until the next call.
   const FrameRecord& add(Frame frame);
 
-  /// Begins another run: the next frame starts at about this place. Loops join the run to the map. The odometry
-  /// in its records continues from there, see FrameRecord::odom_T_robot.
+  /// Begins another run: the next frame starts at about this place. Loops join the run to the map. The
+  /// odometry in its records continues from there, see FrameRecord::odom_T_robot.
   void begin_run(const RunStart& start);
 
   /// Changes a loop by hand and optimises the graph. An edit waits if its scan, its local map or the match to
@@ -81,13 +81,13 @@ class Mapper {
     kReopen,   ///< reopen() is possible; costs the memory of a second graph
   };
   /// Finishes the map: final loop search, optimisation and joint refinement of all scans. `progress` gets the
-  /// share done, in [0, 1]. If it returns false, the remaining steps are left out, and the result says that it
-  /// was cut short.
+  /// share done, in [0, 1]. If it returns false, the remaining steps are left out, and the result says that
+  /// it was cut short.
   MappingResult finish(const std::function<bool(double)>& progress = {},
                        AfterFinish after = AfterFinish::kNothing);
 
-  /// Restores the state before finish(), so that loops can be edited and the map be finished again. `result` is
-  /// what finish() returned; it must have been called with AfterFinish::kReopen.
+  /// Restores the state before finish(), so that loops can be edited and the map be finished again. `result`
+  /// is what finish() returned; it must have been called with AfterFinish::kReopen.
   void reopen(MappingResult&& result);
 
   /// Current pose of the robot in the map.
@@ -98,7 +98,7 @@ class Mapper {
   /// The first frame of each run after the first run.
   const std::vector<std::size_t>& later_run_frames() const;
   const std::vector<LoopRecord>& loops() const;
-  const KeyframeStore& memory() const;
+  const KeyframeStore& keyframes() const;
   /// The local maps that scans are inserted into, older first, at most two.
   const std::vector<PlacedLocalMap>& active_local_maps() const;
 

@@ -35,8 +35,8 @@ struct FrameRecord {
   double eta = 0;         ///< equation 14
   double mean_loops = 0;  ///< the mean of C_i in equation 13
   int loops_tried = 0;    ///< local maps matched with this frame to close a loop
-  /// C_i of equation 13: loops that became constraints at this frame, found here or confirmed here. Loops that
-  /// are switched off later count too.
+  /// C_i of equation 13: loops that became constraints at this frame, found here or confirmed here. Loops
+  /// that are switched off later count too.
   int loops_accepted = 0;
   std::optional<MatcherKind> matcher;  ///< that searches for loops at this frame; none at other frames
   std::int64_t loop_evaluations = 0;   ///< poses scored to close loops

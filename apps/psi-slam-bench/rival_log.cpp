@@ -7,8 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "psi_slam/user_error.h"
-#include "observations/range_observation.h"
-#include "observations/robot_action.h"
+#include "observations/mrpt_objects.h"
 
 namespace psi_slam {
 std::vector<TimeUs> write_rival_log(FrameSource& source, const std::filesystem::path& path,

@@ -9,21 +9,24 @@
 #include <cmath>
 #include <limits>
 
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 namespace {
 
 using Point = AlignableScan::Point;
 
+constexpr double kFirstRadius_m = 0.6;  // of the search for the wall of a point
+constexpr double kLastRadius_m = 0.15;
+constexpr int kIterations = 25;
 constexpr double kHuber_m = 0.03;
-constexpr double kLeastNoise_m =
-    0.01;  // of ranges; keeps covariances honest where a fit happens to be perfect
-constexpr double kDamping_m =
-    1e-4;  // per matched point: directions without walls stay where the guess put them
+constexpr double kLeastNoise_m = 0.01;  // of ranges, so that a perfect fit has a realistic covariance
+constexpr double kDamping_m = 1e-4;     // per matched point; holds the guess in directions without walls
 constexpr std::size_t kFewestMatches = 20;
-constexpr std::size_t kNeighbours = 2;  // on either side, for the direction of the wall
+constexpr std::size_t kNeighbours = 2;  // on either side of a point, for the normal of the wall
 
-/// Whether two neighbouring beams hit one surface: their distance is what a surface at 75 degrees to the beam
-/// gives.
+/// Returns whether two neighbouring beams hit one surface: their distance is at most that on a surface whose
+/// normal is 75 degrees from the beam.
 bool on_one_surface(const Point& a, const Point& b) {
   const double range = std::min(a.position_m.norm(), b.position_m.norm());
   const double spacing = range * std::abs(b.bearing_rad - a.bearing_rad);
@@ -49,7 +52,7 @@ Eigen::Vector2d normal_at(const std::vector<Point>& points, std::size_t i) {
     xy += d.x() * d.y();
     yy += d.y() * d.y();
   }
-  const double along = 0.5 * std::atan2(2 * xy, xx - yy);  // the direction in which they spread most
+  const double along = 0.5 * std::atan2(2 * xy, xx - yy);  // direction of the largest spread
   return {-std::sin(along), std::cos(along)};
 }
 
@@ -59,8 +62,8 @@ struct Match {
   const Point* wall = nullptr;
 };
 
-/// The nearest point of the reference with a wall, within a radius. A point at range r is at least r sin(d)
-/// away from any beam that is d to its side, which bounds the beams to look at.
+/// Returns the nearest point of the reference within a radius, or null if there is none or it has no normal.
+/// A point at range r is at least r sin(d) away from beams at an angle d, which limits the beams to search.
 const Point* nearest_wall(const std::vector<Point>& reference, const Eigen::Vector2d& p, double radius_m) {
   const double range = p.norm();
   const double bearing = std::atan2(p.y(), p.x());
@@ -80,7 +83,7 @@ const Point* nearest_wall(const std::vector<Point>& reference, const Eigen::Vect
 
 struct Matching {
   std::vector<Match> matches;
-  std::size_t visible = 0;  // points that the reference could have seen
+  std::size_t visible = 0;  // points within the field of view of the reference
 };
 
 Matching match_points(const AlignableScan& reference, const AlignableScan& scan,
@@ -108,7 +111,7 @@ struct NormalEquations {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
 };
 
-/// For increments (dx, dy, dheading) that turn about the scan's place in the reference.
+/// Normal equations of increments (dx, dy, dheading) that turn about the scan's position in the reference.
 NormalEquations normal_equations(const std::vector<Match>& matches,
                                  const mrpt::math::TPose2D& reference_T_scan) {
   NormalEquations equations;
@@ -133,7 +136,7 @@ void rate(const Matching& matching, double radius_m, const mrpt::math::TPose2D& 
   result.residual_m = matched > 0 ? sum / matched : radius_m;
   result.cost_m = visible > 0 ? (sum + (visible - matched) * radius_m) / visible : radius_m;
   result.matched_share = visible > 0 ? matched / visible : 0;
-  const double noise = std::max(kLeastNoise_m, 1.25 * result.residual_m);  // mean to standard deviation
+  const double noise = std::max(kLeastNoise_m, 1.25 * result.residual_m);  // standard deviation from the mean
   Eigen::Matrix3d information = normal_equations(matching.matches, laser_pose).hessian;
   information.diagonal().array() += 1e-6;
   result.covariance = noise * noise * information.inverse();
@@ -148,7 +151,7 @@ AlignableScan::AlignableScan(const LaserScan& scan, double max_range_m, std::siz
   points_.reserve(beams / step + 1);
   for (std::size_t i = 0; i < beams; i += step) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    if (!(range <= max_range_m)) continue;  // NaN, too
+    if (!(range <= max_range_m)) continue;  // NaN too
     const double bearing = mrpt::math::wrapToPi(static_cast<double>((*scan.bearings_rad)[i]));
     points_.push_back(
         {range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)), Eigen::Vector2d::Zero(), bearing});
@@ -168,12 +171,11 @@ double ScanAlignment::heading_deviation_rad() const {
 }
 
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
-                          const mrpt::math::TPose2D& guess, const AlignmentOptions& options) {
-  // Of the lasers; turned into that of the robots at the end.
+                          const mrpt::math::TPose2D& guess) {
+  // Pose of the laser relative to the reference's laser; converted to poses of the robot at the end.
   mrpt::math::TPose2D pose = (guess + scan.robot_T_laser()) - reference.robot_T_laser();
-  // mount.
-  double radius_m = options.first_search_radius_m;
-  for (int i = 0; i < options.iterations; ++i) {
+  double radius_m = kFirstRadius_m;
+  for (int i = 0; i < kIterations; ++i) {
     const Matching matching = match_points(reference, scan, pose, radius_m);
     if (matching.matches.size() < kFewestMatches) break;
     NormalEquations equations = normal_equations(matching.matches, pose);
@@ -184,23 +186,22 @@ ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& s
     pose.y += step.y();
     pose.phi = mrpt::math::wrapToPi(pose.phi + step.z());
     const bool at_rest = step.head<2>().norm() < 1e-4 && std::abs(step.z()) < 1e-5;
-    if (at_rest && radius_m <= options.last_search_radius_m) break;
-    radius_m = std::max(options.last_search_radius_m, at_rest ? radius_m / 2 : radius_m * 0.8);
+    if (at_rest && radius_m <= kLastRadius_m) break;
+    radius_m = std::max(kLastRadius_m, at_rest ? radius_m / 2 : radius_m * 0.8);
   }
   ScanAlignment result;
-  rate(match_points(reference, scan, pose, options.last_search_radius_m), options.last_search_radius_m, pose,
-       result);
-  const mrpt::math::TPose2D laser_T_robot = mrpt::math::TPose2D{0, 0, 0} - scan.robot_T_laser();
+  rate(match_points(reference, scan, pose, kLastRadius_m), kLastRadius_m, pose, result);
+  const mrpt::math::TPose2D laser_T_robot = inverse(scan.robot_T_laser());
   result.reference_T_scan = reference.robot_T_laser() + pose + laser_T_robot;
   return result;
 }
 
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
-                          const std::vector<mrpt::math::TPose2D>& guesses, const AlignmentOptions& options) {
+                          const std::vector<mrpt::math::TPose2D>& guesses) {
   ScanAlignment best;
   best.cost_m = std::numeric_limits<double>::infinity();
   for (const mrpt::math::TPose2D& guess : guesses) {
-    ScanAlignment alignment = align_scans(reference, scan, guess, options);
+    ScanAlignment alignment = align_scans(reference, scan, guess);
     if (alignment.cost_m < best.cost_m) best = alignment;
   }
   return best;

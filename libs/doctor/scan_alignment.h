@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Aligns two scans by themselves, to judge a log before anything maps it: iterated closest points, point to
-// line (Censi, "An ICP variant using a point-to-line metric", 2008, in spirit; here by Gauss-Newton with a
-// robust kernel and a shrinking search radius). It is small and careful rather than general: it knows when it
-// does not know.
+// Aligns two scans without a map, by iterated closest points with a point-to-line metric (after Censi, "An
+// ICP variant using a point-to-line metric", 2008), Gauss-Newton steps, a robust kernel and a shrinking
+// search radius. The result states how reliable it is.
+//
+// matching/surface_alignment.h refines poses that are accurate to centimetres. This file accepts guesses that
+// are off by half a metre and rates the result: cost, matched fraction of the visible points, covariance.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -14,17 +16,16 @@
 
 namespace psi_slam {
 
-/// The points of a scan in the laser's frame, in the order of their bearings, with the direction of the wall
-/// at each.
+/// Points of a scan in the laser's frame, ordered by bearing, with the normal of the wall at each point.
 class AlignableScan {
  public:
   struct Point {
     Eigen::Vector2d position_m;
-    Eigen::Vector2d normal;  ///< unit length, or zero where no wall is seen
+    Eigen::Vector2d normal;  ///< unit length, or zero without a wall
     double bearing_rad;
   };
 
-  /// Takes returns up to `max_range_m`; at most about `max_points`, evenly thinned.
+  /// Uses returns up to `max_range_m`, from at most `max_points` evenly selected beams.
   explicit AlignableScan(const LaserScan& scan, double max_range_m = 30.0, std::size_t max_points = 200);
 
   const std::vector<Point>& points() const { return points_; }
@@ -35,34 +36,28 @@ class AlignableScan {
   mrpt::math::TPose2D robot_T_laser_;
 };
 
-struct AlignmentOptions {
-  double first_search_radius_m = 0.6;
-  double last_search_radius_m = 0.15;
-  int iterations = 25;
-};
-
-/// How the robot of one scan stands in the frame of the robot of another.
+/// Pose of the robot at one scan relative to its pose at another, the reference.
 struct ScanAlignment {
   mrpt::math::TPose2D reference_T_scan;
-  double cost_m =
-      0;  ///< mean distance of points to walls, cut off at, and counted as, the last search radius
-  double residual_m = 0;     ///< mean distance of the matched points alone
-  double matched_share = 0;  ///< of the points that the reference could have seen, in [0, 1]
-  Eigen::Matrix3d covariance =
-      Eigen::Matrix3d::Zero();  ///< of (x, y, heading), m and rad; huge where a wall is missing
+  /// Mean distance from the visible points to walls. Each distance is limited to 0.15 m, which also counts
+  /// for unmatched points.
+  double cost_m = 0;
+  double residual_m = 0;     ///< mean distance from the matched points to walls
+  double matched_share = 0;  ///< fraction of the points visible from the reference that match, in [0, 1]
+  /// Covariance of (x, y, heading), m and rad. Huge in directions that no wall determines.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
-  /// Standard deviation, metres, of the translation in the direction of `heading_rad`.
+  /// Standard deviation of the translation in the direction of `heading_rad`, metres.
   double deviation_along_m(double heading_rad) const;
   double heading_deviation_rad() const;
 };
 
-/// From a guess not further off than about the first search radius and 10 degrees.
+/// Aligns from a guess that is off by at most about 0.6 m and 10 degrees.
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
-                          const mrpt::math::TPose2D& guess, const AlignmentOptions& options = {});
+                          const mrpt::math::TPose2D& guess);
 
-/// The cheapest of the alignments from several guesses.
+/// Aligns from several guesses and returns the result with the lowest cost.
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
-                          const std::vector<mrpt::math::TPose2D>& guesses,
-                          const AlignmentOptions& options = {});
+                          const std::vector<mrpt::math::TPose2D>& guesses);
 
 }  // namespace psi_slam

@@ -6,9 +6,9 @@
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include "compression/gzip_file.h"
+#include "compression/compression.h"
 #include "base/atomic_file.h"
-#include "observations/range_observation.h"
+#include "observations/mrpt_objects.h"
 
 namespace psi_slam {
 namespace {

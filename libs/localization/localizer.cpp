@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "frames/inverse_pose.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {

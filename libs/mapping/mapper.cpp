@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "frames/inverse_pose.h"
+#include "frames/pose_operations.h"
 #include "mapping/carried_frames.h"
 #include "pose_graph/information_matrix.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "frames/laser_choice.h"
-#include "observations/rawlog_objects.h"
+#include "observations/mrpt_objects.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -20,7 +20,7 @@
 #include "mrpt/graphslam_settings.h"
 #include "mrpt/graphslam_window.h"
 #include "mrpt/log_entries.h"
-#include "observations/rawlog_objects.h"
+#include "observations/mrpt_objects.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

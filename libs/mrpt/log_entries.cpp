@@ -10,8 +10,7 @@
 
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
-#include "observations/range_observation.h"
-#include "observations/robot_action.h"
+#include "observations/mrpt_objects.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 #include "rawlog/rawlog_archive.h"

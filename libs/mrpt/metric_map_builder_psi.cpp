@@ -16,7 +16,7 @@
 
 #include "mapping/mapper_options.h"
 #include "mrpt/entry_frames.h"
-#include "observations/range_observation.h"
+#include "observations/mrpt_objects.h"
 #include "pose_graph/marginal_covariance.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/user_error.h"

@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "psi_slam/user_error.h"
 #include "frames/odometry_interpolator.h"
-#include "rawlog/rawlog_archive.h"
+#include "observations/mrpt_objects.h"
 #include "observations/rawlog_lasers.h"
-#include "observations/rawlog_objects.h"
+#include "psi_slam/user_error.h"
+#include "rawlog/rawlog_archive.h"
 
 namespace psi_slam {
 namespace {
@@ -35,12 +35,12 @@ void for_each_observation(mrpt::serialization::CSerializable& object,
     for (const auto& observation : *frame) take(*observation);
 }
 
-struct Contents {
-  std::string sensor_label;
+struct LasersAndOdometry {
+  std::string labels;  // separated by commas
   bool has_actions = false;
 };
 
-/// The labels that the user names, and the option in which he does.
+/// Labels that the user states, each with the name of its option.
 std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& options) {
   std::vector<std::pair<std::string, std::string>> named;
   for (const std::string& label : laser_choice("log.laser", options.laser).names)
@@ -49,8 +49,8 @@ std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& 
   return named;
 }
 
-/// Reads on until it has found a laser, all those that the user names, and odometry.
-Contents find_lasers_and_odometry(const std::filesystem::path& path, const LogOptions& options) {
+/// Reads until a laser, all lasers that the user names, and odometry have appeared.
+LasersAndOdometry find_lasers_and_odometry(const std::filesystem::path& path, const LogOptions& options) {
   RawlogArchive archive(path);
   const auto named = named_labels(options);
   ChosenLasers chosen(laser_choice("log.laser", options.laser));
@@ -84,28 +84,24 @@ Contents find_lasers_and_odometry(const std::filesystem::path& path, const LogOp
         " has no odometry, expected actions of class CActionRobotMovement2D or observations of class "
         "CObservationOdometry");
   }
-  std::string label;
-  for (const std::string& name : chosen.names()) label += (label.empty() ? "" : ", ") + name;
-  return {label, *has_actions};
+  return {name_list(chosen.names()), *has_actions};
 }
 
-}  // namespace
-
-class RawlogReader::Implementation {
+class RawlogReader : public LogReader {
  public:
-  Implementation(const std::filesystem::path& path, const LogOptions& options)
+  RawlogReader(const std::filesystem::path& path, const LogOptions& options)
       : archive_(path), lasers_(options) {
-    const Contents contents = find_lasers_and_odometry(path, options);
-    statistics_.sensor_label = contents.sensor_label;
-    statistics_.has_actions = contents.has_actions;
+    const LasersAndOdometry found = find_lasers_and_odometry(path, options);
+    contents_.laser = found.labels;
+    has_actions_ = found.has_actions;
   }
 
-  std::optional<Frame> next() {
+  double progress() const override { return archive_.progress(); }
+
+ protected:
+  std::optional<Frame> read_frame() override {
     while (true) {
-      if (auto frame = take_ready()) {
-        frame->index = frames_given_++;
-        return frame;
-      }
+      if (auto frame = take_ready()) return frame;
       if (at_end_) return std::nullopt;
       if (const auto object = archive_.next()) {
         take(*object);
@@ -115,9 +111,6 @@ class RawlogReader::Implementation {
       }
     }
   }
-
-  double progress() const { return archive_.progress(); }
-  const RawlogStatistics& statistics() const { return statistics_; }
 
  private:
   std::optional<Frame> take_ready() {
@@ -129,11 +122,11 @@ class RawlogReader::Implementation {
 
   void take(mrpt::serialization::CSerializable& object) {
     const auto* actions = dynamic_cast<const CActionCollection*>(&object);
-    if (statistics_.has_actions && actions != nullptr)
+    if (has_actions_ && actions != nullptr)
       if (const auto increment = movement_of(*actions)) odom_T_robot_ = odom_T_robot_ + *increment;
     for_each_observation(object, [&](const CObservation& observation) {
       if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) take_scan(*scan);
-      if (statistics_.has_actions) return;
+      if (has_actions_) return;
       if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&observation))
         take_odometry(*odometry);
     });
@@ -142,14 +135,14 @@ class RawlogReader::Implementation {
   void take_scan(const CObservation2DRangeScan& observation) {
     auto scan = lasers_.scan(observation, archive_.place());
     if (!scan) {
-      ++statistics_.scans_of_other_lasers[observation.sensorLabel];
+      ++contents_.other_lasers[observation.sensorLabel];
       return;
     }
     Frame frame;
     frame.time_us = stamp_of(observation, "scan");
     frame.scan = *std::move(scan);
     frame.odom_T_robot = odom_T_robot_;
-    if (statistics_.has_actions) {
+    if (has_actions_) {
       ready_.push_back(std::move(frame));
     } else {
       interpolator_.add_scan(std::move(frame));
@@ -170,30 +163,18 @@ class RawlogReader::Implementation {
 
   RawlogArchive archive_;
   RawlogLasers lasers_;
-  RawlogStatistics statistics_;
-  mrpt::math::TPose2D odom_T_robot_{0, 0, 0};  // the sum of the actions
+  bool has_actions_ = false;
+  mrpt::math::TPose2D odom_T_robot_{0, 0, 0};  // sum of the actions
   std::optional<std::string> odometry_label_;
   std::deque<Frame> ready_;
   OdometryInterpolator interpolator_;
-  std::size_t frames_given_ = 0;
   bool at_end_ = false;
 };
 
-RawlogReader::RawlogReader(const std::filesystem::path& path, const LogOptions& options)
-    : implementation_(std::make_unique<Implementation>(path, options)) {}
+}  // namespace
 
-RawlogReader::~RawlogReader() = default;
-
-std::optional<Frame> RawlogReader::next() {
-  return implementation_->next();
-}
-
-double RawlogReader::progress() const {
-  return implementation_->progress();
-}
-
-const RawlogStatistics& RawlogReader::statistics() const {
-  return implementation_->statistics();
+std::unique_ptr<LogReader> open_rawlog(const std::filesystem::path& path, const LogOptions& options) {
+  return std::make_unique<RawlogReader>(path, options);
 }
 
 }  // namespace psi_slam

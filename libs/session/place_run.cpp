@@ -9,7 +9,7 @@
 #include "psi_slam/user_error.h"
 #include "local_maps/front_end.h"
 #include "psi_slam/localizer.h"
-#include "frames/inverse_pose.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {

@@ -13,7 +13,7 @@
 #include "base/atomic_file.h"
 #include "base/file_checksum.h"
 #include "psi_slam/user_error.h"
-#include "compression/decompression.h"
+#include "compression/compression.h"
 
 namespace psi_slam {
 namespace {

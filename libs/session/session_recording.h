@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "psi_slam/frame.h"
-#include "frames/skipped_lines.h"
+#include "psi_slam/frame_source.h"
 #include "psi_slam/mapper.h"
 #include "session/edit_journal.h"
 

@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectory/pose_at_time.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <iterator>
+
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
 
-using mrpt::math::TPose2D;
-
 constexpr TimeUs kSameTimeUs = 100;  // exclusive
 
-TPose2D between(const StampedPose& before, const StampedPose& after, TimeUs time_us) {
+mrpt::math::TPose2D between(const StampedPose& before, const StampedPose& after, TimeUs time_us) {
   const double u =
       static_cast<double>(time_us - before.time_us) / static_cast<double>(after.time_us - before.time_us);
-  const TPose2D& a = before.pose;
-  const TPose2D& b = after.pose;
-  return {a.x + u * (b.x - a.x), a.y + u * (b.y - a.y),
-          mrpt::math::wrapToPi(a.phi + u * mrpt::math::wrapToPi(b.phi - a.phi))};
+  return interpolate(before.pose, after.pose, u);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST_F(WrongInput, a_missing_log_is_told_before_the_folder_is_made) {
 
 TEST_F(WrongInput, a_log_that_is_none_whatever_it_is_called) {
   EXPECT_THAT(refusal(write("letter.rawlog", "Dear robot,\nwhere have you been?\n")),
-              AllOf(HasSubstr("letter.rawlog is none of the formats that are read"),
+              AllOf(HasSubstr("letter.rawlog has an unknown format"),
                     HasSubstr("expected a CARMEN log or an MRPT .rawlog, plain or gzipped, or a ROS bag")));
   EXPECT_THAT(refusal(folder_.path().string()), HasSubstr("is a folder"));
 }

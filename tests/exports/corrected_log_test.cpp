@@ -11,8 +11,8 @@
 
 #include "carmen/carmen_reader.h"
 #include "psi_slam/open_log.h"
-#include "trajectory/trajectory_file.h"
 #include "temporary_folder.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -98,7 +98,7 @@ TEST(CorrectedLog, lasers_of_any_mount_are_read_back_with_their_beams_where_they
       const TemporaryFolder folder;
       const auto path = folder.path() / "trajectory.carmen";
       write_corrected_log(path, {written}, {{1, 2, -0.25}});
-      const auto read = CarmenReader(path, LogOptions()).next();
+      const auto read = open_carmen_log(path, LogOptions())->next();
       ASSERT_TRUE(read.has_value());
       const auto expected = beam_ends(written.scan);
       const auto ends = beam_ends(read->scan);

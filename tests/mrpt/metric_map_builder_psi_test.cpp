@@ -21,7 +21,7 @@
 #include <thread>
 
 #include "../local_maps/simulated_drive.h"
-#include "observations/range_observation.h"
+#include "observations/mrpt_objects.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"

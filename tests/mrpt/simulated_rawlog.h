@@ -13,9 +13,7 @@
 #include <memory>
 #include <vector>
 
-#include "observations/range_observation.h"
-#include "observations/rawlog_objects.h"
-#include "observations/robot_action.h"
+#include "observations/mrpt_objects.h"
 #include "simulation/simulated_log.h"
 #include "trajectory/trajectory_file.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frames/synchronized_source.h"
+#include "frames/scan_synchronizer.h"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,6 @@
 
 #include "log_files.h"
 #include "psi_slam/user_error.h"
-#include "doctor/input_doctor.h"
 #include "ros1_files.h"
 #include "temporary_folder.h"
 #include "two_lasers.h"
@@ -21,8 +20,7 @@ using mrpt::math::TPose2D;
 using testing::HasSubstr;
 using Path = std::filesystem::path;
 
-/// The largest distance of a return from the nearest wall, with the robot where it truly was at the frame's
-/// time.
+/// Largest distance of a return from the nearest wall, with the true pose of the robot at the frame's time.
 double farthest_from_walls_m(const Frame& frame) {
   static const std::vector<Wall> walls = furnished_room();
   double farthest = 0;
@@ -89,7 +87,7 @@ std::vector<Kind> kinds() {
           {"ros2_mcap_by_laser", mcap, lasers("/front/scan,/rear/scan")}};
 }
 
-class EveryLogOfTwoLasers : public testing::TestWithParam<Kind> {
+class LogOfTwoLasers : public testing::TestWithParam<Kind> {
  protected:
   std::vector<Frame> read(const TwoLasers& robot) {
     GetParam().write(path_, robot);
@@ -100,7 +98,7 @@ class EveryLogOfTwoLasers : public testing::TestWithParam<Kind> {
   Path path_ = folder_.path() / "log";
 };
 
-TEST_P(EveryLogOfTwoLasers, holds_frames_of_both_moved_to_one_time) {
+TEST_P(LogOfTwoLasers, frames_hold_both_scans_moved_to_one_time) {
   const TwoLasers robot;
   const auto frames = read(robot);
   ASSERT_EQ(frames.size(), 20U);
@@ -116,13 +114,13 @@ TEST_P(EveryLogOfTwoLasers, holds_frames_of_both_moved_to_one_time) {
     EXPECT_EQ(rear.scan.laser, 1U);
     EXPECT_EQ(rear.time_us, frame.time_us + 40'000);
     EXPECT_NEAR(rear.scan.robot_T_laser.x, -0.4, 1e-6) << "the mount itself is not moved";
-    EXPECT_NEAR(rear.frame_T_robot.phi, 0.04, 2e-4) << "a radian in a second";
-    EXPECT_GT(rear.scan.bearings_rad->front(), rear.scan.bearings_rad->back()) << "it hangs upside down";
+    EXPECT_NEAR(rear.frame_T_robot.phi, 0.04, 2e-4) << "one radian per second";
+    EXPECT_GT(rear.scan.bearings_rad->front(), rear.scan.bearings_rad->back()) << "mounted upside down";
     EXPECT_LT(farthest_from_walls_m(frame), 2e-3);
   }
 }
 
-TEST_P(EveryLogOfTwoLasers, goes_on_when_either_is_silent_for_a_while) {
+TEST_P(LogOfTwoLasers, continues_if_either_laser_is_silent) {
   TwoLasers robot;
   robot.front_silent_from_us = 300'000;
   robot.front_silent_to_us = 900'000;
@@ -137,18 +135,18 @@ TEST_P(EveryLogOfTwoLasers, goes_on_when_either_is_silent_for_a_while) {
     else
       ++(frame.scan.laser == 0 ? front : rear);
   }
-  // Of the rear scans in the gap the first lies near a front one that has a nearer one of its own. The last
-  // joins the first front one behind the gap, and the others the next ones up to where the rear laser is
-  // silent.
+  // The first rear scan in the gap of the front laser is near a front scan that has a nearer rear scan. The
+  // last one joins the first front scan after the gap. The following rear scans join the next front scans
+  // until the rear laser falls silent.
   EXPECT_EQ(both, 12U);
   EXPECT_EQ(front, 2U);
   EXPECT_EQ(rear, 4U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, EveryLogOfTwoLasers, testing::ValuesIn(kinds()),
+INSTANTIATE_TEST_SUITE_P(Kinds, LogOfTwoLasers, testing::ValuesIn(kinds()),
                          [](const auto& kind) { return kind.param.name; });
 
-class SynchronizedSourceTest : public testing::Test {
+class SeveralLasersTest : public testing::Test {
  protected:
   std::string sentence(const LogOptions& options) {
     return sentence_of([&] { frames_of(path_, options); });
@@ -158,7 +156,7 @@ class SynchronizedSourceTest : public testing::Test {
   Path path_ = folder_.path() / "log";
 };
 
-TEST_F(SynchronizedSourceTest, the_first_laser_named_opens_the_frames) {
+TEST_F(SeveralLasersTest, the_first_laser_named_opens_the_frames) {
   write_rawlog_of(path_, {});
   const auto frames = frames_of(path_, lasers("REAR,FRONT"));
   ASSERT_EQ(frames.size(), 20U);
@@ -169,7 +167,7 @@ TEST_F(SynchronizedSourceTest, the_first_laser_named_opens_the_frames) {
   EXPECT_LT(farthest_from_walls_m(frames[3]), 2e-3);
 }
 
-TEST_F(SynchronizedSourceTest, sweeps_of_both_lasers_are_straightened) {
+TEST_F(SeveralLasersTest, sweeps_of_both_lasers_are_straightened) {
   TwoLasers robot;
   robot.sweep_us = 60'000;
   write_rawlog_of(path_, robot);
@@ -185,7 +183,7 @@ TEST_F(SynchronizedSourceTest, sweeps_of_both_lasers_are_straightened) {
   }
 }
 
-TEST_F(SynchronizedSourceTest, thinned_logs_keep_whole_frames) {
+TEST_F(SeveralLasersTest, thinned_logs_keep_whole_frames) {
   write_rawlog_of(path_, {});
   LogOptions options = lasers("all");
   options.every_nth_scan = 3;
@@ -194,25 +192,25 @@ TEST_F(SynchronizedSourceTest, thinned_logs_keep_whole_frames) {
   for (const Frame& frame : frames) EXPECT_EQ(frame.companions.size(), 1U);
 }
 
-TEST_F(SynchronizedSourceTest, carmen_tells_the_mounts_by_its_parameters) {
+TEST_F(SeveralLasersTest, carmen_parameters_state_the_mounts) {
   write_carmen_of(path_, {}, true);
   const auto frames = frames_of(path_, lasers("all", "RLASER -0.4 -0.1 180 mirrored"));
   EXPECT_NEAR(frames.at(5).scan.robot_T_laser.y, 0.05, 1e-9);
   EXPECT_LT(farthest_from_walls_m(frames.at(5)), 2e-3);
 }
 
-TEST_F(SynchronizedSourceTest, says_which_laser_has_no_place_on_the_robot) {
+TEST_F(SeveralLasersTest, reports_the_laser_without_a_mount) {
   write_carmen_of(path_, {}, false);
   EXPECT_EQ(
       sentence(lasers("all", "FLASER 0.3 0 0")),
       path_.string() +
-          " does not say where the laser of its RLASER lines is on the robot, which several lasers at once "
-          "need: expected PARAM robot_rearlaser_offset or log.laser_mounts, such as \"RLASER 0.2 0 180\" "
-          "(metres, degrees)");
-  EXPECT_EQ(frames_of(path_).size(), 20U) << "one alone may be anywhere";
+          " does not state where the laser of its RLASER lines is mounted, which is required to combine "
+          "several lasers, expected PARAM robot_rearlaser_offset. State it with log.laser_mounts, such as "
+          "\"RLASER 0.2 0 180\" (metres, degrees)");
+  EXPECT_EQ(frames_of(path_).size(), 20U) << "a single laser needs no mount";
 }
 
-TEST_F(SynchronizedSourceTest, two_lasers_in_one_place_are_none) {
+TEST_F(SeveralLasersTest, rejects_two_lasers_with_one_pose) {
   TwoLasers robot;
   write_rawlog(path_, {odometry(1'000'000, {}), range_scan(1'000'000, "A"), range_scan(1'000'000, "B"),
                        odometry(1'100'000, {})});
@@ -221,16 +219,15 @@ TEST_F(SynchronizedSourceTest, two_lasers_in_one_place_are_none) {
   EXPECT_EQ(frames_of(path_, lasers("all", "B -0.3 0 180")).at(0).companions.size(), 1U);
 }
 
-TEST_F(SynchronizedSourceTest, a_laser_that_the_log_lacks_is_told_with_those_it_has) {
+TEST_F(SeveralLasersTest, reports_a_missing_laser_with_the_existing_ones) {
   write_carmen_of(path_, {}, true);
   EXPECT_EQ(sentence(lasers("FLASER,RAWLASER3")),
-            "log.laser = \"FLASER,RAWLASER3\" names \"RAWLASER3\", which " + path_.string() +
-                " does not have, expected some of its lasers: \"FLASER\", \"RLASER\"");
-  EXPECT_EQ(
-      sentence(lasers("front,FLASER")),
-      "log.laser = \"front,FLASER\" names one laser twice: the scans of \"front\" and \"FLASER\" are the "
-      "FLASER messages of " +
-          path_.string());
+            "log.laser is \"FLASER,RAWLASER3\", but " + path_.string() +
+                " has no laser \"RAWLASER3\", expected some of: \"FLASER\", \"RLASER\"");
+  EXPECT_EQ(sentence(lasers("front,FLASER")),
+            "log.laser is \"front,FLASER\", but \"front\" and \"FLASER\" are the same laser: the FLASER "
+            "messages of " +
+                path_.string() + ". Name it once");
   write_rawlog_of(path_, {});
   EXPECT_EQ(sentence(lasers("FRONT,LEFT")), "log.laser is \"LEFT\", expected the label of a laser of " +
                                                 path_.string() + ": \"FRONT\", \"REAR\"");
@@ -242,10 +239,10 @@ TEST_F(SynchronizedSourceTest, a_laser_that_the_log_lacks_is_told_with_those_it_
             "log.laser is \"/left\", expected a topic of type sensor_msgs/LaserScan of " + path_.string() +
                 ": /front/scan, /rear/scan");
   EXPECT_EQ(sentence(lasers("/front/scan,front/scan")),
-            "log.laser names the topic /front/scan twice, expected each once");
+            "log.laser names the topic /front/scan twice. Name each topic once");
 }
 
-TEST_F(SynchronizedSourceTest, a_log_that_breaks_off_gives_all_frames_before) {
+TEST_F(SeveralLasersTest, a_truncated_log_yields_all_frames_before) {
   write_carmen_of(path_, {}, true);
   std::string log = read_file(path_);
   log.resize(log.size() - 100);
@@ -257,14 +254,6 @@ TEST_F(SynchronizedSourceTest, a_log_that_breaks_off_gives_all_frames_before) {
             }),
             "");
   EXPECT_EQ(frames, 20U);
-}
-
-TEST_F(SynchronizedSourceTest, the_doctor_judges_the_first_laser) {
-  write_rawlog_of(path_, {});
-  const LogDiagnosis diagnosis = diagnose(path_, lasers("REAR,FRONT"));
-  EXPECT_EQ(diagnosis.facts.laser, "REAR");
-  EXPECT_EQ(diagnosis.facts.scans, 20U);
-  EXPECT_EQ(diagnosis.facts.other_lasers.at("FRONT"), 20U);
 }
 
 }  // namespace

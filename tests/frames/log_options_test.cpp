@@ -12,11 +12,11 @@ std::string sentence_about(const LogOptions& options) {
   return sentence_of([&] { check_log_options(options); });
 }
 
-TEST(LogOptions, are_right_as_they_stand) {
+TEST(LogOptions, defaults_are_valid) {
   EXPECT_NO_THROW(check_log_options(LogOptions{}));
 }
 
-TEST(LogOptions, are_refused_by_name_and_value) {
+TEST(LogOptions, invalid_values_are_reported_by_name_and_value) {
   LogOptions options;
   options.every_nth_scan = 0;
   EXPECT_EQ(sentence_about(options), "log.every_nth_scan is 0, expected 1 or more");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "observations/rawlog_laser.h"
+#include "observations/rawlog_lasers.h"
 
 #include <gmock/gmock.h>
 #include <mrpt/core/bits_math.h>
@@ -22,14 +22,14 @@ LaserScan scan_of(const mrpt::obs::CObservation2DRangeScan& observation, const L
   return RawlogLaser(options).scan(observation, "log: object 1");
 }
 
-TEST(RawlogLaser, takes_bearings_from_aperture_and_direction) {
+TEST(RawlogLaser, bearings_follow_aperture_and_direction) {
   const auto observation = range_scan(1);
   EXPECT_THAT(*scan_of(*observation).bearings_rad, ElementsAre(-1.0F, -0.5F, 0.0F, 0.5F, 1.0F));
   observation->rightToLeft = false;
   EXPECT_THAT(*scan_of(*observation).bearings_rad, ElementsAre(1.0F, 0.5F, 0.0F, -0.5F, -1.0F));
 }
 
-TEST(RawlogLaser, agrees_with_the_points_that_mrpt_sees) {
+TEST(RawlogLaser, agrees_with_mrpts_points) {
   for (const bool right_to_left : {true, false}) {
     for (const double roll_deg : {0.0, 180.0}) {
       const auto observation = range_scan(1);
@@ -50,17 +50,18 @@ TEST(RawlogLaser, agrees_with_the_points_that_mrpt_sees) {
   }
 }
 
-TEST(RawlogLaser, refuses_a_tilted_laser) {
+TEST(RawlogLaser, rejects_a_tilted_laser) {
   const auto observation = range_scan(1);
   observation->sensorPose = CPose3D(0, 0, 0, 0, DEG2RAD(10.0), 0);
   EXPECT_NO_THROW(scan_of(*observation));
   observation->sensorPose = CPose3D(0, 0, 0, 0, DEG2RAD(40.0), 0);
-  EXPECT_EQ(sentence_of([&] { scan_of(*observation); }),
-            "log: object 1: the laser is tilted by 40 degrees, expected one that looks along the floor to 15 "
-            "degrees");
+  EXPECT_EQ(
+      sentence_of([&] { scan_of(*observation); }),
+      "log: object 1: the laser is tilted by 40 degrees, expected at most 15. Select another laser with "
+      "log.laser");
 }
 
-TEST(RawlogLaser, marks_what_is_no_return) {
+TEST(RawlogLaser, marks_readings_without_a_return) {
   const auto observation = range_scan(1, "LASER", {1, -1, 0, 30, std::nanf(""), 2});
   observation->setScanRangeValidity(5, false);
   const auto ranges_m = scan_of(*observation).ranges_m;
@@ -68,7 +69,7 @@ TEST(RawlogLaser, marks_what_is_no_return) {
   for (std::size_t i = 1; i < ranges_m.size(); ++i) EXPECT_TRUE(std::isnan(ranges_m[i])) << i;
 }
 
-TEST(RawlogLaser, lets_the_user_overrule_the_log) {
+TEST(RawlogLaser, options_override_the_log) {
   LogOptions options;
   options.robot_T_laser = TPose2D{1, 2, 0.5};
   options.max_range_m = 4.5;
@@ -95,7 +96,7 @@ TEST(RawlogLaser, shares_bearings_until_the_sensor_changes) {
   EXPECT_EQ(laser.scan(*observation, "").bearings_rad->back(), -0.5F);
 }
 
-TEST(RawlogLaser, refuses_a_scan_without_rays) {
+TEST(RawlogLaser, rejects_a_scan_without_rays) {
   EXPECT_EQ(sentence_of([] { scan_of(*range_scan(1, "LASER", {})); }),
             "log: object 1: the scan has 0 rays, expected 1 or more");
 }

@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "compression/decompression.h"
+#include "compression/compression.h"
 
 #include <bzlib.h>
 #include <lz4frame.h>
+#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <memory>
 
 #include "base/byte_cursor.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
 constexpr std::size_t kFirstBytes = std::size_t{1} << 16;
 
-/// What comes out, with room made as it is needed and never beyond `most` bytes.
+/// Decompressed bytes. The buffer grows as needed, up to `most` bytes.
 class Output {
  public:
   explicit Output(std::uint64_t most) : most_(most) {}
 
-  /// Room behind what is there; none when the most is reached.
+  /// Returns the number of free bytes after the existing ones; 0 if the limit is reached.
   std::size_t make_room() {
     if (used_ == bytes_.size()) {
       const std::uint64_t wanted = std::max<std::uint64_t>(kFirstBytes, 2 * std::uint64_t{used_});
@@ -44,11 +48,11 @@ class Output {
 };
 
 [[noreturn]] void fail(std::string_view name) {
-  throw MalformedBytes("its " + std::string(name) + " data do not decompress");
+  throw MalformedBytes("its " + std::string(name) + " data cannot be decompressed");
 }
 
 [[noreturn]] void fail_as_too_many(std::uint64_t most) {
-  throw MalformedBytes("its data decompress to more than the " + std::to_string(most) + " bytes expected");
+  throw MalformedBytes("its data decompress to more than the expected " + std::to_string(most) + " bytes");
 }
 
 std::string decompress_bz2(std::string_view compressed, std::uint64_t most) {
@@ -70,7 +74,7 @@ std::string decompress_bz2(std::string_view compressed, std::uint64_t most) {
     const unsigned got = offered - stream.avail_out;
     if (code != BZ_OK && code != BZ_STREAM_END) fail("bz2");
     if (room == 0 && got > 0) fail_as_too_many(most);
-    if (code == BZ_OK && got == 0 && unread == stream.avail_in) fail("bz2");  // the data end too early
+    if (code == BZ_OK && got == 0 && unread == stream.avail_in) fail("bz2");  // the data are incomplete
     if (room > 0) output.add(got);
   }
   return output.take();
@@ -91,7 +95,7 @@ std::string decompress_lz4(std::string_view compressed, std::uint64_t most) {
                            nullptr);
     if (LZ4F_isError(hint) != 0) fail("lz4");
     if (room == 0 && got > 0) fail_as_too_many(most);
-    if (hint != 0 && got == 0 && taken == 0) fail("lz4");  // the data end too early
+    if (hint != 0 && got == 0 && taken == 0) fail("lz4");  // the data are incomplete
     compressed.remove_prefix(taken);
     if (room > 0) output.add(got);
   }
@@ -112,7 +116,7 @@ std::string decompress_zstd_frame(std::string_view compressed, std::uint64_t mos
     hint = ZSTD_decompressStream(context.get(), &out, &in);
     if (ZSTD_isError(hint) != 0) fail("zstd");
     if (room == 0 && out.pos > 0) fail_as_too_many(most);
-    if (hint != 0 && out.pos == 0 && taken == in.pos) fail("zstd");  // the data end too early
+    if (hint != 0 && out.pos == 0 && taken == in.pos) fail("zstd");  // the data are incomplete
     if (room > 0) output.add(out.pos);
   }
   return output.take();
@@ -134,6 +138,33 @@ std::string decompress(std::string_view name, std::string_view compressed, std::
     throw MalformedBytes("its data decompress to " + std::to_string(bytes.size()) + " bytes, not the " +
                          std::to_string(size) + " expected");
   return bytes;
+}
+
+std::string gzipped(const void* bytes, std::size_t count) {
+  constexpr int kGzipWindow = 15 + 16;
+  constexpr int kMemoryLevel = 8;
+  z_stream stream{};
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzipWindow, kMemoryLevel,
+                   Z_DEFAULT_STRATEGY) != Z_OK)
+    throw SystemFailure("cannot compress data: out of memory");
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, deflateEnd);
+
+  std::string result;
+  std::array<char, 65536> buffer{};
+  // zlib does not write through this pointer, although its C interface takes a mutable one.
+  stream.next_in = static_cast<Bytef*>(const_cast<void*>(bytes));
+  int status = Z_OK;
+  while (status != Z_STREAM_END) {
+    if (stream.avail_in == 0) {
+      stream.avail_in = static_cast<uInt>(std::min<std::size_t>(count, std::numeric_limits<uInt>::max()));
+      count -= stream.avail_in;
+    }
+    stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
+    stream.avail_out = static_cast<uInt>(buffer.size());
+    status = deflate(&stream, count == 0 ? Z_FINISH : Z_NO_FLUSH);
+    result.append(buffer.data(), buffer.size() - stream.avail_out);
+  }
+  return result;
 }
 
 }  // namespace psi_slam

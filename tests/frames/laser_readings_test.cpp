@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frames/range_filter.h"
+#include "frames/laser_readings.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace psi_slam {
 namespace {
 
-TEST(RangeFilter, keeps_returns_and_marks_everything_else) {
+TEST(LaserReadings, mark_all_readings_but_returns) {
   const float inf = std::numeric_limits<float>::infinity();
   std::vector<float> ranges_m{1.5F, 0.0F, -2.0F, 8.0F, 7.999F, inf, -inf, std::nanf(""), 0.29F, 0.3F};
   mark_no_returns(ranges_m, 0.3, 8.0);
@@ -18,7 +18,7 @@ TEST(RangeFilter, keeps_returns_and_marks_everything_else) {
   EXPECT_EQ(ranges_m[0], 1.5F);
 }
 
-TEST(RangeFilter, takes_a_reading_written_like_the_maximum_as_the_maximum) {
+TEST(LaserReadings, equal_the_maximum_if_written_alike) {
   std::vector<float> ranges_m{81.83F, 81.82F};
   mark_no_returns(ranges_m, 0, 81.83);
   EXPECT_TRUE(std::isnan(ranges_m[0]));

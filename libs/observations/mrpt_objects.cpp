@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "observations/range_observation.h"
+#include "observations/mrpt_objects.h"
+
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/poses/CPosePDF.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <ratio>
 #include <string>
-#include <vector>
-
-#include "observations/rawlog_objects.h"
+#include <type_traits>
 
 namespace psi_slam {
 namespace {
 
+using mrpt::obs::CActionRobotMovement2D;
 using mrpt::obs::CObservation2DRangeScan;
 
-/// Evenly spread rays, and the ray of each beam.
+static_assert(std::is_same_v<mrpt::Clock::period, std::ratio<1, 10'000'000>>,
+              "MRPT counts tenths of microseconds since 1601");
+constexpr std::int64_t kTicksFrom1601To1970 = 116'444'736'000'000'000;
+constexpr std::int64_t kTicksPerMicrosecond = 10;
+
 struct EvenRays {
   std::size_t count = 0;
   std::vector<std::size_t> ray_of_beam;
-  double worst_rad = 0;  ///< the farthest that a beam lies from its ray
+  double worst_rad = 0;  ///< largest distance of a beam from its ray
 };
 
 EvenRays spread(const std::vector<float>& bearings, std::size_t count) {
@@ -71,6 +79,38 @@ CObservation2DRangeScan::Ptr observation_of(const LaserScan& scan, TimeUs time_u
 }
 
 }  // namespace
+
+mrpt::Clock::time_point mrpt_clock_time(TimeUs time_us) {
+  return mrpt::Clock::time_point(
+      mrpt::Clock::duration(time_us * kTicksPerMicrosecond + kTicksFrom1601To1970));
+}
+
+std::optional<TimeUs> time_us(const mrpt::obs::CObservation& observation) {
+  const std::int64_t ticks = observation.timestamp.time_since_epoch().count();
+  if (ticks <= 0) return std::nullopt;
+  const std::int64_t since_1970 = ticks - kTicksFrom1601To1970;
+  const std::int64_t half = since_1970 < 0 ? -kTicksPerMicrosecond / 2 : kTicksPerMicrosecond / 2;
+  return (since_1970 + half) / kTicksPerMicrosecond;
+}
+
+std::optional<mrpt::math::TPose2D> movement_of(const mrpt::obs::CActionCollection& actions) {
+  std::optional<mrpt::math::TPose2D> estimate;
+  for (const auto& action : actions) {
+    const auto* movement = dynamic_cast<const CActionRobotMovement2D*>(action.get());
+    if (movement == nullptr) continue;
+    if (movement->estimationMethod == CActionRobotMovement2D::emOdometry)
+      return movement->rawOdometryIncrementReading.asTPose();
+    if (!estimate && movement->poseChange) estimate = movement->poseChange->getMeanVal().asTPose();
+  }
+  return estimate;
+}
+
+mrpt::obs::CActionCollection robot_action(const mrpt::math::TPose2D& motion, TimeUs time_us) {
+  CActionRobotMovement2D action;
+  action.timestamp = mrpt_clock_time(time_us);  // icp-slam rejects actions without a time stamp
+  action.computeFromOdometry(mrpt::poses::CPose2D(motion), CActionRobotMovement2D::TMotionModelOptions());
+  return mrpt::obs::CActionCollection(action);
+}
 
 CObservation2DRangeScan::Ptr range_observation(const Frame& frame) {
   return observation_of(frame.scan, frame.time_us, frame.scan.robot_T_laser);

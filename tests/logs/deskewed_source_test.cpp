@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "bag_files.h"
+#include "frames/pose_operations.h"
 #include "log_files.h"
-#include "frames/odometry_interpolator.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"
 
@@ -18,7 +18,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// A scan of the furnished room whose beams are taken one after the other on the way from `start`.
+/// Scan of the furnished room whose beams are measured one after the other while the robot moves from
+/// `start`.
 LaserScan sweep(const TPose2D& start, const TPose2D& motion, const TPose2D& mount, bool clockwise = false) {
   const std::vector<Wall> walls = furnished_room();
   std::vector<float> bearings = make_bearings_rad(BeamAngles::kLeftOpen, 720, 2 * M_PI);
@@ -37,7 +38,8 @@ LaserScan sweep(const TPose2D& start, const TPose2D& motion, const TPose2D& moun
   return scan;
 }
 
-/// The largest distance of a beam's end, put where the robot was at the first beam, from the nearest wall.
+/// Largest distance of a beam's end from the nearest wall, with all beams at the robot's pose at the first
+/// beam.
 double farthest_from_walls_m(const LaserScan& scan, const TPose2D& world_T_robot) {
   const std::vector<Wall> walls = furnished_room();
   double farthest = 0;
@@ -58,7 +60,7 @@ double farthest_from_walls_m(const LaserScan& scan, const TPose2D& world_T_robot
   return farthest;
 }
 
-TEST(Deskewed, a_sweep_of_a_moving_robot_ends_on_the_walls_that_a_standing_one_sees) {
+TEST(Deskewed, a_sweep_of_a_moving_robot_ends_on_the_walls) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < 40; ++i) {
@@ -74,7 +76,7 @@ TEST(Deskewed, a_sweep_of_a_moving_robot_ends_on_the_walls_that_a_standing_one_s
   }
 }
 
-TEST(Deskewed, a_sweep_of_a_robot_that_turns_on_the_spot_equals_the_scan_of_a_standing_one) {
+TEST(Deskewed, a_sweep_while_turning_on_the_spot_equals_a_scan_at_rest) {
   const TPose2D start{2, 1.8, 0.4};
   const LaserScan still = deskewed(sweep(start, {0, 0, 0.2}, {0, 0, 0}), {0, 0, 0.2});
   const std::vector<Wall> walls = furnished_room();
@@ -84,7 +86,7 @@ TEST(Deskewed, a_sweep_of_a_robot_that_turns_on_the_spot_equals_the_scan_of_a_st
   }
 }
 
-TEST(Deskewed, a_beam_without_return_stays_one_and_turns_with_the_robot) {
+TEST(Deskewed, a_beam_without_return_turns_with_the_robot) {
   LaserScan scan;
   scan.ranges_m = {1, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN()};
   scan.bearings_rad = std::make_shared<const std::vector<float>>(std::vector<float>{-1, 0, 1});
@@ -96,8 +98,8 @@ TEST(Deskewed, a_beam_without_return_stays_one_and_turns_with_the_robot) {
 
 // ---- Whole logs ----
 
-/// A robot that turns at 1 rad/s in a room that looks the same on all sides: one that is straight shows only
-/// in the bearings.
+/// A robot that turns at 1 rad/s in a room that looks the same on all sides. A straightened scan differs only
+/// in its bearings.
 Recording turning_robot(float time_increment_s) {
   Recording recording{static_mount("laser", {0, 0, 0, 0, 0, 0})};
   constexpr TimeUs kStart = 1'600'000'000'000'000;
@@ -120,15 +122,15 @@ std::vector<Frame> frames_from(const Recording& recording, const LogOptions& opt
   return frames_of(folder.path() / "run.mcap", options);
 }
 
-TEST(DeskewedLog, takes_the_motion_out_that_the_bag_tells_of) {
+TEST(DeskewedLog, removes_the_motion_during_the_sweep_that_the_bag_states) {
   const auto frames = frames_from(turning_robot(0.02F));
   ASSERT_EQ(frames.size(), 6U);
-  for (const Frame& frame : frames)  // the last one by the motion before it
+  for (const Frame& frame : frames)  // the last one uses the motion before it
     EXPECT_THAT(*frame.scan.bearings_rad,
                 testing::Pointwise(testing::FloatNear(1e-5F), {-1.0F, -0.48F, 0.04F, 0.56F, 1.08F}));
 }
 
-TEST(DeskewedLog, is_as_it_was_where_nothing_says_how_long_a_sweep_takes_or_the_user_says_0) {
+TEST(DeskewedLog, is_unchanged_without_a_sweep_time_or_if_the_user_states_0) {
   LogOptions off;
   off.sweep_time_s = 0;
   for (const auto& frames : {frames_from(turning_robot(0)), frames_from(turning_robot(0.02F), off),
@@ -137,7 +139,7 @@ TEST(DeskewedLog, is_as_it_was_where_nothing_says_how_long_a_sweep_takes_or_the_
       EXPECT_THAT(*frame.scan.bearings_rad, testing::ElementsAre(-1.0F, -0.5F, 0.0F, 0.5F, 1.0F));
 }
 
-TEST(DeskewedLog, takes_the_time_that_the_user_states_for_any_format) {
+TEST(DeskewedLog, uses_the_stated_sweep_time_in_any_format) {
   const TemporaryFolder folder;
   write_carmen(folder.path() / "log", turning_robot(0));
   LogOptions options;

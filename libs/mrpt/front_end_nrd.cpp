@@ -15,7 +15,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr char kSpeaker[] = "rawlog: ";
+constexpr char kSpeaker[] = "rawlog";
 
 double length_m(const TPose2D& motion) {
   return std::hypot(motion.x, motion.y);

@@ -150,7 +150,7 @@ class CMetricMapBuilderPsi::Implementation {
   void start(const CPosePDFGaussian& map_T_start) {
     start_ = map_T_start;
     mapper_ = std::make_unique<Mapper>(mapper_options_);
-    entries_.emplace(options_.log, "CMetricMapBuilderPsi: ");
+    entries_.emplace(options_.log, "CMetricMapBuilderPsi");
     waiting_observations_.clear();
     log_.clear();
     frames_.clear();

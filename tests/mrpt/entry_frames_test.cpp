@@ -55,7 +55,7 @@ TEST(EntryFrames, are_of_one_laser) {
 }
 
 TEST(EntryFrames, a_log_without_odometry_is_refused) {
-  EntryFrames entries{LogOptions(), "entries: "};
+  EntryFrames entries{LogOptions()};
   entries.take(nullptr, nullptr, range_scan(1'000'000));
   EXPECT_FALSE(entries.next());
   EXPECT_EQ(sentence_of([&] { entries.end_of_log(); }),
@@ -76,7 +76,7 @@ TEST(EntryFrames, a_scan_without_time_is_refused) {
   const auto scan = range_scan(1'000'000);
   scan->timestamp = {};
   EXPECT_EQ(sentence_of([&] { entries.take(nullptr, nullptr, scan); }),
-            "scan 1 has no time stamp, expected one on every observation");
+            "entries: observation 1: the scan has no time stamp, expected one on every observation");
 }
 
 TEST(EntryFrames, of_two_lasers_hold_the_scans_of_both) {

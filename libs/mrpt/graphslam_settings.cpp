@@ -24,8 +24,9 @@ const std::array<Owner, 3>& owners() {
         {"log", "front_end", "local_maps", "pose_graph.local_map_sigma_m",
          "pose_graph.local_map_sigma_theta_deg"}},
        {kEdgeDeciderSection,
-        {"loop_closure", "psi", "genetic", "verification", "consensus", "last_pass", "joint_refinement",
-         "run", "pose_graph.loop_sigma_m", "pose_graph.loop_sigma_theta_deg", "pose_graph.max_loop_chi"}},
+        {"loop_closure", "psi", "genetic", "verification", "consensus", "final_search", "last_pass",
+         "joint_refinement", "run", "pose_graph.loop_sigma_m", "pose_graph.loop_sigma_theta_deg",
+         "pose_graph.max_loop_chi"}},
        {kOptimizerSection, {"pose_graph"}}}};
   return kOwners;
 }

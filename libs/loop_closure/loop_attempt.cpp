@@ -8,7 +8,7 @@
 namespace psi_slam {
 namespace {
 
-// A blind scan has no points, or none that a turn would move (see make_search_window).
+// Needs points, and some that a turn would move by a cell (see make_search_window).
 bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
   return !scan.points.empty() && scan.farthest_m > std::as_const(*local_map.map).scores().resolution_m();
 }
@@ -16,11 +16,11 @@ bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
 }  // namespace
 
 LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCandidate& candidate,
-                         const KeyframeStore& memory, const ChosenMatcher& matcher,
+                         const KeyframeStore& keyframes, const ChosenMatcher& matcher,
                          const LoopVerificationOptions& verification, std::uint64_t run_seed) {
   LoopAttempt attempt;
-  const NodeScan& here = memory.nodes[node];
-  const PlacedLocalMap& local_map = memory.local_maps[candidate.local_map];
+  const NodeScan& here = keyframes.nodes[node];
+  const PlacedLocalMap& local_map = keyframes.local_maps[candidate.local_map];
   if (!can_be_searched(scan, local_map)) return attempt;
   MatchProblem problem{std::as_const(*local_map.map).scores(), scan, candidate.anchor_T_node,
                        candidate.extent};
@@ -57,7 +57,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   loop.ambiguity = match.ambiguity.value_or(0);
   loop.moved_m = std::hypot(match.map_T_robot.x - candidate.anchor_T_node.x,
                             match.map_T_robot.y - candidate.anchor_T_node.y);
-  verify(loop, scan, memory, verification);
+  verify(loop, scan, keyframes, verification);
   return attempt;
 }
 

@@ -19,11 +19,11 @@ double nearest_node_m(const PlacedLocalMap& local_map, const mrpt::math::TPose2D
   return std::sqrt(nearest_squared);
 }
 
-double travel_between_m(std::size_t node, const PlacedLocalMap& local_map, const KeyframeStore& memory) {
+double travel_between_m(std::size_t node, const PlacedLocalMap& local_map, const KeyframeStore& keyframes) {
   if (node > local_map.last_node)
-    return memory.nodes[node].travelled_m - memory.nodes[local_map.last_node].travelled_m;
+    return keyframes.nodes[node].travelled_m - keyframes.nodes[local_map.last_node].travelled_m;
   if (node < local_map.first_node)
-    return memory.nodes[local_map.first_node].travelled_m - memory.nodes[node].travelled_m;
+    return keyframes.nodes[local_map.first_node].travelled_m - keyframes.nodes[node].travelled_m;
   return 0;
 }
 
@@ -38,7 +38,7 @@ SearchExtent window_of(const PositionSigma& sigma, const LoopCandidateOptions& o
 
 }  // namespace
 
-std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& memory,
+std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& keyframes,
                                            const PoseGraph& graph, const LoopCandidateOptions& options,
                                            const SigmasOfAnchors& sigmas_of_anchors) {
   const mrpt::math::TPose2D& map_T_node = graph.pose(node);
@@ -46,9 +46,9 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore
       options.reach_m + std::max({options.max_window.x_m, options.max_window.y_m, options.min_window_m});
   std::vector<LoopCandidate> in_reach;
   std::vector<std::size_t> local_maps;
-  for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
-    const PlacedLocalMap& local_map = memory.local_maps[m];
-    if (travel_between_m(node, local_map, memory) < options.min_travel_m) continue;
+  for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
+    const PlacedLocalMap& local_map = keyframes.local_maps[m];
+    if (travel_between_m(node, local_map, keyframes) < options.min_travel_m) continue;
     const double distance_m = nearest_node_m(local_map, map_T_node, graph);
     if (distance_m > reach_m) continue;
     in_reach.push_back({m, map_T_node - graph.pose(local_map.anchor), {}, distance_m});

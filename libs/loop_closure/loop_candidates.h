@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which finished local maps a node may see again, and how large a search window each needs: the pose graph's
-// uncertainty of the node relative to the local map, along the best path between them (Olson 2009, "Recognizing
-// places using spectrally clustered local matches").
+// uncertainty of the node relative to the local map, along the best path between them (Olson 2009,
+// "Recognizing places using spectrally clustered local matches").
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -43,9 +43,9 @@ struct PositionSigma {
 /// Returns the node's uncertainty relative to the anchor of each of these local maps, in their order.
 using SigmasOfAnchors = std::function<std::vector<PositionSigma>(const std::vector<std::size_t>& local_maps)>;
 
-/// The candidates of a node by ascending local map. Calls `sigmas_of_anchors` at most once, and only for local
-/// maps within reach of the largest window.
-std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& memory,
+/// The candidates of a node by ascending local map. Calls `sigmas_of_anchors` at most once, and only for
+/// local maps within reach of the largest window.
+std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& keyframes,
                                            const PoseGraph& graph, const LoopCandidateOptions& options,
                                            const SigmasOfAnchors& sigmas_of_anchors);
 

@@ -96,8 +96,9 @@ void LoopLedger::refuse_pending() {
 std::set<LoopPair> LoopLedger::searched_pairs() const {
   std::set<LoopPair> pairs;
   for (const LoopRecord& loop : loops_) {
-    const bool failed = loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kNotFound ||
-                        (loop.verdict == LoopVerdict::kDeleted && !loop.by_hand);  // taken back
+    const bool failed =
+        loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kNotFound ||
+        (loop.verdict == LoopVerdict::kDeleted && !loop.by_hand);  // match by hand, taken back
     if (!failed || loop.in_final_search || loop.by_hand) pairs.insert(pair_of(loop));
   }
   return pairs;
@@ -113,7 +114,8 @@ bool LoopLedger::force(const LoopPair& pair, bool of_final_search, PoseGraph& gr
   by_hand_[pair].of_final_search = of_final_search;
   const std::vector<std::size_t> attempts = attempts_of(pair);
   const auto found = std::find_if(attempts.rbegin(), attempts.rend(), [&](std::size_t loop) {
-    return loops_[loop].verdict != LoopVerdict::kNotFound && (!of_final_search || loops_[loop].in_final_search);
+    return loops_[loop].verdict != LoopVerdict::kNotFound &&
+           (!of_final_search || loops_[loop].in_final_search);
   });
   if (found == attempts.rend()) return false;
   for (const std::size_t other : attempts)

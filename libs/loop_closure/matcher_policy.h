@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the matcher that searches for loops (method, section 6). The paper searches exhaustively where loops
-// are rare, because a missed loop costs much there. Where loops are frequent it uses the genetic matcher, and
-// in between both in turn. PsiOptions tells how the defaults differ from the paper.
+// Chooses the matcher that searches for loops (method, section 6). The paper searches exhaustively where
+// loops are rare, because a missed loop costs much there. Where loops are frequent it uses the genetic
+// matcher, and in between both in turn. PsiOptions tells how the defaults differ from the paper.
 #pragma once
 
 #include <array>

@@ -16,23 +16,23 @@ BackEnd::BackEnd(const BackEndOptions& options)
       ledger_({options.loop_sigma_m, options.loop_sigma_rad}),
       pool_(options.threads) {}
 
-NodeLoops BackEnd::close(std::size_t node, const KeyframeStore& memory, PoseGraph& graph) {
+NodeLoops BackEnd::close(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph) {
   NodeLoops loops;
-  const double ms = loop_clock_.time([&] { loops = search(node, memory, graph); });
+  const double ms = loop_clock_.time([&] { loops = search(node, keyframes, graph); });
   loops.milliseconds = ms;
   return loops;
 }
 
-NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& memory, PoseGraph& graph) {
+NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph) {
   matcher_of_node_.push_back(policy_.kind(factor_.value().psi));
   const ChosenMatcher matcher = policy_.matcher(matcher_of_node_.back());
-  LoopCloser::Outcome outcome = closer_.close(node, memory, graph, matcher, pool_);
+  LoopCloser::Outcome outcome = closer_.close(node, keyframes, graph, matcher, pool_);
   NodeLoops loops;
   loops.matcher = matcher.kind;
   loops.effort = outcome.effort;
   for (LoopRecord& loop : outcome.loops) {
     const bool waits = loop.verdict == LoopVerdict::kPending;
-    for (const std::size_t confirmed : confirmed_by(ledger_.add(std::move(loop)), memory, graph)) {
+    for (const std::size_t confirmed : confirmed_by(ledger_.add(std::move(loop)), keyframes, graph)) {
       const std::optional<double> residual = ledger_.accept(confirmed, graph);
       if (!residual) continue;
       ++loops.accepted;
@@ -46,12 +46,12 @@ NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& memory, PoseGra
 
 // The loops to accept now that this one was found: an accepted loop itself; for a pending loop all pending
 // loops that now agree.
-std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const KeyframeStore& memory,
+std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const KeyframeStore& keyframes,
                                                const PoseGraph& graph) {
   const LoopRecord& loop = ledger_.loops()[index];
   if (loop.verdict == LoopVerdict::kAccepted) return {index};
   if (loop.verdict != LoopVerdict::kPending) return {};
-  const NodeScan& here = memory.nodes[loop.node];
+  const NodeScan& here = keyframes.nodes[loop.node];
   return consensus_.add(
       {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity}, graph,
       [&](std::size_t other) { return ledger_.loops()[other].verdict == LoopVerdict::kPending; });
@@ -68,7 +68,7 @@ double BackEnd::optimize(PoseGraph& graph, SparsePoseAdjustment& solver) {
   });
 }
 
-std::map<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& memory, PoseGraph& graph,
+std::map<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
                                                         SparsePoseAdjustment& solver,
                                                         FinalProgress& progress) {
   std::map<MatcherKind, LoopEffort> effort;
@@ -79,7 +79,7 @@ std::map<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& mem
   settle();
   for (int pass = 0; pass < progress.passes() && !progress.cut_short(); ++pass) {
     final_search_clock_.time([&] {
-      for (const auto& [matcher, of_pass] : run_final_search(memory, graph, [&](double share) {
+      for (const auto& [matcher, of_pass] : run_final_search(keyframes, graph, [&](double share) {
              return final_search_clock_.leave_out([&] { return progress.at(pass + share); });
            }))
         effort[matcher] += of_pass;
@@ -90,14 +90,14 @@ std::map<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& mem
   return effort;
 }
 
-std::map<MatcherKind, LoopEffort> BackEnd::run_final_search(const KeyframeStore& memory, PoseGraph& graph,
+std::map<MatcherKind, LoopEffort> BackEnd::run_final_search(const KeyframeStore& keyframes, PoseGraph& graph,
                                                             const std::function<bool(double)>& progress) {
   const std::set<LoopPair> searched = ledger_.searched_pairs();
   const auto known = [&](std::size_t node, std::size_t local_map) {
     return searched.count({node, local_map}) != 0;
   };
   const auto matcher_of = [&](std::size_t node) { return policy_.matcher(matcher_of_node_[node]); };
-  FinalSearchOutcome outcome = final_search(memory, graph, matcher_of, options_.loop_closure.verification,
+  FinalSearchOutcome outcome = final_search(keyframes, graph, matcher_of, options_.loop_closure.verification,
                                             options_.final_search, known, options_.seed, pool_, progress);
   for (LoopRecord& loop : outcome.loops) {
     const std::size_t entered = ledger_.add(std::move(loop));
@@ -119,7 +119,7 @@ void BackEnd::refine(RefinedScans& scans, PoseGraph& graph, FinalProgress& progr
   });
 }
 
-bool BackEnd::match_by_hand(const LoopEdit& edit, std::size_t node, const KeyframeStore& memory,
+bool BackEnd::match_by_hand(const LoopEdit& edit, std::size_t node, const KeyframeStore& keyframes,
                             PoseGraph& graph) {
   LoopCandidate candidate;
   candidate.local_map = edit.local_map;
@@ -131,12 +131,14 @@ bool BackEnd::match_by_hand(const LoopEdit& edit, std::size_t node, const Keyfra
     candidate.anchor_T_node = before->anchor_T_predicted;
     candidate.extent = before->window;
   } else {
-    candidate.anchor_T_node = graph.pose(node) - graph.pose(memory.local_maps[edit.local_map].anchor);
+    candidate.anchor_T_node = graph.pose(node) - graph.pose(keyframes.local_maps[edit.local_map].anchor);
     candidate.extent = options_.loop_closure.candidates.max_window;
   }
   const auto matcher = make_matcher(edit.matcher, options_.loop_matcher, options_.genetic);
   std::optional<LoopRecord> loop;
-  loop_clock_.time([&] { loop = closer_.match(node, candidate, memory, {edit.matcher, *matcher}, pool_); });
+  loop_clock_.time([&] {
+    loop = closer_.match(node, candidate, keyframes, {edit.matcher, *matcher}, pool_);
+  });
   if (!loop) return false;
   if (loop->verdict == LoopVerdict::kPending) loop->verdict = LoopVerdict::kAccepted;
   ledger_.replace(*std::move(loop), graph);
@@ -150,7 +152,8 @@ std::size_t BackEnd::accepted() const {
 }
 
 std::vector<StageTiming> BackEnd::stages() const {
-  return {loop_clock_.timing(), graph_clock_.timing(), final_search_clock_.timing(), refinement_clock_.timing()};
+  return {loop_clock_.timing(), graph_clock_.timing(), final_search_clock_.timing(),
+          refinement_clock_.timing()};
 }
 
 }  // namespace psi_slam

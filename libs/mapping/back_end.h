@@ -80,14 +80,14 @@ class BackEnd {
  public:
   explicit BackEnd(const BackEndOptions& options);
 
-  /// Tells the odometry's path length since the last call, and the robot's position in the map. Psi depends on
-  /// both.
+  /// Tells the odometry's path length since the last call, and the robot's position in the map. Psi depends
+  /// on both.
   void move(double odometry_m, const mrpt::math::TPoint2D& robot) { factor_.move(odometry_m, robot); }
   LoopClosureFactor::Value factor() const { return factor_.value(); }
 
-  /// The per-loop step. Call it for every node in order. Adds the loops confirmed by now to the graph, loops of
-  /// earlier nodes included.
-  NodeLoops close(std::size_t node, const KeyframeStore& memory, PoseGraph& graph);
+  /// The per-loop step. Call it for every node in order. Adds the loops confirmed by now to the graph, loops
+  /// of earlier nodes included.
+  NodeLoops close(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
 
   /// Optimises the graph if new loops make it necessary, see OptimizationSchedule. Returns the time in
   /// milliseconds; 0 if the graph was left alone.
@@ -96,7 +96,7 @@ class BackEnd {
 
   /// After the last scan: optimises the graph and switches off outlier loops, before and after every pass of
   /// the final loop search; then refuses pending loops. Returns the effort of each matcher.
-  std::map<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& memory, PoseGraph& graph,
+  std::map<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
                                                  SparsePoseAdjustment& solver, FinalProgress& progress);
 
   /// The last step: refines the poses of all scans jointly, and the graph's nodes with them. The first node
@@ -104,7 +104,8 @@ class BackEnd {
   void refine(RefinedScans& scans, PoseGraph& graph, FinalProgress& progress);
 
   /// Matches as LoopEdit::Kind::kMatch asks. False if the scan has no returns to match.
-  bool match_by_hand(const LoopEdit& edit, std::size_t node, const KeyframeStore& memory, PoseGraph& graph);
+  bool match_by_hand(const LoopEdit& edit, std::size_t node, const KeyframeStore& keyframes,
+                     PoseGraph& graph);
 
   const std::vector<LoopRecord>& loops() const { return ledger_.loops(); }
   std::size_t accepted() const;
@@ -114,9 +115,10 @@ class BackEnd {
   std::vector<StageTiming> stages() const;
 
  private:
-  std::vector<std::size_t> confirmed_by(std::size_t loop, const KeyframeStore& memory, const PoseGraph& graph);
-  NodeLoops search(std::size_t node, const KeyframeStore& memory, PoseGraph& graph);
-  std::map<MatcherKind, LoopEffort> run_final_search(const KeyframeStore& memory, PoseGraph& graph,
+  std::vector<std::size_t> confirmed_by(std::size_t loop, const KeyframeStore& keyframes,
+                                        const PoseGraph& graph);
+  NodeLoops search(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
+  std::map<MatcherKind, LoopEffort> run_final_search(const KeyframeStore& keyframes, PoseGraph& graph,
                                                      const std::function<bool(double)>& progress);
 
   BackEndOptions options_;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "frames/pose_operations.h"
-#include "loop_closure/local_map_constraints.h"
 #include "mapping/carried_frames.h"
 #include "pose_graph/information_matrix.h"
 
@@ -16,19 +15,21 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Uncertainty of the start of a later run until loops hold it. It sizes the windows in which those are searched.
+// Uncertainty of the start of a later run until loops hold it. It sizes the windows in which those are
+// searched.
 constexpr double kStartSigma_m = 0.3;
 constexpr double kStartSigma_rad = radians_from_degrees(3.0L);
 
-// Distance along the path put between two runs, so that no search along the path reaches from one to the other.
+// Distance along the path put between two runs, so that no search along the path reaches from one to the
+// other.
 double between_runs_m(const BackEndOptions& options) {
   return 1 + std::max({options.loop_closure.candidates.min_travel_m, options.loop_closure.context.travel_m,
                        options.loop_closure.attempt_distance_m, options.loop_consensus.memory_m,
                        options.loop_closure.verification.neighbourhood_m, options.final_search.travel_m});
 }
 
-/// Information of node_T_robot. The place where the run was found is known best; it moves with the start of the
-/// run like the end of a rigid arm.
+/// Information of node_T_robot. The place where the run was found is known best; it moves with the start of
+/// the run like the end of a rigid arm.
 Eigen::Matrix3d information_of(const RunStart& start) {
   const double c = std::cos(start.node_T_robot.phi);
   const double s = std::sin(start.node_T_robot.phi);
@@ -47,7 +48,7 @@ Mapper::Implementation::Implementation(const MapperOptions& options)
       front_end_(options.front_end),
       back_end_(options.back_end),
       solver_(options.pose_graph),
-      memory_(make_keyframe_store()) {
+      keyframes_(make_keyframe_store()) {
   result_.psi = {options.back_end.psi.psi_1, options.back_end.psi.psi_2};
 }
 
@@ -103,7 +104,7 @@ void Mapper::Implementation::follow_graph() {
     return;
   }
   const std::size_t newest = graph_.num_nodes() - 1;
-  map_T_local_ = graph_.pose(newest) + inverse(memory_.nodes[newest].local_T_robot);
+  map_T_local_ = graph_.pose(newest) + inverse(keyframes_.nodes[newest].local_T_robot);
 }
 
 // Psi measures distances in the map: the front end's pose, corrected by the loops of earlier frames.
@@ -122,7 +123,7 @@ void Mapper::Implementation::record_factor(FrameRecord& record, const FrontEndSt
 }
 
 void Mapper::Implementation::add_node(const FrontEndStep& step, std::size_t frame) {
-  remember_node(step, frame, memory_);
+  remember_node(step, frame, keyframes_);
   result_.node_frames.push_back(frame);
 
   graph_.add_node(map_T_local_ + step.local_T_robot);
@@ -130,11 +131,12 @@ void Mapper::Implementation::add_node(const FrontEndStep& step, std::size_t fram
   if (run_start_) join_run();
 }
 
-// Joins the run's first node to the map. The weak constraint keeps the graph connected and tells where to search
-// until loops take over.
+// Joins the run's first node to the map. The weak constraint keeps the graph connected and tells where to
+// search until loops take over.
 void Mapper::Implementation::join_run() {
-  const std::size_t first = memory_.nodes.size() - 1;
-  memory_.nodes[first].travelled_m = memory_.nodes[first - 1].travelled_m + between_runs_m(options_.back_end);
+  const std::size_t first = keyframes_.nodes.size() - 1;
+  keyframes_.nodes[first].travelled_m =
+      keyframes_.nodes[first - 1].travelled_m + between_runs_m(options_.back_end);
   Constraint constraint;
   constraint.from = run_start_->node;
   constraint.to = first;
@@ -146,12 +148,12 @@ void Mapper::Implementation::join_run() {
 }
 
 void Mapper::Implementation::remember(const PlacedLocalMap& finished) {
-  remember_local_map(finished, memory_);
+  remember_local_map(finished, keyframes_);
   result_.local_maps.push_back({finished.anchor, finished.first_node, finished.last_node});
 }
 
 void Mapper::Implementation::close_loops(std::size_t node, FrameRecord& record) {
-  const NodeLoops loops = back_end_.close(node, memory_, graph_);
+  const NodeLoops loops = back_end_.close(node, keyframes_, graph_);
   record.matcher = loops.matcher;
   record.loops_tried = static_cast<int>(loops.effort.attempts);
   record.loops_accepted = loops.accepted;
@@ -164,7 +166,7 @@ void Mapper::Implementation::close_loops(std::size_t node, FrameRecord& record) 
 }
 
 void Mapper::Implementation::finish_loops(FinalProgress& progress) {
-  for (const auto& [matcher, effort] : back_end_.finish_loops(memory_, graph_, solver_, progress)) {
+  for (const auto& [matcher, effort] : back_end_.finish_loops(keyframes_, graph_, solver_, progress)) {
     result_.loop_matchers[matcher].effort += effort;
     result_.loop_matchers[matcher].final_search_effort += effort;
   }
@@ -184,7 +186,8 @@ void Mapper::Implementation::refine_poses(FinalProgress& progress) {
   scans.node_frames = result_.node_frames;
   scans.points = [&](std::size_t frame) {
     const std::optional<std::size_t>& node = result_.frames[frame].node;
-    return node ? *memory_.nodes[*node].points : matching_points(result_.log[frame], options_.front_end.scan);
+    return node ? *keyframes_.nodes[*node].points
+                : matching_points(result_.log[frame], options_.front_end.scan);
   };
   back_end_.refine(scans, graph_, progress);
   for (std::size_t i = 0; i < result_.frames.size(); ++i)
@@ -201,7 +204,7 @@ MappingResult Mapper::Implementation::finish(const std::function<bool(double)>& 
   if (after == AfterFinish::kReopen)
     before_finish_ = {graph_, back_end_.ledger(), solver_, result_.loop_matchers};
   FinalProgress steps(options_.back_end, progress);
-  const bool closes_loops = options_.close_loops && !memory_.nodes.empty();
+  const bool closes_loops = options_.close_loops && !keyframes_.nodes.empty();
   if (closes_loops) finish_loops(steps);
   result_.unmet_edits = unmet_edits();
   count_accepted_loops();
@@ -264,8 +267,8 @@ const std::vector<std::size_t>& Mapper::later_run_frames() const {
 const std::vector<LoopRecord>& Mapper::loops() const {
   return implementation_->loops();
 }
-const KeyframeStore& Mapper::memory() const {
-  return implementation_->memory();
+const KeyframeStore& Mapper::keyframes() const {
+  return implementation_->keyframes();
 }
 const std::vector<PlacedLocalMap>& Mapper::active_local_maps() const {
   return implementation_->active_local_maps();

@@ -24,15 +24,16 @@ LoopEditOutcome Mapper::Implementation::edit(const LoopEdit& edit) {
   return outcome;
 }
 
-LoopEditOutcome Mapper::Implementation::judge(const LoopEdit& edit, const std::vector<FrameRecord>& frames) const {
+LoopEditOutcome Mapper::Implementation::judge(const LoopEdit& edit,
+                                              const std::vector<FrameRecord>& frames) const {
   const std::string scan = "scan " + std::to_string(edit.frame);
   const std::string map = "local map " + std::to_string(edit.local_map);
   if (!options_.close_loops) return {State::kImpossible, "loop closing is switched off"};
   if (edit.frame >= frames.size()) return {State::kWaits, scan + " has not been mapped"};
   const std::optional<std::size_t> node = frames[edit.frame].node;
   if (!node) return {State::kImpossible, scan + " is no node of the graph: the robot had hardly moved"};
-  if (edit.local_map >= memory_.local_maps.size()) return {State::kWaits, map + " is not finished"};
-  const PlacedLocalMap& local_map = memory_.local_maps[edit.local_map];
+  if (edit.local_map >= keyframes_.local_maps.size()) return {State::kWaits, map + " is not finished"};
+  const PlacedLocalMap& local_map = keyframes_.local_maps[edit.local_map];
   if (*node >= local_map.first_node && *node <= local_map.last_node)
     return {State::kImpossible, scan + " is part of " + map};
   return {};
@@ -52,7 +53,7 @@ LoopEditOutcome Mapper::Implementation::carry_out(const LoopEdit& edit) {
                                                        : "no match of them has been found yet"};
       break;
     case LoopEdit::Kind::kMatch:
-      if (!back_end_.match_by_hand(edit, node, memory_, graph_))
+      if (!back_end_.match_by_hand(edit, node, keyframes_, graph_))
         outcome = {State::kImpossible, "the scan has no returns to match"};
       break;
     case LoopEdit::Kind::kRestore:
@@ -80,7 +81,7 @@ std::vector<std::string> Mapper::Implementation::unmet_edits() const {
   for (const LoopEdit& waiting : waiting_edits_)
     unmet.push_back(text_of(waiting) + ": " + judge(waiting, result_.frames).reason);
   for (const auto& [node, local_map] : back_end_.ledger().forced_in_vain())
-    unmet.push_back(text_of({LoopEdit::Kind::kForce, memory_.nodes[node].frame, local_map}) +
+    unmet.push_back(text_of({LoopEdit::Kind::kForce, keyframes_.nodes[node].frame, local_map}) +
                     ": no match of them was found");
   return unmet;
 }

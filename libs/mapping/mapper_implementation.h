@@ -28,7 +28,7 @@ class Mapper::Implementation {
   const PoseGraph& graph() const { return graph_; }
   const MappingResult& result() const { return result_; }
   const std::vector<LoopRecord>& loops() const { return back_end_.loops(); }
-  const KeyframeStore& memory() const { return memory_; }
+  const KeyframeStore& keyframes() const { return keyframes_; }
   const std::vector<PlacedLocalMap>& active_local_maps() const { return front_end_.active(); }
 
  private:
@@ -59,7 +59,7 @@ class Mapper::Implementation {
   BackEnd back_end_;
   SparsePoseAdjustment solver_;
   PoseGraph graph_;
-  KeyframeStore memory_;
+  KeyframeStore keyframes_;
   std::vector<LoopEdit> waiting_edits_;
   std::vector<std::string> impossible_edits_;  ///< waiting edits that became impossible, a sentence each
   std::optional<Checkpoint> before_finish_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides when a growing pose graph is optimised: at once when a new constraint contradicts it strongly. For a
-// weak contradiction it waits until the graph has grown by a fixed share. The cost per node then hardly depends
-// on the size of the graph.
+// Decides when a growing pose graph is optimised: at once when a new constraint contradicts it strongly. For
+// a weak contradiction it waits until the graph has grown by a fixed share. The cost per node then hardly
+// depends on the size of the graph.
 #pragma once
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include <iostream>
 
 #include "local_maps/front_end.h"
-#include "loop_closure/local_map_constraints.h"
 #include "mapping/carried_frames.h"
 #include "mrpt/entry_frames.h"
 #include "mrpt/graph_mirror.h"
@@ -16,14 +15,14 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr char kSpeaker[] = "rawlog: ";
+constexpr char kSpeaker[] = "rawlog";
 
 double length_m(const TPose2D& motion) {
   return std::hypot(motion.x, motion.y);
 }
 
-void keep_local_maps(const std::vector<PlacedLocalMap>& finished, KeyframeStore& memory) {
-  for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, memory);
+void keep_local_maps(const std::vector<PlacedLocalMap>& finished, KeyframeStore& keyframes) {
+  for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, keyframes);
 }
 
 }  // namespace
@@ -41,11 +40,10 @@ struct CPsiFrontEndNRD::State {
   std::string params_text;
 };
 
-CPsiFrontEndNRD::CPsiFrontEndNRD()
-    : state_(std::make_unique<State>()), map_(std::make_shared<SharedMap>()) {
+CPsiFrontEndNRD::CPsiFrontEndNRD() : state_(std::make_unique<State>()), map_(std::make_shared<SharedMap>()) {
   setClassName("CPsiFrontEndNRD");
   logging_enable_keep_record = true;
-  map_->memory = make_keyframe_store();
+  map_->keyframes = make_keyframe_store();
 }
 
 CPsiFrontEndNRD::~CPsiFrontEndNRD() = default;
@@ -101,18 +99,20 @@ bool CPsiFrontEndNRD::add(const Frame& frame) {
   record.front_end_T_robot = state_->step.local_T_robot;
   record.response = state_->step.response;
   record.node = state_->step.node;
-  if (!state_->frames.empty()) state_->odometry_m += length_m(record.odom_T_robot - state_->frames.back().odom_T_robot);
+  if (!state_->frames.empty())
+    state_->odometry_m += length_m(record.odom_T_robot - state_->frames.back().odom_T_robot);
   if (!state_->step.matched) ++state_->unmatched;
   state_->frames.push_back(record);
   return checkRegistrationCondition();
 }
 
 bool CPsiFrontEndNRD::checkRegistrationCondition() {
-  const std::vector<NodeScan>& nodes = map_->memory.nodes;
+  const std::vector<NodeScan>& nodes = map_->keyframes.nodes;
   m_since_prev_node_PDF = {};
   if (!state_->step.node) {
     if (nodes.empty()) return false;
-    m_since_prev_node_PDF.mean = mrpt::poses::CPose2D(state_->step.local_T_robot - nodes.back().local_T_robot);
+    m_since_prev_node_PDF.mean =
+        mrpt::poses::CPose2D(state_->step.local_T_robot - nodes.back().local_T_robot);
     return false;
   }
   add_node();
@@ -123,24 +123,25 @@ bool CPsiFrontEndNRD::checkRegistrationCondition() {
 }
 
 void CPsiFrontEndNRD::add_node() {
-  KeyframeStore& memory = map_->memory;
+  KeyframeStore& keyframes = map_->keyframes;
   PoseGraph& graph = map_->mirror.graph();
   TPose2D pose(0, 0, 0);
-  if (!memory.nodes.empty())
-    pose = graph.pose(graph.num_nodes() - 1) + (state_->step.local_T_robot - memory.nodes.back().local_T_robot);
+  if (!keyframes.nodes.empty())
+    pose = graph.pose(graph.num_nodes() - 1) +
+           (state_->step.local_T_robot - keyframes.nodes.back().local_T_robot);
   state_->node_frames.push_back(state_->frames.size() - 1);
-  remember_node(state_->step, state_->node_frames.back(), memory);
+  remember_node(state_->step, state_->node_frames.back(), keyframes);
   map_->odometry_m.push_back(state_->odometry_m);
 
   graph.add_node(pose);
   constrain_to_local_maps(state_->step, state_->local_map_noise, graph);
-  keep_local_maps(state_->step.finished, memory);
+  keep_local_maps(state_->step.finished, keyframes);
 }
 
 void CPsiFrontEndNRD::finish() {
   state_->entries->end_of_log();
   while (const std::optional<Frame> frame = state_->entries->next()) add(*frame);
-  keep_local_maps(state_->front_end->finish(), map_->memory);
+  keep_local_maps(state_->front_end->finish(), map_->keyframes);
 }
 
 std::vector<FrameRecord> CPsiFrontEndNRD::frames() const {
@@ -168,7 +169,7 @@ void CPsiFrontEndNRD::getDescriptiveReport(std::string* report_str) const {
   CNodeRegistrationDecider::getDescriptiveReport(report_str);
   *report_str += "CPsiFrontEndNRD: " + std::to_string(state_->frames.size()) + " scans, " +
                  std::to_string(state_->node_frames.size()) + " nodes, " +
-                 std::to_string(map_->memory.local_maps.size()) + " finished local maps, " +
+                 std::to_string(map_->keyframes.local_maps.size()) + " finished local maps, " +
                  std::to_string(state_->unmatched) + " scans that could not be matched\n";
 }
 

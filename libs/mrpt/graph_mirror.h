@@ -28,9 +28,9 @@ class GraphMirror {
   /// Adds new nodes and constraints of graph() to `network`.
   void publish(MrptGraph& network);
 
-  /// Adds nodes and edges that other deciders put into `network`; call publish() before. The pose of a new node
-  /// follows from the first edge that leads to it. An edge with invalid information gets standard deviations
-  /// of 1 m and 1 rad. Throws UserError if nodes are not numbered from 0 without a gap.
+  /// Adds nodes and edges that other deciders put into `network`; call publish() before. The pose of a new
+  /// node follows from the first edge that leads to it. An edge with invalid information gets standard
+  /// deviations of 1 m and 1 rad. Throws UserError if nodes are not numbered from 0 without a gap.
   void read(const MrptGraph& network);
 
   void read_poses(const MrptGraph& network);
@@ -53,7 +53,7 @@ class GraphMirror {
 /// The data that psi-slam's deciders and optimizer share. MRPT's interfaces let them share only the graph.
 struct SharedMap {
   GraphMirror mirror;
-  KeyframeStore memory;                        ///< filled by the node decider
+  KeyframeStore keyframes;                     ///< filled by the node decider
   std::vector<double> odometry_m;              ///< by node: path length of odometry up to the node
   std::optional<SparsePoseAdjustment> solver;  ///< set by CPsiSpaGSO; then the mirror's poses count
 };

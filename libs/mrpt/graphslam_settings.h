@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Options of psi-slam's deciders and optimizer in the settings files of MRPT's graphslam-engine. A key with a dot
-// is an option of psi-slam by its full name, in the section of the class that it belongs to:
+// Options of psi-slam's deciders and optimizer in the settings files of MRPT's graphslam-engine. A key with a
+// dot is an option of psi-slam by its full name, in the section of the class that it belongs to:
 //
 //     [NodeRegistrationDeciderParameters]
 //     front_end.node_distance_m = 0.15
@@ -25,8 +25,8 @@ inline constexpr const char* kOptimizerSection = "OptimizerParameters";
 std::string graphslam_section_of(const std::string& option);
 
 /// Reads all options of psi-slam in the file. Throws UserError, with file and line, for an option that is
-/// unknown, stands in another section, has no effect in the engine or has an invalid value; and if two options
-/// contradict each other.
+/// unknown, stands in another section, has no effect in the engine or has an invalid value; and if two
+/// options contradict each other.
 void load_graphslam_settings(const std::filesystem::path& ini, BoundSettings& bound);
 Settings read_graphslam_settings(const std::filesystem::path& ini);
 
@@ -41,5 +41,20 @@ struct DeciderParams {
 };
 /// Throws UserError as load_graphslam_settings() does.
 DeciderParams read_decider_params(const std::filesystem::path& ini, const std::string& section);
+
+/// The section [GeneralConfiguration] of MRPT's graphslam-engine.
+struct GraphSlamGeneral {
+  std::string output_dir_fname = "graphslam_results";
+  bool save_graph = true;
+  std::string save_graph_fname = "output_graph.graph";
+  bool save_map = true;
+  std::string save_map_fname = "output_map";
+  bool save_3DScene = true;
+  std::string save_3DScene_fname = "scene.3DScene";
+};
+
+/// Reads the section and ignores keys that only MRPT's engine and deciders read. Throws UserError, with file
+/// and line, for an unknown key or an invalid value.
+GraphSlamGeneral read_graphslam_general(const std::filesystem::path& ini);
 
 }  // namespace psi_slam

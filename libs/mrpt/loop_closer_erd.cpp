@@ -52,31 +52,32 @@ bool CPsiLoopCloserERD::updateState(mrpt::obs::CActionCollection::Ptr /*action*/
 // The engine takes the first two nodes together, so the first waits for the second.
 std::size_t CPsiLoopCloserERD::close_loops_of_new_nodes() {
   SharedMap& map = this->map();
-  if (map.memory.nodes.size() < 2) return 0;
+  if (map.keyframes.nodes.size() < 2) return 0;
   std::size_t made = 0;
-  for (; state_->handled_nodes < map.memory.nodes.size(); ++state_->handled_nodes) {
+  for (; state_->handled_nodes < map.keyframes.nodes.size(); ++state_->handled_nodes) {
     const mrpt::math::TPose2D& pose = map.mirror.graph().pose(state_->handled_nodes);
     state_->back_end->move(map.odometry_m[state_->handled_nodes] - state_->odometry_m, {pose.x, pose.y});
     state_->odometry_m = map.odometry_m[state_->handled_nodes];
-    made += static_cast<std::size_t>(state_->back_end->close(state_->handled_nodes, map.memory, map.mirror.graph()).accepted);
+    made += static_cast<std::size_t>(
+        state_->back_end->close(state_->handled_nodes, map.keyframes, map.mirror.graph()).accepted);
   }
   return made;
 }
 
 void CPsiLoopCloserERD::finish(const std::function<bool(double)>& progress) {
   SharedMap& map = this->map();
-  if (map.memory.nodes.size() < 2) return;
+  if (map.keyframes.nodes.size() < 2) return;
   close_loops_of_new_nodes();
   BackEnd& back_end = *state_->back_end;
   if (map.solver) {
     PoseGraph& graph = map.mirror.graph();
     FinalProgress steps(back_end.options(), progress);
-    back_end.finish_loops(map.memory, graph, *map.solver, steps);
+    back_end.finish_loops(map.keyframes, graph, *map.solver, steps);
     RefinedScans scans;
     scans.map_T_frame = graph.poses();
     scans.node_frames.resize(graph.num_nodes());
     std::iota(scans.node_frames.begin(), scans.node_frames.end(), std::size_t{0});
-    scans.points = [&](std::size_t node) { return *map.memory.nodes[node].points; };
+    scans.points = [&](std::size_t node) { return *map.keyframes.nodes[node].points; };
     back_end.refine(scans, graph, steps);
   } else {
     back_end.ledger().refuse_pending();

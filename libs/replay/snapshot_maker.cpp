@@ -39,7 +39,7 @@ void SnapshotMaker::follow(const Mapper& mapper, ActiveMaps active) {
   catch_up(log_, mapper.log());
   catch_up(frames_, mapper.frames());
   now_.later_run_frames = mapper.later_run_frames();
-  catch_up(nodes_, mapper.memory().nodes);
+  catch_up(nodes_, mapper.keyframes().nodes);
   follow_local_maps(mapper);
   now_.map_T_robot = mapper.map_T_robot();
   if (!same_poses(*now_.map_T_node, mapper.graph().poses()))
@@ -61,7 +61,7 @@ void SnapshotMaker::note_edits(const std::vector<TimedEdit>& edits, const EditHi
 }
 
 void SnapshotMaker::follow_local_maps(const Mapper& mapper) {
-  const std::vector<PlacedLocalMap>& all = mapper.memory().local_maps;
+  const std::vector<PlacedLocalMap>& all = mapper.keyframes().local_maps;
   for (std::size_t i = local_maps_.size(); i < all.size(); ++i)
     local_maps_.push_back({all[i].anchor, all[i].first_node, all[i].last_node});
 }

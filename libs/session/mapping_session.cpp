@@ -304,7 +304,7 @@ void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
       m.later_runs.push_back(later);
     }
   m.edits.add(
-      run.edits().of_run(m.scans, inner ? inner->frames.size() : 0, m.mapper->memory().local_maps.size()));
+      run.edits().of_run(m.scans, inner ? inner->frames.size() : 0, m.mapper->keyframes().local_maps.size()));
   m.recording.reset();  // it is only a part of what is mapped now
   m.log_path = run.log();
   m.log_sha256.clear();

@@ -12,9 +12,9 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Thirty metres along x and, a metre beside, back again: a node a metre, a local map every ten nodes.
+// Thirty metres along x and back one metre beside. A node every metre, a local map every ten nodes.
 struct ThereAndBack {
-  KeyframeStore memory;
+  KeyframeStore keyframes;
   PoseGraph graph;
 
   ThereAndBack() {
@@ -24,7 +24,7 @@ struct ThereAndBack {
       node.frame = i;
       node.local_T_robot = i < 30 ? TPose2D(along, 0, 0) : TPose2D(59 - along, 1, M_PI);
       node.travelled_m = along;
-      memory.nodes.push_back(node);
+      keyframes.nodes.push_back(node);
       graph.add_node(node.local_T_robot);
     }
     for (std::size_t m = 0; m < 6; ++m) {
@@ -32,13 +32,13 @@ struct ThereAndBack {
       local_map.id = m;
       local_map.anchor = local_map.first_node = 10 * m;
       local_map.last_node = 10 * m + 9;
-      memory.local_maps.push_back(local_map);
+      keyframes.local_maps.push_back(local_map);
     }
   }
 
   std::vector<LoopCandidate> candidates(std::size_t node, const PositionSigma& sigma,
                                         const LoopCandidateOptions& options = {}) const {
-    return loop_candidates(node, memory, graph, options, [&](const std::vector<std::size_t>& local_maps) {
+    return loop_candidates(node, keyframes, graph, options, [&](const std::vector<std::size_t>& local_maps) {
       return std::vector<PositionSigma>(local_maps.size(), sigma);
     });
   }
@@ -74,7 +74,7 @@ TEST(LoopCandidates, asks_for_the_uncertainty_of_local_maps_in_reach_only) {
   for (const LoopCandidateOptions& options : {LoopCandidateOptions(), oblong}) {
     for (std::size_t node = 0; node < 60; ++node) {
       Maps asked;
-      loop_candidates(node, drive.memory, drive.graph, options, [&](const Maps& local_maps) {
+      loop_candidates(node, drive.keyframes, drive.graph, options, [&](const Maps& local_maps) {
         EXPECT_TRUE(asked.empty()) << "asks once";
         asked = local_maps;
         return std::vector<PositionSigma>(local_maps.size());
@@ -89,7 +89,7 @@ TEST(LoopCandidates, each_local_map_has_its_own_uncertainty) {
   std::vector<PositionSigma> sigma(6, {0.01, 0.001});
   sigma[0] = {0.5, 0.05};
   sigma[1] = {0.8, 0.08};
-  const auto candidates = loop_candidates(53, drive.memory, drive.graph, {}, [&](const Maps& local_maps) {
+  const auto candidates = loop_candidates(53, drive.keyframes, drive.graph, {}, [&](const Maps& local_maps) {
     std::vector<PositionSigma> chosen;
     for (const std::size_t m : local_maps) chosen.push_back(sigma[m]);
     return chosen;
@@ -155,9 +155,9 @@ TEST(LoopCandidates, local_maps_of_the_path_nearby_are_left_out) {
   EXPECT_EQ(drive.local_maps(18, {0.01, 0.001}, options), Maps({0, 1, 2, 3, 4, 5}));
 }
 
-TEST(LoopCandidates, the_prediction_is_the_graphs) {
+TEST(LoopCandidates, predicts_from_the_graph) {
   ThereAndBack drive;
-  drive.graph.set_pose(0, {1, 2, M_PI / 2});  // the graph has moved since; the front end's frame has not
+  drive.graph.set_pose(0, {1, 2, M_PI / 2});  // the graph has moved, the front end's frame has not
   drive.graph.set_pose(59, {2, 5, M_PI});
   const auto candidates = drive.candidates(59, {0.01, 0.001});
   ASSERT_EQ(candidates.size(), 1U);

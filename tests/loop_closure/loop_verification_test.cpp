@@ -16,7 +16,7 @@ using mrpt::math::TPose2D;
 using Reason = LoopRefusal::Reason;
 
 void judge(LoopRecord& loop, const LoopVerificationOptions& options = {}) {
-  verify(loop, *two_rounds().memory.nodes[loop.node].points, two_rounds().memory, options);
+  verify(loop, *two_rounds().keyframes.nodes[loop.node].points, two_rounds().keyframes, options);
 }
 
 constexpr double kNarrow_m = 0.5;
@@ -45,7 +45,7 @@ TEST(LoopVerification, a_right_match_in_a_wide_window_waits_for_others) {
   EXPECT_FALSE(loop.refusal.has_value()) << text_of(loop.refusal);
 }
 
-TEST(LoopVerification, a_match_a_metre_off_is_refused_and_says_why) {
+TEST(LoopVerification, a_match_one_metre_off_is_refused_with_a_reason) {
   for (const double half_width_m : {kNarrow_m, kWide_m})
     for (const TPose2D& off : {TPose2D(1, 0, 0), TPose2D(-1, 0, 0), TPose2D(0, 1, 0), TPose2D(0, -1, 0),
                                TPose2D(0, 0, M_PI / 4), TPose2D(0, 0, M_PI)}) {
@@ -57,7 +57,7 @@ TEST(LoopVerification, a_match_a_metre_off_is_refused_and_says_why) {
     }
 }
 
-TEST(LoopVerification, seen_from_the_other_side_a_wrong_match_is_refused_too) {
+TEST(LoopVerification, a_wrong_match_is_refused_by_the_reverse_test_too) {
   LoopVerificationOptions options;
   options.min_observed_share = 0;
   options.min_neighbours_agree = 0;
@@ -102,7 +102,7 @@ TEST(LoopVerification, the_response_needed_depends_on_the_window) {
 
 TEST(LoopVerification, a_position_known_in_one_direction_only_is_refused) {
   LoopRecord loop = two_rounds().loop(kNarrow_m);
-  // A standard deviation of 0.4 m along a corridor at 45 degrees, of 0.01 m across: 0.28 m along x and y.
+  // Standard deviations of 0.4 m along a corridor at 45 degrees and 0.01 m across give 0.28 m along x and y.
   loop.covariance(0, 0) = loop.covariance(1, 1) = 0.5 * (0.16 + 0.0001);
   loop.covariance(0, 1) = loop.covariance(1, 0) = 0.5 * (0.16 - 0.0001);
   judge(loop);
@@ -128,7 +128,7 @@ TEST(LoopVerification, every_threshold_decides) {
   struct Threshold {
     double LoopVerificationOptions::*limit;
     double measured;
-    double above;  // +1: a limit above what was measured refuses; -1: one below does
+    double above;  // +1: a limit above the measured value refuses; -1: a limit below it
     LoopRefusal::Reason reason;
   };
   const std::vector<Threshold> thresholds = {
@@ -136,7 +136,8 @@ TEST(LoopVerification, every_threshold_decides) {
       {&LoopVerificationOptions::max_ambiguity, found.ambiguity, -1, Reason::kAmbiguous},
       {&LoopVerificationOptions::max_sigma_m, 0.01, -1, Reason::kUncertainPosition},
       {&LoopVerificationOptions::min_observed_share, found.observed_share, 1, Reason::kUnobserved},
-      {&LoopVerificationOptions::min_neighbours_agree, found.neighbours_agree, 1, Reason::kNeighboursDisagree},
+      {&LoopVerificationOptions::min_neighbours_agree, found.neighbours_agree, 1,
+       Reason::kNeighboursDisagree},
       {&LoopVerificationOptions::min_reverse_agree, found.reverse_agree, 1, Reason::kReverseDisagrees}};
   for (const Threshold& threshold : thresholds) {
     LoopVerificationOptions options;
@@ -147,7 +148,7 @@ TEST(LoopVerification, every_threshold_decides) {
     options.*threshold.limit = threshold.measured - threshold.above * 1e-6;
     judge(loop, options);
     EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << text_of(loop.refusal);
-    EXPECT_FALSE(loop.refusal.has_value()) << "an earlier verdict's reason does not stay";
+    EXPECT_FALSE(loop.refusal.has_value()) << "an earlier refusal is cleared";
   }
 }
 

@@ -17,7 +17,7 @@ PsiOptions thresholds(double psi_1, double psi_2) {
   return options;
 }
 
-TEST(MatcherPolicy, the_more_loops_the_less_exhaustive) {
+TEST(MatcherPolicy, searches_less_exhaustively_with_more_loops) {
   const PsiOptions options = thresholds(1.5, 4);
   const auto kind = [&](double psi) { return matcher_kind(std::nullopt, options, psi); };
   EXPECT_EQ(kind(0), MatcherKind::kCsm);
@@ -26,7 +26,7 @@ TEST(MatcherPolicy, the_more_loops_the_less_exhaustive) {
   EXPECT_EQ(kind(5), MatcherKind::kGa);
 }
 
-TEST(MatcherPolicy, thresholds_equalled_exactly_belong_to_the_outer_modes) {
+TEST(MatcherPolicy, thresholds_belong_to_the_outer_modes) {
   const PsiOptions options = thresholds(1.5, 4);
   const auto kind = [&](double psi) { return matcher_kind(std::nullopt, options, psi); };
   const double inf = std::numeric_limits<double>::infinity();
@@ -36,15 +36,14 @@ TEST(MatcherPolicy, thresholds_equalled_exactly_belong_to_the_outer_modes) {
   EXPECT_EQ(kind(4), MatcherKind::kGa);
 }
 
-TEST(MatcherPolicy, a_fixed_choice_stands_whatever_psi_is) {
+TEST(MatcherPolicy, a_fixed_choice_does_not_depend_on_psi) {
   for (const double psi : {0.0, 1.0, 2.0, 4.0, 1000.0})
     for (const MatcherKind kind : kMatcherKinds) EXPECT_EQ(matcher_kind(kind, {}, psi), kind);
 }
 
-TEST(MatcherPolicy, holds_the_matchers_it_may_come_to) {
+TEST(MatcherPolicy, owns_the_matchers_it_may_choose) {
   const MatcherPolicy adaptive(std::nullopt, thresholds(1, 4), {}, {});
-  for (const MatcherKind kind : kMatcherKinds)
-    EXPECT_EQ(adaptive.matcher(kind).matcher.name(), name(kind));
+  for (const MatcherKind kind : kMatcherKinds) EXPECT_EQ(adaptive.matcher(kind).matcher.name(), name(kind));
   EXPECT_EQ(adaptive.kind(2), MatcherKind::kCsmGa);
 
   const MatcherPolicy fixed(MatcherKind::kGa, {}, {}, {});

@@ -26,10 +26,10 @@ std::size_t close_all(BackEnd& back_end, PoseGraph& graph) {
   for (std::size_t node = 0; node < graph.num_nodes(); ++node) {
     back_end.move(0.15, {graph.pose(node).x, graph.pose(node).y});
     // Only local maps that were finished before this node.
-    KeyframeStore memory = rounds.memory;
-    while (!memory.local_maps.empty() && memory.local_maps.back().last_node >= node)
-      memory.local_maps.pop_back();
-    made += static_cast<std::size_t>(back_end.close(node, memory, graph).accepted);
+    KeyframeStore keyframes = rounds.keyframes;
+    while (!keyframes.local_maps.empty() && keyframes.local_maps.back().last_node >= node)
+      keyframes.local_maps.pop_back();
+    made += static_cast<std::size_t>(back_end.close(node, keyframes, graph).accepted);
   }
   return made;
 }
@@ -52,7 +52,7 @@ TEST(BackEnd, accepted_loops_are_constraints_at_the_true_poses) {
 
 std::map<MatcherKind, LoopEffort> finish(BackEnd& back_end, PoseGraph& graph, FinalProgress& progress) {
   SparsePoseAdjustment solver;
-  return back_end.finish_loops(two_rounds().memory, graph, solver, progress);
+  return back_end.finish_loops(two_rounds().keyframes, graph, solver, progress);
 }
 
 TEST(BackEnd, the_final_search_finds_more) {
@@ -67,7 +67,7 @@ TEST(BackEnd, the_final_search_finds_more) {
   EXPECT_EQ(graph.num_enabled_constraints() - two_rounds().graph().num_constraints(), back_end.accepted());
 }
 
-TEST(BackEnd, a_final_search_cut_short_says_so_and_is_not_refined) {
+TEST(BackEnd, a_final_search_cut_short_is_reported_and_not_refined) {
   PoseGraph graph = two_rounds().graph();
   BackEnd back_end(near_maps_too());
   close_all(back_end, graph);
@@ -110,12 +110,12 @@ TEST(BackEnd, a_loop_that_the_graph_contradicts_is_switched_off_at_the_end) {
   }));
 }
 
-TEST(BackEnd, loops_that_wait_to_the_end_are_refused) {
+TEST(BackEnd, loops_pending_at_the_end_are_refused) {
   PoseGraph graph = two_rounds().graph();
   BackEndOptions options = near_maps_too();
   options.final_search.passes = 0;
-  options.loop_closure.verification.wide_window_m = 0;  // every window is wide: all wait
-  options.loop_consensus.min_weight = 1e6;              // and none is ever confirmed
+  options.loop_closure.verification.wide_window_m = 0;  // every window is wide, so all loops wait
+  options.loop_consensus.min_weight = 1e6;              // no loop is ever confirmed
   BackEnd back_end(options);
   EXPECT_EQ(close_all(back_end, graph), 0U);
   const auto pending = [&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drive with local maps that are seen again, for the tests of this folder.
+// A simulated run that visits a room twice, for tests of loop closing.
 #pragma once
 
 #include <cmath>
@@ -7,18 +7,18 @@
 
 #include "../local_maps/simulated_drive.h"
 #include "local_maps/front_end.h"
-#include "psi_slam/loop_record.h"
 #include "loop_closure/keyframe_store.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
 
-/// Twice round a furnished room with good odometry; local maps of the first round, seen again in the second.
+/// Two rounds of a furnished room with good odometry. The second round sees the local maps of the first.
 struct TwoRounds {
-  KeyframeStore memory;
+  KeyframeStore keyframes;
   std::vector<mrpt::math::TPose2D> truth;  ///< by node
-  std::size_t node = 0;                    ///< of the second round
-  std::size_t local_map = 0;               ///< of the first, holding a node near that one
+  std::size_t node = 0;                    ///< a node of the second round
+  std::size_t local_map = 0;               ///< a local map of the first round near that node
 
   TwoRounds() {
     const SimulatedDrive drive = drive_along(
@@ -34,24 +34,24 @@ struct TwoRounds {
       scan.frame = i;
       scan.local_T_robot = step.local_T_robot;
       scan.points = step.points;
-      if (!memory.nodes.empty()) {
-        const mrpt::math::TPose2D motion = step.local_T_robot - memory.nodes.back().local_T_robot;
-        scan.travelled_m = memory.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
+      if (!keyframes.nodes.empty()) {
+        const mrpt::math::TPose2D motion = step.local_T_robot - keyframes.nodes.back().local_T_robot;
+        scan.travelled_m = keyframes.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
       }
-      memory.nodes.push_back(scan);
+      keyframes.nodes.push_back(scan);
       truth.push_back(drive.map_T_robot[i]);
-      for (const PlacedLocalMap& finished : step.finished) memory.local_maps.push_back(finished);
+      for (const PlacedLocalMap& finished : step.finished) keyframes.local_maps.push_back(finished);
     }
-    while (memory.nodes[node].travelled_m < 12) ++node;
+    while (keyframes.nodes[node].travelled_m < 12) ++node;
   }
 
-  /// As a matcher would find it, at the true place moved by `off` in the robot's own frame.
+  /// A match at the true pose moved by `off` in the robot's frame.
   LoopRecord loop(double half_width_m, const mrpt::math::TPose2D& off = {0, 0, 0}) const {
     LoopRecord result;
     result.node = node;
-    result.frame = memory.nodes[node].frame;
+    result.frame = keyframes.nodes[node].frame;
     result.local_map = local_map;
-    result.anchor = memory.local_maps[local_map].anchor;
+    result.anchor = keyframes.local_maps[local_map].anchor;
     result.anchor_T_node = (truth[node] - truth[result.anchor]) + off;
     result.covariance.diagonal() << 1e-4, 1e-4, 1e-5;
     result.window = {half_width_m, half_width_m, 0.1};
@@ -60,7 +60,7 @@ struct TwoRounds {
     return result;
   }
 
-  /// Each node linked to the one before, at its true pose.
+  /// All nodes at their true poses, each constrained to the one before.
   PoseGraph graph() const {
     PoseGraph result;
     for (const mrpt::math::TPose2D& pose : truth) result.add_node(pose);

@@ -110,7 +110,7 @@ class Mapper {
   /// Attempts to close loops so far.
   const std::vector<LoopRecord>& loops() const;
   /// Nodes with their scans and local maps; its type is internal.
-  const KeyframeStore& memory() const;
+  const KeyframeStore& keyframes() const;
   /// The local maps that scans are inserted into, older first, at most two; their type is internal.
   const std::vector<PlacedLocalMap>& active_local_maps() const;
 

@@ -19,6 +19,7 @@
 #include "psi_slam/mapping_session.h"
 #include "session/settings.h"
 #include "report/output_folder.h"
+#include "session/edit_journal.h"
 #include "view/palette.h"
 #include "same_results.h"
 #include "settings_panel.h"

@@ -52,10 +52,10 @@ TEST(Localizer, finds_and_tracks_a_robot_without_start) {
 TEST(Localizer, the_same_scans_give_the_same_poses) {
   const TrueRun run = run_through(kBuilding, 101, 10);
   std::string first;
-  for (int run = 0; run < 2; ++run) {
+  for (int pass = 0; pass < 2; ++pass) {
     Localizer localizer(reference_of(building_map()), {});
     const std::string csv = localization_csv(localize(localizer, run.frames));
-    if (run == 0) first = csv;
+    if (pass == 0) first = csv;
     EXPECT_EQ(csv, first);
   }
 }

@@ -12,6 +12,7 @@
 #include "psi_slam/mapping_session.h"
 #include "session/settings.h"
 #include "report/output_folder.h"
+#include "session/edit_journal.h"
 #include "session/session_file.h"
 #include "same_results.h"
 #include "temporary_folder.h"

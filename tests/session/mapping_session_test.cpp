@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/mapping_session.h"
-#include "report/output_folder.h"
-#include "session/settings.h"
 
 #include <gmock/gmock.h>
 
@@ -13,11 +11,15 @@
 #include <thread>
 
 #include "exports/summary_json.h"
+#include "frames/skipped_lines.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/grid_map.h"
+#include "report/output_folder.h"
 #include "report/report_html.h"
 #include "room_log.h"
 #include "same_results.h"
+#include "session/edit_journal.h"
+#include "session/settings.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 #include "trajectory/trajectory_file.h"

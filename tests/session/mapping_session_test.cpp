@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "exports/summary_json.h"
-#include "frames/skipped_lines.h"
+#include "psi_slam/frame_source.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/grid_map.h"
 #include "report/output_folder.h"

@@ -5,40 +5,30 @@
 #include <utility>
 
 namespace psi_slam {
-namespace {
-
-/// Of the last export and the last session file.
-ReplaySlot::Written written_of(const Replay& replay) {
-  const auto snapshot = replay.snapshot();
-  return {snapshot->exported ? snapshot->exported->number : 0, snapshot->saved ? snapshot->saved->number : 0};
-}
-
-}  // namespace
 
 void ReplaySlot::open(SessionInput input, const Settings& settings) {
-  close();
+  if (replay_) {
+    const auto closed_at = replay_->snapshot();
+    replay_->close();
+    closing_.push_back({std::move(replay_), closed_at});
+  }
   replay_ = std::make_unique<Replay>(std::move(input), settings);
-}
-
-void ReplaySlot::close() {
-  if (!replay_) return;
-  const Written before = written_of(*replay_);
-  replay_->close();
-  closing_.push_back({std::move(replay_), before});
 }
 
 std::vector<std::string> ReplaySlot::tidy() {
   std::vector<std::string> failures;
+  const auto note = [&](const std::optional<WriteOutcome>& before, const std::optional<WriteOutcome>& now) {
+    const bool is_new = now && (!before || now->number > before->number);
+    if (is_new && !now->failure.empty()) failures.push_back(now->failure);
+  };
   const auto ended = [&](const Closing& closing) {
     if (!closing.replay->ended()) return false;
-    const auto snapshot = closing.replay->snapshot();
-    const Written now = written_of(*closing.replay);
-    if (now.exports > closing.before.exports) failures.push_back(snapshot->exported->failure);
-    if (now.saves > closing.before.saves) failures.push_back(snapshot->saved->failure);
+    const auto now = closing.replay->snapshot();
+    note(closing.closed_at->exported, now->exported);
+    note(closing.closed_at->saved, now->saved);
     return true;
   };
   closing_.erase(std::remove_if(closing_.begin(), closing_.end(), ended), closing_.end());
-  failures.erase(std::remove(failures.begin(), failures.end(), ""), failures.end());
   return failures;
 }
 

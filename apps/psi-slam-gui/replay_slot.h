@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The run that the window shows. Another one takes its place at once, however busy the one before still is.
 #pragma once
 
 #include <memory>
@@ -10,29 +9,23 @@
 
 namespace psi_slam {
 
+/// The run that the window shows. Opening another run does not wait for the threads of the previous run.
 class ReplaySlot {
  public:
-  /// Null as long as no log is open.
+  /// The open run, or null.
   Replay* operator->() const { return replay_.get(); }
   explicit operator bool() const { return replay_ != nullptr; }
 
   void open(SessionInput input, const Settings& settings);
-  void close();
 
-  /// Lets go of closed runs whose threads have ended; to be called now and then. Returns why exports and
-  /// sessions were not written that had been asked for when their runs were closed, a sentence each.
+  /// Deletes closed runs whose threads have ended; call it regularly. Returns why exports and sessions that
+  /// were pending when their run was closed were not written, a sentence each.
   std::vector<std::string> tidy();
-
-  /// How many were, or failed.
-  struct Written {
-    int exports = 0;
-    int saves = 0;
-  };
 
  private:
   struct Closing {
     std::unique_ptr<Replay> replay;
-    Written before;
+    std::shared_ptr<const ReplaySnapshot> closed_at;
   };
 
   std::unique_ptr<Replay> replay_;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads sessions, and checks logs against them, beside the window: it takes as long as the disk does. What is
-// given up is read to its end nevertheless, and so long the program does not end, be its window closed.
 #pragma once
 
 #include <functional>
@@ -11,22 +9,24 @@
 
 namespace psi_slam {
 
+/// Reads sessions, and checks logs against them, in another thread. A read that is given up still runs to its
+/// end, and the destructor waits for it.
 class SessionReader {
  public:
   using Read = std::function<SessionInput()>;
   using Take = std::function<void(SessionInput)>;
 
-  /// `read` is called in another thread and must hold all it needs. What was begun before is given up.
+  /// Calls `read` in another thread; it must own all that it uses. Gives up the previous read.
   void begin(Read read, Take take);
   void give_up();
 
-  /// Hands over what has been read, once; to be called now and then. Throws what `read` threw.
+  /// Calls `take` if a read has ended; call it regularly. Rethrows what `read` threw.
   void serve();
 
  private:
   std::future<SessionInput> reading_;
   Take take_;
-  std::vector<std::future<SessionInput>> given_up_;  // until they have ended
+  std::vector<std::future<SessionInput>> given_up_;  // until they end
 };
 
 }  // namespace psi_slam

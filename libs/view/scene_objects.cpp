@@ -1,16 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view/texture.h"
+#include "view/scene_objects.h"
 
 #include <utility>
 
 namespace psi_slam {
+
+mrpt::opengl::CPointCloud::Ptr dots_of(const std::vector<mrpt::math::TPoint3Df>& points,
+                                       const mrpt::img::TColor& colour, float size_px) {
+  std::vector<float> x;
+  std::vector<float> y;
+  std::vector<float> z;
+  for (const mrpt::math::TPoint3Df& point : points) {
+    x.push_back(point.x);
+    y.push_back(point.y);
+    z.push_back(point.z);
+  }
+  auto dots = mrpt::opengl::CPointCloud::Create();
+  dots->setAllPoints(x, y, z);
+  dots->setColor_u8(colour);
+  dots->setPointSize(size_px);
+  dots->enableVariablePointSize(false);
+  return dots;
+}
+
+mrpt::opengl::CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
+  auto lines = mrpt::opengl::CSetOfLines::Create();
+  lines->setColor_u8(colour);
+  lines->setLineWidth(width);
+  return lines;
+}
 
 mrpt::opengl::CTexturedPlane::Ptr textured_plane(const MapRaster& raster) {
   const auto width = static_cast<unsigned>(raster.width_px);
   const auto height = static_cast<unsigned>(raster.height_px);
   mrpt::img::CImage colour(width, height, mrpt::img::CH_RGB);
   mrpt::img::CImage opacity(width, height, mrpt::img::CH_GRAY);
-  for (unsigned row = 0; row < height; ++row) {  // MRPT's textures begin below, rasters above
+  // MRPT's textures start with the bottom row, rasters with the top row.
+  for (unsigned row = 0; row < height; ++row) {
     const std::uint8_t* from = raster.pixels.data() + std::size_t{4} * width * (height - 1 - row);
     auto* to = colour.ptrLine<std::uint8_t>(row);
     auto* to_opacity = opacity.ptrLine<std::uint8_t>(row);

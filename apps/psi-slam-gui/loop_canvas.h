@@ -17,7 +17,7 @@ class LoopCanvas : public wxPanel {
  public:
   explicit LoopCanvas(wxWindow* parent);
 
-  /// Shows a picture, or a hint if there is none.
+  /// Shows a picture; without one, shows a hint.
   void show(std::optional<LoopPicture> picture);
   bool empty() const { return !picture_; }
 

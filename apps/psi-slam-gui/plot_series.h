@@ -13,7 +13,7 @@ namespace psi_slam {
 struct PlotColumn {
   std::size_t first_frame = 0;
   double psi = 0;           ///< largest value
-  double response_min = 0;  ///< of matched scans; 0 if there are none
+  double response_min = 0;  ///< of matched scans; 0 without any
   double response_max = 0;
   double loops_accepted = 0;  ///< number since the first scan
   double loops_tried = 0;     ///< number since the first scan

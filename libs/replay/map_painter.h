@@ -45,7 +45,7 @@ class MapPainter {
   /// long as it worked, so that it uses at most a third of one processor.
   void request(MapSketch sketch);
 
-  /// Starts no more drawings.
+  /// Makes the thread start no further drawing.
   void stop();
   /// True once the thread has ended, so that the destructor does not wait.
   bool ended() const { return ended_; }

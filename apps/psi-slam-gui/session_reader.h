@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <functional>
 #include <future>
+#include <utility>
 #include <vector>
 
 #include "session/session_input.h"
@@ -17,13 +20,28 @@ class SessionReader {
   using Take = std::function<void(SessionInput)>;
 
   /// Calls `read` in another thread; it must own all that it uses. Gives up the previous read.
-  void begin(Read read, Take take);
-  void give_up();
+  void begin(Read read, Take take) {
+    give_up();
+    reading_ = std::async(std::launch::async, std::move(read));
+    take_ = std::move(take);
+  }
+  void give_up() {
+    if (reading_.valid()) given_up_.push_back(std::move(reading_));
+  }
 
   /// Calls `take` if a read has ended; call it regularly. Rethrows what `read` threw.
-  void serve();
+  void serve() {
+    given_up_.erase(std::remove_if(given_up_.begin(), given_up_.end(), has_ended), given_up_.end());
+    if (!reading_.valid() || !has_ended(reading_)) return;
+    const Take take = std::exchange(take_, {});
+    take(std::exchange(reading_, {}).get());
+  }
 
  private:
+  static bool has_ended(const std::future<SessionInput>& reading) {
+    return reading.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
+
   std::future<SessionInput> reading_;
   Take take_;
   std::vector<std::future<SessionInput>> given_up_;  // until they end

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
@@ -14,8 +15,10 @@ class LogPace {
   using Clock = std::chrono::steady_clock;
 
   /// Sets the speed as a multiple of the recorded speed; 0 is as fast as possible. Also calls restart().
-  void set_speed(double speed);
-  double speed() const { return speed_; }
+  void set_speed(double speed) {
+    speed_ = speed;
+    restart();
+  }
 
   /// Makes the next scan start a new schedule. Call it after a pause.
   void restart() { last_.reset(); }
@@ -23,7 +26,17 @@ class LogPace {
   /// Returns when the next scan is due after a scan with time stamp `time_us` was shown at `now`. Waits at
   /// most one second for gaps in the log and for stamps that run backwards. A mapper that is too slow catches
   /// up at most one second later.
-  Clock::time_point due_after(TimeUs time_us, Clock::time_point now);
+  Clock::time_point due_after(TimeUs time_us, Clock::time_point now) {
+    if (speed_ <= 0) return now;
+    if (last_) {
+      const double step_s = std::clamp(seconds(time_us - last_->time_us) / speed_, 0.0, 1.0);
+      const auto step = std::chrono::round<std::chrono::microseconds>(std::chrono::duration<double>(step_s));
+      constexpr std::chrono::seconds kLongest{1};
+      now = std::clamp<Clock::time_point>(last_->due + step, now - kLongest, now + kLongest);
+    }
+    last_ = Shown{time_us, now};
+    return now;
+  }
 
  private:
   struct Shown {

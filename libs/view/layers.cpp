@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "view/layers.h"
 
+#include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
+#include <mrpt/opengl/CTexturedPlane.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "local_maps/scan_filter.h"
 #include "view/loop_legend.h"
 #include "view/palette.h"
-#include "view/scene_objects.h"
 
 namespace psi_slam {
 namespace {
@@ -24,6 +27,74 @@ using mrpt::math::TPoint3D;
 using mrpt::math::TPoint3Df;
 using mrpt::math::TPose2D;
 using mrpt::opengl::CSetOfLines;
+
+/// Dots of one colour and size. (Passes all points at once because insertPoint() of MRPT 2.5 deadlocks.)
+mrpt::opengl::CPointCloud::Ptr dots_of(const std::vector<TPoint3Df>& points, const mrpt::img::TColor& colour,
+                                       float size_px) {
+  std::vector<float> x;
+  std::vector<float> y;
+  std::vector<float> z;
+  for (const TPoint3Df& point : points) {
+    x.push_back(point.x);
+    y.push_back(point.y);
+    z.push_back(point.z);
+  }
+  auto dots = mrpt::opengl::CPointCloud::Create();
+  dots->setAllPoints(x, y, z);
+  dots->setColor_u8(colour);
+  dots->setPointSize(size_px);
+  dots->enableVariablePointSize(false);
+  return dots;
+}
+
+/// An empty set of lines of one colour and width.
+CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
+  auto lines = CSetOfLines::Create();
+  lines->setColor_u8(colour);
+  lines->setLineWidth(width);
+  return lines;
+}
+
+/// A plane at height 0 that shows the raster in true colours, whatever the light; transparent where the
+/// raster is.
+mrpt::opengl::CTexturedPlane::Ptr textured_plane(const MapRaster& raster) {
+  const auto width = static_cast<unsigned>(raster.width_px);
+  const auto height = static_cast<unsigned>(raster.height_px);
+  mrpt::img::CImage colour(width, height, mrpt::img::CH_RGB);
+  mrpt::img::CImage opacity(width, height, mrpt::img::CH_GRAY);
+  // MRPT's textures start with the bottom row, rasters with the top row.
+  for (unsigned row = 0; row < height; ++row) {
+    const std::uint8_t* from = raster.pixels.data() + std::size_t{4} * width * (height - 1 - row);
+    auto* to = colour.ptrLine<std::uint8_t>(row);
+    auto* to_opacity = opacity.ptrLine<std::uint8_t>(row);
+    for (unsigned column = 0; column < width; ++column, from += 4, to += 3) {
+      to[0] = from[0];
+      to[1] = from[1];
+      to[2] = from[2];
+      to_opacity[column] = from[3];
+    }
+  }
+  auto plane = mrpt::opengl::CTexturedPlane::Create();
+  plane->assignImage(std::move(colour), std::move(opacity));
+  plane->mrpt::opengl::CRenderizableShaderTexturedTriangles::enableLight(false);
+  const double x_max_m = raster.x_min_m + raster.width_px * raster.resolution_m;
+  const double y_min_m = raster.y_max_m - raster.height_px * raster.resolution_m;
+  plane->setPlaneCorners(static_cast<float>(raster.x_min_m), static_cast<float>(x_max_m),
+                         static_cast<float>(y_min_m), static_cast<float>(raster.y_max_m));
+  return plane;
+}
+
+/// A point or pose in the plane, lifted to a height.
+template <class Planar>
+TPoint3Df raised(const Planar& at, double z_m) {
+  return {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(z_m)};
+}
+
+/// Adds the line between two points or poses in the plane, at a height.
+template <class Planar>
+void join(CSetOfLines& lines, const Planar& a, const Planar& b, double z_m) {
+  lines.appendLine(a.x, a.y, z_m, b.x, b.y, z_m);
+}
 
 // Transparent planes are drawn by decreasing distance: this one makes the grid map come before local maps.
 constexpr float kFarBelow_m = -1000;

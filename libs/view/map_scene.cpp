@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "view/map_scene.h"
 
+#include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/CSetOfLines.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "view/layers.h"
 #include "view/palette.h"
-#include "view/scene_objects.h"
 
 namespace psi_slam {
 namespace {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 namespace psi_slam {
 
@@ -23,21 +24,11 @@ TColor matcher_colour(MatcherKind matcher) {
 }
 
 TColor verdict_colour(LoopVerdict verdict) {
-  switch (verdict) {
-    case LoopVerdict::kAccepted:
-      return {0, 130, 70};
-    case LoopVerdict::kPending:
-      return {176, 112, 0};
-    case LoopVerdict::kRefused:
-      return {120, 124, 130};
-    case LoopVerdict::kSwitchedOff:
-      return {196, 30, 40};
-    case LoopVerdict::kNotFound:
-      return {160, 164, 170};
-    case LoopVerdict::kDeleted:
-      return {150, 20, 110};
-  }
-  return {};
+  static const std::map<LoopVerdict, TColor> kColours{
+      {LoopVerdict::kAccepted, {0, 130, 70}},    {LoopVerdict::kPending, {176, 112, 0}},
+      {LoopVerdict::kRefused, {120, 124, 130}},  {LoopVerdict::kSwitchedOff, {196, 30, 40}},
+      {LoopVerdict::kNotFound, {160, 164, 170}}, {LoopVerdict::kDeleted, {150, 20, 110}}};
+  return kColours.at(verdict);
 }
 
 TColor heat_colour(double share) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The colours of the views, the same in scenes, plots, tables and legends.
+// Colours shared by scenes, plots, tables and legends.
 #pragma once
 
 #include <mrpt/img/TColor.h>
@@ -25,12 +25,12 @@ inline constexpr mrpt::img::TColor kBefore{224, 130, 20};
 inline constexpr mrpt::img::TColor kAfter{0, 130, 80};
 }  // namespace palette
 
-/// Colour of a matcher's loops and of its part of the plot of Psi.
+/// Colour of a matcher in plots, tables and scenes.
 mrpt::img::TColor matcher_colour(MatcherKind matcher);
 
 mrpt::img::TColor verdict_colour(LoopVerdict verdict);
 
-/// From green over yellow to red, for 0 .. 1 and more.
+/// Colour from green (0) over yellow to red (1); values outside [0, 1] are clamped.
 mrpt::img::TColor heat_colour(double share);
 
 }  // namespace psi_slam

@@ -36,7 +36,7 @@ class LoopLegendTest : public testing::Test {
   ReplaySnapshot snapshot_;
 };
 
-TEST_F(LoopLegendTest, names_what_is_drawn_and_nothing_else) {
+TEST_F(LoopLegendTest, names_only_what_is_drawn) {
   EXPECT_THAT(names({LoopStyle::Colour::kMatcher, false}), ElementsAre("csm", "ga", "switched off"));
   EXPECT_THAT(names({LoopStyle::Colour::kMatcher, true}),
               ElementsAre("csm", "ga", "switched off", "refused"));
@@ -45,7 +45,7 @@ TEST_F(LoopLegendTest, names_what_is_drawn_and_nothing_else) {
   EXPECT_TRUE(loop_legend(ReplaySnapshot(), {}).entries.empty());
 }
 
-TEST_F(LoopLegendTest, every_loop_that_is_drawn_has_a_colour_of_the_legend) {
+TEST_F(LoopLegendTest, contains_the_colour_of_every_drawn_loop) {
   for (const auto colour : {LoopStyle::Colour::kMatcher, LoopStyle::Colour::kResidual}) {
     const LoopStyle style{colour, true};
     const LoopLegend legend = loop_legend(snapshot_, style);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view/frame_pose.h"
+#include "replay/replay_snapshot.h"
 
 namespace psi_slam {
 namespace {
 
-/// The last node whose scan is `frame` or one before it.
-std::size_t node_before(const HistoryView<NodeScan>& nodes, std::size_t frame) {
+/// The last node whose scan is `frame` or an earlier one.
+std::size_t last_node_up_to(const HistoryView<NodeScan>& nodes, std::size_t frame) {
   std::size_t begin = 0;
   std::size_t end = nodes.size();
   while (end - begin > 1) {
@@ -20,7 +20,7 @@ std::size_t node_before(const HistoryView<NodeScan>& nodes, std::size_t frame) {
 mrpt::math::TPose2D map_T_frame(const ReplaySnapshot& snapshot, std::size_t frame) {
   const bool finished = snapshot.phase == ReplayPhase::kFinished || snapshot.phase == ReplayPhase::kExporting;
   if (finished || snapshot.nodes.empty()) return snapshot.frames[frame].map_T_robot;
-  const std::size_t node = node_before(snapshot.nodes, frame);
+  const std::size_t node = last_node_up_to(snapshot.nodes, frame);
   const mrpt::math::TPose2D node_T_frame =
       snapshot.frames[frame].front_end_T_robot - snapshot.nodes[node].local_T_robot;
   return (*snapshot.map_T_node)[node] + node_T_frame;

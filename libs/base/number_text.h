@@ -13,4 +13,8 @@ std::string fixed_text(double value, int decimals);
 /// The shortest decimal text without exponent that reads back as exactly this float.
 std::string shortest_text(float value);
 
+/// Returns `value` rounded to at most `max_decimals` decimals, without trailing zeros: trimmed_text(0.5, 4) ==
+/// "0.5".
+std::string trimmed_text(double value, int max_decimals);
+
 }  // namespace psi_slam

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/atomic_file.h"
-#include "psi_slam/user_error.h"
 #include "base/number_text.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -23,7 +23,7 @@ using mrpt::math::TPose2D;
 
 constexpr const char* kHost = "psi-slam";
 
-/// FLASER has no bearings: its ranges go counter-clockwise, those of a laser that hangs upside down do not.
+/// True for a laser mounted upside down. FLASER has no bearings: its ranges are counter-clockwise.
 bool runs_clockwise(const LaserScan& scan) {
   return scan.bearings_rad && scan.bearings_rad->size() > 1 &&
          scan.bearings_rad->front() > scan.bearings_rad->back();
@@ -33,14 +33,14 @@ double degrees(double radians) {
   return radians * (180 / M_PI);
 }
 
-/// CARMEN has messages for two lasers that carry poses.
+/// CARMEN's names for one laser. Only two lasers have messages with poses.
 struct Kind {
   std::string message;
   std::string position;
 };
 const std::array<Kind, 2> kKinds{Kind{"FLASER", "front"}, Kind{"RLASER", "rear"}};
 
-/// What the lines of a laser cannot say about it.
+/// Mount and bearings, which the messages of a laser cannot hold.
 std::string parameters(const LaserScan& scan) {
   const auto& mount = scan.robot_T_laser;
   const std::string& position = kKinds.at(scan.laser).position;
@@ -65,15 +65,15 @@ std::string parameters(const LaserScan& scan) {
   return text;
 }
 
-std::string heading(const std::vector<Frame>& log, const FrameSpan& drive) {
+std::string heading(const std::vector<Frame>& log, const FrameSpan& run) {
   std::array<const LaserScan*, kKinds.size()> first{};
-  for (std::size_t i = drive.begin; i < drive.end; ++i)
+  for (std::size_t i = run.begin; i < run.end; ++i)
     for_each_scan(log[i], {}, [&](const LaserScan& scan, const TPose2D&) {
       if (scan.laser < first.size() && first[scan.laser] == nullptr) first[scan.laser] = &scan;
     });
   std::string text = "# corrected log: FLASER n ranges  x y theta (map)  odom_x odom_y odom_theta  ";
   text += "timestamp host logger_timestamp\n";
-  if (first[1] != nullptr) text += "# RLASER: the same of the second laser\n";
+  if (first[1] != nullptr) text += "# RLASER: the same fields for the second laser\n";
   for (const LaserScan* scan : first)
     if (scan != nullptr) text += parameters(*scan);
   return text;
@@ -114,19 +114,19 @@ void write_corrected_log(const fs::path& path, const std::vector<Frame>& log,
 }
 
 void write_corrected_log(const fs::path& path, const std::vector<Frame>& log,
-                         const std::vector<TPose2D>& map_T_robot, const FrameSpan& drive) {
+                         const std::vector<TPose2D>& map_T_robot, const FrameSpan& run) {
   if (log.size() != map_T_robot.size())
     throw std::invalid_argument("write_corrected_log: " + std::to_string(log.size()) + " scans but " +
                                 std::to_string(map_T_robot.size()) + " poses");
   write_atomically(path, [&](const fs::path& temporary) {
     errno = 0;
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    if (drive.begin < drive.end) file << heading(log, drive);
-    for (std::size_t i = drive.begin; i < drive.end && file; ++i) file << scan_lines(log[i], map_T_robot[i]);
+    if (run.begin < run.end) file << heading(log, run);
+    for (std::size_t i = run.begin; i < run.end && file; ++i) file << scan_lines(log[i], map_T_robot[i]);
     file.close();
     if (!file)
       throw SystemFailure("cannot write " + path.string() + ": " +
-                          (errno != 0 ? std::strerror(errno) : "the disk did not take it"));
+                          (errno != 0 ? std::strerror(errno) : "writing failed"));
   });
 }
 

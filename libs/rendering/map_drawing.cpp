@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "rendering/cell_state.h"
 #include "rendering/map_image.h"
 
 namespace psi_slam {
@@ -14,7 +13,7 @@ using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPoint2D;
 using CellLine = std::vector<cv::Point>;
 
-/// 255 where a cell of `seen` is occupied; row 0 is the lowest.
+/// 255 where a cell is occupied, else 0. Row 0 is the lowest.
 cv::Mat occupied_mask(const COccupancyGridMap2D& grid, const SeenCells& seen) {
   cv::Mat mask(seen.y_end - seen.y_begin, seen.x_end - seen.x_begin, CV_8UC1);
   for (int y = 0; y < mask.rows; ++y) {

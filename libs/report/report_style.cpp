@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/report_style.h"
+#include "report/report_sections.h"
 
 namespace psi_slam {
 
@@ -136,7 +136,6 @@ code { font: .86rem ui-monospace, "Cascadia Mono", "DejaVu Sans Mono", monospace
 .files { list-style: none; margin: 0; padding: 0; display: grid; grid-template-columns: repeat(auto-fill, minmax(17rem, 1fr)); gap: .3rem 1.4rem; font-size: .9rem; }
 .files span { color: var(--soft); }
 a { color: var(--accent); text-decoration: none; } a:hover { text-decoration: underline; }
-footer { color: var(--soft); font-size: .84rem; margin-top: 1.6rem; }
 @media (max-width: 900px) { .tiles { grid-template-columns: repeat(2, 1fr); } }
 @media (max-width: 640px) { .hint { display: none; } body { padding: 1.2rem .7rem 3rem; } .card { padding: .9rem; } }
 @media print { body { background: #fff; } .card, .tile { box-shadow: none; break-inside: avoid; } .hint { display: none; } }

@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "exports/map_dxf.h"
-#include "exports/map_svg.h"
+#include "exports/map_drawing_files.h"
 
 namespace psi_slam {
 namespace {

@@ -48,7 +48,7 @@ class PlaceCollector {
 /// By node: the matcher that Psi chose there when the log was mapped.
 std::vector<std::string> adaptive_matchers(const MappingResult& result) {
   std::vector<std::string> names;
-  for (const std::size_t frame : result.node_frames) names.push_back(result.frames[frame].matcher);
+  for (const std::size_t frame : result.node_frames) names.emplace_back(name(result.frames[frame].matcher.value()));
   return names;
 }
 

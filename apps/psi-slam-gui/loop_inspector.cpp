@@ -12,7 +12,7 @@
 
 #include "loop_actions.h"
 #include "loop_canvas.h"
-#include "exports/verdict_text.h"
+#include "psi_slam/loop_record.h"
 #include "view/palette.h"
 #include "wx_text.h"
 

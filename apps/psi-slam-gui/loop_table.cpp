@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/number_text.h"
-#include "exports/verdict_text.h"
+#include "psi_slam/loop_record.h"
 #include "view/loop_residual.h"
 
 namespace psi_slam {
@@ -20,7 +20,7 @@ constexpr std::array<const char*, LoopTable::kColumns> kTitles{
 std::string loop_words(const LoopRecord& loop) {
   const std::string words = "Node " + std::to_string(loop.node) + " on local map " +
                             std::to_string(loop.local_map) + ", " + verdict_text(loop.verdict);
-  return loop.reason.empty() ? words : words + ": " + loop.reason;
+  return loop.refusal ? words + ": " + text_of(loop.refusal) : words;
 }
 
 const char* LoopTable::title(std::size_t column) {
@@ -71,7 +71,7 @@ void LoopTable::arrange() {
     case kLocalMap:
       return sort([](const LoopRecord& loop) { return loop.local_map; });
     case kMatcher:
-      return sort([](const LoopRecord& loop) -> const std::string& { return loop.matcher; });
+      return sort([](const LoopRecord& loop) { return loop.matcher; });
     case kResponse:
       return sort([](const LoopRecord& loop) { return loop.response; });
     case kAmbiguity:
@@ -85,7 +85,7 @@ void LoopTable::arrange() {
     case kVerdict:
       return sort([](const LoopRecord& loop) { return std::string(verdict_text(loop.verdict)); });
     case kReason:
-      return sort([](const LoopRecord& loop) -> const std::string& { return loop.reason; });
+      return sort([](const LoopRecord& loop) { return text_of(loop.refusal); });
     default:
       return;
   }
@@ -107,7 +107,7 @@ std::string LoopTable::text(std::size_t row, std::size_t column) const {
     case kLocalMap:
       return std::to_string(loop.local_map);
     case kMatcher:
-      return loop.matcher + (loop.by_hand ? ", by hand" : loop.in_final_search ? ", last pass" : "");
+      return name(loop.matcher) + std::string(loop.by_hand ? ", by hand" : loop.in_final_search ? ", last pass" : "");
     case kResponse:
       return fixed_text(loop.response, 3);
     case kAmbiguity:
@@ -121,7 +121,7 @@ std::string LoopTable::text(std::size_t row, std::size_t column) const {
     case kVerdict:
       return verdict_text(loop.verdict);
     case kReason:
-      return loop.reason;
+      return text_of(loop.refusal);
     default:
       return "";
   }

@@ -11,7 +11,7 @@
 #include "psi_slam/user_error.h"
 #include "replay/loop_between_places.h"
 #include "base/number_text.h"
-#include "exports/verdict_text.h"
+#include "psi_slam/loop_record.h"
 #include "wx_text.h"
 
 namespace psi_slam {
@@ -119,7 +119,7 @@ void MainFrame::take_edit_news(const ReplaySnapshot& snapshot) {
     words += ": " + outcome.reason;
   else if (loop != nullptr)
     words += std::string(": ") + verdict_text(loop->verdict) +
-             (loop->verdict == LoopVerdict::kDeleted || loop->reason.empty() ? "" : ", " + loop->reason);
+             (loop->verdict == LoopVerdict::kDeleted || !loop->refusal ? "" : ", " + text_of(loop->refusal));
   if (messages_->asks())
     tell(words);  // the question stays
   else

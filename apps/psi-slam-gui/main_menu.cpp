@@ -108,9 +108,7 @@ wxMenuBar* make_menu_bar(wxMenu* recent) {
 }
 
 MatcherKind matcher_kind_of(int number) {
-  constexpr std::array<MatcherKind, kMatchers> kKinds{MatcherKind::kCsm, MatcherKind::kCsmGa,
-                                                      MatcherKind::kGa};
-  return kKinds.at(static_cast<std::size_t>(number));
+  return kMatcherKinds.at(static_cast<std::size_t>(number));
 }
 
 wxString matcher_title(int number) {

@@ -149,11 +149,11 @@ void PlotPanel::draw_matchers(wxGraphicsContext& context, const wxRect& area) co
   context.SetPen(*wxTRANSPARENT_PEN);
   const double height = FromDIP(4);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    if (columns_[i].matcher.empty()) continue;
+    if (!columns_[i].matcher) continue;
     const double x = x_of(area, static_cast<double>(columns_[i].first_frame));
     const double end = i + 1 < columns_.size() ? x_of(area, static_cast<double>(columns_[i + 1].first_frame))
                                                : area.x + area.width;
-    context.SetBrush(wxBrush(colour_of(matcher_colour(columns_[i].matcher))));
+    context.SetBrush(wxBrush(colour_of(matcher_colour(*columns_[i].matcher))));
     context.DrawRectangle(x, area.y + area.height - height, std::max(1.0, end - x), height);
   }
 }
@@ -174,10 +174,10 @@ void PlotPanel::draw_psi(wxGraphicsContext& context, const wxRect& area) const {
                   [](const PlotColumn& column) { return column.psi; }};
   draw_curve(context, area, top, psi);
   std::vector<Curve> legend{{"thresholds", kThreshold, {}}};
-  for (const char* matcher : {"csm", "csm_ga", "ga"})
+  for (const MatcherKind matcher : kMatcherKinds)
     if (std::any_of(columns_.begin(), columns_.end(),
                     [&](const PlotColumn& column) { return column.matcher == matcher; }))
-      legend.push_back({matcher, colour_of(matcher_colour(matcher)), {}});
+      legend.push_back({name(matcher), colour_of(matcher_colour(matcher)), {}});
   draw_legend(context, area, legend);
 }
 

@@ -19,7 +19,7 @@ void add(PlotColumn& column, const FrameRecord& frame) {
   column.front_end_ms += frame.front_end_ms;
   column.loops_ms += frame.loop_closing_ms;
   column.graph_ms += frame.pose_graph_ms;
-  if (!frame.matcher.empty()) column.matcher = frame.matcher;
+  if (frame.matcher) column.matcher = frame.matcher;
 }
 
 }  // namespace

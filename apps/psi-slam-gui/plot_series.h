@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "replay/replay_snapshot.h"
@@ -21,7 +21,7 @@ struct PlotColumn {
   double front_end_ms = 0;  ///< means over the scans
   double loops_ms = 0;
   double graph_ms = 0;
-  std::string matcher;  ///< of the last node among them, or before
+  std::optional<MatcherKind> matcher;  ///< of the last node among them, or before
 };
 
 /// At most `columns` columns over all scans; as many as there are scans where they are fewer.

@@ -25,7 +25,7 @@ std::string row_of(std::size_t index, const FrameRecord& frame) {
          fixed_text(frame.window.theta_rad, 4);
   for (const double value : {frame.psi, frame.eta, frame.mean_loops}) row += ',' + fixed_text(value, 4);
   row += ',' + std::to_string(frame.loops_tried) + ',' + std::to_string(frame.loops_accepted);
-  row += ',' + csv_field(frame.matcher) + ',' + std::to_string(frame.loop_evaluations) + ',' +
+  row += std::string(",") + (frame.matcher ? name(*frame.matcher) : "") + ',' + std::to_string(frame.loop_evaluations) + ',' +
          std::to_string(frame.evaluations);
   for (const double ms :
        {frame.front_end_ms, frame.loop_matching_ms, frame.loop_closing_ms, frame.pose_graph_ms})

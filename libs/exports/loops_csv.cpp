@@ -20,8 +20,8 @@ constexpr const char* kHeader =
 std::string row_of(const LoopRecord& loop) {
   std::string row = std::to_string(loop.frame) + ',' + std::to_string(loop.node) + ',' +
                     std::to_string(loop.local_map) + ',' + std::to_string(loop.anchor);
-  row += std::string(",") + verdict_text(loop.verdict) + ',' + csv_field(loop.reason) + ',' +
-         csv_field(loop.matcher);
+  row += std::string(",") + verdict_text(loop.verdict) + ',' + csv_field(text_of(loop.refusal)) + ',' +
+         name(loop.matcher);
   row += std::string(loop.in_final_search ? ",1," : ",0,") + (loop.by_hand ? "1," : "0,") +
          csv_pose(loop.anchor_T_node);
   for (int i = 0; i < 3; ++i) row += ',' + fixed_text(std::sqrt(loop.covariance(i, i)), 6);

@@ -61,30 +61,13 @@ MappedLogFacts log_facts(const MappingResult& result) {
   return facts;
 }
 
-/// "response 0.41 is below 0.55" -> "response … is below …".
-std::string without_figures(const std::string& reason) {
-  std::string text;
-  for (std::size_t i = 0; i < reason.size();) {
-    const auto is_digit = [&](std::size_t at) {
-      return at < reason.size() && reason[at] >= '0' && reason[at] <= '9';
-    };
-    if (!is_digit(i)) {
-      text += reason[i++];
-      continue;
-    }
-    while (is_digit(i) || (i < reason.size() && reason[i] == '.' && is_digit(i + 1))) ++i;
-    text += "…";
-  }
-  return text;
-}
-
 LoopCounts loop_counts(const MappingResult& result) {
   LoopCounts counts;
-  for (const auto& [name, matcher] : result.loop_matchers) {
+  for (const auto& [kind, matcher] : result.loop_matchers) {
     counts.tried += matcher.effort.attempts;
     counts.found += matcher.effort.found;
   }
-  std::map<std::string, std::size_t> reasons;
+  std::map<LoopRefusal::Reason, std::size_t> reasons;
   for (const LoopRecord& loop : result.loops) {
     counts.by_hand += loop.by_hand ? 1 : 0;
     if (loop.verdict == LoopVerdict::kNotFound) continue;
@@ -95,7 +78,7 @@ LoopCounts loop_counts(const MappingResult& result) {
     }
     if (loop.verdict == LoopVerdict::kDeleted) continue;
     ++(loop.verdict == LoopVerdict::kSwitchedOff ? counts.switched_off : counts.refused);
-    ++reasons[without_figures(loop.reason.empty() ? "no reason given" : loop.reason)];
+    if (loop.refusal) ++reasons[loop.refusal->reason];
   }
   for (const auto& [reason, count] : reasons) counts.reasons.push_back({reason, count});
   std::stable_sort(counts.reasons.begin(), counts.reasons.end(),
@@ -151,7 +134,7 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
     summary.mean_response += frame.response;
     matched += frame.response > 0 ? 1 : 0;
   }
-  for (const auto& [name, matcher] : result.loop_matchers)
+  for (const auto& [kind, matcher] : result.loop_matchers)
     summary.evaluations += matcher.final_search_effort.evaluations;
   if (matched > 0) summary.mean_response /= static_cast<double>(matched);
   for (const FrameSpan& drive : summary.runs) {

@@ -43,10 +43,9 @@ struct MappedLogFacts {
   double odometry_length_m = 0;
 };
 
-/// A clause why loops were not closed, and how often it was the reason.
+/// How many loops were refused or switched off for one reason.
 struct ReasonCount {
-  std::string
-      reason;  ///< figures in it are replaced by an ellipsis, so that like reasons are counted together
+  LoopRefusal::Reason reason = LoopRefusal::Reason::kLowResponse;
   std::size_t count = 0;
 };
 

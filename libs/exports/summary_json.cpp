@@ -49,7 +49,7 @@ Json map_json(const MapExtent& map) {
 Json loop_counts_json(const LoopCounts& loops) {
   Json reasons = Json::array();
   for (const ReasonCount& reason : loops.reasons)
-    reasons.push_back({{"reason", reason.reason}, {"count", reason.count}});
+    reasons.push_back({{"reason", text_of(reason.reason)}, {"count", reason.count}});
   return {{"tried", loops.tried},       {"found", loops.found},
           {"accepted", loops.accepted}, {"accepted_in_last_pass", loops.accepted_in_final_search},
           {"refused", loops.refused},   {"switched_off", loops.switched_off},
@@ -65,10 +65,10 @@ Json effort_json(const LoopEffort& effort, std::size_t accepted) {
 }
 
 /// Of each matcher over the whole run, and of that what the last pass took.
-Json loop_matchers_json(const std::map<std::string, LoopMatcherRecord>& matchers) {
+Json loop_matchers_json(const std::map<MatcherKind, LoopMatcherRecord>& matchers) {
   Json list = Json::array();
-  for (const auto& [name, matcher] : matchers) {
-    Json entry = {{"matcher", name}};
+  for (const auto& [kind, matcher] : matchers) {
+    Json entry = {{"matcher", name(kind)}};
     entry.update(effort_json(matcher.effort, matcher.accepted));
     entry["last_pass"] = effort_json(matcher.final_search_effort, matcher.accepted_in_final_search);
     list.push_back(std::move(entry));

@@ -19,10 +19,10 @@ BackEnd::BackEnd(const BackEndOptions& options)
 
 NodeLoops BackEnd::close(std::size_t node, const KeyframeStore& memory, PoseGraph& graph) {
   matcher_of_node_.push_back(policy_.kind(factor_.value().psi));
-  const Matcher& matcher = policy_.matcher(matcher_of_node_.back());
+  const ChosenMatcher matcher = policy_.matcher(matcher_of_node_.back());
   LoopCloser::Outcome outcome = closer_.close(node, memory, graph, matcher, pool_);
   NodeLoops loops;
-  loops.matcher = matcher.name();
+  loops.matcher = matcher.kind;
   loops.effort = outcome.effort;
   for (LoopRecord& loop : outcome.loops) {
     const bool waits = loop.verdict == LoopVerdict::kPending;
@@ -51,15 +51,13 @@ std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const Keyframe
       [&](std::size_t other) { return ledger_.loops()[other].verdict == LoopVerdict::kPending; });
 }
 
-std::map<std::string, LoopEffort> BackEnd::run_final_search(const KeyframeStore& memory, PoseGraph& graph,
+std::map<MatcherKind, LoopEffort> BackEnd::run_final_search(const KeyframeStore& memory, PoseGraph& graph,
                                                             const std::function<bool(double)>& progress) {
   const std::set<LoopPair> searched = ledger_.searched_pairs();
   const auto known = [&](std::size_t node, std::size_t local_map) {
     return searched.count({node, local_map}) != 0;
   };
-  const auto matcher_of = [&](std::size_t node) -> const Matcher& {
-    return policy_.matcher(matcher_of_node_[node]);
-  };
+  const auto matcher_of = [&](std::size_t node) { return policy_.matcher(matcher_of_node_[node]); };
   FinalSearchOutcome outcome = final_search(memory, graph, matcher_of, options_.loop_closure.verification,
                                       options_.final_search, known, options_.seed, pool_, progress);
   for (LoopRecord& loop : outcome.loops) {
@@ -85,7 +83,7 @@ bool BackEnd::match_by_hand(const LoopEdit& edit, std::size_t node, const Keyfra
     candidate.extent = options_.loop_closure.candidates.max_window;
   }
   const auto matcher = make_matcher(edit.matcher, options_.loop_matcher, options_.genetic);
-  std::optional<LoopRecord> loop = closer_.match(node, candidate, memory, *matcher, pool_);
+  std::optional<LoopRecord> loop = closer_.match(node, candidate, memory, {edit.matcher, *matcher}, pool_);
   if (!loop) return false;
   if (loop->verdict == LoopVerdict::kPending) loop->verdict = LoopVerdict::kAccepted;
   ledger_.replace(*std::move(loop), graph);

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "base/degrees.h"
@@ -18,7 +18,6 @@
 #include "loop_closure/loop_closer.h"
 #include "loop_closure/loop_closure_factor.h"
 #include "loop_closure/loop_consensus.h"
-#include "loop_closure/loop_effort.h"
 #include "loop_closure/loop_ledger.h"
 #include "loop_closure/matcher_policy.h"
 #include "loop_closure/keyframe_store.h"
@@ -27,7 +26,7 @@
 namespace psi_slam {
 
 struct BackEndOptions {
-  LoopMatcher matcher = LoopMatcher::kAdaptive;
+  std::optional<MatcherKind> matcher;  ///< none: the factor Psi chooses a matcher for each node
   MatcherOptions loop_matcher;  ///< what all of them share
   GeneticOptions genetic;
   PsiOptions psi;
@@ -44,7 +43,7 @@ struct BackEndOptions {
 
 /// What came of a node's search for loops.
 struct NodeLoops {
-  std::string matcher;  ///< that searched
+  MatcherKind matcher = MatcherKind::kCsm;  ///< that searched
   LoopEffort effort;
   int accepted = 0;  ///< constraints made, loops of nodes before included
   /// By how many standard deviations of loops the graph contradicted the one it fits least.
@@ -65,8 +64,8 @@ class BackEnd {
   NodeLoops close(std::size_t node, const KeyframeStore& memory, PoseGraph& graph);
 
   /// Matches all nodes near a local map once more, and adds what is believed. `progress` is told the share
-  /// done; when it returns false, the search ends there. Returns the effort by the matchers' names.
-  std::map<std::string, LoopEffort> run_final_search(const KeyframeStore& memory, PoseGraph& graph,
+  /// done; when it returns false, the search ends there. Returns the effort of each matcher.
+  std::map<MatcherKind, LoopEffort> run_final_search(const KeyframeStore& memory, PoseGraph& graph,
                                                   const std::function<bool(double)>& progress);
 
   /// Optimises the graph and switches off the loops that it contradicts.

@@ -78,7 +78,7 @@ std::vector<Pair> pairs_near_each_other(
 }  // namespace
 
 FinalSearchOutcome final_search(const KeyframeStore& memory, const PoseGraph& graph,
-                          const std::function<const Matcher&(std::size_t)>& matcher_of,
+                          const std::function<ChosenMatcher(std::size_t)>& matcher_of,
                           const LoopVerificationOptions& verification, const FinalSearchOptions& options,
                           const std::function<bool(std::size_t, std::size_t)>& known, std::uint64_t run_seed,
                           WorkerPool& pool, const std::function<bool(double)>& progress) {
@@ -95,7 +95,7 @@ FinalSearchOutcome final_search(const KeyframeStore& memory, const PoseGraph& gr
                           run_seed);
     });
     for (std::size_t i = 0; i < attempts.size(); ++i) {
-      outcome.effort[matcher_of(pairs[begin + i].node).name()] += attempts[i].effort;
+      outcome.effort[matcher_of(pairs[begin + i].node).kind] += attempts[i].effort;
       if (!attempts[i].loop || attempts[i].loop->verdict == LoopVerdict::kNotFound) continue;
       attempts[i].loop->in_final_search = true;
       outcome.loops.push_back(*std::move(attempts[i].loop));

@@ -11,11 +11,10 @@
 
 #include "base/degrees.h"
 #include "base/worker_pool.h"
-#include "loop_closure/loop_effort.h"
 #include "psi_slam/loop_record.h"
 #include "loop_closure/loop_verification.h"
 #include "loop_closure/keyframe_store.h"
-#include "matching/matcher.h"
+#include "loop_closure/matcher_policy.h"
 #include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
@@ -30,14 +29,14 @@ struct FinalSearchOptions {
 
 struct FinalSearchOutcome {
   std::vector<LoopRecord> loops;  ///< every match found, accepted or refused, by local map, then node
-  std::map<std::string, LoopEffort> effort;  ///< by the matcher's name
+  std::map<MatcherKind, LoopEffort> effort;
 };
 
 /// Matches several pairs at a time, each by `matcher_of(node)`; pairs for which `known(node, local_map)`
 /// holds are left out. `run_seed` is that of MatchSeed. `progress` is called with the share done, by the
 /// thread that calls; when it returns false, the search ends there.
 FinalSearchOutcome final_search(const KeyframeStore& memory, const PoseGraph& graph,
-                          const std::function<const Matcher&(std::size_t node)>& matcher_of,
+                          const std::function<ChosenMatcher(std::size_t node)>& matcher_of,
                           const LoopVerificationOptions& verification, const FinalSearchOptions& options,
                           const std::function<bool(std::size_t node, std::size_t local_map)>& known,
                           std::uint64_t run_seed, WorkerPool& pool,

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "loop_closure/two_decimals.h"
-
 namespace psi_slam {
 namespace {
 
@@ -18,7 +16,7 @@ bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
 }  // namespace
 
 LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCandidate& candidate,
-                         const KeyframeStore& memory, const Matcher& matcher,
+                         const KeyframeStore& memory, const ChosenMatcher& matcher,
                          const LoopVerificationOptions& verification, std::uint64_t run_seed) {
   LoopAttempt attempt;
   const NodeScan& here = memory.nodes[node];
@@ -30,7 +28,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   problem.measure_ambiguity = true;
   problem.seed = {run_seed, here.frame, local_map.id};
   const auto start = std::chrono::steady_clock::now();
-  const MatchResult match = matcher.match(problem);
+  const MatchResult match = matcher.matcher.match(problem);
   const auto time = std::chrono::steady_clock::now() - start;
   attempt.effort.attempts = 1;
   attempt.effort.found = match.found ? 1 : 0;
@@ -42,7 +40,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   loop.node = node;
   loop.local_map = candidate.local_map;
   loop.anchor = local_map.anchor;
-  loop.matcher = matcher.name();
+  loop.matcher = matcher.kind;
   loop.anchor_T_predicted = candidate.anchor_T_node;
   loop.window = candidate.extent;
   loop.evaluations = match.evaluations;
@@ -50,7 +48,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   if (!match.found) {
     loop.anchor_T_node = candidate.anchor_T_node;
     loop.verdict = LoopVerdict::kNotFound;
-    loop.reason = "nothing in its window scores " + two_decimals(problem.min_response);
+    loop.refusal = LoopRefusal{LoopRefusal::Reason::kNothingFound, 0, problem.min_response};
     return attempt;
   }
   loop.anchor_T_node = match.map_T_robot;

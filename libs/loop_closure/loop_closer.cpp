@@ -38,7 +38,7 @@ std::vector<PositionSigma> sigma_of_anchors(std::size_t node, const KeyframeStor
 }  // namespace
 
 LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& memory, const PoseGraph& graph,
-                                      const Matcher& matcher, WorkerPool& pool) {
+                                      const ChosenMatcher& matcher, WorkerPool& pool) {
   Outcome outcome;
   if (!begins_stretch(node, memory.nodes, options_.attempt_distance_m)) return outcome;
   const std::vector<LoopCandidate> candidates = loop_candidates(
@@ -67,7 +67,7 @@ LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& mem
 }
 
 std::optional<LoopRecord> LoopCloser::match(std::size_t node, const LoopCandidate& candidate,
-                                            const KeyframeStore& memory, const Matcher& matcher,
+                                            const KeyframeStore& memory, const ChosenMatcher& matcher,
                                             WorkerPool& pool) const {
   unpack_local_maps(memory, {candidate.local_map}, pool);
   const bool wide = is_wide(candidate.extent, options_.verification);

@@ -8,12 +8,11 @@
 
 #include "base/worker_pool.h"
 #include "loop_closure/loop_candidates.h"
-#include "loop_closure/loop_effort.h"
 #include "psi_slam/loop_record.h"
 #include "loop_closure/loop_verification.h"
 #include "loop_closure/keyframe_store.h"
 #include "loop_closure/scan_context.h"
-#include "matching/matcher.h"
+#include "loop_closure/matcher_policy.h"
 #include "pose_graph/path_covariance.h"
 #include "psi_slam/pose_graph.h"
 
@@ -38,13 +37,13 @@ class LoopCloser {
     LoopEffort effort;
   };
   /// Matches `node` with every local map it may see again, several at a time.
-  Outcome close(std::size_t node, const KeyframeStore& memory, const PoseGraph& graph, const Matcher& matcher,
+  Outcome close(std::size_t node, const KeyframeStore& memory, const PoseGraph& graph, const ChosenMatcher& matcher,
                 WorkerPool& pool);
 
   /// Matches `node` with one local map in a window that somebody else chose, verified like the others. None
   /// when the scan is blind.
   std::optional<LoopRecord> match(std::size_t node, const LoopCandidate& candidate, const KeyframeStore& memory,
-                                  const Matcher& matcher, WorkerPool& pool) const;
+                                  const ChosenMatcher& matcher, WorkerPool& pool) const;
 
  private:
   LoopClosureOptions options_;

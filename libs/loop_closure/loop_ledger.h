@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "loop_closure/loop_edit.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/loop_record.h"
 #include "psi_slam/pose_graph.h"
 #include "pose_graph/sparse_pose_adjustment.h"
@@ -88,7 +88,7 @@ class LoopLedger {
   void take_over(const LoopPair& pair, LoopEdit::Kind kind, PoseGraph& graph);
   std::size_t enter(LoopRecord loop);
   void link(std::size_t loop, std::size_t constraint);
-  void strike(std::size_t loop, const char* reason, PoseGraph& graph);
+  void strike(std::size_t loop, LoopRefusal::Reason reason, PoseGraph& graph);
 
   LoopNoise noise_;
   std::vector<LoopRecord> loops_;

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "loop_closure/range_image.h"
-#include "loop_closure/two_decimals.h"
 
 namespace psi_slam {
 namespace {
@@ -70,37 +68,32 @@ RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const KeyframeSt
   return sum;
 }
 
-std::string objection(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& memory,
-                      const LoopVerificationOptions& options) {
+/// The first reason to refuse the loop. Fills in its shares as far as they are needed to decide.
+std::optional<LoopRefusal> find_objection(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& memory,
+                                          const LoopVerificationOptions& options) {
+  using Reason = LoopRefusal::Reason;
+  const bool wide = is_wide(loop.window, options);
   const double needed = min_response(loop.window, options);
-  if (loop.response < needed)
-    return "the response " + two_decimals(loop.response) + " is below " + two_decimals(needed);
-  if (!is_wide(loop.window, options) && loop.ambiguity > options.max_ambiguity)
-    return "another place fits as well: its response is " + two_decimals(loop.ambiguity) +
-           " of the best, more than " + two_decimals(options.max_ambiguity);
+  if (loop.response < needed) return LoopRefusal{Reason::kLowResponse, loop.response, needed};
+  if (!wide && loop.ambiguity > options.max_ambiguity)
+    return LoopRefusal{Reason::kAmbiguous, loop.ambiguity, options.max_ambiguity};
   const double sigma_m = largest_sigma_m(loop.covariance);
   if (sigma_m > options.max_sigma_m)
-    return "the scan does not determine the position: its standard deviation is " + two_decimals(sigma_m) +
-           " m, more than " + two_decimals(options.max_sigma_m) + " m";
+    return LoopRefusal{Reason::kUncertainPosition, sigma_m, options.max_sigma_m};
 
   const LocalMap::Agreement own = memory.local_maps[loop.local_map].map->agreement(scan, loop.anchor_T_node);
   loop.observed_share = static_cast<double>(own.observed) / static_cast<double>(scan.points.size());
-  if (!is_wide(loop.window, options) && loop.observed_share < options.min_observed_share)
-    return "only " + two_decimals(loop.observed_share) +
-           " of the scan lies in space the local map has observed, less than " +
-           two_decimals(options.min_observed_share);
+  if (!wide && loop.observed_share < options.min_observed_share)
+    return LoopRefusal{Reason::kUnobserved, loop.observed_share, options.min_observed_share};
 
   loop.neighbours_agree = neighbours_agreement(loop, memory, options.neighbourhood_m).share();
   if (loop.neighbours_agree < options.min_neighbours_agree)
-    return "only " + two_decimals(loop.neighbours_agree) +
-           " of the neighbouring scans' points fit the local map, less than " +
-           two_decimals(options.min_neighbours_agree);
+    return LoopRefusal{Reason::kNeighboursDisagree, loop.neighbours_agree, options.min_neighbours_agree};
 
   loop.reverse_agree = reverse_agreement(loop, memory).share();
   if (loop.reverse_agree < options.min_reverse_agree)
-    return "seen from the other side only " + two_decimals(loop.reverse_agree) +
-           " of the points agree, less than " + two_decimals(options.min_reverse_agree);
-  return {};
+    return LoopRefusal{Reason::kReverseDisagrees, loop.reverse_agree, options.min_reverse_agree};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -115,8 +108,8 @@ double min_response(const SearchExtent& extent, const LoopVerificationOptions& o
 
 void verify(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& memory,
             const LoopVerificationOptions& options) {
-  loop.reason = objection(loop, scan, memory, options);
-  if (!loop.reason.empty())
+  loop.refusal = find_objection(loop, scan, memory, options);
+  if (loop.refusal)
     loop.verdict = LoopVerdict::kRefused;
   else
     loop.verdict = is_wide(loop.window, options) ? LoopVerdict::kPending : LoopVerdict::kAccepted;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "loop_closure/loop_edit.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/mapper.h"
 
 namespace psi_slam {

@@ -7,14 +7,9 @@
 // cover W.
 #pragma once
 
-namespace psi_slam {
+#include "psi_slam/matching.h"
 
-/// Half-widths of the region searched around a prediction.
-struct SearchExtent {
-  double x_m = 0;
-  double y_m = 0;
-  double theta_rad = 0;
-};
+namespace psi_slam {
 
 /// The steps that cover a SearchExtent: cells c stand for x0 + (c - n_x) r_t with c = 0 .. 2 n_x (the
 /// matcher's exhaustive search includes both borders; the chromosome of equation 9 drops the last column).

@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "loop_closure/loop_edit.h"
+#include "psi_slam/loop_record.h"
 #include "replay/replay_snapshot.h"
 
 namespace psi_slam {

@@ -121,9 +121,9 @@ std::string trajectory_layer(const Paths& paths) {
 
 std::string loop_title(const LoopRecord& loop) {
   std::string title = "node " + std::to_string(loop.node) + " to local map " +
-                      std::to_string(loop.local_map) + ", response " + fixed_text(loop.response, 2);
-  if (!loop.matcher.empty()) title += ", " + loop.matcher;
-  if (!loop.reason.empty()) title += ": " + loop.reason;
+                      std::to_string(loop.local_map) + ", response " + fixed_text(loop.response, 2) + ", " +
+                      name(loop.matcher);
+  if (loop.refusal) title += ": " + text_of(loop.refusal);
   return title;
 }
 

@@ -214,32 +214,28 @@ std::string duration_plot(const std::string& label, const Series& series, double
                            (limit_ms > 0 ? level(axes, limit_ms, limit_text, kLimitNamedAtEnd) : ""));
 }
 
-/// Matchers with a colour in the report's style.
-constexpr std::array<const char*, 3> kMatchers = {"csm", "csm_ga", "ga"};
-
 /// The strip below the plot: for each stretch of time, the share of nodes for which each matcher was in use.
 std::string matcher_strip(const std::vector<FrameRecord>& frames, const Series& series, const Axes& axes) {
   constexpr std::size_t kStretches = 320;
   constexpr double kStripTop = kHeight - kBottom + 4;
   constexpr double kStripHeight = 8;
-  std::vector<std::array<int, kMatchers.size()>> nodes(kStretches);
+  std::vector<std::array<int, kMatcherKinds.size()>> nodes(kStretches);
   for (const FrameRecord& frame : frames) {
-    const auto name = std::find(kMatchers.begin(), kMatchers.end(), frame.matcher);
-    if (name == kMatchers.end()) continue;
+    if (!frame.matcher) continue;
     const double place =
         series.since_first(frame.time_us) / series.length_s * static_cast<double>(kStretches);
-    ++nodes[std::min(static_cast<std::size_t>(place), kStretches - 1)][name - kMatchers.begin()];
+    ++nodes[std::min(static_cast<std::size_t>(place), kStretches - 1)][static_cast<std::size_t>(*frame.matcher)];
   }
-  std::array<std::string, kMatchers.size()> paths;
+  std::array<std::string, kMatcherKinds.size()> paths;
   // A stretch without nodes, where the robot stood still, repeats the stretch before.
-  std::array<int, kMatchers.size()> last{};
+  std::array<int, kMatcherKinds.size()> last{};
   for (std::size_t i = 0; i < kStretches; ++i) {
     if (std::accumulate(nodes[i].begin(), nodes[i].end(), 0) > 0) last = nodes[i];
     const int all = std::accumulate(last.begin(), last.end(), 0);
     const double x = axes.x(static_cast<double>(i) / kStretches * axes.last_s);
     const double width = axes.x(static_cast<double>(i + 1) / kStretches * axes.last_s) - x;
     double y = kStripTop;
-    for (std::size_t m = 0; m < kMatchers.size(); ++m) {
+    for (std::size_t m = 0; m < kMatcherKinds.size(); ++m) {
       if (last[m] == 0) continue;
       const double height = kStripHeight * last[m] / all;
       paths[m] += 'M' + point(x, y) + 'h' + fixed_text(width, 2) + 'v' + fixed_text(height, 2) + 'h' +
@@ -248,9 +244,9 @@ std::string matcher_strip(const std::vector<FrameRecord>& frames, const Series& 
     }
   }
   std::string svg;
-  for (std::size_t m = 0; m < kMatchers.size(); ++m)
+  for (std::size_t m = 0; m < kMatcherKinds.size(); ++m)
     if (!paths[m].empty())
-      svg += "<path class=\"matcher " + std::string(kMatchers[m]) + "\" d=\"" + paths[m] + "\"/>\n";
+      svg += "<path class=\"matcher " + std::string(name(kMatcherKinds[m])) + "\" d=\"" + paths[m] + "\"/>\n";
   return svg;
 }
 
@@ -294,10 +290,10 @@ std::string psi_plot(const MappingResult& result) {
 
 std::string psi_key(const MappingResult& result) {
   std::string key;
-  for (const char* name : kMatchers)
+  for (const MatcherKind kind : kMatcherKinds)
     if (std::any_of(result.frames.begin(), result.frames.end(),
-                    [&](const FrameRecord& frame) { return frame.matcher == name; }))
-      key += "<span class=\"key matcher " + std::string(name) + "\"></span>" + name;
+                    [&](const FrameRecord& frame) { return frame.matcher == kind; }))
+      key += "<span class=\"key matcher " + std::string(name(kind)) + "\"></span>" + name(kind);
   return key;
 }
 

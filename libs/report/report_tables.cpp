@@ -120,7 +120,7 @@ std::string reasons_table(const LoopCounts& loops) {
     const double share = 100 * static_cast<double>(reason.count) / static_cast<double>(most);
     html += "<tr><td class=\"number\">" + whole(reason.count) +
             "</td><td><span class=\"bar bad\" style=\"width:" + fixed_text(std::max(share, 1.0), 1) +
-            "%\"></span>" + escape_html(reason.reason) + "</td></tr>\n";
+            "%\"></span>" + escape_html(text_of(reason.reason)) + "</td></tr>\n";
   }
   return html + "</table>\n";
 }
@@ -152,10 +152,10 @@ std::string loop_matchers_table(const MappingResult& result) {
       "<th>closed</th><th>poses scored a try</th><th>ms a try</th><th>total</th><th>of it in the last "
       "pass</th>"
       "</tr></thead>\n<tbody>\n";
-  for (const auto& [name, matcher] : result.loop_matchers) {
+  for (const auto& [kind, matcher] : result.loop_matchers) {
     const LoopEffort& effort = matcher.effort;
     const double tries = static_cast<double>(std::max<std::size_t>(effort.attempts, 1));
-    html += "<tr><th>" + escape_html(name) + "</th>" +
+    html += "<tr><th>" + std::string(name(kind)) + "</th>" +
             cells({whole(effort.attempts), whole(effort.found), whole(matcher.accepted),
                    grouped(static_cast<double>(effort.evaluations) / tries, 0),
                    milliseconds_text(effort.milliseconds / tries), duration_text(effort.milliseconds * 1e-3),
@@ -182,12 +182,12 @@ std::string loops_table(const MappingResult& result) {
                               : verdict == LoopVerdict::kRefused ? "bad"
                                                                  : "warn";
       rows += "<tr><td><span class=\"badge " + css + "\">" + verdict_text(verdict) + "</span></td>" +
-              cells({whole(loop.frame), whole(loop.node), whole(loop.local_map), escape_html(loop.matcher),
+              cells({whole(loop.frame), whole(loop.node), whole(loop.local_map), name(loop.matcher),
                      fixed_text(loop.response, 3), fixed_text(loop.ambiguity, 2),
                      fixed_text(loop.observed_share, 2), fixed_text(loop.neighbours_agree, 2),
                      fixed_text(loop.reverse_agree, 2), fixed_text(loop.moved_m, 2),
                      milliseconds_text(loop.milliseconds)}) +
-              "<td class=\"text\">" + escape_html(loop.reason) + (loop.in_final_search ? " (last pass)" : "") +
+              "<td class=\"text\">" + escape_html(text_of(loop.refusal)) + (loop.in_final_search ? " (last pass)" : "") +
               "</td></tr>\n";
     }
   }

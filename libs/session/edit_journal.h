@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-#include "loop_closure/loop_edit.h"
+#include "psi_slam/loop_record.h"
 
 namespace psi_slam {
 

@@ -96,7 +96,7 @@ class Values {
 };
 
 MatcherKind matcher_of(const std::string& text) {
-  for (const MatcherKind kind : {MatcherKind::kCsm, MatcherKind::kCsmGa, MatcherKind::kGa})
+  for (const MatcherKind kind : kMatcherKinds)
     if (text == name(kind)) return kind;
   throw UserError("matcher=" + text + " is none of csm, csm_ga and ga");
 }

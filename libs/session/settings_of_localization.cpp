@@ -7,7 +7,7 @@ void describe_localization(OptionTable& table, LocalizerOptions& localization) {
   GlobalSearchOptions& search = localization.search;
   table.section("localization", "psi-slam localize: a robot in a finished map")
       .choice("matcher", search.matcher,
-              {{"csm", MatcherKind::kCsm}, {"csm_ga", MatcherKind::kCsmGa}, {"ga", MatcherKind::kGa}},
+              matcher_choices<MatcherKind>(),
               "that searches the whole map while the robot is lost")
       .number("search_resolution_m", search.resolution_m, between(0.005, 10), "m",
               "cells of that search, where they are larger than the map's")

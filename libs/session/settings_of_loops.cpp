@@ -10,13 +10,11 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
   LoopClosureOptions& loops = mapper.loop_closure;
   MatcherOptions& matcher = mapper.loop_matcher;
   LoopCandidateOptions& candidates = loops.candidates;
+  auto choices = matcher_choices<std::optional<MatcherKind>>();
+  choices.emplace_back("adaptive", std::nullopt);
   table.section("loop_closure", "Finding places seen before")
       .flag("enabled", mapper.close_loops, "without, the map is the front end's alone")
-      .choice("matcher", mapper.matcher,
-              {{"csm", LoopMatcher::kCsm},
-               {"csm_ga", LoopMatcher::kCsmGa},
-               {"ga", LoopMatcher::kGa},
-               {"adaptive", LoopMatcher::kAdaptive}},
+      .choice("matcher", mapper.matcher, choices,
               "the window is searched exhaustively, in part, genetically or as the factor Psi says")
       .number("window_x_m", candidates.max_window.x_m, above(0).at_most(100), "m",
               "largest half-width of the search window around the prediction, along x")

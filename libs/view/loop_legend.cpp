@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
-#include "exports/verdict_text.h"
+#include "psi_slam/loop_record.h"
 #include "view/loop_residual.h"
 #include "view/palette.h"
 
@@ -39,11 +39,11 @@ LoopLegend loop_legend(const ReplaySnapshot& snapshot, const LoopStyle& style) {
   LoopLegend legend;
   if (style.colour == LoopStyle::Colour::kMatcher) {
     legend.title = "Loops, by matcher";
-    for (const char* matcher : {"csm", "csm_ga", "ga"})
+    for (const MatcherKind matcher : kMatcherKinds)
       if (any([&](const LoopRecord& loop) {
             return loop.verdict == LoopVerdict::kAccepted && loop.matcher == matcher;
           }))
-        legend.entries.push_back({matcher, matcher_colour(matcher)});
+        legend.entries.push_back({name(matcher), matcher_colour(matcher)});
   } else if (any_with(LoopVerdict::kAccepted)) {
     legend.title = "Loops, by residual";
     for (int step = 0; step <= kScaleSteps; ++step) {

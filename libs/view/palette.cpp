@@ -10,11 +10,16 @@ namespace psi_slam {
 
 using mrpt::img::TColor;
 
-TColor matcher_colour(const std::string& matcher) {
-  if (matcher == "csm") return {117, 76, 180};
-  if (matcher == "csm_ga") return {0, 122, 204};
-  if (matcher == "ga") return {0, 145, 90};
-  return {140, 140, 140};
+TColor matcher_colour(MatcherKind matcher) {
+  switch (matcher) {
+    case MatcherKind::kCsm:
+      return {117, 76, 180};
+    case MatcherKind::kCsmGa:
+      return {0, 122, 204};
+    case MatcherKind::kGa:
+      return {0, 145, 90};
+  }
+  return {};
 }
 
 TColor verdict_colour(LoopVerdict verdict) {

@@ -4,8 +4,6 @@
 
 #include <mrpt/img/TColor.h>
 
-#include <string>
-
 #include "psi_slam/loop_record.h"
 
 namespace psi_slam {
@@ -27,8 +25,8 @@ inline constexpr mrpt::img::TColor kBefore{224, 130, 20};
 inline constexpr mrpt::img::TColor kAfter{0, 130, 80};
 }  // namespace palette
 
-/// Of loops and of Psi's ranges, by the matcher's name; grey for "" and others.
-mrpt::img::TColor matcher_colour(const std::string& matcher);
+/// Colour of a matcher's loops and of its part of the plot of Psi.
+mrpt::img::TColor matcher_colour(MatcherKind matcher);
 
 mrpt::img::TColor verdict_colour(LoopVerdict verdict);
 

@@ -36,7 +36,7 @@ TEST(FramesCsv, has_a_row_for_each_scan_under_its_header) {
     EXPECT_NEAR(std::stod(row[column("odom_theta_rad")]), frame.odom_T_robot.phi, 1e-6);
     EXPECT_NEAR(std::stod(row[column("response")]), frame.response, 1e-4);
     EXPECT_EQ(row[column("node")], frame.node ? std::to_string(*frame.node) : "");
-    EXPECT_EQ(row[column("matcher")], frame.matcher);
+    EXPECT_EQ(row[column("matcher")], frame.matcher ? name(*frame.matcher) : "");
     EXPECT_EQ(std::stoll(row[column("evaluations")]), frame.evaluations);
     EXPECT_EQ(std::stoll(row[column("loop_evaluations")]), frame.loop_evaluations);
     EXPECT_NEAR(std::stod(row[column("psi")]), frame.psi, 1e-4);
@@ -45,12 +45,6 @@ TEST(FramesCsv, has_a_row_for_each_scan_under_its_header) {
     EXPECT_NEAR(std::stod(row[column("loop_matching_ms")]), frame.loop_matching_ms, 1e-4);
   }
   EXPECT_FALSE(std::getline(text, line));
-}
-
-TEST(FramesCsv, a_matcher_with_a_comma_stays_one_field) {
-  FrameRecord frame;
-  frame.matcher = "a,\"b\"";
-  EXPECT_NE(frames_csv({frame}).find(",\"a,\"\"b\"\"\","), std::string::npos);
 }
 
 }  // namespace

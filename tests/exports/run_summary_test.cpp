@@ -47,9 +47,9 @@ TEST(RunSummary, counts_the_returns_of_all_lasers) {
 TEST(RunSummary, counts_loops_and_like_reasons_together) {
   MappingResult result = walk_around_the_room();
   LoopRecord refused = result.loops[0];
-  refused.reason = "response 0.5 is below 0.55";
+  refused.refusal->value = 0.5;
   result.loops.push_back(refused);
-  refused.reason = "the walls disagree";
+  refused.refusal->reason = LoopRefusal::Reason::kContradicted;
   refused.verdict = LoopVerdict::kSwitchedOff;
   result.loops.push_back(refused);
   const LoopCounts loops = summary_of(result).loops;
@@ -57,7 +57,7 @@ TEST(RunSummary, counts_loops_and_like_reasons_together) {
   EXPECT_EQ(loops.refused, 2U);
   EXPECT_EQ(loops.switched_off, 1U);
   ASSERT_EQ(loops.reasons.size(), 2U);
-  EXPECT_EQ(loops.reasons[0].reason, "response … is below …");
+  EXPECT_EQ(loops.reasons[0].reason, LoopRefusal::Reason::kLowResponse);
   EXPECT_EQ(loops.reasons[0].count, 2U);
 }
 

@@ -17,7 +17,7 @@ RunSummary some_figures() {
   summary.log.first_time_us = 976052905167303;
   summary.log.duration_s = 9.8;
   summary.loops.accepted = 1;
-  summary.loops.reasons = {{"response … is below …", 7}};
+  summary.loops.reasons = {{LoopRefusal::Reason::kLowResponse, 7}};
   summary.real_time_factor = 19.6;
   summary.peak_memory_mib = 123.4;
   summary.final_search_cut_short = true;
@@ -45,6 +45,7 @@ TEST(SummaryJson, reads_back_with_its_schema_and_figures) {
   EXPECT_EQ(json["broken_off"], "room.clf:41: expected a number");
   EXPECT_EQ(json["settings"]["front_end.window_x_m"], "0.3");
   EXPECT_EQ(json["loop_counts"]["reasons"][0]["count"], 7);
+  EXPECT_EQ(json["loop_counts"]["reasons"][0]["reason"], "the response is too low");
   ASSERT_EQ(json["loop_matchers"].size(), 1U);
   const auto& matcher = json["loop_matchers"][0];
   EXPECT_EQ(matcher["matcher"], "csm");

@@ -12,10 +12,10 @@ LoopRecord loop(std::size_t frame, double response, LoopVerdict verdict) {
   LoopRecord record;
   record.frame = frame;
   record.node = 1;
-  record.matcher = "ga";
+  record.matcher = MatcherKind::kGa;
   record.response = response;
   record.verdict = verdict;
-  if (verdict != LoopVerdict::kAccepted) record.reason = "the response is too low";
+  if (verdict != LoopVerdict::kAccepted) record.refusal = LoopRefusal{LoopRefusal::Reason::kLowResponse, 0.31, 0.45};
   return record;
 }
 

@@ -15,7 +15,7 @@
 #include "loop_inspector.h"
 #include "map_canvas.h"
 #include "message_bar.h"
-#include "exports/verdict_text.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/mapping_session.h"
 #include "view/palette.h"
 #include "same_results.h"
@@ -142,7 +142,7 @@ TEST_F(MainFrameTest, all_columns_of_the_loops_are_legible_in_a_small_window) {
       .then([&](MainFrame& frame) {
         frame.loops().select(refused);
         const LoopRecord& loop = (*frame.replay()->snapshot()->loops)[refused];
-        EXPECT_THAT(frame.loops().details(), HasSubstr("refused: " + loop.reason));
+        EXPECT_THAT(frame.loops().details(), HasSubstr("refused: " + text_of(loop.refusal)));
       })
       .screenshot("refused_loop");
   EXPECT_EQ(gui_.run({room_log()}), 0);
@@ -231,7 +231,7 @@ TEST_F(MainFrameTest, loops_are_deleted_matched_again_forced_and_undone) {
       .command(kMatchLoopBy + 2)
       .when("it is matched again", selected_is(LoopVerdict::kAccepted))
       .then([](MainFrame& frame) {
-        EXPECT_EQ(selected_loop(frame).matcher, "ga");
+        EXPECT_EQ(selected_loop(frame).matcher, MatcherKind::kGa);
         EXPECT_TRUE(selected_loop(frame).by_hand);
       })
       .screenshot("loop_matched_again")
@@ -280,7 +280,7 @@ TEST_F(MainFrameTest, a_loop_is_added_by_two_clicks) {
         EXPECT_FALSE(frame.map().pointing());
         ASSERT_TRUE(frame.loops().selected().has_value());
         EXPECT_TRUE(selected_loop(frame).by_hand);
-        EXPECT_EQ(selected_loop(frame).verdict, LoopVerdict::kAccepted) << selected_loop(frame).reason;
+        EXPECT_EQ(selected_loop(frame).verdict, LoopVerdict::kAccepted) << text_of(selected_loop(frame).refusal);
       })
       .screenshot("loop_added");
   EXPECT_EQ(gui_.run({room_log()}), 0);

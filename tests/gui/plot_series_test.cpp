@@ -15,7 +15,7 @@ HistoryView<FrameRecord> frames(std::size_t count) {
     frame.loops_tried = 2;
     frame.loops_accepted = 1;
     frame.front_end_ms = 3;
-    if (i == 4) frame.matcher = "ga";
+    if (i == 4) frame.matcher = MatcherKind::kGa;
     history.push_back(frame);
   }
   return history.view();
@@ -26,8 +26,8 @@ TEST(PlotColumns, there_is_one_for_each_scan_as_long_as_there_is_room) {
   ASSERT_EQ(columns.size(), 10U);
   EXPECT_EQ(columns[3].first_frame, 3U);
   EXPECT_EQ(columns[3].psi, 3);
-  EXPECT_EQ(columns[3].matcher, "");
-  EXPECT_EQ(columns[9].matcher, "ga") << "as of the last node before";
+  EXPECT_EQ(columns[3].matcher, std::nullopt);
+  EXPECT_EQ(columns[9].matcher, MatcherKind::kGa) << "as of the last node before";
   EXPECT_EQ(columns[9].loops_accepted, 10U);
 }
 

@@ -80,7 +80,7 @@ TEST(BackEnd, settling_switches_off_a_loop_that_the_graph_contradicts) {
   bool told = false;
   for (const LoopRecord& record : back_end.loops())
     told |=
-        record.verdict == LoopVerdict::kSwitchedOff && record.reason.find("contradict") != std::string::npos;
+        record.refusal && record.refusal->reason == LoopRefusal::Reason::kContradicted;
   EXPECT_TRUE(told);
 }
 

@@ -48,7 +48,7 @@ LoopCloser::Outcome close(const PoseGraph& graph, const Matcher& matcher, int th
                           const KeyframeStore& memory = two_rounds().memory) {
   WorkerPool pool(threads);
   LoopCloser closer(near_maps_too(), 5);
-  return closer.close(two_rounds().node, memory, graph, matcher, pool);
+  return closer.close(two_rounds().node, memory, graph, {MatcherKind::kCsm, matcher}, pool);
 }
 
 TEST(LoopCloser, attempts_that_find_nothing_are_listed_and_counted) {
@@ -59,7 +59,7 @@ TEST(LoopCloser, attempts_that_find_nothing_are_listed_and_counted) {
   for (const LoopRecord& loop : outcome.loops) {
     EXPECT_EQ(loop.verdict, LoopVerdict::kNotFound);
     EXPECT_EQ(loop.anchor_T_node, loop.anchor_T_predicted);
-    EXPECT_FALSE(loop.reason.empty());
+    EXPECT_EQ(loop.refusal.value().reason, LoopRefusal::Reason::kNothingFound);
   }
   EXPECT_EQ(outcome.effort.attempts, matcher.questions().size());
   EXPECT_EQ(outcome.effort.found, 0U);
@@ -96,7 +96,7 @@ TEST(LoopCloser, only_the_first_node_of_a_stretch_is_searched_for) {
   LoopCloser closer(near_maps_too(), 5);
   const TwoRounds& rounds = two_rounds();
   const auto attempts = [&](std::size_t node) {
-    return closer.close(node, rounds.memory, rounds.graph(), matcher, pool).effort.attempts;
+    return closer.close(node, rounds.memory, rounds.graph(), {MatcherKind::kCsm, matcher}, pool).effort.attempts;
   };
   ASSERT_FALSE(begins_stretch(rounds.node + 1, rounds.memory.nodes, LoopClosureOptions().attempt_distance_m));
   EXPECT_GT(attempts(rounds.node), 0U);
@@ -142,7 +142,7 @@ TEST(LoopCloser, finds_the_same_loops_with_any_number_of_threads) {
     for (std::size_t i = 0; i < alone.loops.size(); ++i) {
       EXPECT_EQ(together.loops[i].local_map, alone.loops[i].local_map);
       EXPECT_EQ(together.loops[i].anchor_T_node, alone.loops[i].anchor_T_node);
-      EXPECT_EQ(together.loops[i].reason, alone.loops[i].reason);
+      EXPECT_EQ(text_of(together.loops[i].refusal), text_of(alone.loops[i].refusal));
     }
   }
 }

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "../local_maps/simulated_drive.h"
-#include "loop_closure/loop_edit.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/mapper.h"
 
 namespace psi_slam {
@@ -40,7 +40,7 @@ std::string bytes_of(const MappingResult& result) {
       bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   for (const LoopRecord& loop : result.loops)
     bytes += std::to_string(loop.frame) + ',' + std::to_string(loop.local_map) + ',' +
-             std::to_string(static_cast<int>(loop.verdict)) + loop.reason + '\n';
+             std::to_string(static_cast<int>(loop.verdict)) + text_of(loop.refusal) + '\n';
   return bytes;
 }
 
@@ -165,8 +165,8 @@ TEST_F(MapperEditsTest, a_loop_is_matched_again_by_any_matcher) {
     edit.matcher = matcher;
     EXPECT_EQ(mapper_.edit(edit).state, State::kDone);
     const LoopRecord& again = attempt(edit);
-    EXPECT_EQ(again.matcher, name(matcher));
-    EXPECT_EQ(again.verdict, LoopVerdict::kAccepted) << again.reason;
+    EXPECT_EQ(again.matcher, matcher);
+    EXPECT_EQ(again.verdict, LoopVerdict::kAccepted) << text_of(again.refusal);
     EXPECT_TRUE(is_constraint(again));
     EXPECT_NEAR(again.anchor_T_node.x, loop.anchor_T_node.x, 0.05);
     EXPECT_NEAR(again.anchor_T_node.y, loop.anchor_T_node.y, 0.05);

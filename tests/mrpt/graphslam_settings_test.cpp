@@ -26,7 +26,7 @@ TEST(GraphSlamSettings, keys_with_a_dot_are_ours_and_the_others_are_left_alone) 
       "[EdgeRegistrationDeciderParameters]\nloop_closure.matcher = csm\nrun.seed = 7\n"
       "[OptimizerParameters]\npose_graph.max_iterations = 9\n");
   EXPECT_EQ(settings.mapper.front_end.node_distance_m, 0.4);
-  EXPECT_EQ(settings.mapper.matcher, LoopMatcher::kCsm);
+  EXPECT_EQ(settings.mapper.matcher, MatcherKind::kCsm);
   EXPECT_EQ(settings.run.seed, 7U);
   EXPECT_EQ(settings.mapper.pose_graph.max_iterations, 9);
 }

@@ -86,7 +86,7 @@ TEST(ReportHtml, needs_no_network) {
 TEST(ReportHtml, shows_the_figures) {
   const std::string html = report_of_the_room();
   for (const char* shown :
-       {"room.clf", "20×", "10 <small>nodes</small>", "match scan to local map", "response … is below …",
+       {"room.clf", "20×", "10 <small>nodes</small>", "match scan to local map", "the response is too low",
         "1 setting", "of 12 tried", "2 matches found", "Mapped by psi-slam 0.1.0 in 0.50 s"})
     EXPECT_THAT(html, HasSubstr(shown));
 }
@@ -99,7 +99,7 @@ TEST(ReportHtml, shows_the_factor_and_the_matchers) {
     EXPECT_THAT(html, HasSubstr(shown));
   MappingResult one = walk_around_the_room();
   for (FrameRecord& frame : one.frames)
-    if (frame.node) frame.matcher = "ga";
+    if (frame.node) frame.matcher = MatcherKind::kGa;
   const std::string of_one = report_of(one, {});
   EXPECT_THAT(of_one, HasSubstr("<path class=\"matcher ga\""));
   EXPECT_THAT(of_one, Not(HasSubstr("<path class=\"matcher csm\"")));
@@ -109,10 +109,7 @@ TEST(ReportHtml, shows_the_factor_and_the_matchers) {
 TEST(ReportHtml, the_users_texts_cannot_break_it) {
   const std::string nasty = "<script>alert('&\"')</script>\x01";
   MappingResult result = walk_around_the_room();
-  result.loops[0].reason = nasty;
   result.stages[0].name = nasty;
-  result.frames[0].matcher = nasty;
-  result.loops[0].matcher = nasty;
   const std::string html = report_of(result, {nasty, nasty, {{nasty, nasty}, {"a." + nasty, nasty}}});
   EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
   EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(&#39;&amp;&quot;&#39;)&lt;/script&gt;?"));

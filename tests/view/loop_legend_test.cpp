@@ -10,7 +10,7 @@ namespace {
 
 using testing::ElementsAre;
 
-LoopRecord loop(const char* matcher, LoopVerdict verdict, double residual_m = 0) {
+LoopRecord loop(MatcherKind matcher, LoopVerdict verdict, double residual_m = 0) {
   LoopRecord record;
   record.node = 1;
   record.matcher = matcher;
@@ -24,8 +24,8 @@ class LoopLegendTest : public testing::Test {
   LoopLegendTest() {
     snapshot_.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(2);
     snapshot_.loops = std::make_shared<std::vector<LoopRecord>>(std::vector<LoopRecord>{
-        loop("ga", LoopVerdict::kAccepted, 0.125), loop("csm", LoopVerdict::kAccepted, 9),
-        loop("csm_ga", LoopVerdict::kRefused), loop("ga", LoopVerdict::kSwitchedOff)});
+        loop(MatcherKind::kGa, LoopVerdict::kAccepted, 0.125), loop(MatcherKind::kCsm, LoopVerdict::kAccepted, 9),
+        loop(MatcherKind::kCsmGa, LoopVerdict::kRefused), loop(MatcherKind::kGa, LoopVerdict::kSwitchedOff)});
   }
   std::vector<std::string> names(const LoopStyle& style) const {
     std::vector<std::string> result;

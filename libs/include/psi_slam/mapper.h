@@ -11,7 +11,7 @@
 
 #include "base/degrees.h"
 #include "local_maps/front_end.h"
-#include "loop_closure/loop_edit.h"
+#include "psi_slam/loop_record.h"
 #include "loop_closure/back_end.h"
 #include "mapping/run_start.h"
 #include "mapping/joint_refinement.h"
@@ -98,7 +98,7 @@ class Mapper {
     PoseGraph graph;
     LoopLedger ledger;
     SparsePoseAdjustment solver;
-    std::map<std::string, LoopMatcherRecord> loop_matchers;
+    std::map<MatcherKind, LoopMatcherRecord> loop_matchers;
   };
 
   void rebase_odometry(FrameRecord& record);

@@ -13,7 +13,6 @@
 
 #include "psi_slam/frame.h"
 #include "loop_closure/loop_closure_factor.h"
-#include "loop_closure/loop_effort.h"
 #include "psi_slam/loop_record.h"
 #include "mapping/stage_clock.h"
 #include "matching/search_window.h"
@@ -40,7 +39,7 @@ struct FrameRecord {
   /// C_i of equation 13: the loops that became constraints at this frame, found here or on the way and
   /// confirmed here. Whether they are switched off later plays no part.
   int loops_accepted = 0;
-  std::string matcher;  ///< that is to search for loops at this frame: "csm", ...; empty where none does
+  std::optional<MatcherKind> matcher;  ///< that searches for loops at this frame; none at other frames
   std::int64_t loop_evaluations = 0;  ///< poses scored to close loops, found or not
   std::int64_t evaluations = 0;       ///< these and the front end's together
 
@@ -76,7 +75,7 @@ struct MappingResult {
   std::vector<LoopRecord> loops;
   std::vector<std::string> unmet_edits;  ///< what a person asked for in vain, a sentence each
   PsiOptions psi;                        ///< its thresholds are drawn beside the factor
-  std::map<std::string, LoopMatcherRecord> loop_matchers;  ///< by name, those that were used
+  std::map<MatcherKind, LoopMatcherRecord> loop_matchers;  ///< of the matchers that were used
   std::vector<StageTiming> stages;
   double wall_s = 0;         ///< of the whole run so far, loading included
   bool interrupted = false;  ///< true when the user stopped it before the log's end, or cut the last pass

@@ -5,11 +5,11 @@
 #include <memory>
 #include <ostream>
 
-#include "closing_text.h"
 #include "base/exit_code.h"
+#include "closing_text.h"
+#include "exports/run_summary.h"
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"
-#include "exports/summary_json.h"
 #include "session/recorded_settings.h"
 #include "session/session_file.h"
 

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/number_text.h"
 #include "batch/markdown_cells.h"
 #include "batch/sweep_tables.h"
-#include "exports/csv_text.h"
+#include "exports/csv_tables.h"
 #include "report/html_text.h"
-#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {

@@ -56,9 +56,11 @@ OGRSpatialReference spatial_reference(int epsg) {
     return system;
   }
   if (system.importFromEPSG(epsg) != OGRERR_NONE)
-    throw UserError(what + ": no such coordinate system. Give the EPSG number of a projected system in metres");
+    throw UserError(what +
+                    ": no such coordinate system. Give the EPSG number of a projected system in metres");
   if (system.IsProjected() == 0 || std::abs(system.GetLinearUnits() - 1) > 1e-12)
-    throw UserError(what + " (" + system.GetName() + "): expected a projected coordinate system in metres, such as UTM");
+    throw UserError(what + " (" + system.GetName() +
+                    "): expected a projected coordinate system in metres, such as UTM");
   return system;
 }
 
@@ -115,8 +117,8 @@ bool write_to(const std::string& name, const COccupancyGridMap2D& grid, const Ge
   GDALRasterBand& band = *file->GetRasterBand(1);
   band.SetDescription("occupancy [percent]");
   const bool written = file->SetSpatialRef(&system) == CE_None &&
-                 file->SetGeoTransform(transform.data()) == CE_None &&
-                 band.SetNoDataValue(kNotSeen) == CE_None && write_rows(band, grid);
+                       file->SetGeoTransform(transform.data()) == CE_None &&
+                       band.SetNoDataValue(kNotSeen) == CE_None && write_rows(band, grid);
   file->FlushCache(false);
   return written && CPLGetLastErrorType() < CE_Failure;
 }

@@ -111,11 +111,12 @@ std::string footer(double x, double y, double width_m, double mm, double scale) 
   const double tip = kArrow_mm * mm;
   const double axes_x = x + width_m - tip - 4 * mm;
   const double axes_y = y + kFooter_mm * mm;
-  const std::string bar = go("M", x, middle - mm) + along("v", 2 * mm) + go("m", 0, -mm) +
-                          along("h", bar_m) + go("m", 0, -mm) + along("v", 2 * mm);
+  const std::string bar = go("M", x, middle - mm) + along("v", 2 * mm) + go("m", 0, -mm) + along("h", bar_m) +
+                          go("m", 0, -mm) + along("v", 2 * mm);
   const std::string axes = go("M", axes_x, axes_y - tip) + along("v", tip) + along("h", tip) +
                            go("m", -1.5 * mm, -0.7 * mm) + go("l", 1.5 * mm, 0.7 * mm) +
-                           go("l", -1.5 * mm, 0.7 * mm) + go("M", axes_x - 0.7 * mm, axes_y - tip + 1.5 * mm) +
+                           go("l", -1.5 * mm, 0.7 * mm) +
+                           go("M", axes_x - 0.7 * mm, axes_y - tip + 1.5 * mm) +
                            go("l", 0.7 * mm, -1.5 * mm) + go("l", 0.7 * mm, 1.5 * mm);
   return "<path d=\"" + bar + "\"/>\n" +
          text_at(x + bar_m + 2 * mm, middle + kTextHeight_mm / 3 * mm, kTextHeight_mm * mm,
@@ -156,10 +157,11 @@ std::string map_svg(const MapDrawing& drawing, double scale) {
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
          "<svg xmlns=\"http://www.w3.org/2000/svg\" "
          "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" width=\"" +
-         number(width / mm) + "mm\" height=\"" + number(height / mm) + "mm\" viewBox=\"" + number(left) + ' ' +
-         number(top) + ' ' + number(width) + ' ' + number(height) + "\">\n<title>Floor plan, 1:" +
-         number(scale) + "</title>\n<rect" + attribute("x", left) + attribute("y", top) +
-         attribute("width", width) + attribute("height", height) + " fill=\"#fff\"/>\n" +
+         number(width / mm) + "mm\" height=\"" + number(height / mm) + "mm\" viewBox=\"" + number(left) +
+         ' ' + number(top) + ' ' + number(width) + ' ' + number(height) +
+         "\">\n<title>Floor plan, 1:" + number(scale) + "</title>\n<rect" + attribute("x", left) +
+         attribute("y", top) + attribute("width", width) + attribute("height", height) +
+         " fill=\"#fff\"/>\n" +
          layer("trajectory",
                "fill=\"none\" stroke=\"#c2410c\" stroke-linejoin=\"round\"" +
                    attribute("stroke-width", 0.25 * mm),

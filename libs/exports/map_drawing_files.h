@@ -12,8 +12,9 @@ namespace psi_slam {
 /// polylines on layer WALLS, open ones on layer TRAJECTORY. Outlines of two points become lines.
 std::string map_dxf(const MapDrawing& drawing);
 
-/// Returns the drawing as SVG that prints at 1:`scale`, with scale bar and axes below the map. The unit is one
-/// metre, and groups "walls" and "trajectory" use map coordinates; width and height are millimetres of paper.
+/// Returns the drawing as SVG that prints at 1:`scale`, with scale bar and axes below the map. The unit is
+/// one metre, and groups "walls" and "trajectory" use map coordinates; width and height are millimetres of
+/// paper.
 std::string map_svg(const MapDrawing& drawing, double scale);
 
 }  // namespace psi_slam

@@ -21,8 +21,7 @@ std::vector<std::vector<mrpt::math::TPose2D>> paths_of(const MappingResult& resu
   std::vector<std::vector<mrpt::math::TPose2D>> paths;
   for (const FrameSpan& run : runs_of(result)) {
     paths.emplace_back();
-    for (std::size_t i = run.begin; i < run.end; ++i)
-      paths.back().push_back(result.frames[i].map_T_robot);
+    for (std::size_t i = run.begin; i < run.end; ++i) paths.back().push_back(result.frames[i].map_T_robot);
   }
   return paths;
 }
@@ -57,9 +56,8 @@ void write_map_files(const fs::path& folder, const MappingResult& result,
   file(options.svg, "map.svg",
        [&](const fs::path& path) { write_text_atomically(path, map_svg(drawing, options.print_scale)); });
   file(options.dxf, "map.dxf", [&](const fs::path& path) { write_text_atomically(path, map_dxf(drawing)); });
-  file(options.print, "map_print.png", [&](const fs::path& path) {
-    write_text_atomically(path, print_map(grid, print_options(options)));
-  });
+  file(options.print, "map_print.png",
+       [&](const fs::path& path) { write_text_atomically(path, print_map(grid, print_options(options))); });
   file(options.geotiff, "map.tif", [&](const fs::path& path) { write_geo_tiff(path, grid, options.earth); });
 }
 

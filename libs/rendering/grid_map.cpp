@@ -227,8 +227,8 @@ class Evidence {
     }
   }
 
-  /// Steps along the longer axis of the line and evaluates `across` at the middle of each step, in fixed point
-  /// so that all machines choose the same cells.
+  /// Steps along the longer axis of the line and evaluates `across` at the middle of each step, in fixed
+  /// point so that all machines choose the same cells.
   void walk(double along0, double across0, double along1, double across1, std::int64_t along_stride,
             std::int64_t across_stride) {
     constexpr int kFractionBits = 32;

@@ -2,8 +2,8 @@
 // The map as lines for drawings: outlines of walls, and the robot's path.
 //
 // An outline passes through the centres of the outermost cells of a wall: returns lie anywhere in their cell,
-// so its centre is the surface to within half a cell. The outline of a wall one cell thick runs there and back
-// on the same line. A thick wall seen from both sides has an outline for each surface.
+// so its centre is the surface to within half a cell. The outline of a wall one cell thick runs there and
+// back on the same line. A thick wall seen from both sides has an outline for each surface.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -11,6 +11,8 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <vector>
+
+#include "rendering/map_image.h"
 
 namespace psi_slam {
 
@@ -32,6 +34,9 @@ struct DrawingExtent {
   double width_m() const { return x_max_m - x_min_m; }
   double height_m() const { return y_max_m - y_min_m; }
 };
+
+/// Returns the rectangle of the cells seen.
+DrawingExtent seen_extent(const mrpt::maps::COccupancyGridMap2D& grid, const SeenCells& seen);
 
 struct MapDrawing {
   std::vector<MapLine> walls;         ///< closed; a line of two points runs there and back

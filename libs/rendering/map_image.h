@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The grid map as a picture for people: dark walls, white free space, unknown space light grey or transparent.
+// The grid map as a picture for people: dark walls, white free space, unknown space light grey or
+// transparent.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -65,8 +66,8 @@ struct MapRaster {
 /// without scale bar.
 MapRaster map_raster(const mrpt::maps::COccupancyGridMap2D& grid, const MapPictureOptions& options);
 
-/// Draws the part of the grid that was seen. Equal grids give equal bytes. Throws SystemFailure if the picture
-/// cannot be encoded.
+/// Draws the part of the grid that was seen. Equal grids give equal bytes. Throws SystemFailure if the
+/// picture cannot be encoded.
 MapPicture map_picture(const mrpt::maps::COccupancyGridMap2D& grid, const MapPictureOptions& options = {});
 
 /// Writes `map_picture` atomically. Throws SystemFailure if the file cannot be written.

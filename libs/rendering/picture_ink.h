@@ -26,8 +26,8 @@ struct ScaleBarPlace {
   int unit = 6;    ///< height of the end marks; the bar's other sizes are proportional to it
 };
 
-/// Returns the length of the scale bar for a picture `width_m` wide with pixels of `resolution_m` metres: 1, 2
-/// or 5 times a power of ten, at most a fifth of the width.
+/// Returns the length of the scale bar for a picture `width_m` wide with pixels of `resolution_m` metres: 1,
+/// 2 or 5 times a power of ten, at most a fifth of the width.
 double scale_bar_m(double width_m, double resolution_m);
 
 /// Draws the scale bar with its length, followed by `note`.

@@ -26,8 +26,9 @@ namespace psi_slam {
 class OutputFolder {
  public:
   /// Creates the folder and its parents. An existing folder must be empty unless `force` is given; `force`
-  /// replaces the files of a run and keeps all others. Throws UserError if the folder is not empty, is a file,
-  /// or cannot be created or written to. Call it before mapping, so that the user sees the error at once.
+  /// replaces the files of a run and keeps all others. Throws UserError if the folder is not empty, is a
+  /// file, or cannot be created or written to. Call it before mapping, so that the user sees the error at
+  /// once.
   static OutputFolder prepare(const std::filesystem::path& path, bool force);
 
   const std::filesystem::path& path() const { return path_; }

@@ -74,7 +74,7 @@ std::string head(const std::string& title) {
          title + " – psi-slam</title>\n<style>" + kReportStyle + "</style>\n</head>\n";
 }
 
-constexpr const char* kKey = 
+constexpr const char* kKey =
     "<span class=\"key\"></span>mean<span class=\"key range\"></span>minimum to maximum";
 
 std::string response_key(const RunSummary& summary) {

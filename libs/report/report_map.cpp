@@ -50,8 +50,7 @@ Paths paths_of(const MappingResult& result, TPose2D FrameRecord::*pose, const Ma
     const FrameRecord& first = result.frames[run.begin];
     Path path;
     for (std::size_t i = run.begin; i < run.end; ++i)
-      path.push_back(
-          pixel_of(first.map_T_robot + (result.frames[i].*pose - first.*pose), picture));
+      path.push_back(pixel_of(first.map_T_robot + (result.frames[i].*pose - first.*pose), picture));
     paths.push_back(thinned(path));
   }
   return paths;
@@ -221,14 +220,16 @@ std::string report_map(const MappingResult& result, const mrpt::maps::COccupancy
 
   return "<div class=\"map\">\n" + toggles + "<div class=\"canvas\" style=\"aspect-ratio:" + width + '/' +
          height + "\">\n<svg id=\"map\" viewBox=\"" + view_box(picture, {}) +
-         "\" role=\"img\" aria-label=\"Map with trajectory and loops\">\n<image class=\"layer grid\" width=\"" +
+         "\" role=\"img\" aria-label=\"Map with trajectory and loops\">\n<image class=\"layer grid\" "
+         "width=\"" +
          width + "\" height=\"" + height + "\" href=\"data:image/png;base64," + base64(picture.png) +
          "\"/>\n" + path_layer("odometry", odometry) + path_layer("front-end", front_end) + loops +
          trajectory_layer(paths_of(result, &FrameRecord::map_T_robot, picture)) + scale_bar(picture) +
          "</svg>\n</div>\n<p class=\"legend\"><span class=\"ramp\"></span> trajectory from <b>start</b> to "
          "<b>end</b>. " +
          (sampled ? "Shows at most " + std::to_string(kMaxLoopsDrawn) + " loops of each kind. " : "") +
-         "<span class=\"hint\">Zoom with the wheel, drag to move, double-click to show everything.</span></p>\n"
+         "<span class=\"hint\">Zoom with the wheel, drag to move, double-click to show "
+         "everything.</span></p>\n"
          "</div>\n";
 }
 

@@ -88,7 +88,8 @@ std::string power_text(double value) {
 
 std::vector<Tick> decade_ticks(const Axes& axes, const std::function<std::string(double)>& label) {
   std::vector<Tick> ticks;
-  for (double value = axes.low; value <= axes.high * 1.001; value *= 10) ticks.push_back({value, label(value)});
+  for (double value = axes.low; value <= axes.high * 1.001; value *= 10)
+    ticks.push_back({value, label(value)});
   return ticks;
 }
 
@@ -224,7 +225,8 @@ std::string matcher_strip(const std::vector<FrameRecord>& frames, const Series& 
     if (!frame.matcher) continue;
     const double place =
         series.since_first(frame.time_us) / series.length_s * static_cast<double>(kStretches);
-    ++nodes[std::min(static_cast<std::size_t>(place), kStretches - 1)][static_cast<std::size_t>(*frame.matcher)];
+    ++nodes[std::min(static_cast<std::size_t>(place), kStretches - 1)]
+           [static_cast<std::size_t>(*frame.matcher)];
   }
   std::array<std::string, kMatcherKinds.size()> paths;
   // A stretch without nodes, where the robot stood still, repeats the stretch before.
@@ -265,17 +267,16 @@ std::string response_plot(const MappingResult& result) {
       closed += 'M' +
                 point(axes.x(series.since_first(result.frames.at(loop.frame).time_us)), kHeight - kBottom) +
                 "v-10";
-  return figure(
-      "Response of the front end over time",
-      plot_of(series, axes, {{0, "0"}, {0.25, "0.25"}, {0.5, "0.5"}, {0.75, "0.75"}, {1, "1"}}) +
-          "<path class=\"closed\" d=\"" + closed + "\"/>\n");
+  return figure("Response of the front end over time",
+                plot_of(series, axes, {{0, "0"}, {0.25, "0.25"}, {0.5, "0.5"}, {0.75, "0.75"}, {1, "1"}}) +
+                    "<path class=\"closed\" d=\"" + closed + "\"/>\n");
 }
 
 std::string psi_plot(const MappingResult& result) {
   const Series series(result.frames, [](const FrameRecord& frame) { return std::optional(frame.psi); });
   const double most = series.most(std::max(1.0, result.psi.psi_2));
-  // Psi is 0 while no loop was closed recently: it is drawn on the lowest line. Thresholds of 0 or less, which
-  // Psi always exceeds, are not drawn.
+  // Psi is 0 while no loop was closed recently: it is drawn on the lowest line. Thresholds of 0 or less,
+  // which Psi always exceeds, are not drawn.
   double least = 0.1;
   for (const double threshold : {result.psi.psi_1, result.psi.psi_2})
     if (threshold > 0) least = std::min(least, threshold / 10);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text files with one record per line and words separated by blanks: trajectories, relations, CARMEN logs. '#'
-// starts a comment, empty lines are skipped, and errors read "file:line: ...".
+// Text files with one record per line and words separated by blanks: trajectories, relations, CARMEN logs.
+// '#' starts a comment, empty lines are skipped, and errors read "file:line: ...".
 #pragma once
 
 #include <cstddef>

@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
-#include "rawlog_files.h"
 #include "../session/room_log.h"
 #include "app_run.h"
-#include "trajectory/trajectory_file.h"
+#include "rawlog_files.h"
 #include "temporary_folder.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -181,7 +181,7 @@ TEST_F(WrongInput, a_folder_that_is_not_empty_or_no_folder_at_all) {
 TEST_F(WrongInput, a_place_where_nothing_can_be_written) {
   const AppRun run = run_app({room_log(room_log_lines(5)), "-o", "/proc/psi-slam"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(one_sentence(run.err), HasSubstr("cannot make the output folder /proc/psi-slam"));
+  EXPECT_THAT(one_sentence(run.err), HasSubstr("cannot create the output folder /proc/psi-slam"));
 }
 
 TEST_F(WrongInput, a_full_disk) {

@@ -61,7 +61,7 @@ TEST(MrptMaps, mrpt_loads_the_grid_cell_by_cell) {
   EXPECT_EQ(read.getXMin(), grid.getXMin());
 }
 
-TEST(MrptMaps, the_same_map_gives_the_same_bytes_without_a_time_in_the_header) {
+TEST(MrptMaps, equal_maps_give_equal_bytes_without_a_time_in_the_header) {
   const TemporaryFolder folder;
   const MappingResult result = walk_around_the_room();
   write_simple_map(folder.path() / "a.gz", simple_map(result));

@@ -10,15 +10,15 @@
 #include <functional>
 #include <thread>
 
+#include "exports/run_summary.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/grid_map.h"
 #include "report/report_html.h"
-#include "exports/summary_json.h"
-#include "trajectory/trajectory_file.h"
 #include "room_log.h"
 #include "same_results.h"
 #include "temporary_folder.h"
 #include "test_files.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {

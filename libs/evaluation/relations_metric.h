@@ -55,7 +55,7 @@ struct ErrorSummary {
   double max = 0;
 };
 
-/// Computes the summary of `values`. Throws std::invalid_argument if there are none.
+/// Computes the summary of `values`. Throws std::invalid_argument if `values` is empty.
 ErrorSummary summarize(std::vector<double> values);
 
 struct RelationsMetric {

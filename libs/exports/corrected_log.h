@@ -14,6 +14,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "psi_slam/frame.h"
@@ -22,13 +23,11 @@
 namespace psi_slam {
 
 /// Writes the scans of `log` in their order, each with the pose of the same index in `map_T_robot`,
-/// atomically. Throws std::invalid_argument if the counts differ, SystemFailure if the file cannot be
-/// written.
+/// atomically. With `run`, writes only that run: between runs odometry jumps and times decrease, which
+/// readers of CARMEN logs do not expect. Throws std::invalid_argument if the counts differ, SystemFailure if
+/// the file cannot be written.
 void write_corrected_log(const std::filesystem::path& path, const std::vector<Frame>& log,
-                         const std::vector<mrpt::math::TPose2D>& map_T_robot);
-/// Writes the scans of one run only. Between runs odometry jumps and times decrease, which readers of CARMEN
-/// logs do not expect.
-void write_corrected_log(const std::filesystem::path& path, const std::vector<Frame>& log,
-                         const std::vector<mrpt::math::TPose2D>& map_T_robot, const FrameSpan& run);
+                         const std::vector<mrpt::math::TPose2D>& map_T_robot,
+                         const std::optional<FrameSpan>& run = std::nullopt);
 
 }  // namespace psi_slam

@@ -48,9 +48,9 @@ void write_map_files(const fs::path& folder, const MappingResult& result,
   file(options.png, "map.png", [&](const fs::path& path) { write_map_image(path, grid); });
   file(options.ros, "map.yaml", [&](const fs::path& path) { write_map_server_pair(path, grid); });
   if (!options.ros) remove("map.pgm");
-  file(options.mrpt, "map.gridmap.gz", [&](const fs::path& path) { write_grid_map(path, grid); });
+  file(options.mrpt, "map.gridmap.gz", [&](const fs::path& path) { write_mrpt_map(path, grid); });
   file(options.mrpt, "map.simplemap.gz",
-       [&](const fs::path& path) { write_simple_map(path, simple_map(result)); });
+       [&](const fs::path& path) { write_mrpt_map(path, simple_map(result)); });
   MapDrawing drawing;
   if (options.svg || options.dxf) drawing = draw_map_lines(grid, paths_of(result), options.lines);
   file(options.svg, "map.svg",

@@ -42,18 +42,14 @@ int dpi_that_fits(const MapRaster& raster, const MapPrintOptions& options) {
   return std::max(1, static_cast<int>(std::min<double>(options.dpi, dpi)));
 }
 
-struct Arrow {
-  cv::Point2d from;
-  double length = 0;
-  double direction_rad = 0;  // counter-clockwise from the x axis
-};
-
-void draw_arrow(cv::Mat& image, const Arrow& arrow, const std::string& name, double px_per_mm) {
+/// Draws an arrow in a direction counter-clockwise from the x axis, with its name at the tip.
+void draw_arrow(cv::Mat& image, const cv::Point2d& from, double length, double direction_rad,
+                const std::string& name, double px_per_mm) {
   const cv::Scalar ink = scalar_of(kWallInk);
-  const cv::Point2d direction(std::cos(arrow.direction_rad), -std::sin(arrow.direction_rad));
-  const cv::Point2d tip = arrow.from + arrow.length * direction;
+  const cv::Point2d direction(std::cos(direction_rad), -std::sin(direction_rad));
+  const cv::Point2d tip = from + length * direction;
   const int thick = std::max(1, static_cast<int>(std::lround(0.3 * px_per_mm)));
-  cv::arrowedLine(image, arrow.from, tip, ink, thick, cv::LINE_AA, 0, 0.25);
+  cv::arrowedLine(image, from, tip, ink, thick, cv::LINE_AA, 0, 0.25);
   const double font_scale = px_per_mm * 2.5 / 21;  // FONT_HERSHEY_DUPLEX has capitals 21 pixels high
   const cv::Size size = cv::getTextSize(name, cv::FONT_HERSHEY_DUPLEX, font_scale, thick, nullptr);
   const cv::Point2d middle = tip + 2.8 * px_per_mm * direction;
@@ -71,14 +67,14 @@ void add_footer(cv::Mat& image, const MapPrintOptions& options, double pixels_a_
   draw_scale_bar(image, {unit, middle, unit}, scale_bar_m(image.cols / pixels_a_m, 1 / pixels_a_m),
                  1 / pixels_a_m, "  1:" + shortest_text(static_cast<float>(options.scale)));
   const cv::Point2d corner(image.cols - 12 * px_per_mm, top + 11 * px_per_mm);
-  draw_arrow(image, {corner, 6 * px_per_mm, 0}, "x", px_per_mm);
-  draw_arrow(image, {corner, 6 * px_per_mm, M_PI / 2}, "y", px_per_mm);
+  draw_arrow(image, corner, 6 * px_per_mm, 0, "x", px_per_mm);
+  draw_arrow(image, corner, 6 * px_per_mm, M_PI / 2, "y", px_per_mm);
   if (options.north_rad) {
     const double length = 5 * px_per_mm;
     const cv::Point2d half(std::cos(*options.north_rad) * length / 2,
                            -std::sin(*options.north_rad) * length / 2);
     const cv::Point2d centre(image.cols - 24 * px_per_mm, top + 7 * px_per_mm);
-    draw_arrow(image, {centre - half, length, *options.north_rad}, "N", px_per_mm);
+    draw_arrow(image, centre - half, length, *options.north_rad, "N", px_per_mm);
   }
 }
 

@@ -2,8 +2,8 @@
 // Maps in MRPT's own formats, gzipped as its programs expect them. Equal maps give equal bytes.
 #pragma once
 
-#include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/serialization/CSerializable.h>
 
 #include <filesystem>
 
@@ -15,12 +15,8 @@ namespace psi_slam {
 /// placeholder that MRPT can invert, because the marginals of the graph are not computed.
 mrpt::maps::CSimpleMap simple_map(const MappingResult& result);
 
-/// Writes `map.simplemap.gz` for CSimpleMap::loadFromFile and MRPT's programs, atomically. Throws
-/// SystemFailure if the file cannot be written.
-void write_simple_map(const std::filesystem::path& path, const mrpt::maps::CSimpleMap& map);
-
-/// Writes `map.gridmap.gz`, the serialised grid for MRPT's programs, atomically. Throws SystemFailure if the
-/// file cannot be written.
-void write_grid_map(const std::filesystem::path& path, const mrpt::maps::COccupancyGridMap2D& grid);
+/// Writes a simple map or a grid map, serialised and gzipped, atomically. MRPT's programs and
+/// CSimpleMap::loadFromFile read it. Throws SystemFailure if the file cannot be written.
+void write_mrpt_map(const std::filesystem::path& path, const mrpt::serialization::CSerializable& map);
 
 }  // namespace psi_slam

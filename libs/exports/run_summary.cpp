@@ -109,18 +109,15 @@ Json number(double value, int decimals = 6) {
   return std::isfinite(rounded) ? rounded : value;
 }
 
-Json pose_json(const mrpt::math::TPose2D& pose) {
-  return {number(pose.x), number(pose.y), number(pose.phi)};
-}
-
 Json log_json(const MappedLogFacts& log, const std::string& name) {
+  const TPose2D& mount = log.robot_T_laser;
   return {{"name", name},
           {"scans", log.scans},
           {"beams", log.beams},
           {"first_bearing_rad", number(log.first_bearing_rad)},
           {"last_bearing_rad", number(log.last_bearing_rad)},
           {"max_range_m", number(log.max_range_m, 3)},
-          {"robot_T_laser", pose_json(log.robot_T_laser)},
+          {"robot_T_laser", {number(mount.x), number(mount.y), number(mount.phi)}},
           {"returns", number(log.returns, 4)},
           {"companion_scans", log.companion_scans},
           {"spare_scans", log.spare_scans},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/grid_map.h"
 
+#include <mrpt/math/TBoundingBox.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +15,7 @@ namespace psi_slam {
 namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
+using mrpt::math::TBoundingBox;
 using mrpt::math::TPose2D;
 
 constexpr int kHitEvidence = 3;
@@ -62,7 +65,14 @@ class RayMaker {
   };
 
   void cast(const LaserScan& scan, const TPose2D& map_T_robot, Laser& laser) const {
-    if (scan.bearings_rad != laser.bearings) use_bearings(scan.bearings_rad, laser);
+    if (scan.bearings_rad != laser.bearings) {
+      laser.bearings = scan.bearings_rad;
+      laser.directions.clear();
+      for (std::size_t i = 0; laser.bearings && i < laser.bearings->size(); ++i) {
+        const double angle = static_cast<double>((*laser.bearings)[i]);
+        laser.directions.push_back({std::cos(angle), std::sin(angle)});
+      }
+    }
     const std::size_t beams = scan.ranges_m.size();
     if (laser.directions.size() != beams)
       throw std::invalid_argument("draw_grid_map: " + std::to_string(beams) + " ranges but " +
@@ -85,45 +95,23 @@ class RayMaker {
     }
   }
 
-  static void use_bearings(const BeamBearings& bearings, Laser& laser) {
-    laser.bearings = bearings;
-    laser.directions.clear();
-    if (!bearings) return;
-    for (const float bearing : *bearings) {
-      const double angle = static_cast<double>(bearing);
-      laser.directions.push_back({std::cos(angle), std::sin(angle)});
-    }
-  }
-
   double max_range_m_;
   std::deque<Laser> lasers_;  // a deque, so that pointers to fans stay valid
   std::vector<const Fan*> fans_;
 };
 
-struct Bounds {
-  double x_min = std::numeric_limits<double>::infinity();
-  double y_min = std::numeric_limits<double>::infinity();
-  double x_max = -std::numeric_limits<double>::infinity();
-  double y_max = -std::numeric_limits<double>::infinity();
-
-  void include(const Point& point) {
-    x_min = std::min(x_min, point.x);
-    y_min = std::min(y_min, point.y);
-    x_max = std::max(x_max, point.x);
-    y_max = std::max(y_max, point.y);
-  }
-};
-
-Bounds bounds_of(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot, double max_range_m) {
+TBoundingBox bounds_of(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
+                       double max_range_m) {
   RayMaker maker(max_range_m);
-  Bounds bounds;
+  TBoundingBox bounds = TBoundingBox::PlusMinusInfinity();
+  const auto include = [&](const Point& point) { bounds.updateWithPoint({point.x, point.y, 0}); };
   for (std::size_t i = 0; i < log.size(); ++i) {
     for (const Fan* fan : maker.fans(log[i], map_T_robot[i])) {
-      for (const Ray& ray : fan->rays) bounds.include(ray.end);
-      bounds.include(fan->start);
+      for (const Ray& ray : fan->rays) include(ray.end);
+      include(fan->start);
     }
   }
-  if (log.empty()) bounds.include({0, 0});
+  if (log.empty()) include({0, 0});
   return bounds;
 }
 
@@ -136,14 +124,14 @@ struct Layout {
   std::int64_t height = 0;
 };
 
-Layout layout_for(const Bounds& bounds, const GridMapOptions& options) {
+Layout layout_for(const TBoundingBox& bounds, const GridMapOptions& options) {
   constexpr double kMinMarginCells = 2;  // the digital line of a ray may end one cell beside its end
   for (double resolution_m = options.resolution_m;; resolution_m *= 2) {
     const double margin = std::max(options.margin_m / resolution_m, kMinMarginCells);
-    const double x_min = std::floor(bounds.x_min / resolution_m - margin);
-    const double y_min = std::floor(bounds.y_min / resolution_m - margin);
-    const double width = std::ceil(bounds.x_max / resolution_m + margin) - x_min;
-    const double height = std::ceil(bounds.y_max / resolution_m + margin) - y_min;
+    const double x_min = std::floor(bounds.min.x / resolution_m - margin);
+    const double y_min = std::floor(bounds.min.y / resolution_m - margin);
+    const double width = std::ceil(bounds.max.x / resolution_m + margin) - x_min;
+    const double height = std::ceil(bounds.max.y / resolution_m + margin) - y_min;
     if (width * height > static_cast<double>(options.max_cells) && width * height > 100) continue;
     return {resolution_m, std::llround(x_min), std::llround(y_min), std::llround(width),
             std::llround(height)};
@@ -253,21 +241,16 @@ class Evidence {
   std::uint16_t scan_ = 0;
 };
 
-void check(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
-           const GridMapOptions& options) {
+}  // namespace
+
+COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
+                                       const GridMapOptions& options) {
   if (log.size() != map_T_robot.size())
     throw std::invalid_argument("draw_grid_map: " + std::to_string(log.size()) + " scans but " +
                                 std::to_string(map_T_robot.size()) + " poses");
   if (!(options.resolution_m > 0) || !(options.max_range_m > 0) || !(options.margin_m >= 0))
     throw std::invalid_argument(
         "draw_grid_map: resolution_m and max_range_m must be positive, margin_m must not be negative");
-}
-
-}  // namespace
-
-COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
-                                       const GridMapOptions& options) {
-  check(log, map_T_robot, options);
   Evidence evidence(layout_for(bounds_of(log, map_T_robot, options.max_range_m), options));
   RayMaker maker(options.max_range_m);
   for (std::size_t i = 0; i < log.size(); ++i) evidence.add_frame(maker.fans(log[i], map_T_robot[i]));

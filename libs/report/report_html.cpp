@@ -8,15 +8,6 @@
 namespace psi_slam {
 namespace {
 
-constexpr const char* kLogo =
-    "<svg viewBox=\"0 0 64 64\" aria-hidden=\"true\"><defs><linearGradient id=\"dusk\" x1=\"0\" y1=\"0\" "
-    "x2=\"1\" "
-    "y2=\"1\"><stop offset=\"0\" stop-color=\"#2f62eb\"/><stop offset=\".55\" stop-color=\"#8b4de6\"/><stop "
-    "offset=\"1\" stop-color=\"#e23e8c\"/></linearGradient></defs><rect width=\"64\" height=\"64\" rx=\"15\" "
-    "fill=\"url(#dusk)\"/><path d=\"M14 17c6 0 6 5 6 10 0 10 5 14 12 14s12-4 12-14c0-5 0-10 6-10M32 13v38M25 "
-    "51h14\" "
-    "fill=\"none\" stroke=\"#fff\" stroke-width=\"4.4\" stroke-linecap=\"round\"/></svg>";
-
 std::string files_list(std::size_t runs) {
   std::string list = "<ul class=\"files\">\n";
   const auto add = [&](const std::string& name, const std::string& what) {
@@ -102,7 +93,7 @@ std::string loops_card(const MappingResult& result, const LoopCounts& loops) {
 std::string report_html(const MappingResult& result, const RunInfo& info, const RunSummary& summary,
                         const mrpt::maps::COccupancyGridMap2D& grid) {
   const std::string name = escape_html(info.log_name.empty() ? "A run of psi-slam" : info.log_name);
-  std::string html = head(name) + "<body>\n<main>\n<header>" + kLogo + "<div><h1>" + name + "</h1><p>" +
+  std::string html = head(name) + "<body>\n<main>\n<header>" + kReportLogo + "<div><h1>" + name + "</h1><p>" +
                      story(info, summary) + "</p></div></header>\n";
   if (summary.broken_off)
     html += banner("The log breaks off: " + escape_html(*summary.broken_off) + ". This report covers the " +

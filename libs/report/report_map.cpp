@@ -31,27 +31,21 @@ std::string text(const Pixel& pixel) {
   return fixed_text(pixel.x, 1) + ',' + fixed_text(pixel.y, 1);
 }
 
-/// Keeps points at least 1.5 pixels apart, and the last one.
-Path thinned(const Path& path) {
-  constexpr double kStep_px = 1.5;
-  Path kept;
-  for (const Pixel& point : path)
-    if (kept.empty() || std::hypot(point.x - kept.back().x, point.y - kept.back().y) >= kStep_px)
-      kept.push_back(point);
-  if (path.size() > 1) kept.push_back(path.back());
-  return kept;
-}
-
-/// Paths of the poses of one frame of reference. Each run is moved to its start in the map, so that drift
-/// shows.
+/// Paths of the poses of one frame of reference, with points at least 1.5 pixels apart. Each run is moved to
+/// its start in the map, so that drift shows.
 Paths paths_of(const MappingResult& result, TPose2D FrameRecord::*pose, const MapPicture& picture) {
+  constexpr double kStep_px = 1.5;
   Paths paths;
   for (const FrameSpan& run : runs_of(result)) {
     const FrameRecord& first = result.frames[run.begin];
     Path path;
-    for (std::size_t i = run.begin; i < run.end; ++i)
-      path.push_back(pixel_of(first.map_T_robot + (result.frames[i].*pose - first.*pose), picture));
-    paths.push_back(thinned(path));
+    for (std::size_t i = run.begin; i < run.end; ++i) {
+      const Pixel point = pixel_of(first.map_T_robot + (result.frames[i].*pose - first.*pose), picture);
+      if (path.empty() || i + 1 == run.end ||
+          std::hypot(point.x - path.back().x, point.y - path.back().y) >= kStep_px)
+        path.push_back(point);
+    }
+    paths.push_back(std::move(path));
   }
   return paths;
 }

@@ -165,30 +165,26 @@ std::string band_and_mean(const Series& series, const Axes& axes) {
   return "<path class=\"band\" d=\"" + band + "\"/><path class=\"mean\" d=\"" + line + "\"/>\n";
 }
 
-struct LevelStyle {
-  std::string line;  // CSS classes
-  std::string label;
-  double label_x = 0;
-  int label_dy = 0;
-};
-
-/// A horizontal line across the plot with a label.
-std::string level(const Axes& axes, double value, const std::string& label, const LevelStyle& style) {
+/// A horizontal line across the plot, and its label at `label_x`, moved down by `label_dy`.
+std::string level(const Axes& axes, double value, const std::string& line_class, const std::string& label,
+                  const std::string& label_class, double label_x, int label_dy) {
   const std::string y = fixed_text(axes.y(value), 1);
-  return "<path class=\"" + style.line + "\" d=\"M" + fixed_text(kLeft, 0) + ',' + y + "H" +
-         fixed_text(kWidth - kRight, 0) + "\"/><text class=\"" + style.label + "\" x=\"" +
-         fixed_text(style.label_x, 0) + "\" y=\"" + y + "\" dy=\"" + std::to_string(style.label_dy) + "\">" +
+  return "<path class=\"" + line_class + "\" d=\"M" + fixed_text(kLeft, 0) + ',' + y + "H" +
+         fixed_text(kWidth - kRight, 0) + "\"/><text class=\"" + label_class + "\" x=\"" +
+         fixed_text(label_x, 0) + "\" y=\"" + y + "\" dy=\"" + std::to_string(label_dy) + "\">" +
          escape_html(label) + "</text>\n";
 }
 
-const LevelStyle kLimitNamedAtEnd{"limit", "limit", kWidth - kRight - 4, -5};
-const LevelStyle kLimitNamedAtStart{"limit", "limit early", kLeft + 4, -5};
+std::string limit_line(const Axes& axes, double value, const std::string& label, bool label_at_start) {
+  return label_at_start ? level(axes, value, "limit", label, "limit early", kLeft + 4, -5)
+                        : level(axes, value, "limit", label, "limit", kWidth - kRight - 4, -5);
+}
 
 /// Grid, labels of both axes, and the series.
 std::string plot_of(const Series& series, const Axes& axes, const std::vector<Tick>& value_ticks) {
   std::string svg;
   for (const Tick& tick : value_ticks)
-    svg += level(axes, tick.value, tick.label, {"rule", "value", kLeft - 8, 4});
+    svg += level(axes, tick.value, "rule", tick.label, "value", kLeft - 8, 4);
   for (const Tick& tick : time_ticks(axes.last_s))
     svg += "<text class=\"time\" x=\"" + fixed_text(axes.x(tick.value), 1) + "\" y=\"" +
            fixed_text(kHeight - 10, 0) + "\">" + escape_html(tick.label) + "</text>\n";
@@ -212,7 +208,7 @@ std::string duration_plot(const std::string& label, const Series& series, double
     return value >= 999 ? fixed_text(value / 1000, 0) + " s" : power_text(value) + " ms";
   });
   return figure(label, plot_of(series, axes, ticks) +
-                           (limit_ms > 0 ? level(axes, limit_ms, limit_text, kLimitNamedAtEnd) : ""));
+                           (limit_ms > 0 ? limit_line(axes, limit_ms, limit_text, false) : ""));
 }
 
 /// The strip below the plot: for each stretch of time, the share of nodes for which each matcher was in use.
@@ -285,7 +281,7 @@ std::string psi_plot(const MappingResult& result) {
   ticks.front().label = "≤ " + ticks.front().label;
   std::string svg = plot_of(series, axes, ticks);
   for (const auto& [name, threshold] : {std::pair("Ψ₁ = ", result.psi.psi_1), {"Ψ₂ = ", result.psi.psi_2}})
-    if (threshold > 0) svg += level(axes, threshold, name + trimmed_text(threshold, 2), kLimitNamedAtStart);
+    if (threshold > 0) svg += limit_line(axes, threshold, name + trimmed_text(threshold, 2), true);
   return figure("The factor Ψ over time", svg + matcher_strip(result.frames, series, axes));
 }
 

@@ -13,6 +13,7 @@
 
 namespace psi_slam {
 
+extern const char* const kReportLogo;    ///< SVG
 extern const char* const kReportStyle;   ///< CSS of the page
 extern const char* const kReportScript;  ///< zooms and moves the map; the page works without it
 

@@ -3,6 +3,12 @@
 
 namespace psi_slam {
 
+const char* const kReportLogo = R"svg(<svg viewBox="0 0 64 64" aria-hidden="true">
+<defs><linearGradient id="dusk" x1="0" y1="0" x2="1" y2="1"><stop offset="0" stop-color="#2f62eb"/><stop offset=".55" stop-color="#8b4de6"/><stop offset="1" stop-color="#e23e8c"/></linearGradient></defs>
+<rect width="64" height="64" rx="15" fill="url(#dusk)"/>
+<path d="M14 17c6 0 6 5 6 10 0 10 5 14 12 14s12-4 12-14c0-5 0-10 6-10M32 13v38M25 51h14" fill="none" stroke="#fff" stroke-width="4.4" stroke-linecap="round"/>
+</svg>)svg";
+
 const char* const kReportStyle = R"css(
 :root {
   color-scheme: light dark;

@@ -24,10 +24,11 @@ bool is_message_name(std::string_view word) {
   return word[0] >= 'A' && word[0] <= 'Z';
 }
 
-StampedPose plane_pose(const TextLine& line) {
-  return {line.time(0),
-          {line.finite_number(1, "x in metres"), line.finite_number(2, "y in metres"),
-           mrpt::math::wrapToPi(line.finite_number(3, "theta in radians"))}};
+/// Reads x, y and theta from three words in a row.
+StampedPose plane_pose(const TextLine& line, std::size_t stamp, std::size_t x) {
+  return {line.time(stamp),
+          {line.finite_number(x, "x in metres"), line.finite_number(x + 1, "y in metres"),
+           mrpt::math::wrapToPi(line.finite_number(x + 2, "theta in radians"))}};
 }
 
 StampedPose tum_pose(const TextLine& line) {
@@ -51,10 +52,7 @@ StampedPose flaser_pose(const TextLine& line) {
     throw line.error(
         "expected 'FLASER n', n ranges, two poses, time stamp, host and the logger's time stamp, found " +
         std::to_string(words) + " words, which does not match n");
-  const std::size_t x = 2 + ranges;
-  return {line.time(x + 6),
-          {line.finite_number(x, "x in metres"), line.finite_number(x + 1, "y in metres"),
-           mrpt::math::wrapToPi(line.finite_number(x + 2, "theta in radians"))}};
+  return plane_pose(line, 2 + ranges + 6, 2 + ranges);
 }
 
 }  // namespace
@@ -86,7 +84,7 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     } else if (line.words.size() == kTumWords) {
       trajectory.push_back(tum_pose(line));
     } else if (line.words.size() == kPlaneWords) {
-      trajectory.push_back(plane_pose(line));
+      trajectory.push_back(plane_pose(line, 0, 1));
     } else {
       throw line.error("expected 'timestamp x y theta' or 'timestamp tx ty tz qx qy qz qw', found " +
                        std::to_string(line.words.size()) + (line.words.size() == 1 ? " word" : " words"));

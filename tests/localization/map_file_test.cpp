@@ -27,7 +27,7 @@ TEST(MapFile, both_kinds_are_read_back_cell_by_cell_and_in_their_place) {
   const TemporaryFolder folder;
   const COccupancyGridMap2D map = small_map();
   write_map_server_pair(folder.path() / "map.yaml", map);
-  write_grid_map(folder.path() / "map.gridmap.gz", map);
+  write_mrpt_map(folder.path() / "map.gridmap.gz", map);
   for (const char* name : {"map.yaml", "map.gridmap.gz"}) {
     const COccupancyGridMap2D read = read_map_file(folder.path() / name);
     ASSERT_EQ(read.getSizeX(), map.getSizeX()) << name;
@@ -77,7 +77,7 @@ TEST(MapFile, cells_of_no_size_are_refused) {
 TEST(MapFile, counts_of_a_gridmap_are_not_believed) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "map.gridmap.gz";
-  write_grid_map(path, small_map());
+  write_mrpt_map(path, small_map());
   std::string whole;
   CompressedFile file(path);
   for (char byte = 0; file.read(&byte, 1) == 1;) whole += byte;

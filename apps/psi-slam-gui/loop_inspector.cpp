@@ -12,9 +12,9 @@
 #include <array>
 #include <utility>
 
-#include "exports/verdict_text.h"
 #include "loop_canvas.h"
 #include "main_menu.h"
+#include "psi_slam/loop_record.h"
 #include "view/palette.h"
 #include "wx_text.h"
 

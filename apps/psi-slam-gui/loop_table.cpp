@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "base/number_text.h"
-#include "exports/verdict_text.h"
+#include "psi_slam/loop_record.h"
 #include "view/loop_picture.h"
 
 namespace psi_slam {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Actions of the Edit menu: loops changed by hand.
 #include "base/number_text.h"
-#include "exports/verdict_text.h"
+#include "psi_slam/loop_record.h"
 #include "loop_inspector.h"
 #include "main_frame.h"
 #include "main_menu.h"

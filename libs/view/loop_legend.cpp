@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
-#include "exports/verdict_text.h"
+#include "psi_slam/loop_record.h"
 #include "view/loop_picture.h"
 #include "view/palette.h"
 

@@ -181,7 +181,7 @@ TEST_F(WrongInput, an_output_that_is_not_an_empty_folder) {
 TEST_F(WrongInput, an_unwritable_output) {
   const AppRun run = run_app({room_log(room_log_lines(5)), "-o", "/proc/psi-slam"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(one_sentence(run.err), HasSubstr("cannot make the output folder /proc/psi-slam"));
+  EXPECT_THAT(one_sentence(run.err), HasSubstr("cannot create the output folder /proc/psi-slam"));
 }
 
 TEST_F(WrongInput, a_full_disk) {

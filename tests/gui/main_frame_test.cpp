@@ -9,12 +9,13 @@
 #include <fstream>
 
 #include "../session/room_log.h"
-#include "exports/verdict_text.h"
+#include "psi_slam/loop_record.h"
 #include "gui_run.h"
 #include "loop_canvas.h"
 #include "loop_inspector.h"
 #include "map_canvas.h"
 #include "message_bar.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/mapping_session.h"
 #include "report/output_folder.h"
 #include "same_results.h"

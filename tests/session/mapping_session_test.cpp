@@ -10,7 +10,7 @@
 #include <functional>
 #include <thread>
 
-#include "exports/summary_json.h"
+#include "exports/run_summary.h"
 #include "psi_slam/frame_source.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/grid_map.h"

@@ -172,7 +172,8 @@ TEST_F(SettingsTest, rejects_equal_thresholds_of_psi) {
 TEST_F(SettingsTest, rejects_a_coordinate_system_that_is_not_in_metres) {
   EXPECT_EQ(refusal({"map.epsg=25832"}), "");
   EXPECT_THAT(refusal({"map.epsg=4326"}), HasSubstr("expected a projected system in metres"));
-  EXPECT_EQ(refusal({"map.epsg=99999"}), "map.epsg = 99999: there is no such coordinate system");
+  EXPECT_EQ(refusal({"map.epsg=99999"}),
+            "map.epsg = 99999: no such coordinate system. Give the EPSG number of a projected system in metres");
 }
 
 TEST_F(SettingsTest, seed_and_threads_of_the_run_reach_the_mapper) {

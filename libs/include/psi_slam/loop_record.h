@@ -6,6 +6,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,6 +25,17 @@ enum class LoopVerdict {
   kNotFound,     ///< no pose of the window scores high enough; anchor_T_node is the prediction
   kDeleted,      ///< deleted by a person
 };
+
+inline constexpr std::array<LoopVerdict, 6> kLoopVerdicts{LoopVerdict::kAccepted,    LoopVerdict::kPending,
+                                                          LoopVerdict::kRefused,     LoopVerdict::kSwitchedOff,
+                                                          LoopVerdict::kNotFound,    LoopVerdict::kDeleted};
+
+/// "accepted", "pending", "refused", "switched off", "not found" or "deleted".
+constexpr const char* verdict_text(LoopVerdict verdict) {
+  constexpr std::array<const char*, kLoopVerdicts.size()> kTexts{"accepted",     "pending",   "refused",
+                                                                 "switched off", "not found", "deleted"};
+  return kTexts[static_cast<std::size_t>(verdict)];
+}
 
 /// Why an attempt is not a constraint.
 struct LoopRefusal {

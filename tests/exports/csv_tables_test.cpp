@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "exports/frames_csv.h"
+#include "exports/csv_tables.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <sstream>
@@ -11,6 +11,9 @@
 namespace psi_slam {
 namespace {
 
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields;
   std::istringstream stream(line);
@@ -18,7 +21,7 @@ std::vector<std::string> split(const std::string& line) {
   return fields;
 }
 
-TEST(FramesCsv, has_a_row_for_each_scan_under_its_header) {
+TEST(FramesCsv, has_one_row_per_scan_below_the_header) {
   const MappingResult result = walk_around_the_room();
   std::istringstream text(frames_csv(result.frames));
   std::string line;
@@ -45,6 +48,32 @@ TEST(FramesCsv, has_a_row_for_each_scan_under_its_header) {
     EXPECT_NEAR(std::stod(row[column("loop_matching_ms")]), frame.loop_matching_ms, 1e-4);
   }
   EXPECT_FALSE(std::getline(text, line));
+}
+
+TEST(LoopsCsv, has_one_row_per_attempt_with_verdict_and_reason) {
+  const MappingResult result = walk_around_the_room();
+  std::istringstream text(loops_csv(result.loops));
+  std::string header;
+  std::string refused;
+  std::string accepted;
+  std::getline(text, header);
+  std::getline(text, refused);
+  std::getline(text, accepted);
+  EXPECT_THAT(
+      header,
+      StartsWith(
+          "frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,"));
+  EXPECT_THAT(refused,
+              StartsWith("25,5,0,0,refused,\"the response is too low: 0.41, minimum 0.55\",csm,0,0,"));
+  EXPECT_THAT(accepted, StartsWith("45,9,0,0,accepted,,csm,0,0,"));
+  EXPECT_THAT(accepted, HasSubstr(",0.010000,0.010000,0.010000,"));
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(accepted.begin(), accepted.end(), ','));
+  EXPECT_FALSE(std::getline(text, header));
+}
+
+TEST(CsvField, quotes_separators_and_quotes_only) {
+  EXPECT_EQ(csv_field("plain text"), "plain text");
+  EXPECT_EQ(csv_field("a,\"b\""), "\"a,\"\"b\"\"\"");
 }
 
 }  // namespace

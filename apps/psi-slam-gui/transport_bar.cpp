@@ -28,7 +28,8 @@ wxBitmapButton* button(wxWindow* parent, Icon icon, const char* tip, int command
 
 }  // namespace
 
-TransportBar::TransportBar(wxWindow* parent, std::function<void(std::size_t)> go_to) : wxPanel(parent) {
+TransportBar::TransportBar(wxWindow* parent, const std::function<void(std::size_t)>& go_to)
+    : wxPanel(parent) {
   play_ = button(this, Icon::kPlay, "Play or pause (Space)", kPlayOrPause);
   play_->SetName("play");
   step_ = button(this, Icon::kStep, "Map one more scan (.)", kStep);
@@ -41,7 +42,7 @@ TransportBar::TransportBar(wxWindow* parent, std::function<void(std::size_t)> go
                [this](wxCommandEvent&) { choose_command(*this, kSpeed + speed_->GetSelection()); });
   slider_ = new wxSlider(this, wxID_ANY, 0, 0, 1);
   slider_->SetToolTip("Drag back to show an earlier scan, forward to map up to a later scan");
-  const auto dragged = [this, go_to = std::move(go_to)](wxScrollEvent&) {
+  const auto dragged = [this, go_to](wxScrollEvent&) {
     go_to(static_cast<std::size_t>(slider_->GetValue()));
   };
   slider_->Bind(wxEVT_SCROLL_THUMBRELEASE, dragged);

@@ -24,7 +24,7 @@ class TransportBar : public wxPanel {
  public:
   /// Calls `go_to` with the scan that the slider was moved to, whether it is mapped or not. The other
   /// controls send the window's commands.
-  TransportBar(wxWindow* parent, std::function<void(std::size_t)> go_to);
+  TransportBar(wxWindow* parent, const std::function<void(std::size_t)>& go_to);
 
   /// `shown` is an earlier scan that is shown instead of the newest. The remaining time is the longer one of
   /// the mapper's work and of the log's duration at the given speed.

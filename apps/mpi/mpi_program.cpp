@@ -11,20 +11,21 @@
 
 #include "base/exit_code.h"
 #include "psi_slam/user_error.h"
+#include "run_program.h"
 
 namespace psi_slam {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether this process is another rank than the first of those that a starter of MPI jobs has started.
+/// True if a launcher of MPI jobs started this process as a rank other than 0.
 bool is_started_as_later_rank() {
   for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
     if (const char* const rank = std::getenv(variable); rank != nullptr) return std::string(rank) != "0";
   return false;
 }
 
-/// What the program says of itself; nothing when it is asked for something else.
+/// The text of --help, --version or a document; empty for other arguments.
 std::optional<std::string> words_of_itself(const MpiProgram& program,
                                            const std::vector<std::string>& arguments) {
   CLI::App app;
@@ -34,25 +35,16 @@ std::optional<std::string> words_of_itself(const MpiProgram& program,
     std::ostringstream words;
     app.exit(asked, words, words);
     return words.str();
-  } catch (const std::exception&) {  // told when MPI runs, by one rank
+  } catch (const std::exception&) {  // reported by rank 0 when MPI runs
   }
   return std::nullopt;
 }
 
 int run_rank_0(const MpiWorld& world, const MpiProgram& program, const std::vector<std::string>& arguments) {
   const Streams streams{std::cout, std::cerr, ::isatty(STDERR_FILENO) == 1};
-  try {
-    return program.run(world, arguments, streams);
-  } catch (const CLI::ParseError& error) {
-    streams.err << program.name << ": " << error.what() << " (see " << program.name << " --help)\n";
-    return kExitWrongUsageOrInput;
-  } catch (const UserError& error) {
-    streams.err << program.name << ": " << error.what() << '\n';
-    return kExitWrongUsageOrInput;
-  } catch (const std::exception& error) {
-    streams.err << program.name << ": " << error.what() << '\n';
-    return kExitFailed;
-  }
+  CLI::App app;
+  app.name(program.name);
+  return run_program(app, streams.out, streams.err, [&] { return program.run(world, arguments, streams); });
 }
 
 }  // namespace
@@ -77,7 +69,8 @@ fs::path program_beside(const std::string& name, const std::string& own_name) {
   const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& program : {folder / name, folder.parent_path() / name / name})
     if (fs::is_regular_file(program)) return program;
-  throw UserError(name + ", which does the runs, is not beside " + (folder / own_name).string());
+  throw UserError(name + ", which makes the runs, was not found: expected it beside " +
+                  (folder / own_name).string());
 }
 
 }  // namespace psi_slam

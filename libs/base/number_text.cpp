@@ -76,4 +76,12 @@ std::string exact_degrees_text(double radians) {
   return to_text(degrees, std::chars_format::scientific, kMaxDigits);
 }
 
+std::string trimmed_text(double value, int max_decimals) {
+  std::string text = fixed_text(value, max_decimals);
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
 }  // namespace psi_slam

@@ -125,18 +125,6 @@ FoundPeaks CorrelativeMatcher::find_peaks(const SearchLattice& lattice, const Pe
   return peaks;
 }
 
-const char* name(MatcherKind kind) {
-  switch (kind) {
-    case MatcherKind::kCsm:
-      return "csm";
-    case MatcherKind::kCsmGa:
-      return "csm_ga";
-    case MatcherKind::kGa:
-      return "ga";
-  }
-  throw std::invalid_argument("no such kind of matcher");
-}
-
 std::unique_ptr<Matcher> make_matcher(MatcherKind kind, const MatcherOptions& options,
                                       const GeneticOptions& genetic) {
   switch (kind) {

@@ -6,6 +6,7 @@
 
 #include "matching/genetic_options.h"
 #include "matching/window_matcher.h"
+#include "psi_slam/matching.h"
 
 namespace psi_slam {
 
@@ -19,14 +20,6 @@ class CorrelativeMatcher : public WindowMatcher {
  private:
   FoundPeaks find_peaks(const SearchLattice& lattice, const PeakRequest& request) const override;
 };
-
-enum class MatcherKind {
-  kCsm,    ///< "csm": CorrelativeMatcher
-  kCsmGa,  ///< "csm_ga": ranks coarse cells exhaustively, searches the best of them genetically
-  kGa,     ///< "ga": searches the whole window genetically
-};
-
-const char* name(MatcherKind kind);
 
 std::unique_ptr<Matcher> make_matcher(MatcherKind kind, const MatcherOptions& options,
                                       const GeneticOptions& genetic);

@@ -7,14 +7,9 @@
 // cells cover W.
 #pragma once
 
-namespace psi_slam {
+#include "psi_slam/matching.h"
 
-/// Half-widths of the region searched around a predicted pose.
-struct SearchExtent {
-  double x_m = 0;
-  double y_m = 0;
-  double theta_rad = 0;
-};
+namespace psi_slam {
 
 /// Steps that cover a SearchExtent: cell c is x0 + (c - n_x) r_t with c = 0 .. 2 n_x. Exhaustive searches
 /// include both borders; the chromosome of equation 9 has no last column.

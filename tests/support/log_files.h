@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes small logs for tests and reads them back.
+// Test helpers that write small logs and read them back.
 #pragma once
 
 #include <filesystem>

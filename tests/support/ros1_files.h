@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes recordings as ROS 1 bags, by the specification. write_ros1_bag.py makes bags with the library of
-// ROS.
+// Test helpers that write recordings as ROS 1 bags, by the specification. write_ros1_bag.py uses ROS's
+// library.
 #pragma once
 
 #include <bzlib.h>
@@ -60,8 +60,8 @@ inline std::string ros1_message(const Recorded& message) {
 
 struct Ros1Layout {
   std::string compression = "none";  ///< "none", "bz2" or "lz4"
-  std::size_t messages_a_chunk = 7;
-  bool is_closed = true;  ///< false: as left by a recorder that was killed
+  std::size_t messages_per_chunk = 7;
+  bool is_closed = true;  ///< false: the recorder was killed
 };
 
 class Ros1Writer {
@@ -80,7 +80,7 @@ class Ros1Writer {
     }
     chunk_ += record({{"op", "\x02"}, {"conn", number}, {"time", ros1_time(time_of(message))}},
                      ros1_message(message));
-    if (++in_chunk_ >= layout_.messages_a_chunk) end_chunk();
+    if (++in_chunk_ >= layout_.messages_per_chunk) end_chunk();
   }
 
   std::string finish() {

@@ -8,8 +8,8 @@
 
 namespace psi_slam {
 
-/// A file in the data folder of the benchmark, named by the environment variable PSI_SLAM_DATA. Empty if the
-/// variable is not set or the file is missing; then tests use `GTEST_SKIP() << kNeedsData`.
+/// Path of a file in the folder of benchmark logs, which the environment variable PSI_SLAM_DATA names. Empty
+/// if the variable is not set or the file does not exist. Tests then call `GTEST_SKIP() << kNeedsData`.
 inline std::optional<std::filesystem::path> shared_file(const std::string& name) {
   const char* folder = std::getenv("PSI_SLAM_DATA");
   if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / name))

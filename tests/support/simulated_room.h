@@ -82,7 +82,9 @@ inline MappingResult walk_around_the_room(int scans = 50) {
     if (i % 5 == 0) {
       record.node = result.node_frames.size();
       record.loops_tried = 1;
-      record.matcher = record.psi < 2 ? "csm" : record.psi < 6 ? "csm_ga" : "ga";
+      record.matcher = record.psi < 2   ? MatcherKind::kCsm
+                       : record.psi < 6 ? MatcherKind::kCsmGa
+                                        : MatcherKind::kGa;
       record.loop_evaluations = 40;
       record.loop_matching_ms = 3.5;
       record.loop_closing_ms = 4;
@@ -96,7 +98,6 @@ inline MappingResult walk_around_the_room(int scans = 50) {
   LoopRecord accepted;
   accepted.node = result.node_frames.size() - 1;
   accepted.frame = result.node_frames.back();
-  accepted.matcher = "csm";
   accepted.anchor_T_node = result.frames[accepted.frame].map_T_robot - result.frames[0].map_T_robot;
   accepted.covariance = Eigen::Matrix3d::Identity() * 1e-4;
   accepted.response = 0.83;
@@ -107,11 +108,11 @@ inline MappingResult walk_around_the_room(int scans = 50) {
   refused.frame = result.node_frames[5];
   refused.response = 0.41;
   refused.verdict = LoopVerdict::kRefused;
-  refused.reason = "response 0.41 is below 0.55";
+  refused.refusal = LoopRefusal{LoopRefusal::Reason::kLowResponse, 0.41, 0.55};
   result.loops = {refused, accepted};
   result.frames[accepted.frame].loops_accepted = 1;
-  result.loop_matchers["csm"] = {{12, 2, 600, 45.25}, {2, 0, 200, 10.25}, 1, 0};
-  result.psi = {2, 6, 20, 20};
+  result.loop_matchers[MatcherKind::kCsm] = {{12, 2, 600, 45.25}, {2, 0, 200, 10.25}, 1, 0};
+  result.psi = {2, 6};
   result.stages = {{"match scan to local map", 50, 1.5, 0.2, 1.1, 2.4, 0.075},
                    {"close loops", 10, 4, 1, 2, 9, 0.04}};
   result.wall_s = 0.5;

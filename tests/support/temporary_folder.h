@@ -9,7 +9,7 @@
 
 namespace psi_slam {
 
-/// A new empty folder that is removed with its contents at the end of the scope.
+/// Creates an empty folder and deletes it with its contents at the end of the scope.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

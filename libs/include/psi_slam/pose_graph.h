@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pose graph: the poses of the nodes, and the measured relative poses between them (equations 3 to 6).
-//
-// The graph uses flat arrays, because MRPT's CNetworkOfPoses2DInf has no place for the kind, kernel and
-// switch of an edge. The deciders for MRPT's graph-slam engine convert it.
+/// @file
+/// The pose graph: the poses of the nodes, and the measured relative poses between them (equations 3 to 6).
+///
+/// The graph uses flat arrays, because MRPT's CNetworkOfPoses2DInf has no place for the kind, kernel and
+/// switch of an edge. The deciders for MRPT's graph-slam engine convert it.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -19,6 +20,7 @@ namespace psi_slam {
 /// s = e^T Omega e, so that a false constraint cannot bend the whole map. All kernels approach rho(s) = s for
 /// small s.
 struct RobustKernel {
+  /// Form of the cost.
   enum class Type {
     kNone,            ///< rho(s) = s
     kHuber,           ///< grows as sqrt(s) beyond the width; convex in the error
@@ -27,8 +29,8 @@ struct RobustKernel {
     kGemanMcClure,    ///< bounded by width^2; kernel of graduated non-convexity (Yang et al., RA-L 2020)
   };
 
-  Type type = Type::kNone;
-  double width = 1;  ///< > 0, in standard deviations, the unit of sqrt(e^T Omega e)
+  Type type = Type::kNone;  ///< form of the cost
+  double width = 1;         ///< > 0, in standard deviations, the unit of sqrt(e^T Omega e)
 
   /// rho(chi2), chi2 >= 0.
   double cost(double chi2) const;
@@ -39,6 +41,7 @@ struct RobustKernel {
 
 /// One measured relative pose between two nodes of a pose graph: one edge, one term of equation 5.
 struct Constraint {
+  /// Origin of the measurement.
   enum class Kind {
     kOdometry,  ///< between successive nodes
     kLocalMap,  ///< from the anchor of a local map to a node whose scan the map holds
@@ -46,24 +49,29 @@ struct Constraint {
     kLoop,      ///< from a recognised place; only this kind can be entirely false
   };
 
-  std::size_t from = 0;
-  std::size_t to = 0;
+  std::size_t from = 0;           ///< node in whose frame the other is measured
+  std::size_t to = 0;             ///< measured node
   mrpt::math::TPose2D from_T_to;  ///< metres, radians
   /// Inverse covariance of (x, y, theta) of from_T_to, in the axes of `from`: 1/m^2, 1/(m rad), 1/rad^2.
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
-  Kind kind = Kind::kOdometry;
+  Kind kind = Kind::kOdometry;         ///< origin of the measurement
   std::optional<RobustKernel> kernel;  ///< replaces the solver's kernel for this kind
 };
 
 /// Symmetric 3x3 covariance of (x, y, theta): m^2, m rad, rad^2.
 struct PoseCovariance {
-  double xx = 0, xy = 0, xt = 0, yy = 0, yt = 0, tt = 0;
+  double xx = 0;  ///< variance of x, m^2
+  double xy = 0;  ///< covariance of x and y, m^2
+  double xt = 0;  ///< covariance of x and theta, m rad
+  double yy = 0;  ///< variance of y, m^2
+  double yt = 0;  ///< covariance of y and theta, m rad
+  double tt = 0;  ///< variance of theta, rad^2
 };
 
 /// The part of a constraint that graph searches read, packed for them.
 struct GraphLink {
-  std::uint32_t from = 0;
-  std::uint32_t to = 0;
+  std::uint32_t from = 0;     ///< node where the constraint begins
+  std::uint32_t to = 0;       ///< node where the constraint ends
   PoseCovariance covariance;  ///< of from_T_to in the axes of `from`; infinite if the information is singular
 };
 
@@ -82,22 +90,31 @@ class PoseGraph {
   /// Switches a constraint on or off. Solvers and searches ignore a constraint that is off; it keeps its
   /// number.
   void set_enabled(std::size_t constraint, bool enabled) { enabled_.at(constraint) = enabled ? 1 : 0; }
+  /// Whether a constraint is switched on.
   bool enabled(std::size_t constraint) const { return enabled_.at(constraint) != 0; }
 
+  /// Chooses the node whose pose the solver holds.
   void set_root(std::size_t node);
+  /// Number of the node whose pose the solver holds.
   std::size_t root() const { return root_; }
 
+  /// Number of nodes.
   std::size_t num_nodes() const { return poses_.size(); }
+  /// Number of constraints, enabled or not.
   std::size_t num_constraints() const { return constraints_.size(); }
+  /// Number of constraints that are switched on.
   std::size_t num_enabled_constraints() const;
 
   /// Pose of a node in the map frame: metres, radians in (-pi, pi].
   const mrpt::math::TPose2D& pose(std::size_t node) const { return poses_.at(node); }
   /// Wraps the heading to (-pi, pi]. Throws std::invalid_argument if the pose is not finite.
   void set_pose(std::size_t node, const mrpt::math::TPose2D& map_T_node);
+  /// Poses of all nodes in the map frame.
   const std::vector<mrpt::math::TPose2D>& poses() const { return poses_; }
 
+  /// A constraint by its number.
   const Constraint& constraint(std::size_t index) const { return constraints_.at(index); }
+  /// All constraints, enabled or not.
   const std::vector<Constraint>& constraints() const { return constraints_; }
   /// One link per constraint, enabled or not.
   const std::vector<GraphLink>& links() const { return links_; }

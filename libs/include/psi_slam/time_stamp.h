@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time stamps: integer microseconds since the epoch of the log, usually Unix time. The benchmark identifies
-// scans by them, so the conversion to decimal seconds in text and back is exact.
+/// @file
+/// Time stamps: integer microseconds since the epoch of the log, usually Unix time. The benchmark identifies
+/// scans by them, so the conversion to decimal seconds in text and back is exact.
 #pragma once
 
 #include <cstdint>

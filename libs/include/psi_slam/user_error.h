@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Exceptions of the library.
 #pragma once
 
 #include <stdexcept>

@@ -26,11 +26,10 @@ SumKernel sum_kernel_for(InstructionSet set) {
 }
 
 SumKernel sum_kernel() {
-  static const SumKernel kernel = [] {
-    for (const InstructionSet set : {InstructionSet::kAvx512, InstructionSet::kAvx2})
-      if (machine_has(set)) return sum_kernel_for(set);
-    return sum_kernel_baseline();
-  }();
+  static const SumKernel kernel =
+      sum_kernel_for(machine_has(InstructionSet::kAvx512) ? InstructionSet::kAvx512
+                     : machine_has(InstructionSet::kAvx2) ? InstructionSet::kAvx2
+                                                          : InstructionSet::kBaseline);
   return kernel;
 }
 

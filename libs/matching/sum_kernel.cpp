@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/sum_kernel.h"
 
+#include <initializer_list>
+
 namespace psi_slam {
 namespace {
 

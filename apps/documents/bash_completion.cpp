@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bash_completion.h"
-
 #include <map>
 
 #include "command_words.h"
+#include "document_options.h"
 
 namespace psi_slam {
 namespace {
 
-/// Finds the word to complete, the option before it, and the command among the words before. Bash breaks
-/// words at
-/// "=" and ":", where ours go on: the line is read anew, and what bash thinks is done already is cut off the
-/// answers.
+/// Finds the word to complete, the option before it, and the command among the words before it. Bash splits
+/// words at "=" and ":", which are part of ours. So the script splits the line again, and removes from its
+/// answers what bash has already.
 constexpr const char* kBegin = R"(@FUNCTION@_answer() {
   local answer
   while IFS= read -r answer; do
@@ -57,7 +55,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-/// The commands' names with blanks in between; option names of the commands and of the program with values.
+/// Names of all commands, separated by blanks.
 std::string command_names(const CLI::App& app) {
   std::string names;
   for (const CLI::App* command : shown_commands(app))
@@ -101,7 +99,7 @@ std::string answer_for(WordKind kind, const std::string& function) {
   return ":";
 }
 
-/// A branch of `case "$command $previous" in` for each kind of value, by the options that take it.
+/// Branches of `case "$command $previous" in`, one for each kind of value.
 std::string value_branches(const CLI::App& app, const std::string& command, const std::string& function) {
   std::map<WordKind, std::vector<std::string>> patterns;
   for (const CLI::Option* option : shown_options(app))
@@ -114,7 +112,7 @@ std::string value_branches(const CLI::App& app, const std::string& command, cons
   return text;
 }
 
-/// What may be where no option waits for its value: options after a dash, else commands and files.
+/// Branches for a word that is no option's value: options after a dash, else commands and files.
 std::string word_branches(const CLI::App& app, const std::string& command) {
   std::vector<std::string> options;
   for (const CLI::Option* option : shown_options(app))
@@ -129,7 +127,7 @@ std::string word_branches(const CLI::App& app, const std::string& command) {
   return text + "      fi\n      ;;\n";
 }
 
-/// The function that completes SECTION.KEY=VALUE.
+/// Shell function that completes SECTION.KEY=VALUE.
 std::string setting_function(const OptionTable& settings, const std::string& function) {
   std::vector<std::string> keys;
   std::map<std::string, std::vector<std::string>> keys_of_values;
@@ -156,7 +154,7 @@ std::string setting_function(const OptionTable& settings, const std::string& fun
 
 std::string bash_completion(const CLI::App& app, const OptionTable* settings) {
   const std::string function = '_' + replaced(app.get_name(), "-", "_");
-  std::string script = "# bash completion for " + app.get_name() + ", made from its command line\n\n";
+  std::string script = "# bash completion for " + app.get_name() + ", generated from its command line\n\n";
   if (settings != nullptr) script += setting_function(*settings, function);
   script += replaced(replaced(kBegin, "@COMMANDS@", command_names(app)), "@TAKE_VALUES@",
                      joined(names_with_values(app), " "));

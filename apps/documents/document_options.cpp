@@ -5,14 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "bash_completion.h"
-#include "man_page.h"
-
 namespace psi_slam {
 namespace {
 
 void add_hidden(CLI::App& app, const std::string& name, std::function<std::string()> text) {
-  // CLI11 ends what it prints for --version with a line's end.
+  // CLI11 adds a line end to the text of --version, so the document's own is removed.
   app.add_flag_callback(name,
                         [text = std::move(text)] {
                           std::string document = text();

@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hidden options of every program that print what is installed beside it.
+// Documents that are installed beside a program: manual pages and shell completion, made from the definition
+// of its command line and from its options.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <string>
 
 #include "config/option_table.h"
 
 namespace psi_slam {
 
-/// Adds --man-page and --bash-completion and, where there are `settings`, --settings-man-page. They are in no
-/// help. Given, they end the parsing as --version does, with their text. `app` must outlive the parsing.
+/// Adds the hidden options --man-page, --bash-completion and, if `settings` are given, --settings-man-page.
+/// Each prints its document and ends the program, as --version does. `app` must outlive the parsing.
 void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings = nullptr);
+
+/// Manual page of a program. The description of `app` must complete the sentence "NAME is a program that";
+/// its first clause becomes the line of the section NAME.
+std::string man_page(const CLI::App& app);
+
+/// Manual page psi-slam.ini(5) of the settings files; `version` is that of the programs.
+std::string settings_man_page(const OptionTable& table, const std::string& version);
+
+/// Completion script for bash, and for zsh through its bashcompinit. Completes commands, options, files,
+/// folders, and the keys and values of `settings` after --set. It needs only bash 4.
+std::string bash_completion(const CLI::App& app, const OptionTable* settings);
 
 }  // namespace psi_slam

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "man_page.h"
-
 #include <algorithm>
 #include <cctype>
 #include <sstream>
 
 #include "command_words.h"
 #include "config/ini_file.h"
+#include "document_options.h"
 #include "roff_text.h"
 
 namespace psi_slam {
@@ -23,7 +22,7 @@ std::string heading(const std::string& name, int section, const std::string& ver
          roff_text(version) + "\" \"" + manual + "\"\n";
 }
 
-/// The first clause of the description, without the program's name.
+/// First clause of the description, without the program's name.
 std::string in_a_line(const CLI::App& app) {
   std::string text = app.get_description();
   const std::string name = app.get_name() + ' ';
@@ -106,7 +105,7 @@ std::string man_page(const CLI::App& app) {
   page += commands(app);
   page += roff_section("EXIT STATUS") + roff_item("0", "Success.") +
           roff_item("1", "The system failed: a full disk, no memory, no display.") +
-          roff_item("2", "The user has to mend something: the arguments, the settings or the log.");
+          roff_item("2", "The arguments, the settings or the log are invalid.");
   page += footer(app);
   return page + roff_section("SEE ALSO") + see_also(name);
 }
@@ -118,11 +117,10 @@ std::string settings_man_page(const OptionTable& table, const std::string& versi
       roff_section("DESCRIPTION") +
       roff_text(
           "A settings file has sections in brackets and lines KEY = VALUE. Comments begin with a semicolon, "
-          "or with "
-          "a hash at the start of a line or after a space. What a file leaves out keeps its default; lines "
-          "include = FILE before the first section take another file's values, which this one may override. "
-          "Unknown keys and values out of range are refused.") +
-      "\n" + roff_bold("psi-slam --dump-config") + '\n' + roff_text("prints a file with every option;") +
+          "or with a hash at the start of a line or after a space. Options that a file leaves out keep their "
+          "defaults. A line include = FILE before the first section takes the values of another file, which "
+          "this file may override. Unknown keys and values out of range are errors.") +
+      "\n" + roff_bold("psi-slam --dump-config") + '\n' + roff_text("prints a file with every option.") +
       '\n' + roff_bold("--set SECTION.KEY=VALUE") + '\n' + roff_text("changes one option for one run.") +
       '\n';
   for (const OptionSection& section : table.sections()) {

@@ -1,39 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "roff_text.h"
 
+#include <map>
+
 namespace psi_slam {
 
 std::string roff_text(std::string_view text) {
+  static const std::map<char, const char*> kEscapes{{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
+                                                    {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"},
+                                                    {'"', "\\(dq"}};
   std::string roff;
   bool line_begins = true;
   for (const char c : text) {
     if (line_begins && (c == '.' || c == '\'')) roff += "\\&";
     line_begins = c == '\n';
-    switch (c) {
-      case '\\':
-        roff += "\\e";
-        break;
-      case '-':
-        roff += "\\-";
-        break;
-      case '\'':
-        roff += "\\(aq";
-        break;
-      case '`':
-        roff += "\\(ga";
-        break;
-      case '^':
-        roff += "\\(ha";
-        break;
-      case '~':
-        roff += "\\(ti";
-        break;
-      case '"':
-        roff += "\\(dq";
-        break;
-      default:
-        roff += c;
-    }
+    const auto escape = kEscapes.find(c);
+    roff += escape == kEscapes.end() ? std::string(1, c) : escape->second;
   }
   return roff;
 }

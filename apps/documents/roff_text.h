@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text for manual pages, in the language of troff.
+// Text of manual pages in the language of troff.
 #pragma once
 
 #include <string>
@@ -7,22 +7,22 @@
 
 namespace psi_slam {
 
-/// Plain text of one or more lines as it is to be read: what troff would take for its own is escaped.
+/// Plain text of one or more lines, with the characters that troff interprets escaped.
 std::string roff_text(std::string_view text);
 
-/// Between \fB and \fR: as it is to be typed.
+/// Bold text, which the user types as it is.
 std::string roff_bold(std::string_view text);
 
-/// Between \fI and \fR: what is to be replaced.
+/// Italic text, which the user replaces.
 std::string roff_italic(std::string_view text);
 
-/// ".SH NAME", with the line's end.
+/// ".SH TITLE" and a line end.
 std::string roff_section(std::string_view title);
 
-/// A paragraph with a hanging tag; both are troff already.
+/// A paragraph with a hanging tag. `tag` and `text` are in troff already.
 std::string roff_item(const std::string& tag, const std::string& text);
 
-/// Lines shown as they are, indented.
+/// Indented lines that are not filled.
 std::string roff_example(std::string_view text);
 
 }  // namespace psi_slam

@@ -11,6 +11,7 @@
 
 #include "base/exit_code.h"
 #include "psi_slam/user_error.h"
+#include "run_program.h"
 
 namespace psi_slam {
 namespace {
@@ -41,18 +42,9 @@ std::optional<std::string> words_of_itself(const MpiProgram& program,
 
 int run_rank_0(const MpiWorld& world, const MpiProgram& program, const std::vector<std::string>& arguments) {
   const Streams streams{std::cout, std::cerr, ::isatty(STDERR_FILENO) == 1};
-  try {
-    return program.run(world, arguments, streams);
-  } catch (const CLI::ParseError& error) {
-    streams.err << program.name << ": " << error.what() << " (see " << program.name << " --help)\n";
-    return kExitWrongUsageOrInput;
-  } catch (const UserError& error) {
-    streams.err << program.name << ": " << error.what() << '\n';
-    return kExitWrongUsageOrInput;
-  } catch (const std::exception& error) {
-    streams.err << program.name << ": " << error.what() << '\n';
-    return kExitFailed;
-  }
+  CLI::App app;
+  app.name(program.name);
+  return run_program(app, streams.out, streams.err, [&] { return program.run(world, arguments, streams); });
 }
 
 }  // namespace

@@ -3,18 +3,17 @@
 
 #include <atomic>
 #include <filesystem>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "closing_text.h"
-#include "decider_listing.h"
-#include "graphslam_command_line.h"
-#include "interrupt_signals.h"
 #include "base/atomic_file.h"
 #include "base/exit_code.h"
-#include "psi_slam/user_error.h"
+#include "closing_text.h"
+#include "graphslam_command_line.h"
+#include "interrupt_signals.h"
 #include "mrpt/graphslam_settings.h"
+#include "psi_slam/user_error.h"
+#include "run_program.h"
 
 namespace psi_slam {
 namespace {
@@ -23,6 +22,17 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kName = "psi-graphslam";
+
+std::string decider_listing(const std::string& heading, const std::vector<DeciderDescription>& deciders) {
+  std::string text = heading + "\n";
+  for (const DeciderDescription& decider : deciders) {
+    text += "  " + decider.name + (decider.is_ours ? " (psi-slam)" : " (MRPT)") + '\n';
+    text += "      " + decider.description + '\n';
+    if (!decider.rawlog_format.empty()) text += "      rawlog format: " + decider.rawlog_format + '\n';
+    for (const std::string& observation : decider.observations) text += "      uses " + observation + '\n';
+  }
+  return text;
+}
 
 void list_deciders(const GraphSlamCommandLine& line, std::ostream& out) {
   const DeciderCatalogue catalogue;
@@ -56,25 +66,24 @@ Json summary_of(const GraphSlamRun& run, const GraphSlamSetup& setup) {
           {"broken_off", run.broken_off() ? Json(*run.broken_off()) : Json()}};
 }
 
-/// All steps and the end of the log, until a signal comes: then only what the map needs.
+/// Maps the log to its end. After a signal, only makes the map of what was read.
 void make_map(GraphSlamRun& run, const std::atomic<bool>& stop, std::ostream& err) {
   while (!stop && run.step()) {
   }
-  bool told = false;
-  const auto go_on = [&] {
-    if (stop && !told) err << kName << ": " << interrupted_text(run.scans()) << std::endl;
-    told = stop;
+  bool reported = false;
+  const auto goes_on = [&] {
+    if (stop && !reported) err << kName << ": " << interrupted_text(run.scans()) << std::endl;
+    reported = stop;
     return !stop;
   };
-  go_on();
-  run.finish([&](double /*share*/) { return go_on(); });
+  goes_on();
+  run.finish([&](double /*share*/) { return goes_on(); });
 }
 
-/// What the user should know of the log, on the error stream.
-void tell_of_log(const GraphSlamRun& run, std::ostream& err) {
+void print_warnings_of_log(const GraphSlamRun& run, std::ostream& err) {
   if (2 * run.unmatched_scans() > run.scans())
     err << kName << ": " << run.unmatched_scans() << " of " << run.scans()
-        << " scans could not be matched, odometry stands for them: where ranges are noisy, raise "
+        << " scans could not be matched and are placed by odometry. If the ranges are noisy, raise "
            "local_maps.smoothing_sigma_m to their noise and lower front_end.min_response\n";
   if (run.broken_off()) err << kName << ": " << broken_off_text(*run.broken_off(), run.scans()) << '\n';
 }
@@ -89,12 +98,16 @@ void map_and_write(GraphSlamRun& run, const GraphSlamSetup& setup, const fs::pat
                         summary_of(run, setup).dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
   out << run.scans() << " scans, " << run.graph().nodes.size() << " nodes, " << run.graph().edges.size()
       << " edges; results in " << folder.path().string() << std::endl;
-  tell_of_log(run, err);
+  print_warnings_of_log(run, err);
 }
 
 int map(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) {
   const GraphSlamGeneral general = read_graphslam_general(line.setup.ini);
-  GraphSlamRun run(line.setup, DeciderCatalogue());
+  BoundSettings bound;
+  load_graphslam_settings(line.setup.ini, bound);
+  for (const std::string& warning : bound.table.take_warnings()) err << kName << ": " << warning << '\n';
+  const auto owned_run = make_graphslam_run(line.setup, DeciderCatalogue());
+  GraphSlamRun& run = *owned_run;
   map_and_write(run, line.setup, line.output.empty() ? general.output_dir_fname : line.output, line.force,
                 out, err);
   if (!run.interrupted()) run.wait_for_window();
@@ -102,41 +115,22 @@ int map(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) 
 }
 
 int run(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) {
-  int code = kExitDone;
+  if (!line.lists() && !line.dump_options) return map(line, out, err);
   if (line.lists())
     list_deciders(line, out);
-  else if (line.dump_options)
-    dump_options(out);
   else
-    code = map(line, out, err);
-  out.flush();
-  if (!out) throw SystemFailure("cannot write to standard output");
-  return code;
+    dump_options(out);
+  return kExitDone;
 }
 
 }  // namespace
 
 int run_graphslam_app(const std::vector<std::string>& arguments, std::ostream& out,
                       std::ostream& err) noexcept {
-  CLI::App app("psi-graphslam runs MRPT's graph-slam engine with its deciders and psi-slam's.", kName);
-  try {
-    return run(parse_graphslam_command_line(arguments, app), out, err);
-  } catch (const CLI::Success& asked) {  // --help, --version
-    app.exit(asked, out, err);
-    return kExitDone;
-  } catch (const CLI::ParseError& error) {
-    err << kName << ": " << error.what() << " (see psi-graphslam --help)\n";
-    return kExitWrongUsageOrInput;
-  } catch (const UserError& error) {
-    err << kName << ": " << error.what() << '\n';
-    return kExitWrongUsageOrInput;
-  } catch (const std::bad_alloc&) {
-    err << kName << ": there is not enough memory\n";
-    return kExitFailed;
-  } catch (const std::exception& error) {
-    err << kName << ": " << error.what() << '\n';
-    return kExitFailed;
-  }
+  CLI::App app("psi-graphslam runs MRPT's graph-slam engine with the deciders of MRPT and of psi-slam.",
+               kName);
+  return run_program(app, out, err,
+                     [&] { return run(parse_graphslam_command_line(arguments, app), out, err); });
 }
 
 }  // namespace psi_slam

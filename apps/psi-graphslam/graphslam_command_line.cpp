@@ -11,9 +11,9 @@ namespace {
 
 constexpr const char* kExamples =
     "\nExamples:\n"
-    "  psi-graphslam -i graphslam.ini -r my.rawlog            our deciders and optimizer\n"
+    "  psi-graphslam -i graphslam.ini -r my.rawlog            use psi-slam's deciders and optimizer\n"
     "  psi-graphslam -i graphslam.ini -r my.rawlog -n CFixedIntervalsNRD -e CLoopCloserERD -o CPsiSpaGSO\n"
-    "  psi-graphslam --list-deciders                          what there is to choose from\n";
+    "  psi-graphslam --list-deciders                          list all deciders and optimizers\n";
 
 struct Switches {
   bool plane = false;
@@ -32,12 +32,12 @@ bool has_display() {
 }
 
 void add_inputs(CLI::App& app, Switches& switches, GraphSlamSetup& setup) {
-  app.add_option("-i,--ini-file,--ini", switches.ini, "Settings, as those of MRPT's graphslam-engine")
+  app.add_option("-i,--ini-file,--ini", switches.ini, "Settings file, as for MRPT's graphslam-engine")
       ->type_name("INI");
   app.add_option("-r,--rawlog", switches.log,
                  "Log: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag")
       ->type_name("LOG");
-  app.add_option("-g,--ground-truth", switches.ground_truth, "True poses, as GridMapNavSimul writes them")
+  app.add_option("-g,--ground-truth", switches.ground_truth, "True poses, in the format of GridMapNavSimul")
       ->type_name("FILE");
   app.add_option("-n,--node-reg", setup.node_decider, "Node registration decider")
       ->type_name("NAME")
@@ -51,30 +51,29 @@ void add_inputs(CLI::App& app, Switches& switches, GraphSlamSetup& setup) {
 }
 
 void add_switches(CLI::App& app, Switches& switches, GraphSlamCommandLine& line) {
-  app.add_option("--output-dir", line.output, "Folder for the results, instead of the settings' own")
+  app.add_option("--output-dir", line.output,
+                 "Folder for the results. Default: output_dir_fname of the settings")
       ->type_name("DIR");
-  app.add_flag("--force", line.force, "Replace the results in a folder that is not empty");
-  app.add_flag("--disable-visuals", switches.disable_visuals,
-               "Without MRPT's window, as where there is no display");
-  app.add_flag("--2d", switches.plane, "Map of the plane, which is all that there is");
-  app.add_flag("--3d", switches.space, "Refused: use MRPT's own graphslam-engine");
-  app.add_flag("--list-node-regs", line.list_node_deciders, "List the node registration deciders, and exit");
-  app.add_flag("--list-edge-regs", line.list_edge_deciders, "List the edge registration deciders, and exit");
-  app.add_flag("--list-regs", switches.list_regs, "List both, and exit");
-  app.add_flag("--list-optimizers", line.list_optimizers, "List the optimizers, and exit");
-  app.add_flag("--list-deciders", switches.list_all, "List deciders and optimizers, and exit");
+  app.add_flag("--force", line.force, "Replace results in a folder that is not empty");
+  app.add_flag("--disable-visuals", switches.disable_visuals, "Do not open MRPT's window");
+  app.add_flag("--2d", switches.plane, "Make a 2-D map (the default)");
+  app.add_flag("--3d", switches.space, "Not supported: use MRPT's graphslam-engine");
+  app.add_flag("--list-node-regs", line.list_node_deciders, "List the node registration deciders and exit");
+  app.add_flag("--list-edge-regs", line.list_edge_deciders, "List the edge registration deciders and exit");
+  app.add_flag("--list-regs", switches.list_regs, "List node and edge registration deciders and exit");
+  app.add_flag("--list-optimizers", line.list_optimizers, "List the optimizers and exit");
+  app.add_flag("--list-deciders", switches.list_all, "List all deciders and optimizers and exit");
   app.add_flag("--dump-options", line.dump_options,
-               "Print all options of our deciders and optimizer as a settings file, and exit");
-  app.set_version_flag("--version", "psi-graphslam " PSI_SLAM_VERSION, "Print the version, and exit");
+               "Print all options of psi-slam's deciders and optimizer as a settings file and exit");
+  app.set_version_flag("--version", "psi-graphslam " PSI_SLAM_VERSION, "Print the version and exit");
   app.footer(kExamples);
   add_document_options(app);
 }
 
 void check_inputs(const Switches& switches) {
   const std::string see_help = " (see psi-graphslam --help)";
-  if (switches.space)
-    throw UserError("--3d: maps of space are not made here: use MRPT's own graphslam-engine");
-  if (switches.ini.empty()) throw UserError("name the settings: -i INI" + see_help);
+  if (switches.space) throw UserError("--3d: psi-graphslam makes only 2-D maps. Use MRPT's graphslam-engine");
+  if (switches.ini.empty()) throw UserError("name the settings file: -i INI" + see_help);
   if (switches.log.empty()) throw UserError("name the log: -r LOG" + see_help);
 }
 

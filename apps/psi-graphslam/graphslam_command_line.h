@@ -11,7 +11,7 @@ namespace psi_slam {
 
 struct GraphSlamCommandLine {
   GraphSlamSetup setup;
-  std::string output;  ///< empty: as the settings file says
+  std::string output;  ///< empty: output_dir_fname of the settings file
   bool force = false;
   bool list_node_deciders = false;
   bool list_edge_deciders = false;
@@ -21,8 +21,8 @@ struct GraphSlamCommandLine {
   bool lists() const { return list_node_deciders || list_edge_deciders || list_optimizers; }
 };
 
-/// The arguments behind the program's name. Exceptions of CLI11 tell of wrong usage, --help and --version;
-/// throws UserError when something is missing, and for maps of space, which ours are not.
+/// Parses the arguments, without the program's name. Throws CLI::ParseError for wrong usage, --help and
+/// --version, and UserError for missing arguments and for --3d.
 GraphSlamCommandLine parse_graphslam_command_line(const std::vector<std::string>& arguments, CLI::App& app);
 
 }  // namespace psi_slam

@@ -7,13 +7,13 @@
 #include "base/exit_code.h"
 #include "common/bench_command.h"
 #include "document_options.h"
-#include "psi_slam/user_error.h"
+#include "run_program.h"
 
 namespace psi_slam {
 
 int run_bench_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept {
   CLI::App app("Measures accuracy and speed of psi-slam and of its parts.", "psi-slam-bench");
-  try {
+  return run_program(app, streams.out, streams.err, [&] {
     add_freiburg_command(app, streams);
     add_freiburg_run_command(app, streams);
     add_match_command(app, streams);
@@ -26,19 +26,7 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     app.parse(std::vector<std::string>(arguments.rbegin(),
                                        arguments.rend()));  // CLI11 expects the last argument first
     return kExitDone;
-  } catch (const CLI::Success& asked) {  // --help, --version
-    app.exit(asked, streams.out, streams.err);
-    return kExitDone;
-  } catch (const CLI::ParseError& error) {
-    streams.err << "psi-slam-bench: " << error.what() << " (see psi-slam-bench --help)\n";
-    return kExitWrongUsageOrInput;
-  } catch (const UserError& error) {
-    streams.err << "psi-slam-bench: " << error.what() << '\n';
-    return kExitWrongUsageOrInput;
-  } catch (const std::exception& error) {
-    streams.err << "psi-slam-bench: " << error.what() << '\n';
-    return kExitFailed;
-  }
+  });
 }
 
 }  // namespace psi_slam

@@ -7,12 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "document_options.h"
 #include "base/atomic_file.h"
 #include "base/exit_code.h"
-#include "psi_slam/user_error.h"
 #include "base/number_text.h"
+#include "document_options.h"
 #include "evaluation/relations_metric.h"
+#include "psi_slam/user_error.h"
+#include "run_program.h"
 
 namespace psi_slam {
 namespace {
@@ -26,21 +27,23 @@ struct EvalOptions {
   bool json = false;
 };
 
-/// The options of the command line. The exceptions of CLI11 tell of wrong usage, --help and --version.
+/// Throws CLI::ParseError for wrong usage, --help and --version.
 EvalOptions parse(const std::vector<std::string>& arguments, CLI::App& app) {
   EvalOptions options;
-  app.add_option("TRAJECTORY", options.trajectory,
-                 "Trajectory: 'timestamp x y theta', TUM, or a corrected CARMEN log with FLASER lines")
+  app.add_option(
+         "TRAJECTORY", options.trajectory,
+         "Trajectory: lines 'timestamp x y theta', TUM format, or a corrected CARMEN log with FLASER lines")
       ->required();
-  app.add_option("RELATIONS", options.relations, "True relations: 'time1 time2 x y z roll pitch yaw' a line")
+  app.add_option("RELATIONS", options.relations, "True relations: lines 'time1 time2 x y z roll pitch yaw'")
       ->required();
-  app.add_option("--max-gap", options.max_gap_s, "Longest gap between two poses to interpolate in, seconds")
+  app.add_option("--max-gap", options.max_gap_s,
+                 "Longest gap between two poses that is interpolated, in seconds")
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
   app.add_option("--per-relation", options.per_relation,
                  "Write the error of each relation to this file (CSV)")
       ->type_name("FILE");
-  app.add_flag("--force", options.force, "Replace the file of --per-relation if it is there already");
+  app.add_flag("--force", options.force, "Replace an existing file of --per-relation");
   app.add_flag("--json", options.json, "Print the result as JSON");
   app.set_version_flag("--version", "psi-slam-eval " PSI_SLAM_VERSION, "Print the version and exit");
   add_document_options(app);
@@ -97,7 +100,7 @@ void print_table(std::ostream& out, const RelationsMetric& metric) {
   print_row(out, "translation, squared [m^2]", metric.translation_sq_m2);
   print_row(out, "rotation, absolute [deg]", metric.rotation_abs_deg);
   print_row(out, "rotation, squared [deg^2]", metric.rotation_sq_deg2);
-  out << "Cartographer's variant (its rotation is the same)\n";
+  out << "Cartographer's variant (with equal rotation)\n";
   print_row(out, "translation, absolute [m]", metric.cartographer_translation_abs_m);
   print_row(out, "translation, squared [m^2]", metric.cartographer_translation_sq_m2);
 }
@@ -105,7 +108,7 @@ void print_table(std::ostream& out, const RelationsMetric& metric) {
 void evaluate(const EvalOptions& options, std::ostream& out) {
   if (!options.per_relation.empty() && !options.force && std::filesystem::exists(options.per_relation))
     throw UserError(options.per_relation +
-                    " is there already: name another file or give --force to replace it");
+                    ": the file exists. Name another file, or replace it with --force");
   const RelationsMetric metric = evaluate_relations(read_trajectory(options.trajectory),
                                                     read_relations(options.relations), {options.max_gap_s});
   if (!options.per_relation.empty()) write_text_atomically(options.per_relation, per_relation_csv(metric));
@@ -114,29 +117,19 @@ void evaluate(const EvalOptions& options, std::ostream& out) {
   } else {
     print_table(out, metric);
   }
-  out.flush();
-  if (!out) throw SystemFailure("cannot write the result to standard output");
 }
 
 }  // namespace
 
 int run_eval_app(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) noexcept {
   CLI::App app(
-      "Measures a trajectory against true relations: the metric of the Freiburg SLAM benchmark "
-      "(Kümmerle et al. 2009) and the variant that Cartographer's tool computes.",
+      "Compares a trajectory with true relations: the metric of the Freiburg SLAM benchmark "
+      "(Kümmerle et al. 2009) and the variant of Cartographer's tool.",
       "psi-slam-eval");
-  try {
+  return run_program(app, out, err, [&] {
     evaluate(parse(arguments, app), out);
     return kExitDone;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error, out, err) == 0 ? kExitDone : kExitWrongUsageOrInput;
-  } catch (const UserError& error) {
-    err << "psi-slam-eval: " << error.what() << '\n';
-    return kExitWrongUsageOrInput;
-  } catch (const std::exception& error) {
-    err << "psi-slam-eval: " << error.what() << '\n';
-    return kExitFailed;
-  }
+  });
 }
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam-eval: measures a trajectory against true relations (the metric of relations_metric.h).
+// psi-slam-eval: compares a trajectory with true relations (the metric of relations_metric.h).
 //
 //     psi-slam-eval TRAJECTORY RELATIONS [--max-gap S] [--per-relation FILE [--force]] [--json] [--version]
 #pragma once
@@ -10,8 +10,8 @@
 
 namespace psi_slam {
 
-/// Runs the program with its arguments (without its own name), the results going to `out` and complaints to
-/// `err`. Returns the exit code: 0 done, 1 failed, 2 wrong usage or input. Never throws.
+/// Runs the program with its arguments, without the program's name. Prints results to `out` and errors to
+/// `err`. Returns the exit code: 0 done, 1 failed, 2 wrong usage or input.
 int run_eval_app(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) noexcept;
 
 }  // namespace psi_slam

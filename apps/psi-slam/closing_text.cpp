@@ -31,8 +31,8 @@ std::string closing_text(const RunSummary& summary, const std::string& log_name,
   const std::string report = (folder.path() / "report.html").string();
   std::error_code ignored;
   const bool has_picture = std::filesystem::exists(picture, ignored);  // map.write_png
-  std::string lines = "The map is " + (has_picture ? picture : folder.path()).string() +
-                      (has_picture ? "; " : ": ") + report + " tells how it was made.\n";
+  std::string lines = "The map is in " + (has_picture ? picture : folder.path()).string() +
+                      ", the report in " + report + ".\n";
   lines += counted(summary.log.scans, "scan") + " of " + log_name + " over " +
            minutes_text(summary.log.duration_s) + text(" and %.0f m: ", summary.path_length_m) +
            counted(summary.nodes, "node") + ", " + counted(summary.loops.accepted, "loop") + " closed.\n";
@@ -42,12 +42,12 @@ std::string closing_text(const RunSummary& summary, const std::string& log_name,
 }
 
 std::string interrupted_text(std::size_t scans) {
-  return "interrupted, the map will show the " + std::to_string(scans) +
-         " scans read so far and the loops found so far (interrupt again to give up)";
+  return "interrupted: the map will show the " + std::to_string(scans) +
+         " scans and the loops found so far. Interrupt again to stop without a map";
 }
 
 std::string broken_off_text(const std::string& why, std::size_t scans) {
-  return why + "; the map shows the " + std::to_string(scans) + " scans that could be read";
+  return why + "; the map shows the " + std::to_string(scans) + " scans before that";
 }
 
 std::string stages_text(const MappingResult& result) {

@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run tells its user at the end.
+// Texts that a run prints at its end.
 #pragma once
 
 #include <cstddef>
 #include <string>
 
+#include "exports/run_summary.h"
 #include "psi_slam/mapping_result.h"
 #include "report/output_folder.h"
-#include "exports/run_summary.h"
 
 namespace psi_slam {
 
-/// Where the map is, and the run's figures, in a few lines.
+/// Path of the map and the main figures of the run, in a few lines.
 std::string closing_text(const RunSummary& summary, const std::string& log_name, const OutputFolder& folder);
 
-/// Sentences for a run that does not map all of its log: a person has interrupted it, or `why` the log
-/// breaks off.
+/// Sentences for a run that was interrupted, and for a log with damage `why`.
 std::string interrupted_text(std::size_t scans);
 std::string broken_off_text(const std::string& why, std::size_t scans);
 
-/// How long each stage took, a line each: calls, mean ± std [min, max] and sum.
+/// Times of each stage, a line each: calls, mean ± std [min, max] and sum.
 std::string stages_text(const MappingResult& result);
 
 }  // namespace psi_slam

@@ -1,39 +1,111 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line.h"
 
+#include <mrpt/math/wrap2pi.h>
+
+#include <array>
+#include <locale>
+#include <ostream>
+#include <sstream>
+#include <utility>
+
+#include "base/degrees.h"
+#include "config/nearest_name.h"
 #include "document_options.h"
 #include "psi_slam/user_error.h"
-#include "config/nearest_name.h"
 
 namespace psi_slam {
 namespace {
 
 constexpr const char* kSeeHelp = " (see psi-slam --help)";
+constexpr const char* kLogHelp = "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag";
+constexpr const char* kFolderHelp = "Folder for the results, new or empty";
+constexpr const char* kStartType = "X,Y,YAW_DEG";
 constexpr const char* kExamples =
     "\nExamples:\n"
-    "  psi-slam check my.log                    what is in a log, and what is wrong with it\n"
-    "  psi-slam my.log -o out/                  map it: open out/report.html\n"
+    "  psi-slam check my.log                    show what a log holds and what is wrong with it\n"
+    "  psi-slam my.log -o out/                  map a log; then open out/report.html\n"
     "  psi-slam my.log -o out/ --save-session my.session\n"
-    "  psi-slam --resume my.session my.log -o more/   go on where that was interrupted\n"
-    "  psi-slam merge monday.log friday.log -o out/   one map of several drives\n"
-    "  psi-slam localize out/map.yaml new.log   where a robot is in a finished map\n"
+    "  psi-slam --resume my.session my.log -o more/   resume an interrupted run\n"
+    "  psi-slam merge monday.log friday.log -o out/   make one map of several runs\n"
+    "  psi-slam localize out/map.yaml new.log   find and track a robot in a finished map\n"
     "  psi-slam -c my.ini my.log -o out/ --set map.resolution_m=0.025\n"
-    "  psi-slam --dump-config > my.ini          settings to begin with\n"
+    "  psi-slam --dump-config > my.ini          print settings to start from\n"
     "  psi-slam sweep *.log -o out/ --set loop_closure.matcher=csm,ga --seeds 10\n";
+
+std::string unexpected_argument_text(const std::string& argument, const std::string& program) {
+  return "unexpected argument \"" + argument + "\" (see " + program + " --help)";
+}
 
 bool is_option(const std::string& argument) {
   return argument.size() > 1 && argument.front() == '-';
 }
 
-/// What commands share that read logs and write a folder.
-void add_run_options(CLI::App& command, CommandLine& line) {
-  add_settings_options(command, line.config, line.settings);
-  command.add_flag("--force", line.force, "Replace the results in a folder that is not empty");
-  command.add_flag("--json", line.json, "Print the summary as JSON");
-  command.add_flag("-q,--quiet", line.quiet, "Print nothing but complaints");
+void add_text(CLI::App& app, const char* names, std::string& text, const char* help, const char* type) {
+  app.add_option(names, text, help)->type_name(type);
 }
 
-/// Complains about the first argument that is neither the log nor a known option.
+/// Options of all commands that read logs and write a folder.
+void add_run_options(CLI::App& command, CommandLine& line) {
+  add_settings_options(command, line.config, line.settings);
+  command.add_flag("--force", line.force, "Replace results in a folder that is not empty");
+  command.add_flag("--json", line.json, "Print the summary as JSON");
+  command.add_flag("-q,--quiet", line.quiet, "Print only warnings and errors");
+}
+
+CLI::App* add_check(CLI::App& app, CommandLine& line) {
+  CLI::App* const check = app.add_subcommand(
+      "check",
+      "Show what a log holds, what looks wrong and how to fix it (exit code 2 if the log is damaged)");
+  add_text(*check, "LOG", line.log, "Log to check", "");
+  add_settings_options(*check, line.config, line.settings);
+  check->add_flag("--json", line.json, "Print the findings as JSON");
+  return check;
+}
+
+CLI::App* add_localize(CLI::App& app, CommandLine& line) {
+  CLI::App* const localize = app.add_subcommand(
+      "localize",
+      "Find and track a robot in a finished map, without start pose (exit code 1 if it is not localized at "
+      "the end)");
+  add_text(*localize, "MAP", line.map, "Map written by psi-slam: map.yaml or map.gridmap.gz", "");
+  add_text(*localize, "LOG", line.log, "Log of a robot in that building", "");
+  add_text(*localize, "-o,--output", line.output,
+           "Folder for localization.csv and trajectory.tum, new or empty", "DIR");
+  add_text(*localize, "--start", line.start, "Rough start of the robot: metres and degrees in the map",
+           kStartType);
+  add_run_options(*localize, line);
+  return localize;
+}
+
+CLI::App* add_merge(CLI::App& app, CommandLine& line) {
+  CLI::App* const merge = app.add_subcommand(
+      "merge", "Make one map of several runs through a building (exit code 2 if a run cannot be placed)");
+  merge->add_option("INPUT", line.inputs, "Logs, or sessions saved by --save-session")->type_name("");
+  add_text(*merge, "-o,--output", line.output, kFolderHelp, "DIR");
+  add_text(*merge, "--start", line.start,
+           "Rough start of the second run: metres and degrees in the map of the first run", kStartType);
+  add_text(*merge, "--save-session", line.save_session, "Save the merged runs to this file, for --resume",
+           "FILE");
+  add_run_options(*merge, line);
+  return merge;
+}
+
+CLI::App* add_options(CLI::App& app, CommandLine& line) {
+  CLI::App* const options = app.add_subcommand("options", "Explain all options of the settings files");
+  options->add_flag("--markdown", line.markdown, "Print a Markdown page");
+  return options;
+}
+
+CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
+  CLI::App* const sweep =
+      app.add_subcommand("sweep", "Map many logs with many settings and compare the results");
+  add_sweep_options(*sweep, line.sweep);
+  add_processes_option(*sweep, line.sweep);
+  return sweep;
+}
+
+/// Throws the error message for an argument that is neither the log nor a known option.
 [[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
   const auto command = nearest_name(line.log, {"check", "localize", "merge", "options", "sweep"});
   if (command && !is_option(argument))
@@ -41,41 +113,56 @@ void add_run_options(CLI::App& command, CommandLine& line) {
   throw UserError(unknown_argument_text(argument, app, "psi-slam"));
 }
 
+void require(bool given, const char* expected) {
+  if (!given) throw UserError(std::string(expected) + kSeeHelp);
+}
+
+void refuse(bool given, const char* why) {
+  if (given) throw UserError(why);
+}
+
 void check_together(const CommandLine& line, const std::string& log_to_map) {
   using Command = CommandLine::Command;
-  if (line.command == Command::kMap && line.log.empty() && line.resume.empty())
-    throw UserError("name the log: psi-slam LOG -o DIR" + std::string(kSeeHelp));
-  if (line.command == Command::kCheck && line.log.empty())
-    throw UserError("name the log: psi-slam check LOG" + std::string(kSeeHelp));
-  if (line.command == Command::kMap && line.output.empty())
-    throw UserError("name the folder for the results: -o DIR" + std::string(kSeeHelp));
-  if (line.command == Command::kLocalize && line.log.empty())
-    throw UserError("name a map and a log: psi-slam localize MAP LOG" + std::string(kSeeHelp));
+  const bool maps = line.command == Command::kMap;
   const bool merges = line.command == Command::kMerge;
-  if (merges && line.inputs.size() < 2)
-    throw UserError("name the drives: psi-slam merge FIRST SECOND -o DIR" + std::string(kSeeHelp));
-  if (merges && line.inputs.size() > 2 && !line.start.empty())
-    throw UserError("--start goes with two drives: merge further ones with the session of the first two");
-  if (merges && line.output.empty())
-    throw UserError("name the folder for the results: -o DIR" + std::string(kSeeHelp));
-  if (line.command != Command::kMap && line.command != Command::kLocalize && !merges && !line.output.empty())
-    throw UserError("-o goes with mapping only: nothing is written here");
-  if (line.command != Command::kMap && !line.edits.empty()) throw UserError("--edits goes with mapping only");
-  if (line.command != Command::kMap && !line.resume.empty())
-    throw UserError("--resume goes with mapping only");
-  if (line.command != Command::kMap && !merges && !line.save_session.empty())
-    throw UserError("--save-session goes with mapping only");
-  if (line.command != Command::kMap && !log_to_map.empty())
-    throw UserError("\"" + log_to_map + "\" is one argument too many" + kSeeHelp);
+  const bool localizes = line.command == Command::kLocalize;
+  if (maps) require(!line.log.empty() || !line.resume.empty(), "name the log: psi-slam LOG -o DIR");
+  if (line.command == Command::kCheck) require(!line.log.empty(), "name the log: psi-slam check LOG");
+  if (localizes) require(!line.log.empty(), "name a map and a log: psi-slam localize MAP LOG");
+  if (merges) require(line.inputs.size() >= 2, "name the runs: psi-slam merge FIRST SECOND -o DIR");
+  if (maps || merges) require(!line.output.empty(), "name the folder for the results: -o DIR");
+  refuse(merges && line.inputs.size() > 2 && !line.start.empty(),
+         "--start needs exactly two runs. Merge the first two, then merge their session with further runs");
+  refuse(!maps && !merges && !localizes && !line.output.empty(),
+         "-o has no effect here, because nothing is written");
+  refuse(!maps && !line.edits.empty(), "--edits is only for mapping a log");
+  refuse(!maps && !line.resume.empty(), "--resume is only for mapping a log");
+  refuse(!maps && !merges && !line.save_session.empty(),
+         "--save-session is only for mapping and merging logs");
+  if (!maps && !log_to_map.empty()) throw UserError(unexpected_argument_text(log_to_map, "psi-slam"));
 }
 
 }  // namespace
 
-void load_settings(const CommandLine& line, BoundSettings& bound) {
+void load_settings(const CommandLine& line, BoundSettings& bound, const Streams& streams) {
   bound.load(line.config, line.settings);
   if (line.seed) bound.table.set("run.seed", *line.seed, "--seed");
   if (line.threads) bound.table.set("run.threads", *line.threads, "--threads");
+  for (const std::string& warning : bound.table.take_warnings())
+    streams.err << "psi-slam: " << warning << '\n';
   check(bound.settings);
+}
+
+mrpt::math::TPose2D parse_start(const std::string& text) {
+  std::istringstream words(text);
+  words.imbue(std::locale::classic());
+  std::array<double, 3> numbers{};
+  char comma = ',';
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (!((i == 0 || words >> comma) && comma == ',' && words >> numbers[i]))
+      throw UserError("--start " + text + ": expected X,Y,YAW_DEG, such as 12.5,-3,90");
+  if (words >> comma) throw UserError("--start " + text + ": expected only three numbers, X,Y,YAW_DEG");
+  return {numbers[0], numbers[1], mrpt::math::wrapToPi(numbers[2] * radians_from_degrees(1))};
 }
 
 std::shared_ptr<const OptionTable> default_settings() {
@@ -84,130 +171,67 @@ std::shared_ptr<const OptionTable> default_settings() {
 }
 
 void add_settings_options(CLI::App& app, std::string& config, std::vector<std::string>& settings) {
-  app.add_option("-c,--config", config, "Settings file; without it, the built-in defaults")->type_name("INI");
+  app.add_option("-c,--config", config, "Settings file. Default: the built-in settings")->type_name("INI");
   app.add_option_function<std::vector<std::string>>(
          "--set",
          [&settings](const std::vector<std::string>& given) {
            settings.insert(settings.end(), given.begin(), given.end());
          },
-         "Change one option; may be given again")
+         "Change one option. May be repeated")
       ->type_name("SECTION.KEY=VALUE")
       ->allow_extra_args(false);
 }
 
 std::string unknown_argument_text(const std::string& argument, const CLI::App& app,
                                   const std::string& program) {
-  const std::string see_help = " (see " + program + " --help)";
-  if (!is_option(argument)) return "\"" + argument + "\" is one argument too many" + see_help;
+  if (!is_option(argument)) return unexpected_argument_text(argument, program);
   std::vector<std::string> options;
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
   const auto near = nearest_name(argument, options);
-  return "there is no option \"" + argument + '"' + (near ? "; did you mean \"" + *near + "\"?" : see_help);
+  return "there is no option \"" + argument + '"' +
+         (near ? "; did you mean \"" + *near + "\"?" : " (see " + program + " --help)");
 }
 
 CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::App& app) {
+  using Command = CommandLine::Command;
   CommandLine line;
   std::string log_to_map;
   bool dump_config = false;
-  app.add_option("LOG", log_to_map,
-                 "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag")
-      ->type_name("");
-  app.add_option("-o,--output", line.output, "Folder for the results, new or empty")->type_name("DIR");
-  add_settings_options(app, line.config, line.settings);
-  app.add_option("--edits", line.edits,
-                 "Loops deleted, forced or matched by hand: a file as psi-slam-gui saves it")
-      ->type_name("FILE");
-  app.add_option("--save-session", line.save_session,
-                 "Record the run in this file, also when it is interrupted, for --resume")
-      ->type_name("FILE");
-  app.add_option("--resume", line.resume,
-                 "Go on with a recorded run: in the rest of its LOG or in one that follows, or with none")
-      ->type_name("FILE");
-  app.add_option("--seed", line.seed, "The same as --set run.seed=N")->type_name("N");
-  app.add_option("--threads", line.threads, "The same as --set run.threads=N")->type_name("N");
-  app.add_flag("--force", line.force, "Replace the results in a folder that is not empty");
-  app.add_flag("--json", line.json, "Print the summary as JSON");
-  app.add_flag("-q,--quiet", line.quiet, "Print nothing but complaints");
-  app.add_flag("-v,--verbose", line.verbose, "Also print the settings changed and the times of all stages");
-  app.add_flag("--dump-config", dump_config, "Print a settings file with all options, and exit");
-  app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version, and exit");
-
-  CLI::App* const check = app.add_subcommand(
-      "check",
-      "Tell what a log holds and what looks wrong, with the remedy (exit code 2 when the log breaks off)");
-  std::string log_to_check;
-  check->add_option("LOG", log_to_check, "Log to look over")->type_name("");
-  add_settings_options(*check, line.config, line.settings);
-  check->add_flag("--json", line.json, "Print the findings as JSON");
-
-  CLI::App* const localize = app.add_subcommand("localize",
-                                                "Keep track of a robot in a finished map, and find it with "
-                                                "no start pose (exit code 1: not localized at its end)");
-  std::string log_to_localize;
-  localize->add_option("MAP", line.map, "A map as a run writes it: map.yaml or map.gridmap.gz")
-      ->type_name("");
-  localize->add_option("LOG", log_to_localize, "Log of a robot in that building")->type_name("");
-  localize
-      ->add_option("-o,--output", line.output, "Folder for localization.csv and trajectory.tum, new or empty")
-      ->type_name("DIR");
-  localize->add_option("--start", line.start, "About where it starts: metres and degrees in the map")
-      ->type_name("X,Y,YAW_DEG");
-  add_run_options(*localize, line);
-
-  CLI::App* const merge = app.add_subcommand(
-      "merge", "Map several drives through one building as one (exit code 2 where one cannot be placed)");
-  merge->add_option("INPUT", line.inputs, "Logs, or sessions as --save-session records them")->type_name("");
-  merge->add_option("-o,--output", line.output, "Folder for the results, new or empty")->type_name("DIR");
-  merge
-      ->add_option("--start", line.start,
-                   "About where the second drive begins: metres and degrees in the map of the first")
-      ->type_name("X,Y,YAW_DEG");
-  merge
-      ->add_option("--save-session", line.save_session, "Record the merged drives in this file, for --resume")
-      ->type_name("FILE");
-  add_run_options(*merge, line);
-
-  CLI::App* const options = app.add_subcommand("options", "Explain every option of the settings files");
-  options->add_flag("--markdown", line.markdown, "Print a page in Markdown");
-
-  CLI::App* const sweep = app.add_subcommand("sweep", "Map many logs with many settings, and compare");
-  add_sweep_options(*sweep, line.sweep);
-  add_processes_option(*sweep, line.sweep);
-
+  add_text(app, "LOG", log_to_map, kLogHelp, "");
+  add_text(app, "-o,--output", line.output, kFolderHelp, "DIR");
+  add_run_options(app, line);
+  add_text(app, "--edits", line.edits, "File with edits of loops, as psi-slam-gui saves it", "FILE");
+  add_text(app, "--save-session", line.save_session,
+           "Save the run to this file, even if it is interrupted, for --resume", "FILE");
+  add_text(app, "--resume", line.resume,
+           "Resume a saved run: with the rest of its LOG, with a LOG that continues it, or without LOG",
+           "FILE");
+  app.add_option("--seed", line.seed, "Short for --set run.seed=N")->type_name("N");
+  app.add_option("--threads", line.threads, "Short for --set run.threads=N")->type_name("N");
+  app.add_flag("-v,--verbose", line.verbose, "Also print the changed settings and the times of all stages");
+  app.add_flag("--dump-config", dump_config, "Print a settings file with all options and exit");
+  app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version and exit");
+  const std::vector<std::pair<CLI::App*, Command>> commands{{add_check(app, line), Command::kCheck},
+                                                            {add_localize(app, line), Command::kLocalize},
+                                                            {add_merge(app, line), Command::kMerge},
+                                                            {add_options(app, line), Command::kOptions},
+                                                            {add_sweep(app, line), Command::kSweep}};
   app.require_subcommand(0, 1);
   app.allow_extras();
-  check->allow_extras();
-  localize->allow_extras();
-  merge->allow_extras();
-  options->allow_extras();
-  sweep->allow_extras();
+  for (const auto& [command, kind] : commands) command->allow_extras();
   app.footer(kExamples);
   add_document_options(app, default_settings());
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
 
-  if (options->parsed()) {
-    line.command = CommandLine::Command::kOptions;
-  } else if (check->parsed()) {
-    line.command = CommandLine::Command::kCheck;
-    line.log = log_to_check;
-  } else if (sweep->parsed()) {
-    line.command = CommandLine::Command::kSweep;
-  } else if (localize->parsed()) {
-    line.command = CommandLine::Command::kLocalize;
-    line.log = log_to_localize;
-  } else if (merge->parsed()) {
-    line.command = CommandLine::Command::kMerge;
-  } else if (dump_config) {
-    line.command = CommandLine::Command::kDumpConfig;
-  } else {
-    line.log = log_to_map;
-  }
-  const std::vector<CLI::App*> commands = app.get_subcommands();  // that were parsed
-  const CLI::App& spoken_to = commands.empty() ? app : *commands.front();
+  const CLI::App* parsed = &app;
+  if (dump_config) line.command = Command::kDumpConfig;
+  for (const auto& [command, kind] : commands)
+    if (command->parsed()) parsed = command, line.command = kind;
+  if (line.command == Command::kMap) line.log = log_to_map;
   const std::vector<std::string> unknown = app.remaining(true);
-  if (!unknown.empty()) fail_unknown(unknown.front(), line, spoken_to);
-  if (line.quiet && line.verbose) throw UserError("--quiet and --verbose do not go together");
+  if (!unknown.empty()) fail_unknown(unknown.front(), line, *parsed);
+  if (line.quiet && line.verbose) throw UserError("--quiet contradicts --verbose: give only one of them");
   check_together(line, log_to_map);
   return line;
 }

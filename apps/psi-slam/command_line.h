@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/math/TPose2D.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
@@ -8,25 +10,26 @@
 #include <vector>
 
 #include "config/option_table.h"
-#include "session/bound_settings.h"
+#include "psi_slam_app.h"
+#include "session/settings.h"
 #include "sweep_command.h"
 
 namespace psi_slam {
 
-/// What the user asked for, not yet looked at closer.
+/// The arguments of psi-slam, before their values are examined.
 struct CommandLine {
   enum class Command { kMap, kCheck, kLocalize, kMerge, kOptions, kDumpConfig, kSweep };
 
   Command command = Command::kMap;
   std::string log;
-  std::string map;    ///< to localize in
-  std::string start;  ///< "X,Y,YAW_DEG" in the map; empty: unknown
-  std::vector<std::string> inputs;  ///< to merge
-  std::string output;
-  std::string edits;                  ///< empty: none
-  std::string resume;                 ///< a session file; empty: none
-  std::string save_session;           ///< the same
-  std::string config;                 ///< empty: the built-in defaults
+  std::string map;                    ///< of localize
+  std::string start;                  ///< "X,Y,YAW_DEG" in the map; empty: unknown
+  std::vector<std::string> inputs;    ///< of merge
+  std::string output;                 ///< folder
+  std::string edits;                  ///< file; empty: none
+  std::string resume;                 ///< session file; empty: none
+  std::string save_session;           ///< session file; empty: none
+  std::string config;                 ///< settings file; empty: the defaults
   std::vector<std::string> settings;  ///< "section.key=value", in the order given
   std::optional<std::string> seed;
   std::optional<std::string> threads;
@@ -38,21 +41,24 @@ struct CommandLine {
   SweepArguments sweep;
 };
 
-/// Reads the arguments with `app`, which was made for this. Throws CLI::ParseError for --help, --version and
-/// unknown options, and UserError for arguments that do not go together.
+/// Parses the arguments with `app`, which must be new. Throws CLI::ParseError for --help, --version and
+/// invalid options, and UserError for arguments that contradict each other.
 CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::App& app);
 
-/// The settings file's values over those that `bound` has, then --set, --seed and --threads. Throws UserError
-/// for what is not accepted or does not go together.
-void load_settings(const CommandLine& line, BoundSettings& bound);
+/// Changes `bound` by the settings file, then by --set, --seed and --threads. Prints a warning for each old
+/// option name. Throws UserError for invalid values and for settings that contradict each other.
+void load_settings(const CommandLine& line, BoundSettings& bound, const Streams& streams);
 
-/// The table of all settings, for those who write about them.
+/// Parses --start, "X,Y,YAW_DEG" in metres and degrees. Throws UserError.
+mrpt::math::TPose2D parse_start(const std::string& text);
+
+/// The table of all options with their defaults, for the documentation.
 std::shared_ptr<const OptionTable> default_settings();
 
 /// Adds -c and --set, which fill `config` and `settings`.
 void add_settings_options(CLI::App& app, std::string& config, std::vector<std::string>& settings);
 
-/// What the program says of the first of several arguments that `app` does not know; `program` is its name.
+/// Error message for an argument that `app` does not know; `program` is the program's name.
 std::string unknown_argument_text(const std::string& argument, const CLI::App& app,
                                   const std::string& program);
 

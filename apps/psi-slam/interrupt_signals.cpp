@@ -5,7 +5,7 @@ namespace psi_slam {
 namespace {
 
 std::atomic<bool> signal_came{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only use lock-free objects");
 
 extern "C" void on_signal(int) {
   signal_came = true;
@@ -19,7 +19,7 @@ InterruptSignals::InterruptSignals() {
   signal_came = false;
   struct sigaction action = {};
   action.sa_handler = on_signal;
-  action.sa_flags = SA_RESTART;  // no read or write is cut short
+  action.sa_flags = SA_RESTART;  // do not interrupt reads and writes
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, &previous_interrupt_);
   sigaction(SIGTERM, &action, &previous_terminate_);

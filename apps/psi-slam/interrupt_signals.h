@@ -7,8 +7,8 @@
 
 namespace psi_slam {
 
-/// In its scope the first SIGINT or SIGTERM sets the flag, and the next one does what it does by default: end
-/// the process. At most one lives at a time.
+/// In its scope the first SIGINT or SIGTERM sets came(). The next one has its default effect: it ends the
+/// process. At most one object may exist at a time.
 class InterruptSignals {
  public:
   InterruptSignals();

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "localize_command.h"
-
-#include <optional>
 #include <ostream>
 
-#include "interrupt_signals.h"
 #include "base/exit_code.h"
-#include "psi_slam/user_error.h"
+#include "commands.h"
 #include "localization/localization_report.h"
-#include "localization/map_file.h"
+#include "localization/reference_map.h"
 #include "psi_slam/open_log.h"
-#include "report/output_folder.h"
-#include "start_pose.h"
-#include "work_progress.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -44,13 +38,12 @@ LocalizedLog localize_all(FrameSource& log, Localizer& localizer, const Interrup
 
 }  // namespace
 
-int localize(const CommandLine& line, const Settings& settings, const Streams& streams) {
-  const LocalizerOptions options = localizer_options(settings);
-  const auto map = read_map_file(line.map);
-  Localizer localizer(make_reference_map(map, options.search.resolution_m, options.search.smoothing_sigma_m),
-                      options);
+int localize(const CommandLine& line, const Streams& streams) {
+  BoundSettings bound;
+  load_settings(line, bound, streams);
+  Localizer localizer(read_map_file(line.map), localizer_options(bound.settings));
   if (!line.start.empty()) localizer.start_at(parse_start(line.start));
-  const auto log = open_log(line.log, log_options(settings));
+  const auto log = open_log(line.log, log_options(bound.settings));
   const InterruptSignals signals;
   std::optional<OutputFolder> folder;
   if (!line.output.empty()) folder = OutputFolder::prepare(line.output, line.force);
@@ -69,7 +62,7 @@ int localize(const CommandLine& line, const Settings& settings, const Streams& s
   if (const SkippedLines skipped = log->skipped_lines(); skipped.count > 0 && !localized.broken_off)
     streams.err << "psi-slam: " << skipped.sentence() << '\n';
   if (localized.interrupted)
-    streams.err << "psi-slam: interrupted: its end is that of the " << summary.scans
+    streams.err << "psi-slam: interrupted: the end of the log means the last of the " << summary.scans
                 << " scans read so far\n";
   if (localized.broken_off) {
     streams.err << "psi-slam: " << *localized.broken_off << '\n';

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "map_command.h"
-
 #include <exception>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "closing_text.h"
 #include "base/exit_code.h"
+#include "closing_text.h"
+#include "commands.h"
+#include "doctor/diagnosis_report.h"
+#include "doctor/input_doctor.h"
+#include "exports/run_summary.h"
+#include "psi_slam/frame_source.h"
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"
-#include "exports/summary_json.h"
 #include "session/recorded_settings.h"
 #include "session/session_file.h"
+#include "session/session_input.h"
 
 namespace psi_slam {
 namespace {
@@ -27,21 +31,22 @@ std::string changed_settings(const OptionTable& table) {
 SessionInput input_of(const CommandLine& line, BoundSettings& bound, const Streams& streams) {
   if (line.resume.empty()) {
     if (is_session_file(line.log))
-      throw UserError(line.log + " is a session, not a log: psi-slam --resume " + line.log + " -o DIR");
-    load_settings(line, bound);
+      throw UserError(line.log + " is a session, not a log. Resume it with psi-slam --resume " + line.log +
+                      " -o DIR");
+    load_settings(line, bound, streams);
     return SessionInput(line.log);
   }
   const auto recording = std::make_shared<const SessionRecording>(read_session_file(line.resume));
   load_recorded_settings(line, line.resume, recording->facts, bound, streams);
   const auto kept = kept_settings(bound.table);
-  load_settings(line, bound);
+  load_settings(line, bound, streams);
   require_kept(kept, bound.table, line.resume);
   return SessionInput(recording, line.log);
 }
 
 struct SavingOutcome {
-  std::exception_ptr failure;  ///< the map is to be written nevertheless
-  std::string remark;          ///< what the session lacks
+  std::exception_ptr failure;
+  std::string remark;  ///< what the session lacks
   bool is_whole() const { return !failure && remark.empty(); }
 };
 
@@ -53,8 +58,8 @@ SavingOutcome save_session(const MappingSession& session, const std::string& fil
   }
 }
 
-void tell_result(const MappingSession& session, const RunSummary& summary, const OutputFolder& folder,
-                 const CommandLine& line, const Streams& streams, bool saved) {
+void print_result(const MappingSession& session, const RunSummary& summary, const OutputFolder& folder,
+                  const CommandLine& line, const Streams& streams, bool saved) {
   const RunInfo info = session.run_info();
   if (line.verbose) streams.err << stages_text(session.result());
   if (line.json)
@@ -62,7 +67,7 @@ void tell_result(const MappingSession& session, const RunSummary& summary, const
   else if (!line.quiet)
     streams.out << closing_text(summary, info.log_name, folder);
   if (saved && !line.json && !line.quiet)
-    streams.out << "The session is " << line.save_session << ": --resume goes on with it.\n";
+    streams.out << "The session is saved as " << line.save_session << ". Resume it with --resume.\n";
 }
 
 }  // namespace
@@ -72,14 +77,14 @@ void check_session_to_save(const CommandLine& line) {
   if (line.save_session.empty()) return;
   const fs::path file = line.save_session;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const std::string where = "--save-session " + file.string() + ": ";
   std::error_code ignored;
-  if (fs::is_directory(file, ignored))
-    throw UserError("--save-session " + file.string() + ": it is a folder");
+  if (fs::is_directory(file, ignored)) throw UserError(where + "is a folder, expected a file");
   if (!fs::is_directory(folder, ignored))
-    throw UserError("--save-session " + file.string() + ": there is no folder " + folder.string());
+    throw UserError(where + "the folder " + folder.string() + " does not exist");
   const bool resumed = !line.resume.empty() && fs::equivalent(file, line.resume, ignored);
   if (fs::exists(file, ignored) && !line.force && !resumed)
-    throw UserError("--save-session " + file.string() + ": it is there already, give --force to replace it");
+    throw UserError(where + "the file exists. Replace it with --force");
 }
 
 void load_recorded_settings(const CommandLine& line, const std::string& file, const SessionFacts& facts,
@@ -93,9 +98,9 @@ void load_recorded_settings(const CommandLine& line, const std::string& file, co
 void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
            const Streams& streams, std::optional<ProgressLine>& progress_line) {
   if (streams.err_is_terminal && !line.quiet) progress_line.emplace(streams.err);
-  session.set_observer([&, told = false](const SessionProgress& progress) mutable {
-    if (!told && progress.phase == SessionProgress::Phase::kFinalSearch && signals.came()) {
-      told = true;
+  session.set_observer([&, reported = false](const SessionProgress& progress) mutable {
+    if (!reported && progress.phase == SessionProgress::Phase::kFinalSearch && signals.came()) {
+      reported = true;
       if (progress_line) progress_line->clear();
       streams.err << "psi-slam: " << interrupted_text(progress.scans) << '\n';
     }
@@ -110,18 +115,15 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   const RunSummary summary = session.export_to(folder);
   progress_line.reset();
   session.set_observer({});
-  tell_result(session, summary, folder, line, streams, to_save && saved.is_whole());
-  if (!saved.remark.empty()) streams.err << "psi-slam: " << saved.remark << '\n';
+  print_result(session, summary, folder, line, streams, to_save && saved.is_whole());
+  const auto warn = [&](const std::string& sentence) { streams.err << "psi-slam: " << sentence << '\n'; };
+  if (!saved.remark.empty()) warn(saved.remark);
   if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
-    streams.err << "psi-slam: " << skipped.sentence() << '\n';
-  for (const std::string& unmet : session.unmet_edits())
-    streams.err << "psi-slam: an edit was not made: " << unmet << '\n';
-  if (const auto coarser = coarser_cells_text(summary.map)) streams.err << "psi-slam: " << *coarser << '\n';
-  for (const std::string& warning : session.warnings_of_logs_before())
-    streams.err << "psi-slam: " << warning << '\n';
-  if (session.broken_off())
-    streams.err << "psi-slam: " << broken_off_text(*session.broken_off(), session.result().frames.size())
-                << '\n';
+    warn(skipped.sentence());
+  for (const std::string& unmet : session.unmet_edits()) warn("an edit was not made: " + unmet);
+  if (const auto coarser = coarser_cells_text(summary.map)) warn(*coarser);
+  for (const std::string& warning : session.warnings_of_logs_before()) warn(warning);
+  if (session.broken_off()) warn(broken_off_text(*session.broken_off(), session.result().frames.size()));
   if (saved.failure) std::rethrow_exception(saved.failure);
   return session.breaks_off() ? kExitWrongUsageOrInput : kExitDone;
 }
@@ -139,6 +141,18 @@ int map_log(const CommandLine& line, const Streams& streams) {
   watch(session, signals, line, streams, progress_line);
   session.run(signals.came());
   return save_and_export(session, folder, line, streams, progress_line);
+}
+
+std::string check_log(const std::filesystem::path& log, const LogOptions& options, bool as_json,
+                      std::ostream& out) {
+  const LogDiagnosis diagnosis = diagnose(log, options);
+  if (as_json) {
+    using Json = nlohmann::ordered_json;
+    out << to_json(diagnosis).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+  } else {
+    for (const std::string& line : describe(diagnosis)) out << line << '\n';
+  }
+  return diagnosis.facts.broken_off;
 }
 
 }  // namespace psi_slam

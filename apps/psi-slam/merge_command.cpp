@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "merge_command.h"
-
 #include <ostream>
 
-#include "map_command.h"
+#include "commands.h"
+#include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
 #include "session/place_run.h"
 #include "session/recorded_settings.h"
-#include "start_pose.h"
-#include "work_progress.h"
 
 namespace psi_slam {
 namespace {
 
-/// The settings are those of the first session among the inputs, under those of the command line.
+/// The settings are those of the first session among the inputs, changed by those of the command line.
 std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bound, const Streams& streams) {
   std::vector<SessionInput> inputs;
   bool recorded = false;
@@ -23,40 +20,39 @@ std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bo
     if (recording && !recorded) load_recorded_settings(line, name, recording->facts, bound, streams);
     recorded = recorded || recording;
   }
-  // What was edited at the end of the first drive was edited before the next.
+  // Edits at the end of the first run come before the next run.
   if (const auto& recording = inputs.front().recording())
-    inputs.front() =
-        inputs.front().with_edits(inputs.front().edits().of_drive(0, recording->frames.size(), 0));
-  load_settings(line, bound);
+    inputs.front() = inputs.front().with_edits(inputs.front().edits().of_run(0, recording->frames.size(), 0));
+  load_settings(line, bound, streams);
   for (std::size_t i = 0; i < inputs.size(); ++i)
     if (const auto& recording = inputs[i].recording())
       if (const auto changed = changed_settings_text(line.inputs[i], recording->facts, bound.table))
         streams.err << "psi-slam: " << *changed << '\n';
   for (const SessionInput& input : inputs)
-    input.open(log_options(bound.settings));  // mistakes are told at once
+    input.open(log_options(bound.settings));  // reports mistakes at once
   return inputs;
 }
 
-/// `inputs` has the name of the input that each drive came with.
+/// `inputs` has the name of the input of each run.
 void require_joined(const MappingSession& session, const std::vector<std::string>& inputs,
                     const InterruptSignals& signals) {
-  const auto drive = unjoined_run(session.result());
-  if (!drive) return;
+  const auto run = unjoined_run(session.result());
+  if (!run) return;
   if (signals.came())
-    throw SystemFailure("interrupted before a loop joined " + inputs[*drive] +
-                        " to the rest: nothing was merged");
-  throw UserError(inputs[*drive] + " cannot be merged: no loop was found that joins it to the rest");
+    throw SystemFailure("interrupted before a loop joined " + inputs[*run] +
+                        " to the other runs. Nothing was merged");
+  throw UserError(inputs[*run] + " cannot be merged: no loop joins it to the other runs");
 }
 
 void add_run(MappingSession& session, const SessionInput& input, const CommandLine& line,
-               const Settings& settings, const InterruptSignals& signals, WorkProgress progress) {
+             const Settings& settings, const InterruptSignals& signals, WorkProgress progress) {
   const std::string doing = "finding where " + names_of(input.logs()) + " begins";
   progress.show(doing, 0, 1);
   const auto grid = draw_grid_map(session.result().log, mapped_poses(session.result()), settings.map);
   std::optional<mrpt::math::TPose2D> map_T_start;
   if (!line.start.empty()) map_T_start = parse_start(line.start);
   const RunStart start = place_run(session.result(), *grid, input, settings, map_T_start, signals.came(),
-                                       [&](double share) { progress.show(doing, share, 1); });
+                                   [&](double share) { progress.show(doing, share, 1); });
   progress.clear();
   session.begin_run(input, start);
 }
@@ -77,10 +73,10 @@ int merge_runs(const CommandLine& line, const Streams& streams) {
   session.run(signals.came());
   std::vector<std::string> inputs_of_runs(session.runs(), line.inputs.front());
   for (auto input = inputs.begin() + 1; input != inputs.end(); ++input) {
-    if (signals.came()) throw SystemFailure("interrupted before all drives were read: nothing was merged");
+    if (signals.came()) throw SystemFailure("interrupted before all runs were read. Nothing was merged");
     if (progress_line) progress_line->clear();
     add_run(session, *input, line, bound.settings, signals,
-              WorkProgress(progress_line ? &streams.err : nullptr));
+            WorkProgress(progress_line ? &streams.err : nullptr));
     inputs_of_runs.resize(session.runs(), line.inputs[static_cast<std::size_t>(input - inputs.begin())]);
     session.run(signals.came());
     require_joined(session, inputs_of_runs, signals);

@@ -8,8 +8,11 @@
 namespace psi_slam {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::chrono::milliseconds kBetweenUpdates{200};
 constexpr const char* kEraseLine = "\r\x1b[K";
+constexpr double kEarlyShare = 0.01;  // before it an estimate of the time left is unreliable
 
 }  // namespace
 
@@ -31,23 +34,51 @@ std::string progress_text(const SessionProgress& progress) {
     std::snprintf(text, sizeof text, "%3.0f %%   %zu scans   %.0f scans/s", 100 * progress.share,
                   progress.scans, progress.scans_per_s);
   else
-    std::snprintf(text, sizeof text, "%3.0f %%   looking for loops once more", 100 * progress.share);
+    std::snprintf(text, sizeof text, "%3.0f %%   final loop search", 100 * progress.share);
   std::string line = text;
   if (progress.remaining_s) line += "   " + minutes_text(*progress.remaining_s) + " left";
   return line;
 }
 
+std::string work_progress_text(const std::string& doing, double share, double elapsed_s) {
+  char percent[32];
+  std::snprintf(percent, sizeof percent, "   %3.0f %%", 100 * share);
+  std::string line = doing + percent;
+  if (share >= kEarlyShare) line += "   " + minutes_text(elapsed_s * (1 - share) / share) + " left";
+  return line;
+}
+
+bool OverwrittenLine::is_due() const {
+  return terminal_ != nullptr && (!shown_ || Clock::now() - shown_at_ >= kBetweenUpdates);
+}
+
+void OverwrittenLine::show(const std::string& text) {
+  if (terminal_ == nullptr) return;
+  shown_ = true;
+  shown_at_ = Clock::now();
+  *terminal_ << kEraseLine << text << std::flush;
+}
+
+void OverwrittenLine::clear() {
+  if (shown_) *terminal_ << kEraseLine << std::flush;
+  shown_ = false;
+}
+
 void ProgressLine::show(const SessionProgress& progress) {
-  const auto now = std::chrono::steady_clock::now();
-  if (phase_ == progress.phase && now - shown_at_ < kBetweenUpdates) return;
+  if (phase_ == progress.phase && !line_.is_due()) return;
   phase_ = progress.phase;
-  shown_at_ = now;
-  terminal_ << kEraseLine << progress_text(progress) << std::flush;
+  line_.show(progress_text(progress));
 }
 
 void ProgressLine::clear() {
-  if (phase_) terminal_ << kEraseLine << std::flush;
+  line_.clear();
   phase_.reset();
+}
+
+void WorkProgress::show(const std::string& doing, double done, double all) {
+  if (!line_.is_due()) return;
+  const double elapsed_s = std::chrono::duration<double>(Clock::now() - began_).count();
+  line_.show(work_progress_text(doing, all > 0 ? done / all : 0, elapsed_s));
 }
 
 }  // namespace psi_slam

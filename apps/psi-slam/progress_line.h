@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Progress on a terminal: one line that is overwritten.
 #pragma once
 
 #include <chrono>
@@ -10,29 +11,63 @@
 
 namespace psi_slam {
 
-/// " 43 %   5876 scans   2100 scans/s   0:04 left"; of the later phases, what is being done. The time left is
+/// " 43 %   5876 scans   2100 scans/s   0:04 left"; in later phases the name of the phase. The time left is
 /// that of the phase.
 std::string progress_text(const SessionProgress& progress);
+
+/// "intel, cases   34 %   12:30 left", without the time left in the first percent of the work.
+std::string work_progress_text(const std::string& doing, double share, double elapsed_s);
 
 /// "0:07", "12:30", "1:02:03".
 std::string minutes_text(double seconds);
 
-/// One line of a terminal that is written over and over, and gone at the end of its scope.
+/// A line of a terminal that is overwritten, and erased at the end of its scope. Without a terminal nothing
+/// is written.
+class OverwrittenLine {
+ public:
+  /// `terminal` may be null.
+  explicit OverwrittenLine(std::ostream* terminal) : terminal_(terminal) {}
+  ~OverwrittenLine() { clear(); }
+  OverwrittenLine(const OverwrittenLine&) = delete;
+  OverwrittenLine& operator=(const OverwrittenLine&) = delete;
+
+  /// True if nothing was shown in the last 0.2 s.
+  bool is_due() const;
+  void show(const std::string& text);
+  void clear();
+
+ private:
+  std::ostream* terminal_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point shown_at_;
+};
+
+/// Progress of a session. Shows every new phase at once, and updates a phase a few times a second.
 class ProgressLine {
  public:
-  explicit ProgressLine(std::ostream& terminal) : terminal_(terminal) {}
-  ~ProgressLine() { clear(); }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
+  explicit ProgressLine(std::ostream& terminal) : line_(&terminal) {}
 
-  /// Shows every new phase, and within one not more than a few lines a second.
   void show(const SessionProgress& progress);
   void clear();
 
  private:
-  std::ostream& terminal_;
-  std::optional<SessionProgress::Phase> phase_;  // shown now
-  std::chrono::steady_clock::time_point shown_at_;
+  OverwrittenLine line_;
+  std::optional<SessionProgress::Phase> phase_;  ///< shown now
+};
+
+/// Progress of any work, updated a few times a second.
+class WorkProgress {
+ public:
+  /// `terminal` may be null.
+  explicit WorkProgress(std::ostream* terminal) : line_(terminal) {}
+
+  /// `done` of `all` units of work are finished. `doing` says what is being done.
+  void show(const std::string& doing, double done, double all);
+  void clear() { line_.clear(); }
+
+ private:
+  OverwrittenLine line_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace psi_slam

@@ -4,11 +4,11 @@
 #include <map>
 #include <ostream>
 
-#include "interrupt_signals.h"
 #include "base/file_checksum.h"
-#include "psi_slam/user_error.h"
 #include "batch/sweep_report.h"
-#include "work_progress.h"
+#include "interrupt_signals.h"
+#include "progress_line.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -17,24 +17,24 @@ namespace fs = std::filesystem;
 
 constexpr int kMostThreads = 1024;
 
-/// An option that takes one text each time it is given.
+/// An option that may be repeated, with one text each time.
 CLI::Option* add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& texts,
                           const std::string& help) {
-  return command.add_option(name, texts, help + "; may be given again")->allow_extra_args(false);
+  return command.add_option(name, texts, help + ". May be repeated")->allow_extra_args(false);
 }
 
 void prepare(const fs::path& folder) {
   if (folder.empty()) throw UserError("name the folder for the results: -o DIR (see psi-slam sweep --help)");
   std::error_code failed;
   fs::create_directories(folder / "runs", failed);
-  if (failed) throw UserError("the folder " + folder.string() + " cannot be made: " + failed.message());
+  if (failed) throw UserError("cannot make the folder " + folder.string() + ": " + failed.message());
 }
 
 std::string closing_text(const SweepResult& result, const fs::path& folder) {
   const std::size_t made = result.made_now();
   const std::size_t finished = result.outcomes.size() - result.to_go() - result.failed();
   return std::to_string(finished) + " of " + std::to_string(result.outcomes.size()) + " runs are finished, " +
-         std::to_string(made) + " made now: " + (folder / "report.html").string() + " compares them, " +
+         std::to_string(made) + " made now. " + (folder / "report.html").string() + " compares them and " +
          (folder / "sweep.csv").string() + " lists them.\n";
 }
 
@@ -42,47 +42,49 @@ std::string closing_text(const SweepResult& result, const fs::path& folder) {
 
 void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
   SweepRequest& request = arguments.request;
-  command.add_option("LOG", request.logs, "Logs to map; LOG@INI states a log's own settings")->type_name("");
+  command.add_option("LOG", request.logs, "Logs to map. LOG@INI gives a log its own settings")->type_name("");
   command
       .add_option("-o,--output", arguments.output,
-                  "Folder for runs and report; runs that are there are not made again")
+                  "Folder for runs and report. Runs that it already holds are not repeated")
       ->type_name("DIR");
   command
       .add_option("--ini", request.ini_folder,
-                  "Folder of the logs' own settings NAME.ini; default: beside each log, where there are any")
+                  "Folder with the settings NAME.ini of each log. Default: the folder of the log")
       ->type_name("DIR");
   command
       .add_option("--relations", request.relations,
-                  "True relations of the one log; default: NAME.relations beside each, where there are any")
+                  "True relations of the only log. Default: NAME.relations in the folder of each log")
       ->type_name("FILE");
-  add_repeated(command, "-c,--config", request.configs, "Settings file to compare, over the logs' own")
+  add_repeated(command, "-c,--config", request.configs,
+               "Settings file to compare; overrides the settings of the log")
       ->type_name("INI");
   add_repeated(command, "--set", request.choices, "Values of an option to compare")
       ->type_name("SECTION.KEY=VALUE,...");
   command
       .add_option_function<std::string>(
           "--seeds", [&request](const std::string& text) { request.seeds = parse_seeds(text); },
-          "Of each setting's runs: N for 1 to N, or FIRST-LAST")
+          "Seeds of the runs with each setting: N means 1 to N; or FIRST-LAST")
       ->default_str("1")
       ->type_name("SEEDS");
   static const std::map<std::string, SweepKeep> kKeeps{
       {"none", SweepKeep::kNone}, {"paths", SweepKeep::kPaths}, {"maps", SweepKeep::kMaps}};
   command
       .add_option("--keep", arguments.keep,
-                  "Of each run: none (its summary and settings), paths (and tables), maps (everything)")
+                  "What to keep of each run: none (only summary and settings), paths (also tables), maps "
+                  "(everything)")
       ->transform(CLI::Transformer(kKeeps))
       ->default_str("none")
       ->type_name("WHAT");
   command.add_option("--threads", request.threads, "Threads of each run")
       ->check(CLI::Range(1, kMostThreads))
       ->capture_default_str();
-  command.add_flag("-q,--quiet", arguments.quiet, "Print nothing but complaints");
+  command.add_flag("-q,--quiet", arguments.quiet, "Print only warnings and errors");
 }
 
 void add_processes_option(CLI::App& command, SweepArguments& arguments) {
   command
       .add_option("--processes", arguments.processes,
-                  "Runs at a time; more than there are processors spoils the times")
+                  "Number of runs at a time. More runs than processors make the times unreliable")
       ->check(CLI::Range(1, kMostThreads))
       ->capture_default_str();
 }
@@ -91,6 +93,7 @@ int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& worke
                       const Streams& streams) {
   prepare(arguments.output);
   const SweepPlan plan = plan_sweep(arguments.request, sha256_of_file(program));
+  for (const std::string& warning : plan.warnings) streams.err << "psi-slam: " << warning << '\n';
   const fs::path folder = arguments.output;
   const SweepLock lock(folder);
   const InterruptSignals signals;
@@ -105,10 +108,10 @@ int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& worke
   if (!arguments.quiet) streams.out << closing_text(result, folder);
   if (result.to_go() > 0)
     throw SystemFailure("interrupted with " + std::to_string(result.to_go()) +
-                        " runs to go: the same command goes on");
+                        " runs left. The same command resumes the sweep");
   if (result.failed() > 0)
     throw SystemFailure(std::to_string(result.failed()) + (result.failed() == 1 ? " run" : " runs") +
-                        " failed: " + (folder / "report.html").string() + " says which and why");
+                        " failed. " + (folder / "report.html").string() + " lists them with the reasons");
   return 0;
 }
 

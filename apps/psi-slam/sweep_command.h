@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam sweep: many logs with many settings and seeds, and one report of all.
+// psi-slam sweep: maps many logs with many settings and seeds, and writes one report.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -19,14 +19,14 @@ struct SweepArguments {
   bool quiet = false;
 };
 
-/// Fills `arguments`, which outlives `command`, but for --processes: see add_processes_option(). Parsing
-/// throws UserError for seeds that are none.
+/// Adds the options that fill `arguments`, which must outlive `command`. --processes is added by
+/// add_processes_option(). Parsing throws UserError for invalid seeds.
 void add_sweep_options(CLI::App& command, SweepArguments& arguments);
 void add_processes_option(CLI::App& command, SweepArguments& arguments);
 
-/// Makes the sweep and its report; `program` is psi-slam, and `speaker` whoever complains. Returns the exit
-/// code. SIGINT and SIGTERM end it in good order: what is finished is kept and reported. Throws UserError
-/// when the user must mend something, and SystemFailure when runs failed.
+/// Makes the sweep and its report; `program` is psi-slam. Returns the exit code. After SIGINT or SIGTERM the
+/// finished runs are kept and reported. Throws UserError for invalid input, and SystemFailure if runs failed
+/// or were interrupted.
 int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& workers,
                       const std::filesystem::path& program, const Streams& streams);
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "base/number_text.h"
-#include "exports/csv_text.h"
+#include "exports/csv_tables.h"
 #include "report/html_text.h"
 
 namespace psi_slam {

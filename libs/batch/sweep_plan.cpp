@@ -7,7 +7,7 @@
 #include "base/file_checksum.h"
 #include "batch/kept_run.h"
 #include "psi_slam/user_error.h"
-#include "session/bound_settings.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 namespace {
@@ -202,6 +202,9 @@ SweepPlan plan_sweep(const SweepRequest& request, const std::string& program_sha
     for (const std::vector<std::string>& values : settings) {
       BoundSettings bound;
       set_up(bound, plan.logs[log], choices, values, request.threads);
+      for (std::string& warning : bound.table.take_warnings())
+        if (std::find(plan.warnings.begin(), plan.warnings.end(), warning) == plan.warnings.end())
+          plan.warnings.push_back(std::move(warning));
       for (const std::uint64_t seed : request.seeds.all()) {
         bound.table.set("run.seed", std::to_string(seed), "--seeds");
         SweepRun run{log, values, seed, settings_file_text(bound.table), {}, {}};

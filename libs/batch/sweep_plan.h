@@ -45,8 +45,9 @@ struct SweepRun {
 
 struct SweepPlan {
   std::vector<SweepLog> logs;
-  std::vector<std::string> columns;  ///< what varies besides log and seed: "config", "map.resolution_m"
-  std::vector<SweepRun> runs;        ///< by log, then setting, then seed
+  std::vector<std::string> columns;   ///< what varies besides log and seed: "config", "map.resolution_m"
+  std::vector<SweepRun> runs;         ///< by log, then setting, then seed
+  std::vector<std::string> warnings;  ///< about renamed settings, each once
 };
 
 /// Combines the defaults, the log's own settings, the settings file, the choices and the seed; later ones

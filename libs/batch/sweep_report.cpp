@@ -7,7 +7,7 @@
 #include "base/number_text.h"
 #include "batch/kept_run.h"
 #include "batch/report_table.h"
-#include "exports/csv_text.h"
+#include "exports/csv_tables.h"
 #include "report/html_text.h"
 
 namespace psi_slam {

@@ -10,11 +10,13 @@
 
 namespace psi_slam {
 
-/// Sets every value of the file. Throws UserError with file and line for an unknown section or key, proposing
-/// what was probably meant, and for a value that the option does not take; then no setting has changed.
+/// Sets every value of the file. Throws UserError with file and line for an unknown section or key (with the
+/// nearest name), for a value that the option does not accept, and for an option that one file gives by its
+/// old and its new name. Then no setting has changed. `table` collects a warning for each old name.
 void apply(const IniFile& file, OptionTable& table);
 
-/// Sets one value as given on the command line: "section.key=value". Throws UserError beginning with "--set".
+/// Sets one value as given on the command line: "section.key=value". Throws UserError that begins with
+/// "--set".
 void apply_override(std::string_view assignment, OptionTable& table);
 
 }  // namespace psi_slam

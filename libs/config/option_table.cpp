@@ -5,9 +5,9 @@
 #include <array>
 #include <stdexcept>
 
-#include "psi_slam/user_error.h"
-#include "config/exact_number.h"
+#include "base/number_text.h"
 #include "config/nearest_name.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -38,7 +38,7 @@ std::optional<std::string> parse_line(std::string_view text) {
   return std::string(text);
 }
 
-/// The number in the member's unit if it is in the range of the option's unit.
+/// Reads a number and converts it to the unit of the member; empty if it is out of range.
 std::optional<double> parse_in_range(std::string_view text, const NumberRange& range, bool is_angle) {
   const std::optional<double> value = parse_number(text);
   if (!value || !range.contains(*value)) return {};
@@ -103,7 +103,14 @@ const Option* find(const OptionSection& section, std::string_view key) {
   return found == section.options.end() ? nullptr : &*found;
 }
 
-/// What was probably meant by a key that its section does not have, as the end of a sentence; or nothing.
+/// Section and key of "section.key"; no key if there is no dot.
+std::pair<std::string_view, std::string_view> parts(std::string_view name) {
+  const std::size_t dot = name.find('.');
+  if (dot == std::string_view::npos) return {name, {}};
+  return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+/// Proposal for an unknown key, as the end of a sentence; can be empty.
 std::string proposal(const std::vector<OptionSection>& sections, const OptionSection& here,
                      std::string_view key) {
   for (const OptionSection& section : sections)
@@ -196,8 +203,37 @@ OptionTable& OptionTable::text(std::string key, std::string& member, std::string
              [](const std::string& value) { return value; });
 }
 
+OptionTable& OptionTable::alias(std::string old_name, std::string new_name) {
+  const bool is_option = new_name.find('.') != std::string::npos;
+  if (is_option != (old_name.find('.') != std::string::npos))
+    throw std::logic_error(old_name + " and " + new_name + " must both be options or both be sections");
+  if (is_option ? !knows(new_name) : find(sections_, new_name) == nullptr)
+    throw std::logic_error(old_name + " cannot stand for " + new_name + ", which is not described yet");
+  if (is_option ? knows(old_name) : find(sections_, old_name) != nullptr || aliases_.count(old_name) > 0)
+    throw std::logic_error("old name " + old_name + " is in use");
+  aliases_.emplace(std::move(old_name), std::move(new_name));
+  return *this;
+}
+
+std::string OptionTable::current_name(std::string_view name) const {
+  if (const auto renamed = aliases_.find(name); renamed != aliases_.end()) return renamed->second;
+  const auto [section, key] = parts(name);
+  const auto renamed = aliases_.find(section);
+  if (renamed == aliases_.end()) return std::string(name);
+  const std::string moved = renamed->second + '.' + std::string(key);
+  const auto renamed_key = aliases_.find(moved);
+  return renamed_key == aliases_.end() ? moved : renamed_key->second;
+}
+
+bool OptionTable::knows(std::string_view name) const {
+  const std::string current = current_name(name);
+  const auto [section_name, key] = parts(current);
+  const OptionSection* const section = find(sections_, section_name);
+  return section != nullptr && find(*section, key) != nullptr;
+}
+
 void OptionTable::require_section(std::string_view name, std::string_view where) const {
-  if (find(sections_, name) != nullptr) return;
+  if (find(sections_, name) != nullptr || aliases_.count(name) > 0) return;
   std::string sentence = std::string(where) + ": unknown section [" + std::string(name) + "]; ";
   if (const auto near = nearest_name(name, names(sections_))) {
     sentence += "did you mean [" + *near + "]?";
@@ -209,11 +245,10 @@ void OptionTable::require_section(std::string_view name, std::string_view where)
 }
 
 const Option& OptionTable::option(std::string_view name, std::string_view where) const {
-  const std::size_t dot = name.find('.');
-  if (dot == std::string_view::npos)
+  if (name.find('.') == std::string_view::npos)
     throw UserError(std::string(where) + ": expected section.key, not " + quoted(name));
-  const std::string_view section_name = name.substr(0, dot);
-  const std::string_view key = name.substr(dot + 1);
+  const std::string current = current_name(name);
+  const auto [section_name, key] = parts(current);
   require_section(section_name, where);
   const OptionSection& section = *find(sections_, section_name);
   if (const Option* option = find(section, key)) return *option;
@@ -221,11 +256,38 @@ const Option& OptionTable::option(std::string_view name, std::string_view where)
                   proposal(sections_, section, key));
 }
 
-void OptionTable::set(std::string_view name, std::string_view text, std::string_view where) {
+void OptionTable::check(std::string_view name, std::string_view text, std::string_view where) const {
   const Option& target = option(name, where);
-  if (target.assign(text)) return;
+  if (target.accepts(text)) return;
   throw UserError(std::string(where) + ": " + target.name() + " = " + std::string(text) + ": expected " +
                   target.expectation());
+}
+
+void OptionTable::set(std::string_view name, std::string_view text, std::string_view where) {
+  check(name, text, where);
+  const Option& target = option(name, where);
+  target.assign(text);
+  if (target.name() != name) warn_of_old_name(name, target.name(), where);
+}
+
+void OptionTable::warn_of_old_name(std::string_view old_name, const std::string& new_name,
+                                   std::string_view where) {
+  const auto [old_section, old_key] = parts(old_name);
+  const auto [new_section, new_key] = parts(new_name);
+  const bool only_section = old_key == new_key && aliases_.count(old_name) == 0;
+  std::string sentence = ": ";
+  if (only_section)
+    sentence.append("section [").append(old_section).append("] was renamed; write [").append(new_section) +=
+        ']';
+  else
+    sentence.append("option ").append(old_name).append(" was renamed; write ").append(new_name);
+  if (warned_.insert(std::string(where.substr(0, where.rfind(':'))) + sentence).second)
+    warnings_.push_back(std::string(where) + sentence);
+}
+
+std::vector<std::string> OptionTable::take_warnings() {
+  warned_.clear();
+  return std::exchange(warnings_, {});
 }
 
 }  // namespace psi_slam

@@ -7,12 +7,12 @@
 namespace psi_slam {
 namespace {
 
-constexpr int kWallScore = 160;           // of 255: in the middle of a wall, not beside it
-constexpr double kSurface_m = 0.25;       // from the surface where a beam ends
-constexpr double kLeastIncidence = 0.05;  // sine of the angle: beams along a wall are not told from it
-constexpr double kNoSurface = 0.5;        // where nothing is known of the surface
+constexpr int kWallScore = 160;           // of 255: inside a wall, not beside it
+constexpr double kSurface_m = 0.25;       // walls this near to the end of a beam are the surface it hit
+constexpr double kLeastIncidence = 0.05;  // sine of the angle between beam and wall
+constexpr double kNoSurface = 0.5;        // incidence if the surface normal is unknown
 
-/// How far before its end a beam may be on a wall.
+/// Length of the last part of a beam that may lie on a wall.
 double tolerance_m(const ScanPoints& scan, std::size_t i, double dx, double dy) {
   double incidence = kNoSurface;
   if (!scan.normals.empty() && (scan.normals[i].x != 0 || scan.normals[i].y != 0))

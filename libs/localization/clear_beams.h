@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a scan could have been taken at a pose of a map: its beams must not go through walls. That its ends
-// lie on walls does not say so; in a building of many rooms most ends find a wall somewhere.
+// Tests whether a scan could have been taken at a pose of a map: its beams must not pass through walls. It is
+// not enough that the ends of the beams lie on walls, since most ends find some wall in a large building.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -14,11 +14,11 @@ namespace psi_slam {
 
 struct ClearBeams {
   std::size_t beams = 0;
-  std::size_t clear = 0;  ///< of those, beams that meet no wall before their end
+  std::size_t clear = 0;  ///< beams that meet no wall before their end
   double share() const { return beams == 0 ? 0 : static_cast<double>(clear) / static_cast<double>(beams); }
 };
 
-/// Walks along all beams of the scan. A wall that lies near the surface where the beam ends is that surface.
+/// Follows all beams of the scan. A wall near the end of a beam counts as the surface that the beam hit.
 ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot);
 
 }  // namespace psi_slam

@@ -5,20 +5,21 @@
 #include <cmath>
 #include <utility>
 
-#include "localization/clear_beams.h"
 #include "base/number_text.h"
+#include "localization/clear_beams.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kSearchedShare =
-    0.9;                            // of min_response: large cells score less, and refused places are told
+// Share of min_response that the coarse search needs: large cells score less, and rejected places are
+// reported.
+constexpr double kSearchedShare = 0.9;
 constexpr double kFineCells = 1.5;  // half-width of the window in the fine grid, in coarse cells
 constexpr double kFineWindow_rad = radians_from_degrees(2.0L);
 
-// Rivals below this share of the best are not looked for: they would not stop a place from being believed.
+// Other places below this share of the best are ignored: they do not prevent belief in the best.
 constexpr double kLeastAmbiguity = 0.75;
 
 MatcherOptions with_quick_ambiguity(MatcherOptions options) {
@@ -26,7 +27,7 @@ MatcherOptions with_quick_ambiguity(MatcherOptions options) {
   return options;
 }
 
-/// The whole map and all headings, from its middle.
+/// Window of the whole map and all headings.
 struct Everywhere {
   TPose2D middle;
   SearchExtent extent;
@@ -42,7 +43,7 @@ std::string two_decimals(double value) {
   return fixed_text(value, 2);
 }
 
-/// Calls `visit` for the node and those that its context is of.
+/// Calls `visit` for the node and for the nodes of its context.
 template <class Visit>
 void for_context(std::size_t node, const KeyframeStore& memory, double travel_m, const Visit& visit) {
   const NodeScan& here = memory.nodes[node];
@@ -66,7 +67,7 @@ FoundPlace GlobalSearch::find(std::size_t node, const KeyframeStore& memory, con
   const ScanPoints context = scan_context(node, memory, options_.context);
   const ScoreGrid& coarse = map_.coarse->scores();
   if (context.points.empty() || context.farthest_m <= coarse.resolution_m()) {
-    place.objection = "the scan shows nothing";
+    place.objection = "the scan has no points";
     return place;
   }
   const MatchResult somewhere = match_anywhere(context, seed);
@@ -91,8 +92,8 @@ FoundPlace GlobalSearch::find(std::size_t node, const KeyframeStore& memory, con
   return place;
 }
 
-// Where the best pose lies near the seam of the headings, it is found at both of its sides, and would look
-// ambiguous: the search is made again with the seam opposite.
+// If the best heading lies near +-180 degrees, it is found on both sides and looks ambiguous. The search is
+// then repeated with a window centred on 180 degrees.
 MatchResult GlobalSearch::match_anywhere(const ScanPoints& context, const MatchSeed& seed) const {
   const ScoreGrid& grid = map_.coarse->scores();
   const Everywhere everywhere = all_of(grid);
@@ -132,13 +133,14 @@ std::string GlobalSearch::objection(FoundPlace& place, const ScanPoints& context
   place.agree = forward.share();
   place.clear_share = beams.share();
   if (place.observed_share < options_.min_observed_share)
-    return "only " + two_decimals(place.observed_share) + " of the scans lies in space that the map shows";
+    return "only " + two_decimals(place.observed_share) +
+           " of the scans' points lie in space that the map shows";
   if (place.agree < options_.min_agree)
     return "no place of the map fits: at the best one only " + two_decimals(place.agree) +
            " of the scans' points lie on its walls";
   if (place.clear_share < options_.min_clear_share)
     return "no place of the map fits: at the best one only " + two_decimals(place.clear_share) +
-           " of the beams get to their ends without going through a wall";
+           " of the beams pass through no wall";
   place.ambiguous = place.ambiguity > options_.max_ambiguity;
   if (place.ambiguous)
     return "another place fits as well: its response is " + two_decimals(place.ambiguity) + " of the best";

@@ -30,7 +30,7 @@ std::string times(int count) {
   return count == 1 ? "once" : std::to_string(count) + " times";
 }
 
-/// Of the scans at the end of a log: see LocalizationSummary.
+/// Mean confidence of the scans at the end of the log; see LocalizationSummary.
 double confidence_at_end(const std::vector<LocalizationStep>& steps) {
   double sum = 0;
   std::size_t count = 0;
@@ -49,7 +49,7 @@ void count_search(const FoundPlace& place, LocalizationSummary& summary) {
   summary.best_response = std::max(summary.best_response, place.response);
 }
 
-/// How it stands with the robot at the end of the log.
+/// State of the robot at the end of the log.
 std::string end_text(const LocalizationSummary& summary) {
   if (!summary.tracked_at_end)
     return "Lost at the end, since " + fixed_text(summary.lost_after_s.value_or(0), 1) +
@@ -98,8 +98,8 @@ LocalizationSummary summarize(const std::vector<LocalizationStep>& steps) {
     summary.why_not.clear();
     summary.ambiguous = false;
   } else if (summary.why_not.empty()) {
-    summary.why_not = summary.searches == 0 ? "no scan could be looked for"
-                                            : "places were found, but too few that agree with each other";
+    summary.why_not = summary.searches == 0 ? "no scan could be searched for"
+                                            : "too few of the places found agree with each other";
   }
   return summary;
 }
@@ -119,12 +119,12 @@ std::string localization_text(const LocalizationSummary& summary) {
   if (summary.ambiguity == 0.0)
     text += "; no other place came near";
   else if (summary.ambiguity)
-    text += "; the next best place scored " + fixed_text(*summary.ambiguity, 2) + " of that";
+    text += "; the response of the next best place is " + fixed_text(*summary.ambiguity, 2) + " of that";
   text += ".\n" + end_text(summary) + ".\nOf " + way + ", " + percent(summary.tracked, summary.scans) +
           " of the scans were tracked and " + percent(summary.fitting, summary.scans) +
           " fit the map, with a median response of " + fixed_text(summary.median_response, 2) + ".\n";
   if (summary.times_lost > 0)
-    text += "It was lost " + times(summary.times_lost) + " and found by searching the whole map " +
+    text += "The robot was lost " + times(summary.times_lost) + " and found by searching the whole map " +
             times(summary.times_found) + ".\n";
   return text;
 }

@@ -4,100 +4,141 @@
 #include <cmath>
 #include <utility>
 
-#include "frames/inverse_pose.h"
+#include "frames/pose_operations.h"
+#include "localization/global_search.h"
+#include "localization/localizer_options.h"
+#include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
-// Refined straight from the prediction, a pose that scores this share of the searched one is preferred: along
-// a corridor the search's best is decided by noise.
+// The refined prediction is preferred if it reaches this share of the searched pose's score: along a corridor
+// noise decides where the search finds its best pose.
 constexpr double kPredictionShare = 0.95;
 
 }  // namespace
 
+struct Localizer::Members {
+  Members(ReferenceMap map, const LocalizerOptions& given)
+      : options(given),
+        global_search(std::move(map), given.search),
+        matcher(given.search.match),
+        front_end(given.front_end),
+        consensus(given.consensus) {
+    map_frame.add_node({0, 0, 0});
+  }
+
+  void track(const FrontEndStep& motion, LocalizationStep& step);
+  PosePrior prior_at(const TPose2D& map_T_robot) const;
+  bool match_near(const FrontEndStep& motion, LocalizationStep& step) const;
+  void search(std::size_t frame, LocalizationStep& step);
+  void become_lost();
+
+  LocalizerOptions options;
+  GlobalSearch global_search;
+  CorrelativeMatcher matcher;
+  std::optional<FrontEnd> front_end;
+  TPose2D last_local_T_robot;
+  std::optional<TPose2D> map_T_local;  ///< of the front end's frame; empty while lost
+  bool is_near_given_start = false;    ///< true until the first scan fits
+  double misfit_m = 0;                 ///< travel since the last scan that fitted
+  TimeUs fitted_us = 0;
+  TimeUs now_us = 0;
+
+  // While lost.
+  KeyframeStore keyframes;  ///< since the robot was lost
+  LoopConsensus consensus;
+  PoseGraph map_frame;  ///< has one node, the map, which the places found are relative to
+};
+
+Localizer::Localizer(const mrpt::maps::COccupancyGridMap2D& map, const LocalizerOptions& options)
+    : Localizer(make_reference_map(map, options.search.resolution_m, options.search.smoothing_sigma_m),
+                options) {}
+
 Localizer::Localizer(ReferenceMap map, const LocalizerOptions& options)
-    : options_(options),
-      search_(std::move(map), options.search),
-      matcher_(options.search.match),
-      front_end_(options.front_end),
-      consensus_(options.consensus) {
-  map_frame_.add_node({0, 0, 0});
+    : m_(std::make_unique<Members>(std::move(map), options)) {}
+
+Localizer Localizer::open(const std::filesystem::path& map, const LocalizerOptions& options) {
+  return {read_map_file(map), options};
 }
 
+Localizer::~Localizer() = default;
+
 void Localizer::start_at(const TPose2D& map_T_robot) {
-  map_T_local_ = map_T_robot;
-  near_told_start_ = true;
+  m_->map_T_local = map_T_robot;
+  m_->is_near_given_start = true;
 }
 
 LocalizationStep Localizer::add(const Frame& frame) {
-  const FrontEndStep motion = front_end_->add(frame);
+  Members& m = *m_;
+  const FrontEndStep motion = m.front_end->add(frame);
   LocalizationStep step;
-  step.time_us = now_us_ = frame.time_us;
-  const TPose2D moved = motion.local_T_robot - last_local_T_robot_;
+  step.time_us = m.now_us = frame.time_us;
+  const TPose2D moved = motion.local_T_robot - m.last_local_T_robot;
   step.moved_m = std::hypot(moved.x, moved.y);
-  last_local_T_robot_ = motion.local_T_robot;
-  if (tracking()) {
-    track(motion, step);
+  m.last_local_T_robot = motion.local_T_robot;
+  if (m.map_T_local) {
+    m.track(motion, step);
   } else if (motion.node) {
-    remember_node(motion, frame.index, memory_);
-    if (begins_stretch(memory_.nodes.size() - 1, memory_.nodes, options_.search_travel_m))
-      search(frame.index, step);
+    remember_node(motion, frame.index, m.keyframes);
+    if (begins_stretch(m.keyframes.nodes.size() - 1, m.keyframes.nodes, m.options.search_travel_m))
+      m.search(frame.index, step);
   }
   return step;
 }
 
-void Localizer::track(const FrontEndStep& motion, LocalizationStep& step) {
+void Localizer::Members::track(const FrontEndStep& motion, LocalizationStep& step) {
   step.state = LocalizationStep::State::kTracking;
-  step.map_T_robot = *map_T_local_ + motion.local_T_robot;
+  step.map_T_robot = *map_T_local + motion.local_T_robot;
   step.fits = match_near(motion, step);
-  if (fitted_us_ == 0) fitted_us_ = now_us_;
+  if (fitted_us == 0) fitted_us = now_us;
   if (step.fits) {
-    map_T_local_ = step.map_T_robot + inverse(motion.local_T_robot);
-    near_told_start_ = false;
-    misfit_m_ = 0;
-    fitted_us_ = now_us_;
+    map_T_local = step.map_T_robot + inverse(motion.local_T_robot);
+    is_near_given_start = false;
+    misfit_m = 0;
+    fitted_us = now_us;
     return;
   }
-  misfit_m_ += step.moved_m;
-  if (misfit_m_ <= options_.max_misfit_m && seconds(now_us_ - fitted_us_) <= options_.max_misfit_s) return;
+  misfit_m += step.moved_m;
+  if (misfit_m <= options.max_misfit_m && seconds(now_us - fitted_us) <= options.max_misfit_s) return;
   step.state = LocalizationStep::State::kLost;
-  find_again();
+  become_lost();
 }
 
-PosePrior Localizer::prior_at(const TPose2D& map_T_robot) const {
-  const double information_m = 1 / (options_.prior_sigma_m * options_.prior_sigma_m);
-  const double information_rad = 1 / (options_.prior_sigma_rad * options_.prior_sigma_rad);
+PosePrior Localizer::Members::prior_at(const TPose2D& map_T_robot) const {
+  const double information_m = 1 / (options.prior_sigma_m * options.prior_sigma_m);
+  const double information_rad = 1 / (options.prior_sigma_rad * options.prior_sigma_rad);
   PosePrior prior;
   prior.map_T_robot = map_T_robot;
   prior.information.diagonal() << information_m, information_m, information_rad;
   return prior;
 }
 
-bool Localizer::match_near(const FrontEndStep& motion, LocalizationStep& step) const {
-  const LocalMap& map = *search_.map().fine;
+bool Localizer::Members::match_near(const FrontEndStep& motion, LocalizationStep& step) const {
+  const LocalMap& map = *global_search.map().fine;
   const ScanPoints& scan = *motion.points;
   if (scan.points.empty() || scan.farthest_m <= map.scores().resolution_m()) return false;
   const SearchExtent window =
-      near_told_start_
-          ? SearchExtent{options_.start_window_m, options_.start_window_m, options_.start_window_rad}
-          : SearchExtent{options_.window_m, options_.window_m, options_.window_rad};
+      is_near_given_start
+          ? SearchExtent{options.start_window_m, options.start_window_m, options.start_window_rad}
+          : SearchExtent{options.window_m, options.window_m, options.window_rad};
   MatchProblem problem{map.scores(), scan, step.map_T_robot, window};
-  problem.min_response = options_.min_response;
-  if (!near_told_start_) problem.prior = prior_at(step.map_T_robot);
-  const MatchResult match = matcher_.match(problem);
+  problem.min_response = options.min_response;
+  if (!is_near_given_start) problem.prior = prior_at(step.map_T_robot);
+  const MatchResult match = matcher.match(problem);
   if (!match.found) return false;
   TPose2D matched = match.map_T_robot;
   if (problem.prior) {
     const RefinedPose predicted =
-        refine(map.scores(), scan, step.map_T_robot, options_.search.match.refinement, problem.prior);
+        refine(map.scores(), scan, step.map_T_robot, options.search.match.refinement, problem.prior);
     if (predicted.mean_score >= kPredictionShare * match.refined_response) matched = predicted.map_T_robot;
   }
   const LocalMap::Agreement agreement = map.agreement(scan, matched);
   const auto points = static_cast<double>(scan.points.size());
-  if (static_cast<double>(agreement.observed) < options_.min_observed_share * points ||
-      agreement.share() < options_.min_agree)
+  if (static_cast<double>(agreement.observed) < options.min_observed_share * points ||
+      agreement.share() < options.min_agree)
     return false;
   step.map_T_robot = matched;
   step.response = match.response;
@@ -105,17 +146,18 @@ bool Localizer::match_near(const FrontEndStep& motion, LocalizationStep& step) c
   return true;
 }
 
-void Localizer::search(std::size_t frame, LocalizationStep& step) {
-  const std::size_t node = memory_.nodes.size() - 1;
-  const NodeScan& here = memory_.nodes[node];
-  const FoundPlace& place = step.search.emplace(search_.find(node, memory_, {options_.seed, frame, 0}));
+void Localizer::Members::search(std::size_t frame, LocalizationStep& step) {
+  const std::size_t node = keyframes.nodes.size() - 1;
+  const NodeScan& here = keyframes.nodes[node];
+  const FoundPlace& place =
+      step.search.emplace(global_search.find(node, keyframes, {options.seed, frame, 0}));
   if (!place.believed()) return;
   const LoopConsensus::Vote vote{node, here.travelled_m,  here.local_T_robot,
                                  0,    place.map_T_robot, place.ambiguity};
-  if (consensus_.add(vote, map_frame_).empty()) return;
-  map_T_local_ = place.map_T_robot + inverse(here.local_T_robot);
-  misfit_m_ = 0;
-  fitted_us_ = now_us_;
+  if (consensus.add(vote, map_frame).empty()) return;
+  map_T_local = place.map_T_robot + inverse(here.local_T_robot);
+  misfit_m = 0;
+  fitted_us = now_us;
   step.state = LocalizationStep::State::kTracking;
   step.map_T_robot = place.map_T_robot;
   step.fits = true;
@@ -123,14 +165,14 @@ void Localizer::search(std::size_t frame, LocalizationStep& step) {
   step.confidence = place.agree * place.observed_share;
 }
 
-// What the front end knows of the way until now may lead from where the robot is no more.
-void Localizer::find_again() {
-  map_T_local_.reset();
-  near_told_start_ = false;
-  front_end_.emplace(options_.front_end);
-  last_local_T_robot_ = {0, 0, 0};
-  memory_ = {};
-  consensus_ = LoopConsensus(options_.consensus);
+// The robot may have been moved by hand, so the motion measured until now may be wrong.
+void Localizer::Members::become_lost() {
+  map_T_local.reset();
+  is_near_given_start = false;
+  front_end.emplace(options.front_end);
+  last_local_T_robot = {0, 0, 0};
+  keyframes = {};
+  consensus = LoopConsensus(options.consensus);
 }
 
 }  // namespace psi_slam

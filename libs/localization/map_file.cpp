@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "localization/map_file.h"
 
 #include <mrpt/containers/yaml.h>
 #include <mrpt/io/CMemoryStream.h>
@@ -12,10 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "compression/compressed_file.h"
-#include "psi_slam/user_error.h"
 #include "base/byte_cursor.h"
 #include "base/number_text.h"
+#include "compression/compressed_file.h"
+#include "localization/reference_map.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -32,29 +32,30 @@ constexpr double kMostResolution_m = 1;
 void check_resolution(const std::filesystem::path& path, double resolution_m) {
   if (!(resolution_m >= kLeastResolution_m && resolution_m <= kMostResolution_m))
     throw UserError(path.string() + ": resolution is " + shortest_text(static_cast<float>(resolution_m)) +
-                    " m, expected 0.001 to 1 m a cell");
+                    " m, expected 0.001 to 1 m");
 }
 
 void check_yaml(const std::filesystem::path& path, const mrpt::containers::yaml& yaml) {
   check_resolution(path, yaml["resolution"].as<double>());
   if (yaml["origin"](2).as<double>() != 0)
-    throw UserError(path.string() + ": a map whose origin is turned cannot be used");
+    throw UserError(path.string() + ": the origin is rotated, expected yaw 0");
 }
 
 Grid read_yaml(const std::filesystem::path& path) {
-  CompressedFile readable(path);  // says what is wrong with a file that is not there
+  CompressedFile readable(path);  // throws the error message for an unreadable file
   Grid grid;
   try {
     const auto yaml = mrpt::containers::yaml::FromFile(path.string());
     check_yaml(path, yaml);
     if (!grid.loadFromROSMapServerYAML(path.string()))
-      throw UserError(path.string() + ": the image that it names cannot be read");
+      throw UserError(path.string() + ": the image that it names is unreadable");
   } catch (const UserError&) {
     throw;
   } catch (const std::exception&) {
-    throw UserError(path.string() +
-                    ": no map for map_server, which names image, resolution, origin, negate, occupied_thresh "
-                    "and free_thresh");
+    throw UserError(
+        path.string() +
+        " is not a map of map_server: expected image, resolution, origin, negate, occupied_thresh "
+        "and free_thresh");
   }
   return grid;
 }
@@ -72,7 +73,7 @@ std::vector<char> all_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-/// What stands in front of the cells of a gridmap.
+/// Header of a gridmap file, before its cells.
 struct GridHead {
   double cells_x = 0;
   double cells_y = 0;
@@ -83,7 +84,7 @@ struct GridHead {
   double resolution_m = 0;
 };
 
-/// Throws MalformedBytes when the bytes end within it.
+/// Throws MalformedBytes if the bytes end within the header.
 GridHead head_of(ByteCursor& cursor) {
   constexpr std::uint8_t kLengthOfName = 0x7F;
   cursor.take(cursor.number<std::uint8_t>() & kLengthOfName);
@@ -95,7 +96,7 @@ GridHead head_of(ByteCursor& cursor) {
   return head;
 }
 
-/// MRPT makes a grid of any size that its counts claim.
+/// Protects MRPT, which allocates a grid of any size that the header claims.
 void check_gridmap(const std::filesystem::path& path, std::string_view bytes) {
   ByteCursor cursor(bytes);
   const GridHead head = head_of(cursor);
@@ -106,9 +107,9 @@ void check_gridmap(const std::filesystem::path& path, std::string_view bytes) {
   const bool agrees =
       agree(head.cells_x, head.x_min_m, head.x_max_m) && agree(head.cells_y, head.y_min_m, head.y_max_m);
   if (!agrees || head.cells_x * head.cells_y > static_cast<double>(cursor.left()))
-    throw UserError(path.string() + ": a damaged gridmap: it announces " + fixed_text(head.cells_x, 0) +
-                    " x " + fixed_text(head.cells_y, 0) + " cells, which neither its limits nor its " +
-                    std::to_string(bytes.size()) + " bytes bear out");
+    throw UserError(path.string() + " is damaged: it claims " + fixed_text(head.cells_x, 0) + " x " +
+                    fixed_text(head.cells_y, 0) + " cells, which contradicts its limits or its " +
+                    std::to_string(bytes.size()) + " bytes");
 }
 
 Grid read_gridmap(const std::filesystem::path& path) {
@@ -122,7 +123,7 @@ Grid read_gridmap(const std::filesystem::path& path) {
   } catch (const UserError&) {
     throw;
   } catch (const std::exception&) {
-    throw UserError(path.string() + ": no whole gridmap of MRPT");
+    throw UserError(path.string() + " is not a complete gridmap of MRPT");
   }
   return grid;
 }
@@ -133,11 +134,12 @@ Grid read_map_file(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   const bool is_yaml = ends_with(name, ".yaml") || ends_with(name, ".yml");
   if (!is_yaml && !ends_with(name, ".gridmap.gz") && !ends_with(name, ".gridmap"))
-    throw UserError(path.string() + " is no map: expected map.yaml or map.gridmap.gz as a run writes them");
+    throw UserError(path.string() +
+                    " is not a map: expected map.yaml or map.gridmap.gz, as psi-slam writes them");
   Grid grid = is_yaml ? read_yaml(path) : read_gridmap(path);
   const auto& cells = grid.getRawMap();
   if (std::none_of(cells.begin(), cells.end(), [](Grid::cellType cell) { return cell < 0; }))
-    throw UserError(path.string() + ": a map without a single wall");
+    throw UserError(path.string() + ": the map has no wall");
   return grid;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using Grid = mrpt::maps::COccupancyGridMap2D;
 
-// Unknown cells stay unknown only where all in them are.
+// A larger cell is unknown only if all cells in it are unknown.
 Grid in_larger_cells(const Grid& map, int factor) {
   const float resolution = map.getResolution() * static_cast<float>(factor);
   Grid larger;

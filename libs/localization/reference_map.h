@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A finished map made ready for robots to be found in.
+// A finished map, prepared for matching.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "local_maps/local_map.h"
 
 namespace psi_slam {
 
-/// All in the map's own frame.
+/// Both grids are in the map's own frame.
 struct ReferenceMap {
-  std::shared_ptr<const LocalMap> fine;    ///< of the map's own resolution
-  std::shared_ptr<const LocalMap> coarse;  ///< the same in larger cells: a search of all of it is quick there
+  std::shared_ptr<const LocalMap> fine;    ///< with the resolution of the map
+  std::shared_ptr<const LocalMap> coarse;  ///< with larger cells, so that searching all of it is fast
 };
 
-/// The coarse grid's cells are as large as a multiple of the map's can be, at most `search_resolution_m`, and
-/// a cell is as occupied as any in it. Evidence is spread by `smoothing_sigma_m` in the fine one.
+/// The cells of the coarse grid are the largest multiple of the map's cells up to `search_resolution_m`. Each
+/// is as occupied as the most occupied cell in it. `smoothing_sigma_m` blurs the fine grid's scores.
 ReferenceMap make_reference_map(const mrpt::maps::COccupancyGridMap2D& map, double search_resolution_m,
                                 double smoothing_sigma_m);
+
+/// Reads a map from `map.yaml`, with the image that it names, or from `map.gridmap.gz`; the file's extension
+/// decides. Throws UserError if the file is unreadable or of another kind, or if the map is rotated or has no
+/// wall.
+mrpt::maps::COccupancyGridMap2D read_map_file(const std::filesystem::path& path);
 
 }  // namespace psi_slam

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Undo and redo of edits. To take one back is an edit, too: the one that was in force for the same loop
-// before it, or else to restore the loop; and what was to be done to it later is to be done again.
+// Undo and redo of edits. To undo an edit is an edit, too: it repeats the previous edit of the same loop, or
+// restores the loop if there was none, and plans the later edits of the loop again.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "loop_closure/loop_edit.h"
+#include "psi_slam/loop_record.h"
 #include "session/edit_journal.h"
 
 namespace psi_slam {
@@ -16,26 +16,26 @@ class EditHistory {
  public:
   struct Reversal {
     LoopEdit edit;
-    std::vector<TimedEdit> later;  ///< what was to be done to the loop later, and was forgotten
+    std::vector<TimedEdit> later;  ///< planned edits of the loop that the undone edit removed
   };
 
-  /// A person made an edit where `before` was in force for the same loop, and `later` was to come. What was
-  /// undone before can no longer be redone.
+  /// Notes an edit that the user made. `before` is the edit of the same loop that was in force, `later` are
+  /// its planned edits. Nothing can be redone afterwards.
   void note(const LoopEdit& made, const std::optional<LoopEdit>& before, std::vector<TimedEdit> later = {});
 
-  /// What takes back the newest one; none where there is nothing to undo.
+  /// The edit that undoes the newest one; empty if there is nothing to undo.
   std::optional<Reversal> undo();
-  /// The edit that was undone last.
+  /// The edit that was undone last; empty if there is nothing to redo.
   std::optional<LoopEdit> redo();
 
-  /// What undo() and redo() would take back and do again; empty: nothing.
+  /// Texts of the edits that undo() and redo() would undo and repeat; empty if there are none.
   std::string undo_text() const { return text_of_last(made_); }
   std::string redo_text() const { return text_of_last(undone_); }
 
  private:
   struct Step {
     LoopEdit made;
-    Reversal back;  // what takes it back
+    Reversal back;  ///< undoes `made`
   };
   static std::string text_of_last(const std::vector<Step>& steps) {
     return steps.empty() ? "" : text_of(steps.back().made);

@@ -7,9 +7,8 @@
 #include <string_view>
 #include <tuple>
 
-#include "session/edit_line.h"
 #include "base/atomic_file.h"
-#include "base/line_reader.h"
+#include "compression/line_reader.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -79,8 +78,8 @@ bool EditJournal::forget_later(const LoopEdit& same) {
   return any;
 }
 
-EditJournal EditJournal::of_drive(std::size_t first_scan, std::size_t scans,
-                                  std::size_t first_local_map) const {
+EditJournal EditJournal::of_run(std::size_t first_scan, std::size_t scans,
+                                std::size_t first_local_map) const {
   EditJournal journal;
   for (TimedEdit edit : edits_) {
     edit.edit.frame += first_scan;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a person changed about the loops of a log, and when: each edit says after which scan it was made, so
-// that the same edits give the same map whether they are made in the window or taken from a file.
+// Edits of the loops of a log, each with the scan after which it is made. The same edits give the same map,
+// whether they are made in the window or read from a file.
 //
-// As a file it is text, a line an edit:
+// The file is text, one line for each edit:
 //
 //     # psi-slam loop edits 1
 //     delete scan=812 local_map=14 after=1500
@@ -11,28 +11,29 @@
 //     match scan=900 local_map=3 matcher=ga x_m=1.5 y_m=-2 yaw_deg=90 window_m=2 window_deg=30 after=1500
 //     restore scan=812 local_map=14 after=1600
 //
-// Who writes one by hand may leave out `after`: such an edit is made as soon as its scan and its local map
-// are there. x_m, y_m and yaw_deg place the scan's robot in the local map, window_m and window_deg are
-// half-widths; `match` may do without these five.
-// attempt=final_search is for a match that only the last pass finds.
+// Without `after`, an edit is made as soon as its scan and its local map exist. x_m, y_m and yaw_deg place
+// the scan's robot in the local map; window_m and window_deg are half-widths. `match` works without these
+// five. attempt=final_search forces a match that only the final loop search finds. Older files call it
+// attempt=last_pass.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "loop_closure/loop_edit.h"
+#include "psi_slam/loop_record.h"
 
 namespace psi_slam {
 
-/// A moment of a run. They are ordered.
+/// A moment of a run, in the order of time.
 struct EditTime {
   enum class Kind {
     kBegin,      ///< before the first scan
-    kAfterScan,  ///< when `scan`, in the log's order, has been mapped
-    kEnd,        ///< when the last one has
+    kAfterScan,  ///< after `scan`, in the log's order, was mapped
+    kEnd,        ///< after the last scan was mapped
   };
   Kind kind = Kind::kBegin;
   std::size_t scan = 0;
@@ -46,45 +47,51 @@ struct TimedEdit {
 
 class EditJournal {
  public:
-  /// Of all edits, in the order in which they are made.
+  /// All edits, in the order in which they are made.
   const std::vector<TimedEdit>& edits() const { return edits_; }
   bool empty() const { return edits_.empty(); }
 
-  /// Adds one behind those of the same time.
+  /// Adds an edit after those of the same time.
   void add(const TimedEdit& edit);
   void add(const EditJournal& others);
 
-  /// The edits from the first that was not taken yet up to `now`; they count as taken. At the end all are
-  /// due, those after scans that never came too.
+  /// Returns the edits that are due at `now` and were not returned before. At the end all are due, even those
+  /// after scans that never came.
   std::vector<LoopEdit> take_due(EditTime now);
-  /// What was done last to the same loop, of the edits that were taken.
+  /// The last edit of the same loop among those that were taken.
   std::optional<LoopEdit> in_force(const LoopEdit& same_loop) const;
-  /// What is to be done to the same loop, of the edits that were not taken yet.
+  /// The edits of the same loop among those that were not taken yet.
   std::vector<TimedEdit> to_come(const LoopEdit& same_loop) const;
-  /// None is taken any more: for another run of the same log.
+  /// Marks all edits as not taken, to map the same log again.
   void rewind() { taken_ = 0; }
 
-  /// A person makes an edit now, which must be no earlier than what was taken: it is entered as taken, and
-  /// what was to be done to the same loop later is forgotten.
+  /// Enters an edit that is made now, as taken, and removes later edits of the same loop. Its time must not
+  /// be before that of the edits taken.
   void enter(const TimedEdit& edit);
-  /// Forgets what is to be done to a loop later; false when nothing was.
+  /// Removes later edits of a loop. Returns false if there were none.
   bool forget_later(const LoopEdit& same_loop);
 
-  /// The same of a drive that is one of several: its scans are numbered from `first_scan`, its local maps
-  /// from `first_local_map`; what was made at its end is made after the last of its `scans`.
-  EditJournal of_drive(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
+  /// The edits of a run that becomes one of several. Its scans are numbered from `first_scan`, its local maps
+  /// from `first_local_map`. Edits at its end are made after the last of its `scans`.
+  EditJournal of_run(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
 
   std::string text() const;
-  /// Throws UserError, with file and line, on what is no edit.
+  /// Throws UserError, with file and line, for a line that is no edit.
   static EditJournal read(const std::filesystem::path& file);
-  /// The same for a text in memory, as if it stood in a file called `file`.
+  /// Parses a text; `file` is only for error messages. Throws like read().
   static EditJournal parse(const std::string& text, const std::filesystem::path& file);
-  /// Throws SystemFailure when the disk does not take it.
+  /// Throws SystemFailure if the file cannot be written.
   void write(const std::filesystem::path& file) const;
 
  private:
   std::vector<TimedEdit> edits_;
   std::size_t taken_ = 0;
 };
+
+/// Text of an edit in the file, without line end.
+std::string edit_line(const TimedEdit& edit);
+
+/// Parses a line of the file, without comment. Throws UserError, without file and line, if it is no edit.
+TimedEdit parse_edit_line(std::string_view line);
 
 }  // namespace psi_slam

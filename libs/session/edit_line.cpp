@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "session/edit_line.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,9 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "psi_slam/user_error.h"
-#include "config/exact_number.h"
+#include "base/number_text.h"
 #include "config/nearest_name.h"
+#include "psi_slam/user_error.h"
+#include "session/edit_journal.h"
 
 namespace psi_slam {
 namespace {
@@ -42,10 +41,11 @@ Kind kind_of(const std::string& verb) {
     if (verb == text) return kind;
     verbs.emplace_back(text);
   }
-  throw UserError("\"" + verb + "\" is none of delete, force, match and restore" + did_you_mean(verb, verbs));
+  throw UserError("unknown edit \"" + verb + "\": expected delete, force, match or restore" +
+                  did_you_mean(verb, verbs));
 }
 
-/// The key=value pairs of a line, each of which is to be asked for.
+/// The key=value pairs of a line.
 class Values {
  public:
   Values(std::istringstream& words, Kind kind) {
@@ -55,10 +55,10 @@ class Values {
       for (const char* key : kMatchKeys) keys.emplace_back(key);
     for (std::string word; words >> word;) {
       const std::size_t equals = word.find('=');
-      if (equals == std::string::npos) throw UserError("\"" + word + "\" is not KEY=VALUE");
+      if (equals == std::string::npos) throw UserError("\"" + word + "\": expected KEY=VALUE");
       const std::string key = word.substr(0, equals);
       if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        throw UserError("there is no key \"" + key + "\" here" + did_you_mean(key, keys));
+        throw UserError("unknown key \"" + key + "\"" + did_you_mean(key, keys));
       if (!values_.emplace(key, word.substr(equals + 1)).second)
         throw UserError("\"" + key + "\" is given twice");
     }
@@ -75,19 +75,19 @@ class Values {
   std::size_t whole(const char* key) const {
     const auto value = parse_number(text(key));
     if (!value || *value < 0 || *value > 1e15 || *value != std::floor(*value))
-      throw UserError(std::string(key) + "=" + text(key) + " is not a whole number of at least 0");
+      throw UserError(std::string(key) + "=" + text(key) + ": expected a whole number, 0 or more");
     return static_cast<std::size_t>(*value);
   }
 
   double number(const char* key) const {
     const auto value = parse_number(text(key));
-    if (!value) throw UserError(std::string(key) + "=" + text(key) + " is not a number");
+    if (!value) throw UserError(std::string(key) + "=" + text(key) + ": expected a number");
     return *value;
   }
 
   double radians(const char* key) const {
     const auto value = parse_degrees(text(key));
-    if (!value) throw UserError(std::string(key) + "=" + text(key) + " is not a number");
+    if (!value) throw UserError(std::string(key) + "=" + text(key) + ": expected a number");
     return *value;
   }
 
@@ -96,9 +96,9 @@ class Values {
 };
 
 MatcherKind matcher_of(const std::string& text) {
-  for (const MatcherKind kind : {MatcherKind::kCsm, MatcherKind::kCsmGa, MatcherKind::kGa})
+  for (const MatcherKind kind : kMatcherKinds)
     if (text == name(kind)) return kind;
-  throw UserError("matcher=" + text + " is none of csm, csm_ga and ga");
+  throw UserError("matcher=" + text + ": expected csm, csm_ga or ga");
 }
 
 std::optional<LoopPlace> place_of(const Values& values) {
@@ -108,10 +108,11 @@ std::optional<LoopPlace> place_of(const Values& values) {
   place.anchor_T_node = {values.number("x_m"), values.number("y_m"), values.radians("yaw_deg")};
   const double window_m = values.number("window_m");
   if (!(window_m > 0 && window_m <= kMaxWindow_m))
-    throw UserError("window_m=" + values.text("window_m") + " is not in (0, 1000]");
+    throw UserError("window_m=" + values.text("window_m") + ": expected a number above 0 and at most 1000");
   place.window = {window_m, window_m, values.radians("window_deg")};
   if (!(place.window.theta_rad > 0 && place.window.theta_rad <= M_PI))
-    throw UserError("window_deg=" + values.text("window_deg") + " is not in (0, 180]");
+    throw UserError("window_deg=" + values.text("window_deg") +
+                    ": expected a number above 0 and at most 180");
   return place;
 }
 
@@ -136,7 +137,7 @@ std::string edit_line(const TimedEdit& timed) {
             " yaw_deg=" + exact_degrees_text(edit.place->anchor_T_node.phi) +
             " window_m=" + exact_text(edit.place->window.x_m) +
             " window_deg=" + exact_degrees_text(edit.place->window.theta_rad);
-  if (edit.kind == Kind::kForce && edit.of_final_search) line += " attempt=last_pass";
+  if (edit.kind == Kind::kForce && edit.of_final_search) line += " attempt=final_search";
   if (timed.time.kind == EditTime::Kind::kAfterScan) line += " after=" + std::to_string(timed.time.scan);
   if (timed.time.kind == EditTime::Kind::kEnd) line += " after=end";
   return line;
@@ -153,8 +154,9 @@ TimedEdit parse_edit_line(std::string_view line) {
   timed.edit.local_map = values.whole("local_map");
   timed.time = time_of(values);
   if (values.has("attempt")) {
-    if (values.text("attempt") != "last_pass")
-      throw UserError("attempt=" + values.text("attempt") + " is not last_pass");
+    const std::string& attempt = values.text("attempt");
+    if (attempt != "final_search" && attempt != "last_pass")  // last_pass is its old name
+      throw UserError("attempt=" + attempt + ": expected final_search");
     timed.edit.of_final_search = true;
   }
   if (timed.edit.kind == Kind::kMatch) {

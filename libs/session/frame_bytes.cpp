@@ -10,15 +10,15 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr std::uint32_t kSeveralLasers = 2;  // the version with them
-// What reading promises to who maps the frames, whose memory grows with both.
+constexpr std::uint32_t kSeveralLasers = 2;  // the first version with several lasers
+// Limits for damaged files: the mapper's memory grows with both.
 constexpr std::uint32_t kMostLasers = 64;
 constexpr double kFarthest_m = 1e7;
 
 enum Flags : std::uint8_t {
   kHasOdometry = 1,
-  kOtherSensor = 2,    ///< than the scan of the same place in the frame before: it is described
-  kHasCompanions = 4,  ///< their number and each stand at the end
+  kOtherSensor = 2,    ///< the sensor differs from the previous frame's and is described
+  kHasCompanions = 4,  ///< the number of companions and their scans follow
 };
 constexpr std::uint8_t kAllFlags = kHasOdometry | kOtherSensor | kHasCompanions;
 
@@ -34,7 +34,7 @@ TPose2D read_pose(ByteCursor& bytes) {
   pose.x = bytes.number<double>();
   pose.y = bytes.number<double>();
   pose.phi = bytes.number<double>();
-  if (!is_possible(pose)) throw MalformedBytes("a pose is none");
+  if (!is_possible(pose)) throw MalformedBytes("invalid pose");
   return pose;
 }
 
@@ -51,7 +51,7 @@ std::vector<float> read_floats(ByteCursor& bytes) {
   return values;
 }
 
-/// What the scans of one sensor share.
+/// Bytes of what all scans of one sensor share.
 std::string sensor_bytes(const LaserScan& scan) {
   std::string bytes;
   append_floats(bytes, scan.bearings_rad ? *scan.bearings_rad : std::vector<float>());
@@ -66,23 +66,23 @@ LaserScan read_sensor(ByteCursor& bytes, std::uint32_t version) {
   LaserScan sensor;
   std::vector<float> bearings_rad = read_floats(bytes);
   if (!std::all_of(bearings_rad.begin(), bearings_rad.end(), [](float rad) { return std::isfinite(rad); }))
-    throw MalformedBytes("the bearing of a beam is none");
+    throw MalformedBytes("beam bearing is not finite");
   sensor.bearings_rad = std::make_shared<const std::vector<float>>(std::move(bearings_rad));
   sensor.max_range_m = bytes.number<float>();
   sensor.robot_T_laser = read_pose(bytes);
   sensor.sweep_time_s = bytes.number<float>();
   if (version >= kSeveralLasers) sensor.laser = bytes.number<std::uint32_t>();
-  if (sensor.laser >= kMostLasers) throw MalformedBytes("a scan is of too high a laser");
+  if (sensor.laser >= kMostLasers) throw MalformedBytes("the number of a laser is too high");
   return sensor;
 }
 
 void read_ranges(ByteCursor& bytes, LaserScan& scan) {
   scan.ranges_m = read_floats(bytes);
   if (scan.ranges_m.size() != scan.bearings_rad->size())
-    throw MalformedBytes("a scan has other beams than its sensor");
+    throw MalformedBytes("a scan has another number of beams than its sensor");
 }
 
-/// The sensors of the scans written or read last, by their places in a frame.
+/// Sensors of the last scans, by their index in a frame.
 template <class Sensor>
 class LastSensors {
  public:
@@ -95,7 +95,7 @@ class LastSensors {
   std::vector<Sensor> sensors_;
 };
 
-/// Whether the sensor is another than the last at this place, which it becomes.
+/// Makes `sensor` the last one. Returns whether it differs from the one before.
 bool replaces(std::string& last, const std::string& sensor) {
   if (last == sensor) return false;
   last = sensor;
@@ -123,15 +123,15 @@ std::vector<CompanionScan> read_companions(ByteCursor& bytes, std::uint32_t vers
   for (std::uint32_t i = 0; i < count; ++i) {
     CompanionScan companion;
     const auto flags = bytes.number<std::uint8_t>();
-    if ((flags & ~kOtherSensor) != 0) throw MalformedBytes("a scan has an unknown mark");
+    if ((flags & ~kOtherSensor) != 0) throw MalformedBytes("a scan has an unknown flag");
     companion.time_us = bytes.number<TimeUs>();
     companion.frame_T_robot = read_pose(bytes);
     LaserScan& sensor = sensors.at(i + 1);
     if (flags != 0) sensor = read_sensor(bytes, version);
-    if (!sensor.bearings_rad) throw MalformedBytes("the first scan of a laser has no sensor");
+    if (!sensor.bearings_rad) throw MalformedBytes("the first scan of a laser has no sensor description");
     companion.scan = sensor;
     if (sensor.laser <= (companions.empty() ? first_laser : companions.back().scan.laser))
-      throw MalformedBytes("the lasers of a frame are not in their order");
+      throw MalformedBytes("the lasers of a frame are out of order");
     read_ranges(bytes, companion.scan);
     companions.push_back(std::move(companion));
   }
@@ -169,13 +169,13 @@ std::vector<Frame> read_frames(ByteCursor& bytes, std::uint32_t version) {
     Frame frame;
     frame.index = frames.size();
     const auto flags = bytes.number<std::uint8_t>();
-    if ((flags & ~kAllFlags) != 0) throw MalformedBytes("a scan has an unknown mark");
+    if ((flags & ~kAllFlags) != 0) throw MalformedBytes("a scan has an unknown flag");
     frame.has_odometry = (flags & kHasOdometry) != 0;
     frame.time_us = bytes.number<TimeUs>();
     frame.odom_T_robot = read_pose(bytes);
     LaserScan& sensor = sensors.at(0);
     if ((flags & kOtherSensor) != 0) sensor = read_sensor(bytes, version);
-    if (!sensor.bearings_rad) throw MalformedBytes("the first scan has no sensor");
+    if (!sensor.bearings_rad) throw MalformedBytes("the first scan has no sensor description");
     frame.scan = sensor;
     read_ranges(bytes, frame.scan);
     if ((flags & kHasCompanions) != 0)

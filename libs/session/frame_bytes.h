@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames as they stand in a session file, see share/doc/sessions.md: little-endian, every number to the last
-// bit. This is the one place that knows what a frame holds: who adds something to Frame adds it here, and
-// raises kSessionVersion.
+// Frames as bytes of a session file (format: share/doc/sessions.md): little-endian, every number to the last
+// bit. Only this file knows the members of Frame. A new member must be added here, with a new
+// kSessionVersion.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace psi_slam {
 
-/// Adds the bytes of a number behind `bytes`.
+/// Appends the bytes of a number to `bytes`.
 template <class Number>
 void append_number(std::string& bytes, Number number) {
   char raw[sizeof(Number)];
@@ -23,14 +23,13 @@ void append_number(std::string& bytes, Number number) {
   bytes.append(raw, sizeof raw);
 }
 
-/// Whether a pose can be one of a robot or a laser: finite, and no farther than 10,000 km from where it is
-/// seen.
+/// Whether a pose can be that of a robot or a laser: finite and at most 10,000 km from the origin.
 bool is_possible(const mrpt::math::TPose2D& pose);
 
-/// With their count before them.
+/// Appends the number of frames and the frames.
 void append_frames(std::string& bytes, const std::vector<Frame>& frames);
 
-/// Numbers them from 0. Throws MalformedBytes where they are no such frames. `version` is the file's.
+/// Reads frames of a file of this `version` and numbers them from 0. Throws MalformedBytes.
 std::vector<Frame> read_frames(ByteCursor& bytes, std::uint32_t version);
 
 }  // namespace psi_slam

@@ -4,16 +4,25 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
-#include "session/open_input.h"
-#include "psi_slam/user_error.h"
+#include "base/file_checksum.h"
 #include "pose_graph/g2o_file.h"
+#include "psi_slam/configuration.h"
+#include "psi_slam/frame_source.h"
 #include "psi_slam/grid_map.h"
-#include "session/bound_settings.h"
+#include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
+#include "report/output_folder.h"
+#include "session/session_file.h"
+#include "session/session_input.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 namespace {
+
+namespace fs = std::filesystem;
 
 bool has_return(const Frame& frame) {
   bool any = false;
@@ -24,22 +33,19 @@ bool has_return(const Frame& frame) {
   return any;
 }
 
-}  // namespace
-
 /// Adds the time of its scope to the session's work.
-class MappingSession::WorkClock {
+class WorkClock {
  public:
   explicit WorkClock(double& work_s) : work_s_(work_s), before_s_(work_s) {}
   ~WorkClock() { stop(); }
   WorkClock(const WorkClock&) = delete;
   WorkClock& operator=(const WorkClock&) = delete;
 
-  /// Brings the work up to now.
   void stop() {
     work_s_ = before_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  /// What came since stop() was no work.
-  void go_on() {
+  /// Continues after stop(); the time between them does not count.
+  void resume() {
     before_s_ = work_s_;
     start_ = std::chrono::steady_clock::now();
   }
@@ -50,133 +56,152 @@ class MappingSession::WorkClock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-MappingSession::MappingSession(const std::filesystem::path& log, const Settings& settings)
-    : MappingSession(SessionInput(log), settings) {}
+}  // namespace
+
+struct MappingSession::Members {
+  enum class State {
+    kReading,   ///< the log may have more scans
+    kRead,      ///< all scans are taken: the log ended, is damaged, or finish() was called
+    kFinished,  ///< the map is made
+  };
+
+  /// Transitions: kReading -> kRead when the log ends and in finish(), kRead -> kFinished in finish(),
+  /// kFinished -> kRead in reopen(), kRead -> kReading in begin_run(). Others throw std::logic_error.
+  void enter(State next);
+  std::optional<Frame> read();
+  void make_due_edits(EditTime now);
+  void begin_recorded_run();
+  SessionFacts facts() const;
+  /// SHA-256 of the log; empty if the log is no longer readable.
+  std::string checksum_of_log() const;
+  void write_edits(const fs::path& file) const;
+  void begin(SessionProgress::Phase new_phase);
+  void report(double share) const;
+
+  std::shared_ptr<const SessionRecording> recording;  ///< null if nothing was recorded
+  fs::path log_path;                                  ///< the log that is read; empty if there is none
+  mutable std::string log_sha256;                     ///< cache of checksum_of_log()
+  std::vector<RecordedLog> logs;  ///< scans_left of the last: readable scans are known to be left in it
+  std::vector<RecordedRun> later_runs;
+  Settings settings;
+  std::vector<std::string> settings_warnings;
+  std::unique_ptr<FrameSource> source;
+  std::unique_ptr<Mapper> mapper;  ///< null after finish() without stay_open()
+  Mapper::AfterFinish after_finish = Mapper::AfterFinish::kNothing;
+  EditJournal edits;
+  std::vector<std::string> edit_complaints;
+  Observer observer;
+  State state = State::kReading;
+  MappingResult result;
+  std::optional<std::string> broken_off;
+  StageClock reading_clock{"read log"};
+  SessionProgress::Phase phase = SessionProgress::Phase::kMapping;
+  double phase_began_s = 0;  ///< value of work_s when the phase began
+  double work_s = 0;         ///< time of work, without pauses between calls
+  std::size_t scans = 0;
+  std::size_t stages_of_mapping = 0;  ///< in result.stages, before those of the export
+};
+
+MappingSession::MappingSession(const fs::path& log, const Configuration& configuration)
+    : MappingSession(SessionInput(log), configuration, configuration.warnings()) {}
+
+MappingSession::MappingSession(const fs::path& log, const Settings& settings)
+    : MappingSession(SessionInput(log), settings, {}) {}
 
 MappingSession::MappingSession(const SessionInput& input, const Settings& settings)
-    : recording_(input.recording()),
-      path_(input.log()),
-      logs_(input.logs()),
-      settings_(settings),
-      source_(open_input(input, settings)),
-      mapper_(std::make_unique<Mapper>(mapper_options(settings))),
-      edits_(input.edits()) {
-  make_due_edits({});
-  if (!recording_) return;
-  runs_ = recording_->facts.runs;
-  scans_left_ = path_.empty() && recording_->facts.logs.back().scans_left;
+    : MappingSession(input, settings, {}) {}
+
+MappingSession::MappingSession(const SessionInput& input, const Settings& settings,
+                               std::vector<std::string> settings_warnings)
+    : m_(std::make_unique<Members>()) {
+  m_->recording = input.recording();
+  m_->log_path = input.log();
+  m_->logs = input.logs();
+  m_->settings = settings;
+  m_->settings_warnings = std::move(settings_warnings);
+  m_->source = open_input(input, settings);
+  m_->mapper = std::make_unique<Mapper>(mapper_options(settings));
+  m_->edits = input.edits();
+  m_->make_due_edits({});
+  if (m_->recording) m_->later_runs = m_->recording->facts.runs;
 }
 
 MappingSession::~MappingSession() = default;
 
+void MappingSession::Members::enter(State next) {
+  const bool allowed = state == State::kRead ? next != State::kRead : next == State::kRead;
+  if (!allowed) throw std::logic_error("MappingSession: its functions were called out of order");
+  state = next;
+}
+
+void MappingSession::set_observer(Observer observer) {
+  m_->observer = std::move(observer);
+}
+
 bool MappingSession::step() {
-  if (at_end_ || broken_off_) return false;
+  if (m_->state != Members::State::kReading) return false;
   {
-    const WorkClock clock(work_s_);
-    std::optional<Frame> frame = read();
+    const WorkClock clock(m_->work_s);
+    std::optional<Frame> frame = m_->read();
     if (!frame) return false;
-    frame->index = scans_;
-    any_return_ = any_return_ || has_return(*frame);
-    begin_recorded_run();
-    mapper_->add(*std::move(frame));
-    make_due_edits({EditTime::Kind::kAfterScan, scans_++});
+    frame->index = m_->scans;
+    m_->begin_recorded_run();
+    m_->mapper->add(*std::move(frame));
+    m_->make_due_edits({EditTime::Kind::kAfterScan, m_->scans++});
   }
-  tell(source_->progress());
+  m_->report(m_->source->progress());
   return true;
 }
 
-std::optional<Frame> MappingSession::read() {
+std::optional<Frame> MappingSession::Members::read() {
   std::optional<Frame> frame;
   try {
-    reading_clock_.time([&] { frame = source_->next(); });
-    at_end_ = !frame;
+    reading_clock.time([&] { frame = source->next(); });
   } catch (const UserError& error) {
-    if (scans_ == 0) throw;
-    broken_off_ = error.what();
+    if (scans == 0) throw;
+    broken_off = error.what();
   }
+  if (!frame) enter(State::kRead);
   return frame;
 }
 
+void MappingSession::finish() {
+  finish(std::atomic<bool>(false));
+}
+
 void MappingSession::finish(const std::atomic<bool>& stop) {
-  begin(SessionProgress::Phase::kFinalSearch);
-  WorkClock clock(work_s_);
-  if (!any_return_)
-    throw UserError((path_.empty() ? names_of(logs_) : path_.string()) + ": " +
-                    (scans_ == 0 ? "no scan was read, there is nothing to map"
-                                 : "none of its " + std::to_string(scans_) +
-                                       " scans has a return between log.min_range_m and log.max_range_m"));
-  scans_left_ = scans_left_ || (!at_end_ && !broken_off_ && read().has_value());
-  at_end_ = true;
-  mapper_->end_log();
-  make_due_edits({EditTime::Kind::kEnd, 0});
-  result_ = mapper_->finish(
-      [&](double share) {
-        const bool go_on = !stop;
-        clock.stop();
-        tell(share);  // which may hold the run
-        clock.go_on();
-        return go_on;
-      },
-      stays_open_ ? Mapper::AfterFinish::kReopen : Mapper::AfterFinish::kNothing);
-  finished_ = true;
-  if (!stays_open_) mapper_.reset();
-  result_.stages.insert(result_.stages.begin(), reading_clock_.timing());
-  result_.interrupted = result_.interrupted || scans_left_ ||
-                        std::any_of(logs_.begin(), logs_.end() - 1,
-                                    [](const RecordedLog& before) { return before.scans_left; });
-  result_.broken_off = broken_off_;
-  stages_of_mapping_ = result_.stages.size();
-}
-
-void MappingSession::add_edits(const EditJournal& edits) {
-  edits_.add(edits);
-  make_due_edits({});
-}
-
-void MappingSession::make_due_edits(EditTime now) {
-  for (const LoopEdit& edit : edits_.take_due(now)) {
-    const LoopEditOutcome outcome = mapper_->edit(edit);
-    if (outcome.state == LoopEditOutcome::State::kImpossible)
-      edit_complaints_.push_back(text_of(edit) + ": " + outcome.reason);
+  Members& m = *m_;
+  if (finished()) throw std::logic_error("MappingSession::finish: the map is already finished");
+  m.begin(SessionProgress::Phase::kFinalSearch);
+  WorkClock clock(m.work_s);
+  if (std::none_of(m.mapper->log().begin(), m.mapper->log().end(), has_return))
+    throw UserError((m.log_path.empty() ? names_of(m.logs) : m.log_path.string()) + ": " +
+                    (m.scans == 0 ? "no scan was read, there is nothing to map"
+                                  : "none of its " + std::to_string(m.scans) +
+                                        " scans has a return between log.min_range_m and log.max_range_m"));
+  if (m.state == Members::State::kReading) {
+    bool& scans_left = m.logs.back().scans_left;
+    scans_left = scans_left || m.read().has_value();
+    if (m.state == Members::State::kReading) m.enter(Members::State::kRead);
   }
-}
-
-void MappingSession::reopen() {
-  mapper_->reopen(std::move(result_));
-  finished_ = false;
-}
-
-LoopEditOutcome MappingSession::edit(const LoopEdit& edit) {
-  const WorkClock clock(work_s_);
-  if (finished_) {
-    LoopEditOutcome outcome = mapper_->judge(edit, result_.frames);
-    if (outcome.state == LoopEditOutcome::State::kImpossible) return outcome;
-    reopen();
-  }
-  const bool at_end = at_end_ || broken_off_;
-  if (at_end) mapper_->end_log();
-  const bool changes_later = edits_.forget_later(edit);
-  LoopEditOutcome outcome = mapper_->edit(edit);
-  if (outcome.state == LoopEditOutcome::State::kImpossible)
-    return changes_later ? LoopEditOutcome{} : outcome;
-  EditTime now{EditTime::Kind::kBegin, 0};
-  if (at_end)
-    now.kind = EditTime::Kind::kEnd;
-  else if (scans_ > 0)
-    now = {EditTime::Kind::kAfterScan, scans_ - 1};
-  edits_.enter({edit, now});
-  return outcome;
-}
-
-void MappingSession::plan(const std::vector<TimedEdit>& edits) {
-  const bool at_end = finished_ || at_end_ || broken_off_.has_value();
-  for (const TimedEdit& later : edits) {
-    const bool passed = at_end || later.time < EditTime{EditTime::Kind::kAfterScan, scans_};
-    if (passed)
-      edit(later.edit);
-    else
-      edits_.add(later);
-  }
+  m.mapper->end_log();
+  m.make_due_edits({EditTime::Kind::kEnd, 0});
+  const auto progress = [&](double share) {
+    const bool goes_on = !stop;
+    clock.stop();
+    m.report(share);  // the observer may pause the run
+    clock.resume();
+    return goes_on;
+  };
+  m.result = m.mapper->finish(progress, m.after_finish);
+  m.enter(Members::State::kFinished);
+  if (m.after_finish == Mapper::AfterFinish::kNothing) m.mapper.reset();
+  m.result.stages.insert(m.result.stages.begin(), m.reading_clock.timing());
+  m.result.interrupted =
+      m.result.interrupted ||
+      std::any_of(m.logs.begin(), m.logs.end(), [](const RecordedLog& log) { return log.scans_left; });
+  m.result.broken_off = m.broken_off;
+  m.stages_of_mapping = m.result.stages.size();
 }
 
 void MappingSession::run(const std::atomic<bool>& stop) {
@@ -185,76 +210,273 @@ void MappingSession::run(const std::atomic<bool>& stop) {
   finish(stop);
 }
 
+void MappingSession::stay_open() {
+  m_->after_finish = Mapper::AfterFinish::kReopen;
+}
+
+bool MappingSession::finished() const {
+  return m_->state == Members::State::kFinished;
+}
+
+void MappingSession::reopen() {
+  m_->enter(Members::State::kRead);
+  m_->mapper->reopen(std::move(m_->result));
+}
+
+void MappingSession::add_edits(const EditJournal& edits) {
+  m_->edits.add(edits);
+  m_->make_due_edits({});
+}
+
+void MappingSession::Members::make_due_edits(EditTime now) {
+  for (const LoopEdit& edit : edits.take_due(now)) {
+    const LoopEditOutcome outcome = mapper->edit(edit);
+    if (outcome.state == LoopEditOutcome::State::kImpossible)
+      edit_complaints.push_back(text_of(edit) + ": " + outcome.reason);
+  }
+}
+
+LoopEditOutcome MappingSession::edit(const LoopEdit& edit) {
+  const WorkClock clock(m_->work_s);
+  if (finished()) {
+    LoopEditOutcome outcome = m_->mapper->judge(edit, m_->result.frames);
+    if (outcome.state == LoopEditOutcome::State::kImpossible) return outcome;
+    reopen();
+  }
+  const bool at_end = m_->state == Members::State::kRead;
+  if (at_end) m_->mapper->end_log();
+  const bool changes_later = m_->edits.forget_later(edit);
+  LoopEditOutcome outcome = m_->mapper->edit(edit);
+  if (outcome.state == LoopEditOutcome::State::kImpossible)
+    return changes_later ? LoopEditOutcome{} : outcome;
+  EditTime now{EditTime::Kind::kBegin, 0};
+  if (at_end)
+    now.kind = EditTime::Kind::kEnd;
+  else if (m_->scans > 0)
+    now = {EditTime::Kind::kAfterScan, m_->scans - 1};
+  m_->edits.enter({edit, now});
+  return outcome;
+}
+
+void MappingSession::plan(const std::vector<TimedEdit>& edits) {
+  const bool at_end = m_->state != Members::State::kReading;
+  for (const TimedEdit& later : edits) {
+    const bool passed = at_end || later.time < EditTime{EditTime::Kind::kAfterScan, m_->scans};
+    if (passed)
+      edit(later.edit);
+    else
+      m_->edits.add(later);
+  }
+}
+
+const EditJournal& MappingSession::edits() const {
+  return m_->edits;
+}
+
+std::size_t MappingSession::runs() const {
+  return m_->later_runs.size() + 1;
+}
+
+void MappingSession::Members::begin_recorded_run() {
+  for (const RecordedRun& run : later_runs) {
+    if (run.scan != scans) continue;
+    const std::size_t nodes = mapper->graph().num_nodes();
+    if (run.start.node >= nodes)
+      throw UserError("a recorded run begins at node " + std::to_string(run.start.node) +
+                      " of a map that has only " + std::to_string(nodes) +
+                      " nodes. The session was recorded with other settings: merge the logs again");
+    mapper->begin_run(run.start);
+  }
+}
+
+void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
+  Members& m = *m_;
+  auto source = open_input(run, m.settings);
+  const std::vector<RecordedLog> logs_before = m.facts().logs;
+  reopen();
+  const std::size_t first_node = m.mapper->graph().num_nodes();
+  m.later_runs.push_back({m.scans, start});
+  const auto& inner = run.recording();
+  if (inner)
+    for (RecordedRun later : inner->facts.runs) {
+      later.scan += m.scans;
+      later.start.node += first_node;
+      m.later_runs.push_back(later);
+    }
+  m.edits.add(
+      run.edits().of_run(m.scans, inner ? inner->frames.size() : 0, m.mapper->keyframes().local_maps.size()));
+  m.recording.reset();  // it is only a part of what is mapped now
+  m.log_path = run.log();
+  m.log_sha256.clear();
+  m.logs = logs_before;
+  m.logs.insert(m.logs.end(), run.logs().begin(), run.logs().end());
+  m.source = std::move(source);
+  m.broken_off.reset();
+  m.enter(Members::State::kReading);
+  m.begin(SessionProgress::Phase::kMapping);
+  m.make_due_edits({EditTime::Kind::kAfterScan, m.scans - 1});
+}
+
 RunSummary MappingSession::export_to(const OutputFolder& folder) {
-  begin(SessionProgress::Phase::kWriting);
-  WorkClock clock(work_s_);
-  result_.stages.resize(stages_of_mapping_);
+  Members& m = *m_;
+  m.begin(SessionProgress::Phase::kWriting);
+  WorkClock clock(m.work_s);
+  m.result.stages.resize(m.stages_of_mapping);
   StageClock drawing_clock("draw map");
   StageClock writing_clock("write results");
   mrpt::maps::COccupancyGridMap2D::Ptr grid;
-  drawing_clock.time([&] { grid = draw_grid_map(result_.log, mapped_poses(result_), settings_.map); });
-  result_.stages.push_back(drawing_clock.timing());
+  drawing_clock.time([&] { grid = draw_grid_map(m.result.log, mapped_poses(m.result), m.settings.map); });
+  m.result.stages.push_back(drawing_clock.timing());
   writing_clock.time([&] {
-    write_g2o(result_.graph, folder.path() / "graph.g2o");
-    write_edits(folder.path() / "loops.edits");
-    export_results(result_, *grid, folder, settings_.map_files);
+    write_g2o(m.result.graph, folder.path() / "graph.g2o");
+    m.write_edits(folder.path() / "loops.edits");
+    export_results(m.result, *grid, folder, m.settings.map_files);
   });
-  result_.stages.push_back(writing_clock.timing());
+  m.result.stages.push_back(writing_clock.timing());
   clock.stop();
-  result_.wall_s = work_s_;
-  RunSummary summary = summarize_run(result_, *grid, settings_.map);
+  m.result.wall_s = m.work_s;
+  RunSummary summary = summarize_run(m.result, *grid, m.settings.map);
   summary.log.spare_scans = skipped_lines().spare_scans;
-  export_account(result_, run_info(), summary, *grid, folder);
+  export_account(m.result, run_info(), summary, *grid, folder);
   return summary;
 }
 
-// A folder without the file is one of a map without edits.
-void MappingSession::write_edits(const std::filesystem::path& file) const {
-  if (!edits_.empty()) return edits_.write(file);
+void MappingSession::export_to(const fs::path& folder, bool force) {
+  export_to(OutputFolder::prepare(folder, force));
+}
+
+// Removes the file of an earlier export if there are no edits now.
+void MappingSession::Members::write_edits(const fs::path& file) const {
+  if (!edits.empty()) return edits.write(file);
   std::error_code ignored;
-  std::filesystem::remove(file, ignored);
+  fs::remove(file, ignored);
+}
+
+SavedSession MappingSession::save(const fs::path& file) const {
+  const std::vector<Frame>& mapped = finished() ? m_->result.log : m_->mapper->log();
+  const bool all_of_recording = !m_->recording || mapped.size() >= m_->recording->frames.size();
+  const std::vector<Frame>& frames = all_of_recording ? mapped : m_->recording->frames;
+  const SessionFacts facts = m_->facts();
+  write_session_file(file, facts, frames);
+  SavedSession saved{frames.size(), ""};
+  if (facts.logs.back().sha256.empty())
+    saved.remark = "The session holds all scans that were mapped, but " + facts.logs.back().name +
+                   " is no longer readable, so the session cannot be resumed from it";
+  return saved;
+}
+
+SessionFacts MappingSession::Members::facts() const {
+  SessionFacts facts;
+  const bool is_replaying = recording && scans < recording->frames.size();
+  if (is_replaying)
+    facts = recording->facts;
+  else
+    facts.logs = logs;
+  facts.runs = later_runs;
+  facts.edits = edits;
+  if (!is_replaying) {
+    keep_first(scans, facts);
+    RecordedLog& last = facts.logs.back();
+    if (facts.logs.size() == logs.size()) {
+      if (last.sha256.empty()) last.sha256 = checksum_of_log();
+      last.skipped = source->skipped_lines();
+      last.broken_off = broken_off;
+      last.scans_left = logs.back().scans_left || state == State::kReading;
+    }
+  }
+  facts.program_version = PSI_SLAM_VERSION;
+  facts.settings = settings_file_text(settings);
+  return facts;
+}
+
+std::string MappingSession::Members::checksum_of_log() const {
+  if (!log_sha256.empty()) return log_sha256;
+  try {
+    log_sha256 = sha256_of_log(log_path);
+  } catch (const UserError&) {
+  } catch (const fs::filesystem_error&) {  // the log is a folder
+  }
+  return log_sha256;
+}
+
+SkippedLines MappingSession::skipped_lines() const {
+  SkippedLines skipped;
+  for (auto before = m_->logs.begin(); before != m_->logs.end() - 1; ++before)
+    skipped = skipped + before->skipped;
+  return skipped + m_->source->skipped_lines();
+}
+
+const std::optional<std::string>& MappingSession::broken_off() const {
+  return m_->broken_off;
+}
+
+bool MappingSession::breaks_off() const {
+  return m_->broken_off || std::any_of(m_->logs.begin(), m_->logs.end() - 1, [](const RecordedLog& before) {
+           return before.broken_off.has_value();
+         });
+}
+
+std::vector<std::string> MappingSession::warnings_of_logs_before() const {
+  std::vector<std::string> warnings;
+  for (auto log = m_->logs.begin(); log != m_->logs.end() - 1; ++log) {
+    if (log->broken_off)
+      warnings.push_back(*log->broken_off + "; this run is mapped up to there");
+    else if (log->scans_left)
+      warnings.push_back("only the first " + std::to_string(log->scans) + " scans of " + log->name +
+                         " are mapped: the run was interrupted and never resumed");
+  }
+  return warnings;
 }
 
 std::vector<std::string> MappingSession::unmet_edits() const {
-  std::vector<std::string> unmet = edit_complaints_;
-  unmet.insert(unmet.end(), result_.unmet_edits.begin(), result_.unmet_edits.end());
+  std::vector<std::string> unmet = m_->edit_complaints;
+  unmet.insert(unmet.end(), m_->result.unmet_edits.begin(), m_->result.unmet_edits.end());
   return unmet;
 }
 
 std::vector<std::string> MappingSession::warnings() const {
-  std::vector<std::string> warnings = warnings_of_logs_before();
-  if (broken_off_) warnings.push_back(*broken_off_);
+  std::vector<std::string> warnings = m_->settings_warnings;
+  for (const std::string& warning : warnings_of_logs_before()) warnings.push_back(warning);
+  if (m_->broken_off) warnings.push_back(*m_->broken_off);
   if (const SkippedLines skipped = skipped_lines(); skipped.count > 0) warnings.push_back(skipped.sentence());
   for (const std::string& complaint : unmet_edits()) warnings.push_back("an edit was not made: " + complaint);
   return warnings;
 }
 
+const Mapper& MappingSession::mapper() const {
+  return *m_->mapper;
+}
+
+const MappingResult& MappingSession::result() const {
+  return m_->result;
+}
+
 RunInfo MappingSession::run_info() const {
   BoundSettings bound;
-  bound.settings = settings_;
-  RunInfo info{PSI_SLAM_VERSION, names_of(logs_), {}, {}};
+  bound.settings = m_->settings;
+  RunInfo info{PSI_SLAM_VERSION, names_of(m_->logs), {}, {}};
   for (const OptionSection& section : bound.table.sections())
     for (const Option& option : section.options) info.settings[option.name()] = option.text();
   info.warnings = warnings();
   return info;
 }
 
-void MappingSession::begin(SessionProgress::Phase phase) {
-  phase_ = phase;
-  phase_began_s_ = work_s_;
-  tell(0);
+void MappingSession::Members::begin(SessionProgress::Phase new_phase) {
+  phase = new_phase;
+  phase_began_s = work_s;
+  report(0);
 }
 
-void MappingSession::tell(double share) const {
-  if (!observer_) return;
+void MappingSession::Members::report(double share) const {
+  if (!observer) return;
   SessionProgress progress;
-  progress.phase = phase_;
+  progress.phase = phase;
   progress.share = share;
-  progress.scans = scans_;
-  progress.elapsed_s = work_s_;
-  if (work_s_ > 0) progress.scans_per_s = static_cast<double>(scans_) / work_s_;
-  if (share > 0) progress.remaining_s = (work_s_ - phase_began_s_) * (1 - share) / share;
-  observer_(progress);
+  progress.scans = scans;
+  progress.elapsed_s = work_s;
+  if (work_s > 0) progress.scans_per_s = static_cast<double>(scans) / work_s;
+  if (share > 0) progress.remaining_s = (work_s - phase_began_s) * (1 - share) / share;
+  observer(progress);
 }
 
 }  // namespace psi_slam

@@ -5,21 +5,20 @@
 #include <limits>
 #include <memory>
 
-#include "session/open_input.h"
-#include "psi_slam/user_error.h"
+#include "frames/pose_operations.h"
 #include "local_maps/front_end.h"
 #include "psi_slam/localizer.h"
-#include "frames/inverse_pose.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
-// A place that was found is believed when the robot has been followed from it for so long.
+// Travel for which the robot is followed before the place that was found is believed.
 constexpr double kFollowed_m = 2.0;
 
-/// Where the robot was seen last, and its whole way there from its first scan.
+/// Last scan that fitted the map: its pose in the map, and relative to the first scan.
 struct Sighting {
   TPose2D map_T_robot;
   TPose2D start_T_robot;
@@ -39,7 +38,7 @@ RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& see
   return start;
 }
 
-/// The frames of the first drive of an input, up to where it breaks off.
+/// Frames of the first run of an input, up to its end or to damage.
 class FirstRun {
  public:
   FirstRun(const SessionInput& input, const Settings& settings) : frames_(open_input(input, settings)) {
@@ -57,7 +56,7 @@ class FirstRun {
       return frame;
     } catch (const UserError&) {
       if (read_ == 0) throw;
-      return std::nullopt;  // who maps the drive tells of it
+      return std::nullopt;  // reported when the run is mapped
     }
   }
 
@@ -67,20 +66,20 @@ class FirstRun {
   std::size_t read_ = 0;
 };
 
-/// Follows the robot until it is sure where it is; `why_not` says why it is not.
-std::optional<Sighting> find(FirstRun& frames, Localizer& localizer, FrontEnd& way, bool told,
-                             const std::atomic<bool>& stop, const std::function<void(double share)>& tell,
+/// Follows the robot until its pose is certain. Sets `why_not` to the last objection.
+std::optional<Sighting> find(FirstRun& frames, Localizer& localizer, FrontEnd& way, bool start_is_known,
+                             const std::atomic<bool>& stop, const std::function<void(double share)>& progress,
                              std::string& why_not) {
   std::optional<Sighting> seen;
   double followed_m = 0;
   while (std::optional<Frame> frame = frames.next()) {
-    if (stop) throw SystemFailure("interrupted while a drive was looked for in the map: nothing was merged");
-    if (tell) tell(frames.progress());
+    if (stop) throw SystemFailure("interrupted before a run was placed in the map. Nothing was merged");
+    if (progress) progress(frames.progress());
     const LocalizationStep step = localizer.add(*frame);
     const TPose2D start_T_robot = way.add(*frame).local_T_robot;
     if (step.search && !step.search->believed()) why_not = step.search->objection;
     if (step.state == LocalizationStep::State::kLost) {
-      if (told) return std::nullopt;
+      if (start_is_known) return std::nullopt;
       seen.reset();
       followed_m = 0;
       continue;
@@ -89,27 +88,25 @@ std::optional<Sighting> find(FirstRun& frames, Localizer& localizer, FrontEnd& w
     if (step.fits) seen = Sighting{step.map_T_robot, start_T_robot};
     if (step.fits && followed_m >= kFollowed_m) return seen;
   }
-  return seen;  // a drive that ends sooner
+  return seen;  // the run ended before kFollowed_m
 }
 
 }  // namespace
 
 RunStart place_run(const MappingResult& mapped, const mrpt::maps::COccupancyGridMap2D& grid,
-                       const SessionInput& drive, const Settings& settings,
-                       const std::optional<TPose2D>& map_T_start, const std::atomic<bool>& stop,
-                       const std::function<void(double share)>& tell) {
-  const LocalizerOptions options = localizer_options(settings);
-  Localizer localizer(make_reference_map(grid, options.search.resolution_m, options.search.smoothing_sigma_m),
-                      options);
+                   const SessionInput& run, const Settings& settings,
+                   const std::optional<TPose2D>& map_T_start, const std::atomic<bool>& stop,
+                   const std::function<void(double share)>& progress) {
+  Localizer localizer(grid, localizer_options(settings));
   if (map_T_start) localizer.start_at(*map_T_start);
   FrontEnd way(settings.mapper.front_end);
-  FirstRun frames(drive, settings);
+  FirstRun frames(run, settings);
   std::string why_not = "it is too short for a search";
-  const auto seen = find(frames, localizer, way, map_T_start.has_value(), stop, tell, why_not);
+  const auto seen = find(frames, localizer, way, map_T_start.has_value(), stop, progress, why_not);
   if (seen) return seen_from_nearest_node(mapped, *seen);
-  const std::string name = names_of(drive.logs());
+  const std::string name = names_of(run.logs());
   if (map_T_start) throw UserError(name + " does not begin near --start: its scans do not fit the map there");
-  throw UserError(name + " cannot be placed in the map of what came before: " + why_not);
+  throw UserError(name + " cannot be placed in the map of the runs before it: " + why_not);
 }
 
 }  // namespace psi_slam

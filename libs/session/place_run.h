@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a drive begins in the finished map of others: its robot is set down in the map as `psi-slam localize`
-// sets one down, lost or near a start that was told, and followed until it is sure where it is; from there
-// its own way leads back to its first scan.
+// Finds where a run begins in the finished map of other runs. The localizer finds the robot in the map and
+// follows it until its pose is certain. The run's own motion leads from there back to its first scan.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -18,13 +17,13 @@
 
 namespace psi_slam {
 
-/// `grid` is the map of `mapped`, `map_T_start` about where the robot begins in it. `tell` is told, scan by
-/// scan, how much of the drive has been looked at, in [0, 1]; no more than it takes is. Throws UserError,
-/// which says why, when the drive finds no place that it fits, or several; and SystemFailure when `stop`
-/// became true.
+/// `grid` is the map of `mapped`; `map_T_start` is roughly where the robot begins, if it is known. `progress`
+/// is called after each scan with the share of the run that was read, in [0, 1]. Reads only as many
+/// scans as needed. Throws UserError if the run fits nowhere or in several places, and SystemFailure if
+/// `stop` became true.
 RunStart place_run(const MappingResult& mapped, const mrpt::maps::COccupancyGridMap2D& grid,
-                       const SessionInput& drive, const Settings& settings,
-                       const std::optional<mrpt::math::TPose2D>& map_T_start, const std::atomic<bool>& stop,
-                       const std::function<void(double share)>& tell = {});
+                   const SessionInput& run, const Settings& settings,
+                   const std::optional<mrpt::math::TPose2D>& map_T_start, const std::atomic<bool>& stop,
+                   const std::function<void(double share)>& progress = {});
 
 }  // namespace psi_slam

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a log in a thread of its own, a bounded number of frames ahead of who takes them. The frames, and
-// what goes wrong, come in the same order as without.
+// Reads a log in a thread of its own, a bounded number of frames ahead of the consumer. Frames and errors
+// arrive in the same order as without it.
 #pragma once
 
 #include <condition_variable>
@@ -24,10 +24,10 @@ class ReadAhead : public FrameSource {
   ReadAhead(const ReadAhead&) = delete;
   ReadAhead& operator=(const ReadAhead&) = delete;
 
-  /// Throws what the source threw, after the frames that came before.
+  /// Throws what the source threw, after the frames before the error.
   std::optional<Frame> next() override;
 
-  /// Of the frames taken, not of those read ahead.
+  /// Progress of the frames taken, not of those read ahead.
   double progress() const override { return progress_; }
   SkippedLines skipped_lines() const override { return skipped_; }
 
@@ -47,7 +47,7 @@ class ReadAhead : public FrameSource {
   double progress_ = 0;
   SkippedLines skipped_;
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  ///< protects the members below
   std::condition_variable changed_;
   std::deque<Read> ahead_;
   bool stop_ = false;

@@ -3,22 +3,15 @@
 
 #include <algorithm>
 
-#include "psi_slam/user_error.h"
 #include "config/ini_file.h"
+#include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
 
 namespace psi_slam {
 namespace {
 
 bool is_kept(const Option& option) {
   return option.section != "map" && option.section != "localization" && option.name() != "run.threads";
-}
-
-bool is_known(const std::string& name, const OptionTable& table) {
-  const auto& sections = table.sections();
-  return std::any_of(sections.begin(), sections.end(), [&](const OptionSection& section) {
-    return std::any_of(section.options.begin(), section.options.end(),
-                       [&](const Option& option) { return option.name() == name; });
-  });
 }
 
 }  // namespace
@@ -28,18 +21,19 @@ std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts&
   std::vector<std::string> unknown;
   for (const IniValue& value : parse_ini(facts.settings, file).values) {
     const std::string name = value.section + '.' + value.key;
-    if (is_known(name, bound.table))
+    if (bound.table.knows(name))
       bound.table.set(name, value.text, value.where);
     else
-      unknown.push_back(file.string() + ": " + name + " is no option any more and is left out");
+      unknown.push_back(file.string() + ": " + name + " is obsolete and is ignored");
   }
+  bound.table.take_warnings();  // users cannot edit the names inside a session
   return unknown;
 }
 
 std::optional<std::string> other_version_text(const std::filesystem::path& file, const SessionFacts& facts) {
   if (facts.program_version == PSI_SLAM_VERSION) return std::nullopt;
   return file.string() + " was made by psi-slam " + facts.program_version +
-         ", this is " PSI_SLAM_VERSION ": the map may differ from that one's";
+         ". This is psi-slam " PSI_SLAM_VERSION ", which may give a different map";
 }
 
 std::map<std::string, std::string> kept_settings(const OptionTable& table) {
@@ -65,11 +59,12 @@ std::optional<std::string> changed_settings_text(const std::filesystem::path& fi
   load_recorded(recorded, facts, file);
   const std::vector<ChangedSetting> changed = changed_settings(kept_settings(recorded.table), table);
   if (changed.empty()) return std::nullopt;
-  std::string text = file.string() + " was mapped with other settings and is mapped anew with those of now: ";
+  std::string text =
+      file.string() + " was mapped with other settings and is mapped again with the present ones: ";
   for (std::size_t i = 0; i < std::min(changed.size(), kNamed); ++i) {
-    const auto said = [](const std::string& value) { return value.empty() ? "empty" : value; };
-    text += (i == 0 ? "" : ", ") + changed[i].name + " was " + said(changed[i].before) + " and is " +
-            said(changed[i].now);
+    const auto value_text = [](const std::string& value) { return value.empty() ? "empty" : value; };
+    text += (i == 0 ? "" : ", ") + changed[i].name + " was " + value_text(changed[i].before) + " and is " +
+            value_text(changed[i].now);
   }
   if (changed.size() > kNamed) text += ", and " + std::to_string(changed.size() - kNamed) + " more";
   return text;

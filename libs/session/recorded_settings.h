@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The settings of a session that is resumed: what shaped its map is kept, what only writes the map may
-// change.
+// Settings of a session that is resumed. Those that shaped its map are kept; those that only affect output
+// files may change.
 #pragma once
 
 #include <filesystem>
@@ -9,20 +9,21 @@
 #include <string>
 #include <vector>
 
-#include "session/bound_settings.h"
 #include "session/session_recording.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 
-/// Takes all settings of a recording, which was read from `file`. Returns a sentence, without its full stop,
-/// for each that this program no longer knows: they are left out. Throws UserError for a value that it does not accept.
+/// Takes all settings of a recording that was read from `file`. Ignores obsolete options and returns a warning
+/// for each, a sentence without full stop. Accepts old names of options without warning. Throws UserError for
+/// a value that is not accepted.
 std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
                                        const std::filesystem::path& file);
 
-/// That another version of the program made it, which may have mapped it otherwise; none where this one did.
+/// Warning if another version of the program recorded the session; empty if this version did.
 std::optional<std::string> other_version_text(const std::filesystem::path& file, const SessionFacts& facts);
 
-/// The options, by name, that a resumed session cannot change: all but [map], [localization] and
+/// Values of the options that a resumed session cannot change, by name: all but [map], [localization] and
 /// run.threads.
 std::map<std::string, std::string> kept_settings(const OptionTable& table);
 
@@ -32,16 +33,16 @@ struct ChangedSetting {
   std::string now;
 };
 
-/// Those of `kept` that have another value in `table`, in the order of their names.
+/// The settings of `kept` that have another value in `table`, sorted by name.
 std::vector<ChangedSetting> changed_settings(const std::map<std::string, std::string>& kept,
                                              const OptionTable& table);
 
-/// What is to be known of a session that is mapped with other settings than its own, as one sentence without
-/// its full stop that names the first of them; none where those that shape the map are the same.
+/// Warning if a session is mapped with other settings than its own: a sentence without full stop that names
+/// the first of them. Empty if all settings that shape the map are equal.
 std::optional<std::string> changed_settings_text(const std::filesystem::path& file, const SessionFacts& facts,
                                                  const OptionTable& table);
 
-/// Throws UserError, naming the option, when one of those has another value now than in the session `file`.
+/// Throws UserError, naming the option, if one of the kept settings of the session `file` has changed.
 void require_kept(const std::map<std::string, std::string>& kept, const OptionTable& table,
                   const std::filesystem::path& file);
 

@@ -6,71 +6,56 @@
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
-namespace {
 
-double share_of(std::size_t done, std::size_t all) {
-  return all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all);
+RecordedSource::RecordedSource(std::shared_ptr<const SessionRecording> recording, Log kind,
+                               std::unique_ptr<FrameSource> log, std::filesystem::path path)
+    : recording_(std::move(recording)), kind_(kind), log_(std::move(log)), path_(std::move(path)) {
+  if (kind_ == Log::kLast) return;
+  first_ = log_->next();
+  const std::vector<Frame>& frames = recording_->frames;
+  if (!first_ || frames.empty() || first_->time_us > frames.back().time_us) return;
+  const char* const why =
+      recording_->facts.logs.back().sha256.empty()
+          ? " cannot be compared with the log of the session (which was unreadable when it was saved)"
+          : " is not the log of the session (their checksums differ)";
+  throw UserError(path_.string() + why + " and does not continue it: its first scan is at " +
+                  format_seconds(first_->time_us) + " s, the session's last scan at " +
+                  format_seconds(frames.back().time_us) + " s");
 }
-
-}  // namespace
 
 std::optional<Frame> RecordedSource::next() {
   const std::vector<Frame>& frames = recording_->frames;
   if (next_ < frames.size()) {
-    if (log_) pass_by_recorded();
+    if (log_ && kind_ == Log::kLast) skip_recorded();
     return frames[next_++];
   }
   if (!log_) {
     if (const auto& broken_off = recording_->facts.logs.back().broken_off) throw UserError(*broken_off);
     return std::nullopt;
   }
-  std::optional<Frame> frame = log_->next();
-  if (frame) frame->index = next_++;
-  return frame;
-}
-
-// The log is read beside its recorded frames, so that how far it is and what was skipped are as they were.
-void RecordedSource::pass_by_recorded() {
-  const std::size_t of_logs_before = recording_->frames.size() - recording_->facts.logs.back().scans;
-  if (next_ >= of_logs_before && !log_->next())
-    throw UserError(path_.string() + " holds fewer scans than were mapped of it");
-}
-
-double RecordedSource::progress() const {
-  if (!log_) return share_of(next_, recording_->frames.size());
-  return log_->progress();
-}
-
-SkippedLines RecordedSource::skipped_lines() const {
-  return log_ ? log_->skipped_lines() : recording_->facts.logs.back().skipped;
-}
-
-AppendedSource::AppendedSource(std::shared_ptr<const SessionRecording> recording,
-                               std::unique_ptr<FrameSource> log, const std::filesystem::path& path)
-    : recording_(std::move(recording)), log_(std::move(log)), first_(log_->next()) {
-  const std::vector<Frame>& frames = recording_->frames;
-  const char* const other =
-      recording_->facts.logs.back().sha256.empty()
-          ? " cannot be compared with the log of the session (which was gone when it was "
-            "saved) and does not go on behind it: its first scan is of "
-          : " is not the log of the session (its checksum is another) and does not go on "
-            "behind it: its first scan is of ";
-  if (first_ && !frames.empty() && first_->time_us <= frames.back().time_us)
-    throw UserError(path.string() + other + format_seconds(first_->time_us) + " s, the session's last of " +
-                    format_seconds(frames.back().time_us) + " s");
-}
-
-std::optional<Frame> AppendedSource::next() {
-  if (next_ < recording_->frames.size()) return recording_->frames[next_++];
   std::optional<Frame> frame = first_ ? std::exchange(first_, std::nullopt) : log_->next();
   if (frame) frame->index = next_++;
   return frame;
 }
 
-// How long the log is, nobody knows: half of all is as good as any guess.
-double AppendedSource::progress() const {
+// Reads the log along with its recorded frames, so that its progress and skipped lines are right.
+void RecordedSource::skip_recorded() {
+  const std::size_t of_logs_before = recording_->frames.size() - recording_->facts.logs.back().scans;
+  if (next_ >= of_logs_before && !log_->next())
+    throw UserError(path_.string() + " holds fewer scans than the session recorded from it");
+}
+
+// The length of a next log is unknown, so the recording counts as half of all.
+double RecordedSource::progress() const {
+  if (log_ && kind_ == Log::kLast) return log_->progress();
   const std::size_t recorded = recording_->frames.size();
-  return next_ < recorded ? 0.5 * share_of(next_, recorded) : 0.5 + 0.5 * log_->progress();
+  const double share = recorded == 0 ? 1 : static_cast<double>(next_) / static_cast<double>(recorded);
+  if (!log_) return share;
+  return next_ < recorded ? 0.5 * share : 0.5 + 0.5 * log_->progress();
+}
+
+SkippedLines RecordedSource::skipped_lines() const {
+  return log_ ? log_->skipped_lines() : recording_->facts.logs.back().skipped;
 }
 
 }  // namespace psi_slam

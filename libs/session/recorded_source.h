@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames that were recorded, and behind them those of a log. What was skipped is told of the last log alone:
-// of those before, the recording says it.
+// Recorded frames, followed by those of a log. skipped_lines() is only about the last log, since the
+// recording has that of the logs before.
 #pragma once
 
 #include <cstddef>
@@ -13,45 +13,34 @@
 
 namespace psi_slam {
 
-/// The recorded frames and what is left of their last log, if it is given. Without it the log ends, or breaks
-/// off, where it did.
 class RecordedSource : public FrameSource {
  public:
+  /// Only the recorded frames. They end as they did when they were recorded: at the end of the last log or
+  /// with its damage.
   explicit RecordedSource(std::shared_ptr<const SessionRecording> recording)
       : recording_(std::move(recording)) {}
-  /// `log` is the last of the recording, at its beginning, and `path` its name.
-  RecordedSource(std::shared_ptr<const SessionRecording> recording, std::unique_ptr<FrameSource> log,
-                 std::filesystem::path path)
-      : recording_(std::move(recording)), log_(std::move(log)), path_(std::move(path)) {}
+
+  enum class Log {
+    kLast,  ///< the last log of the recording, whose rest follows
+    kNext,  ///< another log, all of which follows
+  };
+  /// `log` is at its beginning; `path` is its path. Throws UserError if the next log begins before the
+  /// recording ends.
+  RecordedSource(std::shared_ptr<const SessionRecording> recording, Log kind,
+                 std::unique_ptr<FrameSource> log, std::filesystem::path path);
 
   std::optional<Frame> next() override;
   double progress() const override;
   SkippedLines skipped_lines() const override;
 
  private:
-  void pass_by_recorded();
+  void skip_recorded();
 
   std::shared_ptr<const SessionRecording> recording_;
-  std::unique_ptr<FrameSource> log_;
+  Log kind_ = Log::kLast;
+  std::unique_ptr<FrameSource> log_;  ///< null if there is none
   std::filesystem::path path_;
-  std::size_t next_ = 0;
-};
-
-/// The recorded frames and then all of another log.
-class AppendedSource : public FrameSource {
- public:
-  /// Throws UserError when the log begins before the recording ends.
-  AppendedSource(std::shared_ptr<const SessionRecording> recording, std::unique_ptr<FrameSource> log,
-                 const std::filesystem::path& path);
-
-  std::optional<Frame> next() override;
-  double progress() const override;
-  SkippedLines skipped_lines() const override { return log_->skipped_lines(); }
-
- private:
-  std::shared_ptr<const SessionRecording> recording_;
-  std::unique_ptr<FrameSource> log_;
-  std::optional<Frame> first_;  ///< of the log
+  std::optional<Frame> first_;  ///< of the next log; empty once it was returned
   std::size_t next_ = 0;
 };
 

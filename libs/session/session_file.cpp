@@ -9,11 +9,11 @@
 #include <string>
 #include <string_view>
 
-#include "session/frame_bytes.h"
 #include "base/atomic_file.h"
 #include "base/file_checksum.h"
+#include "compression/compression.h"
 #include "psi_slam/user_error.h"
-#include "compression/decompression.h"
+#include "session/frame_bytes.h"
 
 namespace psi_slam {
 namespace {
@@ -25,7 +25,7 @@ constexpr std::string_view kMagic = "psi-slam session";
 constexpr std::size_t kHeadBytes = kMagic.size() + sizeof(std::uint32_t) + 2 * sizeof(std::uint64_t);
 constexpr std::size_t kChecksumBytes = 64;
 constexpr int kCompressionLevel = 9;
-constexpr std::uint32_t kFactsOfEachLog = 3;  // the version with what is wrong with every log
+constexpr std::uint32_t kFactsOfEachLog = 3;  // the first version with the faults of every log
 
 Json pose_json(const mrpt::math::TPose2D& pose) {
   return Json::array({pose.x, pose.y, pose.phi});
@@ -48,11 +48,11 @@ Json json_of(const SessionFacts& facts) {
                     {"broken_off", log.broken_off.value_or("")},
                     {"scans_left", log.scans_left}});
   Json runs = Json::array();
-  for (const RecordedRun& drive : facts.runs) {
-    runs.push_back({{"scan", drive.scan},
-                      {"node", drive.start.node},
-                      {"node_T_robot", pose_json(drive.start.node_T_robot)},
-                      {"robot_T_found", pose_json(drive.start.robot_T_found)}});
+  for (const RecordedRun& run : facts.runs) {
+    runs.push_back({{"scan", run.scan},
+                    {"node", run.start.node},
+                    {"node_T_robot", pose_json(run.start.node_T_robot)},
+                    {"robot_T_found", pose_json(run.start.robot_T_found)}});
   }
   return {{"program_version", facts.program_version},
           {"logs", logs},
@@ -61,7 +61,7 @@ Json json_of(const SessionFacts& facts) {
           {"edits", facts.edits.text()}};
 }
 
-/// What is wrong with a log, and whether that is all of it.
+/// Damage of a log, skipped lines, and whether scans were left.
 void read_faults(const Json& json, std::uint32_t version, RecordedLog& log) {
   const Json& skipped = json.at("skipped_lines");
   log.skipped = {skipped.at("count").get<std::size_t>(), skipped.at("first").get<std::string>()};
@@ -79,12 +79,12 @@ SessionFacts facts_of(const Json& json, std::uint32_t version, const fs::path& p
                           log.at("scans").get<std::size_t>()});
     if (version >= kFactsOfEachLog) read_faults(log, version, facts.logs.back());
   }
-  // Before, those of the last log stood for all.
+  // Older versions have only the faults of the last log.
   if (version < kFactsOfEachLog && !facts.logs.empty()) read_faults(json, version, facts.logs.back());
-  for (const Json& drive : json.at("drives"))
-    facts.runs.push_back({drive.at("scan").get<std::size_t>(),
-                            {drive.at("node").get<std::size_t>(), pose_of(drive.at("node_T_robot")),
-                             pose_of(drive.at("robot_T_found"))}});
+  for (const Json& run : json.at("drives"))
+    facts.runs.push_back({run.at("scan").get<std::size_t>(),
+                          {run.at("node").get<std::size_t>(), pose_of(run.at("node_T_robot")),
+                           pose_of(run.at("robot_T_found"))}});
   facts.settings = json.at("settings").get<std::string>();
   facts.edits = EditJournal::parse(json.at("edits").get<std::string>(), path);
   return facts;
@@ -109,9 +109,10 @@ std::string all_bytes(const fs::path& path) {
   return bytes;
 }
 
-/// Throws UserError unless all bytes are as they were written.
+/// Throws UserError unless all bytes are present and the checksum matches.
 void require_whole(const fs::path& path, std::string_view bytes) {
-  if (bytes.substr(0, kMagic.size()) != kMagic) throw UserError(path.string() + " is no session of psi-slam");
+  if (bytes.substr(0, kMagic.size()) != kMagic)
+    throw UserError(path.string() + " is not a session of psi-slam");
   if (bytes.size() < kHeadBytes + kChecksumBytes)
     throw UserError(path.string() + " is cut off: it has only " + std::to_string(bytes.size()) + " bytes");
   const std::size_t end = bytes.size() - kChecksumBytes;
@@ -127,18 +128,18 @@ void require_whole(const fs::path& path, std::string_view bytes) {
 void require_consistent(const SessionRecording& recording) {
   std::size_t scans = 0;
   for (const RecordedLog& log : recording.facts.logs) {
-    if (log.scans > recording.frames.size()) throw MalformedBytes("a log has more than all of its scans");
+    if (log.scans > recording.frames.size()) throw MalformedBytes("a log has more scans than the session");
     scans += log.scans;
   }
   if (scans != recording.frames.size() || recording.facts.logs.empty())
-    throw MalformedBytes("its logs and its scans do not add up");
+    throw MalformedBytes("the scans of its logs do not add up");
   std::size_t begin = 0;
-  for (const RecordedRun& drive : recording.facts.runs) {
-    if (drive.scan >= recording.frames.size()) throw MalformedBytes("a drive begins beyond its scans");
-    if (!is_possible(drive.start.node_T_robot) || !is_possible(drive.start.robot_T_found))
-      throw MalformedBytes("a drive begins nowhere");
-    if (drive.scan <= begin) throw MalformedBytes("its drives do not follow on one another");
-    begin = drive.scan;
+  for (const RecordedRun& run : recording.facts.runs) {
+    if (run.scan >= recording.frames.size()) throw MalformedBytes("a run begins after the last scan");
+    if (!is_possible(run.start.node_T_robot) || !is_possible(run.start.robot_T_found))
+      throw MalformedBytes("a run begins at an invalid pose");
+    if (run.scan <= begin) throw MalformedBytes("its runs are out of order");
+    begin = run.scan;
   }
 }
 
@@ -152,7 +153,7 @@ bool is_session_file(const fs::path& path) {
 
 void write_session_file(const fs::path& path, const SessionFacts& facts, const std::vector<Frame>& frames) {
   std::string content;
-  // Names of files, and lines of logs that are quoted, may be of any encoding.
+  // File names and quoted lines of logs may have any encoding.
   const std::string json = json_of(facts).dump(-1, ' ', false, Json::error_handler_t::replace);
   append_number(content, std::uint64_t{json.size()});
   content += json;
@@ -174,7 +175,7 @@ SessionRecording read_session_file(const fs::path& path) {
   const auto version = head.number<std::uint32_t>();
   if (version == 0 || version > kSessionVersion)
     throw UserError(path.string() + " is a session of version " + std::to_string(version) +
-                    ", by a newer psi-slam: this one reads versions up to " +
+                    ", made by a newer psi-slam. This one reads versions up to " +
                     std::to_string(kSessionVersion));
   try {
     const auto packed_size = head.number<std::uint64_t>();
@@ -185,13 +186,13 @@ SessionRecording read_session_file(const fs::path& path) {
     SessionRecording recording;
     recording.facts = facts_of(Json::parse(json), version, path);
     recording.frames = read_frames(cursor, version);
-    if (!cursor.at_end()) throw MalformedBytes("there is something behind its last scan");
+    if (!cursor.at_end()) throw MalformedBytes("there are bytes after its last scan");
     require_consistent(recording);
     return recording;
   } catch (const MalformedBytes& error) {
     throw UserError(path.string() + " is damaged: " + error.what());
   } catch (const Json::exception&) {
-    throw UserError(path.string() + " is damaged: what it says of itself cannot be read");
+    throw UserError(path.string() + " is damaged: its description is not valid JSON");
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sessions as files: share/doc/sessions.md has the format. Whatever version a file has, its first 20 bytes
-// say so, and its last 64 are the checksum of all before.
+// Session files; share/doc/sessions.md describes the format. In every version the first 20 bytes are the
+// magic word and the version, and the last 64 bytes are the checksum of all bytes before.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,17 @@
 
 namespace psi_slam {
 
-/// The newest version, which is written; all versions up to it are read.
+/// The version that is written. All versions up to it are read.
 inline constexpr std::uint32_t kSessionVersion = 3;
 
-/// Whether the file begins like a session. False where it cannot be read.
+/// Whether the file begins with the magic word of sessions. False if it is unreadable.
 bool is_session_file(const std::filesystem::path& path);
 
-/// Throws SystemFailure when the disk does not take it; then nothing stands there that did not before.
+/// Writes the file whole or not at all. Throws SystemFailure if it cannot be written.
 void write_session_file(const std::filesystem::path& path, const SessionFacts& facts,
                         const std::vector<Frame>& frames);
 
-/// Throws UserError, a sentence that names the file, when it is no session, is damaged, or is of a version
-/// that this program does not know yet.
+/// Throws UserError, naming the file, if it is no session, is damaged, or has a newer version.
 SessionRecording read_session_file(const std::filesystem::path& path);
 
 }  // namespace psi_slam

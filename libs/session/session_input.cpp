@@ -5,15 +5,18 @@
 #include <utility>
 
 #include "base/file_checksum.h"
-#include "psi_slam/user_error.h"
+#include "exports/geo_tiff.h"
 #include "psi_slam/open_log.h"
-#include "session/session_file.h"
+#include "psi_slam/user_error.h"
+#include "session/read_ahead.h"
 #include "session/recorded_source.h"
+#include "session/session_file.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 namespace {
 
-/// "drives/" is called as its folder is.
+/// Name of the file or folder; "runs/" is called "runs".
 std::string name_of(const std::filesystem::path& log) {
   return (log.has_filename() ? log : log.parent_path()).filename().string();
 }
@@ -32,13 +35,13 @@ SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, st
   if (!std::filesystem::exists(log_)) throw UserError(log_.string() + " does not exist, expected a log file");
   const std::string sha256 = sha256_of_log(log_);
   same_log_ = logs_.back().sha256 == sha256;
-  if (same_log_) {  // it is read anew
+  if (same_log_) {  // read from its beginning again, which finds its faults again
     logs_.back() = {logs_.back().name, sha256, logs_.back().scans};
     return;
   }
   if (std::any_of(logs_.begin(), logs_.end(),
                   [&](const RecordedLog& known) { return known.sha256 == sha256; }))
-    throw UserError(log_.string() + " is in the session already, and " + logs_.back().name + " behind it");
+    throw UserError(log_.string() + " is already in the session, before " + logs_.back().name);
   logs_.push_back({name_of(log_), sha256, 0});
 }
 
@@ -57,8 +60,20 @@ SessionInput SessionInput::with_edits(EditJournal edits) const {
 std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const {
   if (!recording_) return open_log(log_, options);
   if (log_.empty()) return std::make_unique<RecordedSource>(recording_);
-  if (same_log_) return std::make_unique<RecordedSource>(recording_, open_log(log_, options), log_);
-  return std::make_unique<AppendedSource>(recording_, open_log(log_, options), log_);
+  const auto kind = same_log_ ? RecordedSource::Log::kLast : RecordedSource::Log::kNext;
+  return std::make_unique<RecordedSource>(recording_, kind, open_log(log_, options), log_);
+}
+
+void check(const Settings& settings) {
+  check_values(settings);
+  check_epsg(settings.map_files.earth.epsg);
+}
+
+std::unique_ptr<FrameSource> open_input(const SessionInput& input, const Settings& settings) {
+  check(settings);
+  auto source = input.open(log_options(settings));
+  if (worker_threads(settings.run) == 1) return source;
+  return std::make_unique<ReadAhead>(std::move(source));
 }
 
 std::string names_of(const std::vector<RecordedLog>& logs) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a session maps: a log, a recording, or a recording and the log that goes on behind it. It can be
-// opened as often as one likes.
+// Input of a session: a log, a recording, or a recording and the log that continues it. It can be opened
+// several times.
 #pragma once
 
 #include <filesystem>
@@ -14,33 +14,35 @@
 
 namespace psi_slam {
 
+struct Settings;
+
 class SessionInput {
  public:
   /// A log from its beginning.
   explicit SessionInput(std::filesystem::path log);
 
-  /// What was recorded; behind it what `log` holds, if one is named: what is left of the last log of the
-  /// recording, or all of one that goes on where that ended. Which of them, its checksum says. Throws
-  /// UserError when it cannot be read or was mapped before another.
+  /// A recording, continued by `log` unless it is empty. If the checksum of `log` is that of the recording's
+  /// last log, the rest of that log is read, else all of `log`. Throws UserError if `log` is unreadable or is
+  /// an earlier log of the recording.
   explicit SessionInput(std::shared_ptr<const SessionRecording> recording, std::filesystem::path log = {});
 
-  /// What a file that is named holds: a session, or else a log.
+  /// The session in a file, or the log if the file is no session.
   static SessionInput of_file(const std::filesystem::path& path);
 
-  /// The same with these edits instead of the recording's.
+  /// This input with `edits` instead of its own.
   SessionInput with_edits(EditJournal edits) const;
 
-  /// All frames, recorded or not, numbered from 0. Throws UserError when the log cannot be opened, and where
-  /// it is to go on behind the recording but begins before its end.
+  /// All frames, recorded and read, numbered from 0. Throws UserError if the log is unreadable, or if it
+  /// continues the recording but begins before the recording's end.
   std::unique_ptr<FrameSource> open(const LogOptions& options) const;
 
-  /// Null where nothing was recorded.
+  /// Null if there is no recording.
   const std::shared_ptr<const SessionRecording>& recording() const { return recording_; }
-  /// The log that is read, with its folder; empty: none.
+  /// Path of the log that is read; empty if there is none.
   const std::filesystem::path& log() const { return log_; }
-  /// All logs; the last one's checksum is empty as long as nobody needed it.
+  /// All logs. The checksum of the last one is empty until it is needed.
   const std::vector<RecordedLog>& logs() const { return logs_; }
-  /// That are made on the way, each at its time.
+  /// Edits, each made at its time.
   const EditJournal& edits() const { return edits_; }
 
  private:
@@ -48,8 +50,12 @@ class SessionInput {
   std::filesystem::path log_;
   std::vector<RecordedLog> logs_;
   EditJournal edits_;
-  bool same_log_ = false;  ///< the log is the recording's last
+  bool same_log_ = false;  ///< log_ is the last log of the recording
 };
+
+/// Opens the input for a run. With several threads, a thread of its own reads ahead. Throws UserError if
+/// settings contradict each other or if the input is unreadable.
+std::unique_ptr<FrameSource> open_input(const SessionInput& input, const Settings& settings);
 
 /// "first.log + second.log".
 std::string names_of(const std::vector<RecordedLog>& logs);

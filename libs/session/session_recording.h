@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that it takes to make a map again: the frames that the mapper was given, to the last bit, and what was
-// said to it. The mapper's own state is not recorded: the same program makes the same state of the same
-// frames, and another version a better one.
+// All that is needed to make a map again: the mapper's frames, to the last bit, and its settings and edits.
+// The mapper's state is not recorded: the same program derives the same state from the same frames.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +9,25 @@
 #include <vector>
 
 #include "psi_slam/frame.h"
-#include "frames/skipped_lines.h"
-#include "mapping/run_start.h"
+#include "psi_slam/frame_source.h"
+#include "psi_slam/mapper.h"
 #include "session/edit_journal.h"
 
 namespace psi_slam {
 
 /// A log that frames were read from.
 struct RecordedLog {
-  std::string name;       ///< of the file, without its folder
-  std::string sha256;     ///< see sha256_of_log(); empty: it was gone when it was asked for
-  std::size_t scans = 0;  ///< that were taken from its beginning
+  std::string name;       ///< of the file, without folder
+  std::string sha256;     ///< see sha256_of_log(); empty: the log was unreadable when the session was saved
+  std::size_t scans = 0;  ///< taken from the log's beginning
   SkippedLines skipped{};
-  std::optional<std::string> broken_off{};  ///< what is wrong with it behind its last frame
-  bool scans_left = false;                  ///< it has more of them, as far as is known
+  std::optional<std::string> broken_off{};  ///< damage after the last frame, as a sentence
+  bool scans_left = false;                  ///< the log is known to have more scans
 };
 
-/// A drive behind the first: see RunStart.
+/// A run after the first one; see RunStart.
 struct RecordedRun {
-  std::size_t scan = 0;  ///< its first, in the order of all frames
+  std::size_t scan = 0;  ///< the run's first, in the order of all frames
   RunStart start;
 };
 
@@ -36,7 +35,7 @@ struct SessionFacts {
   std::string program_version;
   std::vector<RecordedLog> logs;  ///< in the order of their frames
   std::vector<RecordedRun> runs;
-  std::string settings;  ///< a settings file with every option
+  std::string settings;  ///< text of a settings file with every option
   EditJournal edits;
 };
 
@@ -44,5 +43,9 @@ struct SessionRecording {
   SessionFacts facts;
   std::vector<Frame> frames;
 };
+
+/// Limits the facts to the first scans. All scans beyond those of the earlier logs belong to the last log.
+/// Drops logs and runs that were not reached, and the edits of their scans.
+void keep_first(std::size_t scans, SessionFacts& facts);
 
 }  // namespace psi_slam

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every setting of a mapping run, and its one description: settings files, --set, dumps, the reference and
-// the views of the GUI all come from describe().
+// All settings of psi-slam. describe() is their only description: settings files, --set, dumps, the reference
+// page and the window's settings panel are made from it.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "config/option_table.h"
-#include "psi_slam/localizer.h"
-#include "psi_slam/log_options.h"
-#include "psi_slam/mapper.h"
-#include "psi_slam/grid_map.h"
 #include "exports/map_files.h"
+#include "localization/localizer_options.h"
+#include "psi_slam/grid_map.h"
+#include "psi_slam/log_options.h"
+#include "mapping/mapper_options.h"
 
 namespace psi_slam {
 
-/// The laser's pose on the robot, as far as the user states it.
+/// Pose of the laser on the robot, as far as the user states it.
 struct LaserMount {
   std::optional<double> x_m;
   std::optional<double> y_m;
@@ -24,37 +27,61 @@ struct LaserMount {
 
 struct RunOptions {
   std::uint64_t seed = 1;  ///< of all random numbers
-  int threads = 0;         ///< 0: as many as the machine has processors; no result depends on it
+  int threads = 0;         ///< 0: one for each processor. Results do not depend on it.
 };
 
 struct Settings {
-  LogOptions log;  ///< its robot_T_laser is left empty: `laser_mount` stands for it
+  LogOptions log;  ///< without robot_T_laser, which log_options() takes from `laser_mount`
   LaserMount laser_mount;
-  MapperOptions mapper;  ///< its seed and threads are those of `run`: see mapper_options()
+  MapperOptions mapper;  ///< without seed and threads, which mapper_options() takes from `run`
   GridMapOptions map;
   MapFileOptions map_files;
-  LocalizerOptions localization;  ///< what it shares with mapping is the mapper's: see localizer_options()
+  LocalizerOptions localization;  ///< without what localizer_options() takes from `mapper` and `run`
   RunOptions run;
 };
 
-/// Describes every option once, bound to the members of `settings`, which must hold their defaults and
-/// outlive the table. Angles are degrees in the table and radians in the members.
+/// Describes every option once, bound to the members of `settings`, and the old names of renamed options.
+/// `settings` must hold its defaults and outlive the table. Angles are in degrees in the table, in radians in
+/// the members.
 void describe(OptionTable& table, Settings& settings);
 
-/// Throws UserError, one sentence, when two options contradict each other. (Each alone is checked when it is
-/// set.)
+/// Settings together with the table that is bound to them.
+struct BoundSettings {
+  BoundSettings() { describe(table, settings); }
+  BoundSettings(const BoundSettings&) = delete;
+  BoundSettings& operator=(const BoundSettings&) = delete;
+
+  /// Takes the values of a file, unless `config` is empty, and then "section.key=value" assignments in their
+  /// order. Throws UserError for what is unreadable or not accepted. Call check() afterwards. Old names leave
+  /// warnings in the table (see OptionTable::take_warnings()).
+  void load(const std::filesystem::path& config, const std::vector<std::string>& assignments);
+
+  Settings settings;
+  OptionTable table;
+};
+
+/// Text of a settings file with all options and their present values, under a heading with the program's
+/// version.
+std::string settings_file_text(const OptionTable& table);
+std::string settings_file_text(const Settings& settings);
+
+/// Throws UserError if two options contradict each other. Each single option is checked when it is set.
 void check(const Settings& settings);
 
-/// What the reader of the log takes. Where the mount is stated in part, the rest of it is 0.
+/// check() without the coordinate system map.epsg, which only GDAL knows.
+void check_values(const Settings& settings);
+
+/// Options of the log's reader. If the laser's mount is stated in part, the rest of it is 0.
 LogOptions log_options(const Settings& settings);
 
-/// What the mapper takes: with the seed and the threads of `run`.
+/// Options of the mapper, with seed and threads of `run`.
 MapperOptions mapper_options(const Settings& settings);
 
-/// What the localizer takes: with the mapper's front end and genetic search, and the seed of `run`.
+/// Options of the localizer, with the mapper's front end, consensus and genetic search, and the seed of
+/// `run`.
 LocalizerOptions localizer_options(const Settings& settings);
 
-/// The number of threads that run.threads stands for, at least 1.
+/// Number of threads that run.threads means, at least 1.
 int worker_threads(const RunOptions& run);
 
 }  // namespace psi_slam

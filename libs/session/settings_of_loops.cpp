@@ -7,242 +7,271 @@ namespace psi_slam {
 namespace {
 
 void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
-  LoopClosureOptions& loops = mapper.loop_closure;
-  MatcherOptions& matcher = mapper.loop_matcher;
+  LoopClosureOptions& loops = mapper.back_end.loop_closure;
+  MatcherOptions& matcher = mapper.back_end.loop_matcher;
   LoopCandidateOptions& candidates = loops.candidates;
-  table.section("loop_closure", "Finding places seen before")
-      .flag("enabled", mapper.close_loops, "without, the map is the front end's alone")
-      .choice("matcher", mapper.matcher,
-              {{"csm", LoopMatcher::kCsm},
-               {"csm_ga", LoopMatcher::kCsmGa},
-               {"ga", LoopMatcher::kGa},
-               {"adaptive", LoopMatcher::kAdaptive}},
-              "the window is searched exhaustively, in part, genetically or as the factor Psi says")
+  auto choices = matcher_choices<std::optional<MatcherKind>>();
+  choices.emplace_back("adaptive", std::nullopt);
+  table.section("loop_closure", "Loop closing: finding places that the robot has visited before")
+      .flag("enabled", mapper.close_loops,
+            "Closes loops. Without loops, the map is that of the front end alone.")
+      .choice("matcher", mapper.back_end.matcher, choices,
+              "How to search for loops: csm is exhaustive, csm_ga partly genetic, ga genetic. adaptive "
+              "chooses among them by the factor Psi.")
       .number("window_x_m", candidates.max_window.x_m, above(0).at_most(100), "m",
-              "largest half-width of the search window around the prediction, along x")
-      .number("window_y_m", candidates.max_window.y_m, above(0).at_most(100), "m", "the same along y")
+              "Largest half-width of the search window along x, centred on the predicted pose.")
+      .number("window_y_m", candidates.max_window.y_m, above(0).at_most(100), "m",
+              "Largest half-width of the search window along y, centred on the predicted pose.")
       .angle_deg("window_theta_deg", candidates.max_window.theta_rad, above(0).at_most(180),
-                 "the same in heading")
+                 "Largest half-width of the search window in heading, centred on the predicted pose.")
       .number("min_window_m", candidates.min_window_m, above(0).at_most(100), "m",
-              "smallest half-width along x and y")
+              "Smallest half-width of the search window along x and y.")
       .angle_deg("min_window_theta_deg", candidates.min_window_rad, above(0).at_most(180),
-                 "the same in heading")
+                 "Smallest half-width of the search window in heading.")
       .number("window_sigmas", candidates.window_sigmas, above(0).at_most(100), "",
-              "between the two, the window covers this many standard deviations of the prediction")
+              "Half-width of the search window in standard deviations of the prediction, within the smallest "
+              "and largest half-widths.")
       .number("reach_m", candidates.reach_m, at_least(0).at_most(1000), "m",
-              "a local map is tried when one of its nodes is at most this far from the window")
+              "A local map is searched for loops if one of its nodes is at most this far from the window.")
       .number("min_travel_m", candidates.min_travel_m, at_least(0), "m",
-              "and the robot has travelled this far since it left it: nearer ones share their scans")
+              "A local map is searched for loops only this much travel after its last node. Nearer ones "
+              "share their scans with it.")
       .number("attempt_distance_m", loops.attempt_distance_m, at_least(0), "m",
-              "loops are looked for once in so much travel")
+              "Travel from one search for loops to the next.")
       .number("context_travel_m", loops.context.travel_m, at_least(0).at_most(1000), "m",
-              "wide windows are searched with the scans of so much of the path, not with one alone")
+              "A wide window is searched with all scans of this much travel before the node.")
       .number("context_node_spacing_m", loops.context.node_spacing_m, at_least(0).at_most(1000), "m",
-              "of these, scans nearer to each other along the path are left out")
+              "Wide windows: least travel between the scans that are searched together.")
       .number("context_point_spacing_m", loops.context.point_spacing_m, above(0).at_most(10), "m",
-              "and their points are thinned to one a square of this size")
-      .number("distinct_m", matcher.distinct_m, above(0).at_most(100), "m",
-              "another peak of the response is distinct when it lies this far away along x or y")
-      .angle_deg("distinct_deg", matcher.distinct_rad, above(0).at_most(180), "or is turned by this much")
+              "Wide windows: one point is kept in each square of this side length.")
+      .number(
+          "distinct_m", matcher.distinct_m, above(0).at_most(100), "m",
+          "Another peak of the response is distinct from the best one if it is this far away along x or y.")
+      .angle_deg(
+          "distinct_deg", matcher.distinct_rad, above(0).at_most(180),
+          "Another peak of the response is distinct from the best one if its heading differs by this much.")
       .number("ambiguity_floor", matcher.ambiguity_floor, between(0, 1), "",
-              "peaks below this share of the best response are not looked for")
+              "Other peaks below this share of the best response are ignored.")
       .number("min_sigma_m", matcher.min_sigma_m, above(0).at_most(100), "m",
-              "bounds of a match's standard deviations, from here")
-      .number("max_sigma_m", matcher.max_sigma_m, above(0).at_most(1000), "m", "up to here");
+              "Smallest standard deviation that a match may have.")
+      .number("max_sigma_m", matcher.max_sigma_m, above(0).at_most(1000), "m",
+              "Largest standard deviation that a match may have.");
   describe_refinement(table, matcher.refinement);
 }
 
 void describe_psi(OptionTable& table, PsiOptions& psi) {
-  table.section("psi", "The factor Psi, by which loop_closure.matcher = adaptive chooses")
-      .number(
-          "psi_1", psi.psi_1, any_number(), "",
-          "up to here csm searches for loops, above it csm_ga; below 0: never csm, for Psi is never negative")
-      .number("psi_2", psi.psi_2, any_number(), "", "from here on ga")
+  table.section("psi", "Factor Psi: chooses the matcher if loop_closure.matcher = adaptive")
+      .number("psi_1", psi.psi_1, any_number(), "",
+              "Up to this Psi, csm searches for loops; above it, csm_ga. Psi is never negative, so a "
+              "negative value never uses csm.")
+      .number("psi_2", psi.psi_2, any_number(), "",
+              "From this Psi on, ga searches for loops; below it, csm_ga.")
       .integer("window_frames", psi.window_frames, between(1, 1'000'000), "nodes",
-               "loops are counted over so many nodes before: the K of equation 13")
+               "Number of previous nodes whose loops are averaged: K of equation 13.")
       .number("eta_max", psi.eta_max, at_least(1), "",
-              "bound of eta, path over distance from the start, for a robot that comes back there");
+              "Upper bound of eta, which is path length over distance from the start. It matters near the "
+              "start.");
 }
 
 void describe_paper_genetic(OptionTable& table, PaperGeneticOptions& paper) {
   table
       .integer("paper_population", paper.population, between(2, 10'000), "poses",
-               "variant paper: of each generation")
+               "Number of poses in a generation of the variant paper.")
       .integer("paper_generations", paper.generations, between(1, 1000), "generations",
-               "variant paper: how many")
+               "Number of generations of the variant paper.")
       .number("paper_crossover_rate", paper.crossover_rate, between(0, 1), "",
-              "variant paper: share of the pairs that are crossed at two points")
+              "Share of the pairs that the variant paper crosses at two points.")
       .number("paper_mutation_rate", paper.mutation_rate, between(0, 1), "",
-              "variant paper: chance of each bit to flip");
+              "Probability that a bit flips in the variant paper.");
 }
 
 void describe_genetic(OptionTable& table, GeneticOptions& genetic) {
   MemeticGeneticOptions& memetic = genetic.memetic;
-  table.section("genetic", "The genetic search of the matchers csm_ga and ga")
+  table.section("genetic", "Genetic search of the matchers csm_ga and ga")
       .choice("variant", genetic.variant,
               {{"memetic", GeneticVariant::kMemetic}, {"paper", GeneticVariant::kPaper}},
-              "with local search and all options below, or as in the paper, with those of paper_*")
+              "memetic adds a local search to the genetic one. paper is the paper's algorithm, which uses "
+              "only the options paper_*.")
       .integer("population", memetic.population, between(2, 10'000), "tiles",
-               "of each generation: a tile is a heading and a block of shifts")
-      .integer("children", memetic.children, between(1, 10'000), "tiles", "born in each generation")
+               "Number of tiles in a generation. A tile is a heading and a block of neighbouring shifts.")
+      .integer("children", memetic.children, between(1, 10'000), "tiles",
+               "Number of new tiles in each generation.")
       .integer("elite", memetic.elite, between(0, 10'000), "tiles",
-               "best ones kept from generation to generation; 0: none")
-      .integer("generations", memetic.generations, between(0, 10'000), "generations", "at most")
-      .integer("patience", memetic.patience, between(0, 10'000), "generations",
-               "stop after so many without a better one; 0: never")
+               "Number of best tiles kept from one generation to the next. 0 keeps none.")
+      .integer("generations", memetic.generations, between(0, 10'000), "generations",
+               "Largest number of generations.")
+      .integer(
+          "patience", memetic.patience, between(0, 10'000), "generations",
+          "The search ends after this many generations without a better tile. 0 always runs all generations.")
       .number("crossover_rate", memetic.crossover_rate, between(0, 1), "",
-              "share of the children with two parents")
-      .number("mutation_rate", memetic.mutation_rate, between(0, 1), "", "chance of each bit to flip")
-      .flag("gray_code", memetic.gray_code, "a step in space is one bit; without, the paper's binary code")
-      .flag("niches", memetic.niches, "one individual a neighbourhood, so that two corridors both survive")
-      .flag("remember", memetic.remember, "a chromosome met before is not scored again")
-      .flag("pooled_fitness", memetic.pooled_fitness, "it evolves on the max-pooled grid first")
+              "Share of the new tiles that have two parents.")
+      .number("mutation_rate", memetic.mutation_rate, between(0, 1), "",
+              "Probability that a bit of a new tile flips.")
+      .flag("gray_code", memetic.gray_code,
+            "Encodes tiles in Gray code, so that a step in space flips one bit. Otherwise the paper's binary "
+            "code is used.")
+      .flag("niches", memetic.niches,
+            "Keeps only one tile in each neighbourhood, so that two similar corridors both survive.")
+      .flag("remember", memetic.remember, "Remembers the scores of tiles, so that no tile is scored twice.")
+      .flag("pooled_fitness", memetic.pooled_fitness,
+            "Evolves on the coarse, max-pooled score grid before the fine one.")
       .integer("descents", memetic.descents, between(0, 10'000), "tiles",
-               "best ones of a generation that descend along the heading")
+               "Number of best tiles in each generation that are improved by a descent along the heading.")
       .integer("polished", memetic.polished, between(0, 10'000), "poses",
-               "best ones whose neighbourhood is searched exactly at the end")
+               "Number of best poses whose neighbourhood is searched exactly at the end.")
       .flag("seed_coarse", memetic.seed_coarse,
-            "the first generation comes of a sparse coarse search; without, it is random")
-      .integer("seeds", memetic.seeds, between(1, 10'000), "tiles", "at most, of that search")
+            "Takes the first generation from a sparse coarse search. Otherwise it is random.")
+      .integer("seeds", memetic.seeds, between(1, 10'000), "tiles",
+               "Largest number of tiles that the sparse coarse search (seed_coarse) contributes.")
       .integer("seed_points", memetic.seed_points, between(1, 1'000'000), "points",
-               "of the scan, that it looks at")
+               "Number of the scan's points that the sparse coarse search (seed_coarse) uses.")
       .integer("heading_stride", memetic.heading_stride, between(1, 1000), "headings",
-               "it, and the coarse stage of csm_ga, look at one heading in so many")
+               "The sparse coarse search and the coarse stage of csm_ga try only every n-th heading.")
       .integer("coarse_cells", genetic.coarse.cells, between(1, 100'000), "cells",
-               "of csm_ga: the best ones that the genetic search looks into");
+               "Number of best coarse cells in which csm_ga searches genetically.");
   describe_paper_genetic(table, genetic.paper);
 }
 
 void describe_verification(OptionTable& table, LoopVerificationOptions& verification) {
-  table.section("verification", "Which loops are believed: one false loop ruins a map")
+  table.section("verification", "Verification of loops: a single false loop ruins a map")
       .number("wide_window_m", verification.wide_window_m, at_least(0), "m",
-              "windows of a larger half-width are wide: many things in them look alike")
+              "Windows with a larger half-width are wide. They contain many places that look alike.")
       .number("min_response", verification.min_response, between(0, 1), "",
-              "least response of a scan in a narrow window")
+              "Narrow windows: least response of a scan.")
       .number("min_context_response", verification.min_context_response, between(0, 1), "",
-              "least response of a scan and those before it in a wide window")
+              "Wide windows: least response of a scan together with the scans before it.")
       .number("max_ambiguity", verification.max_ambiguity, between(0, 1), "",
-              "greatest response of another distinct peak in a narrow window, as a share of the best")
+              "Narrow windows: largest response of another distinct peak, as a share of the best response.")
       .number("max_sigma_m", verification.max_sigma_m, above(0), "m",
-              "greatest standard deviation of the matched position")
+              "Largest standard deviation of the matched position.")
       .number("min_observed_share", verification.min_observed_share, between(0, 1), "",
-              "least share of the scan's points in space that the local map has seen; in wide windows not "
-              "asked for")
+              "Narrow windows: least share of the scan's points in space that the local map has observed.")
       .number("min_neighbours_agree", verification.min_neighbours_agree, between(0, 1), "",
-              "least share of the neighbouring scans' points that fit the local map")
+              "Least share of the neighbouring scans' points that fit the local map.")
       .number("min_reverse_agree", verification.min_reverse_agree, between(0, 1), "",
-              "least share of the local map's points that fit what the scan sees")
+              "Least share of the local map's points that fit the matched scan.")
       .number("neighbourhood_m", verification.neighbourhood_m, at_least(0), "m",
-              "scans this far along the path, before and after, are neighbours");
+              "Scans up to this much travel before and after the matched scan are its neighbours.");
 }
 
 void describe_consensus(OptionTable& table, LoopConsensusOptions& consensus) {
-  table.section("consensus", "Loops found in wide windows wait until others agree with them")
+  table.section("consensus", "Consensus: loops in wide windows wait until others agree with them")
       .number("memory_m", consensus.memory_m, above(0), "m",
-              "matches farther back along the path no longer count")
+              "Travel after which a waiting match no longer counts.")
       .number("same_place_m", consensus.same_place_m, above(0).at_most(100), "m",
-              "matches agree when they put the robot this near to each other")
+              "Matches agree only if they place the robot at most this far apart.")
       .angle_deg("same_heading_deg", consensus.same_heading_rad, above(0).at_most(180),
-                 "and turn it by no more than this")
+                 "Matches agree only if their headings differ by at most this much.")
       .number("min_span_m", consensus.min_span_m, at_least(0), "m",
-              "least way between the first and the last match that agree")
-      .number(
-          "min_weight", consensus.min_weight, above(0), "",
-          "least weight of those that agree; a match weighs the more, the less ambiguous it is, at most 1")
-      .number("max_rival_share", consensus.max_rival_share, between(0, 1), "",
-              "greatest weight of any other place, as a share of theirs");
+              "Least travel from the first to the last of the matches that agree.")
+      .number("min_weight", consensus.min_weight, above(0), "",
+              "Least total weight of the matches that agree. An unambiguous match weighs 1, an ambiguous one "
+              "less.")
+      .number("max_other_place_share", consensus.max_rival_share, between(0, 1), "",
+              "Largest weight of any other place, as a share of the weight of the matches that agree.");
 }
 
-void describe_kernel(OptionTable& table, const std::string& constraints, const std::string& whose,
+void describe_kernel(OptionTable& table, const std::string& prefix, const std::string& constraints,
                      RobustKernel& kernel) {
   using Type = RobustKernel::Type;
   table
-      .choice(constraints + "_kernel", kernel.type,
+      .choice(prefix + "_kernel", kernel.type,
               {{"none", Type::kNone},
                {"huber", Type::kHuber},
                {"cauchy", Type::kCauchy},
                {"dynamic_scaling", Type::kDynamicScaling},
                {"geman_mcclure", Type::kGemanMcClure}},
-              "robust kernel of the constraints " + whose)
-      .number(constraints + "_kernel_width", kernel.width, above(0), "sigma",
-              "errors beyond this weigh less, in standard deviations");
+              "Robust kernel of " + constraints + ".")
+      .number(prefix + "_kernel_width", kernel.width, above(0), "sigma",
+              "Width of the robust kernel of " + constraints +
+                  ". Residuals of more standard deviations than this weigh less.");
 }
 
 void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
   PoseAdjustmentOptions& solver = mapper.pose_graph;
-  table.section("pose_graph", "The graph of poses and its optimisation")
+  table.section("pose_graph", "Pose graph and its optimisation")
       .number("local_map_sigma_m", mapper.local_map_sigma_m, above(0), "m",
-              "standard deviation of a node in a local map, on top of the front end's covariance")
-      .angle_deg("local_map_sigma_theta_deg", mapper.local_map_sigma_rad, above(0).at_most(180),
-                 "the same in heading")
-      .number("loop_sigma_m", mapper.loop_sigma_m, above(0), "m",
-              "standard deviation of a loop, on top of its match's own")
-      .angle_deg("loop_sigma_theta_deg", mapper.loop_sigma_rad, above(0).at_most(180), "the same in heading")
-      .number("max_loop_chi", mapper.max_loop_chi, above(0), "sigma",
-              "a loop that the finished graph contradicts by more is switched off");
-  describe_kernel(table, "local_map", "of nodes to their local maps", solver.local_map_kernel);
-  describe_kernel(table, "loop", "of loops", solver.loop_kernel);
+              "Standard deviation of a node's position in a local map, added to the front end's covariance.")
+      .angle_deg(
+          "local_map_sigma_theta_deg", mapper.local_map_sigma_rad, above(0).at_most(180),
+          "Standard deviation of a node's heading in a local map, added to the front end's covariance.")
+      .number("loop_sigma_m", mapper.back_end.loop_sigma_m, above(0), "m",
+              "Standard deviation of a loop's position, added to the covariance of its match.")
+      .angle_deg("loop_sigma_theta_deg", mapper.back_end.loop_sigma_rad, above(0).at_most(180),
+                 "Standard deviation of a loop's heading, added to the covariance of its match.")
+      .number("max_loop_chi", mapper.back_end.max_loop_chi, above(0), "sigma",
+              "A loop whose residual in the finished graph exceeds this many standard deviations is switched "
+              "off.");
+  describe_kernel(table, "local_map", "the constraints between nodes and their local maps",
+                  solver.local_map_kernel);
+  describe_kernel(table, "loop", "loops", solver.loop_kernel);
   table
       .integer("max_iterations", solver.max_iterations, between(1, 10000), "iterations",
-               "most steps of an optimisation")
+               "Largest number of iterations of an optimisation.")
       .number("relative_tolerance", solver.relative_tolerance, at_least(0).below(1), "",
-              "it ends when the error can fall by no more than this share of itself")
-      .number("absolute_tolerance", solver.absolute_tolerance, at_least(0), "", "or by no more than this")
+              "An optimisation ends when the error can fall by at most this share of itself.")
+      .number("absolute_tolerance", solver.absolute_tolerance, at_least(0), "",
+              "An optimisation ends when the error can fall by at most this much.")
       .number("initial_lambda", solver.initial_lambda, at_least(0), "",
-              "damping of the first step; 0 is Gauss-Newton");
+              "Damping of the first iteration of an optimisation. 0 is Gauss-Newton.");
 }
 
 void describe_final_search(OptionTable& table, FinalSearchOptions& final_search) {
-  table.section("last_pass", "After the last scan: all pairs near each other once more")
+  table.section("final_search", "Final loop search: matches all near pairs after the last scan")
       .integer("passes", final_search.passes, between(0, 100), "passes",
-               "how often; 0 leaves the map as the last scan left it")
-      .number("window_m", final_search.window_m, above(0).at_most(100), "m", "half-width of the search windows")
-      .angle_deg("window_theta_deg", final_search.window_rad, above(0).at_most(180), "the same in heading")
+               "Number of final loop searches, each followed by an optimisation. 0 skips the final search.")
+      .number("window_m", final_search.window_m, above(0).at_most(100), "m",
+              "Half-width of the final search's windows along x and y.")
+      .angle_deg("window_theta_deg", final_search.window_rad, above(0).at_most(180),
+                 "Half-width of the final search's windows in heading.")
       .number("reach_m", final_search.reach_m, at_least(0).at_most(1000), "m",
-              "a local map is tried when one of its nodes is at most this far")
+              "A node is matched with a local map if one of the map's nodes is at most this far away.")
       .number("travel_m", final_search.travel_m, at_least(0), "m",
-              "of all nodes in so much travel one is matched; 0: every node");
+              "One node is matched in each stretch of this much travel. 0 matches every node.");
 }
 
 void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refinement) {
   SurfaceAlignmentOptions& alignment = refinement.alignment;
   table
       .section("joint_refinement",
-               "At the very end, where loops are closed: every scan laid on the surfaces that the scans near "
-               "it saw")
-      .integer("rounds", refinement.rounds, between(0, 100), "rounds", "how often; 0 leaves it out")
+               "Final scan refinement: aligns each scan with what near scans saw, if loops are closed")
+      .integer("rounds", refinement.rounds, between(0, 100), "rounds",
+               "Number of rounds of the final scan refinement. 0 skips it.")
       .integer("references", refinement.references, between(1, 1000), "nodes",
-               "whose scans one scan is laid on, at most; those nearest to it")
-      .number("reach_m", refinement.reach_m, above(0).at_most(100), "m", "how far they may be")
-      .angle_deg("max_turn_deg", refinement.max_turn_rad, above(0).at_most(180), "how far turned")
+               "Largest number of nodes whose scans a scan is aligned with. The nearest nodes are taken.")
+      .number("reach_m", refinement.reach_m, above(0).at_most(100), "m",
+              "Largest distance to the nodes whose scans a scan is aligned with.")
+      .angle_deg("max_turn_deg", refinement.max_turn_rad, above(0).at_most(180),
+                 "Largest difference in heading to the nodes whose scans a scan is aligned with.")
       .integer("neighbours", alignment.neighbours, between(1, 100), "points",
-               "of those surfaces, nearest to a point of the scan, whose mean it is compared with")
+               "Number of nearest surface points whose mean a point of the scan is compared with.")
       .number("max_distance_m", alignment.max_distance_m, above(0).at_most(10), "m",
-              "points farther apart are of two surfaces")
+              "Points farther apart than this belong to different surfaces.")
       .angle_deg("max_normal_turn_deg", alignment.max_turn_rad, above(0).at_most(80),
-                 "as are those whose normals differ by more")
+                 "Points whose normals differ by more than this belong to different surfaces.")
       .number("kernel_m", alignment.kernel_m, above(0).at_most(10), "m",
-              "residual at which a point has lost three quarters of its weight")
+              "Residual at which a point has lost three quarters of its weight.")
       .number("prior_sigma_m", alignment.prior_sigma_m, above(0).at_most(10), "m",
-              "how far the optimised pose may be off")
+              "Standard deviation of the optimised position that the refinement starts from.")
       .angle_deg("prior_sigma_theta_deg", alignment.prior_sigma_rad, above(0).at_most(180),
-                 "the same in heading")
-      .integer("iterations", alignment.iterations, between(1, 100), "iterations", "of Gauss-Newton, a scan")
+                 "Standard deviation of the optimised heading that the refinement starts from.")
+      .integer("iterations", alignment.iterations, between(1, 100), "iterations",
+               "Number of Gauss-Newton iterations for each scan.")
       .integer("min_points", alignment.min_points, between(1, 1000000), "points",
-               "of a scan near surfaces; with fewer it stays where it was");
+               "Least number of a scan's points near surfaces. A scan with fewer keeps its pose.");
 }
 
 }  // namespace
 
 void describe_loops(OptionTable& table, MapperOptions& mapper) {
   describe_loop_closure(table, mapper);
-  describe_psi(table, mapper.psi);
-  describe_genetic(table, mapper.genetic);
-  describe_verification(table, mapper.loop_closure.verification);
-  describe_consensus(table, mapper.loop_consensus);
+  describe_psi(table, mapper.back_end.psi);
+  describe_genetic(table, mapper.back_end.genetic);
+  describe_verification(table, mapper.back_end.loop_closure.verification);
+  describe_consensus(table, mapper.back_end.loop_consensus);
   describe_pose_graph(table, mapper);
-  describe_final_search(table, mapper.final_search);
-  describe_joint_refinement(table, mapper.joint_refinement);
+  describe_final_search(table, mapper.back_end.final_search);
+  describe_joint_refinement(table, mapper.back_end.joint_refinement);
 }
 
 }  // namespace psi_slam

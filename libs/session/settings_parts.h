@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of describe() of settings.h, each of some sections of the settings.
+// Parts of describe() of settings.h that describe some of the sections.
 #pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "config/option_table.h"
 #include "session/settings.h"
 
 namespace psi_slam {
 
-/// Members of a section that the caller has begun.
+/// Returns the matchers with their names, for an option of type MatcherKind or std::optional<MatcherKind>.
+template <class Choice>
+std::vector<std::pair<std::string, Choice>> matcher_choices() {
+  std::vector<std::pair<std::string, Choice>> choices;
+  for (const MatcherKind kind : kMatcherKinds) choices.emplace_back(name(kind), kind);
+  return choices;
+}
+
+/// Describes the options refine_* in the current section of the table.
 void describe_refinement(OptionTable& table, RefinementOptions& refinement);
 
-/// From the search for loops to the refinement of all scans.
+/// Describes the sections from [loop_closure] to [joint_refinement].
 void describe_loops(OptionTable& table, MapperOptions& mapper);
-void describe_map(OptionTable& table, GridMapOptions& map);
-void describe_map_files(OptionTable& table, MapFileOptions& files);
-void describe_localization(OptionTable& table, LocalizerOptions& localization);
 
 }  // namespace psi_slam

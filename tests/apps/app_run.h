@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of the program share: running it as an object or as a process, and looking at what it left.
+// Helpers of the program's tests: run it in this process or as a child, and read its results.
 #pragma once
 
 #include <fcntl.h>
@@ -20,12 +20,12 @@
 
 namespace psi_slam {
 
-/// The short real log that MRPT's data package installs.
+/// A short real log from MRPT's data package.
 inline constexpr const char* kQuickstartLog =
     "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
 inline constexpr const char* kNeedsQuickstartLog = "needs the rawlogs of Debian's package mrpt-common";
 
-/// Every file of a run.
+/// Names of all files of a run.
 inline const std::vector<std::string>& result_names() {
   static const std::vector<std::string> kNames{
       "frames.csv",  "graph.g2o",    "loops.csv",         "map.dxf",       "map.gridmap.gz",
@@ -45,7 +45,7 @@ inline void write_bytes(const std::filesystem::path& path, const std::string& by
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
-/// What a run of the program said.
+/// Exit code and output of a run.
 struct AppRun {
   int code = -1;
   std::string out;
@@ -59,7 +59,7 @@ inline AppRun run_app(const std::vector<std::string>& arguments, bool err_is_ter
   return {code, out.str(), err.str()};
 }
 
-/// The installed program as a process of its own, its standard output and error in files.
+/// The program as a child process with standard output and error in files.
 class AppProcess {
  public:
   /// `prepare` runs in the new process before the program does.
@@ -88,7 +88,7 @@ class AppProcess {
   pid_t pid() const { return pid_; }
   void send(int signal) const { ::kill(pid_, signal); }
 
-  /// Waits for its end. The code is minus the signal if one ended it.
+  /// Waits for its end. The code is the negative signal number if a signal ended it.
   AppRun finish() const {
     int status = 0;
     ::waitpid(pid_, &status, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program on the logs of the Freiburg benchmark with their settings files: what the README promises.
+// Runs the program on the logs of the Freiburg benchmark with their settings files.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -7,9 +7,9 @@
 
 #include "app_run.h"
 #include "evaluation/relations_metric.h"
-#include "trajectory/trajectory_file.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -34,7 +34,7 @@ std::string name_of(const testing::TestParamInfo<Benchmark>& info) {
 
 class BenchmarkLog : public testing::TestWithParam<Benchmark> {};
 
-TEST_P(BenchmarkLog, a_benchmark_log_is_mapped_within_its_limits) {
+TEST_P(BenchmarkLog, is_mapped_within_its_limits) {
   const Benchmark& benchmark = GetParam();
   const std::string name = benchmark.log;
   const auto log = shared_file(name + ".clf.gz");

@@ -22,7 +22,7 @@ class ClosingText : public testing::Test {
   RunSummary summary_;
 };
 
-TEST_F(ClosingText, says_where_the_map_is_and_what_it_is_made_of) {
+TEST_F(ClosingText, names_the_map_and_its_figures) {
   summary_.log.scans = 13631;
   summary_.log.duration_s = 2691;
   summary_.path_length_m = 503.4;
@@ -34,18 +34,18 @@ TEST_F(ClosingText, says_where_the_map_is_and_what_it_is_made_of) {
   const std::string folder = (folder_.path() / "out").string();
   std::filesystem::create_directory(folder);
   write_file(folder + "/map.png", "a picture");
-  EXPECT_EQ(text(), "The map is " + folder + "/map.png; " + folder +
-                        "/report.html tells how it was made.\n"
+  EXPECT_EQ(text(), "The map is in " + folder + "/map.png, the report in " + folder +
+                        "/report.html.\n"
                         "13631 scans of my.log over 44:51 and 503 m: 3463 nodes, 1 loop closed.\n"
                         "It took 20.2 s, real-time factor 132.9, and 305 MiB of memory.\n");
 }
 
-TEST_F(ClosingText, without_a_picture_the_folder_is_named) {
+TEST_F(ClosingText, names_the_folder_without_map_png) {
   const std::string folder = (folder_.path() / "out").string();
-  EXPECT_THAT(text(), HasSubstr("The map is " + folder + ": " + folder + "/report.html tells"));
+  EXPECT_THAT(text(), HasSubstr("The map is in " + folder + ", the report in " + folder + "/report.html.\n"));
 }
 
-TEST_F(ClosingText, leaves_out_a_factor_that_cannot_be_said) {
+TEST_F(ClosingText, leaves_out_an_unknown_real_time_factor) {
   EXPECT_THAT(text(), Not(HasSubstr("factor")));
 }
 

@@ -19,7 +19,7 @@ CommandLine parsed(const std::vector<std::string>& arguments) {
   return parse_command_line(arguments, app);
 }
 
-/// What the program says to wrong usage.
+/// Error message for wrong usage.
 std::string complaint(const std::vector<std::string>& arguments) {
   const AppRun run = run_app(arguments);
   EXPECT_EQ(run.code, 2);
@@ -28,7 +28,7 @@ std::string complaint(const std::vector<std::string>& arguments) {
   return run.err;
 }
 
-TEST(CommandLine, takes_options_before_and_behind_the_log) {
+TEST(CommandLine, accepts_options_before_and_after_the_log) {
   for (const CommandLine& line : {parsed({"-c", "my.ini", "--set", "a.b=1", "--set", "c.d=2", "my.log", "-o",
                                           "out", "--force", "--json"}),
                                   parsed({"my.log", "--output", "out", "--set=a.b=1", "--json",
@@ -43,7 +43,7 @@ TEST(CommandLine, takes_options_before_and_behind_the_log) {
   }
 }
 
-TEST(CommandLine, an_override_does_not_swallow_the_log_behind_it) {
+TEST(CommandLine, an_override_does_not_take_the_log_as_its_value) {
   EXPECT_EQ(parsed({"-o", "out", "--set", "a.b=1", "my.log"}).log, "my.log");
   EXPECT_EQ(parsed({"check", "--set", "a.b=1", "my.log"}).log, "my.log");
 }
@@ -59,24 +59,24 @@ TEST(CommandLine, knows_its_commands) {
   EXPECT_EQ(parsed({"--dump-config", "-c", "my.ini"}).command, Command::kDumpConfig);
 }
 
-TEST(CommandLine, wrong_usage_gets_a_sentence) {
+TEST(CommandLine, wrong_usage_gives_one_sentence) {
   EXPECT_THAT(complaint({}), AllOf(HasSubstr("name the log"), HasSubstr("--help")));
   EXPECT_THAT(complaint({"my.log"}), HasSubstr("name the folder for the results: -o DIR"));
   EXPECT_THAT(complaint({"my.log", "-o"}), HasSubstr("--output"));
   EXPECT_THAT(complaint({"my.log", "-o", "out", "--colour"}), HasSubstr("there is no option \"--colour\""));
   EXPECT_THAT(complaint({"my.log", "-o", "out", "--forse"}), HasSubstr("did you mean \"--force\"?"));
-  EXPECT_THAT(complaint({"a.log", "b.log", "-o", "out"}), HasSubstr("\"b.log\" is one argument too many"));
+  EXPECT_THAT(complaint({"a.log", "b.log", "-o", "out"}), HasSubstr("unexpected argument \"b.log\""));
   EXPECT_THAT(complaint({"chekc", "my.log"}), HasSubstr("no command \"chekc\"; did you mean \"check\"?"));
   EXPECT_THAT(complaint({"check"}), HasSubstr("psi-slam check LOG"));
-  EXPECT_THAT(complaint({"check", "a.log", "b.log"}), HasSubstr("\"b.log\" is one argument too many"));
+  EXPECT_THAT(complaint({"check", "a.log", "b.log"}), HasSubstr("unexpected argument \"b.log\""));
   EXPECT_THAT(complaint({"-o", "out", "check", "a.log"}), HasSubstr("nothing is written"));
-  EXPECT_THAT(complaint({"--dump-config", "my.log"}), HasSubstr("\"my.log\" is one argument too many"));
+  EXPECT_THAT(complaint({"--dump-config", "my.log"}), HasSubstr("unexpected argument \"my.log\""));
   EXPECT_THAT(complaint({"options", "my.log"}), HasSubstr("my.log"));
-  EXPECT_THAT(complaint({"my.log", "-o", "out", "-q", "-v"}), HasSubstr("do not go together"));
+  EXPECT_THAT(complaint({"my.log", "-o", "out", "-q", "-v"}), HasSubstr("--quiet contradicts --verbose"));
   EXPECT_THAT(complaint({"my.log", "-o", "out", "--seed"}), HasSubstr("--seed"));
 }
 
-TEST(CommandLine, tells_its_version_and_its_options) {
+TEST(CommandLine, prints_version_and_help) {
   const AppRun version = run_app({"--version"});
   EXPECT_EQ(version.code, 0);
   EXPECT_THAT(version.out, MatchesRegex("psi-slam [0-9.]+\n"));

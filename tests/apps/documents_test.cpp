@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Manual pages and completion of a made-up program.
+// Manual page and completion of an imaginary program.
 #include <gmock/gmock.h>
 
-#include "bash_completion.h"
 #include "command_words.h"
 #include "document_options.h"
-#include "man_page.h"
 #include "roff_text.h"
 
 namespace psi_slam {
@@ -38,7 +36,7 @@ class Documents : public testing::Test {
   OptionTable table_;
 };
 
-TEST(RoffText, what_troff_takes_for_its_own_is_escaped) {
+TEST(RoffText, escapes_special_characters) {
   EXPECT_EQ(roff_text("a-b \\n 'x' \"y\" ~ ^ `"), "a\\-b \\en \\(aqx\\(aq \\(dqy\\(dq \\(ti \\(ha \\(ga");
   EXPECT_EQ(roff_text(".SH\n.x\n'y a.b"), "\\&.SH\n\\&.x\n\\&\\(aqy a.b");
   EXPECT_EQ(roff_text("Kümmerle"), "Kümmerle");
@@ -81,7 +79,7 @@ TEST_F(Documents, completion_knows_options_commands_and_values) {
   EXPECT_THAT(bash_completion(app_, nullptr), Not(HasSubstr("_setting")));
 }
 
-TEST_F(Documents, hidden_options_print_them_even_where_arguments_are_missing) {
+TEST_F(Documents, hidden_options_work_without_required_arguments) {
   add_document_options(app_);
   try {
     app_.parse("--man-page");

@@ -12,7 +12,7 @@ void (*handler_of(int signal_number))(int) {
   return action.sa_handler;
 }
 
-TEST(InterruptSignals, the_first_is_noted_and_the_next_would_end_the_process) {
+TEST(InterruptSignals, the_first_sets_a_flag_and_the_next_ends_the_process) {
   for (const int signal_number : {SIGINT, SIGTERM}) {
     const InterruptSignals signals;
     EXPECT_FALSE(signals.came());

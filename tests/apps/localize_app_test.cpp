@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam localize, from a map and a log to its results.
+// Whole runs of psi-slam localize.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -10,8 +10,8 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
-#include "trajectory/trajectory_file.h"
 #include "temporary_folder.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// The room, mapped; the map's frame is the first scan's. Another robot drives round in it faster.
+/// Map of the room, in the frame of the first scan. Another robot drives faster in the room.
 class LocalizeApp : public testing::Test {
  protected:
   void SetUp() override {
@@ -64,7 +64,7 @@ TEST_F(LocalizeApp, takes_a_start_and_prints_json) {
   const Json summary = Json::parse(run.out);
   EXPECT_EQ(summary["found"], true);
   EXPECT_EQ(summary["found_after_m"], 0);
-  EXPECT_NEAR(summary["found_at"][0].get<double>(), 0, 0.05) << "not where it was told";
+  EXPECT_NEAR(summary["found_at"][0].get<double>(), 0, 0.05) << "the given start was only rough";
   EXPECT_NEAR(summary["found_at"][1].get<double>(), 0, 0.05);
   EXPECT_EQ(summary["localized_at_end"], true);
   EXPECT_EQ(summary["interrupted"], false);
@@ -75,9 +75,9 @@ TEST_F(LocalizeApp, takes_a_start_and_prints_json) {
   EXPECT_EQ(summary["tracked"], 120);
 }
 
-TEST_F(LocalizeApp, of_a_robot_that_is_not_there_it_says_so_with_exit_code_1) {
+TEST_F(LocalizeApp, a_robot_that_is_not_found_gives_exit_code_1) {
   std::vector<std::string> lines = room_log_lines(60, 80);
-  for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, "1.3");  // a round shaft
+  for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, "1.3");  // a round room
   write_lines(folder_.path() / "new.log", lines);
   const AppRun run = localize("map.yaml");
   EXPECT_EQ(run.code, 1);
@@ -88,8 +88,8 @@ TEST_F(LocalizeApp, of_a_robot_that_is_not_there_it_says_so_with_exit_code_1) {
   EXPECT_EQ(Json::parse(json.out)["localized_at_end"], false);
 }
 
-/// Found and tracked, then taken to where there is no map.
-TEST_F(LocalizeApp, interrupted_it_says_that_its_end_is_not_that_of_the_log) {
+/// A robot that is found and tracked, then moved outside the map.
+TEST_F(LocalizeApp, warns_if_it_was_interrupted) {
   write_lines(folder_.path() / "new.log", room_log_lines(20000, 80));
   const auto out = folder_.path() / "out";
   const AppProcess process({"localize", map("map.yaml").string(), (folder_.path() / "new.log").string(),
@@ -101,14 +101,14 @@ TEST_F(LocalizeApp, interrupted_it_says_that_its_end_is_not_that_of_the_log) {
   const Json summary = Json::parse(run.out);
   EXPECT_EQ(summary["interrupted"], true);
   EXPECT_LT(summary["scans"], 20000);
-  EXPECT_THAT(run.err, HasSubstr("interrupted: its end is that of the " +
+  EXPECT_THAT(run.err, HasSubstr("interrupted: the end of the log means the last of the " +
                                  std::to_string(summary["scans"].get<int>()) + " scans"));
 }
 
-TEST_F(LocalizeApp, of_a_robot_that_is_lost_at_the_end_it_says_so_with_exit_code_1) {
+TEST_F(LocalizeApp, a_robot_lost_at_the_end_gives_exit_code_1) {
   std::vector<std::string> lines = room_log_lines(120, 80);
   for (std::size_t i = 80; i < lines.size(); ++i)
-    lines[i] = with_ranges(lines[i], 0, kRoomBeams, "1.3");  // a round shaft
+    lines[i] = with_ranges(lines[i], 0, kRoomBeams, "1.3");  // a round room
   write_lines(folder_.path() / "new.log", lines);
   const AppRun run = localize("map.yaml", {"--start", "0,0,0"});
   EXPECT_EQ(run.code, 1);
@@ -127,14 +127,14 @@ TEST_F(LocalizeApp, of_a_robot_that_is_lost_at_the_end_it_says_so_with_exit_code
   EXPECT_FALSE(summary["why_not"].get<std::string>().empty());
 }
 
-TEST_F(LocalizeApp, shows_on_a_terminal_how_far_it_is) {
+TEST_F(LocalizeApp, shows_progress_on_a_terminal) {
   const std::vector<std::string> arguments{"localize", map("map.yaml").string(),
                                            (folder_.path() / "new.log").string(), "--start", "0,0,0"};
   EXPECT_THAT(run_app(arguments, true).err, HasSubstr("\r\x1b[Klocalizing "));
   EXPECT_EQ(run_app(arguments, false).err, "");
 }
 
-TEST_F(LocalizeApp, wrong_usage_is_told_in_a_sentence) {
+TEST_F(LocalizeApp, wrong_usage_gives_one_sentence) {
   EXPECT_EQ(run_app({"localize"}).code, 2);
   EXPECT_THAT(run_app({"localize", map("map.yaml").string()}).err, HasSubstr("localize MAP LOG"));
   EXPECT_THAT(localize("map.png").err, HasSubstr("expected map.yaml or map.gridmap.gz"));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real logs: the first half is mapped, and robots are localized in the second. The path of the whole log,
-// mapped at once, is what their poses are compared with: each is seen from the nearest pose of the first
-// half, and told in the map of the first half from there, since the two maps differ by some centimetres. It
-// prints the figures of share/doc/localize.md.
+// Real logs: the first half is mapped, and robots of the second half are localized in it. The truth is the
+// path of the whole log, mapped at once. Each true pose is taken relative to the nearest pose of the first
+// half, since the two maps differ by some centimetres. The test prints the figures of share/doc/localize.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,8 +11,9 @@
 #include <thread>
 
 #include "localization/localization_report.h"
-#include "session/bound_settings.h"
 #include "psi_slam/mapping_session.h"
+#include "report/output_folder.h"
+#include "session/settings.h"
 #include "shared_logs.h"
 
 namespace psi_slam {
@@ -23,9 +23,10 @@ using mrpt::math::TPose2D;
 
 constexpr std::size_t kStarts = 12;
 constexpr std::size_t kThreads = 4;
-constexpr double kWay_m = 20;   // that each robot drives at most
-constexpr double kFalse_m = 1;  // farther from the path, a place found is a false one
-constexpr double kNear_m = 1;   // to the path of the first half: what is seen from there was mapped
+constexpr double kWay_m = 20;   // longest path of a robot
+constexpr double kFalse_m = 1;  // least distance from the path of a false place
+constexpr double kNear_m =
+    1;  // largest distance from the path of the first half, which has mapped the surroundings
 
 MappingResult mapped(const std::filesystem::path& log, const Settings& settings, std::size_t scans) {
   MappingSession session(log, settings);
@@ -67,7 +68,7 @@ double distance_m(const TPose2D& a, const TPose2D& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-/// Both halves of a log, and where the robot was in the map of the first.
+/// Both halves of a log, and the true poses in the map of the first half.
 struct Halves {
   MappingResult whole;
   std::size_t half = 0;
@@ -148,7 +149,7 @@ Figures localize_second_half(const std::filesystem::path& log, const std::string
   return figures;
 }
 
-TEST(LocalizeHalves, robots_of_the_second_half_of_a_real_log_are_found_in_the_map_of_the_first) {
+TEST(LocalizeHalves, finds_robots_of_the_second_half_in_the_map_of_the_first) {
   if (std::getenv("PSI_SLAM_LONG_TESTS") == nullptr) GTEST_SKIP() << "takes minutes: set PSI_SLAM_LONG_TESTS";
   const auto log = shared_file("fr079.clf.gz");
   if (!log) GTEST_SKIP() << kNeedsData;
@@ -158,7 +159,7 @@ TEST(LocalizeHalves, robots_of_the_second_half_of_a_real_log_are_found_in_the_ma
   EXPECT_LT(median(figures.errors_m), 0.1);
 }
 
-/// All of the second half, from a start that is told or not.
+/// Localizes the whole second half, with or without a start.
 void follow_second_half(const Halves& log, const ReferenceMap& map, const LocalizerOptions& options,
                         bool told) {
   SCOPED_TRACE(told ? "told start" : "no start");
@@ -166,7 +167,7 @@ void follow_second_half(const Halves& log, const ReferenceMap& map, const Locali
   if (told) localizer.start_at(log.whole.frames[log.half].map_T_robot);
   std::vector<LocalizationStep> steps;
   std::vector<double> errors_m;
-  std::size_t near = 0;  // of the scans, to where the robot was in the first half
+  std::size_t near = 0;  // scans near the path of the first half
   std::size_t tracked_near = 0;
   for (std::size_t i = log.half; i < log.whole.log.size(); ++i) {
     steps.push_back(localizer.add(log.whole.log[i]));
@@ -199,7 +200,7 @@ void follow_second_half(const Halves& log, const ReferenceMap& map, const Locali
   EXPECT_LT(errors_m.front(), 0.1);
 }
 
-TEST(LocalizeHalves, a_robot_is_followed_through_the_second_half_of_a_real_log) {
+TEST(LocalizeHalves, tracks_a_robot_through_the_second_half) {
   if (std::getenv("PSI_SLAM_LONG_TESTS") == nullptr) GTEST_SKIP() << "takes minutes: set PSI_SLAM_LONG_TESTS";
   const auto log = shared_file("intel.clf.gz");
   if (!log) GTEST_SKIP() << kNeedsData;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "log_check.h"
+#include "commands.h"
 
 #include <gmock/gmock.h>
 
@@ -24,7 +24,7 @@ class LogCheck : public testing::Test {
   std::string log_ = write_lines(folder_.path() / "room.log", room_log_lines(60)).string();
 };
 
-TEST_F(LogCheck, tells_in_plain_sentences_what_the_log_holds) {
+TEST_F(LogCheck, prints_what_the_log_holds) {
   const AppRun run = run_app({"check", log_});
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.err, "");
@@ -32,13 +32,13 @@ TEST_F(LogCheck, tells_in_plain_sentences_what_the_log_holds) {
   EXPECT_THAT(run.out, HasSubstr("odometry: "));
 }
 
-TEST_F(LogCheck, tells_the_same_to_programs) {
+TEST_F(LogCheck, prints_json) {
   const AppRun run = run_app({"check", "--json", log_});
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(Json::parse(run.out)["facts"]["scans"], 60);
 }
 
-TEST_F(LogCheck, judges_by_the_settings) {
+TEST_F(LogCheck, uses_the_settings) {
   const AppRun run =
       run_app({"check", "--json", log_, "--set", "log.max_range_m=2.5", "--set", "log.laser_x_m=0.3"});
   const Json facts = Json::parse(run.out)["facts"];
@@ -46,7 +46,7 @@ TEST_F(LogCheck, judges_by_the_settings) {
   EXPECT_EQ(facts["robot_T_laser"]["x_m"], 0.3);
 }
 
-TEST_F(LogCheck, a_log_that_breaks_off_is_told_of_up_to_there_and_is_wrong_input) {
+TEST_F(LogCheck, a_damaged_log_is_checked_up_to_the_damage) {
   std::ofstream(log_, std::ios::app) << "FLASER 181 1.0";
   const AppRun run = run_app({"check", log_});
   EXPECT_EQ(run.code, 2);
@@ -54,7 +54,7 @@ TEST_F(LogCheck, a_log_that_breaks_off_is_told_of_up_to_there_and_is_wrong_input
   EXPECT_THAT(run.err, AllOf(StartsWith("psi-slam: "), HasSubstr("room.log:61: FLASER: ")));
 }
 
-TEST_F(LogCheck, what_cannot_be_read_is_the_users_mistake) {
+TEST_F(LogCheck, an_unreadable_log_is_wrong_input) {
   const AppRun run = run_app({"check", "missing.log"});
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err, HasSubstr("missing.log does not exist"));

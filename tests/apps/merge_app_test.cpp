@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam merge, from two logs or sessions to one map.
+// Whole runs of psi-slam merge.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -9,9 +9,9 @@
 #include "app_run.h"
 #include "command_line.h"
 #include "psi_slam/open_log.h"
-#include "trajectory/trajectory_file.h"
 #include "same_results.h"
 #include "temporary_folder.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -19,8 +19,8 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// The room, driven through twice: the second time faster, begun at a quarter of the round, its odometry from
-/// zero and its stamps those of the first drive again.
+/// Two runs in the room. The second is faster and begins at a quarter of the round. Its odometry begins at
+/// zero and its time stamps repeat those of the first run.
 class MergeApp : public testing::Test {
  protected:
   void SetUp() override {
@@ -40,8 +40,8 @@ class MergeApp : public testing::Test {
     return run_app(arguments);
   }
 
-  /// The second drive lies in the frame of the first where it truly was.
-  void expect_second_drive_in_place(const std::string& out) {
+  /// Compares the poses of the second run with the truth in the frame of the first run.
+  void expect_second_run_in_place(const std::string& out) {
     const Trajectory second = read_trajectory(file(out) + "/trajectory-2.tum");
     ASSERT_EQ(second.size(), 120U);
     for (std::size_t i = 0; i < second.size(); ++i) {
@@ -69,7 +69,7 @@ class MergeApp : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(MergeApp, finds_where_the_second_drive_began_and_makes_one_map) {
+TEST_F(MergeApp, finds_the_start_of_the_second_run_and_makes_one_map) {
   const AppRun run = merge({"first.log", "second.log"}, "out", {"--json"});
   ASSERT_EQ(run.code, 0) << run.err;
   const Json summary = Json::parse(run.out);
@@ -77,14 +77,14 @@ TEST_F(MergeApp, finds_where_the_second_drive_began_and_makes_one_map) {
   EXPECT_EQ(summary["log"]["scans"], 240);
   EXPECT_EQ(summary["drives"],
             Json::parse(R"([{"first_scan": 0, "scans": 120}, {"first_scan": 120, "scans": 120}])"));
-  EXPECT_EQ(summary["log"]["stamps_back"], 0) << "drives may overlap in time";
+  EXPECT_EQ(summary["log"]["stamps_back"], 0) << "runs may overlap in time";
   EXPECT_NEAR(summary["log"]["duration_s"].get<double>(), 2 * 119 * 0.2, 1e-6);
   EXPECT_EQ(read_trajectory(file("out") + "/trajectory-1.tum").size(), 120U);
   EXPECT_EQ(read_trajectory(file("out") + "/trajectory.tum").size(), 240U);
-  expect_second_drive_in_place("out");
+  expect_second_run_in_place("out");
   const double way_m = summary["path_length_m"];
   const double odometry_m = summary["log"]["odometry_length_m"];
-  EXPECT_NEAR(way_m, odometry_m, 0.05 * odometry_m) << "the way from one drive to the next is none";
+  EXPECT_NEAR(way_m, odometry_m, 0.05 * odometry_m) << "the way between two runs does not count";
 }
 
 TEST_F(MergeApp, takes_a_start) {
@@ -93,14 +93,14 @@ TEST_F(MergeApp, takes_a_start) {
                     std::to_string(start.phi * 180 / M_PI + 8);
   const AppRun run = merge({"first.log", "second.log"}, "out", {"--start", text});
   ASSERT_EQ(run.code, 0) << run.err;
-  expect_second_drive_in_place("out");
+  expect_second_run_in_place("out");
   const AppRun wrong = merge({"first.log", "second.log"}, "wrong", {"--start", "40,40,0"});
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("second.log does not begin near --start"));
   EXPECT_TRUE(std::filesystem::is_empty(file("wrong"))) << "no half map";
 }
 
-TEST_F(MergeApp, of_sessions_with_edits_and_saved_again_it_is_the_same_map) {
+TEST_F(MergeApp, sessions_with_edits_give_the_same_map) {
   for (const std::string name : {"first", "second"})
     ASSERT_EQ(
         run_app({file(name + ".log"), "-q", "-o", file(name), "--save-session", file(name + ".session")})
@@ -120,7 +120,7 @@ TEST_F(MergeApp, of_sessions_with_edits_and_saved_again_it_is_the_same_map) {
   EXPECT_EQ(Json::parse(three.out)["drives"].size(), 3U);
 }
 
-TEST_F(MergeApp, says_which_settings_of_a_session_are_not_those_of_now) {
+TEST_F(MergeApp, warns_of_changed_settings_of_a_session) {
   const auto save = [&](const std::string& name, const std::vector<std::string>& settings) {
     std::vector<std::string> arguments{file(name + ".log"),    "-q", "-o", file(name), "--save-session",
                                        file(name + ".session")};
@@ -133,15 +133,15 @@ TEST_F(MergeApp, says_which_settings_of_a_session_are_not_those_of_now) {
   const AppRun run = merge({"first.session", "second.session"}, "out");
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.err, "psi-slam: " + file("second.session") +
-                         " was mapped with other settings and is mapped anew with those of now: "
+                         " was mapped with other settings and is mapped again with the present ones: "
                          "front_end.window_theta_deg was 7.5 and is " +
                          default_text("front_end.window_theta_deg") + ", log.min_range_m was 0.05 and is " +
                          default_text("log.min_range_m") + ", run.seed was 9 and is " +
                          default_text("run.seed") + ", and 1 more\n");
 }
 
-/// Stamps of a CARMEN log do not run back and its odometry does not jump.
-TEST_F(MergeApp, has_a_corrected_log_of_each_drive) {
+/// Time stamps and odometry of a CARMEN log must be continuous.
+TEST_F(MergeApp, writes_a_corrected_log_for_each_run) {
   ASSERT_EQ(merge({"first.log", "second.log"}, "out").code, 0);
   EXPECT_FALSE(std::filesystem::exists(file("out") + "/trajectory.carmen"));
   for (const std::string drive : {"1", "2"}) {
@@ -159,40 +159,40 @@ TEST_F(MergeApp, has_a_corrected_log_of_each_drive) {
     for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_NEAR(poses[i].pose.x, tum[i].pose.x, 1e-6);
   }
   EXPECT_THAT(bytes_of(file("out") + "/report.html"), HasSubstr("href=\"trajectory-2.carmen\""));
-  // A map of one drive in the same folder leaves none of them.
+  // A map of one run in the same folder removes them.
   ASSERT_EQ(run_app({file("first.log"), "-q", "-o", file("out"), "--force"}).code, 0);
   EXPECT_TRUE(std::filesystem::exists(file("out") + "/trajectory.carmen"));
   EXPECT_FALSE(std::filesystem::exists(file("out") + "/trajectory-1.carmen"));
   EXPECT_FALSE(std::filesystem::exists(file("out") + "/trajectory-2.tum"));
 }
 
-TEST_F(MergeApp, shows_on_a_terminal_how_far_the_search_for_the_start_is) {
+TEST_F(MergeApp, shows_the_progress_of_the_search_for_the_start) {
   const AppRun run = run_app({"merge", file("first.log"), file("second.log"), "-o", file("out")}, true);
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("\r\x1b[Kfinding where second.log begins     0 %"));
 }
 
-TEST_F(MergeApp, another_building_is_refused_in_one_sentence_and_nothing_is_written) {
+TEST_F(MergeApp, rejects_another_building_and_writes_nothing) {
   std::vector<std::string> lines = room_log_lines(60, 80);
-  for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, "1.3");  // a round shaft
+  for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, "1.3");  // a round room
   write_lines(folder_.path() / "second.log", lines);
   const AppRun run = merge({"first.log", "second.log"}, "out", {"--save-session", file("both.session")});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("second.log cannot be placed in the map of what came before: "));
+  EXPECT_THAT(run.err, HasSubstr("second.log cannot be placed in the map of the runs before it: "));
   EXPECT_EQ(run.err.find('\n'), run.err.size() - 1) << run.err;
   EXPECT_TRUE(std::filesystem::is_empty(file("out")));
   EXPECT_FALSE(std::filesystem::exists(file("both.session")));
 }
 
-/// Of three, the second has no loop with the first, for want of any.
-TEST_F(MergeApp, names_the_drive_that_no_loop_joins) {
+/// With loop closing switched off, no loop joins the runs.
+TEST_F(MergeApp, names_the_run_that_no_loop_joins) {
   const AppRun run =
       merge({"first.log", "second.log", "first.log"}, "out", {"--set", "loop_closure.enabled=false"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("second.log cannot be merged: no loop was found that joins it to the rest"));
+  EXPECT_THAT(run.err, HasSubstr("second.log cannot be merged: no loop joins it to the other runs"));
 }
 
-TEST_F(MergeApp, a_first_drive_that_breaks_off_is_told_and_merged_up_to_there) {
+TEST_F(MergeApp, merges_a_damaged_first_run_up_to_the_damage) {
   std::ofstream(file("first.log"), std::ios::app) << "FLASER 181 1.0 2.0";
   const AppRun run =
       merge({"first.log", "second.log"}, "out", {"-q", "--save-session", file("both.session")});
@@ -202,15 +202,15 @@ TEST_F(MergeApp, a_first_drive_that_breaks_off_is_told_and_merged_up_to_there) {
   EXPECT_EQ(resumed.code, run.code);
   EXPECT_EQ(resumed.err, run.err);
   EXPECT_THAT(bytes_of(file("out") + "/report.html"), HasSubstr("first.log:121"));
-  expect_second_drive_in_place("out");
+  expect_second_run_in_place("out");
 }
 
-TEST_F(MergeApp, wrong_usage_is_told_in_a_sentence) {
+TEST_F(MergeApp, wrong_usage_gives_one_sentence) {
   EXPECT_THAT(run_app({"merge", file("first.log"), "-o", file("x")}).err,
               HasSubstr("merge FIRST SECOND -o DIR"));
   EXPECT_THAT(merge({"first.log", "second.log"}, "x", {"--start", "1,2"}).err, HasSubstr("--start 1,2"));
   EXPECT_THAT(merge({"first.log", "second.log", "first.log"}, "x", {"--start", "1,2,3"}).err,
-              HasSubstr("--start goes with two drives"));
+              HasSubstr("--start needs exactly two runs"));
   EXPECT_THAT(run_app({"merge", file("first.log"), file("second.log")}).err, HasSubstr("-o DIR"));
   EXPECT_THAT(merge({"first.log", "none.log"}, "x").err, HasSubstr("none.log does not exist"));
   EXPECT_THAT(run_app({"marge", "a", "b"}).err, HasSubstr("did you mean \"merge\""));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A real log cut in two, the second half with odometry of another origin, merged without a start: against the
-// true relations it is as good as the log mapped at once. It prints the figures of share/doc/sessions.md.
+// Merges the two halves of a real log without a start; odometry of the second half has another origin. By the
+// true relations the map is as good as that of the whole log. Prints the figures of share/doc/sessions.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,12 +8,14 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "psi_slam/open_log.h"
-#include "exports/mapped_trajectory.h"
 #include "evaluation/relations_metric.h"
-#include "session/bound_settings.h"
+#include "exports/mapped_trajectory.h"
 #include "psi_slam/mapping_session.h"
+#include "psi_slam/open_log.h"
+#include "report/output_folder.h"
 #include "session/place_run.h"
+#include "session/session_input.h"
+#include "session/settings.h"
 #include "shared_logs.h"
 
 namespace psi_slam {
@@ -21,7 +23,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-SessionInput drive_of(const std::string& name, std::vector<Frame> frames, const TPose2D& other_T_odom) {
+SessionInput input_of(const std::string& name, std::vector<Frame> frames, const TPose2D& other_T_odom) {
   auto recording = std::make_shared<SessionRecording>();
   for (Frame& frame : frames) frame.odom_T_robot = other_T_odom + frame.odom_T_robot;
   recording->facts.logs = {{name, name, frames.size()}};
@@ -40,7 +42,7 @@ RelationsMetric errors_of(const MappingResult& result, const std::filesystem::pa
   return evaluate_relations(trajectory_of(result.frames), read_relations(relations));
 }
 
-/// What the two maps disagree about, at most: each pose seen from the first.
+/// Largest difference of a pose in the two maps, relative to the first pose.
 double largest_difference_m(const MappingResult& a, const MappingResult& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.frames.size(); ++i) {
@@ -61,11 +63,11 @@ void merge_halves_of(const std::string& name, double odometry_x_m, double odomet
   const std::atomic<bool> go_on{false};
   const std::vector<Frame> frames = frames_of(*log, bound.settings);
   const auto middle = frames.begin() + static_cast<std::ptrdiff_t>(frames.size() / 2);
-  const SessionInput first = drive_of("first", {frames.begin(), middle}, {0, 0, 0});
+  const SessionInput first = input_of("first", {frames.begin(), middle}, {0, 0, 0});
   const SessionInput second =
-      drive_of("second", {middle, frames.end()}, {odometry_x_m, -3.0, odometry_yaw_rad});
+      input_of("second", {middle, frames.end()}, {odometry_x_m, -3.0, odometry_yaw_rad});
 
-  MappingSession whole(drive_of("whole", frames, {0, 0, 0}), bound.settings);
+  MappingSession whole(input_of("whole", frames, {0, 0, 0}), bound.settings);
   whole.run(go_on);
   MappingSession merged(first, bound.settings);
   merged.stay_open();

@@ -11,17 +11,17 @@ namespace {
 
 using Phase = SessionProgress::Phase;
 
-TEST(ProgressLine, says_how_far_and_how_long) {
+TEST(ProgressLine, shows_share_speed_and_time_left) {
   EXPECT_EQ(progress_text({Phase::kMapping, 0.43, 5876, 2100.4, 2.8, 3.7}),
             " 43 %   5876 scans   2100 scans/s   0:04 left");
   EXPECT_EQ(progress_text({Phase::kMapping, 0, 1, 10, 0.1, {}}), "  0 %   1 scans   10 scans/s");
   EXPECT_EQ(progress_text({Phase::kFinalSearch, 0.25, 5876, 10, 0.1, 61}),
-            " 25 %   looking for loops once more   1:01 left");
+            " 25 %   final loop search   1:01 left");
   EXPECT_EQ(progress_text({Phase::kWriting, 0, 5876, 10, 0.1, {}}),
             "drawing the map and writing the results");
 }
 
-TEST(ProgressLine, writes_times_as_clocks_do) {
+TEST(ProgressLine, formats_times_like_a_clock) {
   EXPECT_EQ(minutes_text(0.4), "0:00");
   EXPECT_EQ(minutes_text(59.6), "1:00");
   EXPECT_EQ(minutes_text(3599), "59:59");
@@ -29,7 +29,7 @@ TEST(ProgressLine, writes_times_as_clocks_do) {
   EXPECT_EQ(minutes_text(36000 + 62), "10:01:02");
 }
 
-TEST(ProgressLine, is_not_redrawn_for_every_scan_but_for_every_phase) {
+TEST(ProgressLine, is_redrawn_for_every_phase_but_not_for_every_scan) {
   std::ostringstream terminal;
   ProgressLine line(terminal);
   for (std::size_t scan = 1; scan <= 1000; ++scan) line.show({Phase::kMapping, 0.001, scan, 1, 1, 1});
@@ -37,11 +37,11 @@ TEST(ProgressLine, is_not_redrawn_for_every_scan_but_for_every_phase) {
   line.show({Phase::kWriting, 1, 1000, 1, 1, {}});
   const std::string text = terminal.str();
   EXPECT_LT(std::count(text.begin(), text.end(), '\r'), 20);
-  EXPECT_NE(text.find("once more"), std::string::npos);
+  EXPECT_NE(text.find("final loop search"), std::string::npos);
   EXPECT_NE(text.find("writing"), std::string::npos);
 }
 
-TEST(ProgressLine, leaves_nothing_behind) {
+TEST(ProgressLine, is_erased_at_its_end) {
   std::ostringstream terminal;
   { ProgressLine(terminal).show({Phase::kMapping, 0.5, 10, 1, 1, 1}); }
   EXPECT_EQ(terminal.str().substr(terminal.str().size() - 4), "\r\x1b[K");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole runs of the program, from a log to its results.
+// Whole runs of the program.
 #include "psi_slam_app.h"
 
 #include <gmock/gmock.h>
@@ -15,12 +15,12 @@
 
 #include "../session/room_log.h"
 #include "app_run.h"
-#include "psi_slam/time_stamp.h"
 #include "pose_graph/g2o_file.h"
-#include "trajectory/trajectory_file.h"
+#include "psi_slam/time_stamp.h"
 #include "same_results.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -52,7 +52,7 @@ class PsiSlamApp : public testing::Test {
 
   fs::path output(const std::string& name) const { return folder_.path() / name; }
 
-  /// All results of two runs but those that tell times.
+  /// Compares all results of two runs except times.
   void expect_same_bytes(const std::string& a, const std::string& b) const {
     expect_same_results(output(a), output(b));
   }
@@ -91,7 +91,7 @@ TEST_F(PsiSlamApp, maps_the_quickstart_log) {
   EXPECT_THAT(bytes_of(output("out") / "report.html"), HasSubstr("</html>"));
 }
 
-TEST_F(PsiSlamApp, gives_the_same_bytes_again_and_with_other_threads) {
+TEST_F(PsiSlamApp, gives_the_same_bytes_with_any_number_of_threads) {
   if (!fs::exists(kQuickstartLog)) GTEST_SKIP() << kNeedsQuickstartLog;
   ASSERT_EQ(map(kQuickstartLog, "first", {"--threads", "1"}).code, 0);
   ASSERT_EQ(map(kQuickstartLog, "again", {"--threads", "1"}).code, 0);
@@ -121,11 +121,10 @@ TEST_F(PsiSlamApp, prints_the_summary_as_json) {
   EXPECT_EQ(run.out, bytes_of(output("out") / "summary.json"));
 }
 
-TEST_F(PsiSlamApp, says_when_the_map_is_coarser_than_asked_for) {
+TEST_F(PsiSlamApp, warns_if_the_map_is_coarser_than_requested) {
   const AppRun run = map(room_log(), "out", {"--json", "--set", "map.max_cells=20000"});
   EXPECT_EQ(run.code, 0);
-  EXPECT_EQ(run.err,
-            "psi-slam: map.max_cells leaves no room for cells of 0.05 m: those of the map are 0.1 m\n");
+  EXPECT_EQ(run.err, "psi-slam: map.max_cells limits the map to cells of 0.1 m instead of 0.05 m\n");
   const Json summary = Json::parse(run.out);
   EXPECT_EQ(summary["map"]["resolution_m"], 0.1);
   EXPECT_EQ(summary["map"]["asked_resolution_m"], 0.05);
@@ -136,13 +135,13 @@ TEST_F(PsiSlamApp, shows_its_progress_on_a_terminal_only) {
   const AppRun run = run_app({log, "-o", output("terminal").string()}, true);
   EXPECT_EQ(run.code, 0);
   EXPECT_THAT(run.err, AllOf(HasSubstr(" scans/s"), HasSubstr(" left"), HasSubstr("writing the results")));
-  EXPECT_EQ(run.err.substr(run.err.size() - 4), "\r\x1b[K") << "the line is gone at the end";
+  EXPECT_EQ(run.err.substr(run.err.size() - 4), "\r\x1b[K") << "the line is erased at the end";
   EXPECT_EQ(run_app({log, "-o", output("file").string()}, false).err, "");
   const AppRun quiet = run_app({log, "-o", output("quiet").string(), "-q"}, true);
   EXPECT_EQ(quiet.out + quiet.err, "");
 }
 
-TEST_F(PsiSlamApp, verbose_tells_the_settings_changed_and_the_times) {
+TEST_F(PsiSlamApp, verbose_prints_changed_settings_and_times) {
   const AppRun run = map(room_log(), "out", {"-v", "--set", "log.max_range_m=40"});
   EXPECT_EQ(run.code, 0);
   EXPECT_THAT(run.err, AllOf(HasSubstr("log.max_range_m = 40\n"), HasSubstr("read log"), HasSubstr(" ± ")));
@@ -159,7 +158,7 @@ TEST_F(PsiSlamApp, overrides_take_precedence_over_the_file) {
   EXPECT_EQ(summary["settings"]["run.seed"], "5");
 }
 
-TEST_F(PsiSlamApp, content_decides_not_the_name) {
+TEST_F(PsiSlamApp, recognises_logs_by_content) {
   const std::string log = write_lines(folder_.path() / "room.rawlog", room_log_lines(30)).string();
   EXPECT_EQ(map(log, "out").code, 0);
 }
@@ -174,7 +173,7 @@ TEST_F(PsiSlamApp, force_replaces_results_and_leaves_other_files_alone) {
   EXPECT_EQ(bytes_of(output("out") / "notes.txt"), "mine");
 }
 
-TEST_F(PsiSlamApp, an_interrupt_ends_the_mapping_in_good_order) {
+TEST_F(PsiSlamApp, an_interrupt_ends_the_mapping_with_a_map) {
   const std::string log = room_log(3000);
   const AppProcess process({log, "-o", output("out").string(), "--json"}, folder_.path());
   const auto began = std::chrono::steady_clock::now();
@@ -188,14 +187,14 @@ TEST_F(PsiSlamApp, an_interrupt_ends_the_mapping_in_good_order) {
   EXPECT_EQ(summary["last_pass_cut_short"], true);
   const std::size_t scans = summary["log"]["scans"];
   EXPECT_LT(scans, 3000U);
-  EXPECT_THAT(run.err, MatchesRegex("psi-slam: interrupted, the map will show the " + std::to_string(scans) +
+  EXPECT_THAT(run.err, MatchesRegex("psi-slam: interrupted: the map will show the " + std::to_string(scans) +
                                     " scans[^\n]+\n"))
       << "told once";
   EXPECT_EQ(names_in(output("out")), all_result_names());
   EXPECT_EQ(read_trajectory(output("out") / "trajectory.tum").size(), scans);
 }
 
-TEST_F(PsiSlamApp, makes_the_edits_of_a_file) {
+TEST_F(PsiSlamApp, applies_a_file_of_edits) {
   const std::string log = room_log(150);
   ASSERT_EQ(map(log, "as_it_is").code, 0);
   std::istringstream loops(bytes_of(output("as_it_is") / "loops.csv"));
@@ -219,16 +218,17 @@ TEST_F(PsiSlamApp, makes_the_edits_of_a_file) {
   EXPECT_EQ(summary["loop_counts"]["accepted"], 0);
   EXPECT_GT(summary["loop_counts"]["by_hand"], 0);
   EXPECT_THAT(bytes_of(output("edited") / "loops.edits"), HasSubstr("delete scan="));
-  EXPECT_THAT(bytes_of(output("edited") / "report.html"), HasSubstr("settled by hand"));
+  EXPECT_THAT(bytes_of(output("edited") / "report.html"), HasSubstr("edited by hand"));
   EXPECT_NE(bytes_of(output("edited") / "graph.g2o"), bytes_of(output("as_it_is") / "graph.g2o"));
 }
 
-TEST_F(PsiSlamApp, refuses_a_file_that_holds_no_edits) {
+TEST_F(PsiSlamApp, rejects_a_file_without_edits) {
   const std::string file = (folder_.path() / "mine.edits").string();
   write_bytes(file, "forget scan=1 local_map=0\n");
   const AppRun run = map(room_log(), "out", {"--edits", file});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("mine.edits:1: \"forget\" is none of delete, force, match and restore"));
+  EXPECT_THAT(run.err,
+              HasSubstr("mine.edits:1: unknown edit \"forget\": expected delete, force, match or restore"));
   EXPECT_FALSE(fs::exists(output("out")));
 }
 

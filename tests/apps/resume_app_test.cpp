@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam --save-session and --resume, as a user has them.
+// Whole runs with --save-session and --resume.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -36,7 +36,7 @@ class ResumeApp : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(ResumeApp, interrupted_and_resumed_it_writes_what_an_uninterrupted_run_writes) {
+TEST_F(ResumeApp, resuming_gives_the_results_of_an_uninterrupted_run) {
   const std::string log = room_log("room.log", room_log_lines(800));
   ASSERT_EQ(run_app({log, "-q", "-o", file("whole")}).code, 0);
   const AppProcess process({log, "-o", file("part"), "--save-session", file("my.session")}, folder_.path());
@@ -46,7 +46,7 @@ TEST_F(ResumeApp, interrupted_and_resumed_it_writes_what_an_uninterrupted_run_wr
   process.send(SIGINT);
   const AppRun interrupted = process.finish();
   EXPECT_EQ(interrupted.code, 0) << interrupted.err;
-  EXPECT_THAT(interrupted.out, HasSubstr("The session is " + file("my.session")));
+  EXPECT_THAT(interrupted.out, HasSubstr("The session is saved as " + file("my.session")));
   EXPECT_LT(Json::parse(bytes_of(file("part") + "/summary.json"))["log"]["scans"], 800);
 
   const AppRun resumed = run_app({"--resume", file("my.session"), log, "-o", file("resumed")});
@@ -55,7 +55,7 @@ TEST_F(ResumeApp, interrupted_and_resumed_it_writes_what_an_uninterrupted_run_wr
   EXPECT_EQ(Json::parse(bytes_of(file("resumed") + "/summary.json"))["interrupted"], false);
 }
 
-TEST_F(ResumeApp, alone_a_session_is_exported_in_other_forms_and_with_further_edits) {
+TEST_F(ResumeApp, exports_a_session_without_its_log) {
   const std::string log = room_log("room.log", room_log_lines(150));
   ASSERT_EQ(
       run_app({log, "-q", "-o", file("first"), "--save-session", file("my.session"), "--seed", "3"}).code, 0);
@@ -77,7 +77,7 @@ TEST_F(ResumeApp, alone_a_session_is_exported_in_other_forms_and_with_further_ed
   EXPECT_EQ(bytes_of(file("third") + "/loops.edits"), bytes_of(file("second") + "/loops.edits"));
 }
 
-TEST_F(ResumeApp, where_the_session_cannot_be_saved_the_map_is_written_nevertheless) {
+TEST_F(ResumeApp, writes_the_map_even_if_the_session_cannot_be_saved) {
   const std::string log = room_log("room.log", room_log_lines(60));
   const AppRun run = run_app({log, "-o", file("out"), "--save-session", "/proc/my.session"});
   EXPECT_EQ(run.code, 1);
@@ -86,7 +86,7 @@ TEST_F(ResumeApp, where_the_session_cannot_be_saved_the_map_is_written_neverthel
   EXPECT_TRUE(fs::exists(file("out") + "/summary.json"));
 }
 
-TEST_F(ResumeApp, wrong_use_is_told_in_one_sentence) {
+TEST_F(ResumeApp, wrong_usage_gives_one_sentence) {
   const std::string log = room_log("room.log", room_log_lines(60));
   const std::string other = room_log("other.log", room_log_lines(60, 80));
   const std::string session = file("my.session");
@@ -97,9 +97,11 @@ TEST_F(ResumeApp, wrong_use_is_told_in_one_sentence) {
   expect_refused({"--resume", session, "-o", file("x"), "--set", "front_end.window_m=0.3"},
                  "front_end.window_m is 0.15 in the session " + session + " and cannot become 0.3");
   expect_refused({"--resume", session, "-o", file("x"), "--seed", "9"}, "run.seed is 1 in the session");
-  expect_refused({session, "-o", file("x")}, "my.session is a session, not a log: psi-slam --resume");
-  expect_refused({log, "-o", file("x"), "--save-session", session}, "it is there already");
-  expect_refused({log, "-o", file("y"), "--save-session", file("none/my.session")}, "there is no folder");
+  expect_refused({session, "-o", file("x")},
+                 "my.session is a session, not a log. Resume it with psi-slam --resume");
+  expect_refused({log, "-o", file("x"), "--save-session", session},
+                 "the file exists. Replace it with --force");
+  expect_refused({log, "-o", file("y"), "--save-session", file("none/my.session")}, "does not exist");
   expect_refused({"check", log, "--save-session", session}, "--save-session");
 
   const std::string bytes = bytes_of(session);

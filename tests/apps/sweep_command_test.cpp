@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole sweeps of small logs by the program, undisturbed and not.
+// Whole sweeps of small logs, with and without disturbance.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -45,19 +45,19 @@ class SweepCommand : public testing::Test {
     return AppProcess(words(output, more), folder_.path()).finish();
   }
 
-  /// sweep.csv without its last three columns, which tell times and memory.
+  /// sweep.csv without its last three columns, which are times and memory.
   std::string table(const std::string& output) const {
     return std::regex_replace(bytes_of(folder_.path() / output / "sweep.csv"),
                               std::regex(",[^,\n]*,[^,\n]*,[^,\n]*\n"), "\n");
   }
 
-  /// The page up to its times.
+  /// The report up to its times.
   std::string page(const std::string& output) const {
     const std::string text = bytes_of(folder_.path() / output / "report.md");
     return text.substr(0, text.find("## Times"));
   }
 
-  /// Waits until `ready`, for a while.
+  /// Waits until `ready`, up to a time limit.
   template <class Ready>
   static bool wait_for(const Ready& ready) {
     for (const auto began = Clock::now(); Clock::now() - began < kLongest;) {
@@ -104,6 +104,14 @@ TEST_F(SweepCommand, makes_every_run_once) {
   EXPECT_THAT(sweep("out", {"--keep", "maps"}).out, HasSubstr("8 made now")) << "the maps were not kept";
 }
 
+TEST_F(SweepCommand, warns_once_of_an_old_option_name) {
+  const AppRun run = sweep("out", {"--set", "consensus.max_rival_share=0.4"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err,
+            "psi-slam: --set: option consensus.max_rival_share was renamed; write "
+            "consensus.max_other_place_share\n");
+}
+
 TEST_F(SweepCommand, runs_are_those_of_psi_slam_itself) {
   ASSERT_EQ(sweep("out", {"--keep", "maps"}).code, 0);
   const fs::path run = fs::directory_iterator(folder_.path() / "out" / "runs")->path();
@@ -117,7 +125,7 @@ TEST_F(SweepCommand, runs_are_those_of_psi_slam_itself) {
     EXPECT_EQ(bytes_of(alone / name), bytes_of(run / name)) << name;
 }
 
-TEST_F(SweepCommand, a_killed_worker_costs_nothing_but_time) {
+TEST_F(SweepCommand, survives_a_killed_worker) {
   ASSERT_EQ(sweep("undisturbed").code, 0);
   const AppProcess process(words("disturbed"), folder_.path());
   std::vector<pid_t> workers;
@@ -132,7 +140,7 @@ TEST_F(SweepCommand, a_killed_worker_costs_nothing_but_time) {
   EXPECT_EQ(page("disturbed"), page("undisturbed"));
 }
 
-TEST_F(SweepCommand, a_killed_sweep_goes_on_where_it_was_and_leaves_no_process_behind) {
+TEST_F(SweepCommand, resumes_a_killed_sweep_and_leaves_no_process) {
   ASSERT_EQ(sweep("undisturbed").code, 0);
   const AppProcess process(words("disturbed"), folder_.path());
   ASSERT_TRUE(wait_for([&] { return finished("disturbed") >= 2; }));
@@ -142,7 +150,7 @@ TEST_F(SweepCommand, a_killed_sweep_goes_on_where_it_was_and_leaves_no_process_b
   process.finish();
   EXPECT_TRUE(wait_for([&] {
     std::string state = bytes_of("/proc/" + std::to_string(worker) + "/stat");
-    return state.empty() || state[state.rfind(')') + 2] == 'Z';  // gone, or nobody has asked for its end yet
+    return state.empty() || state[state.rfind(')') + 2] == 'Z';  // ended, or a zombie
   }));
   const std::size_t there = finished("disturbed");
   const AppRun rest = sweep("disturbed");
@@ -152,13 +160,13 @@ TEST_F(SweepCommand, a_killed_sweep_goes_on_where_it_was_and_leaves_no_process_b
   EXPECT_EQ(finished("disturbed"), 8U);
 }
 
-TEST_F(SweepCommand, an_interrupt_keeps_and_reports_what_is_done) {
+TEST_F(SweepCommand, an_interrupt_keeps_and_reports_finished_runs) {
   const AppProcess process(words("out"), folder_.path());
   ASSERT_TRUE(wait_for([&] { return finished("out") >= 1; }));
   process.send(SIGINT);
   const AppRun run = process.finish();
   EXPECT_EQ(run.code, 1);
-  EXPECT_THAT(run.err, HasSubstr("the same command goes on"));
+  EXPECT_THAT(run.err, HasSubstr("The same command resumes the sweep"));
   EXPECT_THAT(table("out"), HasSubstr(",to go,"));
   EXPECT_THAT(table("out"), HasSubstr(",done,"));
 }
@@ -181,7 +189,7 @@ TEST_F(SweepCommand, two_sweeps_do_not_work_in_one_folder) {
   EXPECT_EQ(process.finish().code, 0);
 }
 
-TEST_F(SweepCommand, refuses_with_a_sentence) {
+TEST_F(SweepCommand, wrong_usage_gives_one_sentence) {
   EXPECT_THAT(run_app({"sweep", "-o", (folder_.path() / "out").string()}).err, HasSubstr("name the logs"));
   EXPECT_THAT(run_app({"sweep", (folder_.path() / "room.log").string()}).err, HasSubstr("-o DIR"));
   EXPECT_THAT(run_app(words("out", {"--seds", "1"})).err, HasSubstr("did you mean \"--seeds\""));
@@ -196,7 +204,7 @@ class SweepByMpi : public SweepCommand {
   static void prepare() {
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);  // what containers may forbid
+    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);  // containers may forbid this mechanism
     ::setpgid(0, 0);
   }
 
@@ -215,20 +223,20 @@ TEST_F(SweepByMpi, gives_the_same_tables_as_processes) {
   EXPECT_THAT(run.out, HasSubstr("8 made now"));
   EXPECT_EQ(table("mpi"), table("processes"));
   EXPECT_EQ(page("mpi"), page("processes"));
-  EXPECT_THAT(sweep("mpi").out, HasSubstr("0 made now")) << "either goes on where the other was";
+  EXPECT_THAT(sweep("mpi").out, HasSubstr("0 made now")) << "each resumes the work of the other";
 }
 
-TEST_F(SweepByMpi, says_once_what_it_is) {
+TEST_F(SweepByMpi, prints_help_and_version_once) {
   const std::vector<std::string> words{"--oversubscribe", "-n", "3", PSI_SLAM_SWEEP_MPI_PROGRAM, "--version"};
   const AppRun run = AppProcess(words, folder_.path(), prepare, PSI_SLAM_MPIRUN).finish();
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, ::testing::MatchesRegex("psi-slam-sweep-mpi [0-9.]+\n"));
 }
 
-TEST_F(SweepByMpi, a_killed_rank_loses_nothing_that_was_finished) {
+TEST_F(SweepByMpi, a_killed_rank_keeps_finished_runs) {
   ASSERT_EQ(sweep("undisturbed").code, 0);
   const AppProcess job(mpi_words("mpi"), folder_.path(), prepare, PSI_SLAM_MPIRUN);
-  std::optional<pid_t> working;  // a rank that has a run under way
+  std::optional<pid_t> working;  // a rank that is working on a run
   ASSERT_TRUE(wait_for([&] {
     if (finished("mpi") < 1) return false;
     for (const pid_t rank : children_of(job.pid()))

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever is wrong with a log, a folder or a disk: one sentence, and the exit code that tells whose fault.
+// Faults of logs, folders and disks give one sentence and an exit code that says whether the user can fix it.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
-#include "rawlog_files.h"
 #include "../session/room_log.h"
 #include "app_run.h"
-#include "trajectory/trajectory_file.h"
+#include "rawlog_files.h"
 #include "temporary_folder.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -38,7 +38,7 @@ class WrongInput : public testing::Test {
     return run_app(options);
   }
 
-  /// The sentence with which the log is refused as the user's fault, before anything is written.
+  /// Error message for a log, with exit code 2 and nothing written.
   std::string refusal(const std::string& log, const std::vector<std::string>& options = {}) const {
     const AppRun run = map(log, options);
     EXPECT_EQ(run.code, 2);
@@ -60,25 +60,25 @@ TEST_F(WrongInput, an_empty_log) {
   EXPECT_THAT(refusal(write("empty.rawlog", "")), HasSubstr("empty.rawlog is empty"));
 }
 
-TEST_F(WrongInput, a_missing_log_is_told_before_the_folder_is_made) {
+TEST_F(WrongInput, a_missing_log_is_reported_before_the_folder_is_made) {
   EXPECT_THAT(refusal((folder_.path() / "missing.log").string()), HasSubstr("missing.log does not exist"));
   EXPECT_FALSE(fs::exists(output()));
 }
 
-TEST_F(WrongInput, a_log_that_is_none_whatever_it_is_called) {
+TEST_F(WrongInput, a_file_that_is_no_log) {
   EXPECT_THAT(refusal(write("letter.rawlog", "Dear robot,\nwhere have you been?\n")),
-              AllOf(HasSubstr("letter.rawlog is none of the formats that are read"),
+              AllOf(HasSubstr("letter.rawlog has an unknown format"),
                     HasSubstr("expected a CARMEN log or an MRPT .rawlog, plain or gzipped, or a ROS bag")));
   EXPECT_THAT(refusal(folder_.path().string()), HasSubstr("is a folder"));
 }
 
-TEST_F(WrongInput, a_rawlog_cut_off_in_its_first_scan) {
+TEST_F(WrongInput, a_rawlog_truncated_in_its_first_scan) {
   if (!fs::exists(kQuickstartLog)) GTEST_SKIP() << kNeedsQuickstartLog;
   const std::string bytes = bytes_of(kQuickstartLog);
   EXPECT_THAT(refusal(write("cut.rawlog", bytes.substr(0, 1000))), HasSubstr("cut.rawlog"));
 }
 
-TEST_F(WrongInput, a_rawlog_cut_off_later_is_mapped_up_to_there) {
+TEST_F(WrongInput, a_truncated_rawlog_is_mapped_up_to_the_damage) {
   if (!fs::exists(kQuickstartLog)) GTEST_SKIP() << kNeedsQuickstartLog;
   const std::string bytes = bytes_of(kQuickstartLog);
   const AppRun run = map(write("cut.rawlog", bytes.substr(0, 100'000)));
@@ -134,7 +134,7 @@ TEST_F(WrongInput, ranges_that_are_no_numbers_or_negative_are_no_returns) {
   EXPECT_LT(std::hypot(moved.x - truth.x, moved.y - truth.y), 0.05);
 }
 
-TEST_F(WrongInput, a_line_that_does_not_parse_is_left_out_with_a_word) {
+TEST_F(WrongInput, a_malformed_line_is_skipped_with_a_warning) {
   auto lines = room_log_lines(60);
   lines[30] = "FLASER 181 1.0 2.0";
   const std::string log = room_log(lines);
@@ -152,7 +152,7 @@ TEST_F(WrongInput, a_line_that_does_not_parse_is_left_out_with_a_word) {
 
 TEST_F(WrongInput, time_that_runs_backwards_is_mapped_in_the_order_of_the_file) {
   auto lines = room_log_lines(60);
-  for (std::size_t i = 20; i < 30; ++i) {  // a burst stamped in reverse
+  for (std::size_t i = 20; i < 30; ++i) {  // ten scans with time stamps in reverse order
     const std::string& stamp = words_of(lines[i])[2 + kRoomBeams + 6];
     lines[i].replace(lines[i].find(stamp), stamp.size(), "1003." + std::to_string(500000 - 1000 * i));
   }
@@ -166,7 +166,7 @@ TEST_F(WrongInput, time_that_runs_backwards_is_mapped_in_the_order_of_the_file) 
   EXPECT_THAT(check.out, HasSubstr("time runs backwards at"));
 }
 
-TEST_F(WrongInput, a_folder_that_is_not_empty_or_no_folder_at_all) {
+TEST_F(WrongInput, an_output_that_is_not_an_empty_folder) {
   fs::create_directory(output());
   write_bytes(output() + "/map.png", "precious");
   const AppRun run = map(room_log(room_log_lines(5)));
@@ -178,10 +178,10 @@ TEST_F(WrongInput, a_folder_that_is_not_empty_or_no_folder_at_all) {
   EXPECT_THAT(one_sentence(below.err), HasSubstr("map.png is a file, not a folder"));
 }
 
-TEST_F(WrongInput, a_place_where_nothing_can_be_written) {
+TEST_F(WrongInput, an_unwritable_output) {
   const AppRun run = run_app({room_log(room_log_lines(5)), "-o", "/proc/psi-slam"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(one_sentence(run.err), HasSubstr("cannot make the output folder /proc/psi-slam"));
+  EXPECT_THAT(one_sentence(run.err), HasSubstr("cannot create the output folder /proc/psi-slam"));
 }
 
 TEST_F(WrongInput, a_full_disk) {
@@ -204,7 +204,7 @@ TEST_F(WrongInput, a_full_disk) {
   }
 }
 
-TEST_F(WrongInput, a_standard_output_that_takes_nothing) {
+TEST_F(WrongInput, an_unwritable_standard_output) {
   const AppProcess process({"--dump-config"}, folder_.path(),
                            [] { ::dup2(::open("/dev/full", O_WRONLY), STDOUT_FILENO); });
   const AppRun run = process.finish();
@@ -212,7 +212,7 @@ TEST_F(WrongInput, a_standard_output_that_takes_nothing) {
   EXPECT_THAT(one_sentence(run.err), HasSubstr("standard output"));
 }
 
-TEST_F(WrongInput, mistakes_in_a_settings_file_are_told_with_file_and_line) {
+TEST_F(WrongInput, mistakes_in_a_settings_file_have_file_and_line) {
   const std::string log = room_log(room_log_lines(5));
   const std::string ini = (folder_.path() / "my.ini").string();
   write_bytes(ini, "[front_end]\n\nwindw_m = 0.2\n");
@@ -229,6 +229,18 @@ TEST_F(WrongInput, mistakes_in_a_settings_file_are_told_with_file_and_line) {
   EXPECT_THAT(refusal(log, {"-c", ini}),
               HasSubstr("log.min_range_m = 3 must be less than log.max_range_m = 2"));
   EXPECT_THAT(refusal(log, {"-c", "missing.ini"}), HasSubstr("cannot read missing.ini: No such file"));
+}
+
+TEST_F(WrongInput, old_option_names_give_warnings) {
+  const std::string ini = (folder_.path() / "my.ini").string();
+  write_bytes(ini, "[last_pass]\npasses = 1\n");
+  const AppRun run = run_app({"--dump-config", "-c", ini, "--set", "front_end.max_strain_m=0.3"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.err, "psi-slam: " + ini +
+                         ":1: section [last_pass] was renamed; write [final_search]\n"
+                         "psi-slam: --set: option front_end.max_strain_m was renamed; write "
+                         "front_end.max_doubtful_correction_m\n");
+  EXPECT_THAT(run.out, AllOf(HasSubstr("\npasses = 1\n"), HasSubstr("\nmax_doubtful_correction_m = 0.3\n")));
 }
 
 TEST_F(WrongInput, mistakes_in_overrides_name_the_option) {

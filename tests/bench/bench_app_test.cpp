@@ -8,7 +8,7 @@
 #include "psi_slam/open_log.h"
 #include "psi_slam/time_stamp.h"
 #include "shared_logs.h"
-#include "work_progress.h"
+#include "progress_line.h"
 
 namespace psi_slam {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "psi_slam/user_error.h"
 #include "config/option_table.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 
@@ -51,7 +51,7 @@ inline OptionTable describe(SampleSettings& settings) {
   return table;
 }
 
-/// The sentence of the UserError that `action` throws, or "(nothing was thrown)".
+/// Text of the UserError that `action` throws, or "(nothing was thrown)".
 template <class Action>
 std::string sentence(Action action) {
   try {

@@ -84,7 +84,7 @@ TEST_F(EvalApp, writes_one_row_a_relation_and_never_replaces_a_file_unasked) {
   EXPECT_EQ(run({"--per-relation", csv_}), 2);
   EXPECT_EQ(contents(csv_), "precious");
   EXPECT_EQ(err_.str(), "psi-slam-eval: " + csv_ +
-                            " is there already: name another file or give --force to replace it\n");
+                            ": the file exists. Name another file, or replace it with --force\n");
   EXPECT_EQ(run({"--per-relation", csv_, "--force"}), 0);
   EXPECT_THAT(contents(csv_), HasSubstr("time1,time2"));
 }

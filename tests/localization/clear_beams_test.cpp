@@ -6,7 +6,7 @@
 namespace psi_slam {
 namespace {
 
-/// 4 m x 4 m, with a wall across at x = 2 m.
+/// A grid of 4 m x 4 m with a wall at x = 2 m.
 ScoreGrid wall_across() {
   ScoreGrid grid(0, 0, 0.05, 80, 80);
   for (int y = 0; y < 80; ++y) *grid.finest().cell(40, y) = 255;
@@ -34,17 +34,17 @@ TEST(ClearBeams, beams_begin_at_the_laser) {
   EXPECT_EQ(clear_beams(wall_across(), scan, {1, 2, 0}).clear, 1U) << "the laser is behind the wall";
 }
 
-TEST(ClearBeams, a_wall_that_the_beam_grazes_is_the_one_it_ends_on) {
+TEST(ClearBeams, a_grazed_wall_counts_as_the_end_of_the_beam) {
   ScanPoints scan = one_point(0.1F, 1.5F);  // almost along the wall
   scan.normals = {{1, 0}};
   EXPECT_EQ(clear_beams(wall_across(), scan, {1.95, 1, 0}).clear, 1U);
 }
 
-TEST(ClearBeams, of_no_beams_no_share_is_clear) {
+TEST(ClearBeams, without_beams_the_clear_share_is_zero) {
   EXPECT_EQ(clear_beams(wall_across(), {}, {1, 2, 0}).share(), 0);
 }
 
-TEST(ClearBeams, each_laser_has_beams_of_its_own) {
+TEST(ClearBeams, beams_begin_at_their_own_laser) {
   ScanPoints scan = one_point(2.5F, 0);  // from the robot through the wall
   scan.points.push_back(scan.points.front());
   scan.other_lasers.push_back({1, {1.5F, 0}});  // behind the wall

@@ -22,7 +22,7 @@ LocalizationStep step_at(double time_s, State state, double confidence) {
   return step;
 }
 
-/// A scan a second: lost, tracked well, and tracked with the confidence that is told, or lost again.
+/// One scan each second: lost, tracked well, and then tracked with the given confidence or lost again.
 std::vector<LocalizationStep> run_that_ends(State state, double confidence) {
   std::vector<LocalizationStep> steps;
   for (int i = 0; i < 4; ++i) steps.push_back(step_at(i, State::kLost, 0));
@@ -31,7 +31,7 @@ std::vector<LocalizationStep> run_that_ends(State state, double confidence) {
   return steps;
 }
 
-TEST(LocalizationReport, says_when_and_where_the_robot_was_found_and_how_it_stands_at_the_end) {
+TEST(LocalizationReport, reports_when_and_where_the_robot_was_found) {
   const auto steps = run_that_ends(State::kTracking, 0.8);
   const LocalizationSummary summary = summarize(steps);
   EXPECT_TRUE(summary.found());
@@ -50,7 +50,7 @@ TEST(LocalizationReport, says_when_and_where_the_robot_was_found_and_how_it_stan
   EXPECT_EQ(json["tracked_share"], 0.9);
 }
 
-TEST(LocalizationReport, to_be_found_once_is_not_to_be_localized_at_the_end) {
+TEST(LocalizationReport, a_robot_found_once_may_be_lost_at_the_end) {
   const LocalizationSummary lost = summarize(run_that_ends(State::kLost, 0));
   EXPECT_TRUE(lost.found());
   EXPECT_FALSE(lost.localized_at_end());
@@ -65,7 +65,7 @@ TEST(LocalizationReport, to_be_found_once_is_not_to_be_localized_at_the_end) {
       localization_text(unsure),
       HasSubstr("Not localized at the end: tracked, but with a confidence of only 0.40, less than 0.50"));
 
-  // By its motion alone for the last three of the five seconds that count.
+  // The last three of the five seconds are predicted by the motion only.
   auto steps = run_that_ends(State::kTracking, 0.9);
   for (auto step = steps.end() - 3; step != steps.end(); ++step) {
     step->fits = false;
@@ -75,7 +75,7 @@ TEST(LocalizationReport, to_be_found_once_is_not_to_be_localized_at_the_end) {
   EXPECT_FALSE(summarize(steps).localized_at_end());
 }
 
-TEST(LocalizationReport, whether_a_rival_place_was_as_good_is_of_the_last_search) {
+TEST(LocalizationReport, ambiguity_is_that_of_the_last_search) {
   auto steps = run_that_ends(State::kLost, 0);
   FoundPlace rival;
   rival.response = 0.4;
@@ -95,7 +95,7 @@ TEST(LocalizationReport, whether_a_rival_place_was_as_good_is_of_the_last_search
   EXPECT_EQ(summarize(steps).best_response, 0.4);
 }
 
-TEST(LocalizationReport, the_end_has_five_scans_however_far_apart_and_a_short_log_what_it_has) {
+TEST(LocalizationReport, the_end_has_at_least_five_scans) {
   std::vector<LocalizationStep> steps;
   for (int i = 0; i < 9; ++i) steps.push_back(step_at(100 * i, State::kTracking, i < 4 ? 0.1 : 0.7));
   EXPECT_NEAR(summarize(steps).confidence, 0.7, 1e-12);

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "localization/localization_report.h"
-#include "simulated_drives.h"
+#include "simulated_runs.h"
 
 namespace psi_slam {
 namespace {
@@ -16,15 +16,15 @@ using testing::HasSubstr;
 using State = LocalizationStep::State;
 
 constexpr std::uint64_t kBuilding = 1;
-constexpr double kTracked_m = 0.2;  // from the truth
+constexpr double kTracked_m = 0.2;  // largest distance from the truth
 
-/// The first building, driven through and drawn once for all tests.
+/// Map of the first building, made once for all tests.
 const mrpt::maps::COccupancyGridMap2D& building_map() {
-  static const auto kMap = map_of(drive_through(kBuilding, 1, 200));
+  static const auto kMap = map_of(run_through(kBuilding, 1, 200));
   return kMap;
 }
 
-double worst_m(const std::vector<LocalizationStep>& steps, const TrueDrive& truth) {
+double worst_m(const std::vector<LocalizationStep>& steps, const TrueRun& truth) {
   double worst = 0;
   for (std::size_t i = 0; i < steps.size(); ++i)
     if (steps[i].state == State::kTracking)
@@ -32,14 +32,14 @@ double worst_m(const std::vector<LocalizationStep>& steps, const TrueDrive& trut
   return worst;
 }
 
-TEST(Localizer, finds_a_robot_of_which_nothing_is_known_and_keeps_track_of_it) {
+TEST(Localizer, finds_and_tracks_a_robot_without_start) {
   for (const MatcherKind matcher : {MatcherKind::kCsm, MatcherKind::kCsmGa, MatcherKind::kGa}) {
-    const TrueDrive drive = drive_through(kBuilding, 101, 30);
+    const TrueRun run = run_through(kBuilding, 101, 30);
     LocalizerOptions options;
     options.search.matcher = matcher;
     Localizer localizer(reference_of(building_map()), options);
-    const auto steps = localize(localizer, drive.frames);
-    EXPECT_LT(worst_m(steps, drive), kTracked_m) << name(matcher);
+    const auto steps = localize(localizer, run.frames);
+    EXPECT_LT(worst_m(steps, run), kTracked_m) << name(matcher);
     const LocalizationSummary summary = summarize(steps);
     ASSERT_TRUE(summary.found()) << name(matcher) << ": " << summary.why_not;
     EXPECT_EQ(summary.times_found, 1);
@@ -50,83 +50,83 @@ TEST(Localizer, finds_a_robot_of_which_nothing_is_known_and_keeps_track_of_it) {
 }
 
 TEST(Localizer, the_same_scans_give_the_same_poses) {
-  const TrueDrive drive = drive_through(kBuilding, 101, 10);
+  const TrueRun run = run_through(kBuilding, 101, 10);
   std::string first;
-  for (int run = 0; run < 2; ++run) {
+  for (int pass = 0; pass < 2; ++pass) {
     Localizer localizer(reference_of(building_map()), {});
-    const std::string csv = localization_csv(localize(localizer, drive.frames));
-    if (run == 0) first = csv;
+    const std::string csv = localization_csv(localize(localizer, run.frames));
+    if (pass == 0) first = csv;
     EXPECT_EQ(csv, first);
   }
 }
 
-TEST(Localizer, told_the_start_it_tracks_from_the_first_scan_on) {
-  const TrueDrive drive = drive_through(kBuilding, 102, 20);
+TEST(Localizer, with_a_start_it_tracks_from_the_first_scan) {
+  const TrueRun run = run_through(kBuilding, 102, 20);
   Localizer localizer(reference_of(building_map()), {});
-  TPose2D about = drive.world_T_robot.front();
+  TPose2D about = run.world_T_robot.front();
   about.x += 0.6;
   about.y -= 0.4;
   about.phi += 0.15;
   localizer.start_at(about);
-  const auto steps = localize(localizer, drive.frames);
-  EXPECT_LT(worst_m(steps, drive), kTracked_m);
+  const auto steps = localize(localizer, run.frames);
+  EXPECT_LT(worst_m(steps, run), kTracked_m);
   const LocalizationSummary summary = summarize(steps);
   EXPECT_EQ(summary.tracked, steps.size());
   EXPECT_EQ(summary.searches, 0);
 }
 
-TEST(Localizer, told_a_wrong_start_it_finds_the_robot_all_the_same) {
-  const TrueDrive drive = drive_through(kBuilding, 102, 40);
+TEST(Localizer, recovers_from_a_wrong_start) {
+  const TrueRun run = run_through(kBuilding, 102, 40);
   Localizer localizer(reference_of(building_map()), {});
   localizer.start_at({-30, -30, 0});
-  const auto steps = localize(localizer, drive.frames);
+  const auto steps = localize(localizer, run.frames);
   EXPECT_EQ(steps.back().state, State::kTracking);
-  EXPECT_LT(distance_m(steps.back().map_T_robot, drive.world_T_robot.back()), kTracked_m);
+  EXPECT_LT(distance_m(steps.back().map_T_robot, run.world_T_robot.back()), kTracked_m);
 }
 
 TEST(Localizer, does_not_find_a_robot_in_the_map_of_another_building) {
-  const TrueDrive drive = drive_through(51, 101, 20);
+  const TrueRun run = run_through(51, 101, 20);
   Localizer localizer(reference_of(building_map()), {});
-  const LocalizationSummary summary = summarize(localize(localizer, drive.frames));
+  const LocalizationSummary summary = summarize(localize(localizer, run.frames));
   EXPECT_FALSE(summary.found());
   EXPECT_GT(summary.searches, 10);
   EXPECT_THAT(localization_text(summary), HasSubstr("Not found"));
 }
 
-// Odometry tells nothing of being carried: it goes on where it was.
-TEST(Localizer, finds_a_robot_again_that_was_carried_away) {
-  TrueDrive drive = drive_through(kBuilding, 103, 90);
-  const std::size_t third = drive.frames.size() / 3;
-  std::size_t away = third;  // to the farthest place of the drive that leaves a third of it
+// Odometry does not measure the move by hand and continues from before it.
+TEST(Localizer, recovers_when_the_robot_is_moved_by_hand) {
+  TrueRun run = run_through(kBuilding, 103, 90);
+  const std::size_t third = run.frames.size() / 3;
+  std::size_t away = third;  // farthest place that leaves a third of the run
   for (std::size_t i = third; i < 2 * third; ++i)
-    if (distance_m(drive.world_T_robot[i], drive.world_T_robot[third]) >
-        distance_m(drive.world_T_robot[away], drive.world_T_robot[third]))
+    if (distance_m(run.world_T_robot[i], run.world_T_robot[third]) >
+        distance_m(run.world_T_robot[away], run.world_T_robot[third]))
       away = i;
-  ASSERT_GT(distance_m(drive.world_T_robot[away], drive.world_T_robot[third - 1]), 5);
-  const TPose2D before = drive.frames[third - 1].odom_T_robot;
-  const TPose2D after = drive.frames[away].odom_T_robot;
+  ASSERT_GT(distance_m(run.world_T_robot[away], run.world_T_robot[third - 1]), 5);
+  const TPose2D before = run.frames[third - 1].odom_T_robot;
+  const TPose2D after = run.frames[away].odom_T_robot;
   const auto cut = [&](auto& all) {
     all.erase(all.begin() + static_cast<std::ptrdiff_t>(third),
               all.begin() + static_cast<std::ptrdiff_t>(away));
   };
-  cut(drive.frames);
-  cut(drive.world_T_robot);
-  for (std::size_t i = third; i < drive.frames.size(); ++i)
-    drive.frames[i].odom_T_robot = before + (drive.frames[i].odom_T_robot - after);
+  cut(run.frames);
+  cut(run.world_T_robot);
+  for (std::size_t i = third; i < run.frames.size(); ++i)
+    run.frames[i].odom_T_robot = before + (run.frames[i].odom_T_robot - after);
 
   Localizer localizer(reference_of(building_map()), {});
-  const auto steps = localize(localizer, drive.frames);
+  const auto steps = localize(localizer, run.frames);
   EXPECT_EQ(steps[third - 1].state, State::kTracking);
-  EXPECT_LT(distance_m(steps[third - 1].map_T_robot, drive.world_T_robot[third - 1]), kTracked_m);
+  EXPECT_LT(distance_m(steps[third - 1].map_T_robot, run.world_T_robot[third - 1]), kTracked_m);
   const LocalizationSummary summary = summarize(steps);
   EXPECT_GE(summary.times_lost, 1);
   EXPECT_GE(summary.times_found, 2);
   EXPECT_EQ(steps.back().state, State::kTracking);
-  EXPECT_LT(distance_m(steps.back().map_T_robot, drive.world_T_robot.back()), kTracked_m);
+  EXPECT_LT(distance_m(steps.back().map_T_robot, run.world_T_robot.back()), kTracked_m);
 }
 
-/// A hall that looks the same turned by half a turn, and a drive around its middle.
-TrueDrive round_a_symmetric_hall(std::uint64_t seed) {
+/// A hall with rotational symmetry of 180 degrees, and a run around its centre.
+TrueRun round_a_symmetric_hall(std::uint64_t seed) {
   static const FloorPlan kHall = [] {
     FloorPlan plan;
     const auto wall = [&](double x0, double y0, double x1, double y1) {
@@ -143,7 +143,7 @@ TrueDrive round_a_symmetric_hall(std::uint64_t seed) {
   ScanSimulatorOptions options;
   options.seed = seed;
   ScanSimulator scanner(kHall, options);
-  TrueDrive drive;
+  TrueRun run;
   constexpr std::size_t kScans = 120;
   for (std::size_t i = 0; i < kScans; ++i) {
     const double turn = 2 * M_PI * static_cast<double>(i) / kScans;
@@ -154,13 +154,13 @@ TrueDrive round_a_symmetric_hall(std::uint64_t seed) {
     frame.time_us = 1'000'000'000 + static_cast<TimeUs>(i) * 200'000;
     frame.odom_T_robot = pose;
     frame.scan = scanner.scan(pose, {}, i);
-    drive.frames.push_back(std::move(frame));
-    drive.world_T_robot.push_back(pose);
+    run.frames.push_back(std::move(frame));
+    run.world_T_robot.push_back(pose);
   }
-  return drive;
+  return run;
 }
 
-TEST(Localizer, says_that_a_building_is_ambiguous_instead_of_guessing) {
+TEST(Localizer, reports_an_ambiguous_building_instead_of_guessing) {
   Localizer localizer(reference_of(map_of(round_a_symmetric_hall(1))), {});
   const LocalizationSummary summary = summarize(localize(localizer, round_a_symmetric_hall(2).frames));
   EXPECT_FALSE(summary.found());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "localization/map_file.h"
+#include "localization/reference_map.h"
 
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@ namespace {
 using mrpt::maps::COccupancyGridMap2D;
 using testing::HasSubstr;
 
-/// Free but for a wall along a column, unknown on top; its corner is off the origin.
+/// Free space with one wall and an unknown top; the corner is not at the origin.
 COccupancyGridMap2D small_map() {
   COccupancyGridMap2D grid(-1.5F, 2.5F, 4, 7, 0.05F);
   for (int y = 0; y < 50; ++y)
@@ -23,11 +23,11 @@ COccupancyGridMap2D small_map() {
   return grid;
 }
 
-TEST(MapFile, both_kinds_are_read_back_cell_by_cell_and_in_their_place) {
+TEST(MapFile, reads_both_formats_with_all_cells_in_place) {
   const TemporaryFolder folder;
   const COccupancyGridMap2D map = small_map();
   write_map_server_pair(folder.path() / "map.yaml", map);
-  write_grid_map(folder.path() / "map.gridmap.gz", map);
+  write_mrpt_map(folder.path() / "map.gridmap.gz", map);
   for (const char* name : {"map.yaml", "map.gridmap.gz"}) {
     const COccupancyGridMap2D read = read_map_file(folder.path() / name);
     ASSERT_EQ(read.getSizeX(), map.getSizeX()) << name;
@@ -40,7 +40,7 @@ TEST(MapFile, both_kinds_are_read_back_cell_by_cell_and_in_their_place) {
   }
 }
 
-TEST(MapFile, what_is_no_map_is_refused_in_a_sentence) {
+TEST(MapFile, rejects_files_that_are_no_map) {
   const TemporaryFolder folder;
   const auto sentence = [&](const std::string& name, const std::string& bytes) {
     write_file(folder.path() / name, bytes);
@@ -49,17 +49,17 @@ TEST(MapFile, what_is_no_map_is_refused_in_a_sentence) {
   EXPECT_THAT(sentence_of([&] { read_map_file(folder.path() / "none.yaml"); }), HasSubstr("none.yaml"));
   EXPECT_THAT(sentence("map.png", "x"), HasSubstr("expected map.yaml or map.gridmap.gz"));
   EXPECT_THAT(sentence("words.yaml", "image: [1"), HasSubstr("words.yaml"));
-  EXPECT_THAT(sentence("torn.gridmap.gz", "no gridmap"), HasSubstr("no whole gridmap"));
+  EXPECT_THAT(sentence("torn.gridmap.gz", "no gridmap"), HasSubstr("is not a complete gridmap"));
   write_map_server_pair(folder.path() / "empty.yaml", COccupancyGridMap2D(0, 1, 0, 1, 0.05F));
   EXPECT_THAT(sentence_of([&] { read_map_file(folder.path() / "empty.yaml"); }),
-              HasSubstr("without a single wall"));
+              HasSubstr("the map has no wall"));
   write_map_server_pair(folder.path() / "map.yaml", small_map());
   std::string turned = read_file(folder.path() / "map.yaml");
   turned.replace(turned.find(", 0.0]"), 6, ", 0.5]");
-  EXPECT_THAT(sentence("turned.yaml", turned), HasSubstr("origin is turned"));
+  EXPECT_THAT(sentence("turned.yaml", turned), HasSubstr("the origin is rotated"));
 }
 
-TEST(MapFile, cells_of_no_size_are_refused) {
+TEST(MapFile, rejects_cells_without_size) {
   const TemporaryFolder folder;
   write_map_server_pair(folder.path() / "map.yaml", small_map());
   const std::string yaml = read_file(folder.path() / "map.yaml");
@@ -71,28 +71,28 @@ TEST(MapFile, cells_of_no_size_are_refused) {
     return sentence_of([&] { read_map_file(folder.path() / "other.yaml"); });
   };
   for (const char* value : {"0.00001", "0", "-0.05", "2"})
-    EXPECT_THAT(sentence("resolution: ", value), HasSubstr("expected 0.001 to 1 m a cell")) << value;
+    EXPECT_THAT(sentence("resolution: ", value), HasSubstr("expected 0.001 to 1 m")) << value;
 }
 
-TEST(MapFile, counts_of_a_gridmap_are_not_believed) {
+TEST(MapFile, checks_the_cell_counts_of_a_gridmap) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "map.gridmap.gz";
-  write_grid_map(path, small_map());
+  write_mrpt_map(path, small_map());
   std::string whole;
   CompressedFile file(path);
   for (char byte = 0; file.read(&byte, 1) == 1;) whole += byte;
-  const std::size_t counts = whole.find("Map2D") + 7;  // behind version and bits of a cell
+  const std::size_t counts = whole.find("Map2D") + 7;  // after version and bits of a cell
   const auto sentence_with = [&](std::size_t at, char byte) {
     std::string bytes = whole;
     bytes.at(counts + at) = byte;
     write_file(path, bytes);
     return sentence_of([&] { read_map_file(path); });
   };
-  EXPECT_THAT(sentence_with(2, 0x40), HasSubstr("a damaged gridmap: it announces 4194384 x 60 cells"));
-  EXPECT_THAT(sentence_with(27, 0x10), HasSubstr("expected 0.001 to 1 m a cell"));
-  EXPECT_THAT(sentence_with(15, 0x70), HasSubstr("a damaged gridmap"));
+  EXPECT_THAT(sentence_with(2, 0x40), HasSubstr("is damaged: it claims 4194384 x 60 cells"));
+  EXPECT_THAT(sentence_with(27, 0x10), HasSubstr("expected 0.001 to 1 m"));
+  EXPECT_THAT(sentence_with(15, 0x70), HasSubstr("is damaged: it claims"));
   write_file(path, whole.substr(0, whole.size() / 2));
-  EXPECT_THAT(sentence_of([&] { read_map_file(path); }), HasSubstr("a damaged gridmap"));
+  EXPECT_THAT(sentence_of([&] { read_map_file(path); }), HasSubstr("is damaged: it claims"));
 }
 
 }  // namespace

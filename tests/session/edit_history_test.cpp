@@ -19,7 +19,7 @@ void expect_edit(const std::optional<EditHistory::Reversal>& back, Kind kind, st
   expect_edit(back->edit, kind, frame);
 }
 
-TEST(EditHistory, takes_back_what_was_done_last_first) {
+TEST(EditHistory, undoes_the_newest_edit_first) {
   EditHistory history;
   history.note({Kind::kDelete, 1, 0}, std::nullopt);
   history.note({Kind::kForce, 2, 0}, std::nullopt);
@@ -30,7 +30,7 @@ TEST(EditHistory, takes_back_what_was_done_last_first) {
   EXPECT_EQ(history.undo_text(), "");
 }
 
-TEST(EditHistory, what_was_in_force_for_the_loop_before_comes_back) {
+TEST(EditHistory, undo_restores_the_previous_edit_of_the_loop) {
   EditHistory history;
   history.note({Kind::kForce, 1, 0}, LoopEdit{Kind::kDelete, 1, 0});
   expect_edit(history.undo(), Kind::kDelete, 1);
@@ -41,7 +41,7 @@ TEST(EditHistory, what_was_in_force_for_the_loop_before_comes_back) {
   expect_edit(history.undo(), Kind::kRestore, 1);
 }
 
-TEST(EditHistory, what_was_to_be_done_to_the_loop_later_comes_back_with_it) {
+TEST(EditHistory, undo_restores_planned_edits_of_the_loop) {
   EditHistory history;
   const TimedEdit later{{Kind::kForce, 1, 0}, {EditTime::Kind::kAfterScan, 1500}};
   history.note({Kind::kDelete, 1, 0}, std::nullopt, {later});
@@ -55,7 +55,7 @@ TEST(EditHistory, what_was_to_be_done_to_the_loop_later_comes_back_with_it) {
   }
 }
 
-TEST(EditHistory, does_again_what_was_undone_until_something_else_is_done) {
+TEST(EditHistory, redo_works_until_the_next_edit) {
   EditHistory history;
   history.note({Kind::kDelete, 1, 0}, std::nullopt);
   history.note({Kind::kDelete, 2, 0}, std::nullopt);

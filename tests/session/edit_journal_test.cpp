@@ -46,7 +46,7 @@ class EditJournalTest : public testing::Test {
   const std::filesystem::path path_ = folder_.path() / "my.edits";
 };
 
-TEST_F(EditJournalTest, comes_back_from_its_file_to_the_last_bit) {
+TEST_F(EditJournalTest, survives_its_file_to_the_last_bit) {
   EditJournal journal;
   journal.add({{Kind::kDelete, 812, 14}, after(1500)});
   LoopEdit match{Kind::kMatch, 900, 3};
@@ -63,7 +63,9 @@ TEST_F(EditJournalTest, comes_back_from_its_file_to_the_last_bit) {
   ASSERT_THAT(back.edits(), SizeIs(4));
   EXPECT_TRUE(back.edits()[0].edit.of_final_search);
   EXPECT_THAT(complaint("force scan=1 local_map=2 attempt=first"),
-              HasSubstr("attempt=first is not last_pass"));
+              HasSubstr("attempt=first: expected final_search"));
+  EXPECT_TRUE(parse_edit_line("force scan=1 local_map=2 attempt=last_pass").edit.of_final_search)
+      << "its old name";
   const LoopEdit& read = back.edits()[3].edit;
   EXPECT_EQ(read.kind, Kind::kMatch);
   EXPECT_EQ(read.matcher, MatcherKind::kCsmGa);
@@ -72,7 +74,7 @@ TEST_F(EditJournalTest, comes_back_from_its_file_to_the_last_bit) {
   EXPECT_EQ(read.place->window.theta_rad, match.place->window.theta_rad);
 }
 
-TEST_F(EditJournalTest, reads_what_a_person_writes) {
+TEST_F(EditJournalTest, reads_hand_written_lines) {
   const EditJournal journal =
       EditJournal::read(file("# false: two equal doors\n\n  delete   local_map=3 scan=40   # here\nmatch "
                              "scan=5 local_map=1 matcher=ga\n"));
@@ -82,7 +84,7 @@ TEST_F(EditJournalTest, reads_what_a_person_writes) {
   EXPECT_FALSE(journal.edits()[1].edit.place.has_value());
 }
 
-TEST_F(EditJournalTest, edits_are_taken_once_in_the_order_of_their_times) {
+TEST_F(EditJournalTest, takes_each_edit_once_in_the_order_of_time) {
   EditJournal journal;
   journal.add({{Kind::kDelete, 3, 0}, kEnd});
   journal.add({{Kind::kDelete, 2, 0}, after(7)});
@@ -99,7 +101,7 @@ TEST_F(EditJournalTest, edits_are_taken_once_in_the_order_of_their_times) {
   EXPECT_THAT(journal.take_due(kEnd), SizeIs(4));
 }
 
-TEST_F(EditJournalTest, in_force_is_what_was_taken_last_for_the_loop) {
+TEST_F(EditJournalTest, the_edit_in_force_is_the_last_one_taken) {
   EditJournal journal;
   journal.add({{Kind::kDelete, 2, 0}, {}});
   journal.add({{Kind::kForce, 2, 0}, after(7)});
@@ -111,7 +113,7 @@ TEST_F(EditJournalTest, in_force_is_what_was_taken_last_for_the_loop) {
   EXPECT_EQ(journal.in_force(same)->kind, Kind::kForce);
 }
 
-TEST_F(EditJournalTest, what_a_person_does_now_replaces_what_was_to_be_done_to_the_loop_later) {
+TEST_F(EditJournalTest, a_new_edit_replaces_later_edits_of_the_loop) {
   EditJournal journal;
   journal.add({{Kind::kDelete, 2, 0}, after(7)});
   journal.add({{Kind::kForce, 2, 1}, after(9)});
@@ -124,39 +126,39 @@ TEST_F(EditJournalTest, what_a_person_does_now_replaces_what_was_to_be_done_to_t
   EXPECT_THAT(journal.edits(), SizeIs(1));
 }
 
-TEST_F(EditJournalTest, says_where_a_line_is_no_edit_and_what_was_expected) {
+TEST_F(EditJournalTest, invalid_lines_give_errors_with_file_and_line) {
   EXPECT_THAT(complaint("delete scan=1 local_map=2\ndelte scan=1 local_map=2\n"),
               AllOf(HasSubstr("my.edits:2: \"delte\" is none of"), HasSubstr("did you mean \"delete\"?")));
   EXPECT_THAT(complaint("delete scan=1"), HasSubstr(":1: \"local_map\" is missing"));
   EXPECT_THAT(complaint("delete scan=1.5 local_map=2"), HasSubstr("scan=1.5 is not a whole number"));
-  EXPECT_THAT(complaint("delete scan=-1 local_map=2"), HasSubstr("not a whole number of at least 0"));
+  EXPECT_THAT(complaint("delete scan=-1 local_map=2"), HasSubstr(": expected a whole number, 0 or more"));
   EXPECT_THAT(complaint("delete scan=1 local_map=2 matcher=ga"), HasSubstr("no key \"matcher\" here"));
   EXPECT_THAT(complaint("delete scan=1 locl_map=2"), HasSubstr("did you mean \"local_map\"?"));
   EXPECT_THAT(complaint("delete scan=1 scan=1 local_map=2"), HasSubstr("\"scan\" is given twice"));
-  EXPECT_THAT(complaint("delete scan 1"), HasSubstr("\"scan\" is not KEY=VALUE"));
+  EXPECT_THAT(complaint("delete scan 1"), HasSubstr("\"scan\": expected KEY=VALUE"));
   EXPECT_THAT(complaint("match scan=1 local_map=2"), HasSubstr("\"matcher\" is missing"));
-  EXPECT_THAT(complaint("match scan=1 local_map=2 matcher=csn"), HasSubstr("none of csm, csm_ga and ga"));
+  EXPECT_THAT(complaint("match scan=1 local_map=2 matcher=csn"), HasSubstr(": expected csm, csm_ga or ga"));
   EXPECT_THAT(complaint("match scan=1 local_map=2 matcher=ga x_m=1"), HasSubstr("\"y_m\" is missing"));
   EXPECT_THAT(complaint("match scan=1 local_map=2 matcher=ga x_m=1 y_m=2 yaw_deg=0 window_m=0 window_deg=5"),
-              HasSubstr("window_m=0 is not in (0, 1000]"));
+              HasSubstr("window_m=0: expected a number above 0"));
   EXPECT_THAT(complaint("delete scan=1 local_map=2 after=soon"), HasSubstr("after=soon"));
   EXPECT_THROW(EditJournal::read(folder_.path() / "none"), UserError);
 }
 
-TEST_F(EditJournalTest, of_a_later_drive_it_counts_on_from_the_drives_before) {
+TEST_F(EditJournalTest, renumbers_the_edits_of_a_later_run) {
   EditJournal journal;
   journal.add({{Kind::kDelete, 8, 1}, {}});
   journal.add({{Kind::kForce, 8, 2}, after(20)});
   journal.add({{Kind::kRestore, 9, 1}, kEnd});
-  EXPECT_EQ(journal.of_drive(100, 50, 7).text(),
+  EXPECT_EQ(journal.of_run(100, 50, 7).text(),
             "# psi-slam loop edits 1\ndelete scan=108 local_map=8 after=99\n"
             "force scan=108 local_map=9 after=120\nrestore scan=109 local_map=8 after=149\n");
-  EXPECT_EQ(journal.of_drive(0, 50, 0).text(),
+  EXPECT_EQ(journal.of_run(0, 50, 0).text(),
             "# psi-slam loop edits 1\ndelete scan=8 local_map=1\nforce scan=8 local_map=2 after=20\n"
             "restore scan=9 local_map=1 after=49\n");
 }
 
-TEST_F(EditJournalTest, a_text_in_memory_is_read_like_a_file) {
+TEST_F(EditJournalTest, parses_text_like_a_file) {
   const std::string text = "# mine\ndelete scan=40 local_map=3  # here\n";
   EXPECT_EQ(EditJournal::parse(text, "my.session").text(), EditJournal::read(file(text)).text());
   EXPECT_THAT(sentence_of([] { EditJournal::parse("\ndelete scan=40\n", "my.session"); }),

@@ -10,15 +10,19 @@
 #include <functional>
 #include <thread>
 
+#include "exports/run_summary.h"
+#include "psi_slam/frame_source.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/grid_map.h"
+#include "report/output_folder.h"
 #include "report/report_html.h"
-#include "exports/summary_json.h"
-#include "trajectory/trajectory_file.h"
 #include "room_log.h"
 #include "same_results.h"
+#include "session/edit_journal.h"
+#include "session/settings.h"
 #include "temporary_folder.h"
 #include "test_files.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -69,7 +73,7 @@ TEST_F(MappingSessionTest, neither_steps_nor_threads_change_the_result) {
     ASSERT_EQ(at_once.result().frames[i].map_T_robot, stepwise.result().frames[i].map_T_robot) << i;
 }
 
-TEST_F(MappingSessionTest, finished_early_it_holds_what_was_read_and_says_so) {
+TEST_F(MappingSessionTest, an_early_finish_maps_what_was_read_and_is_marked) {
   MappingSession session(log(room_log_lines()), settings_);
   for (int i = 0; i < 40; ++i) ASSERT_TRUE(session.step());
   session.finish();
@@ -80,7 +84,7 @@ TEST_F(MappingSessionTest, finished_early_it_holds_what_was_read_and_says_so) {
   EXPECT_EQ(read_trajectory(folder_.path() / "out" / "trajectory.tum").size(), 40U);
 }
 
-TEST_F(MappingSessionTest, stops_when_it_is_told_to) {
+TEST_F(MappingSessionTest, run_stops_on_request) {
   std::atomic<bool> stop{false};
   MappingSession session(log(room_log_lines()), settings_);
   session.set_observer([&](const SessionProgress& progress) { stop = progress.scans == 25; });
@@ -89,7 +93,7 @@ TEST_F(MappingSessionTest, stops_when_it_is_told_to) {
   EXPECT_EQ(session.result().frames.size(), 25U);
 }
 
-TEST_F(MappingSessionTest, told_to_stop_in_the_last_pass_it_cuts_that_short) {
+TEST_F(MappingSessionTest, a_stop_cuts_the_final_search_short) {
   std::atomic<bool> stop{false};
   double share = 0;
   MappingSession session(log(room_log_lines()), settings_);
@@ -108,9 +112,9 @@ TEST_F(MappingSessionTest, told_to_stop_in_the_last_pass_it_cuts_that_short) {
   EXPECT_TRUE(summary.final_search_cut_short);
 }
 
-TEST_F(MappingSessionTest, told_to_stop_when_all_is_done_it_was_not_interrupted) {
+TEST_F(MappingSessionTest, a_stop_after_the_end_does_not_mark_the_result) {
   for (const Phase phase : {Phase::kMapping, Phase::kFinalSearch}) {
-    settings_.mapper.final_search.passes = phase == Phase::kMapping ? 0 : 2;
+    settings_.mapper.back_end.final_search.passes = phase == Phase::kMapping ? 0 : 2;
     std::atomic<bool> stop{false};
     MappingSession session(log(room_log_lines(60)), settings_);
     session.set_observer([&](const SessionProgress& progress) {
@@ -124,7 +128,7 @@ TEST_F(MappingSessionTest, told_to_stop_when_all_is_done_it_was_not_interrupted)
   }
 }
 
-TEST_F(MappingSessionTest, tells_how_far_it_is) {
+TEST_F(MappingSessionTest, reports_its_progress) {
   std::vector<Phase> phases;
   double share = 0;
   MappingSession session(log(room_log_lines(60)), settings_);
@@ -145,7 +149,7 @@ TEST_F(MappingSessionTest, tells_how_far_it_is) {
   EXPECT_THAT(phases, ElementsAre(Phase::kMapping, Phase::kFinalSearch, Phase::kWriting));
 }
 
-TEST_F(MappingSessionTest, time_for_which_its_observer_holds_it_is_no_work) {
+TEST_F(MappingSessionTest, pauses_by_the_observer_do_not_count_as_work) {
   using Clock = std::chrono::steady_clock;
   Clock::duration held{};
   double elapsed_s = 0;
@@ -166,7 +170,7 @@ TEST_F(MappingSessionTest, time_for_which_its_observer_holds_it_is_no_work) {
   EXPECT_LE(stages_s, std::chrono::duration<double>(worked).count());
 }
 
-TEST_F(MappingSessionTest, maps_a_log_up_to_where_it_breaks_off) {
+TEST_F(MappingSessionTest, maps_a_damaged_log_up_to_the_damage) {
   auto lines = room_log_lines(60);
   lines.resize(40);
   const auto path = log(lines);
@@ -183,7 +187,7 @@ TEST_F(MappingSessionTest, maps_a_log_up_to_where_it_breaks_off) {
   EXPECT_EQ(summary.broken_off, session.broken_off());
 }
 
-TEST_F(MappingSessionTest, maps_a_log_without_the_line_that_does_not_parse_and_says_so) {
+TEST_F(MappingSessionTest, skips_a_malformed_line_with_a_warning) {
   auto lines = room_log_lines(60);
   lines[40] = "FLASER 181 1.0 2.0";
   for (const int threads : {1, 2}) {
@@ -198,14 +202,14 @@ TEST_F(MappingSessionTest, maps_a_log_without_the_line_that_does_not_parse_and_s
   }
 }
 
-TEST_F(MappingSessionTest, refuses_a_log_of_broken_scans) {
+TEST_F(MappingSessionTest, rejects_a_log_with_malformed_scans) {
   auto lines = room_log_lines(5);
   for (std::string& line : lines) line = "FLASER 181 1.0 2.0";
   const auto path = log(lines);
   EXPECT_THAT(sentence_of([&] { MappingSession(path, settings_).run(go_on_); }), HasSubstr("room.log:1:"));
 }
 
-TEST_F(MappingSessionTest, refuses_a_log_without_a_single_return) {
+TEST_F(MappingSessionTest, rejects_a_log_without_any_return) {
   auto lines = room_log_lines(5);
   for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, std::to_string(kRoomNoReturn_m));
   const auto path = log(lines);
@@ -213,7 +217,7 @@ TEST_F(MappingSessionTest, refuses_a_log_without_a_single_return) {
               HasSubstr("none of its 5 scans has a return"));
 }
 
-TEST_F(MappingSessionTest, a_scan_without_return_among_others_does_no_harm) {
+TEST_F(MappingSessionTest, accepts_single_scans_without_return) {
   auto lines = room_log_lines(60);
   for (const std::size_t blind : {0U, 1U, 30U, 31U, 32U, 59U})
     lines[blind] = with_ranges(lines[blind], 0, kRoomBeams, "nan");
@@ -225,10 +229,10 @@ TEST_F(MappingSessionTest, a_scan_without_return_among_others_does_no_harm) {
   EXPECT_LT(std::hypot(end.x - truth.x, end.y - truth.y), 0.1);
 }
 
-TEST_F(MappingSessionTest, refuses_contradicting_settings_and_missing_logs_before_anything_else) {
+TEST_F(MappingSessionTest, checks_settings_and_log_before_mapping) {
   EXPECT_THAT(sentence_of([&] { MappingSession("/missing/room.log", settings_); }),
               HasSubstr("/missing/room.log does not exist"));
-  settings_.mapper.loop_closure.candidates.min_window_m = 50;
+  settings_.mapper.back_end.loop_closure.candidates.min_window_m = 50;
   EXPECT_THAT(sentence_of([&] { MappingSession("/missing/room.log", settings_); }),
               HasSubstr("loop_closure.min_window_m = 50 must not be more than"));
 }
@@ -256,7 +260,7 @@ TEST_F(MappingSessionTest, exports_the_graph_and_the_figures_of_the_whole_run) {
   EXPECT_EQ(session.run_info().settings.at("front_end.window_m"), "0.2");
 }
 
-TEST_F(MappingSessionTest, report_summary_and_caller_are_told_the_same_times) {
+TEST_F(MappingSessionTest, report_summary_and_caller_get_the_same_times) {
   MappingSession session(log(room_log_lines(60)), settings_);
   session.run(go_on_);
   const RunSummary summary = session.export_to(output());
@@ -280,7 +284,7 @@ class MappingSessionEditsTest : public MappingSessionTest {
     throw std::logic_error("no loop was closed");
   }
 
-  /// The same log with the edits that the folder `like` holds.
+  /// Maps the log with the edits in the folder `like`.
   std::filesystem::path mapped_by_file(const std::filesystem::path& path, const std::filesystem::path& like) {
     MappingSession session(path, settings_);
     session.add_edits(EditJournal::read(like / "loops.edits"));
@@ -291,7 +295,7 @@ class MappingSessionEditsTest : public MappingSessionTest {
   }
 };
 
-TEST_F(MappingSessionEditsTest, made_on_the_way_and_after_the_end_they_give_the_map_that_their_file_gives) {
+TEST_F(MappingSessionEditsTest, interactive_edits_equal_edits_from_a_file) {
   const auto path = log(room_log_lines(220));
   MappingSession session(path, settings_);
   session.stay_open();
@@ -340,7 +344,7 @@ TEST_F(MappingSessionEditsTest, change_the_map) {
   EXPECT_GT(summary.loops.by_hand, 0U);
 }
 
-TEST_F(MappingSessionEditsTest, tells_which_were_in_vain) {
+TEST_F(MappingSessionEditsTest, reports_edits_that_could_not_be_made) {
   EditJournal edits;
   edits.add({{LoopEdit::Kind::kDelete, 5, 0}, {EditTime::Kind::kAfterScan, 1000}});
   edits.add({{LoopEdit::Kind::kForce, 7, 99}, {}});

@@ -5,14 +5,14 @@
 #include <type_traits>
 #include <utility>
 
-// Nothing is converted here, there is only the question whether it could be.
+// The conversions are only declared, never called.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 
 namespace psi_slam {
 namespace member_count_detail {
 
-/// Stands for a value of whatever type a member has.
+/// A placeholder that converts to any type.
 struct Anything {
   template <class T>
   operator T() const;
@@ -38,7 +38,7 @@ constexpr std::size_t counted_from() {
 
 }  // namespace member_count_detail
 
-/// How many members a struct of plain values has, structs within it counting as one.
+/// Number of members of an aggregate. A struct inside counts as one.
 template <class Struct>
 constexpr std::size_t member_count() {
   return member_count_detail::counted_from<Struct, 0>();

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A session file of every version of the format that there ever was: each still loads and is mapped to what
-// it was. Whoever raises kSessionVersion adds one and leaves the others as they are.
+// A session file of every version of the format. Each still loads and gives the same map. A new
+// kSessionVersion needs a new file here; the others stay as they are.
 //
-// version-1.session: the room of room_log.h, made by `psi-slam merge`: a drive of 55 scans, 50 a round, with
-// a loop deleted by hand, and one of 48, 40 a round, that begins with the round's 13th.
+// version-1.session: the room of room_log.h, made by `psi-slam merge`. The first run has 55 scans, 50 for
+// each round, and a loop deleted by hand. The second has 48 scans, 40 for each round, and begins with the
+// round's 13th.
 //
-// version-2.session: another room, 60 scans along an ellipse of half axes 3 m and 2.4 m, 50 a round, by a
-// robot with a laser ahead and one behind.
+// version-2.session: another room, 60 scans along an ellipse with half axes of 3 m and 2.4 m, 50 for each
+// round. The robot has a front and a rear laser.
 //
-// version-3.session: the room again, made by `psi-slam merge`: a drive of 55 scans, 50 a round, whose log has
-// a line that is no scan for its 21st and breaks off in its 57th, and one of 48, 40 a round, that begins with
-// the round's 13th.
+// version-3.session: the room again, made by `psi-slam merge`, with runs as in version 1. Line 21 of the
+// first log is no scan, and the log is cut off in line 57.
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "base/file_checksum.h"
-#include "session/bound_settings.h"
 #include "psi_slam/mapping_session.h"
+#include "room_log.h"
 #include "session/recorded_settings.h"
 #include "session/session_file.h"
-#include "room_log.h"
+#include "session/session_input.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 namespace {
@@ -60,7 +61,7 @@ TEST(PastSessions, version_1_is_read_as_it_was_written) {
   }
 }
 
-TEST(PastSessions, version_1_is_mapped_to_what_it_was) {
+TEST(PastSessions, version_1_gives_the_same_map) {
   const SessionInput input = SessionInput::of_file(past_session("version-1.session"));
   BoundSettings bound;
   load_recorded(bound, input.recording()->facts, "version-1.session");
@@ -72,10 +73,10 @@ TEST(PastSessions, version_1_is_mapped_to_what_it_was) {
   EXPECT_LT(distance_m(result.frames[54].map_T_robot, room_pose(2 * M_PI * 54 / 50) - room_pose(0)), 0.03);
   EXPECT_LT(distance_m(result.frames[102].map_T_robot, room_pose(2 * M_PI * 59 / 40) - room_pose(0)), 0.03);
   EXPECT_LT(distance_m(result.frames[102].map_T_robot, {0.4067, 7.9528, 0}), 0.01)
-      << "where it was when it was recorded";
+      << "as when it was recorded";
 }
 
-TEST(PastSessions, version_2_has_the_scans_of_both_lasers_and_is_mapped_to_what_it_was) {
+TEST(PastSessions, version_2_has_two_lasers_and_gives_the_same_map) {
   const auto file = past_session("version-2.session");
   ASSERT_EQ(sha256_of_file(file), "3e7dfbbb350d54762751c3384603ed2c70fed36828a261e408cd9fc145a6f332")
       << "the fixture itself was changed";
@@ -94,7 +95,7 @@ TEST(PastSessions, version_2_has_the_scans_of_both_lasers_and_is_mapped_to_what_
   EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {2.1716, 1.7227, 0}), 0.01);
 }
 
-TEST(PastSessions, version_3_says_what_is_wrong_with_each_log_and_is_mapped_to_what_it_was) {
+TEST(PastSessions, version_3_has_faults_of_each_log_and_gives_the_same_map) {
   const auto file = past_session("version-3.session");
   ASSERT_EQ(sha256_of_file(file), "65b48346934b60af846ebf12cd31d0ff81a8c03b8ab0db9b6a4da19c87629f41")
       << "the fixture itself was changed";
@@ -111,13 +112,15 @@ TEST(PastSessions, version_3_says_what_is_wrong_with_each_log_and_is_mapped_to_w
   EXPECT_FALSE(facts.logs[0].scans_left || facts.logs[1].scans_left);
   ASSERT_EQ(facts.runs.size(), 1U);
   BoundSettings bound;
-  load_recorded(bound, facts, file);
+  EXPECT_THAT(facts.settings, testing::HasSubstr("[last_pass]")) << "options have their old names";
+  EXPECT_THAT(load_recorded(bound, facts, file), testing::IsEmpty());
+  EXPECT_THAT(bound.table.take_warnings(), testing::IsEmpty()) << "users cannot edit a session's settings";
   MappingSession session(input, bound.settings);
   session.run(std::atomic<bool>(false));
   EXPECT_THAT(session.warnings(),
               testing::ElementsAre(testing::HasSubstr("first.log:57"), testing::HasSubstr("first.log:21")));
   EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {0.4085, 7.9527, 0}), 0.01)
-      << "where it was when it was recorded";
+      << "as when it was recorded";
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace psi_slam {
 namespace {
 
-/// So many frames, and then the end or a malformed line.
+/// A number of frames, followed by the end or by a malformed line.
 class CountedFrames : public FrameSource {
  public:
   CountedFrames(std::size_t count, bool breaks_off) : count_(count), breaks_off_(breaks_off) {}
@@ -44,14 +44,14 @@ TEST(ReadAhead, gives_all_frames_in_order_with_the_progress_of_those_taken) {
   }
 }
 
-TEST(ReadAhead, throws_what_the_source_threw_behind_the_frames_before) {
+TEST(ReadAhead, throws_the_sources_error_after_the_frames_before_it) {
   ReadAhead ahead(std::make_unique<CountedFrames>(5, true), 100);
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(ahead.next().has_value());
   EXPECT_THROW(ahead.next(), UserError);
   EXPECT_THROW(ahead.next(), UserError);
 }
 
-TEST(ReadAhead, can_be_given_up_at_any_time) {
+TEST(ReadAhead, can_be_destroyed_at_any_time) {
   for (int taken = 0; taken < 20; ++taken) {
     ReadAhead ahead(std::make_unique<CountedFrames>(1000, false), 4);
     for (int i = 0; i < taken; ++i) ahead.next();

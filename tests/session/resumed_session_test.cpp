@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run that was interrupted, saved and gone on with is the run that was not, to the last byte.
+// A run that was interrupted, saved and resumed gives the same bytes as one without interruption.
 #include <gmock/gmock.h>
 
-#include "session/bound_settings.h"
 #include "psi_slam/mapping_session.h"
-#include "session/recorded_settings.h"
-#include "session/session_file.h"
+#include "report/output_folder.h"
 #include "room_log.h"
 #include "same_results.h"
+#include "session/recorded_settings.h"
+#include "session/session_file.h"
+#include "session/session_input.h"
+#include "session/settings.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {
@@ -36,7 +38,7 @@ class ResumedSession : public testing::Test {
     return export_of(session, "uninterrupted");
   }
 
-  /// The session of the log's first scans.
+  /// Saves the session after the log's first scans.
   fs::path saved_after(std::size_t scans, const fs::path& log, const EditJournal& edits = {}) {
     MappingSession session(log, settings_);
     session.add_edits(edits);
@@ -56,7 +58,7 @@ class ResumedSession : public testing::Test {
   const std::atomic<bool> go_on_{false};
 };
 
-TEST_F(ResumedSession, goes_on_in_the_same_log_to_the_same_bytes_on_any_number_of_threads) {
+TEST_F(ResumedSession, resuming_the_same_log_gives_the_same_bytes_on_any_number_of_threads) {
   const auto path = log("room.log", room_log_lines());
   const fs::path whole = uninterrupted(path);
   saved_after(70, path);
@@ -70,7 +72,7 @@ TEST_F(ResumedSession, goes_on_in_the_same_log_to_the_same_bytes_on_any_number_o
   }
 }
 
-TEST_F(ResumedSession, saved_after_the_first_scan_within_and_at_the_end_it_is_the_same_map) {
+TEST_F(ResumedSession, gives_the_same_map_wherever_it_was_saved) {
   const auto path = log("room.log", room_log_lines(60));
   const fs::path whole = uninterrupted(path);
   for (const std::size_t scans : {1U, 59U, 60U}) {
@@ -81,7 +83,7 @@ TEST_F(ResumedSession, saved_after_the_first_scan_within_and_at_the_end_it_is_th
   }
 }
 
-TEST_F(ResumedSession, goes_on_in_a_second_log_as_if_the_two_were_one) {
+TEST_F(ResumedSession, continues_with_a_second_log_as_if_both_were_one) {
   const auto lines = room_log_lines();
   const auto half = lines.begin() + 80;
   const auto first = log("first.log", {lines.begin(), half});
@@ -93,14 +95,14 @@ TEST_F(ResumedSession, goes_on_in_a_second_log_as_if_the_two_were_one) {
   expect_same_results(whole, export_of(session, "resumed"));
   EXPECT_EQ(session.run_info().log_name, "first.log + second.log");
 
-  session.save(saved_);  // and once more, now of both
+  session.save(saved_);  // again, now with both logs
   MappingSession again(resumed(), settings_);
   again.run(go_on_);
   expect_same_results(whole, export_of(again, "again"));
   EXPECT_THAT(sentence_of([&] { resumed(first); }), HasSubstr("first.log is in the session already"));
 }
 
-TEST_F(ResumedSession, alone_it_writes_what_it_wrote) {
+TEST_F(ResumedSession, without_a_log_it_gives_the_same_results) {
   const auto path = log("room.log", room_log_lines());
   MappingSession session(path, settings_);
   for (int i = 0; i < 90; ++i) session.step();
@@ -115,7 +117,7 @@ TEST_F(ResumedSession, alone_it_writes_what_it_wrote) {
   EXPECT_TRUE(alone.result().interrupted) << "the log had more";
 }
 
-TEST_F(ResumedSession, keeps_edits_and_takes_further_ones) {
+TEST_F(ResumedSession, keeps_edits_and_accepts_further_ones) {
   const auto path = log("room.log", room_log_lines());
   MappingSession plain(path, settings_);
   plain.run(go_on_);
@@ -136,7 +138,7 @@ TEST_F(ResumedSession, keeps_edits_and_takes_further_ones) {
   expect_same_results(whole, export_of(session, "resumed"));
 }
 
-TEST_F(ResumedSession, interrupted_within_the_recording_it_loses_nothing_of_it) {
+TEST_F(ResumedSession, an_interruption_while_replaying_loses_nothing) {
   const auto path = log("room.log", room_log_lines());
   const fs::path whole = uninterrupted(path);
   saved_after(100, path);
@@ -150,7 +152,7 @@ TEST_F(ResumedSession, interrupted_within_the_recording_it_loses_nothing_of_it) 
   expect_same_results(whole, export_of(again, "again"));
 }
 
-TEST_F(ResumedSession, a_broken_log_breaks_off_again_and_what_was_skipped_is_told_again) {
+TEST_F(ResumedSession, reports_damage_and_skipped_lines_again) {
   auto lines = room_log_lines(60);
   lines[20] = "FLASER 181 1.0 2.0";
   lines.resize(40);
@@ -168,13 +170,14 @@ TEST_F(ResumedSession, a_broken_log_breaks_off_again_and_what_was_skipped_is_tol
   }
 }
 
-/// Drives of 40 scans, of which the first is no more than that for the reason given.
-class GoneOnWithInAnother : public ResumedSession {
+/// Two logs of 40 scans each. The first one ends after 40 scans for the given reason.
+class ContinuedWithAnotherLog : public ResumedSession {
  protected:
   void expect_told_again_and_again(const std::string& what, bool interrupted) {
     const auto lines = room_log_lines(90);
     const auto second = log("second.log", {lines.begin() + 60, lines.end()});
-    for (const fs::path& behind : {second, fs::path(), second}) {  // gone on with, alone, in its last log
+    for (const fs::path& behind :
+         {second, fs::path(), second}) {  // with another log, alone, with its last log
       MappingSession session(resumed(behind), settings_);
       session.run(go_on_);
       EXPECT_FALSE(session.broken_off()) << "the second log is whole";
@@ -188,7 +191,7 @@ class GoneOnWithInAnother : public ResumedSession {
     }
   }
 
-  /// One of its lines is no scan.
+  /// A log with one line that is no scan.
   std::vector<std::string> lines_of_first() const {
     auto lines = room_log_lines(50);
     lines[20] = "FLASER 181 1.0 2.0";
@@ -196,7 +199,7 @@ class GoneOnWithInAnother : public ResumedSession {
   }
 };
 
-TEST_F(GoneOnWithInAnother, the_log_that_broke_off_is_told) {
+TEST_F(ContinuedWithAnotherLog, warns_of_a_damaged_log) {
   const auto path = log("first.log", lines_of_first());
   std::ofstream(path, std::ios::app) << "FLASER 181 1.0 2.0";
   MappingSession session(path, settings_);
@@ -206,12 +209,12 @@ TEST_F(GoneOnWithInAnother, the_log_that_broke_off_is_told) {
   expect_told_again_and_again("first.log:51", false);
 }
 
-TEST_F(GoneOnWithInAnother, the_log_that_was_interrupted_is_told) {
+TEST_F(ContinuedWithAnotherLog, warns_of_an_interrupted_log) {
   saved_after(40, log("first.log", lines_of_first()));
   expect_told_again_and_again("only the first 40 scans of first.log are mapped", true);
 }
 
-TEST_F(ResumedSession, refuses_a_log_that_neither_is_its_own_nor_goes_on_behind_it) {
+TEST_F(ResumedSession, rejects_a_log_that_does_not_continue_it) {
   const auto path = log("room.log", room_log_lines(60));
   saved_after(40, path);
   const auto other = log("other.log", room_log_lines(50, 90));
@@ -220,7 +223,7 @@ TEST_F(ResumedSession, refuses_a_log_that_neither_is_its_own_nor_goes_on_behind_
   EXPECT_THAT(sentence_of([&] { resumed(folder_.path() / "none.log"); }), HasSubstr("does not exist"));
 }
 
-TEST_F(ResumedSession, its_settings_come_back_and_those_that_shape_the_map_stay) {
+TEST_F(ResumedSession, restores_settings_and_keeps_those_that_shape_the_map) {
   BoundSettings recorded;
   recorded.load(
       {}, {"front_end.window_theta_deg=7.3", "log.max_range_m=40", "map.resolution_m=0.1", "run.seed=5"});
@@ -240,20 +243,24 @@ TEST_F(ResumedSession, its_settings_come_back_and_those_that_shape_the_map_stay)
               HasSubstr("front_end.window_theta_deg is 7.3 in the session my.session and cannot become 8"));
 }
 
-TEST_F(ResumedSession, options_that_are_no_more_are_left_out_and_named) {
+TEST_F(ResumedSession, ignores_obsolete_options_with_a_warning) {
   SessionFacts facts;
   facts.settings = "[front_end]\nwindow_m = 0.2\nmagic = 3\n[gone]\nkey = 1\n";
   BoundSettings bound;
   EXPECT_THAT(load_recorded(bound, facts, "old.session"),
-              ElementsAre("old.session: front_end.magic is no option any more and is left out",
-                          "old.session: gone.key is no option any more and is left out"));
+              ElementsAre("old.session: front_end.magic is obsolete and is ignored",
+                          "old.session: gone.key is obsolete and is ignored"));
   EXPECT_EQ(bound.settings.mapper.front_end.window_m, 0.2);
+  facts.settings = "[front_end]\nmax_strain_m = 0.3\n[last_pass]\npasses = 1\n";
+  EXPECT_THAT(load_recorded(bound, facts, "old.session"), IsEmpty());
+  EXPECT_EQ(bound.settings.mapper.front_end.max_doubtful_correction_m, 0.3);
+  EXPECT_EQ(bound.settings.mapper.final_search.passes, 1);
   facts.settings = "[front_end]\nwindow_m = -1\n";
   EXPECT_THAT(sentence_of([&] { load_recorded(bound, facts, "old.session"); }),
               HasSubstr("old.session:2: front_end.window_m"));
 }
 
-TEST_F(ResumedSession, another_version_of_the_program_is_told) {
+TEST_F(ResumedSession, warns_of_another_version_of_the_program) {
   saved_after(10, log("room.log", room_log_lines(10)));
   SessionFacts facts = read_session_file(saved_).facts;
   EXPECT_FALSE(other_version_text("now.session", facts).has_value());

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of whole runs compare results with is itself a tool that could miss something.
+// Tests the comparison that the tests of whole runs use.
 #include "same_results.h"
 
 #include <gmock/gmock.h>
 
 #include "psi_slam/mapping_session.h"
+#include "report/output_folder.h"
 #include "room_log.h"
+#include "session/settings.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {

@@ -31,7 +31,7 @@ LaserScan scan_of(std::vector<float> ranges_m, float max_range_m) {
   return scan;
 }
 
-/// Of a second laser always, of a third now and then.
+/// Scans of a second laser in every frame, of a third in some.
 std::vector<CompanionScan> companions_of(std::size_t frame) {
   std::vector<CompanionScan> companions(frame == 2 ? 2 : 1);
   for (std::size_t i = 0; i < companions.size(); ++i) {
@@ -43,7 +43,7 @@ std::vector<CompanionScan> companions_of(std::size_t frame) {
   return companions;
 }
 
-/// Scans of two sensors by turns, with numbers that text would not bring back.
+/// Alternating scans of two sensors, with numbers that text would round.
 SessionRecording small_recording() {
   SessionRecording recording;
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -92,7 +92,7 @@ class SessionFileTest : public testing::Test {
     return sentence_of([&] { read_session_file(path_); });
   }
 
-  /// With a checksum that matches again.
+  /// Repairs the checksum.
   static std::string sealed(const std::string& bytes) {
     const std::string content = bytes.substr(0, bytes.size() - 64);
     return content + sha256_of_text(content);
@@ -103,7 +103,7 @@ class SessionFileTest : public testing::Test {
   std::string bytes_;
 };
 
-TEST_F(SessionFileTest, brings_everything_back_to_the_last_bit) {
+TEST_F(SessionFileTest, restores_everything_to_the_last_bit) {
   const SessionRecording before = small_recording();
   const SessionRecording back = read_session_file(path_);
   ASSERT_EQ(back.frames.size(), before.frames.size());
@@ -147,7 +147,7 @@ TEST_F(SessionFileTest, brings_everything_back_to_the_last_bit) {
   }
 }
 
-TEST_F(SessionFileTest, the_same_recording_is_the_same_bytes_and_ends_with_the_checksum_of_all_before) {
+TEST_F(SessionFileTest, is_deterministic_and_ends_with_its_checksum) {
   const SessionRecording recording = read_session_file(path_);
   write_session_file(path_, recording.facts, recording.frames);
   EXPECT_EQ(read_file(path_), bytes_);
@@ -155,7 +155,7 @@ TEST_F(SessionFileTest, the_same_recording_is_the_same_bytes_and_ends_with_the_c
   EXPECT_TRUE(is_session_file(path_));
 }
 
-TEST_F(SessionFileTest, takes_names_and_sentences_that_are_no_utf_8) {
+TEST_F(SessionFileTest, accepts_texts_that_are_not_utf_8) {
   SessionRecording recording = small_recording();
   recording.facts.logs[0].name = "B\xfcro.log";
   recording.facts.logs[0].skipped.first = "B\xfcro.log:7: \"\xff\" is no number";
@@ -165,7 +165,7 @@ TEST_F(SessionFileTest, takes_names_and_sentences_that_are_no_utf_8) {
   EXPECT_THAT(back.facts.logs[0].skipped.first, HasSubstr("is no number"));
 }
 
-TEST_F(SessionFileTest, every_flipped_bit_is_noticed) {
+TEST_F(SessionFileTest, detects_every_flipped_bit) {
   for (std::size_t i = 0; i < bytes_.size(); ++i) {
     std::string flipped = bytes_;
     flipped[i] = static_cast<char>(flipped[i] ^ (1 << (i % 8)));
@@ -173,32 +173,32 @@ TEST_F(SessionFileTest, every_flipped_bit_is_noticed) {
   }
 }
 
-TEST_F(SessionFileTest, a_cut_off_file_is_told) {
+TEST_F(SessionFileTest, reports_a_truncated_file) {
   for (std::size_t size = 16; size < bytes_.size(); ++size)
     EXPECT_THAT(complaint_about(bytes_.substr(0, size)), HasSubstr("my.session is cut off")) << size;
-  EXPECT_THAT(complaint_about(bytes_.substr(0, 15)), HasSubstr("is no session of psi-slam"));
+  EXPECT_THAT(complaint_about(bytes_.substr(0, 15)), HasSubstr("is not a session of psi-slam"));
 }
 
-TEST_F(SessionFileTest, a_version_of_the_future_is_told) {
+TEST_F(SessionFileTest, reports_a_newer_version) {
   std::string newer = bytes_;
   newer[16] = 4;
   EXPECT_THAT(
       complaint_about(sealed(newer)),
       HasSubstr(
-          "my.session is a session of version 4, by a newer psi-slam: this one reads versions up to 3"));
+          "my.session is a session of version 4, made by a newer psi-slam. This one reads versions up to 3"));
 }
 
-TEST_F(SessionFileTest, what_is_none_is_told) {
-  EXPECT_THAT(complaint_about(""), HasSubstr("my.session is no session of psi-slam"));
+TEST_F(SessionFileTest, reports_a_file_that_is_no_session) {
+  EXPECT_THAT(complaint_about(""), HasSubstr("my.session is not a session of psi-slam"));
   EXPECT_THAT(complaint_about("FLASER 180 1.0 1.0 and so on, for longer than any head"),
-              HasSubstr("my.session is no session of psi-slam"));
+              HasSubstr("my.session is not a session of psi-slam"));
   EXPECT_FALSE(is_session_file(path_));
   EXPECT_THAT(sentence_of([&] { read_session_file(folder_.path() / "none"); }), HasSubstr("does not exist"));
   EXPECT_THAT(sentence_of([&] { read_session_file(folder_.path()); }), HasSubstr("is a folder"));
   EXPECT_FALSE(is_session_file(folder_.path() / "none"));
 }
 
-TEST_F(SessionFileTest, what_does_not_add_up_is_told_though_its_checksum_matches) {
+TEST_F(SessionFileTest, reports_contradictions_despite_a_valid_checksum) {
   const SessionRecording good = small_recording();
   const auto complaint = [&](const std::function<void(SessionRecording&)>& spoil) {
     SessionRecording recording = good;
@@ -208,38 +208,37 @@ TEST_F(SessionFileTest, what_does_not_add_up_is_told_though_its_checksum_matches
   };
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames.pop_back(); }), HasSubstr("do not add up"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.logs.clear(); }), HasSubstr("do not add up"));
-  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].scan = 4; }),
-              HasSubstr("a drive begins"));
+  EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].scan = 4; }), HasSubstr("a run begins"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].start.node_T_robot.y = -1.1e7; }),
-              HasSubstr("a drive begins nowhere"));
+              HasSubstr("a run begins at an invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].start.robot_T_found.x = 1e300; }),
-              HasSubstr("a drive begins nowhere"));
+              HasSubstr("a run begins at an invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].start.robot_T_found.phi = NAN; }),
-              HasSubstr("what it says of itself cannot be read"))
+              HasSubstr("its description is not valid JSON"))
       << "JSON has no such number";
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs.push_back(r.facts.runs[0]); }),
-              HasSubstr("its drives do not follow on one another"));
+              HasSubstr("its runs are out of order"));
   EXPECT_THAT(complaint([](SessionRecording& r) {
                 r.facts.logs[0].scans = static_cast<std::size_t>(-3);
-                r.facts.logs[1].scans = 7;  // together 4, as they should be
+                r.facts.logs[1].scans = 7;  // the sum is 4, as it must be
               }),
-              HasSubstr("a log has more than all of its scans"));
+              HasSubstr("a log has more scans than the session"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].frame_T_robot.x = 1e300; }),
-              HasSubstr("a pose is none"));
+              HasSubstr("invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[0].odom_T_robot.phi = NAN; }),
-              HasSubstr("a pose is none"));
+              HasSubstr("invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].companions[1].scan.laser = 4'000'000'000; }),
-              HasSubstr("too high a laser"));
+              HasSubstr("number of a laser is too high"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[2].companions[1].scan.laser = 1; }),
-              HasSubstr("not in their order"));
+              HasSubstr("out of order"));
   EXPECT_THAT(complaint([](SessionRecording& r) {
                 r.frames[3].scan.bearings_rad = std::make_shared<std::vector<float>>(1, NAN);
               }),
-              HasSubstr("the bearing of a beam is none"));
+              HasSubstr("beam bearing is not finite"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].scan.ranges_m.pop_back(); }),
-              HasSubstr("other beams than its sensor"));
+              HasSubstr("another number of beams than its sensor"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].scan.ranges_m.pop_back(); }),
-              HasSubstr("other beams than its sensor"));
+              HasSubstr("another number of beams than its sensor"));
 }
 
 }  // namespace

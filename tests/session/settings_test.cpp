@@ -3,14 +3,15 @@
 
 #include <gmock/gmock.h>
 
+#include <cctype>
 #include <functional>
 #include <set>
 
-#include "member_count.h"
-#include "psi_slam/user_error.h"
 #include "config/apply_settings.h"
 #include "config/ini_file.h"
 #include "config/option_listing.h"
+#include "member_count.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -27,7 +28,7 @@ class SettingsTest : public testing::Test {
     return options;
   }
 
-  /// The sentence with which these settings are refused; "" if they are not.
+  /// Error message for these settings; "" if they are accepted.
   std::string refusal(const std::vector<std::string>& assignments) {
     for (const std::string& assignment : assignments) apply_override(assignment, table_);
     try {
@@ -43,8 +44,8 @@ class SettingsTest : public testing::Test {
 };
 
 TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
-  const std::size_t log =
-      member_count<LogOptions>() - 1 + member_count<LaserMount>();  // one stands for the pose
+  const std::size_t log = member_count<LogOptions>() - 1 +
+                          member_count<LaserMount>();  // one of them is the pose, which LaserMount describes
   const std::size_t front_end = member_count<FrontEndOptions>() - 3 + member_count<ScanFilterOptions>() +
                                 member_count<LocalMapOptions>() + member_count<RefinementOptions>();
   const std::size_t matcher = member_count<MatcherOptions>() - 1 + member_count<RefinementOptions>();
@@ -53,17 +54,17 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
                             member_count<ScanContextOptions>() + member_count<LoopConsensusOptions>() +
                             member_count<FinalSearchOptions>() + member_count<JointRefinementOptions>() - 1 +
                             member_count<SurfaceAlignmentOptions>();
-  // The mapper makes no constraints of odometry.
+  // The mapper has no odometry constraints.
   const std::size_t solver = member_count<PoseAdjustmentOptions>() - 3 + 2 * member_count<RobustKernel>();
   const std::size_t choice = member_count<PsiOptions>() + member_count<GeneticOptions>() - 3 +
                              member_count<PaperGeneticOptions>() + member_count<MemeticGeneticOptions>() +
                              member_count<CoarseCellOptions>();
-  // Of MapperOptions nine are structs, and the seed and the threads are those of RunOptions.
-  const std::size_t mapper = member_count<MapperOptions>() - 4 + member_count<BackEndOptions>() - 8 +
+  // MapperOptions has three structs. BackEndOptions has seven, and its seed and threads are those of RunOptions.
+  const std::size_t mapper = member_count<MapperOptions>() - 3 + member_count<BackEndOptions>() - 9 +
                              choice + front_end + matcher + loops + solver;
   const std::size_t files =
       member_count<MapFileOptions>() - 2 + member_count<MapDrawingOptions>() + member_count<GeoReference>();
-  // Front end, consensus, matches, smoothing and seed of the localizer are the mapper's.
+  // The localizer takes front end, consensus, matches, smoothing and seed from the mapper.
   const std::size_t localization = member_count<LocalizerOptions>() - 4 +
                                    member_count<GlobalSearchOptions>() - 4 +
                                    member_count<ScanContextOptions>();
@@ -73,7 +74,7 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
       << "a struct of options has a member that describe() of settings.cpp does not know";
 }
 
-TEST_F(SettingsTest, every_option_is_bound_to_a_member_of_its_own) {
+TEST_F(SettingsTest, each_option_is_bound_to_one_member) {
   const auto others_as_by_default = [&](const Option& changed) {
     for (const OptionSection& section : table_.sections())
       for (const Option& option : section.options)
@@ -114,7 +115,7 @@ TEST_F(SettingsTest, the_defaults_agree_with_each_other) {
   EXPECT_NO_THROW(check(Settings{}));
 }
 
-TEST_F(SettingsTest, refuses_options_that_contradict_each_other) {
+TEST_F(SettingsTest, rejects_options_that_contradict_each_other) {
   EXPECT_EQ(refusal({"log.min_range_m=5", "log.max_range_m=4"}),
             "log.min_range_m = 5 must be less than log.max_range_m = 4");
   EXPECT_EQ(refusal({"log.max_range_m=auto", "log.min_range_m=60"}),
@@ -125,22 +126,54 @@ TEST_F(SettingsTest, refuses_options_that_contradict_each_other) {
             "front_end.window_theta_deg = 50 must not be more than front_end.ma");
   EXPECT_THAT(refusal({"front_end.window_theta_deg=5", "loop_closure.window_x_m=0.1"}),
               HasSubstr("must not be more than loop_closure.window_x_m = 0.1"));
-  EXPECT_EQ(refusal({"loop_closure.window_x_m=8", "last_pass.window_m=1.5"}),
-            "last_pass.window_m = 1.5 must not be more than verification.wide_window_m = 1");
-  EXPECT_THAT(refusal({"last_pass.window_m=0.3", "loop_closure.window_x_m=4", "loop_closure.min_sigma_m=9"}),
-              HasSubstr("loop_closure.min_sigma_m = 9 must not be more than loop_closure.max_sigma_m"));
+  EXPECT_EQ(refusal({"loop_closure.window_x_m=8", "final_search.window_m=1.5"}),
+            "final_search.window_m = 1.5 must not be more than verification.wide_window_m = 1");
+  EXPECT_THAT(
+      refusal({"final_search.window_m=0.3", "loop_closure.window_x_m=4", "loop_closure.min_sigma_m=9"}),
+      HasSubstr("loop_closure.min_sigma_m = 9 must not be more than loop_closure.max_sigma_m"));
 }
 
-TEST_F(SettingsTest, refuses_thresholds_of_psi_that_leave_nothing_between_them) {
+TEST_F(SettingsTest, old_option_names_are_accepted_with_a_warning) {
+  apply(parse_ini("[last_pass]\npasses = 1\n[front_end]\nmax_strain_m = 0.3\n", "my.ini"), table_);
+  apply_override("front_end.strain_travel_m=4", table_);
+  apply_override("consensus.max_rival_share=0.4", table_);
+  EXPECT_EQ(settings_.mapper.final_search.passes, 1);
+  EXPECT_EQ(settings_.mapper.front_end.max_doubtful_correction_m, 0.3);
+  EXPECT_EQ(settings_.mapper.front_end.doubtful_correction_travel_m, 4);
+  EXPECT_THAT(dump(table_), HasSubstr("\nmax_other_place_share = 0.4\n"));
+  EXPECT_THAT(
+      table_.take_warnings(),
+      testing::ElementsAre(
+          "my.ini:1: section [last_pass] was renamed; write [final_search]",
+          "my.ini:4: option front_end.max_strain_m was renamed; write front_end.max_doubtful_correction_m",
+          "--set: option front_end.strain_travel_m was renamed; write front_end.doubtful_correction_travel_m",
+          "--set: option consensus.max_rival_share was renamed; write consensus.max_other_place_share"));
+}
+
+TEST_F(SettingsTest, every_help_text_stands_alone) {
+  for (const OptionSection& section : table_.sections()) {
+    for (const Option& option : section.options) {
+      EXPECT_EQ(option.help.back(), '.') << option.name();
+      EXPECT_TRUE(std::isupper(static_cast<unsigned char>(option.help.front())) != 0 ||
+                  option.name() == "genetic.variant")
+          << option.name();
+      for (const char* reference : {"the same", "up to here", "this much)", "of those", " it,"})
+        EXPECT_EQ(option.help.find(reference), std::string::npos) << option.name() << ": " << option.help;
+    }
+  }
+}
+
+TEST_F(SettingsTest, rejects_equal_thresholds_of_psi) {
   EXPECT_EQ(refusal({"psi.psi_1=5", "psi.psi_2=4"}), "psi.psi_1 = 5 must be less than psi.psi_2 = 4");
   EXPECT_EQ(refusal({"psi.psi_1=4"}), "psi.psi_1 = 4 must be less than psi.psi_2 = 4");
   EXPECT_EQ(refusal({"psi.psi_1=3.9"}), "");
 }
 
-TEST_F(SettingsTest, refuses_a_coordinate_system_that_a_map_cannot_lie_in) {
+TEST_F(SettingsTest, rejects_a_coordinate_system_that_is_not_in_metres) {
   EXPECT_EQ(refusal({"map.epsg=25832"}), "");
   EXPECT_THAT(refusal({"map.epsg=4326"}), HasSubstr("expected a projected system in metres"));
-  EXPECT_EQ(refusal({"map.epsg=99999"}), "map.epsg = 99999: there is no such coordinate system");
+  EXPECT_EQ(refusal({"map.epsg=99999"}),
+            "map.epsg = 99999: no such coordinate system. Give the EPSG number of a projected system in metres");
 }
 
 TEST_F(SettingsTest, seed_and_threads_of_the_run_reach_the_mapper) {
@@ -152,7 +185,7 @@ TEST_F(SettingsTest, seed_and_threads_of_the_run_reach_the_mapper) {
   EXPECT_EQ(mapper_options(settings_).threads, worker_threads({1, 0}));
 }
 
-TEST_F(SettingsTest, a_mount_stated_in_part_is_zero_elsewhere_and_the_logs_own_if_not_stated) {
+TEST_F(SettingsTest, a_partly_stated_mount_is_zero_in_its_other_parts) {
   EXPECT_FALSE(log_options(settings_).robot_T_laser.has_value());
   apply_override("log.laser_yaw_deg=180", table_);
   const auto mount = log_options(settings_).robot_T_laser;
@@ -160,7 +193,7 @@ TEST_F(SettingsTest, a_mount_stated_in_part_is_zero_elsewhere_and_the_logs_own_i
   EXPECT_EQ(*mount, mrpt::math::TPose2D(0, 0, M_PI));
 }
 
-TEST_F(SettingsTest, zero_threads_are_those_of_the_machine) {
+TEST_F(SettingsTest, zero_threads_means_one_for_each_processor) {
   EXPECT_GE(worker_threads({}), 1);
   EXPECT_EQ(worker_threads({1, 3}), 3);
 }

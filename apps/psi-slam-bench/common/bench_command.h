@@ -12,7 +12,7 @@
 #include "common/bench_report.h"
 #include "common/benchmark_logs.h"
 #include "psi_slam_app.h"
-#include "work_progress.h"
+#include "progress_line.h"
 
 namespace psi_slam {
 

@@ -10,6 +10,7 @@
 
 #include "evaluation/relations_metric.h"
 #include "psi_slam/frame_source.h"
+#include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/pose_graph.h"
 #include "session/settings.h"

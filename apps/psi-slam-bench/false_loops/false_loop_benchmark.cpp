@@ -66,7 +66,7 @@ LoopTrial trial_of(const MappedRun& run, const MapperOptions& options,
   trial.graph = run.graph;
   for (const std::size_t frame : run.result.node_frames)
     trial.unlooped.push_back(run.result.frames[frame].front_end_T_robot);
-  trial.max_chi = options.max_loop_chi;
+  trial.max_chi = options.back_end.max_loop_chi;
   trial.solver = options.pose_graph;
   trial.error = [&run, &relations](const std::vector<TPose2D>& map_T_node) {
     std::vector<FrameRecord> frames = run.result.frames;
@@ -123,7 +123,7 @@ FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& log
     const std::vector<Relation> relations = read_relations(log.relations.value());
     const auto source = open_log(log.log, log_options(settings));
     MapperOptions mapper = mapper_options(settings);
-    mapper.joint_refinement.rounds = 0;  // it would move the graph away from its optimum
+    mapper.back_end.joint_refinement.rounds = 0;  // it would move the graph away from its optimum
     const MappedRun run = map_source(
         *source, mapper, [&](double share) { observer("mapping " + log.name, done + trials * share, all); });
     done += trials;

@@ -17,8 +17,7 @@
 #include "common/bench_report.h"
 #include "config/apply_settings.h"
 #include "freiburg/freiburg_run.h"
-#include "observations/range_observation.h"
-#include "observations/robot_action.h"
+#include "observations/mrpt_objects.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 

@@ -8,6 +8,7 @@
 #include "exports/mapped_trajectory.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam/user_error.h"
+#include "session/settings.h"
 
 namespace psi_slam {
 

@@ -43,10 +43,10 @@ const Matcher& MatchCandidate::matcher(const LoopCase& loop_case) const {
 }
 
 std::vector<MatchCandidate> match_candidates(CandidateSet set, const MapperOptions& options) {
-  GeneticOptions genetic = options.genetic;
+  GeneticOptions genetic = options.back_end.genetic;
   genetic.variant = GeneticVariant::kMemetic;
   const auto make = [&options](MatcherKind kind, const GeneticOptions& how) {
-    return std::shared_ptr<const Matcher>(make_matcher(kind, options.loop_matcher, how));
+    return std::shared_ptr<const Matcher>(make_matcher(kind, options.back_end.loop_matcher, how));
   };
   GeneticOptions paper = genetic;
   paper.variant = GeneticVariant::kPaper;

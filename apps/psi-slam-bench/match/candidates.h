@@ -9,6 +9,7 @@
 
 #include "match/loop_cases.h"
 #include "matching/matcher.h"
+#include "mapping/mapper_options.h"
 #include "psi_slam/mapper.h"
 
 namespace psi_slam {

@@ -162,7 +162,7 @@ MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
   const MappingResult result = mapper.finish();
   mapped.map_T_node = result.graph.poses();
   for (const std::size_t frame : result.node_frames)
-    mapped.adaptive_matcher.push_back(result.frames[frame].matcher);
+    mapped.adaptive_matcher.emplace_back(name(result.frames[frame].matcher.value()));
   mapped.translation_error_m =
       error_of(result.frames, read_relations(log.relations.value())).translation_abs_m.mean;
   return mapped;

@@ -160,7 +160,8 @@ class BenchmarkRun {
       if (!missing.empty()) add_remark(note, missing);
       const std::vector<MatchCandidate> all_candidates = match_candidates(series->set, mapped.options);
       run_cases(cases, all_candidates,
-                accepted_response(series->cases, mapped.options.loop_closure.verification), *series, [&] {
+                accepted_response(series->cases, mapped.options.back_end.loop_closure.verification), *series,
+                [&] {
                   matches += static_cast<double>(all_candidates.size());
                   observer_(log.name + ", " + series->title, done_ + matches, all_);
                 });

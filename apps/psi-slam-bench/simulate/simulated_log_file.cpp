@@ -10,7 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "common/bench_command.h"
-#include "compression/gzip_file.h"
+#include "compression/compression.h"
 #include "exports/corrected_log.h"
 #include "psi_slam/user_error.h"
 #include "simulate/simulate_benchmark.h"

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "frames/odometry_interpolator.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {

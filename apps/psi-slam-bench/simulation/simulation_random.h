@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "base/mixed_bits.h"
 #include "base/random_draws.h"
 
 namespace psi_slam {

@@ -1,90 +1,93 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps track of a robot in a finished map, scan by scan, and finds it where it is lost: at the beginning,
-// unless its start is told, and again after it was carried away.
-//
-// The front end measures its motion, in a frame of the front end's own. While the robot is lost, every metre
-// the last scans are looked for in the whole map (GlobalSearch); it is found when several searches from
-// different places say the same (LoopConsensus). From then on each scan is matched in a small window around
-// where the motion predicts it, until too many in a row do not fit.
+/// @file
+/// Tracks a robot in a finished map, scan by scan. Finds the robot when it is lost: at the beginning, unless
+/// its start is known, and after it was moved by hand.
+///
+///     auto localizer = Localizer::open("out/map.yaml", configuration);
+///     LocalizationStep step = localizer.add(frame);
+///
+/// The front end measures the robot's motion in a frame of its own. While the robot is lost, its last scans
+/// are searched for in the whole map after every metre of travel. The robot counts as found when several
+/// searches from different places agree. From then on each scan is matched in a small window around the
+/// predicted pose, until scans have not fitted for too long.
 #pragma once
 
-#include <optional>
+#include <mrpt/math/TPose2D.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "psi_slam/frame.h"
 #include "psi_slam/time_stamp.h"
-#include "local_maps/front_end.h"
-#include "localization/global_search.h"
-#include "loop_closure/loop_consensus.h"
+
+namespace mrpt::maps {
+class COccupancyGridMap2D;
+}
 
 namespace psi_slam {
 
-struct LocalizerOptions {
-  FrontEndOptions front_end;  ///< that measures the motion
-  GlobalSearchOptions search;
-  LoopConsensusOptions consensus;
-  std::uint64_t seed = 1;
+struct LocalizerOptions;
+struct ReferenceMap;
 
-  double search_travel_m = 1.0;  ///< while lost: between one search and the next
+/// Result of a search of the whole map: its best place. The search stops at the first objection; what was
+/// not examined is 0.
+struct FoundPlace {
+  bool found = false;               ///< false: no place comes near the least response
+  mrpt::math::TPose2D map_T_robot;  ///< robot pose in the map
+  double response = 0;              ///< response of the scans there, in [0, 1]
+  double ambiguity = 0;             ///< response of the next best place, as a share of `response`
+  double observed_share = 0;        ///< of the scans' points, in space that the map shows
+  double agree = 0;                 ///< of the points in such space, on something occupied
+  double clear_share = 0;           ///< of the scans' beams, through no wall of the map
+  std::string objection;            ///< why the place is not believed, as a clause; empty if it is
+  bool ambiguous = false;           ///< the objection is that another place fits as well
+  std::int64_t evaluations = 0;     ///< poses scored
 
-  // While tracking.
-  double window_m = 0.3;
-  double window_rad = radians_from_degrees(6.0L);
-  double prior_sigma_m = 0.05;  ///< of the motion's prediction
-  double prior_sigma_rad = radians_from_degrees(2.0L);
-  double start_window_m = 1.0;  ///< around a start that was told
-  double start_window_rad = radians_from_degrees(15.0L);
-  double min_response = 0.3;
-  double min_observed_share = 0.5;  ///< of a scan's points, in space that the map shows
-  double min_agree = 0.6;           ///< of these, on something occupied
-  double max_misfit_m = 2.0;        ///< lost when scans have not fitted for so much travel,
-  double max_misfit_s = 5.0;        ///< or for so long
+  /// Whether the place passed all checks.
+  bool believed() const { return found && objection.empty(); }
 };
 
-/// What became of one scan.
+/// Result of one scan.
 struct LocalizationStep {
+  /// Whether the pose of the robot is known.
   enum class State { kLost, kTracking };
-  TimeUs time_us = 0;
-  State state = State::kLost;
-  mrpt::math::TPose2D map_T_robot;  ///< while tracking
-  bool fits = false;                ///< the scan fits the map there; false: the motion alone says where it is
-  double response = 0;              ///< where it fits
-  double confidence = 0;            ///< where it fits: the share of its points that lie on the map's walls
-  double moved_m = 0;               ///< since the scan before
-  std::optional<FoundPlace> search;  ///< of the whole map, if one was made at this scan
+  TimeUs time_us = 0;               ///< time of the scan, microseconds
+  State state = State::kLost;       ///< state after this scan
+  mrpt::math::TPose2D map_T_robot;  ///< valid while tracking
+  bool fits = false;      ///< the scan fits the map there; false: the pose is only predicted by the motion
+  double response = 0;    ///< of the match, if the scan fits
+  double confidence = 0;  ///< share of the scan's points on the map's walls, if the scan fits
+  double moved_m = 0;     ///< since the previous scan
+  std::optional<FoundPlace> search;  ///< of the whole map, if this scan started one
 };
 
+/// Tracks a robot in a finished map, scan by scan, and finds it if it is lost.
 class Localizer {
  public:
-  Localizer(ReferenceMap map, const LocalizerOptions& options);
+  /// Opens a map file: map.yaml with its image, or map.gridmap.gz. Pass a Configuration as `options`. Throws
+  /// UserError if the file is unreadable, of another kind, rotated or without any wall.
+  static Localizer open(const std::filesystem::path& map, const LocalizerOptions& options);
 
-  /// Before the first scan: the robot is near there.
+  /// Prepares a grid map, for example one of draw_grid_map(). Pass a Configuration as `options`.
+  Localizer(const mrpt::maps::COccupancyGridMap2D& map, const LocalizerOptions& options);
+  /// Takes a prepared map, which several localizers can share.
+  Localizer(ReferenceMap map, const LocalizerOptions& options);
+  ~Localizer();
+  Localizer(const Localizer&) = delete;
+  Localizer& operator=(const Localizer&) = delete;
+
+  /// Tells where the robot starts, roughly. Call before the first scan.
   void start_at(const mrpt::math::TPose2D& map_T_robot);
 
-  /// The per-scan step.
+  /// Processes the next scan.
   LocalizationStep add(const Frame& frame);
 
  private:
-  bool tracking() const { return map_T_local_.has_value(); }
-  void track(const FrontEndStep& motion, LocalizationStep& step);
-  PosePrior prior_at(const mrpt::math::TPose2D& map_T_robot) const;
-  bool match_near(const FrontEndStep& motion, LocalizationStep& step) const;
-  void search(std::size_t frame, LocalizationStep& step);
-  void find_again();
-
-  LocalizerOptions options_;
-  GlobalSearch search_;
-  CorrelativeMatcher matcher_;
-  std::optional<FrontEnd> front_end_;
-  mrpt::math::TPose2D last_local_T_robot_;
-  std::optional<mrpt::math::TPose2D> map_T_local_;  ///< of the front end's frame; none while lost
-  bool near_told_start_ = false;                    ///< no scan has fitted since
-  double misfit_m_ = 0;                             ///< since the last scan that fitted
-  TimeUs fitted_us_ = 0;
-  TimeUs now_us_ = 0;
-
-  // While lost.
-  KeyframeStore memory_;  ///< of the way since the robot was lost
-  LoopConsensus consensus_;
-  PoseGraph map_frame_;  ///< its one node is the map: what the places found are seen from
+  struct Members;
+  std::unique_ptr<Members> m_;
 };
 
 }  // namespace psi_slam

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run from a log to a map: the engine that the headless app and the GUI both drive, scan by scan.
-//
-//     MappingSession session("my.log", settings);
-//     while (session.step()) {}              // or: session.run(stop)
-//     session.finish();
-//     session.export_to(OutputFolder::prepare("out", false));
-//
-// It holds neither windows nor signals: who drives it stops by not calling step() again, and finish() makes
-// a map of what was read until then.
+/// @file
+/// One run from a log to a map. psi-slam and psi-slam-gui both drive this class scan by scan.
+///
+///     psi_slam::Configuration configuration;
+///     psi_slam::MappingSession session("my.log", configuration);
+///     while (session.step()) {}              // or: session.run(stop)
+///     session.finish();
+///     session.export_to("out");
+///
+/// The class knows neither windows nor signals. To stop early, call finish() instead of step(): the map is
+/// then made of the scans that were read.
 #pragma once
 
 #include <atomic>
@@ -19,167 +21,149 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/frame_source.h"
 #include "psi_slam/mapper.h"
-#include "report/output_folder.h"
-#include "session/edit_journal.h"
-#include "session/session_input.h"
-#include "session/settings.h"
 
 namespace psi_slam {
 
+class Configuration;
+class EditJournal;
+class OutputFolder;
+class SessionInput;
+struct LoopEdit;
+struct RunInfo;
+struct RunStart;
+struct RunSummary;
+struct Settings;
+struct SkippedLines;
+struct TimedEdit;
+
+/// Progress of a session, for progress bars.
 struct SessionProgress {
+  /// Part of the work.
   enum class Phase {
-    kMapping,   ///< reading the log and mapping its scans
-    kFinalSearch,  ///< the last search for loops and the last optimisation
-    kWriting,   ///< drawing the map and writing all files
+    kMapping,      ///< reads the log and maps its scans
+    kFinalSearch,  ///< final loop search, last optimisation and final scan refinement
+    kWriting,      ///< draws the map and writes all files
   };
 
-  Phase phase = Phase::kMapping;
-  double share = 0;       ///< of the phase that is done, in [0, 1]; while mapping, of the log
-  std::size_t scans = 0;  ///< mapped so far
-  double scans_per_s = 0;
-  double elapsed_s = 0;               ///< of work, pauses left out
-  std::optional<double> remaining_s;  ///< of the phase, as far as it can be told
+  Phase phase = Phase::kMapping;      ///< present part of the work
+  double share = 0;                   ///< done of the phase, in [0, 1]; while mapping, of the log
+  std::size_t scans = 0;              ///< mapped so far
+  double scans_per_s = 0;             ///< average over elapsed_s
+  double elapsed_s = 0;               ///< time of work, without pauses between calls
+  std::optional<double> remaining_s;  ///< estimate for the phase; empty while share is 0
 };
 
-/// What a session file holds that was written.
+/// Content of a session file that was written.
 struct SavedSession {
-  std::size_t scans = 0;  ///< all that were recorded, where not all have been mapped again
-  std::string remark;     ///< what it lacks, a sentence without its full stop; empty: nothing
+  std::size_t scans = 0;  ///< all recorded scans, even if not all were mapped again
+  std::string remark;     ///< what the file lacks, a sentence without full stop; empty if nothing
 };
 
+/// Maps a log, a recorded session, or a recorded session and a log that continues it. A resumed session
+/// gives the same map, to the last bit, as a run without interruption, if the settings that shape the map
+/// are equal.
 class MappingSession {
  public:
+  /// Function that receives the progress.
   using Observer = std::function<void(const SessionProgress&)>;
 
-  /// Opens the log. Throws UserError when it cannot be read, and when settings contradict each other.
+  /// Opens a log. Throws UserError if it is unreadable or if settings contradict each other. warnings() holds
+  /// those of the configuration.
+  MappingSession(const std::filesystem::path& log, const Configuration& configuration);
+  /// Opens a log. Throws UserError if it is unreadable or if settings contradict each other.
   MappingSession(const std::filesystem::path& log, const Settings& settings);
-  /// The same of a recording, and what goes on behind it. The map is that of one run
-  /// that was never interrupted, to the last bit, where the settings that shape it are the recording's.
+  /// Opens a log or a recorded session. Throws UserError as the constructor for logs.
   MappingSession(const SessionInput& input, const Settings& settings);
   ~MappingSession();
   MappingSession(const MappingSession&) = delete;
   MappingSession& operator=(const MappingSession&) = delete;
 
-  /// Is told after every scan, at the beginning of every phase and now and then within, in the thread that
-  /// drives the session.
-  void set_observer(Observer observer) { observer_ = std::move(observer); }
+  /// Sets the function that is called after every scan, at the start of every phase and sometimes within a
+  /// phase, in the thread that drives the session.
+  void set_observer(Observer observer);
 
-  /// Maps the next scan. False at the end of the log, and where it breaks off: see broken_off(). Throws
-  /// UserError when it breaks off before the first scan.
+  /// Maps the next scan. Returns false at the end of the log and where the log is damaged (see broken_off()).
+  /// Throws UserError if the log is damaged before its first scan.
   bool step();
 
-  /// What is wrong with the log behind its last readable scan, as a sentence.
-  const std::optional<std::string>& broken_off() const { return broken_off_; }
-  /// Whether that log or one before it does.
+  /// Damage of the log after its last readable scan, as a sentence. Empty if there is none.
+  const std::optional<std::string>& broken_off() const;
+  /// Whether the current log or one before it is damaged.
   bool breaks_off() const;
-  /// What is missing of the logs before the last, now or when they were recorded, as sentences: where one
-  /// breaks off, and which was not read to its end.
+  /// What is missing of the logs before the current one, a sentence each: damage, or scans left unread.
   std::vector<std::string> warnings_of_logs_before() const;
-
-  /// What was left out of what the session has read.
+  /// Lines and scans that were skipped in all logs read so far.
   SkippedLines skipped_lines() const;
 
-  /// Edits that are made on the way, each at its time, besides those of the input. Call it before the
-  /// first step().
+  /// Adds edits, each made at its time, to those of the input. Call before the first step().
   void add_edits(const EditJournal& edits);
-
-  /// Changes a loop by hand, now. After finish(), which must have been told to stay open, the map is what it
-  /// was before, and finish() is to be called again.
+  /// Changes a loop by hand now. After finish(), which needs stay_open(), this reopens the map: call finish()
+  /// again.
   LoopEditOutcome edit(const LoopEdit& edit);
-
-  /// Edits that an edit made the journal forget are to be made again, each at its time; now where that has
-  /// passed.
+  /// Plans edits again that an edit removed from the journal. Edits whose time has passed are made now.
   void plan(const std::vector<TimedEdit>& edits);
-
-  /// How many, this one and those that were merged before.
-  std::size_t runs() const { return runs_.size() + 1; }
-
-  /// What was changed until now and what is to be changed later: with it, the same log and the same settings
-  /// give the same map.
-  const EditJournal& edits() const { return edits_; }
-
-  /// After finish(): the edits that could not be made, a sentence each.
+  /// All edits, made and planned. The same log, settings and edits give the same map.
+  const EditJournal& edits() const;
+  /// Edits that could not be made, a sentence each. Complete after finish().
   std::vector<std::string> unmet_edits() const;
-  /// What the user is to know of this run: damage of the log, and edits that were not made; a sentence each.
+
+  /// All warnings about this run, a sentence each: renamed settings, damaged logs, skipped lines and edits
+  /// that could not be made.
   std::vector<std::string> warnings() const;
 
-  /// After finish() edits are still taken. It costs memory.
-  void stay_open() { stays_open_ = true; }
-  bool finished() const { return finished_; }
-  /// Takes back finish(): it is to be called again.
+  /// Number of runs through the building: this one and those merged before.
+  std::size_t runs() const;
+
+  /// Keeps the mapper after finish(), so that edits, reopen() and begin_run() remain possible. Needs the
+  /// memory of a second graph.
+  void stay_open();
+  /// Whether finish() was called, and not undone since.
+  bool finished() const;
+  /// Undoes finish(), which must be called again. Needs stay_open().
   void reopen();
 
-  /// Ends the mapping. Once `stop` is true the last pass is cut short. The result is marked as interrupted,
-  /// by the user, when readable scans of the log were left unread or the last pass was cut short. Throws
-  /// UserError when no scan had a return.
+  /// Ends the mapping and makes result(). Sets result().interrupted if readable scans of the log were left
+  /// unread or if `stop` became true and cut the final search short. Throws UserError if no scan has a
+  /// return.
   void finish(const std::atomic<bool>& stop);
-  void finish() { finish(std::atomic<bool>(false)); }
+  /// Ends the mapping without a way to cut the final search short.
+  void finish();
 
-  /// Steps to the end of the log, or, from the first scan on, until `stop` is true; and finishes.
+  /// Maps at least one scan, continues to the end of the log or until `stop` is true, then calls finish().
   void run(const std::atomic<bool>& stop);
 
-  /// Goes on with another drive through the same building, which begins there: see place_run(). Needs
-  /// finish() and stay_open(); finish() is to be called again. Throws UserError when the drive cannot be
-  /// read.
-  void begin_run(const SessionInput& drive, const RunStart& start);
+  /// Continues the finished map with another run through the same building, which begins at `start` (see
+  /// place_run()). Needs stay_open(). Call finish() again. Throws UserError if the run's log is unreadable.
+  void begin_run(const SessionInput& run, const RunStart& start);
 
-  /// Draws the map and writes all results. Needs finish(); may be called again for another folder. Throws
-  /// SystemFailure when the disk does not take them. The figures returned are those of summary.json and
-  /// report.html; their times include all but the writing of these two.
+  /// Draws the map and writes all results. Needs finish(); may be called for several folders. Returns the
+  /// figures of summary.json and report.html; their times exclude the writing of these two files. Throws
+  /// SystemFailure if a file cannot be written.
   RunSummary export_to(const OutputFolder& folder);
+  /// Creates the folder and exports to it. Throws UserError if it is not empty, unless `force` is true.
+  void export_to(const std::filesystem::path& folder, bool force = false);
 
-  /// Writes what was mapped until now, with all edits and settings, as a session file: see SessionInput.
-  /// Where not all of a recording has been mapped yet, it is written whole nevertheless. Throws SystemFailure
-  /// when the disk does not take it.
+  /// Writes the mapped scans, all edits and settings to a session file. If only a part of a recorded session
+  /// was mapped again, all its recorded scans are written. Throws SystemFailure if the file cannot be
+  /// written.
   SavedSession save(const std::filesystem::path& file) const;
 
-  /// Until finish(), and when the session was opened again: the poses, the graph and the loops so far.
-  const Mapper& mapper() const { return *mapper_; }
+  /// Poses, graph and loops so far. Valid until finish(), and after it with stay_open().
+  const Mapper& mapper() const;
 
-  /// After finish().
-  const MappingResult& result() const { return result_; }
+  /// The finished map. Needs finish().
+  const MappingResult& result() const;
 
-  /// What the summary and the report say of the program, the log and the settings.
+  /// Program, log and settings, for the summary and the report.
   RunInfo run_info() const;
 
  private:
-  class WorkClock;
-  std::optional<Frame> read();
-  void make_due_edits(EditTime now);
-  void write_edits(const std::filesystem::path& file) const;
-  void begin_recorded_run();
-  SessionFacts facts() const;
-  /// Empty where it cannot be read any more.
-  std::string checksum_of_log() const;
-  void begin(SessionProgress::Phase phase);
-  void tell(double share) const;
+  MappingSession(const SessionInput& input, const Settings& settings,
+                 std::vector<std::string> settings_warnings);
 
-  std::shared_ptr<const SessionRecording> recording_;  // null: none
-  std::filesystem::path path_;                         // of the log that is read; empty: none
-  mutable std::string log_sha256_;                     // of that, once it was asked for
-  std::vector<RecordedLog> logs_;
-  std::vector<RecordedRun> runs_;
-  Settings settings_;
-  std::unique_ptr<FrameSource> source_;
-  std::unique_ptr<Mapper> mapper_;  // gone after finish() unless the session stays open
-  EditJournal edits_;
-  std::vector<std::string> edit_complaints_;
-  Observer observer_;
-  MappingResult result_;
-  std::optional<std::string> broken_off_;
-  StageClock reading_clock_{"read log"};
-  SessionProgress::Phase phase_ = SessionProgress::Phase::kMapping;
-  double phase_began_s_ = 0;  // of the work
-  double work_s_ = 0;         // as of now, pauses between calls left out
-  std::size_t scans_ = 0;
-  std::size_t stages_of_mapping_ = 0;  // in result_.stages; those of an export come behind
-  bool stays_open_ = false;
-  bool finished_ = false;
-  bool scans_left_ = false;  // readable ones of the last log, behind the last that was mapped
-  bool any_return_ = false;
-  bool at_end_ = false;
+  struct Members;
+  std::unique_ptr<Members> m_;
 };
 
 }  // namespace psi_slam

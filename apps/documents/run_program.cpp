@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_program.h"
+
+#include <new>
+#include <ostream>
+#include <string>
+
+#include "base/exit_code.h"
+#include "psi_slam/user_error.h"
+
+namespace psi_slam {
+
+int run_program(const CLI::App& app, std::ostream& out, std::ostream& err,
+                const std::function<int()>& work) noexcept {
+  const auto fail = [&](const std::string& sentence, int code) {
+    err << app.get_name() << ": " << sentence << '\n';
+    return code;
+  };
+  try {
+    const int code = work();
+    out.flush();
+    return out ? code : fail("cannot write to standard output", kExitFailed);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    app.exit(asked, out, err);
+    return kExitDone;
+  } catch (const CLI::ParseError& error) {
+    return fail(std::string(error.what()) + " (see " + app.get_name() + " --help)", kExitWrongUsageOrInput);
+  } catch (const UserError& error) {
+    return fail(error.what(), kExitWrongUsageOrInput);
+  } catch (const std::bad_alloc&) {
+    return fail("there is not enough memory", kExitFailed);
+  } catch (const std::exception& error) {
+    return fail(error.what(), kExitFailed);
+  }
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands of psi-slam that read logs. Each returns the exit code and throws UserError for invalid input.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "command_line.h"
+#include "interrupt_signals.h"
+#include "progress_line.h"
+#include "psi_slam/log_options.h"
+#include "psi_slam/mapping_session.h"
+#include "psi_slam_app.h"
+#include "report/output_folder.h"
+#include "session/session_recording.h"
+
+namespace psi_slam {
+
+/// psi-slam LOG: maps a log or resumes a session. The exit code is 2 if one of the logs is damaged.
+int map_log(const CommandLine& line, const Streams& streams);
+
+/// psi-slam merge: makes one map of several runs. Writes nothing if a run is unreadable or cannot be placed.
+int merge_runs(const CommandLine& line, const Streams& streams);
+
+/// psi-slam localize: finds and tracks a robot in a finished map. The exit code is 0 if the robot is
+/// localized at the end of the log, 1 if it is not, 2 if the log is damaged.
+int localize(const CommandLine& line, const Streams& streams);
+
+/// psi-slam check: prints what the log holds and what looks wrong, as sentences or as JSON. Returns the
+/// damage that ends the log early, a sentence; empty if the log is whole. Throws UserError if nothing of the
+/// log is readable.
+std::string check_log(const std::filesystem::path& log, const LogOptions& options, bool as_json,
+                      std::ostream& out);
+
+// Steps that map_log() and merge_runs() share.
+
+/// Throws UserError if the file of --save-session cannot be written, or if it exists without --force. A
+/// session that is resumed may be overwritten.
+void check_session_to_save(const CommandLine& line);
+
+/// Takes the settings of a recorded session, and prints a warning for each that is unknown.
+void load_recorded_settings(const CommandLine& line, const std::string& file, const SessionFacts& facts,
+                            BoundSettings& bound, const Streams& streams);
+
+/// Shows the session's progress if errors go to a terminal, and prints a message when it is interrupted.
+void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
+           const Streams& streams, std::optional<ProgressLine>& progress_line);
+
+/// Saves the finished session if --save-session is given, writes its results, and prints the summary and all
+/// warnings. Returns the exit code. If the session cannot be saved, the results are written before the
+/// exception is thrown.
+int save_and_export(MappingSession& session, const OutputFolder& folder, const CommandLine& line,
+                    const Streams& streams, std::optional<ProgressLine>& progress_line);
+
+}  // namespace psi_slam

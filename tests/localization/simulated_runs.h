@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs through simulated buildings with the true pose of each scan, and maps drawn at the true poses, in the
+// frame of the floor plan.
+#pragma once
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+
+#include <cmath>
+#include <vector>
+
+#include "localization/localizer_options.h"
+#include "localization/reference_map.h"
+#include "psi_slam/grid_map.h"
+#include "psi_slam/localizer.h"
+#include "simulation/simulated_log.h"
+
+namespace psi_slam {
+
+struct TrueRun {
+  std::vector<Frame> frames;
+  std::vector<mrpt::math::TPose2D> world_T_robot;  ///< by frame
+};
+
+/// `plan` is the seed of the building, `run` the seed of path and noise.
+inline TrueRun run_through(std::uint64_t plan, std::uint64_t run, double path_m) {
+  constexpr double kCorridors_m = 90;
+  SimulatedLogOptions options = simulated_log_options(path_m, run);
+  options.plan.seed = plan;
+  options.plan.corridors_m = kCorridors_m;
+  options.path.scan_rate_hz = 4;
+  SimulatedLog log(options);
+  TrueRun result;
+  while (std::optional<Frame> frame = log.next()) {
+    result.frames.push_back(*std::move(frame));
+    result.world_T_robot.push_back(log.world_T_robot());
+  }
+  return result;
+}
+
+inline mrpt::maps::COccupancyGridMap2D map_of(const TrueRun& run) {
+  return *draw_grid_map(run.frames, run.world_T_robot);
+}
+
+inline double distance_m(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+inline std::vector<LocalizationStep> localize(Localizer& localizer, const std::vector<Frame>& frames) {
+  std::vector<LocalizationStep> steps;
+  for (const Frame& frame : frames) steps.push_back(localizer.add(frame));
+  return steps;
+}
+
+inline ReferenceMap reference_of(const mrpt::maps::COccupancyGridMap2D& grid,
+                                 const LocalizerOptions& options = {}) {
+  return make_reference_map(grid, options.search.resolution_m, options.search.smoothing_sigma_m);
+}
+
+}  // namespace psi_slam

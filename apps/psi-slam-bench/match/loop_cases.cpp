@@ -124,7 +124,7 @@ void draw(const MappedLog& log, const CaseOptions& options, bool positive, std::
     loop_case.local_map = pair.local_map;
     loop_case.map = map.map;
     loop_case.scan = options.context ? std::make_shared<const ScanPoints>(scan_context(
-                                           pair.node, log.memory, log.options.loop_closure.context))
+                                           pair.node, log.memory, log.options.back_end.loop_closure.context))
                                      : log.memory.nodes[pair.node].points;
     loop_case.anchor_T_node = log.map_T_node[pair.node] - log.map_T_node[map.anchor];
     loop_case.seed = {options.seed, log.memory.nodes[pair.node].frame, map.id};

@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether this process is another rank than the first of those that a starter of MPI jobs has started.
+/// True if a launcher of MPI jobs started this process as a rank other than 0.
 bool is_started_as_later_rank() {
   for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
     if (const char* const rank = std::getenv(variable); rank != nullptr) return std::string(rank) != "0";
   return false;
 }
 
-/// What the program says of itself; nothing when it is asked for something else.
+/// The text of --help, --version or a document; empty for other arguments.
 std::optional<std::string> words_of_itself(const MpiProgram& program,
                                            const std::vector<std::string>& arguments) {
   CLI::App app;
@@ -35,7 +35,7 @@ std::optional<std::string> words_of_itself(const MpiProgram& program,
     std::ostringstream words;
     app.exit(asked, words, words);
     return words.str();
-  } catch (const std::exception&) {  // told when MPI runs, by one rank
+  } catch (const std::exception&) {  // reported by rank 0 when MPI runs
   }
   return std::nullopt;
 }
@@ -69,7 +69,8 @@ fs::path program_beside(const std::string& name, const std::string& own_name) {
   const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& program : {folder / name, folder.parent_path() / name / name})
     if (fs::is_regular_file(program)) return program;
-  throw UserError(name + ", which does the runs, is not beside " + (folder / own_name).string());
+  throw UserError(name + ", which makes the runs, was not found: expected it beside " +
+                  (folder / own_name).string());
 }
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the programs for clusters have in common: their main().
+// The main function of the programs for clusters.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,22 +16,22 @@ namespace psi_slam {
 
 struct MpiProgram {
   std::string name;
-  /// Parses the command line and does nothing else; what it is asked to say of itself (--help, --version,
-  /// documents) it throws as CLI::Success.
+  /// Parses the command line without running a command. Throws CLI::Success for --help, --version and
+  /// documents.
   std::function<void(CLI::App& app, const std::vector<std::string>& arguments)> parse;
-  /// Of rank 0. Throws CLI::ParseError and UserError for mistakes of the user.
+  /// The work of rank 0. Throws CLI::ParseError and UserError for mistakes of the user.
   std::function<int(const MpiWorld& world, const std::vector<std::string>& arguments, const Streams& streams)>
       run;
-  /// Of the other ranks.
+  /// The work of the other ranks.
   MakeOrder make;
 };
 
-/// Runs the program as one rank of a job, or alone; returns its exit code. What it says of itself needs no
-/// MPI, and one rank says it.
+/// Runs the program as one rank of a job, or alone, and returns its exit code. --help, --version and
+/// documents work without MPI and are printed by one rank.
 int run_mpi_program(int argc, char** argv, const MpiProgram& program);
 
-/// Another program of ours: installed beside this one, or in the same build. Throws UserError where it is
-/// not.
+/// Path of another program of psi-slam, installed beside this one or in the same build. Throws UserError if
+/// it does not exist.
 std::filesystem::path program_beside(const std::string& name, const std::string& own_name);
 
 }  // namespace psi_slam

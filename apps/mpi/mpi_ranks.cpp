@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mpi_ranks.h"
 
+#include <mpi.h>
+
+#include <chrono>
 #include <exception>
 #include <map>
+#include <thread>
 
 namespace psi_slam {
 namespace {
 
-/// Who makes which of the orders.
+constexpr std::chrono::milliseconds kBetweenLooks{10};
+
+/// The state of handing out: which rank carries out which order.
 class HandingOut {
  public:
-  HandingOut(const MpiWorld& world, const std::vector<std::string>& orders, const RankWatch& watch)
+  HandingOut(const MpiWorld& world, const std::vector<std::string>& orders,
+             const WorkWatch<std::string>& watch)
       : world_(world), orders_(orders), watch_(watch) {
     for (int rank = world.ranks() - 1; rank > 0; --rank) idle_.push_back(rank);
   }
@@ -48,24 +55,68 @@ class HandingOut {
     if (message.text.empty()) return;
     try {
       watch_.finished(order, message.text);
-    } catch (...) {  // the others are heard to their ends all the same
+    } catch (...) {  // wait for the other ranks first
       if (!failure_) failure_ = std::current_exception();
     }
   }
 
   const MpiWorld& world_;
   const std::vector<std::string>& orders_;
-  const RankWatch& watch_;
+  const WorkWatch<std::string>& watch_;
   std::vector<int> idle_;
-  std::map<int, std::size_t> busy_;  // orders by rank
-  std::size_t next_ = 0;             // the first order that nobody has
+  std::map<int, std::size_t> busy_;  // order by rank
+  std::size_t next_ = 0;             // the first order that is not handed out
   bool stopped_ = false;
-  std::exception_ptr failure_;  // the first of watch_.finished()
+  std::exception_ptr failure_;  // the first exception of watch_.finished()
 };
 
 }  // namespace
 
-void hand_out(const MpiWorld& world, const std::vector<std::string>& orders, const RankWatch& watch) {
+MpiWorld::MpiWorld(int& argc, char**& argv) {
+  MPI_Init(&argc, &argv);  // an error in MPI ends the job with a message of MPI
+}
+
+MpiWorld::~MpiWorld() {
+  MPI_Finalize();
+}
+
+int MpiWorld::rank() const {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+int MpiWorld::ranks() const {
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return ranks;
+}
+
+void MpiWorld::send(int rank, MessageKind kind, const std::string& text) const {
+  MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, rank, static_cast<int>(kind),
+           MPI_COMM_WORLD);
+}
+
+std::optional<Message> MpiWorld::receive() const {
+  int there = 0;
+  MPI_Status status{};
+  MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
+  if (there == 0) return std::nullopt;
+  int size = 0;
+  MPI_Get_count(&status, MPI_CHAR, &size);
+  Message message{status.MPI_SOURCE, static_cast<MessageKind>(status.MPI_TAG), std::string(size, '\0')};
+  MPI_Recv(message.text.data(), size, MPI_CHAR, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD, &status);
+  return message;
+}
+
+std::optional<Message> MpiWorld::wait() const {
+  std::optional<Message> message = receive();
+  if (!message) std::this_thread::sleep_for(kBetweenLooks);
+  return message;
+}
+
+void hand_out(const MpiWorld& world, const std::vector<std::string>& orders,
+              const WorkWatch<std::string>& watch) {
   HandingOut(world, orders, watch).run();
 }
 
@@ -74,7 +125,7 @@ void work_for_rank_0(const MpiWorld& world, const MakeOrder& make) {
     const std::optional<Message> message = world.wait();
     if (message && message->kind == MessageKind::kEnd) return;
     if (!message || message->kind != MessageKind::kOrder)
-      continue;  // told to stop when it had ended by itself
+      continue;  // a stop that came after the end of the order
     const std::optional<std::string> outcome = make(message->text, [&] {
       const std::optional<Message> other = world.receive();
       dismissed = dismissed || (other && other->kind == MessageKind::kEnd);

@@ -106,7 +106,8 @@ int map(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) 
   BoundSettings bound;
   load_graphslam_settings(line.setup.ini, bound);
   for (const std::string& warning : bound.table.take_warnings()) err << kName << ": " << warning << '\n';
-  GraphSlamRun run(line.setup, DeciderCatalogue());
+  const auto owned_run = make_graphslam_run(line.setup, DeciderCatalogue());
+  GraphSlamRun& run = *owned_run;
   map_and_write(run, line.setup, line.output.empty() ? general.output_dir_fname : line.output, line.force,
                 out, err);
   if (!run.interrupted()) run.wait_for_window();

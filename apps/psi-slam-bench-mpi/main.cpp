@@ -3,15 +3,15 @@
 //
 //     mpirun -n 9 psi-slam-bench-mpi freiburg --data DIR -o DIR [--seeds 10]...
 //
-// Ranks need a file system in common, with the logs, the settings and the folder under the same names.
+// All ranks need the logs, the settings and the output folder under the same paths.
 #include <algorithm>
 #include <iostream>
 
-#include "bench_command.h"
+#include "base/exit_code.h"
+#include "batch/child_process.h"
+#include "common/bench_command.h"
 #include "document_options.h"
 #include "mpi_program.h"
-#include "base/exit_code.h"
-#include "batch/child_workers.h"
 
 namespace psi_slam {
 namespace {
@@ -22,29 +22,24 @@ constexpr const char* kExamples =
     "  mpirun -n 9 psi-slam-bench-mpi freiburg --data benchmark-logs --seeds 10 -o out/freiburg\n";
 
 void define(CLI::App& app, const Streams& streams, const FreiburgWork& work) {
-  app.description("Maps the logs of the Freiburg benchmark on the ranks of an MPI job, and compares.");
+  app.description(
+      "Maps the logs of the Freiburg benchmark on the ranks of an MPI job and compares with other systems.");
   app.name(kName);
   add_freiburg_command(app, streams, work);
   app.require_subcommand(1);
-  app.set_version_flag("--version", std::string(kName) + " " PSI_SLAM_VERSION, "Print the version, and exit");
+  app.set_version_flag("--version", std::string(kName) + " " PSI_SLAM_VERSION, "Print the version and exit");
   app.footer(kExamples);
   add_document_options(app);
 }
 
-/// Where there is no other rank, rank 0 does the work itself.
+/// Rank 0 does the work itself if it is alone.
 ChildWorkers workers_of(const MpiWorld& world) {
-  if (world.ranks() == 1) return local_child_workers(1);
-  return [&world](const std::vector<ChildWords>& children, const ChildWatch& watch) {
-    std::vector<std::string> orders;
-    for (const ChildWords& words : children) orders.push_back(child_words_text(words));
-    hand_out(world, orders, {watch.stop, watch.working, [&](std::size_t child, const std::string& end) {
-                               watch.finished(child, read_child_end(end));
-                             }});
-  };
+  return world.ranks() == 1 ? local_child_workers(1) : rank_workers(world, child_words_text, read_child_end);
 }
 
 void take_words(CLI::App& app, const std::vector<std::string>& arguments) {
-  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+  app.parse(std::vector<std::string>(arguments.rbegin(),
+                                     arguments.rend()));  // CLI11 expects the last argument first
 }
 
 void parse(CLI::App& app, const std::vector<std::string>& arguments) {
@@ -61,16 +56,11 @@ int run(const MpiWorld& world, const std::vector<std::string>& arguments, const 
   return kExitDone;
 }
 
-std::optional<std::string> make(const std::string& order, const std::function<bool()>& stop) {
-  const std::optional<ChildEnd> end = run_to_end(read_child_words(order), stop);
-  if (!end) return std::nullopt;
-  return child_end_text(*end);
-}
-
 }  // namespace
 }  // namespace psi_slam
 
 int main(int argc, char** argv) {
   using namespace psi_slam;
-  return run_mpi_program(argc, argv, {kName, parse, run, make});
+  return run_mpi_program(argc, argv,
+                         {kName, parse, run, text_maker(read_child_words, run_to_end, child_end_text)});
 }

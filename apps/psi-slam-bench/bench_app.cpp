@@ -5,14 +5,14 @@
 #include <ostream>
 
 #include "base/exit_code.h"
-#include "bench_command.h"
+#include "common/bench_command.h"
 #include "document_options.h"
 #include "run_program.h"
 
 namespace psi_slam {
 
 int run_bench_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept {
-  CLI::App app("psi-slam-bench measures how good and how fast the parts of psi-slam are.", "psi-slam-bench");
+  CLI::App app("Measures accuracy and speed of psi-slam and of its parts.", "psi-slam-bench");
   return run_program(app, streams.out, streams.err, [&] {
     add_freiburg_command(app, streams);
     add_freiburg_run_command(app, streams);
@@ -21,9 +21,10 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_false_loops_command(app, streams);
     add_robustness_command(app, streams);
     app.require_subcommand(1);
-    app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version, and exit");
+    app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version and exit");
     add_document_options(app);
-    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+    app.parse(std::vector<std::string>(arguments.rbegin(),
+                                       arguments.rend()));  // CLI11 expects the last argument first
     return kExitDone;
   });
 }

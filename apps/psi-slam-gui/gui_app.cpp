@@ -9,22 +9,53 @@
 #include <wx/init.h>
 #include <wx/log.h>
 #include <wx/stdpaths.h>
+#include <CLI/CLI.hpp>
 
 #include <array>
 #include <exception>
 #include <ostream>
 
-#include "gui_command_line.h"
-#include "main_frame.h"
 #include "base/exit_code.h"
+#include "command_line.h"
+#include "document_options.h"
+#include "main_frame.h"
+#include "psi_slam/user_error.h"
 #include "run_program.h"
 
 namespace psi_slam {
 namespace {
 
+struct Arguments {
+  std::string log;                    ///< empty: opens none
+  std::string edits;                  ///< file of loop edits; empty: none
+  std::string config;                 ///< settings file; empty: the defaults
+  std::vector<std::string> settings;  ///< "section.key=value", in the order given
+};
+
+/// Reads the arguments with `app`. Throws CLI::ParseError for --help, --version and syntax errors, UserError
+/// for unknown arguments.
+Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
+  Arguments line;
+  app.add_option("LOG", line.log,
+                 "Log to open: an MRPT rawlog or a CARMEN log, plain or gzipped, a ROS bag, or a session")
+      ->type_name("");
+  app.add_option("--edits", line.edits, "File of loop edits, as saved with Edit > Save loop edits")
+      ->type_name("FILE");
+  add_settings_options(app, line.config, line.settings);
+  app.set_version_flag("--version", "psi-slam-gui " PSI_SLAM_VERSION, "Print the version and exit");
+  add_document_options(app, default_settings());
+  app.allow_extras();
+  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 wants reverse order
+  if (const std::vector<std::string> unknown = app.remaining(); !unknown.empty())
+    throw UserError(unknown_argument_text(unknown.front(), app, "psi-slam-gui"));
+  if (!line.edits.empty() && line.log.empty())
+    throw UserError("--edits needs a log: name the log that the edits belong to");
+  return line;
+}
+
 class GuiApp : public wxApp {
  public:
-  GuiApp(GuiCommandLine line, std::function<void(MainFrame&)> when_shown)
+  GuiApp(Arguments line, std::function<void(MainFrame&)> when_shown)
       : line_(std::move(line)), when_shown_(std::move(when_shown)) {
     SetAppName("psi-slam-gui");
     SetAppDisplayName("psi-slam");
@@ -33,7 +64,7 @@ class GuiApp : public wxApp {
   bool OnInit() override {
     wxInitAllImageHandlers();
     wxStandardPaths::Get().SetFileLayout(wxStandardPathsBase::FileLayout_XDG);
-    keep_choices();
+    open_preferences();
     auto* frame = new MainFrame();  // wx deletes it when it is closed
     frame->Show();
     frame->start(line_.log, line_.config, line_.settings, line_.edits);
@@ -41,38 +72,38 @@ class GuiApp : public wxApp {
     return true;
   }
 
-  /// What no command has told: the window goes on, with all that was mapped and edited.
+  /// Reports an exception that no command has caught. The window stays open, so that no work is lost.
   bool OnExceptionInMainLoop() override {
     auto* const frame = dynamic_cast<MainFrame*>(GetTopWindow());
     if (frame == nullptr) return wxApp::OnExceptionInMainLoop();
-    frame->tell_failure(std::current_exception());
+    frame->report_failure(std::current_exception());
     return true;
   }
 
-  // Arguments were read before there was any window.
+  // run_gui() has read the arguments.
   void OnInitCmdLine(wxCmdLineParser& parser) override { parser.SetCmdLine(wxString()); }
 
  private:
-  /// Recent files and the like go where the desktop keeps such things; without that place they are forgotten.
-  static void keep_choices() {
+  /// Keeps recent files and the layout in the desktop's folder for preferences, if there is one.
+  static void open_preferences() {
     const wxLogNull quiet;
     const wxString folder = wxStandardPaths::Get().GetUserConfigDir();
     wxFileName::Mkdir(folder, wxS_DIR_DEFAULT, wxPATH_MKDIR_FULL);
     wxConfigBase::Set(new wxFileConfig("psi-slam-gui", "", folder + "/psi-slam-gui.conf"));
   }
 
-  GuiCommandLine line_;
+  Arguments line_;
   std::function<void(MainFrame&)> when_shown_;
 };
 
-int run_window(const GuiCommandLine& line, std::ostream& err,
-               const std::function<void(MainFrame&)>& when_shown) {
+int run_window(const Arguments& line, std::ostream& err, const std::function<void(MainFrame&)>& when_shown) {
   wxApp::SetInstance(new GuiApp(line, when_shown));  // wx deletes it
   std::string name = "psi-slam-gui";
   std::array<char*, 2> argv{name.data(), nullptr};
   int argc = 1;
   if (!wxEntryStart(argc, argv.data())) {
-    err << "psi-slam-gui: there is no display to open a window on; psi-slam maps without one\n";
+    err << "psi-slam-gui: no display to open a window on. Set DISPLAY, or map without a window with "
+           "psi-slam\n";
     return kExitFailed;
   }
   int code = kExitFailed;
@@ -87,9 +118,9 @@ int run_window(const GuiCommandLine& line, std::ostream& err,
 
 int run_gui(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err,
             const std::function<void(MainFrame&)>& when_shown) {
-  CLI::App app("psi-slam-gui replays a log and shows the map being made.", "psi-slam-gui");
+  CLI::App app("psi-slam-gui replays a log and shows how the map is built.", "psi-slam-gui");
   return run_program(app, out, err, [&] {
-    const GuiCommandLine line = parse_gui_command_line(arguments, app);
+    const Arguments line = parse(arguments, app);
     BoundSettings bound;
     bound.load(line.config, line.settings);  // reports mistakes before the window opens
     for (const std::string& warning : bound.table.take_warnings()) err << "psi-slam-gui: " << warning << '\n';

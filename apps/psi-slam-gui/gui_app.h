@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam-gui: a window in which a log is replayed and the map is seen being made.
+// psi-slam-gui: replays a log in a window and shows how the map is built.
 //
 //     psi-slam-gui [LOG] [-c INI] [--set SECTION.KEY=VALUE]...
 #pragma once
@@ -13,10 +13,9 @@ namespace psi_slam {
 
 class MainFrame;
 
-/// Runs the program with its arguments (without its own name) until its window is closed. Returns the exit
-/// code: 0 done, 1 failed (there is no display), 2 wrong usage or input; wrong arguments are told before any
-/// window opens. `when_shown` is called from the event loop once the window is there: for tests that drive
-/// it.
+/// Runs the program until its window is closed. `arguments` do not include the program's name. Returns the
+/// exit code: 0 success, 1 failure (such as no display), 2 wrong usage or input. Wrong arguments are reported
+/// before a window opens. Tests use `when_shown`, which the event loop calls once the window is shown.
 int run_gui(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err,
             const std::function<void(MainFrame&)>& when_shown = {});
 

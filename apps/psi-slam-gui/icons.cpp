@@ -1,76 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "icons.h"
 
+#include <array>
 #include <string>
 
 namespace psi_slam {
 namespace {
 
 constexpr int kSide = 20;
+constexpr int kProgramSide = 64;
 
-/// The shapes on a ground of 20 x 20; INK stands for the colour.
-std::string shapes_of(Icon icon) {
-  const std::string line =
-      "fill=\"none\" stroke=\"INK\" stroke-width=\"1.8\" stroke-linecap=\"round\" "
-      "stroke-linejoin=\"round\"";
-  switch (icon) {
-    case Icon::kOpen:
-      return "<path d=\"M2.5 16V4.5H8l2 2.5h7.5v9z\" " + line + "/>";
-    case Icon::kPlay:
-      return "<path d=\"M5 3l12 7-12 7z\" fill=\"INK\"/>";
-    case Icon::kPause:
-      return "<path d=\"M4.5 3h4v14h-4zM11.5 3h4v14h-4z\" fill=\"INK\"/>";
-    case Icon::kStep:
-      return "<path d=\"M4 3l9 7-9 7zM14 3h2.5v14H14z\" fill=\"INK\"/>";
-    case Icon::kFinish:
-      return "<path d=\"M5 18V2.5M5 3h11l-3 4 3 4H5\" " + line + "/>";
-    case Icon::kExport:
-      return "<path d=\"M10 2.5v9.5M6 8.5l4 4 4-4M3 13v4h14v-4\" " + line + "/>";
-    case Icon::kRestart:
-      return "<path d=\"M15.5 6.5A6.5 6.5 0 1 0 16.5 11M16.5 2.5v4.5h-4.5\" " + line + "/>";
-    case Icon::kFit:
-      return "<path d=\"M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4M8 8h4v4H8z\" " + line + "/>";
-    case Icon::kTop:
-      return "<path d=\"M3 13l7-4 7 4-7 4zM10 1.5V7M8 5l2 2.2L12 5\" " + line + "/>";
-    case Icon::kFollow:
-      return "<path d=\"M10 2l6 15-6-4-6 4z\" " + line + "/>";
-    case Icon::kMeasure:
-      return "<path d=\"M2.5 13.5l11-11 4 4-11 11zM5.5 10.5l2 2M8.5 7.5l2 2M11.5 4.5l2 2\" " + line + "/>";
-    case Icon::kNote:
-      return "<circle cx=\"10\" cy=\"10\" r=\"7.5\" " + line + "/><path d=\"M10 9v5M10 6.2v.1\" " + line +
-             "/>";
-    case Icon::kWarning:
-      return "<path d=\"M10 2.5l8 14.5H2zM10 8v4.5M10 14.8v.1\" " + line + "/>";
-    case Icon::kError:
-      return "<circle cx=\"10\" cy=\"10\" r=\"7.5\" " + line + "/><path d=\"M7 7l6 6M13 7l-6 6\" " + line +
-             "/>";
-    case Icon::kClose:
-      return "<path d=\"M5.5 5.5l9 9M14.5 5.5l-9 9\" " + line + "/>";
-  }
-  return "";
+/// Shapes of each Icon on a ground of 20 x 20. INK is replaced by the colour, LINE by a style for strokes.
+constexpr std::array<const char*, 15> kShapes{
+    R"(<path d="M2.5 16V4.5H8l2 2.5h7.5v9z" LINE/>)",
+    R"(<path d="M5 3l12 7-12 7z" fill="INK"/>)",
+    R"(<path d="M4.5 3h4v14h-4zM11.5 3h4v14h-4z" fill="INK"/>)",
+    R"(<path d="M4 3l9 7-9 7zM14 3h2.5v14H14z" fill="INK"/>)",
+    R"(<path d="M5 18V2.5M5 3h11l-3 4 3 4H5" LINE/>)",
+    R"(<path d="M10 2.5v9.5M6 8.5l4 4 4-4M3 13v4h14v-4" LINE/>)",
+    R"(<path d="M15.5 6.5A6.5 6.5 0 1 0 16.5 11M16.5 2.5v4.5h-4.5" LINE/>)",
+    R"(<path d="M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4M8 8h4v4H8z" LINE/>)",
+    R"(<path d="M3 13l7-4 7 4-7 4zM10 1.5V7M8 5l2 2.2L12 5" LINE/>)",
+    R"(<path d="M10 2l6 15-6-4-6 4z" LINE/>)",
+    R"(<path d="M2.5 13.5l11-11 4 4-11 11zM5.5 10.5l2 2M8.5 7.5l2 2M11.5 4.5l2 2" LINE/>)",
+    R"(<circle cx="10" cy="10" r="7.5" LINE/><path d="M10 9v5M10 6.2v.1" LINE/>)",
+    R"(<path d="M10 2.5l8 14.5H2zM10 8v4.5M10 14.8v.1" LINE/>)",
+    R"(<circle cx="10" cy="10" r="7.5" LINE/><path d="M7 7l6 6M13 7l-6 6" LINE/>)",
+    R"(<path d="M5.5 5.5l9 9M14.5 5.5l-9 9" LINE/>)"};
+
+void replace_all(std::string& text, const std::string& what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at))
+    text.replace(at, what.size(), by);
 }
 
 wxBitmapBundle bundle_of(const std::string& shapes, const std::string& ink, int side) {
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 20 20\">" + shapes + "</svg>";
-  const std::string placeholder = "INK";
-  for (std::size_t at = svg.find(placeholder); at != std::string::npos; at = svg.find(placeholder, at))
-    svg.replace(at, placeholder.size(), ink);
+  std::string svg = R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 20">)" + shapes + "</svg>";
+  replace_all(
+      svg, "LINE",
+      R"(fill="none" stroke="INK" stroke-width="1.8" stroke-linecap="round" stroke-linejoin="round")");
+  replace_all(svg, "INK", ink);
   return wxBitmapBundle::FromSVG(svg.c_str(), wxSize(side, side));
 }
 
 }  // namespace
 
 wxBitmapBundle icon_of(Icon icon, const wxColour& colour) {
-  return bundle_of(shapes_of(icon), colour.GetAsString(wxC2S_HTML_SYNTAX).utf8_string(), kSide);
+  return bundle_of(kShapes.at(static_cast<std::size_t>(icon)),
+                   colour.GetAsString(wxC2S_HTML_SYNTAX).utf8_string(), kSide);
 }
 
 wxBitmapBundle program_icon() {
-  constexpr int kIconSide = 64;
-  return bundle_of(
-      "<rect x=\"0.5\" y=\"0.5\" width=\"19\" height=\"19\" rx=\"4\" fill=\"INK\"/>"
-      "<path d=\"M5 4.5v3.2c0 2.9 2 4.3 5 4.3s5-1.4 5-4.3V4.5M10 3.5v13\" fill=\"none\" "
-      "stroke=\"#ffffff\" stroke-width=\"2\" stroke-linecap=\"round\"/>",
-      "#1f61ab", kIconSide);
+  return bundle_of(R"(<rect x="0.5" y="0.5" width="19" height="19" rx="4" fill="INK"/>)"
+                   R"(<path d="M5 4.5v3.2c0 2.9 2 4.3 5 4.3s5-1.4 5-4.3V4.5M10 3.5v13" fill="none" )"
+                   R"(stroke="#ffffff" stroke-width="2" stroke-linecap="round"/>)",
+                   "#1f61ab", kProgramSide);
 }
 
 }  // namespace psi_slam

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program's own icons, drawn as lines and shapes: sharp at every scaling, whatever icon theme is
-// installed.
+// Icons of the program as vector graphics: sharp at every scaling and independent of icon themes.
 #pragma once
 
 #include <wx/bmpbndl.h>
@@ -23,13 +22,13 @@ enum class Icon {
   kNote,
   kWarning,
   kError,
-  kClose
+  kClose,
 };
 
-/// 20 pixels a side at 100 %.
+/// An icon of 20 x 20 pixels at 100 % scaling.
 wxBitmapBundle icon_of(Icon icon, const wxColour& colour);
 
-/// Of windows and the About box.
+/// The icon of windows and of the About box.
 wxBitmapBundle program_icon();
 
 }  // namespace psi_slam

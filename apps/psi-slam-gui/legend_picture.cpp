@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "legend_picture.h"
 
+#include <mrpt/gui/WxUtils.h>
 #include <wx/bitmap.h>
 #include <wx/dcmemory.h>
 #include <wx/graphics.h>
@@ -15,7 +16,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr double kMargin = 7;  // in pixels of a desktop that is not scaled
+constexpr double kMargin = 7;  // sizes in pixels at 100 % scaling
 constexpr double kStroke = 18;
 constexpr double kStrokeWidth = 3;
 constexpr double kGap = 6;
@@ -64,18 +65,6 @@ wxSize size_for(wxGraphicsContext& context, const LoopLegend& legend, const wxFo
           static_cast<int>(std::ceil(all.height + 2 * kMargin))};
 }
 
-mrpt::img::CImage image_of(const wxImage& from) {
-  mrpt::img::CImage image(static_cast<unsigned>(from.GetWidth()), static_cast<unsigned>(from.GetHeight()),
-                          mrpt::img::CH_RGB);
-  const unsigned char* pixel = from.GetData();
-  for (unsigned row = 0; row < image.getHeight(); ++row) {
-    auto* to = image.ptrLine<std::uint8_t>(row);
-    for (unsigned column = 0; column < image.getWidth(); ++column, to += 3, pixel += 3)
-      std::reverse_copy(pixel, pixel + 3, to);
-  }
-  return image;
-}
-
 }  // namespace
 
 mrpt::img::CImage legend_picture(const LoopLegend& legend, const wxWindow& window) {
@@ -93,7 +82,7 @@ mrpt::img::CImage legend_picture(const LoopLegend& legend, const wxWindow& windo
     context->Scale(scale, scale);
     draw(*context, legend, font, size);
   }
-  return image_of(bitmap.ConvertToImage());
+  return *mrpt::gui::wxImage2MRPTImagePtr(bitmap.ConvertToImage());
 }
 
 }  // namespace psi_slam

@@ -8,8 +8,8 @@
 
 namespace psi_slam {
 
-/// A box with a coloured stroke and a name for each entry, in the window's font and pixels; empty without
-/// entries.
+/// Draws the legend as a box with a coloured stroke and a name for each entry, in the window's font and
+/// scaling. Returns an empty picture if there are no entries.
 mrpt::img::CImage legend_picture(const LoopLegend& legend, const wxWindow& window);
 
 }  // namespace psi_slam

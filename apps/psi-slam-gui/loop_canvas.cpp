@@ -17,10 +17,11 @@
 namespace psi_slam {
 namespace {
 
-constexpr double kAround_m = 1.5;    // of the local map, around the scan
-constexpr std::size_t kFarOut = 12;  // one of so many points on either side may lie outside the picture
+constexpr double kAround_m = 1.5;  // margin around the scan
+// At each side, one of this many points may lie outside the picture.
+constexpr std::size_t kPointsPerOutlier = 12;
 
-/// What of the ground is drawn, and how large.
+/// Maps the ground to pixels.
 struct Frame2D {
   double x_min_m = 0;
   double y_max_m = 0;
@@ -32,15 +33,15 @@ struct Frame2D {
   double y(double y_m) const { return top_px + (y_max_m - y_m) * px_per_m; }
 };
 
-/// The least and the largest of the values, but for the few that lie far out.
-std::pair<double, double> bulk(std::vector<double> values) {
+/// The range of the values without the outliers at both ends.
+std::pair<double, double> range_without_outliers(std::vector<double> values) {
   if (values.empty()) return {0, 0};
   std::sort(values.begin(), values.end());
-  const std::size_t out = values.size() / kFarOut;
+  const std::size_t out = values.size() / kPointsPerOutlier;
   return {values[out], values[values.size() - 1 - out]};
 }
 
-/// Both scans with some ground around them, in the middle of the area.
+/// Fits both scans and a margin into the middle of the area.
 Frame2D frame_for(const LoopPicture& picture, const wxRect& area) {
   std::vector<double> x_m;
   std::vector<double> y_m;
@@ -49,8 +50,8 @@ Frame2D frame_for(const LoopPicture& picture, const wxRect& area) {
       x_m.push_back(point.x);
       y_m.push_back(point.y);
     }
-  const auto [x_min, x_max] = bulk(std::move(x_m));
-  const auto [y_min, y_max] = bulk(std::move(y_m));
+  const auto [x_min, x_max] = range_without_outliers(std::move(x_m));
+  const auto [y_min, y_max] = range_without_outliers(std::move(y_m));
   const double width_m = x_max - x_min + 2 * kAround_m;
   const double height_m = y_max - y_min + 2 * kAround_m;
   Frame2D frame;
@@ -97,7 +98,7 @@ void LoopCanvas::paint() {
   if (!picture_) {
     dc.SetFont(GetFont());
     dc.SetTextForeground(wxSystemSettings::GetColour(wxSYS_COLOUR_GRAYTEXT));
-    dc.DrawLabel("Select a loop in the table\nto see its scan on the local map", wxRect(size),
+    dc.DrawLabel("Select a loop in the table\nto see its scan on its local map", wxRect(size),
                  wxALIGN_CENTRE);
     return;
   }

@@ -12,12 +12,12 @@ class wxGraphicsContext;
 
 namespace psi_slam {
 
-/// The scan of a loop over its local map, as predicted and as matched, side by side.
+/// Picture of a loop: its scan on its local map at the predicted pose (left) and at the matched pose (right).
 class LoopCanvas : public wxPanel {
  public:
   explicit LoopCanvas(wxWindow* parent);
 
-  /// None: says what to do to see something.
+  /// Shows a picture; without one, shows a hint.
   void show(std::optional<LoopPicture> picture);
   bool empty() const { return !picture_; }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop_inspector.h"
 
+#include <wx/button.h>
 #include <wx/choice.h>
+#include <wx/menu.h>
 #include <wx/sizer.h>
 #include <wx/splitter.h>
 #include <wx/stattext.h>
@@ -10,23 +12,24 @@
 #include <array>
 #include <utility>
 
-#include "loop_actions.h"
 #include "loop_canvas.h"
-#include "exports/verdict_text.h"
+#include "main_menu.h"
+#include "psi_slam/loop_record.h"
 #include "view/palette.h"
 #include "wx_text.h"
 
 namespace psi_slam {
 namespace {
 
-/// The widest text that is usual in each column.
+/// The widest usual text of each column.
 constexpr std::array<const char*, LoopTable::kColumns> kWidest{
-    "00000", "0000", "000", "csm_ga, last pass", "0.000", "0.000", "00.00", "0.000", "switched off", ""};
+    "00000", "0000", "000", "csm_ga, final search", "0.000", "0.000", "00.00", "0.000", "switched off", ""};
 constexpr int kNarrowestReason = 150;
 constexpr int kPictureWidth = 330;
 constexpr int kScrollBar = 16;
-constexpr int kCellMargin = 14;  // of a cell beside its text
-constexpr const char* kNothingSelected = "Select a loop to see its scan on the local map.";
+constexpr int kCellMargin = 14;    // added to the width of a text
+constexpr int kButtonMargin = 14;  // added to the best width of a button
+constexpr const char* kNothingSelected = "Select a loop to see its scan on its local map.";
 
 }  // namespace
 
@@ -82,23 +85,27 @@ wxListItemAttr* LoopList::OnGetItemAttr(long row) const {
   return &attribute_;
 }
 
-LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<std::size_t>)> chosen)
-    : wxPanel(parent), told_chosen_(std::move(chosen)) {
+LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<std::size_t>)> on_chosen)
+    : wxPanel(parent), on_chosen_(std::move(on_chosen)) {
   const int gap = FromDIP(4);
   filter_ = new wxChoice(this, wxID_ANY);
   filter_->Append("All");
   for (const LoopVerdict verdict : kLoopVerdicts)
     filter_->Append(wxString(verdict_text(verdict)).Capitalize());
   filter_->SetSelection(0);
-  filter_->SetToolTip("Which loops are listed");
+  filter_->SetToolTip("List only loops with this verdict");
   filter_->Bind(wxEVT_CHOICE, [this](wxCommandEvent&) { filter(); });
   summary_ = new wxStaticText(this, wxID_ANY, "", wxDefaultPosition, wxDefaultSize,
                               wxST_NO_AUTORESIZE | wxST_ELLIPSIZE_END);
-  actions_ = new LoopActions(this);
   auto* row = new wxBoxSizer(wxHORIZONTAL);
   row->Add(filter_, 0, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
   row->Add(summary_, 1, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
-  row->Add(actions_, 0, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
+  add_action(*row, kDeleteLoop, "Delete", "Remove the selected loop from the graph (Delete)");
+  add_action(*row, kForceLoop, "Force", "Put the selected loop into the graph and never switch it off");
+  add_action(*row, kMatchLoop, "Match again", "Match the selected scan and local map with another matcher");
+  add_action(*row, kRestoreLoop, "Restore", "Undo all edits of the selected loop");
+  add_action(*row, kAddLoop, "Add…", "Add a loop by two clicks on the same object in the map (L)");
+  row->AddSpacer(gap);
 
   splitter_ = new wxSplitterWindow(this, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxSP_LIVE_UPDATE);
   list_ = new LoopList(splitter_);
@@ -122,6 +129,28 @@ LoopInspector::LoopInspector(wxWindow* parent, std::function<void(std::optional<
   show_nothing();
 }
 
+void LoopInspector::add_action(wxSizer& row, int command, const char* label, const char* tip) {
+  auto* const button =
+      new wxButton(this, command, wxString::FromUTF8(label), wxDefaultPosition, wxDefaultSize, wxBU_EXACTFIT);
+  button->SetMinSize(wxSize(button->GetBestSize().GetWidth() + FromDIP(kButtonMargin), -1));
+  button->SetToolTip(tip);
+  button->Bind(wxEVT_BUTTON, [this, command, button](wxCommandEvent&) {
+    if (command != kMatchLoop) return choose_command(*this, command);
+    wxMenu menu;
+    for (std::size_t i = 0; i < kMatcherChoices.size(); ++i)
+      menu.Append(kMatchLoopBy + static_cast<int>(i), kMatcherChoices[i].title);
+    const int chosen = GetPopupMenuSelectionFromUser(menu, button->GetPosition());
+    if (chosen != wxID_NONE) choose_command(*this, chosen);
+  });
+  row.Add(button, 0, wxALIGN_CENTRE_VERTICAL | wxLEFT, FromDIP(3));
+  actions_.push_back(button);
+}
+
+void LoopInspector::enable_action(int command, bool enabled) {
+  for (wxButton* button : actions_)
+    if (button->GetId() == command && button->IsEnabled() != enabled) button->Enable(enabled);
+}
+
 void LoopInspector::show(const std::shared_ptr<const ReplaySnapshot>& snapshot) {
   const bool same_loops = snapshot_ && snapshot_->loops == snapshot->loops;
   snapshot_ = snapshot;
@@ -129,7 +158,7 @@ void LoopInspector::show(const std::shared_ptr<const ReplaySnapshot>& snapshot) 
   if (list_->table.show(snapshot)) refresh_rows();
 }
 
-/// Keeps to the loop that was chosen, wherever it is listed now, and however it was matched anew.
+/// Finds the selected loop again after the loops have changed, and shows its picture if it has changed.
 void LoopInspector::find_chosen() {
   if (!chosen_) return;
   const std::vector<LoopRecord>& loops = *snapshot_->loops;
@@ -143,7 +172,7 @@ void LoopInspector::find_chosen() {
     const auto found = std::find_if(loops.rbegin(), loops.rend(), is_chosen);
     selected_.reset();
     if (found != loops.rend()) selected_ = static_cast<std::size_t>(loops.rend() - found) - 1;
-    lost_sight_ = selected_.has_value();
+    scroll_to_selected_ = selected_.has_value();
   }
   if (!selected_) return;
   chosen_ = loops[*selected_];
@@ -162,7 +191,7 @@ void LoopInspector::choose(std::optional<std::size_t> loop) {
   canvas_->show(loop && snapshot_ ? loop_picture(*snapshot_, *loop) : std::nullopt);
   show_picture(loop.has_value());
   describe();
-  told_chosen_(loop);
+  on_chosen_(loop);
 }
 
 void LoopInspector::show_picture(bool shown) {
@@ -176,7 +205,7 @@ void LoopInspector::show_picture(bool shown) {
 void LoopInspector::describe() {
   const bool known = selected_ && snapshot_ && *selected_ < snapshot_->loops->size();
   const wxString text =
-      known ? text_of(loop_words((*snapshot_->loops)[*selected_])) : wxString(kNothingSelected);
+      known ? text_of(describe_loop((*snapshot_->loops)[*selected_])) : wxString(kNothingSelected);
   if (details_->GetLabel() == text) return;
   details_->SetLabel(text);
   details_->SetToolTip(text);
@@ -209,19 +238,19 @@ void LoopInspector::filter() {
   refresh_rows();
 }
 
-/// The selection stays with its loop, wherever that is now, and in sight if it was.
+/// Updates the rows. The same loop stays selected, and stays visible if it was.
 void LoopInspector::refresh_rows() {
   selecting_ = true;
   const long before = list_->GetNextItem(-1, wxLIST_NEXT_ALL, wxLIST_STATE_SELECTED);
   const long top = list_->GetTopItem();
-  const bool in_sight = before >= top && before < top + list_->GetCountPerPage();
+  const bool visible = before >= top && before < top + list_->GetCountPerPage();
   list_->SetItemCount(static_cast<long>(list_->table.rows()));
   const auto row = selected_ ? list_->table.row_of(*selected_) : std::nullopt;
   const bool still_listed = before >= 0 && before < list_->GetItemCount();
   if (still_listed && (!row || before != static_cast<long>(*row)))
     list_->SetItemState(before, 0, wxLIST_STATE_SELECTED);
   if (row) list_->SetItemState(static_cast<long>(*row), wxLIST_STATE_SELECTED, wxLIST_STATE_SELECTED);
-  if (row && (std::exchange(lost_sight_, false) || (in_sight && before != static_cast<long>(*row))))
+  if (row && (std::exchange(scroll_to_selected_, false) || (visible && before != static_cast<long>(*row))))
     list_->EnsureVisible(static_cast<long>(*row));
   selecting_ = false;
   list_->Refresh();

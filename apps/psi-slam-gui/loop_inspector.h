@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every match that loop closing made, in a table; the one selected in words below it, and as a picture that
-// takes its room from the table only then. What can be done with it stands above.
 #pragma once
 
 #include <wx/listctrl.h>
@@ -10,52 +8,58 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "loop_table.h"
 
+class wxButton;
 class wxChoice;
+class wxSizer;
 class wxSplitterWindow;
 class wxStaticText;
 
 namespace psi_slam {
 
-class LoopActions;
 class LoopCanvas;
 
-/// The table itself: rows are asked for as they come into sight.
+/// The list control of the loops. It asks the table for rows as they become visible.
 class LoopList : public wxListCtrl {
  public:
   explicit LoopList(wxWindow* parent);
   LoopTable table;
 
  private:
-  /// The last column takes what the others leave.
+  /// Gives the last column the width that the others leave.
   void fit_columns();
-  /// All of a text that its column cuts off.
+  /// Shows a reason as a tooltip if its column cuts it off.
   void show_tip(wxMouseEvent& event);
   wxString OnGetItemText(long row, long column) const override;
   wxListItemAttr* OnGetItemAttr(long row) const override;
   mutable wxListItemAttr attribute_;
 };
 
+/// Table of all matches that loop closing tried, with buttons for edits above it. The selected match is
+/// described below the table and shown as a picture beside it.
 class LoopInspector : public wxPanel {
  public:
-  /// `chosen` is told the index in ReplaySnapshot::loops, or none.
-  LoopInspector(wxWindow* parent, std::function<void(std::optional<std::size_t>)> chosen);
+  /// Calls `on_chosen` with the index of the selected loop in ReplaySnapshot::loops, or with nothing.
+  LoopInspector(wxWindow* parent, std::function<void(std::optional<std::size_t>)> on_chosen);
 
   void show(const std::shared_ptr<const ReplaySnapshot>& snapshot);
   void show_nothing();
   void select(std::optional<std::size_t> loop);
   std::optional<std::size_t> selected() const { return selected_; }
+  /// Enables or disables the button of a command of the Edit menu.
+  void enable_action(int command, bool enabled);
 
   const LoopTable& table() const { return list_->table; }
   const LoopList& list() const { return *list_; }
   const LoopCanvas& canvas() const { return *canvas_; }
-  /// What is said of the loop selected.
+  /// The text below the table about the selected loop.
   std::string details() const;
-  LoopActions& actions() { return *actions_; }
 
  private:
+  void add_action(wxSizer& row, int command, const char* label, const char* tip);
   void choose(std::optional<std::size_t> loop);
   void sort(int column);
   void filter();
@@ -64,14 +68,14 @@ class LoopInspector : public wxPanel {
   void describe();
   void show_picture(bool shown);
 
-  std::function<void(std::optional<std::size_t>)> told_chosen_;
+  std::function<void(std::optional<std::size_t>)> on_chosen_;
   std::shared_ptr<const ReplaySnapshot> snapshot_;
   std::optional<std::size_t> selected_;
   bool selecting_ = false;
-  bool lost_sight_ = false;  ///< the selected loop is listed elsewhere now
-  /// The scan and the local map selected: the loops' numbers may change when loops are edited.
+  bool scroll_to_selected_ = false;
+  /// The selected loop. Identifies it after edits, which change the indices of loops.
   std::optional<LoopRecord> chosen_;
-  LoopActions* actions_;
+  std::vector<wxButton*> actions_;
   wxChoice* filter_;
   wxStaticText* summary_;
   wxStaticText* details_;

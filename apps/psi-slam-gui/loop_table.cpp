@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "base/number_text.h"
-#include "exports/verdict_text.h"
-#include "view/loop_residual.h"
+#include "psi_slam/loop_record.h"
+#include "view/loop_picture.h"
 
 namespace psi_slam {
 namespace {
@@ -17,10 +18,10 @@ constexpr std::array<const char*, LoopTable::kColumns> kTitles{
 
 }  // namespace
 
-std::string loop_words(const LoopRecord& loop) {
+std::string describe_loop(const LoopRecord& loop) {
   const std::string words = "Node " + std::to_string(loop.node) + " on local map " +
                             std::to_string(loop.local_map) + ", " + verdict_text(loop.verdict);
-  return loop.reason.empty() ? words : words + ": " + loop.reason;
+  return loop.refusal ? words + ": " + text_of(loop.refusal) : words;
 }
 
 const char* LoopTable::title(std::size_t column) {
@@ -46,49 +47,53 @@ void LoopTable::sort_by(std::size_t column, bool ascending) {
   arrange();
 }
 
-std::optional<double> LoopTable::residual_m(const LoopRecord& loop) const {
-  if (loop.verdict != LoopVerdict::kAccepted && loop.verdict != LoopVerdict::kSwitchedOff)
-    return std::nullopt;
-  return loop_residual(loop, *snapshot_->map_T_node).distance_m;
+LoopTable::Cell LoopTable::cell(const LoopRecord& loop, std::size_t column) const {
+  const auto number = [](double value, int decimals) { return Cell{value, fixed_text(value, decimals)}; };
+  switch (column) {
+    case kFrame:
+      return number(static_cast<double>(loop.frame), 0);
+    case kNode:
+      return number(static_cast<double>(loop.node), 0);
+    case kLocalMap:
+      return number(static_cast<double>(loop.local_map), 0);
+    case kMatcher:
+      return {0, name(loop.matcher) + std::string(loop.by_hand           ? ", by hand"
+                                                  : loop.in_final_search ? ", final search"
+                                                                         : "")};
+    case kResponse:
+      return number(loop.response, 3);
+    case kAmbiguity:
+      return number(loop.ambiguity, 3);
+    case kMoved:
+      return number(loop.moved_m, 2);
+    case kResidual:
+      if (loop.verdict == LoopVerdict::kAccepted || loop.verdict == LoopVerdict::kSwitchedOff)
+        return number(loop_residual(loop, *snapshot_->map_T_node).distance_m, 3);
+      return {std::numeric_limits<double>::infinity() * (ascending_ ? 1 : -1), ""};  // listed last
+    case kVerdict:
+      return {0, verdict_text(loop.verdict)};
+    case kReason:
+      return {0, text_of(loop.refusal)};
+    default:
+      return {};
+  }
 }
 
 void LoopTable::arrange() {
   order_.clear();
   if (!snapshot_) return;
   const std::vector<LoopRecord>& loops = *snapshot_->loops;
-  for (std::size_t i = 0; i < loops.size(); ++i)
-    if (!filter_ || loops[i].verdict == *filter_) order_.push_back(i);
-  const auto sort = [&](const auto& key) {
-    std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-      return ascending_ ? key(loops[a]) < key(loops[b]) : key(loops[b]) < key(loops[a]);
-    });
-  };
-  switch (column_) {
-    case kFrame:
-      return sort([](const LoopRecord& loop) { return loop.frame; });
-    case kNode:
-      return sort([](const LoopRecord& loop) { return loop.node; });
-    case kLocalMap:
-      return sort([](const LoopRecord& loop) { return loop.local_map; });
-    case kMatcher:
-      return sort([](const LoopRecord& loop) -> const std::string& { return loop.matcher; });
-    case kResponse:
-      return sort([](const LoopRecord& loop) { return loop.response; });
-    case kAmbiguity:
-      return sort([](const LoopRecord& loop) { return loop.ambiguity; });
-    case kMoved:
-      return sort([](const LoopRecord& loop) { return loop.moved_m; });
-    case kResidual: {
-      const double last = std::numeric_limits<double>::infinity() * (ascending_ ? 1 : -1);
-      return sort([&](const LoopRecord& loop) { return residual_m(loop).value_or(last); });
-    }
-    case kVerdict:
-      return sort([](const LoopRecord& loop) { return std::string(verdict_text(loop.verdict)); });
-    case kReason:
-      return sort([](const LoopRecord& loop) -> const std::string& { return loop.reason; });
-    default:
-      return;
+  std::vector<Cell> keys(loops.size());
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (filter_ && loops[i].verdict != *filter_) continue;
+    order_.push_back(i);
+    keys[i] = cell(loops[i], column_);
   }
+  const auto before = [&](std::size_t a, std::size_t b) {
+    return std::tie(keys[a].number, keys[a].text) < std::tie(keys[b].number, keys[b].text);
+  };
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](std::size_t a, std::size_t b) { return ascending_ ? before(a, b) : before(b, a); });
 }
 
 std::optional<std::size_t> LoopTable::row_of(std::size_t loop) const {
@@ -98,37 +103,11 @@ std::optional<std::size_t> LoopTable::row_of(std::size_t loop) const {
 }
 
 std::string LoopTable::text(std::size_t row, std::size_t column) const {
-  const LoopRecord& loop = this->loop(row);
-  switch (column) {
-    case kFrame:
-      return std::to_string(loop.frame);
-    case kNode:
-      return std::to_string(loop.node);
-    case kLocalMap:
-      return std::to_string(loop.local_map);
-    case kMatcher:
-      return loop.matcher + (loop.by_hand ? ", by hand" : loop.in_final_search ? ", last pass" : "");
-    case kResponse:
-      return fixed_text(loop.response, 3);
-    case kAmbiguity:
-      return fixed_text(loop.ambiguity, 3);
-    case kMoved:
-      return fixed_text(loop.moved_m, 2);
-    case kResidual: {
-      const std::optional<double> residual = residual_m(loop);
-      return residual ? fixed_text(*residual, 3) : "";
-    }
-    case kVerdict:
-      return verdict_text(loop.verdict);
-    case kReason:
-      return loop.reason;
-    default:
-      return "";
-  }
+  return cell(loop(row), column).text;
 }
 
 std::string LoopTable::summary() const {
-  if (!snapshot_ || snapshot_->loops->empty()) return "No place has been seen again yet";
+  if (!snapshot_ || snapshot_->loops->empty()) return "No loop has been searched yet";
   std::string text = std::to_string(snapshot_->loops->size()) + " searches:";
   const char* comma = " ";
   for (const LoopVerdict verdict : kLoopVerdicts) {

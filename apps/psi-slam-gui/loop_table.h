@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rows and columns of the loop inspector: which loops are listed, in which order, and what stands in the
-// cells.
 #pragma once
 
 #include <array>
@@ -14,9 +12,10 @@
 
 namespace psi_slam {
 
-/// "Node 12 on local map 3, refused: the response 0.31 is below 0.45".
-std::string loop_words(const LoopRecord& loop);
+/// Describes a loop, such as "Node 12 on local map 3, refused: the response 0.31 is below 0.45".
+std::string describe_loop(const LoopRecord& loop);
 
+/// Rows of the loop inspector: filters and sorts the loops of a snapshot and gives the texts of the cells.
 class LoopTable {
  public:
   enum Column {
@@ -34,9 +33,9 @@ class LoopTable {
   static constexpr std::size_t kColumns = 10;
   static const char* title(std::size_t column);
 
-  /// Lists the loops of a snapshot anew if it has others. True when they changed.
+  /// Shows the loops of a snapshot. Returns true if they differ from those shown before.
   bool show(const std::shared_ptr<const ReplaySnapshot>& snapshot);
-  /// Only those with this verdict; none: all.
+  /// Lists only loops with this verdict, or all.
   void set_filter(std::optional<LoopVerdict> verdict);
   void sort_by(std::size_t column, bool ascending);
   std::size_t sorted_by() const { return column_; }
@@ -49,13 +48,16 @@ class LoopTable {
   const LoopRecord& loop(std::size_t row) const { return (*snapshot_->loops)[order_[row]]; }
   std::string text(std::size_t row, std::size_t column) const;
 
-  /// "120 searches: 35 accepted, 80 refused, 5 switched off".
+  /// Counts the verdicts, such as "120 searches: 35 accepted, 80 refused, 5 switched off".
   std::string summary() const;
 
  private:
   void arrange();
-  /// Of loops that the graph holds or has switched off.
-  std::optional<double> residual_m(const LoopRecord& loop) const;
+  struct Cell {
+    double number = 0;  ///< first sort key, before `text`
+    std::string text;
+  };
+  Cell cell(const LoopRecord& loop, std::size_t column) const;
 
   std::shared_ptr<const ReplaySnapshot> snapshot_;
   std::optional<LoopVerdict> filter_;

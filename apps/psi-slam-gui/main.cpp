@@ -5,7 +5,7 @@
 #include "gui_app.h"
 
 int main(int argc, char** argv) {
-  // A file that reaches the limit of `ulimit -f` is a failed write with a sentence, as on a full disk.
+  // Makes a file that reaches the limit of `ulimit -f` a failed write, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
   return psi_slam::run_gui({argv + 1, argv + argc}, std::cout, std::cerr);
 }

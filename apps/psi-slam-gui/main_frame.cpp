@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "main_frame.h"
 
+#include <wx/button.h>
 #include <wx/config.h>
+#include <wx/dirdlg.h>
 #include <wx/dnd.h>
+#include <wx/filedlg.h>
 #include <wx/settings.h>
 #include <wx/simplebook.h>
 #include <wx/sizer.h>
+#include <wx/statbmp.h>
+#include <wx/stattext.h>
 #include <wx/toolbar.h>
 
-#include "empty_state.h"
-#include "first_sentences.h"
 #include "icons.h"
 #include "loop_inspector.h"
 #include "main_menu.h"
@@ -24,10 +27,10 @@
 namespace psi_slam {
 namespace {
 
-constexpr int kBetweenLooks_ms = 50;
-constexpr const char* kNotExported =
-    "What was mapped or edited since has not been exported. Close the window nevertheless?";
-constexpr double kLoopDistance_m = 20;  // of the eye that looks at a chosen loop
+constexpr int kRefresh_ms = 50;
+constexpr const char* kUnsaved =
+    "Some scans or edits have not been exported or saved. Close the window anyway?";
+constexpr double kLoopDistance_m = 20;  // from the eye to a selected loop
 
 class LogDrop : public wxFileDropTarget {
  public:
@@ -48,6 +51,45 @@ class LogDrop : public wxFileDropTarget {
   MainFrame& frame_;
 };
 
+/// The page shown in place of the map until a log is open.
+wxPanel* make_start_page(wxWindow* parent) {
+  auto* page = new wxPanel(parent);
+  auto* column = new wxBoxSizer(wxVERTICAL);
+  const auto add = [&](wxWindow* item) { column->Add(item, 0, wxALIGN_CENTRE | wxALL, page->FromDIP(12)); };
+  column->AddStretchSpacer(2);
+  add(new wxStaticBitmap(page, wxID_ANY, program_icon()));
+  auto* title = new wxStaticText(page, wxID_ANY, "Open a log to build a map");
+  title->SetFont(title->GetFont().Scaled(1.6F).Bold());
+  add(title);
+  add(new wxStaticText(page, wxID_ANY,
+                       "Drop a file here or open one: a CARMEN log (.log, .clf), an MRPT rawlog (.rawlog), "
+                       "both plain or gzipped,\na ROS bag or a session. Change settings on the right if you "
+                       "like, then press play.",
+                       wxDefaultPosition, wxDefaultSize, wxALIGN_CENTRE_HORIZONTAL));
+  auto* button = new wxButton(page, wxID_ANY, wxString::FromUTF8("Open log…"));
+  button->Bind(wxEVT_BUTTON, [page](wxCommandEvent&) { choose_command(*page, kOpenLog); });
+  add(button);
+  column->AddStretchSpacer(3);
+  page->SetSizer(column);
+  return page;
+}
+
+AskForFile ask_in_dialogs(wxWindow& parent) {
+  return [&parent](const FileQuestion& question) -> std::optional<std::filesystem::path> {
+    if (question.kind == FileQuestion::Kind::kFolder) {
+      wxDirDialog dialog(&parent, text_of(question.title));
+      if (dialog.ShowModal() != wxID_OK) return std::nullopt;
+      return path_of(dialog.GetPath());
+    }
+    const bool saves = question.kind == FileQuestion::Kind::kSave;
+    wxFileDialog dialog(&parent, text_of(question.title), "", text_of(question.proposed_name),
+                        text_of(question.wildcard),
+                        saves ? wxFD_SAVE | wxFD_OVERWRITE_PROMPT : wxFD_OPEN | wxFD_FILE_MUST_EXIST);
+    if (dialog.ShowModal() != wxID_OK) return std::nullopt;
+    return path_of(dialog.GetPath());
+  };
+}
+
 }  // namespace
 
 MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "psi-slam"), recent_(9), timer_(this) {
@@ -65,7 +107,7 @@ MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "psi-slam"), recent_(9), tim
   SetDropTarget(new LogDrop(*this));
   Bind(wxEVT_TIMER, [this](wxTimerEvent&) { refresh(); });
   Bind(wxEVT_CLOSE_WINDOW, [this](wxCloseEvent& event) { close(event); });
-  timer_.Start(kBetweenLooks_ms);
+  timer_.Start(kRefresh_ms);
 }
 
 MainFrame::~MainFrame() {
@@ -78,18 +120,16 @@ void MainFrame::build() {
   if (wxConfigBase* config = wxConfigBase::Get(false)) recent_.Load(*config);
   SetMenuBar(make_menu_bar(recent));
   CreateStatusBar();
-  tell(hint_text());
+  show_status(hint_text());
   build_toolbar();
   panes_.SetManagedWindow(this);
   wxWindow* const middle = build_middle();
-  settings_panel_ = new SettingsPanel(
-      this, settings_,
-      {[this](const std::string& sentence) { messages_->say(MessageBar::Kind::kError, sentence); },
-       [this] {
-         messages_->dismiss();
-         show_pending_settings();
-       },
-       [this] { restart(); }});
+  settings_panel_ = new SettingsPanel(this, settings_,
+                                      {[this](const std::string& sentence) { messages_->fail(sentence); },
+                                       [this] {
+                                         messages_->dismiss();
+                                         show_pending_settings();
+                                       }});
   loops_ = new LoopInspector(this, [this](std::optional<std::size_t> loop) { choose_loop(loop); });
   plots_ = new PlotPanel(this, [this](std::size_t scan) { go_to(scan); });
   panes_.AddPane(middle, wxAuiPaneInfo().Name("map").CenterPane());
@@ -109,16 +149,10 @@ wxWindow* MainFrame::build_middle() {
   auto* panel = new wxPanel(this);
   messages_ = new MessageBar(panel);
   middle_ = new wxSimplebook(panel);
-  middle_->AddPage(new EmptyState(middle_, [this] { ask_for_log(); }), "");
+  middle_->AddPage(make_start_page(middle_), "");
   canvas_ = new MapCanvas(middle_);
   middle_->AddPage(canvas_, "");
-  TransportBar::Actions actions;
-  actions.play_or_pause = [this] { play_or_pause(); };
-  actions.step = [this] { step(); };
-  actions.finish = [this] { finish(); };
-  actions.set_speed = [this](double speed) { set_speed(speed); };
-  actions.go_to = [this](std::size_t scan) { go_to(scan); };
-  transport_ = new TransportBar(panel, std::move(actions));
+  transport_ = new TransportBar(panel, [this](std::size_t scan) { go_to(scan); });
   auto* column = new wxBoxSizer(wxVERTICAL);
   column->Add(messages_, 0, wxEXPAND);
   column->Add(middle_, 1, wxEXPAND);
@@ -130,94 +164,99 @@ wxWindow* MainFrame::build_middle() {
 void MainFrame::build_toolbar() {
   const wxColour ink = wxSystemSettings::GetColour(wxSYS_COLOUR_BTNTEXT);
   wxToolBar* bar = CreateToolBar(wxTB_HORIZONTAL | wxTB_FLAT | wxTB_TEXT | wxTB_HORZ_LAYOUT);
-  bar->AddTool(kOpenLog, "Open", icon_of(Icon::kOpen, ink), "Open a log (Ctrl+O)");
-  bar->AddTool(kRestart, "Again", icon_of(Icon::kRestart, ink), "Map again from the start (Ctrl+R)");
-  bar->AddTool(kExport, "Export", icon_of(Icon::kExport, ink), "Export all results (Ctrl+E)");
+  const auto add = [&](int command, const char* label, Icon icon, const char* tip,
+                       wxItemKind kind = wxITEM_NORMAL) {
+    bar->AddTool(command, label, icon_of(icon, ink), tip, kind);
+  };
+  add(kOpenLog, "Open", Icon::kOpen, "Open a log or a session (Ctrl+O)");
+  add(kRestart, "Restart", Icon::kRestart, "Map the log again from its first scan (Ctrl+R)");
+  add(kExport, "Export", Icon::kExport, "Write all results to a folder (Ctrl+E)");
   bar->AddSeparator();
-  bar->AddTool(kShowAll, "All", icon_of(Icon::kFit, ink), "Show all of the map (Home)");
-  bar->AddTool(kFromAbove, "Above", icon_of(Icon::kTop, ink), "Look from above (T)");
-  bar->AddCheckTool(kFollow, "Follow", icon_of(Icon::kFollow, ink), wxBitmapBundle(), "Follow the robot (F)");
-  bar->AddCheckTool(kMeasure, "Measure", icon_of(Icon::kMeasure, ink), wxBitmapBundle(),
-                    "Measure a distance (M): drag in the map");
+  add(kFitMap, "Fit map", Icon::kFit, "Show the whole map (Home)");
+  add(kTopView, "Top view", Icon::kTop, "Look straight down on the map (T)");
+  add(kFollow, "Follow", Icon::kFollow, "Keep the robot in the middle of the view (F)", wxITEM_CHECK);
+  add(kMeasure, "Measure", Icon::kMeasure, "Measure a distance by dragging in the map (M)", wxITEM_CHECK);
   bar->Realize();
 }
 
 void MainFrame::refresh() {
-  for (const std::string& failure : replay_.tidy()) messages_->say(MessageBar::Kind::kError, failure);
-  telling_failures([this] { session_reader_.serve(); });
+  for (const std::string& failure : replay_.tidy()) messages_->fail(failure);
+  attempt([this] { session_reader_.serve(); });
   if (!replay_) return;
   const std::shared_ptr<const ReplaySnapshot> snapshot = replay_->snapshot();
-  if (snapshot != snapshot_) {
-    snapshot_ = snapshot;
+  if (snapshot != run_.snapshot) {
+    run_.snapshot = snapshot;
     loops_->show(snapshot);
     enable_commands(snapshot.get());
-    take_news(*snapshot);
+    report_news(*snapshot);
     if (!replay_) return;
-    take_edit_news(*snapshot);
+    report_edit(*snapshot);
     canvas_->map_scene().choose_loop(loops_->selected());
   }
-  transport_->show(*snapshot, replay_->stamps_us(), shown_frame_);
-  canvas_->show(snapshot, replay_->drawn_map(), shown_frame_);
-  plots_->show(snapshot, shown_frame_);
+  transport_->show(*snapshot, replay_->stamps_us(), run_.frame);
+  canvas_->show(snapshot, replay_->drawn_map(), run_.frame);
+  plots_->show(snapshot, run_.frame);
 }
 
-/// Says what the user is to know, each thing once.
-void MainFrame::take_news(const ReplaySnapshot& snapshot) {
-  const bool refused = (snapshot.saved && snapshot.saved->number != told_save_) ||
-                       (snapshot.exported && snapshot.exported->number != told_export_);
-  tell_warnings(snapshot.warnings);
-  if (!remembered_ && snapshot.phase != ReplayPhase::kOpening && snapshot.phase != ReplayPhase::kFailed) {
-    remembered_ = true;
-    remember(opened_);
+/// Shows warnings, failures and outcomes of saves and exports, each once.
+void MainFrame::report_news(const ReplaySnapshot& snapshot) {
+  const bool saved = snapshot.saved && snapshot.saved->number != run_.reported_save;
+  const bool exported = snapshot.exported && snapshot.exported->number != run_.reported_export;
+  report_warnings(snapshot.warnings);
+  if (!run_.in_recent_logs && snapshot.phase != ReplayPhase::kOpening &&
+      snapshot.phase != ReplayPhase::kFailed) {
+    run_.in_recent_logs = true;
+    add_to_recent_logs(opened_);
   }
-  if (snapshot.saved && snapshot.saved->number != told_save_) tell_save(*snapshot.saved);
-  if (snapshot.exported && snapshot.exported->number != told_export_) tell_export(*snapshot.exported);
-  if (snapshot.phase == ReplayPhase::kFailed && (refused || snapshot.failure != told_failure_)) {
-    told_failure_ = snapshot.failure;
-    messages_->say(MessageBar::Kind::kError, snapshot.failure);  // the reason of all else
+  if (saved) report_save(*snapshot.saved);
+  if (exported) report_export(*snapshot.exported);
+  if (snapshot.phase == ReplayPhase::kFailed &&
+      (saved || exported || snapshot.failure != run_.reported_failure)) {
+    run_.reported_failure = snapshot.failure;
+    messages_->fail(snapshot.failure);  // the cause of the other failures
   }
 }
 
-/// What has been told may grow in numbers: that is shown where it still stands, and not told anew.
-void MainFrame::tell_warnings(const std::vector<std::string>& warnings) {
-  if (warnings.empty() || warnings == told_warnings_ || messages_->asks()) return;
-  const bool news = warnings.size() > told_warnings_.size();
-  if (news || messages_->sentence() == first_sentences(told_warnings_))
-    messages_->say(MessageBar::Kind::kWarning, first_sentences(warnings));
-  told_warnings_ = warnings;
+/// Shows warnings if there are new ones. If only a number in them has changed, updates the text on show.
+void MainFrame::report_warnings(const std::vector<std::string>& warnings) {
+  if (warnings.empty() || warnings == run_.reported_warnings || messages_->asks()) return;
+  if (warnings.size() > run_.reported_warnings.size() ||
+      messages_->sentence() == first_sentences(run_.reported_warnings))
+    messages_->warn(first_sentences(warnings));
+  run_.reported_warnings = warnings;
 }
 
-void MainFrame::tell_save(const SaveOutcome& outcome) {
-  told_save_ = outcome.number;
-  if (!outcome.failure.empty()) return messages_->say(MessageBar::Kind::kError, outcome.failure);
+void MainFrame::report_save(const WriteOutcome& outcome) {
+  run_.reported_save = outcome.number;
+  if (!outcome.failure.empty()) return messages_->fail(outcome.failure);
   unsaved_.note_written(outcome.written);
-  if (!outcome.remark.empty()) return messages_->say(MessageBar::Kind::kWarning, outcome.remark);
-  messages_->say(MessageBar::Kind::kNote, "The session is " + outcome.file.string() +
-                                              ": open it here, or go on with it by psi-slam --resume");
+  if (!outcome.remark.empty()) return messages_->warn(outcome.remark);
+  messages_->note("Session saved in " + outcome.path.string() +
+                  ". Open it here or continue it with psi-slam --resume.");
 }
 
-void MainFrame::tell_export(const ExportOutcome& outcome) {
-  told_export_ = outcome.number;
-  const bool closes = std::exchange(close_when_written_, false);
-  if (!outcome.failure.empty()) return messages_->say(MessageBar::Kind::kError, outcome.failure);
+void MainFrame::report_export(const WriteOutcome& outcome) {
+  run_.reported_export = outcome.number;
+  const bool closes = std::exchange(run_.close_when_written, false);
+  if (!outcome.failure.empty()) return messages_->fail(outcome.failure);
   unsaved_.note_written(outcome.written);
-  messages_->say(MessageBar::Kind::kNote,
-                 "All results are in " + outcome.folder.string() + ": begin with report.html");
+  messages_->note("All results are in " + outcome.path.string() + ". Start with report.html.");
   if (closes) Close();
 }
 
 void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
   const bool mapping = snapshot != nullptr &&
                        (snapshot->phase == ReplayPhase::kPaused || snapshot->phase == ReplayPhase::kPlaying);
+  const bool searching = snapshot != nullptr && snapshot->phase == ReplayPhase::kFinalSearch;
   const bool has_scans = snapshot != nullptr && !snapshot->frames.empty();
   const bool finished = snapshot != nullptr && snapshot->phase == ReplayPhase::kFinished;
   wxMenuBar& menu = *GetMenuBar();
-  menu.Enable(kPlayOrPause, mapping || (snapshot != nullptr && snapshot->phase == ReplayPhase::kFinalSearch));
+  menu.Enable(kPlayOrPause, mapping || searching);
   menu.Enable(kStep, mapping);
-  menu.Enable(kFinish, has_scans && (mapping || snapshot->phase == ReplayPhase::kFinalSearch));
+  menu.Enable(kFinish, has_scans && (mapping || searching));
   menu.Enable(kRestart, snapshot != nullptr);
   menu.Enable(kExport, finished);
-  menu.Enable(kGoOnWithLog, replay_ && replay_->input().recording() != nullptr);
+  menu.Enable(kResumeWithLog, replay_ && replay_->input().recording() != nullptr);
   menu.Enable(kSaveSession, has_scans && (mapping || finished));
   menu.Enable(kSavePicture, snapshot != nullptr);
   enable_edit_commands(snapshot);
@@ -226,50 +265,51 @@ void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
 }
 
 void MainFrame::play_or_pause() {
-  if (!replay_ || !snapshot_) return;
-  shown_frame_.reset();
-  TransportBar::goes_on(*snapshot_) ? replay_->pause() : replay_->play();
+  if (!replay_ || !run_.snapshot) return;
+  run_.frame.reset();
+  TransportBar::can_pause(*run_.snapshot) ? replay_->pause() : replay_->play();
 }
 
 void MainFrame::step() {
-  shown_frame_.reset();
+  run_.frame.reset();
   if (replay_) replay_->step();
 }
 
 void MainFrame::finish() {
-  if (!replay_ || !snapshot_) return;
-  snapshot_->phase == ReplayPhase::kFinalSearch ? replay_->cut_final_search() : replay_->finish();
+  if (!replay_ || !run_.snapshot) return;
+  run_.snapshot->phase == ReplayPhase::kFinalSearch ? replay_->cut_final_search() : replay_->finish();
 }
 
 void MainFrame::set_speed(double speed) {
   speed_ = speed;
   transport_->set_speed(speed);
-  for (std::size_t i = 0; i < TransportBar::speeds().size(); ++i)
-    if (TransportBar::speeds()[i] == speed) GetMenuBar()->Check(kSpeed + static_cast<int>(i), true);
+  for (std::size_t i = 0; i < kSpeeds.size(); ++i)
+    if (kSpeeds[i] == speed) GetMenuBar()->Check(kSpeed + static_cast<int>(i), true);
   if (replay_) replay_->set_speed(speed);
 }
 
 void MainFrame::go_to(std::size_t scan) {
-  if (!replay_ || !snapshot_) return;
-  const std::size_t mapped = snapshot_->frames.size();
-  const ReplayPhase phase = snapshot_->phase;
+  if (!replay_ || !run_.snapshot) return;
+  const std::size_t mapped = run_.snapshot->frames.size();
+  const ReplayPhase phase = run_.snapshot->phase;
   const bool mapping =
       phase == ReplayPhase::kOpening || phase == ReplayPhase::kPaused || phase == ReplayPhase::kPlaying;
-  shown_frame_.reset();
+  run_.frame.reset();
   if (scan + 1 < mapped)
-    shown_frame_ = scan;
+    run_.frame = scan;
   else if (scan + 1 > mapped && mapping)
     replay_->hurry_to(scan + 1);
   else if (scan + 1 > mapped)
-    tell("The run was finished after " + std::to_string(mapped) + " scans: map again to go beyond them");
+    show_status("The run was finished after " + std::to_string(mapped) +
+                " scans. Press Restart to map later scans.");
   refresh();
 }
 
 void MainFrame::choose_loop(std::optional<std::size_t> loop) {
-  if (snapshot_) enable_edit_commands(snapshot_.get());
+  if (run_.snapshot) enable_edit_commands(run_.snapshot.get());
   canvas_->map_scene().choose_loop(loop);
-  if (!loop || !snapshot_ || *loop >= snapshot_->loops->size()) return;
-  const mrpt::math::TPose2D node = snapshot_->map_T_node->at((*snapshot_->loops)[*loop].node);
+  if (!loop || !run_.snapshot || *loop >= run_.snapshot->loops->size()) return;
+  const mrpt::math::TPose2D node = run_.snapshot->map_T_node->at((*run_.snapshot->loops)[*loop].node);
   canvas_->look_at({node.x, node.y}, kLoopDistance_m);
 }
 
@@ -278,51 +318,47 @@ void MainFrame::export_to(const std::filesystem::path& folder, bool replace) {
   std::error_code ignored;
   const bool taken =
       std::filesystem::is_directory(folder, ignored) && !std::filesystem::is_empty(folder, ignored);
-  if (taken && !replace)
-    messages_->say(MessageBar::Kind::kWarning,
-                   folder.string() + " is not empty. Replace the results of a run in it? Other files stay.",
-                   {{"Replace the results there", [this, folder] { export_to(folder, true); }}});
-  else
-    replay_->export_to(folder, replace);
+  if (!taken || replace) return replay_->export_to(folder, replace);
+  messages_->warn(
+      folder.string() + " is not empty. Replace the results of a run in this folder? Other files are kept.",
+      {{"Replace results", [this, folder] { export_to(folder, true); }}});
 }
 
-bool MainFrame::edits_are_under_way() const {
+bool MainFrame::edits_are_pending() const {
   return replay_ && replay_->snapshot()->phase != ReplayPhase::kFailed &&
          replay_->edits_asked() > replay_->snapshot()->edits_served;
 }
 
 bool MainFrame::has_unsaved_edits() const {
-  return replay_ && (edits_are_under_way() || unsaved_.any_edits(*replay_->snapshot()));
+  return replay_ && (edits_are_pending() || unsaved_.any_edits(*replay_->snapshot()));
 }
 
 bool MainFrame::has_unsaved_work() const {
-  return replay_ && (edits_are_under_way() || unsaved_.any(*replay_->snapshot()));
+  return replay_ && (edits_are_pending() || unsaved_.any(*replay_->snapshot()));
 }
 
 void MainFrame::close(wxCloseEvent& event) {
-  const bool writes = snapshot_ && snapshot_->phase == ReplayPhase::kExporting;
+  const bool writes = run_.snapshot && run_.snapshot->phase == ReplayPhase::kExporting;
   if (event.CanVeto() && writes) {
-    close_when_written_ = true;
-    messages_->say(MessageBar::Kind::kNote, "The window closes when all results are written");
-    event.Veto();
-    return;
+    run_.close_when_written = true;
+    messages_->note("The window closes when all results are written.");
+    return event.Veto();
   }
-  const bool asked = messages_->sentence() == kNotExported || closes_without_export_;
-  if (event.CanVeto() && has_unsaved_work() && !asked && !close_when_written_) {
-    messages_->say(MessageBar::Kind::kWarning, kNotExported, {{"Close without exporting", [this] {
-                                                                 closes_without_export_ = true;
-                                                                 Close();
-                                                               }}});
-    event.Veto();
-    return;
+  const bool asked = messages_->sentence() == kUnsaved || run_.may_close_unsaved;
+  if (event.CanVeto() && has_unsaved_work() && !asked && !run_.close_when_written) {
+    messages_->warn(kUnsaved, {{"Close without saving", [this] {
+                                  run_.may_close_unsaved = true;
+                                  Close();
+                                }}});
+    return event.Veto();
   }
   timer_.Stop();
   if (wxConfigBase* config = wxConfigBase::Get(false)) layout_->save(*config, canvas_->map_scene());
-  Hide();  // the engine may take a moment to end
+  Hide();  // the threads may take a moment to end
   event.Skip();
 }
 
-void MainFrame::remember(const std::filesystem::path& log) {
+void MainFrame::add_to_recent_logs(const std::filesystem::path& log) {
   std::error_code ignored;
   recent_.AddFileToHistory(text_of(std::filesystem::absolute(log, ignored)));
   wxConfigBase* const config = wxConfigBase::Get(false);
@@ -331,13 +367,8 @@ void MainFrame::remember(const std::filesystem::path& log) {
   config->Flush();
 }
 
-void MainFrame::tell(const std::string& text) {
+void MainFrame::show_status(const std::string& text) {
   SetStatusText(text_of(text));
-}
-
-void MainFrame::toggle_pane(wxWindow* window, bool shown) {
-  panes_.GetPane(window).Show(shown);
-  panes_.Update();
 }
 
 }  // namespace psi_slam

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the menus and keys of the window do.
-#include <wx/aboutdlg.h>
+// Actions of the window's menus and keys.
 #include <wx/log.h>
 #include <wx/textentry.h>
 #include <wx/toolbar.h>
 
-#include "about_box.h"
+#include "base/atomic_file.h"
+#include "base/number_text.h"
 #include "loop_inspector.h"
 #include "main_frame.h"
 #include "main_menu.h"
 #include "map_canvas.h"
 #include "message_bar.h"
 #include "plot_panel.h"
-#include "base/atomic_file.h"
 #include "psi_slam/user_error.h"
-#include "base/number_text.h"
 #include "settings_panel.h"
-#include "transport_bar.h"
 #include "wx_text.h"
 
 namespace psi_slam {
 namespace {
+
+using Ask = FileQuestion::Kind;
+using Path = std::filesystem::path;
 
 const char* const kLogFiles =
     "Logs and sessions|*.log;*.clf;*.rawlog;*.bag;*.db3;*.mcap;*.gz;*.session|All files|*";
@@ -33,6 +33,14 @@ void MainFrame::on(int command, const std::function<void()>& action) {
       wxEVT_MENU, [action](wxCommandEvent&) { action(); }, command);
 }
 
+/// Makes a command ask for a file and call `action` with it, unless the user cancels.
+void MainFrame::on_file(int command, const FileQuestion& question,
+                        const std::function<void(const Path&)>& action) {
+  on(command, [this, question, action] {
+    if (const auto file = ask_for_file_(question)) action(*file);
+  });
+}
+
 void MainFrame::bind_commands() {
   bind_file_commands();
   bind_view_commands();
@@ -41,10 +49,10 @@ void MainFrame::bind_commands() {
   on(kStep, [this] { step(); });
   on(kFinish, [this] { finish(); });
   on(kRestart, [this] { restart(); });
-  for (std::size_t i = 0; i < TransportBar::speeds().size(); ++i)
-    on(kSpeed + static_cast<int>(i), [this, i] { set_speed(TransportBar::speeds()[i]); });
+  for (std::size_t i = 0; i < kSpeeds.size(); ++i)
+    on(kSpeed + static_cast<int>(i), [this, i] { set_speed(kSpeeds[i]); });
   Bind(wxEVT_CHAR_HOOK, [this](wxKeyEvent& event) { press_key(event); });
-  on(kShortcuts, [this] { messages_->say(MessageBar::Kind::kNote, shortcuts_text()); });
+  on(kShortcuts, [this] { messages_->note(shortcuts_text()); });
   on(kAbout, [this] { wxAboutBox(about_info(), this); });
 }
 
@@ -62,15 +70,23 @@ void MainFrame::press_key(wxKeyEvent& event) {
 }
 
 void MainFrame::bind_file_commands() {
-  on(kOpenLog, [this] { ask_for_log(); });
-  on(kOpenFolder, [this] { ask_for_log_folder(); });
-  on(kSaveSession, [this] { ask_for_session(); });
-  on(kGoOnWithLog, [this] { ask_for_log_of_session(); });
-  on(kOpenSettings, [this] { ask_for_settings(false); });
-  on(kSaveSettings, [this] { ask_for_settings(true); });
+  const auto open_log = [this](const Path& log) { open_other_log(log); };
+  on_file(kOpenLog, {Ask::kOpen, "Open a log or a session", kLogFiles, ""}, open_log);
+  on_file(kOpenFolder, {Ask::kFolder, "Open the folder of a ROS 2 bag", "", ""}, open_log);
+  on_file(kSaveSession, {Ask::kSave, "Save the session", "Sessions (*.session)|*.session", "my.session"},
+          [this](const Path& file) { save_session(file); });
+  on_file(kResumeWithLog,
+          {Ask::kOpen, "Open the last log of the session, or a log that continues it", kLogFiles, ""},
+          [this](const Path& log) { resume_with(log); });
+  on_file(kOpenSettings, {Ask::kOpen, "Open settings", kSettingsFiles, ""},
+          [this](const Path& file) { open_settings(file); });
+  on_file(kSaveSettings, {Ask::kSave, "Save the settings", kSettingsFiles, "my.ini"},
+          [this](const Path& file) { save_settings(file); });
   on(kResetSettings, [this] { settings_panel_->reset_all(); });
-  on(kExport, [this] { ask_for_export(); });
-  on(kSavePicture, [this] { ask_for_picture(); });
+  on_file(kExport, {Ask::kFolder, "Choose a new or empty folder for the results", "", ""},
+          [this](const Path& folder) { export_to(folder, false); });
+  on_file(kSavePicture, {Ask::kSave, "Save a picture of the map view", "PNG (*.png)|*.png", "view.png"},
+          [this](const Path& file) { save_picture(file); });
   on(kQuit, [this] { Close(); });
   Bind(
       wxEVT_MENU,
@@ -82,22 +98,23 @@ void MainFrame::bind_file_commands() {
 }
 
 void MainFrame::bind_view_commands() {
-  on(kShowAll, [this] { canvas_->show_all(); });
-  on(kFromAbove, [this] { canvas_->look_from_above(); });
+  on(kFitMap, [this] { canvas_->show_all(); });
+  on(kTopView, [this] { canvas_->look_from_above(); });
   on(kFollow, [this] { canvas_->set_follow(!canvas_->follows()); });
   on(kMeasure, [this] {
     canvas_->set_measuring(!canvas_->measuring());
     GetMenuBar()->Check(kMeasure, canvas_->measuring());
     GetToolBar()->ToggleTool(kMeasure, canvas_->measuring());
-    tell(canvas_->measuring() ? "Drag in the map to measure" : hint_text());
+    show_status(canvas_->measuring() ? "Drag in the map to measure a distance" : hint_text());
   });
-  canvas_->on_followed([this](bool follows) {
+  canvas_->on.followed = [this](bool follows) {
     GetMenuBar()->Check(kFollow, follows);
     GetToolBar()->ToggleTool(kFollow, follows);
-  });
-  canvas_->on_measured([this](const Measure& measure) { tell(fixed_text(measure.distance_m(), 2) + " m"); });
-  canvas_->on_failure(
-      [this](const std::string& sentence) { messages_->say(MessageBar::Kind::kError, sentence); });
+  };
+  canvas_->on.measured = [this](const Measure& measure) {
+    show_status(fixed_text(measure.distance_m(), 2) + " m");
+  };
+  canvas_->on.failed = [this](const std::string& sentence) { messages_->fail(sentence); };
   for (std::size_t i = 0; i < kMapLayers; ++i)
     on(kLayer + static_cast<int>(i), [this, i] {
       const auto layer = static_cast<MapLayer>(i);
@@ -112,18 +129,23 @@ void MainFrame::bind_view_commands() {
       canvas_->map_scene().set_loop_style(style);
       canvas_->restyle();
     });
-  on(kPaneSettings, [this] { toggle_pane(settings_panel_, GetMenuBar()->IsChecked(kPaneSettings)); });
-  on(kPaneLoops, [this] { toggle_pane(loops_, GetMenuBar()->IsChecked(kPaneLoops)); });
-  on(kPanePlots, [this] { toggle_pane(plots_, GetMenuBar()->IsChecked(kPanePlots)); });
+  for (const auto& [pane, command] : optional_panes())
+    on(command, [this, window = pane, id = command] {
+      panes_.GetPane(window).Show(GetMenuBar()->IsChecked(id));
+      panes_.Update();
+    });
   on(kDefaultLayout, [this] {
     layout_->restore_default_panes();
     check_choices();
   });
   panes_.Bind(wxEVT_AUI_PANE_CLOSE, [this](wxAuiManagerEvent& event) {
-    for (const auto& [window, command] : std::initializer_list<std::pair<wxWindow*, int>>{
-             {settings_panel_, kPaneSettings}, {loops_, kPaneLoops}, {plots_, kPanePlots}})
-      if (event.GetPane()->window == window) GetMenuBar()->Check(command, false);
+    for (const auto& [pane, command] : optional_panes())
+      if (event.GetPane()->window == pane) GetMenuBar()->Check(command, false);
   });
+}
+
+std::array<std::pair<wxWindow*, int>, 3> MainFrame::optional_panes() const {
+  return {{{settings_panel_, kPaneSettings}, {loops_, kPaneLoops}, {plots_, kPanePlots}}};
 }
 
 void MainFrame::check_choices() {
@@ -134,89 +156,44 @@ void MainFrame::check_choices() {
   menu.Check(kRefusedLoops, scene.loop_style().refused);
   const bool residual = scene.loop_style().colour == LoopStyle::Colour::kResidual;
   menu.Check(residual ? kLoopsByResidual : kLoopsByMatcher, true);
-  menu.Check(kPaneSettings, panes_.GetPane(settings_panel_).IsShown());
-  menu.Check(kPaneLoops, panes_.GetPane(loops_).IsShown());
-  menu.Check(kPanePlots, panes_.GetPane(plots_).IsShown());
+  for (const auto& [pane, command] : optional_panes()) menu.Check(command, panes_.GetPane(pane).IsShown());
 }
 
-void MainFrame::ask_for_log() {
-  if (const auto file = ask_for_file_({FileQuestion::Kind::kOpen, "Open a log or a session", kLogFiles, ""}))
-    open_other_log(*file);
-}
-
-void MainFrame::ask_for_log_folder() {
-  if (const auto folder =
-          ask_for_file_({FileQuestion::Kind::kFolder, "Open the folder of a ROS 2 bag", "", ""}))
-    open_other_log(*folder);
-}
-
-void MainFrame::ask_for_settings(bool save) {
-  if (save) {
-    const auto file =
-        ask_for_file_({FileQuestion::Kind::kSave, "Save the settings", kSettingsFiles, "my.ini"});
-    if (file) save_settings(*file);
-  } else if (const auto file =
-                 ask_for_file_({FileQuestion::Kind::kOpen, "Open settings", kSettingsFiles, ""})) {
-    open_settings(*file);
-  }
-}
-
-void MainFrame::ask_for_export() {
-  const auto folder =
-      ask_for_file_({FileQuestion::Kind::kFolder, "Folder for the results, new or empty", "", ""});
-  if (folder) export_to(*folder, false);
-}
-
-void MainFrame::ask_for_session() {
-  const auto file = ask_for_file_(
-      {FileQuestion::Kind::kSave, "Save the session", "Sessions (*.session)|*.session", "my.session"});
-  if (file) save_session(*file);
-}
-
-void MainFrame::ask_for_log_of_session() {
-  if (const auto file =
-          ask_for_file_({FileQuestion::Kind::kOpen, "The session's last log, or one that goes on behind it",
-                         kLogFiles, ""}))
-    go_on_with(*file);
-}
-
-void MainFrame::save_session(const std::filesystem::path& file) {
+void MainFrame::save_session(const Path& file) {
   if (replay_) replay_->save_session(file);
 }
 
-void MainFrame::ask_for_picture() {
-  const auto file = ask_for_file_(
-      {FileQuestion::Kind::kSave, "Save a picture of the view", "PNG (*.png)|*.png", "view.png"});
-  if (file) save_picture(*file);
-}
-
-void MainFrame::open_settings(const std::filesystem::path& file) {
-  telling_failures([&] {
-    BoundSettings fresh;  // what the file does not set has its default
+void MainFrame::open_settings(const Path& file) {
+  attempt([&] {
+    BoundSettings fresh;  // options that the file does not set have their defaults
     fresh.load(file, {});
     settings_.settings = fresh.settings;
     settings_panel_->refresh();
-    messages_->say(MessageBar::Kind::kNote, "The settings are those of " + file.string());
+    const std::vector<std::string> warnings = fresh.table.take_warnings();
+    if (warnings.empty())
+      messages_->note("Settings read from " + file.string());
+    else
+      messages_->warn(first_sentences(warnings));
     show_pending_settings();
   });
 }
 
-void MainFrame::save_settings(const std::filesystem::path& file) {
-  telling_failures([&] {
+void MainFrame::save_settings(const Path& file) {
+  attempt([&] {
     write_text_atomically(file, settings_file_text(settings_.table));
-    messages_->say(MessageBar::Kind::kNote, "The settings are in " + file.string());
+    messages_->note("Settings saved in " + file.string());
   });
 }
 
-void MainFrame::save_picture(const std::filesystem::path& file) {
+void MainFrame::save_picture(const Path& file) {
   canvas_->take_picture([this, file](const wxImage& picture) {
-    telling_failures([&] {
-      write_atomically(file, [&](const std::filesystem::path& path) {
-        const wxLogNull quiet;  // what goes wrong is told in the bar
+    attempt([&] {
+      write_atomically(file, [&](const Path& path) {
+        const wxLogNull quiet;  // the message bar reports failures
         if (!picture.SaveFile(text_of(path), wxBITMAP_TYPE_PNG))
           throw SystemFailure("cannot write the picture " + file.string());
       });
-      messages_->say(MessageBar::Kind::kNote, "The picture is " + file.string());
+      messages_->note("Picture saved in " + file.string());
     });
   });
 }

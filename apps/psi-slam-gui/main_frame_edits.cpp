@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the Edit menu does: loops changed by hand.
-#include <wx/menu.h>
-
-#include "loop_actions.h"
+// Actions of the Edit menu: loops changed by hand.
+#include "base/number_text.h"
 #include "loop_inspector.h"
 #include "main_frame.h"
 #include "main_menu.h"
 #include "map_canvas.h"
 #include "message_bar.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/user_error.h"
 #include "replay/loop_between_places.h"
-#include "base/number_text.h"
-#include "exports/verdict_text.h"
 #include "wx_text.h"
 
 namespace psi_slam {
@@ -45,28 +42,24 @@ void MainFrame::bind_edit_commands() {
   on(kDeleteLoop, [this] { edit_selected(Kind::kDelete); });
   on(kForceLoop, [this] { edit_selected(Kind::kForce); });
   on(kRestoreLoop, [this] { edit_selected(Kind::kRestore); });
-  for (int matcher = 0; matcher < kMatchers; ++matcher)
-    on(kMatchLoopBy + matcher, [this, matcher] { edit_selected(Kind::kMatch, matcher_kind_of(matcher)); });
+  for (std::size_t i = 0; i < kMatcherChoices.size(); ++i)
+    on(kMatchLoopBy + static_cast<int>(i),
+       [this, i] { edit_selected(Kind::kMatch, kMatcherChoices[i].kind); });
   on(kAddLoop, [this] { toggle_adding_loop(); });
-  on(kOpenEdits, [this] {
-    if (const auto file = ask_for_file_({FileQuestion::Kind::kOpen, "Open loop edits", kEditFiles, ""}))
-      open_edits(*file);
-  });
-  on(kSaveEdits, [this] {
-    const auto file =
-        ask_for_file_({FileQuestion::Kind::kSave, "Save the loop edits", kEditFiles, "my.edits"});
-    if (file) save_edits(*file);
-  });
-  canvas_->on_pointed([this](const mrpt::math::TPoint2D& place) { point_at(place); });
+  on_file(kOpenEdits, {FileQuestion::Kind::kOpen, "Open loop edits", kEditFiles, ""},
+          [this](const std::filesystem::path& file) { open_edits(file); });
+  on_file(kSaveEdits, {FileQuestion::Kind::kSave, "Save the loop edits", kEditFiles, "my.edits"},
+          [this](const std::filesystem::path& file) { save_edits(file); });
+  canvas_->on.clicked = [this](const mrpt::math::TPoint2D& place) { click_place(place); };
 }
 
 void MainFrame::edit_selected(Kind kind, MatcherKind matcher) {
   const std::optional<std::size_t> selected = loops_->selected();
-  if (!replay_ || !snapshot_ || !selected || *selected >= snapshot_->loops->size()) return;
-  const LoopRecord& loop = (*snapshot_->loops)[*selected];
+  if (!replay_ || !run_.snapshot || !selected || *selected >= run_.snapshot->loops->size()) return;
+  const LoopRecord& loop = (*run_.snapshot->loops)[*selected];
   LoopEdit edit{kind, loop.frame, loop.local_map};
   edit.matcher = matcher;
-  // What the last pass found is gone while the map is open again: it is looked for where it was.
+  // An edit discards the loops of the final loop search, so a forced one must be searched again in its place.
   edit.of_final_search = kind == Kind::kForce && loop.in_final_search;
   const double window_m = std::max(loop.window.x_m, loop.window.y_m);
   if (kind == Kind::kMatch)
@@ -75,11 +68,12 @@ void MainFrame::edit_selected(Kind kind, MatcherKind matcher) {
 }
 
 void MainFrame::toggle_adding_loop() {
-  if (!snapshot_ || snapshot_->map_T_node->empty()) return;
+  if (!run_.snapshot || run_.snapshot->map_T_node->empty()) return;
   const bool on = !canvas_->pointing();
   set_adding_loop(on);
-  tell(on ? "Add a loop: click on something that was seen twice, as the later pass shows it (Esc: no more)"
-          : hint_text());
+  show_status(
+      on ? "Add a loop: click an object that the map shows twice, where it was seen later (Esc cancels)"
+         : hint_text());
 }
 
 void MainFrame::set_adding_loop(bool on) {
@@ -89,28 +83,29 @@ void MainFrame::set_adding_loop(bool on) {
   GetMenuBar()->Check(kAddLoop, on);
 }
 
-void MainFrame::point_at(const mrpt::math::TPoint2D& place) {
-  if (!replay_ || !snapshot_) return;
+void MainFrame::click_place(const mrpt::math::TPoint2D& place) {
+  if (!replay_ || !run_.snapshot) return;
   if (!first_place_) {
     first_place_ = place;
     canvas_->show_pointed(place);
-    tell("Add a loop: now click on the same thing as the earlier pass shows it (Esc: no more)");
+    show_status("Add a loop: now click the same object where it was seen earlier (Esc cancels)");
     return;
   }
-  const auto edit = loop_between_places(*snapshot_, *first_place_, place, MatcherKind::kCsm);
+  const auto edit = loop_between_places(*run_.snapshot, *first_place_, place, MatcherKind::kCsm);
   set_adding_loop(false);
-  tell(hint_text());
+  show_status(hint_text());
   if (edit)
     replay_->edit(*edit);
   else
-    messages_->say(MessageBar::Kind::kWarning,
-                   "No loop can be added yet: there is no finished local map but the scan's own");
+    messages_->warn(
+        "No loop can be added yet: the only finished local map contains the scan itself. Map "
+        "more scans first.");
 }
 
-/// What became of the newest edit, once.
-void MainFrame::take_edit_news(const ReplaySnapshot& snapshot) {
-  if (!snapshot.edited || snapshot.edited->number == told_edit_) return;
-  told_edit_ = snapshot.edited->number;
+/// Shows the outcome of the newest edit, once.
+void MainFrame::report_edit(const ReplaySnapshot& snapshot) {
+  if (!snapshot.edited || snapshot.edited->number == run_.reported_edit) return;
+  run_.reported_edit = snapshot.edited->number;
   const auto& [number, edit, outcome] = *snapshot.edited;
   const bool made = outcome.state != LoopEditOutcome::State::kImpossible;
   const LoopRecord* const loop = record_of(snapshot, edit);
@@ -119,9 +114,9 @@ void MainFrame::take_edit_news(const ReplaySnapshot& snapshot) {
     words += ": " + outcome.reason;
   else if (loop != nullptr)
     words += std::string(": ") + verdict_text(loop->verdict) +
-             (loop->verdict == LoopVerdict::kDeleted || loop->reason.empty() ? "" : ", " + loop->reason);
+             (loop->verdict == LoopVerdict::kDeleted || !loop->refusal ? "" : ", " + text_of(loop->refusal));
   if (messages_->asks())
-    tell(words);  // the question stays
+    show_status(words);  // the message bar keeps its question
   else
     messages_->say(made ? MessageBar::Kind::kNote : MessageBar::Kind::kWarning, words);
   if (made && edit.kind == Kind::kMatch && loop != nullptr)
@@ -136,18 +131,19 @@ void MainFrame::enable_edit_commands(const ReplaySnapshot* snapshot) {
       open && selected && *selected < snapshot->loops->size() ? &(*snapshot->loops)[*selected] : nullptr;
   const auto enable = [this](int command, bool enabled) {
     GetMenuBar()->Enable(command, enabled);
-    loops_->actions().enable(command, enabled);
+    loops_->enable_action(command, enabled);
   };
   enable(kDeleteLoop, loop != nullptr && loop->verdict != LoopVerdict::kDeleted);
   enable(kForceLoop, loop != nullptr && loop->verdict != LoopVerdict::kNotFound);
   enable(kRestoreLoop, loop != nullptr && loop->by_hand);
-  loops_->actions().enable(kMatchLoop, loop != nullptr);
-  for (int matcher = 0; matcher < kMatchers; ++matcher) enable(kMatchLoopBy + matcher, loop != nullptr);
+  loops_->enable_action(kMatchLoop, loop != nullptr);
+  for (std::size_t i = 0; i < kMatcherChoices.size(); ++i)
+    enable(kMatchLoopBy + static_cast<int>(i), loop != nullptr);
   enable(kAddLoop, open && !snapshot->map_T_node->empty());
   enable(kUndo, open && !snapshot->undo_text.empty());
   enable(kRedo, open && !snapshot->redo_text.empty());
   enable(kOpenEdits, snapshot != nullptr);
-  enable(kSaveEdits, snapshot != nullptr && !snapshot->edits->empty());  // of a failed run, too
+  enable(kSaveEdits, snapshot != nullptr && !snapshot->edits->empty());  // also after a failure
   const auto title = [&](int command, const char* name, const char* key, const std::string& what) {
     const wxString label =
         wxString::FromUTF8(name) + (what.empty() ? wxString() : ": " + text_of(what)) + key;
@@ -159,33 +155,30 @@ void MainFrame::enable_edit_commands(const ReplaySnapshot* snapshot) {
 
 EditJournal MainFrame::edits() const {
   if (!replay_) return {};
-  if (edits_are_under_way()) throw UserError("The last edit is still being made: try again once it is");
+  if (edits_are_pending()) throw UserError("The last edit is still in progress: try again in a moment");
   return journal_of(*replay_->snapshot()->edits);
 }
 
 void MainFrame::open_edits(const std::filesystem::path& file) {
   if (!replay_) return;
   if (!has_unsaved_edits()) return map_again_with(file);
-  messages_->say(MessageBar::Kind::kWarning,
-                 "Loops edited by hand have not been saved. Open other edits nevertheless?",
-                 {{"Open them", [this, file] { map_again_with(file); }}});
+  messages_->warn("Loop edits have not been saved. Open other edits anyway?",
+                  {{"Open other edits", [this, file] { map_again_with(file); }}});
 }
 
 void MainFrame::map_again_with(const std::filesystem::path& edits) {
-  telling_failures([&] {
+  attempt([&] {
     open(replay_->input().with_edits(EditJournal::read(edits)), Edits::kOfFile);
-    messages_->say(MessageBar::Kind::kNote, "The log is mapped again with the edits of " + edits.string() +
-                                                " as soon as it is played");
+    messages_->note("Edits read from " + edits.string() + ". Press play to map the log with them.");
   });
 }
 
 void MainFrame::save_edits(const std::filesystem::path& file) {
-  telling_failures([&] {
+  attempt([&] {
     const EditJournal all = edits();
     all.write(file);
     unsaved_.note_written_edits(all);
-    messages_->say(MessageBar::Kind::kNote,
-                   "The edits are in " + file.string() + ": psi-slam takes them with --edits");
+    messages_->note("Edits saved in " + file.string() + ". Map with them with psi-slam --edits.");
   });
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the window opens logs and sessions.
+// Opening logs and sessions in the window.
 #include <wx/simplebook.h>
 
 #include <new>
 
-#include "first_sentences.h"
 #include "loop_inspector.h"
 #include "main_frame.h"
 #include "map_canvas.h"
@@ -20,7 +19,7 @@ namespace psi_slam {
 void MainFrame::start(const std::string& log, const std::string& config,
                       const std::vector<std::string>& settings, const std::string& edits) {
   std::optional<EditJournal> journal;
-  telling_failures([&] {
+  attempt([&] {
     settings_.load(config, settings);
     if (!edits.empty()) journal = EditJournal::read(edits);
   });
@@ -34,11 +33,11 @@ void MainFrame::open_log(const std::filesystem::path& log, std::optional<EditJou
   const auto open_input = [=](SessionInput input, const std::vector<std::string>& remarks) {
     opened_ = log;
     open(edits ? input.with_edits(*edits) : std::move(input), Edits::kOfFile);
-    if (!remarks.empty()) messages_->say(MessageBar::Kind::kWarning, first_sentences(remarks));
+    if (!remarks.empty()) messages_->warn(first_sentences(remarks));
   };
-  telling_failures([&] {
+  attempt([&] {
     if (!is_session_file(log)) {
-      kept_settings_.clear();
+      session_settings_.clear();
       return open_input(SessionInput(log), {});
     }
     const int edits_before = replay_ ? replay_->edits_asked() : 0;
@@ -49,82 +48,72 @@ void MainFrame::open_log(const std::filesystem::path& log, std::optional<EditJou
             open_input(input, take_settings_of(input.recording()->facts, log, overrule));
           };
           if (!replay_ || replay_->edits_asked() == edits_before) return open_session();
-          messages_->say(MessageBar::Kind::kWarning,
-                         "Loops were edited while " + log.string() + " was read. Open it nevertheless?",
-                         {{"Open it", [=] { telling_failures(open_session); }}});
+          messages_->warn("Loops were edited while " + log.string() + " was read. Open it anyway?",
+                          {{"Open it", [=] { attempt(open_session); }}});
         });
   });
 }
 
 void MainFrame::read_session(const std::filesystem::path& file, SessionReader::Read read,
                              SessionReader::Take take) {
-  messages_->say(MessageBar::Kind::kNote, "Reading " + file.string());
+  messages_->note("Reading " + file.string());
   session_reader_.begin(std::move(read), std::move(take));
 }
 
-/// All or none of them; returns what the user is to know of them.
+/// Takes over the settings of a session, all or none. Returns remarks for the user.
 std::vector<std::string> MainFrame::take_settings_of(const SessionFacts& facts,
                                                      const std::filesystem::path& file,
                                                      const std::function<void(BoundSettings&)>& overrule) {
-  BoundSettings recorded;  // what the session does not set has its default
+  BoundSettings recorded;  // options that the session does not set have their defaults
   std::vector<std::string> remarks = load_recorded(recorded, facts, file);
   if (const auto other = other_version_text(file, facts)) remarks.push_back(*other);
   std::map<std::string, std::string> kept = kept_settings(recorded.table);
   if (overrule) overrule(recorded);
   require_kept(kept, recorded.table, file);
-  kept_settings_ = std::move(kept);
+  session_settings_ = std::move(kept);
   settings_.settings = recorded.settings;
   settings_panel_->refresh();
   return remarks;
 }
 
-void MainFrame::go_on_with(const std::filesystem::path& log) {
+void MainFrame::resume_with(const std::filesystem::path& log) {
   if (!replay_ || !replay_->input().recording()) return;
-  telling_failures([&] {
+  attempt([&] {
     read_session(
         log, [recording = replay_->input().recording(), log] { return SessionInput(recording, log); },
         [this](const SessionInput& input) { open(input.with_edits(edits()), Edits::kMadeSoFar); });
   });
 }
 
-void MainFrame::telling_failures(const std::function<void()>& action) {
+void MainFrame::attempt(const std::function<void()>& action) {
   try {
     action();
   } catch (...) {
-    tell_failure(std::current_exception());
+    report_failure(std::current_exception());
   }
 }
 
-void MainFrame::tell_failure(const std::exception_ptr& failure) {
+void MainFrame::report_failure(const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);
   } catch (const std::bad_alloc&) {
-    messages_->say(MessageBar::Kind::kError, "There is not enough memory for that");
+    messages_->fail("Out of memory: close other programs or map a shorter log");
   } catch (const std::exception& error) {
-    messages_->say(MessageBar::Kind::kError, error.what());
+    messages_->fail(error.what());
   }
 }
 
 void MainFrame::open(SessionInput input, Edits edits) {
-  if (input.recording()) require_kept(kept_settings_, settings_.table, opened_);
-  session_reader_.give_up();  // what is being read was for the run before
+  if (input.recording()) require_kept(session_settings_, settings_.table, opened_);
+  session_reader_.give_up();  // its session was to continue the previous run
   messages_->dismiss();
-  snapshot_.reset();
-  shown_frame_.reset();
-  told_failure_.clear();
-  told_warnings_.clear();
-  told_export_ = 0;
-  told_save_ = 0;
-  told_edit_ = 0;
+  run_ = {};
   set_adding_loop(false);
-  remembered_ = false;
-  close_when_written_ = false;
-  closes_without_export_ = false;
   loops_->show_nothing();
   plots_->show_nothing();
-  settings_of_run_ = settings_file_text(settings_.table);
+  run_.settings = settings_file_text(settings_.table);
   settings_panel_->show_pending(false);
-  edits == Edits::kOfFile ? unsaved_.open(input) : unsaved_.begin_again(input);
+  edits == Edits::kOfFile ? unsaved_.open(input) : unsaved_.restart(input);
   replay_.open(std::move(input), settings_.settings);
   replay_->set_speed(speed_);
   middle_->SetSelection(kMapPage);
@@ -135,17 +124,16 @@ void MainFrame::open(SessionInput input, Edits edits) {
 
 void MainFrame::open_other_log(const std::filesystem::path& log) {
   if (!has_unsaved_edits()) return open_log(log);
-  messages_->say(MessageBar::Kind::kWarning,
-                 "Loops edited by hand have not been saved. Open another log nevertheless?",
-                 {{"Open it", [this, log] { open_log(log); }}});
+  messages_->warn("Loop edits have not been saved. Open another log anyway?",
+                  {{"Open it", [this, log] { open_log(log); }}});
 }
 
 void MainFrame::show_pending_settings() {
-  if (replay_) settings_panel_->show_pending(settings_file_text(settings_.table) != settings_of_run_);
+  if (replay_) settings_panel_->show_pending(settings_file_text(settings_.table) != run_.settings);
 }
 
 void MainFrame::restart() {
-  if (replay_) telling_failures([this] { open(replay_->input().with_edits(edits()), Edits::kMadeSoFar); });
+  if (replay_) attempt([this] { open(replay_->input().with_edits(edits()), Edits::kMadeSoFar); });
 }
 
 }  // namespace psi_slam

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "main_menu.h"
 
-#include <array>
+#include <mrpt/system/os.h>
+#include <wx/version.h>
+#include <wx/window.h>
+
 #include <string>
 
-#include "transport_bar.h"
+#include "icons.h"
 
 namespace psi_slam {
 namespace {
@@ -19,7 +22,7 @@ wxMenu* file_menu(wxMenu* recent) {
   menu->Append(kOpenFolder, utf8("Open &folder of a ROS 2 bag…"));
   menu->AppendSubMenu(recent, "&Recent logs");
   menu->AppendSeparator();
-  menu->Append(kGoOnWithLog, utf8("&Go on with the session in its log…"));
+  menu->Append(kResumeWithLog, utf8("Resume session with its lo&g…"));
   menu->Append(kSaveSession, utf8("Save sessio&n…\tCtrl+S"));
   menu->AppendSeparator();
   menu->Append(kOpenSettings, utf8("Open &settings…\tCtrl+Shift+O"));
@@ -27,7 +30,7 @@ wxMenu* file_menu(wxMenu* recent) {
   menu->Append(kResetSettings, "Reset a&ll settings");
   menu->AppendSeparator();
   menu->Append(kExport, utf8("&Export results…\tCtrl+E"));
-  menu->Append(kSavePicture, utf8("Save &picture of the view…\tCtrl+P"));
+  menu->Append(kSavePicture, utf8("Save map view as &picture…\tCtrl+P"));
   menu->AppendSeparator();
   menu->Append(kQuit, "&Quit\tCtrl+Q");
   return menu;
@@ -38,12 +41,13 @@ wxMenu* edit_menu() {
   menu->Append(kUndo, "&Undo\tCtrl+Z");
   menu->Append(kRedo, "&Redo\tCtrl+Shift+Z");
   menu->AppendSeparator();
-  menu->Append(kDeleteLoop, "&Delete the selected loop (Delete)");
-  menu->Append(kForceLoop, "&Force the selected loop");
-  for (int matcher = 0; matcher < kMatchers; ++matcher)
-    menu->Append(kMatchLoopBy + matcher, "Match it again by " + matcher_title(matcher));
-  menu->Append(kRestoreLoop, "Re&store the selected loop");
-  menu->AppendCheckItem(kAddLoop, "&Add a loop by two clicks (L)");
+  menu->Append(kDeleteLoop, "&Delete selected loop (Delete)");
+  menu->Append(kForceLoop, "&Force selected loop");
+  for (std::size_t i = 0; i < kMatcherChoices.size(); ++i)
+    menu->Append(kMatchLoopBy + static_cast<int>(i),
+                 wxString("Match selected loop again: ") + kMatcherChoices[i].title);
+  menu->Append(kRestoreLoop, "Re&store selected loop");
+  menu->AppendCheckItem(kAddLoop, "&Add loop by two clicks (L)");
   menu->AppendSeparator();
   menu->Append(kOpenEdits, utf8("&Open loop edits…"));
   menu->Append(kSaveEdits, utf8("Sa&ve loop edits…"));
@@ -53,34 +57,30 @@ wxMenu* edit_menu() {
 wxMenu* run_menu() {
   auto* menu = new wxMenu;
   menu->Append(kPlayOrPause, "&Play or pause (Space)");
-  menu->Append(kStep, "&Step one scan (.)");
-  menu->Append(kFinish, "&Finish here\tCtrl+Return");
-  menu->Append(kRestart, "&Map again from the start\tCtrl+R");
+  menu->Append(kStep, "&Map one scan (.)");
+  menu->Append(kFinish, "&Finish map now\tCtrl+Return");
+  menu->Append(kRestart, "&Restart from first scan\tCtrl+R");
   menu->AppendSeparator();
-  for (std::size_t i = 0; i < TransportBar::speeds().size(); ++i) {
-    const double speed = TransportBar::speeds()[i];
-    const wxString key = wxString::Format("\tAlt+%zu", i + 1);
-    const wxString name =
-        speed > 0 ? wxString::Format("Speed %g", speed) + utf8("×") : wxString("As fast as possible");
-    menu->AppendRadioItem(kSpeed + static_cast<int>(i), name + key);
-  }
-  menu->Check(kSpeed + static_cast<int>(TransportBar::speeds().size()) - 1, true);
+  for (std::size_t i = 0; i < kSpeeds.size(); ++i)
+    menu->AppendRadioItem(kSpeed + static_cast<int>(i),
+                          "Speed: " + speed_text(kSpeeds[i]) + wxString::Format("\tAlt+%zu", i + 1));
+  menu->Check(kSpeed + static_cast<int>(kSpeeds.size()) - 1, true);
   return menu;
 }
 
 wxMenu* view_menu() {
   auto* menu = new wxMenu;
-  menu->Append(kShowAll, "Show &all of the map (Home)");
-  menu->Append(kFromAbove, "From a&bove (T)");
-  menu->AppendCheckItem(kFollow, "&Follow the robot (F)");
-  menu->AppendCheckItem(kMeasure, "&Measure a distance (M)");
+  menu->Append(kFitMap, "Fit &map (Home)");
+  menu->Append(kTopView, "&Top view (T)");
+  menu->AppendCheckItem(kFollow, "&Follow robot (F)");
+  menu->AppendCheckItem(kMeasure, "M&easure distance (M)");
   menu->AppendSeparator();
   for (std::size_t i = 0; i < kMapLayers; ++i) {
     const auto layer = static_cast<MapLayer>(i);
     const wxString key = wxString::Format("\tCtrl+%zu", (i + 1) % 10);
     menu->AppendCheckItem(kLayer + static_cast<int>(i), name_of(layer) + key)->Check(shown_at_first(layer));
   }
-  menu->AppendCheckItem(kRefusedLoops, "Refused loops, too");
+  menu->AppendCheckItem(kRefusedLoops, "Refused loops");
   menu->AppendSeparator();
   menu->AppendRadioItem(kLoopsByMatcher, "Colour loops by matcher");
   menu->AppendRadioItem(kLoopsByResidual, "Colour loops by residual");
@@ -93,6 +93,11 @@ wxMenu* view_menu() {
 }
 
 }  // namespace
+
+wxString speed_text(double speed) {
+  if (speed <= 0) return "as fast as possible";
+  return wxString::Format("%g", speed) + utf8("×");
+}
 
 wxMenuBar* make_menu_bar(wxMenu* recent) {
   auto* bar = new wxMenuBar;
@@ -107,16 +112,8 @@ wxMenuBar* make_menu_bar(wxMenu* recent) {
   return bar;
 }
 
-MatcherKind matcher_kind_of(int number) {
-  constexpr std::array<MatcherKind, kMatchers> kKinds{MatcherKind::kCsm, MatcherKind::kCsmGa,
-                                                      MatcherKind::kGa};
-  return kKinds.at(static_cast<std::size_t>(number));
-}
-
-wxString matcher_title(int number) {
-  constexpr std::array<const char*, kMatchers> kTitles{
-      "exact search (csm)", "coarse cells and the GA (csm_ga)", "the GA alone (ga)"};
-  return kTitles.at(static_cast<std::size_t>(number));
+void choose_command(wxWindow& from, int command) {
+  from.GetEventHandler()->QueueEvent(new wxCommandEvent(wxEVT_MENU, command));
 }
 
 int command_of_key(int key) {
@@ -126,9 +123,9 @@ int command_of_key(int key) {
     case '.':
       return kStep;
     case WXK_HOME:
-      return kShowAll;
+      return kFitMap;
     case 'T':
-      return kFromAbove;
+      return kTopView;
     case 'F':
       return kFollow;
     case 'M':
@@ -143,14 +140,30 @@ int command_of_key(int key) {
 }
 
 const char* hint_text() {
-  return "Space plays and pauses. In the map: drag to move, right-drag to turn, wheel to zoom. F1: all keys";
+  return "Space: play or pause. In the map: drag to move, right-drag to rotate, turn the wheel to zoom. F1: "
+         "all "
+         "keys";
 }
 
 const char* shortcuts_text() {
-  return "Space plays and pauses, \".\" maps one scan. In the map: drag to move, right-drag to turn and "
-         "tilt, wheel to "
-         "zoom; Home shows all, F follows the robot, M measures. L adds a loop, Delete deletes the selected "
-         "one, Ctrl+Z undoes.";
+  return "Space plays or pauses, \".\" maps one scan. In the map: drag to move, right-drag to rotate and "
+         "tilt, "
+         "turn the wheel to zoom. Home fits the map, T shows the top view, F follows the robot, M measures a "
+         "distance. L adds a loop, Delete deletes the selected loop, Ctrl+Z undoes the last edit.";
+}
+
+wxAboutDialogInfo about_info() {
+  wxAboutDialogInfo info;
+  info.SetName("psi-slam");
+  info.SetVersion(PSI_SLAM_VERSION);
+  info.SetDescription(utf8("Builds floor plans from 2D lidar scans and wheel odometry:\n"
+                           "graph SLAM with genetic loop matching. The factor Ψ selects the matcher.\n\n"
+                           "Built with ") +
+                      utf8(mrpt::system::MRPT_getVersion().c_str()) + " and " + wxString(wxVERSION_STRING) +
+                      ".");
+  info.SetLicence("BSD 3-Clause");
+  info.SetIcon(program_icon().GetIcon(wxSize(64, 64)));
+  return info;
 }
 
 }  // namespace psi_slam

@@ -1,69 +1,87 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The window's menus, with their keys.
+// Commands of the window with their keys, the menu bar, and the texts of the Help menu.
 #pragma once
 
+#include <wx/aboutdlg.h>
 #include <wx/menu.h>
+
+#include <array>
 
 #include "matching/make_matcher.h"
 #include "view/map_scene.h"
 
 namespace psi_slam {
 
+/// A choice of the matcher for a loop that is matched again.
+struct MatcherChoice {
+  MatcherKind kind;
+  const char* title;
+};
+inline constexpr std::array<MatcherChoice, 3> kMatcherChoices{
+    {{MatcherKind::kCsm, "exact search (csm)"},
+     {MatcherKind::kCsmGa, "coarse and genetic search (csm_ga)"},
+     {MatcherKind::kGa, "genetic search (ga)"}}};
+
+/// Choices of the replay speed, as multiples of the recorded speed; 0 is as fast as possible.
+inline constexpr std::array<double, 4> kSpeeds{1, 5, 20, 0};
+wxString speed_text(double speed);
+
 enum Command : int {
   kOpenLog = wxID_OPEN,
   kExport = wxID_SAVE,
   kQuit = wxID_EXIT,
   kAbout = wxID_ABOUT,
+  kUndo = wxID_UNDO,
+  kRedo = wxID_REDO,
   kOpenSettings = wxID_HIGHEST + 100,
   kSaveSettings,
   kResetSettings,
   kSavePicture,
+  kOpenFolder,
+  kSaveSession,
+  kResumeWithLog,
   kPlayOrPause,
   kStep,
   kFinish,
   kRestart,
-  kSpeed,                // and one more for each of the speeds
-  kLayer = kSpeed + 20,  // and one more for each layer
-  kLoopsByMatcher = kLayer + 20,
-  kLoopsByResidual,
-  kRefusedLoops,
-  kShowAll,
-  kFromAbove,
+  kFitMap,
+  kTopView,
   kFollow,
   kMeasure,
+  kRefusedLoops,
+  kLoopsByMatcher,
+  kLoopsByResidual,
   kPaneSettings,
   kPaneLoops,
   kPanePlots,
   kDefaultLayout,
-  kOpenFolder,
-  kSaveSession,
-  kGoOnWithLog,
   kShortcuts,
-  kUndo = wxID_UNDO,
-  kRedo = wxID_REDO,
-  kDeleteLoop = kShortcuts + 1,
+  kDeleteLoop,
   kForceLoop,
   kRestoreLoop,
   kMatchLoop,
-  kMatchLoopBy,  // and one more for each matcher
-  kAddLoop = kMatchLoopBy + 10,
+  kAddLoop,
   kOpenEdits,
   kSaveEdits,
+  kSpeed,                                                // one for each of kSpeeds
+  kLayer = kSpeed + static_cast<int>(kSpeeds.size()),    // one for each layer
+  kMatchLoopBy = kLayer + static_cast<int>(kMapLayers),  // one for each of kMatcherChoices
 };
 
-inline constexpr int kMatchers = 3;
-MatcherKind matcher_kind_of(int number);
-wxString matcher_title(int number);
-
-/// `recent` is filled and kept by whoever remembers the files.
+/// Makes the menu bar. `recent` is the submenu of recent logs, filled by the caller.
 wxMenuBar* make_menu_bar(wxMenu* recent);
 
-/// What a key alone stands for, where nobody is typing a text; wxID_NONE for others. (As keys of the menu
-/// they would be taken from text fields, too.)
+/// Sends a command to the window that contains `from`, as if it were chosen in the menu.
+void choose_command(wxWindow& from, int command);
+
+/// The command of a key that is pressed without Ctrl, Alt or Shift, or wxID_NONE. These are no menu
+/// accelerators, because those would act while the user types in a text field.
 int command_of_key(int key);
 
-/// What mouse and keys do: the most important, in a line, and all of it.
+/// What mouse and keys do: the most important in a line, and everything.
 const char* hint_text();
 const char* shortcuts_text();
+
+wxAboutDialogInfo about_info();
 
 }  // namespace psi_slam

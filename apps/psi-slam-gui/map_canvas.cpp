@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "legend_picture.h"
-#include "view/frame_pose.h"
 
 namespace psi_slam {
 namespace {
@@ -19,12 +18,13 @@ constexpr double kZoomPerNotch = 1.25;
 constexpr double kNearest_m = 1;
 constexpr double kFarthest_m = 5000;
 constexpr double kTurnPerPixel_deg = 0.4;
-constexpr double kLowest_deg = 10;       // of the eye above the ground
-constexpr double kFromAbove_deg = 89.9;  // straight above, MRPT's camera does not know where up is
+constexpr double kLowest_deg = 10;       // least elevation of the eye
+constexpr double kFromAbove_deg = 89.9;  // at 90, MRPT's camera has no upward direction
 constexpr double kFollowDistance_m = 25;
 constexpr int kLegendMargin = 10;
-constexpr double kNearShare = 0.2;  // of the eye's distance: nothing nearer is drawn,
-constexpr double kFarShare = 8;     // nor farther
+// Objects are drawn between these multiples of the eye's distance.
+constexpr double kNearShare = 0.2;
+constexpr double kFarShare = 8;
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void MapCanvas::bind_mouse() {
   Bind(wxEVT_MOUSEWHEEL, [this](wxMouseEvent& event) { zoom(event); });
   Bind(wxEVT_MOUSE_CAPTURE_LOST, [this](wxMouseCaptureLostEvent&) { drag_ = Drag::kNone; });
   Bind(wxEVT_KEY_DOWN, [this](wxKeyEvent& event) { key(event); });
-  Bind(wxEVT_CHAR, [](wxKeyEvent& event) { event.Skip(false); });  // MRPT's own keys stay out of it
+  Bind(wxEVT_CHAR, [](wxKeyEvent& event) { event.Skip(false); });  // disables MRPT's own keys
 }
 
 void MapCanvas::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
@@ -64,11 +64,10 @@ void MapCanvas::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
     const mrpt::math::TPose2D pose = map_T_frame(*snapshot, std::min(frame.value_or(last), last));
     robot_ = mrpt::math::TPoint2D(pose.x, pose.y);
   }
-  if (follow_ && robot_) {
-    setCameraPointing(static_cast<float>(robot_->x), static_cast<float>(robot_->y), 0);
-  } else if (fit_) {
+  if (follow_ && robot_)
+    set_target(*robot_);
+  else if (fit_)
     fit();
-  }
   Refresh(false);
 }
 
@@ -92,12 +91,11 @@ void MapCanvas::show_all() {
   set_follow(false);
   fit_ = true;
   fit();
-  Refresh(false);
 }
 
 void MapCanvas::fit() {
   if (!map_ || map_->raster.width_px == 0) {
-    if (robot_) setCameraPointing(static_cast<float>(robot_->x), static_cast<float>(robot_->y), 0);
+    if (robot_) set_target(*robot_);
     return;
   }
   const MapRaster& raster = map_->raster;
@@ -112,7 +110,6 @@ void MapCanvas::look_from_above() {
   camera.azimuth_deg = -90;
   camera.elevation_deg = 90;
   set_camera(camera);
-  Refresh(false);
 }
 
 void MapCanvas::set_follow(bool follow) {
@@ -125,8 +122,7 @@ void MapCanvas::set_follow(bool follow) {
     camera.distance_m = std::min(camera.distance_m, kFollowDistance_m);
     set_camera(camera);
   }
-  if (told_follow_) told_follow_(follow);
-  Refresh(false);
+  on.followed(follow);
 }
 
 void MapCanvas::set_measuring(bool measuring) {
@@ -155,7 +151,6 @@ void MapCanvas::look_at(const mrpt::math::TPoint2D& place, double distance_m) {
   camera.target = place;
   camera.distance_m = distance_m;
   set_camera(camera);
-  Refresh(false);
 }
 
 MapCamera MapCanvas::camera() const {
@@ -168,8 +163,13 @@ MapCamera MapCanvas::camera() const {
   return camera;
 }
 
+void MapCanvas::set_target(const mrpt::math::TPoint2D& target) {
+  setCameraPointing(static_cast<float>(target.x), static_cast<float>(target.y), 0);
+  Refresh(false);
+}
+
 void MapCanvas::set_camera(const MapCamera& camera) {
-  setCameraPointing(static_cast<float>(camera.target.x), static_cast<float>(camera.target.y), 0);
+  set_target(camera.target);
   setZoomDistance(static_cast<float>(std::clamp(camera.distance_m, kNearest_m, kFarthest_m)));
   setAzimuthDegrees(static_cast<float>(camera.azimuth_deg));
   setElevationDegrees(static_cast<float>(std::clamp(camera.elevation_deg, kLowest_deg, kFromAbove_deg)));
@@ -190,7 +190,7 @@ std::optional<mrpt::math::TPoint2D> MapCanvas::ground(const wxMouseEvent& event)
 void MapCanvas::press(wxMouseEvent& event, bool left) {
   SetFocus();
   if (left && pointing_) {
-    if (const auto place = ground(event); place && told_pointed_) told_pointed_(*place);
+    if (const auto place = ground(event)) on.clicked(*place);
     return;
   }
   dragged_from_ = event.GetPosition();
@@ -219,7 +219,7 @@ void MapCanvas::move(wxMouseEvent& event) {
   if (drag_ == Drag::kMeasure && place && measure_) {
     measure_->to = *place;
     map_scene_.set_measure(measure_);
-    if (told_measure_) told_measure_(*measure_);
+    on.measured(*measure_);
   } else if (drag_ == Drag::kMove) {
     const auto before = ground_at(camera, picture_size(), from.x, from.y);
     if (before && place) move_target(*before - *place);
@@ -236,60 +236,54 @@ void MapCanvas::move(wxMouseEvent& event) {
 void MapCanvas::move_target(const mrpt::math::TPoint2D& by) {
   set_follow(false);
   fit_ = false;
+  set_target(camera().target + by);
+}
+
+void MapCanvas::zoom_by(double factor) {
+  fit_ = false;
   MapCamera camera = this->camera();
-  camera.target = camera.target + by;
+  camera.distance_m /= factor;
   set_camera(camera);
 }
 
 void MapCanvas::zoom(wxMouseEvent& event) {
   const double notches = static_cast<double>(event.GetWheelRotation()) / std::max(1, event.GetWheelDelta());
   const auto before = ground(event);
-  MapCamera camera = this->camera();
-  camera.distance_m *= std::pow(kZoomPerNotch, -notches);
-  fit_ = false;
-  set_camera(camera);
+  zoom_by(std::pow(kZoomPerNotch, notches));
   const auto after = ground(event);
   if (!follow_ && before && after) move_target(*before - *after);
-  Refresh(false);
 }
 
 void MapCanvas::key(wxKeyEvent& event) {
-  MapCamera camera = this->camera();
-  const double step = camera.distance_m / 20;
+  const double step = camera().distance_m / 20;
   switch (event.GetKeyCode()) {
     case WXK_LEFT:
-      return move_target({-step, 0}), Refresh(false);
+      return move_target({-step, 0});
     case WXK_RIGHT:
-      return move_target({step, 0}), Refresh(false);
+      return move_target({step, 0});
     case WXK_UP:
-      return move_target({0, step}), Refresh(false);
+      return move_target({0, step});
     case WXK_DOWN:
-      return move_target({0, -step}), Refresh(false);
+      return move_target({0, -step});
     case '+':
     case '=':
     case WXK_NUMPAD_ADD:
-      camera.distance_m /= kZoomPerNotch;
-      break;
+      return zoom_by(kZoomPerNotch);
     case '-':
     case WXK_NUMPAD_SUBTRACT:
-      camera.distance_m *= kZoomPerNotch;
-      break;
+      return zoom_by(1 / kZoomPerNotch);
     default:
       event.Skip();
-      return;
   }
-  fit_ = false;
-  set_camera(camera);
-  Refresh(false);
 }
 
 void MapCanvas::take_picture(std::function<void(const wxImage&)> taken) {
   picture_taken_ = std::move(taken);
-  told_of_failure_ = false;  // why there is no picture is to be told, again if need be
+  reported_failure_ = false;  // a failure must be reported again
   Refresh(false);
 }
 
-/// In pixels of the screen, of which there are several to one of wx's where the desktop is scaled.
+/// Renders in pixels of the screen, which are smaller than wxWidgets' pixels on a scaled desktop.
 double MapCanvas::renderCanvas(int, int) {
   const wxSize size = GetClientSize() * GetContentScaleFactor();
   return CWxGLCanvasBase::renderCanvas(size.GetWidth(), size.GetHeight());
@@ -311,9 +305,8 @@ void MapCanvas::OnPostRender() {
 
 void MapCanvas::OnRenderError(const wxString& text) {
   picture_taken_ = {};
-  if (told_of_failure_ || !told_failure_) return;
-  told_of_failure_ = true;
-  told_failure_("OpenGL cannot draw the map: " + text.utf8_string());
+  if (std::exchange(reported_failure_, true)) return;
+  on.failed("OpenGL cannot draw the map: " + text.utf8_string());
 }
 
 }  // namespace psi_slam

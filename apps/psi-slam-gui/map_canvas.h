@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map view: MRPT's OpenGL scene of the run in a window. Left button: move the map. Right button: turn and
-// tilt it. Wheel: zoom to where the pointer is. While measuring, the left button draws a line.
 #pragma once
 
 #include <mrpt/gui/CWxGLCanvasBase.h>
@@ -17,49 +15,53 @@
 
 namespace psi_slam {
 
+/// The map view: the MRPT scene of the run in a window. The left button moves the map, or draws a line while
+/// measuring; the right button rotates and tilts it; the wheel zooms towards the pointer.
 class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
  public:
   explicit MapCanvas(wxWindow* parent);
 
+  /// Functions that the canvas calls.
+  struct Callbacks {
+    std::function<void(const mrpt::math::TPoint2D&)> clicked = [](const mrpt::math::TPoint2D&) {};
+    std::function<void(const Measure&)> measured = [](const Measure&) {};
+    std::function<void(bool)> followed = [](bool) {};
+    /// Gets a sentence, once, if OpenGL cannot draw.
+    std::function<void(const std::string&)> failed = [](const std::string&) {};
+  };
+  Callbacks on;
+
   MapScene& map_scene() { return map_scene_; }
 
-  /// Shows the run as it is; the map is kept in sight until the user moves it.
+  /// Shows the run. Keeps the whole map in view until the user moves it.
   void show(const std::shared_ptr<const ReplaySnapshot>& snapshot, const std::shared_ptr<const DrawnMap>& map,
             std::optional<std::size_t> frame);
 
-  /// What is to be seen of the layers and the loops has changed.
+  /// Redraws after a change of layers or of the style of loops.
   void restyle();
-  /// Of the loops' colours, as it is on show; without entries where it is not.
+  /// The legend of the loops' colours; without entries if no loop is shown.
   const LoopLegend& legend() const { return legend_; }
 
-  /// All of the map, from above, from now on.
+  /// Shows the whole map from above, also when it grows.
   void show_all();
-  /// From above, at this place and distance.
+  /// Looks straight down, keeping target and distance.
   void look_from_above();
   void set_follow(bool follow);
   bool follows() const { return follow_; }
   void set_measuring(bool measuring);
   bool measuring() const { return measuring_; }
-  /// A click with the left button points at a place instead of moving the map.
+  /// While pointing, a click with the left button calls on.clicked instead of moving the map.
   void set_pointing(bool pointing);
   bool pointing() const { return pointing_; }
-  /// A place pointed at before, with a line from it to the pointer.
+  /// Draws a line from a place to the pointer, or none.
   void show_pointed(const std::optional<mrpt::math::TPoint2D>& place);
-  void on_pointed(std::function<void(const mrpt::math::TPoint2D&)> told) { told_pointed_ = std::move(told); }
   const std::optional<Measure>& measure() const { return measure_; }
-  /// Looks at a place of the map.
   void look_at(const mrpt::math::TPoint2D& place, double distance_m);
 
   MapCamera camera() const;
-  PictureSize picture_size() const;
 
-  /// Draws the map once more and hands over what was drawn.
+  /// Draws the map again and calls `taken` with the picture.
   void take_picture(std::function<void(const wxImage&)> taken);
-
-  void on_measured(std::function<void(const Measure&)> told) { told_measure_ = std::move(told); }
-  void on_followed(std::function<void(bool)> told) { told_follow_ = std::move(told); }
-  /// A sentence of OpenGL that cannot draw, told once.
-  void on_failure(std::function<void(const std::string&)> told) { told_failure_ = std::move(told); }
 
  private:
   double renderCanvas(int width, int height) override;
@@ -72,8 +74,11 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   void release();
   void zoom(wxMouseEvent& event);
   void key(wxKeyEvent& event);
+  PictureSize picture_size() const;
   std::optional<mrpt::math::TPoint2D> ground(const wxMouseEvent& event) const;
   void set_camera(const MapCamera& camera);
+  void set_target(const mrpt::math::TPoint2D& target);
+  void zoom_by(double factor);
   void move_target(const mrpt::math::TPoint2D& by);
   void fit();
   void show_legend();
@@ -94,11 +99,7 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   Drag drag_ = Drag::kNone;
   wxPoint dragged_from_;
   std::function<void(const wxImage&)> picture_taken_;
-  bool told_of_failure_ = false;
-  std::function<void(const Measure&)> told_measure_;
-  std::function<void(const mrpt::math::TPoint2D&)> told_pointed_;
-  std::function<void(bool)> told_follow_;
-  std::function<void(const std::string&)> told_failure_;
+  bool reported_failure_ = false;
 };
 
 }  // namespace psi_slam

@@ -15,7 +15,7 @@ namespace psi_slam {
 namespace {
 
 constexpr int kGap = 6;
-constexpr int kNarrowest = 120;  // the sentence is not wrapped narrower
+constexpr int kNarrowest = 120;  // least width of the text
 const wxColour kInk(40, 44, 52);
 
 struct Look {
@@ -46,7 +46,7 @@ MessageBar::MessageBar(wxWindow* parent) : wxPanel(parent) {
   close_ = new wxBitmapButton(this, wxID_ANY, icon_of(Icon::kClose, kInk), wxDefaultPosition, wxDefaultSize,
                               wxBORDER_NONE);
   close_->SetName("dismiss");
-  close_->SetToolTip("Dismiss");
+  close_->SetToolTip("Close this message");
   close_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { dismiss(); });
   buttons_ = new wxBoxSizer(wxHORIZONTAL);
   auto* row = new wxBoxSizer(wxHORIZONTAL);
@@ -73,7 +73,7 @@ void MessageBar::say(Kind kind, const std::string& sentence, const std::vector<A
   for (const Answer& answer : answers_) {
     auto* button = new wxButton(this, wxID_ANY, text_of(answer.label));
     button->Bind(wxEVT_BUTTON, [this, label = answer.label](wxCommandEvent&) {
-      CallAfter([this, label] { this->answer(label); });  // which may replace this very button
+      CallAfter([this, label] { this->answer(label); });  // the answer may delete this button
     });
     buttons_->Add(button, 0, wxRIGHT, FromDIP(kGap));
   }
@@ -82,7 +82,7 @@ void MessageBar::say(Kind kind, const std::string& sentence, const std::vector<A
   Refresh();
 }
 
-/// To the width that icon and buttons leave.
+/// Wraps the text to the width that icon and buttons leave.
 void MessageBar::wrap() {
   wrapped_for_ = GetParent()->GetClientSize().GetWidth();
   const int beside = icon_->GetBestSize().GetWidth() + buttons_->CalcMin().GetWidth() +
@@ -108,6 +108,14 @@ void MessageBar::dismiss() {
   answers_.clear();
   Hide();
   GetParent()->Layout();
+}
+
+std::string first_sentences(const std::vector<std::string>& sentences) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t i = 0; i < sentences.size() && i < kMost; ++i) text += (i == 0 ? "" : "\n") + sentences[i];
+  if (sentences.size() > kMost) text += "\nand " + std::to_string(sentences.size() - kMost) + " more";
+  return text;
 }
 
 }  // namespace psi_slam

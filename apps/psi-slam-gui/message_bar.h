@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sentences for the user in a bar above the map, which never stop what he is doing.
 #pragma once
 
 #include <wx/panel.h>
@@ -15,23 +14,29 @@ class wxStaticText;
 
 namespace psi_slam {
 
+/// Bar above the map for messages and questions. It never blocks the user.
 class MessageBar : public wxPanel {
  public:
   enum class Kind { kNote, kWarning, kError };
   struct Answer {
     std::string label;
-    std::function<void()> action;  ///< the bar has gone by then
+    std::function<void()> action;  ///< called after the bar is hidden
   };
 
   explicit MessageBar(wxWindow* parent);
 
-  /// Replaces what was shown before.
+  /// Shows a sentence with a button for each answer, in place of the previous message.
   void say(Kind kind, const std::string& sentence, const std::vector<Answer>& answers = {});
-  /// The sentence on show; "" when there is none.
+  void note(const std::string& sentence) { say(Kind::kNote, sentence); }
+  void warn(const std::string& sentence, const std::vector<Answer>& answers = {}) {
+    say(Kind::kWarning, sentence, answers);
+  }
+  void fail(const std::string& sentence) { say(Kind::kError, sentence); }
+  /// The sentence on show; empty while the bar is hidden.
   std::string sentence() const { return IsShown() ? sentence_ : std::string(); }
-  /// Whether there is something to be answered.
+  /// True while a question waits for an answer.
   bool asks() const { return IsShown() && !answers_.empty(); }
-  /// Does what a click on the answer does. False when there is no answer of that label.
+  /// Does what a click on this answer does. Returns false if there is no such answer.
   bool answer(const std::string& label);
   void dismiss();
 
@@ -39,12 +44,15 @@ class MessageBar : public wxPanel {
   void wrap();
 
   std::string sentence_;
-  int wrapped_for_ = -1;  // the width of the bar
+  int wrapped_for_ = -1;  // width of the bar
   std::vector<Answer> answers_;
   wxBoxSizer* buttons_;
   wxStaticBitmap* icon_;
   wxStaticText* text_;
   wxBitmapButton* close_;
 };
+
+/// The first four sentences, a line each, and the number of the others.
+std::string first_sentences(const std::vector<std::string>& sentences);
 
 }  // namespace psi_slam

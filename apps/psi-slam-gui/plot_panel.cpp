@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "plot_series.h"
 #include "view/palette.h"
 #include "wx_text.h"
 
@@ -20,20 +22,148 @@ const wxColour kLoops(0, 145, 90);
 const wxColour kGraph(200, 80, 20);
 const wxColour kThreshold(200, 30, 40);
 
+struct Curve {
+  wxString name;
+  wxColour colour;
+  double PlotColumn::*value = nullptr;
+};
+
+struct Plot {
+  wxString title;
+  double least_top = 1;  ///< the axis reaches at least up to this value
+  std::vector<Curve> curves;
+  bool stacked = false;  ///< each curve is drawn on top of the sum of the curves before it
+
+  double value(std::size_t curve, const PlotColumn& column) const {
+    double sum = 0;
+    for (std::size_t i = stacked ? 0 : curve; i <= curve; ++i) sum += column.*curves[i].value;
+    return sum;
+  }
+};
+
+const std::vector<Plot>& plots() {
+  static const std::vector<Plot> kPlots{
+      {wxString::FromUTF8("Factor Ψ"), 0.1, {{wxString::FromUTF8("Ψ"), kFrontEnd, &PlotColumn::psi}}},
+      {"Response",
+       1,
+       {{"lowest", kGraph, &PlotColumn::response_min}, {"highest", kFrontEnd, &PlotColumn::response_max}}},
+      {"Loops so far",
+       1,
+       {{"tried", kGraph, &PlotColumn::loops_tried}, {"accepted", kLoops, &PlotColumn::loops_accepted}}},
+      {"Time per scan [ms]",
+       0.1,
+       {{"front end", kFrontEnd, &PlotColumn::front_end_ms},
+        {"loops", kLoops, &PlotColumn::loops_ms},
+        {"pose graph", kGraph, &PlotColumn::graph_ms}},
+       true}};
+  return kPlots;
+}
+
+/// Draws one plot into its strip of the panel.
+struct PlotPainter {
+  wxGraphicsContext& context;
+  const wxWindow& window;
+  wxRect area;
+  const std::vector<PlotColumn>& columns;
+  std::size_t frames;
+  double top = 1;  ///< upper end of the axis
+
+  double x_of(std::size_t frame) const {
+    return area.x +
+           area.width * static_cast<double>(frame) / std::max<double>(1, static_cast<double>(frames - 1));
+  }
+
+  /// Draws axes and curves. The axis reaches at least up to `least_top`.
+  void draw(const Plot& plot, double least_top) {
+    top = std::max(plot.least_top, least_top);
+    for (std::size_t curve = 0; curve < plot.curves.size(); ++curve)
+      for (const PlotColumn& column : columns) top = std::max(top, plot.value(curve, column));
+    top = round_up(top);
+    draw_axes(plot.title);
+    for (std::size_t i = 0; i < plot.curves.size(); ++i)
+      draw_curve(plot, plot.stacked ? plot.curves.size() - 1 - i : i);
+  }
+
+  void draw_line_at(double value) {
+    if (value < 0 || value > top) return;
+    context.SetPen(wxPen(kThreshold, window.FromDIP(1), wxPENSTYLE_SHORT_DASH));
+    context.StrokeLine(area.x, y_of(value), area.x + area.width, y_of(value));
+  }
+
+  /// Draws a band at the bottom in the colours of the matchers.
+  void draw_matchers() {
+    context.SetPen(*wxTRANSPARENT_PEN);
+    const double height = window.FromDIP(4);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (!columns[i].matcher) continue;
+      const double x = x_of(columns[i].first_frame);
+      const double end = i + 1 < columns.size() ? x_of(columns[i + 1].first_frame) : area.x + area.width;
+      context.SetBrush(wxBrush(colour_of(matcher_colour(*columns[i].matcher))));
+      context.DrawRectangle(x, y_of(0) - height, std::max(1.0, end - x), height);
+    }
+  }
+
+  void draw_legend(const std::vector<Curve>& curves) {
+    double x = area.x + area.width;
+    context.SetFont(window.GetFont().Smaller(), wxSystemSettings::GetColour(wxSYS_COLOUR_WINDOWTEXT));
+    for (auto curve = curves.rbegin(); curve != curves.rend(); ++curve) {
+      double width = 0;
+      double height = 0;
+      context.GetTextExtent(curve->name, &width, &height);
+      x -= width;
+      const double y = area.y - window.FromDIP(18);
+      context.DrawText(curve->name, x, y);
+      const double side = window.FromDIP(8);
+      x -= side + window.FromDIP(4);
+      context.SetPen(*wxTRANSPARENT_PEN);
+      context.SetBrush(wxBrush(curve->colour));
+      context.DrawRectangle(x, y + (height - side) / 2, side, side);
+      x -= window.FromDIP(12);
+    }
+  }
+
+  double y_of(double value) const { return area.y + area.height * (1 - value / top); }
+
+  void draw_axes(const wxString& title) {
+    const wxColour faint = wxSystemSettings::GetColour(wxSYS_COLOUR_GRAYTEXT);
+    context.SetFont(window.GetFont().Bold(), wxSystemSettings::GetColour(wxSYS_COLOUR_WINDOWTEXT));
+    context.DrawText(title, area.x, area.y - window.FromDIP(19));
+    context.SetFont(window.GetFont().Smaller(), faint);
+    context.SetPen(wxPen(wxColour(faint.Red(), faint.Green(), faint.Blue(), 70)));
+    for (const double value : {0.0, top / 2, top}) {
+      const double y = y_of(value);
+      context.StrokeLine(area.x, y, area.x + area.width, y);
+      const wxString label = wxString::Format("%g", value);
+      double width = 0;
+      double height = 0;
+      context.GetTextExtent(label, &width, &height);
+      context.DrawText(label, area.x - width - window.FromDIP(5), y - height / 2);
+    }
+  }
+
+  void draw_curve(const Plot& plot, std::size_t curve) {
+    wxGraphicsPath path = context.CreatePath();
+    for (const PlotColumn& column : columns) {
+      const double x = x_of(column.first_frame);
+      const double y = y_of(std::max(0.0, plot.value(curve, column)));
+      &column == &columns.front() ? path.MoveToPoint(x, y) : path.AddLineToPoint(x, y);
+    }
+    context.SetPen(wxPen(plot.curves[curve].colour, std::max(1, window.FromDIP(3) / 2)));
+    context.StrokePath(path);
+  }
+};
+
 }  // namespace
 
 PlotPanel::PlotPanel(wxWindow* parent, std::function<void(std::size_t)> go_to)
-    : wxPanel(parent), go_to_(std::move(go_to)) {
+    : wxPanel(parent, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxFULL_REPAINT_ON_RESIZE),
+      go_to_(std::move(go_to)) {
   SetName("plots");
   SetBackgroundStyle(wxBG_STYLE_PAINT);
   Bind(wxEVT_PAINT, [this](wxPaintEvent&) { paint(); });
-  Bind(wxEVT_SIZE, [this](wxSizeEvent& event) {
-    Refresh();
-    event.Skip();
-  });
   Bind(wxEVT_LEFT_DOWN, [this](wxMouseEvent& event) {
     if (!snapshot_ || snapshot_->frames.empty()) return;
-    const wxRect area = strip(0, GetClientSize());
+    const wxRect area = strip(0);
     const double share = static_cast<double>(event.GetX() - area.x) / std::max(1, area.width);
     const auto last = static_cast<double>(snapshot_->frames.size() - 1);
     go_to_(static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * last));
@@ -53,168 +183,48 @@ void PlotPanel::show_nothing() {
   Refresh();
 }
 
-wxRect PlotPanel::strip(int index, const wxSize& size) const {
+wxRect PlotPanel::strip(int index) const {
+  const wxSize size = GetClientSize();
   const int left = FromDIP(52);
-  const int right = FromDIP(10);
   const int title = FromDIP(20);
-  const int bottom = FromDIP(6);
   const int height = size.GetHeight() / kStrips;
-  return {left, index * height + title, std::max(1, size.GetWidth() - left - right),
-          std::max(1, height - title - bottom)};
+  return {left, index * height + title, std::max(1, size.GetWidth() - left - FromDIP(10)),
+          std::max(1, height - title - FromDIP(6))};
 }
 
 void PlotPanel::paint() {
   wxAutoBufferedPaintDC dc(this);
   dc.SetBackground(wxBrush(wxSystemSettings::GetColour(wxSYS_COLOUR_WINDOW)));
   dc.Clear();
-  const wxSize size = GetClientSize();
   if (!snapshot_ || snapshot_->frames.empty()) {
     dc.SetFont(GetFont());
     dc.SetTextForeground(wxSystemSettings::GetColour(wxSYS_COLOUR_GRAYTEXT));
-    dc.DrawLabel("The curves of the run appear here as it plays", wxRect(size), wxALIGN_CENTRE);
+    dc.DrawLabel("Plots of the run appear here while it plays", wxRect(GetClientSize()), wxALIGN_CENTRE);
     return;
   }
-  columns_ = plot_columns(snapshot_->frames, static_cast<std::size_t>(strip(0, size).width));
+  const std::vector<PlotColumn> columns =
+      plot_columns(snapshot_->frames, static_cast<std::size_t>(strip(0).width));
   const std::unique_ptr<wxGraphicsContext> context(wxGraphicsContext::Create(dc));
-  draw_psi(*context, strip(0, size));
-  draw_response(*context, strip(1, size));
-  draw_loops(*context, strip(2, size));
-  draw_times(*context, strip(3, size));
-  if (!frame_) return;
-  const wxRect area = strip(0, size);
-  context->SetPen(wxPen(colour_of(palette::kChosen), FromDIP(1)));
-  const double x = x_of(area, static_cast<double>(*frame_));
-  context->StrokeLine(x, 0, x, size.GetHeight());
-}
-
-double PlotPanel::x_of(const wxRect& area, double frame) const {
-  return area.x + area.width * frame / std::max<double>(1, static_cast<double>(snapshot_->frames.size() - 1));
-}
-
-void PlotPanel::draw_axes(wxGraphicsContext& context, const wxRect& area, const wxString& title,
-                          double top) const {
-  const wxColour ink = wxSystemSettings::GetColour(wxSYS_COLOUR_WINDOWTEXT);
-  const wxColour faint = wxSystemSettings::GetColour(wxSYS_COLOUR_GRAYTEXT);
-  context.SetFont(GetFont().Bold(), ink);
-  context.DrawText(title, area.x, area.y - FromDIP(19));
-  context.SetFont(GetFont().Smaller(), faint);
-  context.SetPen(wxPen(wxColour(faint.Red(), faint.Green(), faint.Blue(), 70)));
-  for (const double share : {0.0, 0.5, 1.0}) {
-    const double y = area.y + area.height * (1 - share);
-    context.StrokeLine(area.x, y, area.x + area.width, y);
-    const wxString label = wxString::Format("%g", top * share);
-    double width = 0;
-    double height = 0;
-    context.GetTextExtent(label, &width, &height);
-    context.DrawText(label, area.x - width - FromDIP(5), y - height / 2);
+  std::vector<PlotPainter> painters;
+  for (int i = 0; i < kStrips; ++i) {
+    painters.push_back({*context, *this, strip(i), columns, snapshot_->frames.size()});
+    const Plot& plot = plots()[static_cast<std::size_t>(i)];
+    painters.back().draw(plot, i == 0 ? snapshot_->psi.psi_2 : 0);
+    if (i > 0) painters.back().draw_legend(plot.curves);
   }
-}
-
-void PlotPanel::draw_curve(wxGraphicsContext& context, const wxRect& area, double top,
-                           const Curve& curve) const {
-  wxGraphicsPath path = context.CreatePath();
-  bool begun = false;
-  for (const PlotColumn& column : columns_) {
-    const double x = x_of(area, static_cast<double>(column.first_frame));
-    const double y = area.y + area.height * (1 - std::clamp(curve.value(column) / top, 0.0, 1.0));
-    begun ? path.AddLineToPoint(x, y) : path.MoveToPoint(x, y);
-    begun = true;
-  }
-  context.SetPen(wxPen(curve.colour, std::max(1, FromDIP(3) / 2)));
-  context.StrokePath(path);
-}
-
-void PlotPanel::draw_legend(wxGraphicsContext& context, const wxRect& area,
-                            const std::vector<Curve>& curves) const {
-  double x = area.x + area.width;
-  context.SetFont(GetFont().Smaller(), wxSystemSettings::GetColour(wxSYS_COLOUR_WINDOWTEXT));
-  for (auto curve = curves.rbegin(); curve != curves.rend(); ++curve) {
-    double width = 0;
-    double height = 0;
-    context.GetTextExtent(curve->name, &width, &height);
-    x -= width;
-    const double y = area.y - FromDIP(18);
-    context.DrawText(curve->name, x, y);
-    const double side = FromDIP(8);
-    x -= side + FromDIP(4);
-    context.SetPen(*wxTRANSPARENT_PEN);
-    context.SetBrush(wxBrush(curve->colour));
-    context.DrawRectangle(x, y + (height - side) / 2, side, side);
-    x -= FromDIP(12);
-  }
-}
-
-/// A band below Psi in the colours of the matchers.
-void PlotPanel::draw_matchers(wxGraphicsContext& context, const wxRect& area) const {
-  context.SetPen(*wxTRANSPARENT_PEN);
-  const double height = FromDIP(4);
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    if (columns_[i].matcher.empty()) continue;
-    const double x = x_of(area, static_cast<double>(columns_[i].first_frame));
-    const double end = i + 1 < columns_.size() ? x_of(area, static_cast<double>(columns_[i + 1].first_frame))
-                                               : area.x + area.width;
-    context.SetBrush(wxBrush(colour_of(matcher_colour(columns_[i].matcher))));
-    context.DrawRectangle(x, area.y + area.height - height, std::max(1.0, end - x), height);
-  }
-}
-
-void PlotPanel::draw_psi(wxGraphicsContext& context, const wxRect& area) const {
-  double largest = std::max(0.1, snapshot_->psi.psi_2);
-  for (const PlotColumn& column : columns_) largest = std::max(largest, column.psi);
-  const double top = round_up(largest);
-  draw_axes(context, area, wxString::FromUTF8("Factor \xCE\xA8"), top);
-  context.SetPen(wxPen(kThreshold, FromDIP(1), wxPENSTYLE_SHORT_DASH));
-  for (const double threshold : {snapshot_->psi.psi_1, snapshot_->psi.psi_2}) {
-    if (threshold < 0 || threshold > top) continue;
-    const double y = area.y + area.height * (1 - threshold / top);
-    context.StrokeLine(area.x, y, area.x + area.width, y);
-  }
-  draw_matchers(context, area);
-  const Curve psi{wxString::FromUTF8("\xCE\xA8"), kFrontEnd,
-                  [](const PlotColumn& column) { return column.psi; }};
-  draw_curve(context, area, top, psi);
-  std::vector<Curve> legend{{"thresholds", kThreshold, {}}};
-  for (const char* matcher : {"csm", "csm_ga", "ga"})
-    if (std::any_of(columns_.begin(), columns_.end(),
+  for (const double threshold : {snapshot_->psi.psi_1, snapshot_->psi.psi_2})
+    painters[0].draw_line_at(threshold);
+  painters[0].draw_matchers();
+  std::vector<Curve> legend{{"thresholds", kThreshold}};
+  for (const MatcherKind matcher : kMatcherKinds)
+    if (std::any_of(columns.begin(), columns.end(),
                     [&](const PlotColumn& column) { return column.matcher == matcher; }))
-      legend.push_back({matcher, colour_of(matcher_colour(matcher)), {}});
-  draw_legend(context, area, legend);
-}
-
-void PlotPanel::draw_response(wxGraphicsContext& context, const wxRect& area) const {
-  draw_axes(context, area, "Response", 1);
-  const std::vector<Curve> curves{
-      {"least", kGraph, [](const PlotColumn& column) { return column.response_min; }},
-      {"best", kFrontEnd, [](const PlotColumn& column) { return column.response_max; }}};
-  for (const Curve& curve : curves) draw_curve(context, area, 1, curve);
-  draw_legend(context, area, curves);
-}
-
-void PlotPanel::draw_loops(wxGraphicsContext& context, const wxRect& area) const {
-  const std::vector<Curve> curves{
-      {"tried", kGraph, [](const PlotColumn& column) { return static_cast<double>(column.loops_tried); }},
-      {"closed", kLoops,
-       [](const PlotColumn& column) { return static_cast<double>(column.loops_accepted); }}};
-  const double top = round_up(std::max(1.0, curves[0].value(columns_.back())));
-  draw_axes(context, area, "Loops so far", top);
-  for (const Curve& curve : curves) draw_curve(context, area, top, curve);
-  draw_legend(context, area, curves);
-}
-
-void PlotPanel::draw_times(wxGraphicsContext& context, const wxRect& area) const {
-  const auto sum = [](const PlotColumn& column) {
-    return column.front_end_ms + column.loops_ms + column.graph_ms;
-  };
-  double largest = 0;
-  for (const PlotColumn& column : columns_) largest = std::max(largest, sum(column));
-  const double top = round_up(std::max(largest, 0.1));
-  draw_axes(context, area, "ms a scan", top);
-  const std::vector<Curve> curves{
-      {"front end", kFrontEnd, [](const PlotColumn& column) { return column.front_end_ms; }},
-      {"loops", kLoops, [](const PlotColumn& column) { return column.front_end_ms + column.loops_ms; }},
-      {"pose graph", kGraph, sum}};
-  for (auto curve = curves.rbegin(); curve != curves.rend(); ++curve) draw_curve(context, area, top, *curve);
-  draw_legend(context, area, curves);
+      legend.push_back({name(matcher), colour_of(matcher_colour(matcher))});
+  painters[0].draw_legend(legend);
+  if (!frame_) return;
+  const double x = painters[0].x_of(*frame_);
+  context->SetPen(wxPen(colour_of(palette::kChosen), FromDIP(1)));
+  context->StrokeLine(x, 0, x, GetClientSize().GetHeight());
 }
 
 }  // namespace psi_slam

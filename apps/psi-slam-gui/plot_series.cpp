@@ -14,12 +14,12 @@ void add(PlotColumn& column, const FrameRecord& frame) {
         column.response_max == 0 ? frame.response : std::min(column.response_min, frame.response);
     column.response_max = std::max(column.response_max, frame.response);
   }
-  column.loops_accepted += static_cast<std::size_t>(std::max(0, frame.loops_accepted));
-  column.loops_tried += static_cast<std::size_t>(std::max(0, frame.loops_tried));
+  column.loops_accepted += std::max(0, frame.loops_accepted);
+  column.loops_tried += std::max(0, frame.loops_tried);
   column.front_end_ms += frame.front_end_ms;
   column.loops_ms += frame.loop_closing_ms;
   column.graph_ms += frame.pose_graph_ms;
-  if (!frame.matcher.empty()) column.matcher = frame.matcher;
+  if (frame.matcher) column.matcher = frame.matcher;
 }
 
 }  // namespace

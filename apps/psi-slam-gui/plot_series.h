@@ -1,33 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The curves of a run, made as fine as a picture can show them: each column of pixels stands for some scans.
 #pragma once
 
 #include <cstddef>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "replay/replay_snapshot.h"
 
 namespace psi_slam {
 
-/// What the scans of one column come to.
+/// Summary of successive scans that share a column of pixels in a plot.
 struct PlotColumn {
   std::size_t first_frame = 0;
-  double psi = 0;           ///< the largest of them
-  double response_min = 0;  ///< of matched scans; 0 where none was
+  double psi = 0;           ///< largest value
+  double response_min = 0;  ///< of matched scans; 0 without any
   double response_max = 0;
-  std::size_t loops_accepted = 0;  ///< up to here, from the beginning
-  std::size_t loops_tried = 0;
-  double front_end_ms = 0;  ///< means over the scans
+  double loops_accepted = 0;  ///< number since the first scan
+  double loops_tried = 0;     ///< number since the first scan
+  double front_end_ms = 0;    ///< times are means over the scans
   double loops_ms = 0;
   double graph_ms = 0;
-  std::string matcher;  ///< of the last node among them, or before
+  std::optional<MatcherKind> matcher;  ///< of the last node up to this column
 };
 
-/// At most `columns` columns over all scans; as many as there are scans where they are fewer.
+/// Summarises all scans in `columns` columns, or in one column for each scan if there are fewer scans.
 std::vector<PlotColumn> plot_columns(const HistoryView<FrameRecord>& frames, std::size_t columns);
 
-/// A round number not below `value`, for the upper end of an axis: 1, 2 or 5 times a power of ten.
+/// The least number of 1, 2 or 5 times a power of ten that is not below `value`; the upper end of an axis.
 double round_up(double value);
 
 }  // namespace psi_slam

@@ -1,38 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The run that the window shows. Another one takes its place at once, however busy the one before still is.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "replay/replay.h"
 
 namespace psi_slam {
 
+/// The run that the window shows. Opening another run does not wait for the threads of the previous run.
 class ReplaySlot {
  public:
-  /// Null as long as no log is open.
+  /// The open run, or null.
   Replay* operator->() const { return replay_.get(); }
   explicit operator bool() const { return replay_ != nullptr; }
 
-  void open(SessionInput input, const Settings& settings);
-  void close();
+  void open(SessionInput input, const Settings& settings) {
+    if (replay_) {
+      const auto closed_at = replay_->snapshot();
+      replay_->close();
+      closing_.push_back({std::move(replay_), closed_at});
+    }
+    replay_ = std::make_unique<Replay>(std::move(input), settings);
+  }
 
-  /// Lets go of closed runs whose threads have ended; to be called now and then. Returns why exports and
-  /// sessions were not written that had been asked for when their runs were closed, a sentence each.
-  std::vector<std::string> tidy();
-
-  /// How many were, or failed.
-  struct Written {
-    int exports = 0;
-    int saves = 0;
-  };
+  /// Deletes closed runs whose threads have ended; call it regularly. Returns why exports and sessions that
+  /// were pending when their run was closed were not written, a sentence each.
+  std::vector<std::string> tidy() {
+    std::vector<std::string> failures;
+    const auto note = [&](const std::optional<WriteOutcome>& before, const std::optional<WriteOutcome>& now) {
+      const bool is_new = now && (!before || now->number > before->number);
+      if (is_new && !now->failure.empty()) failures.push_back(now->failure);
+    };
+    const auto ended = [&](const Closing& closing) {
+      if (!closing.replay->ended()) return false;
+      const auto now = closing.replay->snapshot();
+      note(closing.closed_at->exported, now->exported);
+      note(closing.closed_at->saved, now->saved);
+      return true;
+    };
+    closing_.erase(std::remove_if(closing_.begin(), closing_.end(), ended), closing_.end());
+    return failures;
+  }
 
  private:
   struct Closing {
     std::unique_ptr<Replay> replay;
-    Written before;
+    std::shared_ptr<const ReplaySnapshot> closed_at;
   };
 
   std::unique_ptr<Replay> replay_;

@@ -1,32 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads sessions, and checks logs against them, beside the window: it takes as long as the disk does. What is
-// given up is read to its end nevertheless, and so long the program does not end, be its window closed.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <functional>
 #include <future>
+#include <utility>
 #include <vector>
 
 #include "session/session_input.h"
 
 namespace psi_slam {
 
+/// Reads sessions, and checks logs against them, in another thread. A read that is given up still runs to its
+/// end, and the destructor waits for it.
 class SessionReader {
  public:
   using Read = std::function<SessionInput()>;
   using Take = std::function<void(SessionInput)>;
 
-  /// `read` is called in another thread and must hold all it needs. What was begun before is given up.
-  void begin(Read read, Take take);
-  void give_up();
+  /// Calls `read` in another thread; it must own all that it uses. Gives up the previous read.
+  void begin(Read read, Take take) {
+    give_up();
+    reading_ = std::async(std::launch::async, std::move(read));
+    take_ = std::move(take);
+  }
+  void give_up() {
+    if (reading_.valid()) given_up_.push_back(std::move(reading_));
+  }
 
-  /// Hands over what has been read, once; to be called now and then. Throws what `read` threw.
-  void serve();
+  /// Calls `take` if a read has ended; call it regularly. Rethrows what `read` threw.
+  void serve() {
+    given_up_.erase(std::remove_if(given_up_.begin(), given_up_.end(), has_ended), given_up_.end());
+    if (!reading_.valid() || !has_ended(reading_)) return;
+    const Take take = std::exchange(take_, {});
+    take(std::exchange(reading_, {}).get());
+  }
 
  private:
+  static bool has_ended(const std::future<SessionInput>& reading) {
+    return reading.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
+
   std::future<SessionInput> reading_;
   Take take_;
-  std::vector<std::future<SessionInput>> given_up_;  // until they have ended
+  std::vector<std::future<SessionInput>> given_up_;  // until they end
 };
 
 }  // namespace psi_slam

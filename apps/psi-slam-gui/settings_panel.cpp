@@ -9,28 +9,29 @@
 
 #include <utility>
 
+#include "main_menu.h"
 #include "psi_slam/user_error.h"
 #include "wx_text.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr const char* kWhere = "Settings";  // where a refused value stands
-
-constexpr const char* kNothingSelected = "Select an option to read what it means. Right-click resets it.";
-constexpr int kHelpHeight = 72;
+constexpr const char* kWhere = "Settings";  // named in messages about wrong values
+constexpr const char* kNothingSelected =
+    "Select an option to read its help. Right-click an option to reset it.";
+constexpr int kHelpHeight = 104;  // six lines
 
 std::string help_of(const Option& option) {
-  return option.name() + ": " + option.help + ".\n" + option.values() + "; default " +
+  return option.name() + ": " + option.help + "\n" + option.values() + "; default " +
          (option.default_text.empty() ? "empty" : option.default_text) + '.';
 }
 
-/// "window" of the key "window_m", with its unit behind.
+/// The key of an option with its unit.
 wxString label_of(const Option& option) {
   return text_of(option.unit.empty() ? option.key : option.key + "  [" + option.unit + ']');
 }
 
-/// A property whose value is the option's text, exactly as in a settings file.
+/// Makes a property. Its text is the option's value as in a settings file.
 wxPGProperty* property_for(const Option& option) {
   const wxString label = label_of(option);
   const wxString name = text_of(option.name());
@@ -68,15 +69,15 @@ SettingsPanel::SettingsPanel(wxWindow* parent, BoundSettings& settings, Actions 
     : wxPanel(parent), settings_(settings), actions_(std::move(actions)) {
   grid_ = new wxPropertyGrid(this, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxPG_SPLITTER_AUTO_CENTER);
   grid_->SetName("settings");
-  grid_->SetColumnProportion(0, 2);  // names are longer than values
+  grid_->SetColumnProportion(0, 2);  // keys are longer than values
   grid_->SetColumnProportion(1, 1);
   grid_->ResetColumnSizes(true);
   help_ = new wxStaticText(this, wxID_ANY, kNothingSelected, wxDefaultPosition,
                            FromDIP(wxSize(-1, kHelpHeight)), wxST_NO_AUTORESIZE);
-  pending_ = new wxStaticText(this, wxID_ANY, "The map on show has other settings.");
-  restart_ = new wxButton(this, wxID_ANY, "Map again");
-  restart_->SetToolTip("Start over with these settings (Ctrl+R)");
-  restart_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { actions_.restart(); });
+  pending_ = new wxStaticText(this, wxID_ANY, "This map was made with other settings.");
+  restart_ = new wxButton(this, wxID_ANY, "Restart");
+  restart_->SetToolTip("Map the log again with these settings (Ctrl+R)");
+  restart_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { choose_command(*this, kRestart); });
   const int gap = FromDIP(4);
   auto* row = new wxBoxSizer(wxHORIZONTAL);
   row->Add(pending_, 1, wxALIGN_CENTRE_VERTICAL | wxALL, gap);
@@ -121,7 +122,7 @@ void SettingsPanel::refresh() {
   grid_->Refresh();
 }
 
-/// Options that are not as by default stand out.
+/// Colours options that differ from their defaults.
 void SettingsPanel::mark(wxPGProperty& property, const Option& option) {
   const bool changed = option.text() != option.default_text;
   grid_->SetPropertyTextColour(&property, changed ? wxColour(31, 97, 171) : grid_->GetCellTextColour(),
@@ -136,8 +137,8 @@ void SettingsPanel::show_pending(bool pending) {
   if (wxPGProperty* const selected = grid_->GetSelection()) grid_->EnsureVisible(selected);
 }
 
-/// Takes the text, or tells why not.
-bool SettingsPanel::take(const std::string& name, const std::string& text) {
+/// Sets an option. Reports a wrong value and returns false.
+bool SettingsPanel::set(const std::string& name, const std::string& text) {
   try {
     settings_.table.set(name, text, kWhere);
     actions_.changed();
@@ -151,11 +152,11 @@ bool SettingsPanel::take(const std::string& name, const std::string& text) {
 void SettingsPanel::changing(wxPropertyGridEvent& event) {
   const std::string name = event.GetPropertyName().utf8_string();
   const Option& option = settings_.table.option(name, kWhere);
-  if (take(name, text_of_value(option, event.GetValue()))) {
+  if (set(name, text_of_value(option, event.GetValue()))) {
     mark(*event.GetProperty(), option);
     return;
   }
-  event.SetValidationFailureBehavior(0);  // the sentence is in the bar, no box or beep beside
+  event.SetValidationFailureBehavior(0);  // the message bar shows the reason: no dialog, no beep
   event.Veto();
 }
 
@@ -163,9 +164,9 @@ bool SettingsPanel::enter(const std::string& name, const std::string& text) {
   const Option& option = settings_.table.option(name, kWhere);
   wxPGProperty* const property = grid_->GetPropertyByName(text_of(name));
   if (option.type == OptionType::kFlag || option.type == OptionType::kChoice) {
-    const bool taken = take(name, text);
+    const bool accepted = set(name, text);
     refresh();
-    return taken;
+    return accepted;
   }
   grid_->SelectProperty(property, true);
   return grid_->ChangePropertyValue(property, text_of(text));
@@ -176,7 +177,7 @@ std::string SettingsPanel::shown(const std::string& name) const {
 }
 
 void SettingsPanel::reset(const std::string& name) {
-  take(name, settings_.table.option(name, kWhere).default_text);
+  set(name, settings_.table.option(name, kWhere).default_text);
   refresh();
 }
 
@@ -193,7 +194,10 @@ void SettingsPanel::show_context_menu(wxPropertyGridEvent& event) {
   const std::string name = property->GetName().utf8_string();
   const Option& option = settings_.table.option(name, kWhere);
   wxMenu menu;
-  const int one = menu.Append(wxID_ANY, text_of("Reset to " + option.default_text))->GetId();
+  const int one =
+      menu.Append(wxID_ANY, text_of("Reset to default: " +
+                                    (option.default_text.empty() ? "empty" : option.default_text)))
+          ->GetId();
   const int all = menu.Append(wxID_ANY, "Reset all settings")->GetId();
   const int chosen = GetPopupMenuSelectionFromUser(menu);
   if (chosen == one) reset(name);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All options in a property grid made from their descriptions: unit, range and help of each, and its default.
-// A value that the option does not take is refused with the sentence that the command line has for it.
 #pragma once
 
 #include <wx/panel.h>
@@ -18,25 +16,26 @@ class wxStaticText;
 
 namespace psi_slam {
 
+/// Property grid of all options, made from their descriptions, with the help of the selected option below it.
+/// Rejects a wrong value with the message that the command line has for it.
 class SettingsPanel : public wxPanel {
  public:
   struct Actions {
-    std::function<void(const std::string& sentence)> refuse;  ///< a value was not taken
-    std::function<void()> changed;
-    std::function<void()> restart;  ///< maps the log anew with the settings as they are
+    std::function<void(const std::string& sentence)> refuse;  ///< called with the reason for a rejected value
+    std::function<void()> changed;                            ///< called after a value has changed
   };
 
-  /// `settings` outlive the panel.
+  /// `settings` must outlive the panel.
   SettingsPanel(wxWindow* parent, BoundSettings& settings, Actions actions);
 
-  /// Shows the settings' values as they are now.
+  /// Shows the present values of the settings.
   void refresh();
-  /// Whether the run on show has other settings than these.
+  /// Shows or hides the note that the map was made with other settings.
   void show_pending(bool pending);
 
-  /// Types a text into an option, "section.key"; true when it was taken.
+  /// Enters a value for the option "section.key", as if it were typed. Returns true if it is accepted.
   bool enter(const std::string& name, const std::string& text);
-  /// What the grid shows of an option.
+  /// The value that the grid shows for an option.
   std::string shown(const std::string& name) const;
   void reset_all();
 
@@ -46,7 +45,7 @@ class SettingsPanel : public wxPanel {
   void show_context_menu(wxPropertyGridEvent& event);
   void reset(const std::string& name);
   void mark(wxPGProperty& property, const Option& option);
-  bool take(const std::string& name, const std::string& text);
+  bool set(const std::string& name, const std::string& text);
 
   BoundSettings& settings_;
   Actions actions_;

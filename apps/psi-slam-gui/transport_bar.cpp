@@ -12,46 +12,38 @@
 #include <cmath>
 
 #include "icons.h"
+#include "main_menu.h"
 #include "progress_line.h"
 
 namespace psi_slam {
 namespace {
 
-wxBitmapButton* button(wxWindow* parent, Icon icon, const char* tip, const std::function<void()>& action) {
+wxBitmapButton* button(wxWindow* parent, Icon icon, const char* tip, int command) {
   const wxColour ink = wxSystemSettings::GetColour(wxSYS_COLOUR_BTNTEXT);
   auto* made = new wxBitmapButton(parent, wxID_ANY, icon_of(icon, ink));
-  made->SetToolTip(wxString::FromUTF8(tip));
-  made->Bind(wxEVT_BUTTON, [action](wxCommandEvent&) { action(); });
+  made->SetToolTip(tip);
+  made->Bind(wxEVT_BUTTON, [parent, command](wxCommandEvent&) { choose_command(*parent, command); });
   return made;
-}
-
-wxString speed_text(double speed) {
-  if (speed <= 0) return "as fast as possible";
-  return wxString::Format("%g", speed) + wxString::FromUTF8("×");
 }
 
 }  // namespace
 
-const std::vector<double>& TransportBar::speeds() {
-  static const std::vector<double> kSpeeds{1, 5, 20, 0};
-  return kSpeeds;
-}
-
-TransportBar::TransportBar(wxWindow* parent, Actions actions)
-    : wxPanel(parent), actions_(std::move(actions)) {
-  play_ = button(this, Icon::kPlay, "Play or pause (Space)", actions_.play_or_pause);
-  step_ = button(this, Icon::kStep, "Map one more scan (.)", actions_.step);
+TransportBar::TransportBar(wxWindow* parent, const std::function<void(std::size_t)>& go_to)
+    : wxPanel(parent) {
+  play_ = button(this, Icon::kPlay, "Play or pause (Space)", kPlayOrPause);
   play_->SetName("play");
-  finish_ = button(this, Icon::kFinish, "Stop here and finish the map (Ctrl+Return)", actions_.finish);
+  step_ = button(this, Icon::kStep, "Map one more scan (.)", kStep);
+  finish_ = button(this, Icon::kFinish, "Stop reading the log and finish the map (Ctrl+Return)", kFinish);
   speed_ = new wxChoice(this, wxID_ANY);
-  speed_->SetToolTip("Speed of the replay, times that of the recording");
-  for (const double speed : speeds()) speed_->Append(speed_text(speed));
-  speed_->SetSelection(static_cast<int>(speeds().size()) - 1);
-  speed_->Bind(wxEVT_CHOICE, [this](wxCommandEvent&) { actions_.set_speed(speed()); });
+  speed_->SetToolTip("Speed of the replay, as a multiple of the recorded speed");
+  for (const double speed : kSpeeds) speed_->Append(speed_text(speed));
+  speed_->SetSelection(static_cast<int>(kSpeeds.size()) - 1);
+  speed_->Bind(wxEVT_CHOICE,
+               [this](wxCommandEvent&) { choose_command(*this, kSpeed + speed_->GetSelection()); });
   slider_ = new wxSlider(this, wxID_ANY, 0, 0, 1);
-  slider_->SetToolTip("The log: drag back to look at an earlier scan, forward to map up to there");
-  const auto dragged = [this](wxScrollEvent&) {
-    actions_.go_to(static_cast<std::size_t>(slider_->GetValue()));
+  slider_->SetToolTip("Drag back to show an earlier scan, forward to map up to a later scan");
+  const auto dragged = [this, go_to](wxScrollEvent&) {
+    go_to(static_cast<std::size_t>(slider_->GetValue()));
   };
   slider_->Bind(wxEVT_SCROLL_THUMBRELEASE, dragged);
   slider_->Bind(wxEVT_SCROLL_CHANGED, dragged);
@@ -72,12 +64,12 @@ TransportBar::TransportBar(wxWindow* parent, Actions actions)
 }
 
 double TransportBar::speed() const {
-  return speeds()[static_cast<std::size_t>(std::max(0, speed_->GetSelection()))];
+  return kSpeeds.at(static_cast<std::size_t>(std::max(0, speed_->GetSelection())));
 }
 
 void TransportBar::set_speed(double speed) {
-  const auto found = std::find(speeds().begin(), speeds().end(), speed);
-  if (found != speeds().end()) speed_->SetSelection(static_cast<int>(found - speeds().begin()));
+  const auto found = std::find(kSpeeds.begin(), kSpeeds.end(), speed);
+  if (found != kSpeeds.end()) speed_->SetSelection(static_cast<int>(found - kSpeeds.begin()));
 }
 
 void TransportBar::show_nothing() {
@@ -102,7 +94,7 @@ void TransportBar::show(const ReplaySnapshot& snapshot,
   }
   std::string words =
       progress_words(snapshot, stamps_us ? replay_time_left_s(*stamps_us, mapped, speed()) : 0);
-  if (shown) words += "   (scan " + std::to_string(*shown + 1) + " is shown)";
+  if (shown) words += "   (showing scan " + std::to_string(*shown + 1) + ")";
   const wxString label = wxString::FromUTF8(words);
   if (progress_->GetLabel() != label) progress_->SetLabel(label);
 }
@@ -114,14 +106,14 @@ void TransportBar::enable(const ReplaySnapshot& snapshot) {
   step_->Enable(mapping);
   finish_->Enable((mapping && !snapshot.frames.empty()) || final_search);
   slider_->Enable(mapping || !snapshot.frames.empty());
-  const bool plays = goes_on(snapshot);
+  const bool plays = can_pause(snapshot);
   if (plays == plays_) return;
   plays_ = plays;
   play_->SetBitmap(
       icon_of(plays ? Icon::kPause : Icon::kPlay, wxSystemSettings::GetColour(wxSYS_COLOUR_BTNTEXT)));
 }
 
-bool TransportBar::goes_on(const ReplaySnapshot& snapshot) {
+bool TransportBar::can_pause(const ReplaySnapshot& snapshot) {
   return snapshot.phase == ReplayPhase::kPlaying ||
          (snapshot.phase == ReplayPhase::kFinalSearch && !snapshot.final_search_held);
 }
@@ -153,7 +145,7 @@ std::string progress_words(const ReplaySnapshot& snapshot, double waiting_left_s
     case ReplayPhase::kOpening:
       return "Opening the log";
     case ReplayPhase::kPaused:
-      return snapshot.frames.empty() ? "Ready: press play" : "Paused after " + scans;
+      return snapshot.frames.empty() ? "Ready. Press play." : "Paused after " + scans;
     case ReplayPhase::kPlaying: {
       SessionProgress progress = snapshot.progress;
       if (waiting_left_s > 0)
@@ -164,11 +156,11 @@ std::string progress_words(const ReplaySnapshot& snapshot, double waiting_left_s
       return (snapshot.final_search_held ? "Finishing, paused: " : "Finishing: ") +
              progress_text(snapshot.progress);
     case ReplayPhase::kFinished:
-      return "The map is finished: " + scans + (snapshot.interrupted ? ", stopped before the end" : "");
+      return "Map finished: " + scans + (snapshot.interrupted ? ", stopped before the end of the log" : "");
     case ReplayPhase::kExporting:
       return "Writing the results";
     case ReplayPhase::kFailed:
-      return "Stopped: see the message above";
+      return "Stopped after a failure: see the message above the map";
   }
   return "";
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Play, pause, step, speed, and where in the log the replay is.
 #pragma once
 
 #include <wx/panel.h>
@@ -20,37 +19,30 @@ class wxStaticText;
 
 namespace psi_slam {
 
+/// Buttons to play, pause, step and finish, the speed, and a slider over the log.
 class TransportBar : public wxPanel {
  public:
-  struct Actions {
-    std::function<void()> play_or_pause;
-    std::function<void()> step;
-    std::function<void()> finish;
-    std::function<void(double)> set_speed;   ///< times the recording's; 0: as fast as possible
-    std::function<void(std::size_t)> go_to;  ///< a scan, mapped already or not
-  };
+  /// Calls `go_to` with the scan that the slider was moved to, whether it is mapped or not. The other
+  /// controls send the window's commands.
+  TransportBar(wxWindow* parent, const std::function<void(std::size_t)>& go_to);
 
-  TransportBar(wxWindow* parent, Actions actions);
-
-  /// `shown` is the scan that is looked at instead of the newest. At a speed of the recording's the time left
-  /// is what the log takes at it, if that is longer than the work.
+  /// `shown` is an earlier scan that is shown instead of the newest. The remaining time is the longer one of
+  /// the mapper's work and of the log's duration at the given speed.
   void show(const ReplaySnapshot& snapshot, const std::shared_ptr<const std::vector<TimeUs>>& stamps_us,
             std::optional<std::size_t> shown);
   void show_nothing();
 
-  /// Whether it does something that can be paused.
-  static bool goes_on(const ReplaySnapshot& snapshot);
+  /// True while the run does something that can be paused.
+  static bool can_pause(const ReplaySnapshot& snapshot);
 
-  double speed() const;
-  /// The entries of the speed choice; 0: as fast as possible.
-  static const std::vector<double>& speeds();
+  /// Selects one of kSpeeds.
   void set_speed(double speed);
 
  private:
+  double speed() const;
   void enable(const ReplaySnapshot& snapshot);
   void show_slider(std::size_t at, std::size_t count);
 
-  Actions actions_;
   wxBitmapButton* play_;
   wxBitmapButton* step_;
   wxBitmapButton* finish_;
@@ -61,15 +53,15 @@ class TransportBar : public wxPanel {
   bool plays_ = false;
 };
 
-/// "0:12 of 3:40", the time of a scan in its log.
+/// Time of a scan since the start of the log, such as "0:12 of 3:40".
 std::string log_time_text(const std::vector<TimeUs>& stamps_us, std::size_t scan);
 
-/// Until the last scan, at so many times the recording's speed, once so many scans were mapped; 0 at no
-/// speed.
+/// Duration of the log after `mapped` scans at `speed`, a multiple of the recorded speed. Returns 0 for speed
+/// 0, which is as fast as possible.
 double replay_time_left_s(const std::vector<TimeUs>& stamps_us, std::size_t mapped, double speed);
 
-/// What the run is doing, in a few words, with the time left: of the work, and at least so long where scans
-/// are waited for.
+/// Describes what the run is doing, with the remaining time, which is at least `waiting_left_s` while scans
+/// are mapped.
 std::string progress_words(const ReplaySnapshot& snapshot, double waiting_left_s);
 
 }  // namespace psi_slam

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What would be lost if the window closed now: scans that were mapped, and loops edited by hand, since
-// results, a session or a file of edits were written last.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "replay/replay_snapshot.h"
 #include "session/edit_journal.h"
@@ -11,21 +10,38 @@
 
 namespace psi_slam {
 
-/// Those of a snapshot or of what was written.
-EditJournal journal_of(const std::vector<TimedEdit>& edits);
+inline EditJournal journal_of(const std::vector<TimedEdit>& edits) {
+  EditJournal journal;
+  for (const TimedEdit& edit : edits) journal.add(edit);
+  return journal;
+}
 
+/// Knows what closing the window would lose: scans mapped and edits made since results, a session or a file
+/// of edits were last written.
 class UnsavedWork {
  public:
-  /// It is mapped from its start, with the edits of a file, its own or another.
-  void open(const SessionInput& input);
-  /// The same with all edits made so far, written or not.
-  void begin_again(const SessionInput& input);
+  /// A run was opened; its edits come from a file.
+  void open(const SessionInput& input) {
+    restart(input);
+    written_edits_ = input.edits().text();
+  }
+  /// The run was restarted, or resumed with a log; its edits stay as unsaved as before.
+  void restart(const SessionInput& input) {
+    written_scans_ = input.recording() ? input.recording()->frames.size() : 0;
+  }
 
-  void note_written(const WrittenWork& written);
-  void note_written_edits(const EditJournal& edits);
+  void note_written(const WrittenWork& written) {
+    written_scans_ = written.scans;
+    written_edits_ = journal_of(*written.edits).text();
+  }
+  void note_written_edits(const EditJournal& edits) { written_edits_ = edits.text(); }
 
-  bool any_edits(const ReplaySnapshot& snapshot) const;
-  bool any(const ReplaySnapshot& snapshot) const;
+  bool any_edits(const ReplaySnapshot& snapshot) const {
+    return journal_of(*snapshot.edits).text() != written_edits_;
+  }
+  bool any(const ReplaySnapshot& snapshot) const {
+    return snapshot.frames.size() > written_scans_ || any_edits(snapshot);
+  }
 
  private:
   std::size_t written_scans_ = 0;

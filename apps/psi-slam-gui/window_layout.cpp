@@ -11,8 +11,8 @@
 namespace psi_slam {
 namespace {
 
-constexpr long kVersion = 1;  // of what is saved; that of another version is not used
-constexpr int kGrip = 80;     // so many pixels of the window are on the screen, to drag it by
+constexpr long kVersion = 1;  // of the saved layout; other versions are ignored
+constexpr int kGrip = 80;     // at least this many pixels of the title bar must be on a screen
 
 const char* const kSection = "/window/";
 
@@ -24,7 +24,7 @@ wxString layer_key(std::size_t layer) {
   return key(std::string("layers/") + name_of(static_cast<MapLayer>(layer)));
 }
 
-/// The names in wxAUI's text of a layout.
+/// The names of the panes in a layout text of wxAUI.
 std::set<wxString> panes_of(const wxString& layout) {
   std::set<wxString> names;
   wxStringTokenizer parts(layout, "|;");
@@ -35,7 +35,7 @@ std::set<wxString> panes_of(const wxString& layout) {
   return names;
 }
 
-/// Whether the docks leave the map at least a third of the window, either way.
+/// True if the docks leave the map at least a third of the window's width and height.
 bool leaves_room(const wxString& layout, const wxSize& window) {
   wxStringTokenizer parts(layout, "|");
   int across = 0;
@@ -51,7 +51,7 @@ bool leaves_room(const wxString& layout, const wxSize& window) {
   return 3 * across <= 2 * window.x && 3 * down <= 2 * window.y;
 }
 
-/// Whether a person could get hold of it.
+/// True if enough of the title bar is on a screen to drag the window.
 bool on_a_screen(const wxRect& window) {
   const wxRect title(window.x, window.y, window.width, kGrip);
   for (unsigned i = 0; i < wxDisplay::GetCount(); ++i) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the user has arranged the window, from one run to the next.
 #pragma once
 
 #include <wx/aui/framemanager.h>
@@ -10,16 +9,17 @@
 
 namespace psi_slam {
 
+/// Keeps the arrangement of the window from one start of the program to the next: its position, its panes and
+/// the map's layers.
 class WindowLayout {
  public:
-  /// Takes down what the window looks like before the user touches it.
+  /// Remembers the present panes as the default.
   WindowLayout(wxFrame& frame, wxAuiManager& panes);
 
   void save(wxConfigBase& config, const MapScene& scene) const;
-  /// What was saved, as far as it fits: the window comes to lie on a screen that is there, and every pane of
-  /// this program keeps its place when the saved ones are others.
+  /// Restores what was saved, as far as it fits: keeps the window on an existing screen, and ignores saved
+  /// panes that differ from the program's panes.
   void restore(wxConfigBase& config, MapScene& scene);
-  /// The panes as they were at first.
   void restore_default_panes();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Between the libraries' values and wx's.
+// Conversions between the libraries' types and wxWidgets' types.
 #pragma once
 
 #include <mrpt/img/TColor.h>
@@ -19,7 +19,7 @@ inline wxString text_of(const std::string& utf8) {
   return wxString::FromUTF8(utf8);
 }
 
-/// File names are bytes; what is no UTF-8 of them is kept as it is where wx can.
+/// File names are byte strings. Keeps bytes that are not UTF-8, where wxWidgets can.
 inline std::filesystem::path path_of(const wxString& text) {
   return std::filesystem::path(text.fn_str().data());
 }

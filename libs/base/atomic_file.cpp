@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/atomic_file.h"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <cstring>
 #include <fstream>
+#include <optional>
+#include <set>
 #include <string>
 #include <system_error>
+#include <vector>
 
-#include "base/partial_name.h"
+#include "base/text_parts.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -17,14 +23,68 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kPartial = ".partial-";
+
+// Name for temporary folders of this process.
+std::string partial_name() {
+  return std::string(kPartial) + std::to_string(::getpid());
+}
+
+// The process that writes under this name; empty for other names.
+std::optional<pid_t> writer_of(std::string_view name) {
+  if (!starts_with(name, kPartial)) return std::nullopt;
+  name.remove_prefix(kPartial.size());
+  pid_t pid = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
+  const bool whole = end == name.data() + name.size() || *end == '-';
+  return error == std::errc() && whole && pid > 0 ? std::optional(pid) : std::nullopt;
+}
+
 SystemFailure cannot_write(const fs::path& path, const std::string& why) {
   return SystemFailure("cannot write " + path.string() + ": " + why);
 }
 
+void require(const std::error_code& error, const fs::path& path) {
+  if (error) throw cannot_write(path, error.message());
+}
+
+bool has_ended(pid_t process) {
+  return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+// Young leftovers are kept: in a shared folder, their writer may run on another machine.
+bool is_old(const fs::path& path) {
+  std::error_code error;
+  const auto written = fs::last_write_time(path, error);
+  return !error && fs::file_time_type::clock::now() - written > std::chrono::hours(1);
+}
+
+// A folder that is removed with its contents at the end of the scope.
+class ScopedFolder {
+ public:
+  explicit ScopedFolder(fs::path path) : path_(std::move(path)) {
+    std::error_code error;
+    fs::remove_all(path_, error);  // left by an ended process with the same id
+    fs::create_directory(path_, error);
+    require(error, path_);
+  }
+  ~ScopedFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScopedFolder(const ScopedFolder&) = delete;
+  ScopedFolder& operator=(const ScopedFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
 }  // namespace
 
 void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  const fs::path temporary = path.parent_path() / partial_name(path.filename().string());
+  const fs::path temporary = path.parent_path() / (partial_name() + '-' + path.filename().string());
   std::error_code error;
   try {
     write(temporary);
@@ -49,6 +109,29 @@ void write_text_atomically(const fs::path& path, std::string_view text) {
     file.close();
     if (!file) throw cannot_write(path, errno != 0 ? std::strerror(errno) : "the disk did not take it");
   });
+}
+
+void write_files_atomically(const fs::path& folder, const std::function<void(const fs::path&)>& write) {
+  const ScopedFolder temporary(folder / partial_name());
+  write(temporary.path());
+  std::set<fs::path> files;
+  for (const fs::directory_entry& file : fs::directory_iterator(temporary.path())) files.insert(file.path());
+  for (const fs::path& file : files) {
+    std::error_code error;
+    fs::rename(file, folder / file.filename(), error);
+    require(error, folder / file.filename());
+  }
+}
+
+void remove_leftovers(const fs::path& folder) {
+  std::error_code ignored;
+  std::vector<fs::path> leftovers;
+  for (fs::directory_iterator entry(folder, ignored), end; entry != end && !ignored;
+       entry.increment(ignored)) {
+    const auto writer = writer_of(entry->path().filename().string());
+    if (writer && has_ended(*writer) && is_old(entry->path())) leftovers.push_back(entry->path());
+  }
+  for (const fs::path& leftover : leftovers) fs::remove_all(leftover, ignored);
 }
 
 }  // namespace psi_slam

@@ -10,7 +10,7 @@
 
 namespace psi_slam {
 
-/// Bytes that are not what they should be; who knows the place makes a UserError of it.
+/// Malformed bytes. Callers that know the file convert it to a UserError with the place.
 class MalformedBytes : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -18,8 +18,8 @@ class MalformedBytes : public std::runtime_error {
 
 enum class ByteOrder { kLittleEndian, kBigEndian };
 
-/// Reads numbers and pieces out of bytes in memory, in their order. What would reach beyond the end throws
-/// MalformedBytes: no length that the bytes state is believed before it is checked.
+/// Reads numbers and pieces from bytes in memory, in order. Throws MalformedBytes if a read would pass the
+/// end, so that lengths stated in the bytes are checked.
 class ByteCursor {
  public:
   explicit ByteCursor(std::string_view bytes, ByteOrder order = ByteOrder::kLittleEndian)

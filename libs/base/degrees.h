@@ -3,8 +3,8 @@
 
 namespace psi_slam {
 
-/// The radians nearest to an angle in degrees: computed with long doubles, so that it is the same number that
-/// the settings' parser makes of the same degrees, and is printed as round as it was written.
+/// Converts degrees to the nearest double in radians. It uses long double, as parse_degrees() does, so that
+/// defaults in code and values in settings files are the same numbers and print as round degrees.
 constexpr double radians_from_degrees(long double degrees) {
   constexpr long double kPi = 3.141592653589793238462643383279502884L;
   return static_cast<double>(degrees * kPi / 180);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every program ends with.
+// Exit codes of all programs.
 #pragma once
 
 namespace psi_slam {
 
 inline constexpr int kExitDone = 0;
-inline constexpr int kExitFailed = 1;             ///< the system's fault, or what was looked for was not found
-inline constexpr int kExitWrongUsageOrInput = 2;  ///< what the user can mend: UserError, a log that breaks off
+inline constexpr int kExitFailed = 1;             ///< system failure, or a search without a result
+inline constexpr int kExitWrongUsageOrInput = 2;  ///< UserError, or a log that ends early
 
 }  // namespace psi_slam

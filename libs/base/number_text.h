@@ -1,16 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers as text for files, the same in every locale (printf's decimal point is not).
+// Converts numbers to text and back, independently of the locale.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace psi_slam {
 
-/// `value` with that many decimals, at most 20, never in scientific notation: fixed_text(0.5, 3) == "0.500".
-/// "nan", "inf" and "-inf" where it is not finite.
+/// `value` with `decimals` decimals, at most 20, never in scientific notation: fixed_text(0.5, 3) == "0.500".
+/// "nan", "inf" or "-inf" if it is not finite.
 std::string fixed_text(double value, int decimals);
 
 /// The shortest decimal text without exponent that reads back as exactly this float.
 std::string shortest_text(float value);
+
+/// Reads a finite decimal number that fills the text. Empty for "12abc", "", "nan", "inf", "1e999", "0x10".
+std::optional<double> parse_number(std::string_view text);
+
+/// The shortest decimal text that parse_number() reads as exactly `value`; "nan", "inf" or "-inf" if it is
+/// not finite.
+std::string exact_text(double value);
+
+/// Reads an angle in degrees and returns the nearest double in radians; empty if parse_number() is.
+std::optional<double> parse_degrees(std::string_view text);
+
+/// The angle in degrees, with the fewest decimals that parse_degrees() reads as exactly `radians`.
+std::string exact_degrees_text(double radians);
+
+/// Returns `value` rounded to at most `max_decimals` decimals, without trailing zeros: trimmed_text(0.5, 4) ==
+/// "0.5".
+std::string trimmed_text(double value, int max_decimals);
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws that are the same on every machine; the standard library's distributions need not be.
+// Random numbers that are the same on every machine, unlike the distributions of the standard library.
 #pragma once
 
 #include <cmath>
@@ -11,9 +11,17 @@
 
 namespace psi_slam {
 
+/// Finaliser of SplitMix64 (Steele et al. 2014): turns neighbouring numbers into unlike ones, for seeds.
+inline std::uint64_t mixed_bits(std::uint64_t number) {
+  number += 0x9e3779b97f4a7c15;
+  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9;
+  number = (number ^ (number >> 27)) * 0x94d049bb133111eb;
+  return number ^ (number >> 31);
+}
+
 class RandomDraws {
  public:
-  /// One stream of numbers for each seed, name and part.
+  /// One stream of numbers per seed, name and part.
   RandomDraws(std::uint64_t seed, std::string_view name, std::uint32_t part) {
     std::vector<std::uint32_t> words{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
                                      part};
@@ -24,19 +32,19 @@ class RandomDraws {
 
   /// In [0, 1).
   double share() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
+  /// In [-most, most).
   double plus_minus(double most) { return (2 * share() - 1) * most; }
   /// In [0, count); `count` is not 0.
   std::size_t index(std::size_t count) {
     return static_cast<std::size_t>(share() * static_cast<double>(count));
   }
-  /// Of mean 0 and standard deviation 1, by Box and Muller.
+  /// Normal distribution with mean 0 and standard deviation 1, by Box and Muller.
   double normal() {
     const double radius = std::sqrt(-2 * std::log(1 - share()));
     return radius * std::cos(2 * M_PI * share());
   }
 
  protected:
-  /// For a stream that is told from others in a way of its own.
   explicit RandomDraws(std::uint64_t stream) : random_(stream) {}
 
  private:

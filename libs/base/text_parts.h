@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of a text, without copies: views into what was given.
+// Parts of a text as views, without copies.
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,7 @@ inline bool starts_with(std::string_view text, std::string_view beginning) {
   return text.substr(0, beginning.size()) == beginning;
 }
 
-/// Without the characters of `space` at both ends.
+/// The text without the characters of `space` at both ends.
 inline std::string_view trimmed(std::string_view text, std::string_view space = " \t") {
   const std::size_t begin = text.find_first_not_of(space);
   if (begin == std::string_view::npos) return {};

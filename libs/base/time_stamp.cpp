@@ -9,7 +9,7 @@ namespace psi_slam {
 namespace {
 
 constexpr TimeUs kMicrosecondsPerSecond = 1'000'000;
-constexpr TimeUs kMaxSeconds = 9'000'000'000'000;  // keeps microseconds inside 64 bits
+constexpr TimeUs kMaxSeconds = 9'000'000'000'000;  // microseconds still fit in 64 bits
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';

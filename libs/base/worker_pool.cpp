@@ -10,7 +10,7 @@ WorkerPool::WorkerPool(int threads) {
   try {
     for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
   } catch (const std::system_error&) {
-    // The system gives no more threads: those there are do all the work.
+    // The system provides no further threads; the existing ones do all the work.
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads that share the work of a loop whose rounds do not depend on each other.
+// Threads that share the work of a loop with independent iterations.
 #pragma once
 
 #include <condition_variable>
@@ -14,7 +14,7 @@ namespace psi_slam {
 
 class WorkerPool {
  public:
-  /// With the thread that calls run(), which works too: 1 starts none. Less than 1 is 1.
+  /// `threads` includes the thread that calls run(), so 1 starts no other thread. Values below 1 count as 1.
   explicit WorkerPool(int threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
@@ -22,20 +22,20 @@ class WorkerPool {
 
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Calls task(0) .. task(count - 1), each once, in any order and several at a time; returns when all have
-  /// ended. Where some throw, all the others are called nevertheless, and then the exception of the lowest
-  /// index is thrown. To be called by one thread at a time, and not from within a task.
+  /// Calls task(0) .. task(count - 1) in parallel, in any order, and returns when all have ended. If tasks
+  /// throw, all others are still called, then the exception of the lowest index is thrown. Call it from one
+  /// thread at a time, and not within a task.
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
 
  private:
   void work();
   void take_tasks(std::unique_lock<std::mutex>& lock);
 
-  std::mutex mutex_;  // of all that follows but the threads
+  std::mutex mutex_;  // guards all following members except workers_
   std::condition_variable changed_;
-  const std::function<void(std::size_t)>* task_ = nullptr;  ///< of the call of run() under way
+  const std::function<void(std::size_t)>* task_ = nullptr;  ///< task of the current run()
   std::size_t count_ = 0;
-  std::size_t next_ = 0;  ///< the first index that nobody has taken
+  std::size_t next_ = 0;  ///< first index that no thread has taken
   std::size_t ended_ = 0;
   std::exception_ptr failure_;
   std::size_t failed_index_ = 0;
@@ -44,7 +44,7 @@ class WorkerPool {
   std::vector<std::thread> workers_;
 };
 
-/// The results of task(0) .. task(count - 1), in this order.
+/// Calls task(0) .. task(count - 1) in parallel and returns their results in this order.
 template <class Result, class Task>
 std::vector<Result> map_in_parallel(WorkerPool& pool, std::size_t count, const Task& task) {
   std::vector<Result> results(count);

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,11 +15,11 @@
 #include <cstring>
 
 #include "psi_slam/user_error.h"
-#include "batch/running_child.h"
 
 namespace psi_slam {
 namespace {
 
+using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kBetweenLooks_ms = 200;
@@ -29,7 +30,11 @@ constexpr std::size_t kMostErr = std::size_t{64} << 10;
   throw SystemFailure(doing + ": " + std::strerror(error));
 }
 
-/// Takes what is there, of which the last `most` bytes are kept. False at the end.
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// Appends the bytes in the pipe and keeps at least the last `most` of them. Returns false at the end.
 bool take(Pipe& pipe, std::string& text, std::size_t most) {
   const bool more = pipe.read_to(text);
   if (text.size() > 2 * most) text.erase(0, text.size() - most);
@@ -43,11 +48,11 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   return pointers;
 }
 
-/// In the new process, where nothing but system calls is safe. It ends with the process that started it, and
-/// is out of reach of its terminal's Ctrl-C. Says through `complaint` why there is no program.
+/// Starts the program in the new process, where only system calls are safe. The process ends with its parent
+/// and does not receive the terminal's Ctrl-C. Writes errno to `complaint` if the program cannot be started.
 [[noreturn]] void become(char* const* words, int out, int err, int complaint, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it has ended already
+  if (::getppid() != parent) ::_exit(1);  // the parent has already ended
   ::setpgid(0, 0);
   const int in = ::open("/dev/null", O_RDONLY);
   if (in >= 0 && ::dup2(in, STDIN_FILENO) >= 0 && ::dup2(out, STDOUT_FILENO) >= 0 &&
@@ -61,7 +66,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
 pid_t start(const ChildProcess& child, const Pipe& out, const Pipe& err) {
   std::vector<std::string> words = child.words;
   const std::vector<char*> pointers = pointers_to(words);
-  Pipe complaint;  // closes when the program begins
+  Pipe complaint;  // closes when the program starts
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
   if (pid < 0) fail("cannot start " + words.at(0), errno);
@@ -77,13 +82,73 @@ pid_t start(const ChildProcess& child, const Pipe& out, const Pipe& err) {
   fail("cannot start " + words[0], error);
 }
 
-/// The last line that says something.
+/// The last line that is not blank.
 std::string last_line(std::string text) {
   while (!text.empty() && std::strchr(" \t\r\n", text.back()) != nullptr) text.pop_back();
   return text.substr(text.rfind('\n') + 1);  // npos + 1 is 0
 }
 
+/// Calls visit(name, member) for each member of a ChildEnd.
+template <class End, class Visit>
+void visit_members(End& end, const Visit& visit) {
+  visit("code", end.code);
+  visit("signal", end.signal);
+  visit("over_time", end.over_time);
+  visit("stopped", end.stopped);
+  visit("out", end.out);
+  visit("err", end.err);
+  visit("wall_s", end.wall_s);
+  visit("cpu_s", end.cpu_s);
+  visit("peak_memory_mib", end.peak_memory_mib);
+}
+
 }  // namespace
+
+Pipe::Pipe() {
+  if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
+    throw SystemFailure(std::string("cannot create a pipe: ") + std::strerror(errno));
+}
+
+Pipe::~Pipe() {
+  close_end(0);
+  close_end(1);
+}
+
+bool Pipe::read_to(std::string& text) {
+  std::array<char, 1 << 14> block{};
+  const ssize_t count = ::read(ends_[0], block.data(), block.size());
+  if (count < 0) return errno == EINTR || errno == EAGAIN;
+  text.append(block.data(), static_cast<std::size_t>(count));
+  return count > 0;
+}
+
+void Pipe::close_end(std::size_t end) {
+  if (ends_[end] >= 0) ::close(ends_[end]);
+  ends_[end] = -1;
+}
+
+RunningChild::~RunningChild() {
+  if (pid_ <= 0) return;
+  kill();
+  while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+void RunningChild::kill() const {
+  ::kill(pid_, SIGKILL);
+}
+
+EndedChild RunningChild::wait() {
+  EndedChild end;
+  rusage usage{};
+  while (::wait4(pid_, &end.status, 0, &usage) < 0)
+    if (errno != EINTR)
+      throw SystemFailure(std::string("cannot wait for a child process: ") + std::strerror(errno));
+  pid_ = 0;
+  end.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+  end.peak_memory_mib = static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts kibibytes
+  return end;
+}
 
 std::string ChildEnd::failure() const {
   if (code == 0) return {};
@@ -92,6 +157,11 @@ std::string ChildEnd::failure() const {
   if (signal != 0) return std::string("ended by a signal: ") + ::strsignal(signal);
   const std::string words = last_line(err);
   return words.empty() ? "ended with code " + std::to_string(code) : words;
+}
+
+std::string ChildEnd::failure_without(const std::string& prefix) const {
+  const std::string text = failure();
+  return text.compare(0, prefix.size(), prefix) == 0 ? text.substr(prefix.size()) : text;
 }
 
 ChildEnd run_child(const ChildProcess& child) {
@@ -106,9 +176,9 @@ ChildEnd run_child(const ChildProcess& child) {
   std::array<pollfd, 2> ends{{{out.reading(), POLLIN, 0}, {err.reading(), POLLIN, 0}}};
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {
     const int ready = ::poll(ends.data(), ends.size(), kBetweenLooks_ms);
-    if (ready < 0 && errno != EINTR) fail("cannot wait for the words of " + child.words[0], errno);
-    if (ready > 0) {  // else what the ends say is of the time before
-      if (ends[0].revents != 0 && !take(out, end.out, kMostOut)) ends[0].fd = -1;  // poll() passes it over
+    if (ready < 0 && errno != EINTR) fail("cannot wait for the output of " + child.words[0], errno);
+    if (ready > 0) {  // otherwise revents is from the last call
+      if (ends[0].revents != 0 && !take(out, end.out, kMostOut)) ends[0].fd = -1;  // poll() ignores it
       if (ends[1].revents != 0 && !take(err, end.err, kMostErr)) ends[1].fd = -1;
     }
     if (end.over_time || end.stopped) continue;
@@ -122,6 +192,43 @@ ChildEnd run_child(const ChildProcess& child) {
   end.peak_memory_mib = ended.peak_memory_mib;
   if (WIFEXITED(ended.status)) end.code = WEXITSTATUS(ended.status);
   if (WIFSIGNALED(ended.status)) end.signal = WTERMSIG(ended.status);
+  return end;
+}
+
+std::optional<ChildEnd> run_to_end(const ChildWords& words, const std::function<bool()>& stop) {
+  try {
+    ChildEnd end = run_child({words, 0, stop});
+    if (end.stopped && end.code != 0) return std::nullopt;
+    return end;
+  } catch (const SystemFailure& failure) {
+    ChildEnd end;
+    end.err = failure.what();
+    return end;
+  }
+}
+
+ChildWorkers local_child_workers(int processes) {
+  return thread_workers<ChildWords, ChildEnd>(processes, run_to_end);
+}
+
+std::string child_words_text(const ChildWords& words) {
+  return cbor_text(words);
+}
+
+ChildWords read_child_words(const std::string& text) {
+  return Json::from_cbor(text).get<ChildWords>();
+}
+
+std::string child_end_text(const ChildEnd& end) {
+  Json json;
+  visit_members(end, [&json](const char* name, const auto& value) { json[name] = value; });
+  return cbor_text(json);
+}
+
+ChildEnd read_child_end(const std::string& text) {
+  const Json json = Json::from_cbor(text);
+  ChildEnd end;
+  visit_members(end, [&json](const char* name, auto& value) { json.at(name).get_to(value); });
   return end;
 }
 

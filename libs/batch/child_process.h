@@ -1,38 +1,113 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Another program run to its end as a process of its own, and what it took: by the system's own account of
-// that process, whoever wrote the program.
+// Runs another program as a child process and reports its exit, its output, and the time and memory that the
+// operating system counted for it.
 #pragma once
 
+#include <sys/types.h>
+
+#include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "batch/workers.h"
+
 namespace psi_slam {
 
+/// A pipe that closes both ends in its destructor, and in every program started meanwhile.
+class Pipe {
+ public:
+  /// Throws SystemFailure when the system cannot create a pipe.
+  Pipe();
+  ~Pipe();
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  int reading() const { return ends_[0]; }
+  int writing() const { return ends_[1]; }
+  void close_reading() { close_end(0); }
+  void close_writing() { close_end(1); }
+
+  /// Waits for bytes and appends them to `text`. Returns false at the end; a signal is not an end.
+  bool read_to(std::string& text);
+
+ private:
+  void close_end(std::size_t end);
+
+  std::array<int, 2> ends_{-1, -1};
+};
+
+/// Exit of a process, and the resources that the operating system counted for it.
+struct EndedChild {
+  int status = 0;  ///< as wait() returns it
+  double cpu_s = 0;
+  double peak_memory_mib = 0;
+};
+
+/// A child of this process. The destructor kills a child that has not been waited for.
+class RunningChild {
+ public:
+  explicit RunningChild(pid_t pid) : pid_(pid) {}
+  ~RunningChild();
+  RunningChild(const RunningChild&) = delete;
+  RunningChild& operator=(const RunningChild&) = delete;
+
+  void kill() const;
+
+  /// Waits for the exit. Call it once. Throws SystemFailure when the system reports no exit.
+  EndedChild wait();
+
+ private:
+  pid_t pid_;
+};
+
+/// A program with its path, and its arguments.
+using ChildWords = std::vector<std::string>;
+
 struct ChildProcess {
-  std::vector<std::string> words;  ///< the program, with its path, and its arguments
-  double time_limit_s = 0;         ///< it is killed after so long; 0: never
-  std::function<bool()> stop{};    ///< asked a few times a second; once true, it is killed
+  ChildWords words;
+  double time_limit_s = 0;       ///< kills the child after this time; 0: no limit
+  std::function<bool()> stop{};  ///< called a few times a second; true kills the child
 };
 
 struct ChildEnd {
-  int code = -1;           ///< of its exit; -1 if it did not come to that
-  int signal = 0;          ///< that ended it
-  bool over_time = false;  ///< the time limit did
-  bool stopped = false;    ///< `stop` did
+  int code = -1;           ///< exit code; -1 if the child did not exit by itself
+  int signal = 0;          ///< signal that ended the child; 0: none
+  bool over_time = false;  ///< killed at the time limit
+  bool stopped = false;    ///< killed because `stop` returned true
   std::string out;         ///< standard output; the last 16 MiB
   std::string err;         ///< standard error; the last 64 KiB
   double wall_s = 0;
-  double cpu_s = 0;            ///< of all its threads, the system's work for it included
-  double peak_memory_mib = 0;  ///< the most that was in memory at one time
+  double cpu_s = 0;            ///< of all threads, in user and kernel mode
+  double peak_memory_mib = 0;  ///< largest resident set
 
-  /// Why it is no success: its last words, or how it ended; empty when it is one.
+  /// Reason of the failure: the last line of standard error, or how the child ended. Empty on success.
   std::string failure() const;
+
+  /// failure() without `prefix` if it starts with that: with the "NAME: " of the program's own messages.
+  std::string failure_without(const std::string& prefix) const;
 };
 
-/// Its standard input is empty. It stands in a process group of its own, so that Ctrl-C is for the caller
-/// alone, and ends with the thread that started it, however that ends. Throws SystemFailure when it cannot be
-/// started.
+/// Runs a program to its end. Its standard input is empty. It has its own process group, so that Ctrl-C
+/// reaches only the caller, and ends when the calling thread ends. Throws SystemFailure when the program
+/// cannot be started.
 ChildEnd run_child(const ChildProcess& child);
+
+/// Runs a program as run_child(). A program that cannot be started is a failed one, with the reason as its
+/// standard error. Empty if `stop` ended the program.
+std::optional<ChildEnd> run_to_end(const ChildWords& words, const std::function<bool()>& stop);
+
+/// Workers that run programs with run_to_end().
+using ChildWorkers = Workers<ChildWords, ChildEnd>;
+
+/// Runs at most `processes` programs at a time on this machine.
+ChildWorkers local_child_workers(int processes);
+
+/// Messages to and from workers in other processes.
+std::string child_words_text(const ChildWords& words);
+ChildWords read_child_words(const std::string& text);
+std::string child_end_text(const ChildEnd& end);
+ChildEnd read_child_end(const std::string& text);
 
 }  // namespace psi_slam

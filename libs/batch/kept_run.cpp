@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "batch/kept_run.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <thread>
 
 #include "base/atomic_file.h"
 
@@ -24,7 +27,34 @@ std::optional<Json> kept_run(const std::filesystem::path& path, const RunKey& ke
 void keep_run(const std::filesystem::path& path, const RunKey& key, const Json& content) {
   Json json = {{"key", key.text}, {"processes", key.processes}};
   json.update(content);
-  write_text_atomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
+  write_text_atomically(path, json_file_text(json));
+}
+
+std::string json_file_text(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::optional<std::string> log_name_of(const std::string& file) {
+  for (const char* ending :
+       {".clf", ".log", ".rawlog", ".clf.gz", ".log.gz", ".rawlog.gz", ".bag", ".db3", ".mcap"}) {
+    const std::string_view end = ending;
+    if (file.size() > end.size() && file.compare(file.size() - end.size(), end.size(), end) == 0)
+      return file.substr(0, file.size() - end.size());
+  }
+  return std::nullopt;
+}
+
+std::string machine_text() {
+  std::string model = "unknown processor";
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("model name", 0) != 0) continue;
+    const std::size_t value = line.find(": ");
+    if (value != std::string::npos) model = line.substr(value + 2);
+    break;
+  }
+  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
+  return model + ", " + std::to_string(processors) + (processors == 1 ? " processor" : " processors");
 }
 
 }  // namespace psi_slam

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
+
 namespace psi_slam {
 namespace {
 
@@ -18,12 +20,28 @@ PathErrors path_errors(const RelationsMetric& metric) {
 double duration_s(const Trajectory& path) {
   const auto [first, last] =
       std::minmax_element(path.begin(), path.end(), [](const StampedPose& a, const StampedPose& b) {
-        return a.time_us < b.time_us;  // stamps may go back
+        return a.time_us < b.time_us;  // time stamps may go back
       });
   return first == path.end() ? 0 : seconds(last->time_us - first->time_us);
 }
 
+/// Calls visit(key, member) for each figure but the errors.
+template <class Figures, class Visit>
+void visit_counts(Figures& figures, const Visit& visit) {
+  visit("relations_used", figures.relations_used);
+  visit("relations_skipped", figures.relations_skipped);
+  visit("scans", figures.scans);
+  visit("duration_s", figures.duration_s);
+  visit("wall_s", figures.wall_s);
+  visit("cpu_s", figures.cpu_s);
+  visit("peak_memory_mib", figures.peak_memory_mib);
+}
+
 }  // namespace
+
+std::string errors_text(const MeanAndStd& errors) {
+  return fixed_text(errors.mean, 4) + " ± " + fixed_text(errors.std, 4);
+}
 
 RunFigures evaluate_path(const Trajectory& path, const std::vector<Relation>& relations) {
   const RelationsMetric metric = evaluate_relations(path, relations);
@@ -37,34 +55,22 @@ RunFigures evaluate_path(const Trajectory& path, const std::vector<Relation>& re
 }
 
 Json run_figures_json(const RunFigures& figures) {
-  Json errors = Json::object();
+  Json json = {{"errors", Json::object()}};
   for (const PathFigure& figure : kPathFigures) {
-    const MeanAndStd& one = figures.errors.*figure.errors;
-    errors[figure.key] = {{"mean", one.mean}, {"std", one.std}};
+    const MeanAndStd& errors = figures.errors.*figure.errors;
+    json["errors"][figure.key] = {{"mean", errors.mean}, {"std", errors.std}};
   }
-  return {{"errors", errors},
-          {"relations_used", figures.relations_used},
-          {"relations_skipped", figures.relations_skipped},
-          {"scans", figures.scans},
-          {"duration_s", figures.duration_s},
-          {"wall_s", figures.wall_s},
-          {"cpu_s", figures.cpu_s},
-          {"peak_memory_mib", figures.peak_memory_mib}};
+  visit_counts(figures, [&json](const char* key, const auto& value) { json[key] = value; });
+  return json;
 }
 
 RunFigures read_run_figures(const Json& json) {
   RunFigures figures;
   for (const PathFigure& figure : kPathFigures) {
-    const Json& one = json.at("errors").at(figure.key);
-    figures.errors.*figure.errors = {one.at("mean").get<double>(), one.at("std").get<double>()};
+    const Json& errors = json.at("errors").at(figure.key);
+    figures.errors.*figure.errors = {errors.at("mean").get<double>(), errors.at("std").get<double>()};
   }
-  json.at("relations_used").get_to(figures.relations_used);
-  json.at("relations_skipped").get_to(figures.relations_skipped);
-  json.at("scans").get_to(figures.scans);
-  json.at("duration_s").get_to(figures.duration_s);
-  json.at("wall_s").get_to(figures.wall_s);
-  json.at("cpu_s").get_to(figures.cpu_s);
-  json.at("peak_memory_mib").get_to(figures.peak_memory_mib);
+  visit_counts(figures, [&json](const char* key, auto& value) { json.at(key).get_to(value); });
   return figures;
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one run of a mapper on a log comes to, whoever wrote the mapper: how far its path is from the true
-// relations, and what it took.
+// Figures of one run of a mapper on a log: the errors of its path against the true relations, time and
+// memory.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "evaluation/relations_metric.h"
@@ -17,23 +18,27 @@ struct MeanAndStd {
   double std = 0;  ///< of the population
 };
 
-/// Over the relations.
+/// "0.0200 ± 0.0150".
+std::string errors_text(const MeanAndStd& errors);
+
+/// Errors over the true relations.
 struct PathErrors {
   MeanAndStd translation_abs_m;
   MeanAndStd translation_sq_m2;
   MeanAndStd rotation_abs_deg;
   MeanAndStd rotation_sq_deg2;
-  MeanAndStd cartographer_translation_abs_m;  ///< the variant of Cartographer's tool: see relations_metric.h
+  /// As Cartographer's tool defines the error: see relations_metric.h.
+  MeanAndStd cartographer_translation_abs_m;
 };
 
-/// How one of them is named in tables and files.
+/// Names of one member of PathErrors: `key` in JSON, `name` in tables.
 struct PathFigure {
   const char* key;
   const char* name;
   MeanAndStd PathErrors::*errors;
 };
 
-/// The four that the paper reports, in its order, and Cartographer's variant of the first.
+/// The four errors that the paper reports, in its order, then Cartographer's variant of the first.
 inline constexpr std::size_t kPaperFigures = 4;
 inline constexpr std::array<PathFigure, kPaperFigures + 1> kPathFigures{
     {{"translation_abs_m", "translation [m]", &PathErrors::translation_abs_m},
@@ -48,25 +53,34 @@ struct RunFigures {
   std::size_t relations_used = 0;
   std::size_t relations_skipped = 0;
   std::size_t scans = 0;
-  double duration_s = 0;  ///< of the recording
+  double duration_s = 0;  ///< length of the recording
 
-  // Of the whole process, from its start to its end; 0 until it is measured.
+  // Of the whole process, from its start to its end; 0 until measured.
   double wall_s = 0;
   double cpu_s = 0;
   double peak_memory_mib = 0;
 
-  /// Seconds of the recording in a second of work.
+  /// Length of the recording over wall time.
   double real_time_factor() const { return wall_s > 0 ? duration_s / wall_s : 0; }
 };
 
-/// Holds a path against the true relations; what it took is not measured yet. Throws UserError as
+/// Evaluates a path against the true relations; times and memory stay 0. Throws UserError as
 /// evaluate_relations().
 RunFigures evaluate_path(const Trajectory& path, const std::vector<Relation>& relations);
 
 /// An object with a member for each figure.
 nlohmann::ordered_json run_figures_json(const RunFigures& figures);
 
-/// The same figures again, to the last bit. Throws nlohmann::json::exception where they are not there.
+/// Reads an object of run_figures_json(); every figure is restored exactly. Throws nlohmann::json::exception
+/// for a missing figure.
 RunFigures read_run_figures(const nlohmann::ordered_json& json);
+
+/// Copies time and memory of a process, a ChildEnd, into the figures of its run.
+template <class End>
+void set_effort(RunFigures& figures, const End& end) {
+  figures.wall_s = end.wall_s;
+  figures.cpu_s = end.cpu_s;
+  figures.peak_memory_mib = end.peak_memory_mib;
+}
 
 }  // namespace psi_slam

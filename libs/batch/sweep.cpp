@@ -7,9 +7,7 @@
 
 #include <algorithm>
 
-#include "batch/make_at_a_time.h"
 #include "psi_slam/user_error.h"
-#include "batch/task_progress.h"
 
 namespace psi_slam {
 namespace {
@@ -30,10 +28,7 @@ std::size_t count(const SweepResult& result, bool (*is_one)(const std::optional<
 }  // namespace
 
 SweepWorkers local_workers(int processes) {
-  return [processes](const std::vector<SweepOrder>& orders, const SweepWatch& watch) {
-    make_at_a_time(processes, orders.size(), watch,
-                   [&](std::size_t index, const auto& stop) { return make_run(orders[index], stop); });
-  };
+  return thread_workers<SweepOrder, SweepOutcome>(processes, make_run);
 }
 
 std::size_t SweepResult::to_go() const {
@@ -52,10 +47,11 @@ SweepLock::SweepLock(const fs::path& folder) {
   const fs::path path = folder / ".lock";
   constexpr int kMode = 0644;
   file_ = ::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, kMode);
-  if (file_ < 0) throw UserError(path.string() + " cannot be written");
+  if (file_ < 0) throw UserError(path.string() + " cannot be written: choose another folder with -o");
   if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
   ::close(file_);
-  throw UserError("another sweep is at work in " + folder.string());
+  throw UserError("another sweep is at work in " + folder.string() +
+                  ": wait until it ends, or choose another folder with -o");
 }
 
 SweepLock::~SweepLock() {
@@ -63,12 +59,11 @@ SweepLock::~SweepLock() {
 }
 
 SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const SweepWorkers& workers,
-                      const std::function<bool()>& stop,
-                      const std::function<void(const std::string&, double, double)>& progress) {
+                      const std::function<bool()>& stop, const ProgressObserver& progress) {
   SweepResult result;
   std::vector<SweepOrder> orders;
-  std::vector<std::size_t> runs;  // of the orders
-  std::vector<double> work;       // in a unit that is proportional to a run's time
+  std::vector<std::size_t> runs;  // index of the run of each order
+  std::vector<double> work;       // of each order: bytes of its log
   double all_work = 0;
   for (const SweepRun& run : plan.runs) {
     SweepOrder order = order_of(plan, run, options);
@@ -82,7 +77,7 @@ SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const 
   TaskProgress running(orders.size(), all_work, progress);
   SweepWatch watch;
   watch.stop = stop;
-  watch.working = [&](std::size_t order) { running.tell(plan.runs[runs[order]].folder); };
+  watch.working = [&](std::size_t order) { running.show(plan.runs[runs[order]].folder); };
   watch.finished = [&](std::size_t order, SweepOutcome outcome) {
     result.outcomes[runs[order]] = std::move(outcome);
     running.end(work[order]);

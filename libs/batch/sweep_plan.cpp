@@ -5,7 +5,7 @@
 #include <map>
 
 #include "base/file_checksum.h"
-#include "batch/log_name.h"
+#include "batch/kept_run.h"
 #include "psi_slam/user_error.h"
 #include "session/settings.h"
 
@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostRuns = 1'000'000;
-constexpr std::size_t kFolderDigits = 16;  // of the key
+constexpr std::size_t kFolderDigits = 16;  // of the key in a folder name
 
-/// One thing that varies, and what it is set to.
+/// One option that varies, and its values.
 struct Choice {
   std::string column;
   std::vector<std::string> values;
@@ -29,7 +29,7 @@ std::string stem_of(const fs::path& log) {
 }
 
 void require_file(const fs::path& path, const std::string& what) {
-  if (!fs::is_regular_file(path)) throw UserError(what + path.string() + " is no file");
+  if (!fs::is_regular_file(path)) throw UserError(what + path.string() + " is not a file");
 }
 
 void measure(SweepLog& log) {
@@ -42,8 +42,7 @@ void measure(SweepLog& log) {
     if (entry.is_regular_file()) log.bytes += entry.file_size();
 }
 
-/// The file of that name in the folder, or beside the log where no folder is given; empty where there is
-/// none.
+/// The file NAME + `ending` in the folder, or beside the log without a folder; empty if it does not exist.
 fs::path found(const fs::path& log, const std::string& folder, const char* ending) {
   const fs::path path = (folder.empty() ? log.parent_path() : fs::path(folder)) / (stem_of(log) + ending);
   return fs::is_regular_file(path) ? path : fs::path();
@@ -52,9 +51,9 @@ fs::path found(const fs::path& log, const std::string& folder, const char* endin
 SweepLog log_of(const std::string& argument, const SweepRequest& request) {
   SweepLog log;
   log.log = argument;
-  if (log.log.filename().empty()) log.log = log.log.parent_path();  // "folder/"
+  if (log.log.filename().empty()) log.log = log.log.parent_path();  // of "folder/"
   const std::size_t at = argument.rfind('@');
-  if (at != std::string::npos && !fs::exists(log.log)) {  // a file may have an @ in its name
+  if (at != std::string::npos && !fs::exists(log.log)) {  // a file name may contain @
     log.log = argument.substr(0, at);
     log.ini = argument.substr(at + 1);
     require_file(log.ini, "the settings of " + log.log.string() + ": ");
@@ -78,9 +77,9 @@ SweepLog log_of(const std::string& argument, const SweepRequest& request) {
 std::vector<SweepLog> logs_of(const SweepRequest& request) {
   if (request.logs.empty()) throw UserError("name the logs: psi-slam sweep LOG... -o DIR");
   if (!request.relations.empty() && request.logs.size() > 1)
-    throw UserError("--relations goes with one log; of several, each has NAME.relations beside it");
+    throw UserError("--relations works with one log only: for several, put NAME.relations beside each log");
   if (!request.ini_folder.empty() && !fs::is_directory(request.ini_folder))
-    throw UserError("--ini: " + request.ini_folder + " is no folder");
+    throw UserError("--ini: " + request.ini_folder + " is not a folder");
   std::map<std::string, int> names;
   std::vector<SweepLog> logs;
   for (const std::string& argument : request.logs) {
@@ -98,15 +97,14 @@ Choice choice_of(const std::string& assignment) {
     throw UserError("--set: expected SECTION.KEY=VALUE,VALUE,...: " + assignment);
   Choice choice{assignment.substr(0, equals), {}};
   if (choice.column == "run.seed" || choice.column == "run.threads")
-    throw UserError("--set: a sweep takes its " + choice.column.substr(4) +
-                    (choice.column == "run.seed" ? "s from --seeds" : " from --threads"));
+    throw UserError("--set: set " + choice.column + " of a sweep with " +
+                    (choice.column == "run.seed" ? "--seeds" : "--threads"));
   const bool is_list = choice.column == "log.laser" || choice.column == "log.scan_topic" ||
                        choice.column == "log.laser_mounts";
   if (is_list && assignment.find(',', equals) != std::string::npos)
     throw UserError(
         "--set: " + choice.column +
-        " is a list itself, and a comma separates the values of a sweep: put it into a settings file, "
-        "-c INI");
+        " is a list, and --set splits values at commas: put the list into a settings file, -c INI");
   std::size_t begin = equals + 1;
   for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
     comma = assignment.find(',', begin);
@@ -122,14 +120,14 @@ std::vector<Choice> choices_of(const SweepRequest& request) {
     Choice choice = choice_of(assignment);
     for (const Choice& other : choices)
       if (other.column == choice.column)
-        throw UserError("--set: " + choice.column + " is set twice; write its values behind each other: " +
+        throw UserError("--set: " + choice.column + " is set twice: give all values at once, " +
                         choice.column + "=VALUE,VALUE");
     choices.push_back(std::move(choice));
   }
   return choices;
 }
 
-/// All combinations, the last choice varying fastest.
+/// All combinations; the last choice varies fastest.
 std::vector<std::vector<std::string>> combinations(const std::vector<Choice>& choices) {
   std::vector<std::vector<std::string>> all(1);
   for (const Choice& choice : choices) {
@@ -146,7 +144,7 @@ std::vector<std::vector<std::string>> combinations(const std::vector<Choice>& ch
   return all;
 }
 
-/// The settings of all runs of a log with a combination; the seed is still to be set.
+/// Sets everything but the seed for the runs of a log with one combination of values.
 void set_up(BoundSettings& bound, const SweepLog& log, const std::vector<Choice>& choices,
             const std::vector<std::string>& values, int threads) {
   bound.load(log.ini, {});
@@ -176,12 +174,11 @@ void require_all_different(const SweepPlan& plan) {
   std::map<std::string, const SweepRun*> known;
   for (const SweepRun& run : plan.runs)
     if (const auto [other, is_new] = known.emplace(run.key, &run); !is_new)
-      throw UserError("two of the sweep's runs would be the same: " + run_text(plan, *other->second) +
-                      " and " + run_text(plan, run));
+      throw UserError("two runs of the sweep would be equal: " + run_text(plan, *other->second) + " and " +
+                      run_text(plan, run));
 }
 
-/// The columns whose values differ, and "config" where there is more than one: what does not vary is no
-/// column.
+/// Removes the columns of choices with a single value.
 void keep_what_varies(SweepPlan& plan, const std::vector<Choice>& choices) {
   for (std::size_t i = choices.size(); i-- > 0;) {
     if (choices[i].values.size() > 1) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sweep before it is run: every log with every combination of settings and every seed.
+// Plan of a sweep: every log with every combination of settings and every seed.
 #pragma once
 
 #include <cstddef>
@@ -9,50 +9,50 @@
 #include <string>
 #include <vector>
 
-#include "batch/seed_range.h"
+#include "batch/seeds.h"
 
 namespace psi_slam {
 
-/// What the user asks for.
+/// The user's request.
 struct SweepRequest {
   std::vector<std::string> logs;     ///< "LOG", or "LOG@INI" with the log's own settings
-  std::string ini_folder;            ///< where other logs have theirs, as NAME.ini; empty: beside the log
-  std::string relations;             ///< of the one log; empty: NAME.relations beside each, where it is there
-  std::vector<std::string> configs;  ///< settings files to choose from; none: only what the logs have
+  std::string ini_folder;            ///< folder of the other logs' settings NAME.ini; empty: beside each log
+  std::string relations;             ///< of the only log; empty: NAME.relations beside each log, if it exists
+  std::vector<std::string> configs;  ///< settings files to compare; empty: the logs' own settings
   std::vector<std::string> choices;  ///< "section.key=value,value,..."
   SeedRange seeds;
   int threads = 1;  ///< of each run
 };
 
 struct SweepLog {
-  std::string name;                                ///< "intel"; the whole path where two files have one name
-  std::filesystem::path log;                       ///< a file, or a folder of one recording
-  std::filesystem::path ini;                       ///< its own settings; empty: none
-  std::optional<std::filesystem::path> relations;  ///< that are known to be true
+  std::string name;           ///< "intel"; the whole path where two logs have the same name
+  std::filesystem::path log;  ///< a file, or the folder of one recording
+  std::filesystem::path ini;  ///< the log's own settings; empty: none
+  std::optional<std::filesystem::path> relations;
   std::string sha256;
-  std::uintmax_t bytes = 0;      ///< of the log
-  std::string relations_sha256;  ///< empty: none
+  std::uintmax_t bytes = 0;      ///< size of the log
+  std::string relations_sha256;  ///< empty: no relations
 };
 
 struct SweepRun {
-  std::size_t log = 0;              ///< in the plan
-  std::vector<std::string> values;  ///< of the plan's columns
+  std::size_t log = 0;              ///< index in SweepPlan::logs
+  std::vector<std::string> values;  ///< of SweepPlan::columns
   std::uint64_t seed = 1;
-  std::string settings;  ///< a settings file with all options
-  std::string key;       ///< checksum of all that the result depends on
-  std::string folder;    ///< its name among the runs: "intel-seed3-0123456789abcdef"
+  std::string settings;  ///< contents of a settings file with all options
+  std::string key;       ///< checksum of everything that the result depends on
+  std::string folder;    ///< name of the run's folder: "intel-seed3-0123456789abcdef"
 };
 
 struct SweepPlan {
   std::vector<SweepLog> logs;
   std::vector<std::string> columns;   ///< what varies besides log and seed: "config", "map.resolution_m"
-  std::vector<SweepRun> runs;         ///< by log, then by setting, then by seed
+  std::vector<SweepRun> runs;         ///< by log, then setting, then seed
   std::vector<std::string> warnings;  ///< about renamed settings, each once
 };
 
-/// Lays one over the other: the defaults, the log's own settings, the settings file, the choices, the seed.
-/// `program_sha256` is of the program that will do the runs. Throws UserError when a file cannot be read, a
-/// setting is refused, or two runs would be the same.
+/// Combines the defaults, the log's own settings, the settings file, the choices and the seed; later ones
+/// take precedence. `program_sha256` is the checksum of the program that makes the runs. Throws UserError for
+/// a file that cannot be read, for an invalid setting, and when two runs would be equal.
 SweepPlan plan_sweep(const SweepRequest& request, const std::string& program_sha256);
 
 }  // namespace psi_slam

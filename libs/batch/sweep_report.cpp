@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
-#include "batch/markdown_cells.h"
-#include "batch/sweep_tables.h"
-#include "exports/csv_text.h"
-#include "report/html_text.h"
 #include "base/number_text.h"
+#include "batch/kept_run.h"
+#include "batch/report_table.h"
+#include "exports/csv_tables.h"
+#include "report/html_text.h"
 
 namespace psi_slam {
 namespace {
@@ -28,7 +28,7 @@ const char* state_of(const std::optional<SweepOutcome>& outcome) {
   return outcome->figures ? "done" : "failed";
 }
 
-/// The fields behind a run's state, up to its times.
+/// Fields of a run between its state and its times, in the order of kFigureHeads.
 std::vector<std::string> figure_fields(const std::optional<SweepOutcome>& outcome) {
   if (!outcome || !outcome->figures) return std::vector<std::string>(11);
   const SweepFigures& figures = *outcome->figures;
@@ -56,56 +56,133 @@ std::string time_fields(const std::optional<SweepOutcome>& outcome) {
          ',' + fixed_text(figures.peak_memory_mib, 1);
 }
 
-/// What there is to be told above the tables.
+/// The sentences above the tables.
 std::string account_text(const SweepPlan& plan, const SweepResult& result) {
   const auto runs = counted(plan.runs.size(), "run", "runs");
   const auto logs = counted(plan.logs.size(), "log", "logs");
   std::string text = runs + " of " + logs + ": mean ± standard deviation over the seeds";
   if (result.failed() > 0) text += "; " + counted(result.failed(), "run", "runs") + " failed";
   if (result.to_go() > 0) text += "; " + std::to_string(result.to_go()) + " not made yet";
-  return text + ". Errors are means over the relations known to be true; the smallest of a log is marked.";
+  return text + ". Errors are means over the true relations; the smallest error of each log is marked.";
 }
 
-std::vector<SweepTable> tables_of(const SweepPlan& plan, const SweepResult& result) {
-  std::vector<SweepTable> tables{results_table(plan, result)};
-  const SweepTable failures = failures_table(plan, result);
-  if (!failures.rows.empty()) tables.push_back(failures);
-  tables.push_back(times_table(plan, result));
+/// The runs of one log with one setting, one for each seed.
+struct Group {
+  const SweepRun* first = nullptr;
+  std::size_t runs = 0;
+  std::vector<SweepFigures> finished;
+};
+
+std::vector<Group> groups_of(const SweepPlan& plan, const SweepResult& result) {
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    const SweepRun& run = plan.runs[i];
+    if (groups.empty() || groups.back().first->log != run.log || groups.back().first->values != run.values)
+      groups.push_back({&run, 0, {}});
+    ++groups.back().runs;
+    if (result.outcomes[i] && result.outcomes[i]->figures)
+      groups.back().finished.push_back(*result.outcomes[i]->figures);
+  }
+  return groups;
+}
+
+/// A column of numbers.
+struct Measure {
+  const char* head;
+  double (*value_of)(const SweepFigures&);
+  int decimals;
+  bool is_error = false;  ///< known only with relations; the smallest value is the best
+};
+
+SeedSpread spread_of(const Measure& measure, const Group& group) {
+  if (measure.is_error && !group.finished.empty() && !group.finished.front().has_errors) return {};
+  return spread_over(group.finished, measure.value_of);
+}
+
+std::string mean_and_std(const SeedSpread& spread, int decimals) {
+  if (spread.count == 0) return "–";
+  const std::string mean = fixed_text(spread.mean, decimals);
+  return spread.count == 1 ? mean : mean + " ± " + fixed_text(spread.std, decimals);
+}
+
+/// True if several settings of the log have a mean and this one has the smallest.
+bool is_best(const Measure& measure, const Group& group, const std::vector<Group>& groups) {
+  const SeedSpread own = spread_of(measure, group);
+  bool compared = false;
+  if (!measure.is_error || own.count == 0) return false;
+  for (const Group& other : groups) {
+    const SeedSpread its = spread_of(measure, other);
+    if (&other == &group || other.first->log != group.first->log || its.count == 0) continue;
+    if (its.mean < own.mean) return false;
+    compared = true;
+  }
+  return compared;
+}
+
+ReportTable by_setting(const std::vector<Measure>& measures, const SweepPlan& plan,
+                       const SweepResult& result) {
+  ReportTable table;
+  table.columns.push_back({"log", {}, true});
+  for (const std::string& column : plan.columns) table.columns.push_back({column, {}, true});
+  table.columns.push_back({"runs"});
+  for (const Measure& measure : measures) table.columns.push_back({measure.head});
+  const std::vector<Group> groups = groups_of(plan, result);
+  for (const Group& group : groups) {
+    std::vector<ReportCell> row{cell(plan.logs[group.first->log].name)};
+    for (const std::string& value : group.first->values) row.push_back(cell(value));
+    const std::string finished = std::to_string(group.finished.size());
+    row.push_back(cell(group.finished.size() == group.runs ? finished
+                                                           : finished + " of " + std::to_string(group.runs)));
+    for (const Measure& measure : measures)
+      row.push_back(
+          {mean_and_std(spread_of(measure, group), measure.decimals), {}, is_best(measure, group, groups)});
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportTable results_table(const SweepPlan& plan, const SweepResult& result) {
+  const std::vector<Measure> measures{
+      {"translation [m]", [](const SweepFigures& f) { return f.errors.translation_abs_m.mean; }, 4, true},
+      {"rotation [deg]", [](const SweepFigures& f) { return f.errors.rotation_abs_deg.mean; }, 3, true},
+      {"nodes", [](const SweepFigures& f) { return static_cast<double>(f.nodes); }, 1},
+      {"loops", [](const SweepFigures& f) { return static_cast<double>(f.loops_accepted); }, 1},
+      {"refused", [](const SweepFigures& f) { return static_cast<double>(f.loops_refused); }, 1},
+      {"switched off", [](const SweepFigures& f) { return static_cast<double>(f.loops_switched_off); }, 1},
+      {"path [m]", [](const SweepFigures& f) { return f.path_length_m; }, 2}};
+  return by_setting(measures, plan, result);
+}
+
+ReportTable times_table(const SweepPlan& plan, const SweepResult& result) {
+  const std::vector<Measure> measures{
+      {"time [s]", [](const SweepFigures& f) { return f.wall_s; }, 2},
+      {"processor time [s]", [](const SweepFigures& f) { return f.cpu_s; }, 2},
+      {"memory [MiB]", [](const SweepFigures& f) { return f.peak_memory_mib; }, 0}};
+  return by_setting(measures, plan, result);
+}
+
+ReportTable failures_table(const SweepPlan& plan, const SweepResult& result) {
+  ReportTable table{{{"run", {}, true}, {"attempts", {}, true}, {"reason", {}, true}}, {}};
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    const std::optional<SweepOutcome>& outcome = result.outcomes[i];
+    if (outcome && !outcome->figures)
+      table.rows.push_back({cell(plan.runs[i].folder), cell(static_cast<std::size_t>(outcome->attempts)),
+                            cell(outcome->failure)});
+  }
+  return table;
+}
+
+struct TitledTable {
+  std::string title;
+  ReportTable table;
+};
+
+std::vector<TitledTable> tables_of(const SweepPlan& plan, const SweepResult& result) {
+  std::vector<TitledTable> tables{{"By setting", results_table(plan, result)}};
+  ReportTable failures = failures_table(plan, result);
+  if (!failures.rows.empty()) tables.push_back({"Failed runs", std::move(failures)});
+  tables.push_back({"Times", times_table(plan, result)});
   return tables;
-}
-
-std::string markdown_of(const SweepTable& table) {
-  std::string text = "\n## " + table.title + "\n\n|";
-  for (const std::string& head : table.heads) text += ' ' + cell_text(head) + " |";
-  text += "\n|" + repeated("---|", table.words) + repeated("---:|", table.heads.size() - table.words) + '\n';
-  for (const std::vector<SweepCell>& row : table.rows) {
-    text += '|';
-    for (const SweepCell& cell : row) {
-      const char* const mark = cell.best ? "**" : "";
-      text += std::string(" ") + mark + cell_text(cell.text) + mark + " |";
-    }
-    text += '\n';
-  }
-  return text;
-}
-
-std::string html_of(const SweepTable& table) {
-  const auto tag = [&](std::size_t column, const char* name, bool best) {
-    std::string kind = column < table.words ? "word" : "";
-    if (best) kind += kind.empty() ? "best" : " best";
-    return std::string("<") + name + (kind.empty() ? "" : " class=\"" + kind + '"') + '>';
-  };
-  std::string text = "<h2>" + escape_html(table.title) + "</h2>\n<table>\n<tr>";
-  for (std::size_t i = 0; i < table.heads.size(); ++i)
-    text += tag(i, "th", false) + escape_html(table.heads[i]) + "</th>";
-  text += "</tr>\n";
-  for (const std::vector<SweepCell>& row : table.rows) {
-    text += "<tr>";
-    for (std::size_t i = 0; i < row.size(); ++i)
-      text += tag(i, "td", row[i].best) + escape_html(row[i].text) + "</td>";
-    text += "</tr>\n";
-  }
-  return text + "</table>\n";
 }
 
 Json log_json(const SweepLog& log) {
@@ -127,11 +204,8 @@ Json run_json(const SweepPlan& plan, const SweepRun& run, const std::optional<Sw
   const SweepFigures& figures = *outcome->figures;
   json["figures"] = run_figures_json(figures);
   if (!figures.has_errors) json["figures"]["errors"] = nullptr;
-  json["figures"].update({{"nodes", figures.nodes},
-                          {"loops_accepted", figures.loops_accepted},
-                          {"loops_refused", figures.loops_refused},
-                          {"loops_switched_off", figures.loops_switched_off},
-                          {"path_length_m", figures.path_length_m}});
+  SweepFigures::visit_map(figures,
+                          [&json](const char* key, const auto& value) { json["figures"][key] = value; });
   return json;
 }
 
@@ -165,12 +239,13 @@ std::string sweep_json(const SweepPlan& plan, const SweepResult& result) {
                      {"logs", logs},
                      {"varies", plan.columns},
                      {"runs", runs}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_file_text(json);
 }
 
 std::string sweep_markdown(const SweepPlan& plan, const SweepResult& result) {
   std::string text = "# Sweep\n\n" + account_text(plan, result) + '\n';
-  for (const SweepTable& table : tables_of(plan, result)) text += markdown_of(table);
+  for (const auto& [title, table] : tables_of(plan, result))
+    text += "\n## " + title + "\n\n" + table.markdown();
   return text;
 }
 
@@ -178,7 +253,8 @@ std::string sweep_html(const SweepPlan& plan, const SweepResult& result) {
   std::string text = std::string("<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"/>") +
                      "<title>Sweep – psi-slam</title>\n<style>" + kStyle + "</style></head>\n<body>\n" +
                      "<h1>Sweep</h1>\n<p>" + escape_html(account_text(plan, result)) + "</p>\n";
-  for (const SweepTable& table : tables_of(plan, result)) text += html_of(table);
+  for (const auto& [title, table] : tables_of(plan, result))
+    text += "<h2>" + title + "</h2>\n" + table.html();
   return text + "</body>\n</html>\n";
 }
 

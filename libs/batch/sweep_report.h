@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files that a sweep leaves. They tell what the runs came to, not which of them were made now: whether a
-// sweep was interrupted on the way, or who did the runs, changes nothing but times.
+// Files of a finished or interrupted sweep. They show the results only: apart from times, they are equal
+// whether or not the sweep was interrupted, and whichever workers made the runs.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,19 @@
 
 namespace psi_slam {
 
-/// A row for each run; the times and the memory are the last columns.
+/// A line for each run. Times and memory are the last columns.
 std::string sweep_csv(const SweepPlan& plan, const SweepResult& result);
 
-/// The same with the logs' checksums, the runs' keys and all errors.
+/// All runs, with the checksums of the logs, the keys of the runs and all errors.
 std::string sweep_json(const SweepPlan& plan, const SweepResult& result);
 
-/// The tables as a page.
+/// Tables over the seeds, a row for each log and setting: errors and loops, failed runs, times and memory.
+/// The smallest error of each log is marked.
 std::string sweep_markdown(const SweepPlan& plan, const SweepResult& result);
 std::string sweep_html(const SweepPlan& plan, const SweepResult& result);
 
-/// Writes sweep.csv, sweep.json, report.md and report.html. Throws SystemFailure when it cannot.
+/// Writes sweep.csv, sweep.json, report.md and report.html. Throws SystemFailure when a file cannot be
+/// written.
 void write_sweep_report(const SweepPlan& plan, const SweepResult& result,
                         const std::filesystem::path& folder);
 

@@ -6,12 +6,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "batch/cbor_text.h"
 #include "base/atomic_file.h"
 #include "base/exit_code.h"
-#include "psi_slam/user_error.h"
 #include "batch/child_process.h"
 #include "batch/kept_run.h"
+#include "batch/workers.h"
+#include "psi_slam/user_error.h"
 #include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int kMostAttempts = 2;
-constexpr std::string_view kSpokenBy = "psi-slam: ";
 constexpr const char* kResult = "run.json";
 constexpr const char* kSummary = "summary.json";
 constexpr const char* kSettings = "settings.ini";
@@ -37,12 +36,8 @@ bool is_kept(const std::string& file, SweepKeep keep) {
 
 Json figures_json(const SweepFigures& figures) {
   Json json = run_figures_json(figures);
-  json.update({{"has_errors", figures.has_errors},
-               {"nodes", figures.nodes},
-               {"loops_accepted", figures.loops_accepted},
-               {"loops_refused", figures.loops_refused},
-               {"loops_switched_off", figures.loops_switched_off},
-               {"path_length_m", figures.path_length_m}});
+  json["has_errors"] = figures.has_errors;
+  SweepFigures::visit_map(figures, [&json](const char* key, const auto& value) { json[key] = value; });
   return json;
 }
 
@@ -50,19 +45,15 @@ SweepFigures read_figures(const Json& json) {
   SweepFigures figures;
   static_cast<RunFigures&>(figures) = read_run_figures(json);
   json.at("has_errors").get_to(figures.has_errors);
-  json.at("nodes").get_to(figures.nodes);
-  json.at("loops_accepted").get_to(figures.loops_accepted);
-  json.at("loops_refused").get_to(figures.loops_refused);
-  json.at("loops_switched_off").get_to(figures.loops_switched_off);
-  json.at("path_length_m").get_to(figures.path_length_m);
+  SweepFigures::visit_map(figures, [&json](const char* key, auto& value) { json.at(key).get_to(value); });
   return figures;
 }
 
-/// What the files of a finished run say; its times are not in there. Throws where they do not.
+/// Figures in the files of a finished run; they hold no times. Throws when a file or figure is missing.
 SweepFigures figures_of(const fs::path& folder, const fs::path& relations) {
   std::ifstream file(folder / kSummary);
   const Json summary = Json::parse(file);
-  if (summary.at("interrupted").get<bool>()) throw SystemFailure("it was interrupted");
+  if (summary.at("interrupted").get<bool>()) throw SystemFailure("the run was interrupted");
   SweepFigures figures;
   if (!relations.empty()) {
     static_cast<RunFigures&>(figures) =
@@ -87,19 +78,19 @@ void leave_only(const fs::path& folder, SweepKeep keep) {
   for (const fs::path& other : others) fs::remove_all(other);
 }
 
-/// One attempt, in a folder that has the settings.
 struct Attempt {
   SweepOutcome outcome;
-  bool once_more = false;  ///< another one may end otherwise
+  bool once_more = false;  ///< another attempt may succeed
   bool stopped = false;
 };
 
+/// Runs psi-slam once, with its results in `folder`.
 Attempt attempt(const SweepOrder& order, const fs::path& folder, const std::function<bool()>& stop) {
   fs::remove_all(folder);
   fs::create_directories(folder);
   write_text_atomically(folder / kSettings, order.settings);
   ChildProcess child;
-  // As a whole path a log is neither an option nor a command.
+  // An absolute path cannot be mistaken for an option or a command.
   child.words = {order.program.string(),
                  "-c",
                  (folder / kSettings).string(),
@@ -112,17 +103,13 @@ Attempt attempt(const SweepOrder& order, const fs::path& folder, const std::func
   const ChildEnd end = run_child(child);
   Attempt made;
   made.stopped = end.stopped;
-  made.outcome.failure = end.failure();
-  if (made.outcome.failure.compare(0, kSpokenBy.size(), kSpokenBy) == 0)
-    made.outcome.failure.erase(0, kSpokenBy.size());
-  // What the user is to mend would be the same once more.
+  made.outcome.failure = end.failure_without("psi-slam: ");
+  // Wrong input fails again.
   made.once_more = !made.outcome.failure.empty() && end.code != kExitWrongUsageOrInput;
   if (!made.outcome.failure.empty()) return made;
   try {
     SweepFigures figures = figures_of(folder, order.relations);
-    figures.wall_s = end.wall_s;
-    figures.cpu_s = end.cpu_s;
-    figures.peak_memory_mib = end.peak_memory_mib;
+    set_effort(figures, end);
     made.outcome.figures = figures;
   } catch (const SystemFailure& failure) {
     made.outcome.failure = failure.what();
@@ -131,7 +118,7 @@ Attempt attempt(const SweepOrder& order, const fs::path& folder, const std::func
   return made;
 }
 
-/// The finished result takes the place of whatever is there.
+/// Replaces the folder of the order with the finished result.
 void put_in_place(const SweepOrder& order, const fs::path& made, const SweepOutcome& outcome) {
   leave_only(made, order.keep);
   keep_run(made / kResult, {order.key},

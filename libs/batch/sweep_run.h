@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run of a sweep: psi-slam in a process of its own, and the folder of what it came to.
+// One run of a sweep: psi-slam in a process of its own, and the folder of its results.
 #pragma once
 
 #include <cstddef>
@@ -12,48 +12,58 @@
 
 namespace psi_slam {
 
-/// What is left of a run's files besides summary.json and settings.ini, with which psi-slam makes it again.
+/// Files to keep of a run besides summary.json and settings.ini, which suffice to repeat it.
 enum class SweepKeep {
   kNone,
   kPaths,  ///< trajectories and tables
-  kMaps,   ///< everything
+  kMaps,   ///< all files
 };
 
-/// Everything that whoever makes a run has to know, wherever that is.
+/// All that a worker needs to make a run, on any machine.
 struct SweepOrder {
   std::filesystem::path program;  ///< psi-slam
   std::filesystem::path log;
   std::filesystem::path relations;  ///< empty: none
   std::string settings;
   std::string key;
-  std::filesystem::path folder;  ///< for its results
+  std::filesystem::path folder;  ///< for the results
   SweepKeep keep = SweepKeep::kNone;
 };
 
 struct SweepFigures : RunFigures {
-  bool has_errors = false;  ///< there are relations to know them by
+  bool has_errors = false;  ///< the log has true relations
   std::size_t nodes = 0;
   std::size_t loops_accepted = 0;
   std::size_t loops_refused = 0;
   std::size_t loops_switched_off = 0;
   double path_length_m = 0;
+
+  /// Calls visit(key, member) for each figure of the map.
+  template <class Figures, class Visit>
+  static void visit_map(Figures& figures, const Visit& visit) {
+    visit("nodes", figures.nodes);
+    visit("loops_accepted", figures.loops_accepted);
+    visit("loops_refused", figures.loops_refused);
+    visit("loops_switched_off", figures.loops_switched_off);
+    visit("path_length_m", figures.path_length_m);
+  }
 };
 
 struct SweepOutcome {
   std::optional<SweepFigures> figures;
-  std::string failure;  ///< why there are none
-  int attempts = 0;     ///< made now; 0 where the result was there
+  std::string failure;  ///< reason for missing figures
+  int attempts = 0;     ///< made now; 0: the result was kept from before
 };
 
-/// What is in the order's folder, if that holds a finished result of its key with the files to be kept.
+/// The finished result in the order's folder, if it has the order's key and all files to keep.
 std::optional<SweepOutcome> kept_outcome(const SweepOrder& order);
 
-/// Makes the run. Its folder appears when it is finished and replaces one that is there. A process that is
-/// killed or crashes is started once more. None, and no folder, once `stop` is true; it is asked a few times
-/// a second. Never throws for what goes wrong with the run.
+/// Makes the run. The folder appears when the run is finished, and replaces an older one. Starts a process
+/// that is killed or crashes once more. Calls `stop` a few times a second; when that returns true, returns
+/// nothing and leaves no folder. Never throws for a failed run.
 std::optional<SweepOutcome> make_run(const SweepOrder& order, const std::function<bool()>& stop);
 
-/// To and from text, for workers that are elsewhere. Reading throws nlohmann::json::exception for other text.
+/// Messages to and from workers in other processes. Reading other text throws nlohmann::json::exception.
 std::string order_text(const SweepOrder& order);
 SweepOrder read_order(const std::string& text);
 std::string outcome_text(const SweepOutcome& outcome);

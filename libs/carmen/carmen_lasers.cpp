@@ -1,22 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "carmen/carmen_lasers.h"
 
-#include <algorithm>
-#include <limits>
-#include <set>
+#include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
 
-#include "base/line_reader.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "compression/line_reader.h"
 #include "base/text_parts.h"
+#include "frames/beam_angles.h"
+#include "frames/laser_readings.h"
 #include "psi_slam/user_error.h"
-#include "carmen/carmen_mount.h"
 
 namespace psi_slam {
 namespace {
 
+using mrpt::math::TPose2D;
 using Messages = std::set<std::string, std::less<>>;
 
+const std::vector<std::string> kFrontMessages{"ROBOTLASER1", "FLASER", "RAWLASER1"};
+const std::vector<std::string> kRearMessages{"ROBOTLASER2", "RLASER", "RAWLASER2"};
+const std::vector<std::string> kOtherMessages{"RAWLASER3", "RAWLASER4"};
 constexpr std::size_t kLinesOfHead = 500;
 constexpr std::size_t kAllLines = std::numeric_limits<std::size_t>::max();
+constexpr double kEnoughPath_m = 3.0;
+constexpr double kEnoughTurn_rad = 1.0;
+constexpr double kSameMount_m = 0.002;  // logs are rounded to a micrometre or a millimetre
+constexpr double kSameMount_rad = 0.002;
 
 Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) {
   LineReader lines(path);
@@ -29,19 +44,173 @@ Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) 
   return found;
 }
 
-/// The most preferred of the messages that there are; empty if there are none.
+/// First of the preferred messages that was found; empty if none was.
 std::string first_of(const std::vector<std::string>& preferred, const Messages& found) {
   for (const std::string& name : preferred)
     if (found.count(name) != 0) return name;
   return {};
 }
 
+bool same_mount(const TPose2D& a, const TPose2D& b) {
+  return std::hypot(a.x - b.x, a.y - b.y) <= kSameMount_m &&
+         std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= kSameMount_rad;
+}
+
+std::optional<CarmenLaserMessage> readable_robotlaser(CarmenFields& fields) {
+  try {
+    return read_robotlaser(fields);
+  } catch (const MalformedLine&) {  // reported when the log is read
+    return std::nullopt;
+  }
+}
+
+/// Candidate messages of each laser of a choice. "all" means the front laser, the rear laser and the others.
+/// A laser with several kinds of messages is thus read once.
+std::vector<std::vector<std::string>> messages_wanted(const LaserChoice& choice) {
+  std::vector<std::vector<std::string>> wanted;
+  if (choice.all) {
+    wanted = {kFrontMessages, kRearMessages};
+    for (const std::string& name : kOtherMessages) wanted.push_back({name});
+    return wanted;
+  }
+  if (choice.names.empty()) return {carmen_laser_messages("")};
+  for (const std::string& name : choice.names) wanted.push_back(carmen_laser_messages(name));
+  return wanted;
+}
+
 }  // namespace
+
+std::vector<std::string> carmen_laser_messages(const std::string& laser, const std::string& option) {
+  if (laser == "front") return kFrontMessages;
+  if (laser == "rear") return kRearMessages;
+  std::vector<std::string> all = kFrontMessages;
+  all.insert(all.end(), kRearMessages.begin(), kRearMessages.end());
+  all.insert(all.end(), kOtherMessages.begin(), kOtherMessages.end());
+  if (laser.empty()) return all;
+  if (contains(all, laser)) return {laser};
+  throw UserError(
+      option + " is \"" + laser +
+      "\", expected \"front\", \"rear\" or the name of a CARMEN laser message such as \"RAWLASER1\"");
+}
+
+CarmenLaser::CarmenLaser(std::string message_name, const LogOptions& options)
+    : message_name_(std::move(message_name)),
+      position_(contains(kFrontMessages, message_name_)  ? "front"
+                : contains(kRearMessages, message_name_) ? "rear"
+                                                         : ""),
+      options_(options_of_laser(options, {message_name_, position_})) {}
+
+void CarmenLaser::take_parameter(CarmenFields& fields) {
+  const std::string_view name = fields.word("the parameter's name");
+  if (position_.empty()) return;
+  const std::string mount = "robot_" + position_ + "laser_";
+  if (name == mount + "offset") {
+    offset_m_ = fields.number("the laser's offset in metres");
+  } else if (name == mount + "side_offset") {
+    side_offset_m_ = fields.number("the laser's side offset in metres");
+  } else if (name == mount + "angular_offset") {
+    angular_offset_rad_ = fields.number("the laser's angular offset in radians");
+  } else if (name == "robot_" + position_ + "_laser_max") {
+    const double max_range_m = fields.number("the laser's maximum range in metres");
+    if (max_range_m <= 0) fields.fail("the laser's maximum range is not positive, expected metres");
+    stated_max_range_m_ = max_range_m;
+  } else if (name == "laser_" + position_ + "_laser_resolution") {
+    const double resolution_deg = fields.number("the laser's resolution in degrees");
+    if (resolution_deg <= 0) fields.fail("the laser's resolution is not positive, expected degrees");
+    stated_resolution_rad_ = mrpt::DEG2RAD(resolution_deg);
+  }
+}
+
+bool CarmenLaser::has_mount_parameters() const {
+  return offset_m_ || side_offset_m_ || angular_offset_rad_;
+}
+
+bool CarmenLaser::knows_mount() const {
+  return options_.robot_T_laser || has_mount_parameters() || mount_by_poses_;
+}
+
+TPose2D CarmenLaser::robot_T_laser() const {
+  if (options_.robot_T_laser) return *options_.robot_T_laser;
+  if (!has_mount_parameters() && mount_by_poses_) return *mount_by_poses_;
+  const double usual_heading_rad = position_ == "rear" ? M_PI : 0.0;
+  TPose2D mount{offset_m_.value_or(0), side_offset_m_.value_or(0),
+                angular_offset_rad_.value_or(usual_heading_rad)};
+  mount.normalizePhi();
+  return mount;
+}
+
+std::vector<float> CarmenLaser::bearings_rad(const CarmenLaserMessage& message,
+                                             const CarmenFields& fields) const {
+  const std::size_t beams = message.ranges_m.size();
+  const bool log_states_them = message.resolution_rad > 0 || message.field_of_view_rad > 0;
+  if (log_states_them && options_.beam_angles == BeamAngles::kAuto && !options_.field_of_view_rad) {
+    const double step_rad =
+        message.resolution_rad > 0
+            ? message.resolution_rad
+            : message.field_of_view_rad / static_cast<double>(std::max<std::size_t>(beams - 1, 1));
+    std::vector<float> bearings(beams);
+    for (std::size_t i = 0; i < beams; ++i)
+      bearings[i] = static_cast<float>(message.start_angle_rad + static_cast<double>(i) * step_rad);
+    return bearings;
+  }
+  std::optional<double> field_of_view_rad = options_.field_of_view_rad;
+  if (!field_of_view_rad && message.field_of_view_rad > 0) field_of_view_rad = message.field_of_view_rad;
+  if (!field_of_view_rad) field_of_view_rad = usual_field_of_view_rad(beams);
+  if (!field_of_view_rad && stated_resolution_rad_)
+    field_of_view_rad = *stated_resolution_rad_ * static_cast<double>(beams - 1);
+  if (!field_of_view_rad) {
+    fields.fail(
+        "a scan of " + std::to_string(beams) +
+        " readings states no angles and has no usual field of view. State it with log.field_of_view_deg");
+  }
+  return make_bearings_rad(options_.beam_angles, beams, *field_of_view_rad);
+}
+
+LaserScan CarmenLaser::scan(CarmenLaserMessage message, const CarmenFields& fields) {
+  const Geometry geometry{message.ranges_m.size(), message.start_angle_rad, message.field_of_view_rad,
+                          message.resolution_rad};
+  if (!bearings_ || geometry != geometry_) {
+    std::vector<float> bearings = bearings_rad(message, fields);
+    if (options_.mirrored) mirror(bearings);
+    bearings_ = std::make_shared<const std::vector<float>>(std::move(bearings));
+    geometry_ = geometry;
+  }
+  LaserScan scan;
+  scan.robot_T_laser = robot_T_laser();
+  scan.bearings_rad = bearings_;
+  scan.ranges_m = std::move(message.ranges_m);
+  limit_ranges(scan, options_, message.max_range_m > 0 ? message.max_range_m : stated_max_range_m_);
+  return scan;
+}
+
+std::optional<TPose2D> mount_by_robotlaser(const std::filesystem::path& path, std::string_view message) {
+  LineReader lines(path);
+  std::optional<TPose2D> mount;
+  std::optional<TPose2D> last_robot;
+  double path_m = 0;
+  double turn_rad = 0;
+  std::string_view line;
+  while (path_m < kEnoughPath_m && turn_rad < kEnoughTurn_rad && lines.next_readable(line)) {
+    CarmenFields fields(line, lines);
+    if (fields.message() != message) continue;
+    const auto laser = readable_robotlaser(fields);
+    if (!laser) continue;
+    const TPose2D robot_T_laser = laser->odom_T_laser - laser->odom_T_robot;
+    if (mount && !same_mount(*mount, robot_T_laser)) return std::nullopt;
+    if (!mount) mount = robot_T_laser;
+    if (last_robot) {
+      path_m += std::hypot(laser->odom_T_robot.x - last_robot->x, laser->odom_T_robot.y - last_robot->y);
+      turn_rad += std::abs(mrpt::math::wrapToPi(laser->odom_T_robot.phi - last_robot->phi));
+    }
+    last_robot = laser->odom_T_robot;
+  }
+  return mount;
+}
 
 CarmenLasers::CarmenLasers(const std::filesystem::path& path, const LogOptions& options)
     : path_(path), options_(options) {
   const LaserChoice choice = laser_choice("log.laser", options.laser);
-  for (auto& candidates : carmen_lasers_wanted(choice)) slots_.push_back({std::move(candidates), {}});
+  for (auto& candidates : messages_wanted(choice)) slots_.push_back({std::move(candidates), {}});
   for (const StatedMount& mount : stated_mounts(options))
     carmen_laser_messages(mount.name, "log.laser_mounts");
   Messages found = messages_in(path, kLinesOfHead);
@@ -62,21 +231,21 @@ void CarmenLasers::choose(Slot& slot, const std::string& message) {
 }
 
 void CarmenLasers::require_all(const LaserChoice& choice) const {
-  const std::string log_laser = "log.laser = \"" + options_.laser + "\"";
+  const std::string log_laser = "log.laser is \"" + options_.laser + "\"";
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     if (!slots_[i].laser) {
       const Messages found = messages_in(path_, kAllLines);
       std::vector<std::string> lasers;
       for (const std::string& name : carmen_laser_messages(""))
         if (found.count(name) != 0) lasers.push_back(name);
-      throw UserError(log_laser + " names \"" + choice.names[i] + "\", which " + path_.string() +
-                      " does not have, expected some of its lasers: " + quoted_list(lasers));
+      throw UserError(log_laser + ", but " + path_.string() + " has no laser \"" + choice.names[i] +
+                      "\", expected some of: " + quoted_list(lasers));
     }
     for (std::size_t j = 0; j < i; ++j)
       if (slots_[j].laser->laser.message_name() == slots_[i].laser->laser.message_name())
-        throw UserError(log_laser + " names one laser twice: the scans of \"" + choice.names[j] +
-                        "\" and \"" + choice.names[i] + "\" are the " +
-                        slots_[i].laser->laser.message_name() + " messages of " + path_.string());
+        throw UserError(log_laser + ", but \"" + choice.names[j] + "\" and \"" + choice.names[i] +
+                        "\" are the same laser: the " + slots_[i].laser->laser.message_name() +
+                        " messages of " + path_.string() + ". Name it once");
   }
 }
 

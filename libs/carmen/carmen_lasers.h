@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Lasers of a CARMEN log: which messages hold their scans, where they are mounted and what they measure.
 #pragma once
+
+#include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
 #include <deque>
@@ -7,35 +10,89 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
-#include "carmen/carmen_laser.h"
+#include "carmen/carmen_message.h"
+#include "frames/laser_choice.h"
+#include "psi_slam/frame.h"
 #include "psi_slam/log_options.h"
 
 namespace psi_slam {
 
-/// Which messages of a CARMEN log are scans that are read, and of which laser. Of the kinds of messages that
-/// can hold a laser's scans the first lines of the log decide, else the first message to come.
+/// Names of the messages that can hold scans of a laser (`LogOptions::laser`), in order of preference. Throws
+/// UserError that names `option` for a laser that CARMEN does not have.
+std::vector<std::string> carmen_laser_messages(const std::string& laser,
+                                               const std::string& option = "log.laser");
+
+/// Pose of the laser on the robot, from the two poses in the ROBOTLASER lines with this name. Reads until the
+/// robot has moved 3 m or turned 1 rad and skips malformed lines. Empty if there are no such lines. Empty
+/// also if the difference of the two poses varies: a mapper has then corrected the laser's pose.
+std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const std::filesystem::path& path,
+                                                       std::string_view message);
+
+/// Turns the messages of one laser into scans. The user's options override PARAM lines and messages.
+class CarmenLaser {
+ public:
+  CarmenLaser(std::string message_name, const LogOptions& options);
+
+  const std::string& message_name() const { return message_name_; }
+  const std::string& position() const { return position_; }  ///< "front", "rear", or empty
+
+  /// Returns whether the user or the log states the pose of the laser on the robot.
+  bool knows_mount() const;
+
+  /// Takes name and value of a PARAM line, the fields after "PARAM". Other parameters are ignored. A
+  /// malformed line changes nothing.
+  void take_parameter(CarmenFields& fields);
+
+  /// Sets the mount that applies if neither the user nor a PARAM line states one.
+  void set_mount_by_poses(const mrpt::math::TPose2D& robot_T_laser) { mount_by_poses_ = robot_T_laser; }
+
+  /// Throws MalformedLine at the place of `fields` if the bearings are unknown.
+  LaserScan scan(CarmenLaserMessage message, const CarmenFields& fields);
+
+ private:
+  bool has_mount_parameters() const;
+  mrpt::math::TPose2D robot_T_laser() const;
+  std::vector<float> bearings_rad(const CarmenLaserMessage& message, const CarmenFields& fields) const;
+
+  using Geometry = std::tuple<std::size_t, double, double, double>;  // beams, first bearing, view, step
+
+  std::string message_name_;
+  std::string position_;
+  LogOptions options_;
+  std::optional<double> offset_m_;
+  std::optional<double> side_offset_m_;
+  std::optional<double> angular_offset_rad_;
+  std::optional<mrpt::math::TPose2D> mount_by_poses_;
+  double stated_max_range_m_ = 0;  // 0: not stated
+  std::optional<double> stated_resolution_rad_;
+  Geometry geometry_;  // of bearings_
+  BeamBearings bearings_;
+};
+
+/// Lasers that are read. If several kinds of messages can hold the scans of a laser, the first lines of the
+/// log decide; if they have none, the first such message to appear.
 class CarmenLasers {
  public:
   struct Laser {
     CarmenLaser laser;
-    std::size_t number = 0;            ///< as in LaserScan::laser
-    std::size_t early_parameters = 0;  ///< PARAM lines that came before the laser was known
-    bool began = false;                ///< whether it has scanned
+    std::size_t number = 0;            ///< see LaserScan::laser
+    std::size_t early_parameters = 0;  ///< number of PARAM lines before the laser was known
+    bool began = false;                ///< whether a scan has appeared
   };
 
-  /// Throws UserError when a laser that CARMEN does not have is wanted, or when one of several is not in the
-  /// log.
+  /// Throws UserError if CARMEN does not have a selected laser, or if the log lacks one of several.
   CarmenLasers(const std::filesystem::path& path, const LogOptions& options);
 
-  /// The laser whose scans messages of that name are; none, when they are not read.
+  /// Returns the laser whose scans are in messages with this name, or null if they are not read.
   Laser* laser_of(std::string_view message);
 
   bool several() const { return slots_.size() > 1; }
   bool any_known() const;
   bool all_known() const;
-  bool any_needs_odometry() const;  ///< RAWLASER
+  bool any_needs_odometry() const;  ///< RAWLASER messages lack odometry
 
   template <class Do>
   void for_each(Do action) {
@@ -43,11 +100,11 @@ class CarmenLasers {
       if (slot.laser) action(slot.laser->laser);
   }
 
-  /// Of PARAM lines that came while a laser was not known: whoever is chosen later needs them, too.
+  /// Keeps a PARAM line for lasers that are not known yet.
   void keep_parameter(std::string_view line) { parameters_.emplace_back(line); }
   const std::deque<std::string>& parameters() const { return parameters_; }
 
-  /// All messages that may hold scans, the preferred first.
+  /// Names of all messages that may hold scans, in order of preference.
   std::vector<std::string> candidates() const;
 
  private:

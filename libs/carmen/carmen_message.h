@@ -1,17 +1,61 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Parses the lines of a CARMEN log.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
 
+#include <cstddef>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "compression/line_reader.h"
 #include "psi_slam/time_stamp.h"
-#include "carmen/carmen_fields.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 
-/// One message of a laser as the line has it: nothing is filtered, and what its kind does not carry is left
-/// at zero.
+/// A malformed line of a CARMEN log. The text names file, line, message and what was expected.
+class MalformedLine : public UserError {
+ public:
+  using UserError::UserError;
+};
+
+/// Parses the fields of one line from left to right. Each call throws MalformedLine if the next field is
+/// missing or has another type. The error says so if the end of the file truncates the line.
+class CarmenFields {
+ public:
+  /// Parses the name of the message, which is empty for a blank line.
+  CarmenFields(std::string_view line, const LineReader& lines);
+
+  std::string_view message() const { return message_; }
+
+  std::string_view word(const char* what);
+  double number(const char* what);
+  std::size_t count(const char* what);
+  TimeUs time(const char* what);
+  mrpt::math::TPose2D pose(const char* what);
+
+  /// Parses `count` ranges, metres; "nan" and "inf" are valid.
+  std::vector<float> ranges(std::size_t count);
+  void skip_numbers(std::size_t count, const char* what);
+
+  /// Parses the end of every line, `ipc_timestamp host logger_timestamp`. Returns ipc_timestamp.
+  TimeUs stamps();
+
+  [[noreturn]] void fail(const std::string& found_and_expected) const;
+
+ private:
+  std::string_view next_field();
+  [[noreturn]] void fail_field(std::string_view field, const std::string& expected) const;
+
+  std::string_view rest_;
+  std::string_view message_;
+  const LineReader& lines_;
+};
+
+/// One message of a laser as its line states it, without any filtering. Members that its kind of message does
+/// not have are zero.
 struct CarmenLaserMessage {
   TimeUs time_us = 0;  ///< ipc_timestamp
   std::vector<float> ranges_m;
@@ -19,7 +63,7 @@ struct CarmenLaserMessage {
   double field_of_view_rad = 0;      ///< 0: not stated
   double resolution_rad = 0;         ///< step between readings; 0: not stated
   double max_range_m = 0;            ///< 0: not stated
-  mrpt::math::TPose2D odom_T_laser;  ///< of a corrected log: a mapper's result, not odometry
+  mrpt::math::TPose2D odom_T_laser;  ///< in a corrected log the result of a mapper, not odometry
   mrpt::math::TPose2D odom_T_robot;
 };
 
@@ -28,7 +72,7 @@ struct CarmenOdometryMessage {
   mrpt::math::TPose2D odom_T_robot;
 };
 
-// Each takes the fields behind the message's name, and throws MalformedLine on another.
+// Each function parses the fields after the name of the message and throws MalformedLine.
 CarmenLaserMessage read_flaser(CarmenFields& fields);      ///< also RLASER
 CarmenLaserMessage read_rawlaser(CarmenFields& fields);    ///< without poses
 CarmenLaserMessage read_robotlaser(CarmenFields& fields);  ///< the robot's pose is odometry

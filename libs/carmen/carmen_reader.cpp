@@ -6,58 +6,57 @@
 #include <utility>
 #include <vector>
 
-#include "base/line_reader.h"
+#include "compression/line_reader.h"
 #include "base/text_parts.h"
-#include "psi_slam/user_error.h"
 #include "carmen/carmen_lasers.h"
 #include "carmen/carmen_message.h"
 #include "frames/odometry_interpolator.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
 constexpr std::size_t kLinesForOneSkipped = 100;
-constexpr std::size_t kSkippedBeforeTheEnd = 100;  // damage may come in one place, and the share sink later
+// Skipped lines allowed before the end of the log: damage may be local, so that their fraction sinks later.
+constexpr std::size_t kSkippedBeforeTheEnd = 100;
 
-}  // namespace
-
-class CarmenReader::Implementation {
+class CarmenReader : public LogReader {
  public:
-  Implementation(const std::filesystem::path& path, const LogOptions& options)
+  CarmenReader(const std::filesystem::path& path, const LogOptions& options)
       : lasers_(path, options), lines_(path) {}
 
-  std::optional<Frame> next() {
+  double progress() const override { return lines_.progress(); }
+
+ protected:
+  std::optional<Frame> read_frame() override {
     std::string_view line;
     while (true) {
-      if (auto frame = interpolator_.take()) return numbered(std::move(frame));
+      if (auto frame = interpolator_.take()) return frame;
       if (at_end_) return std::nullopt;
       if (lines_.next(line)) {
-        if (auto frame = take_or_skip(line)) return numbered(std::move(frame));
+        if (auto frame = take_or_skip(line)) return frame;
       } else {
         end_of_log();
       }
     }
   }
 
-  double progress() const { return lines_.progress(); }
-  const CarmenStatistics& statistics() const { return statistics_; }
-
  private:
-  std::optional<Frame> numbered(std::optional<Frame> frame) {
-    frame->index = frames_given_++;
-    return frame;
+  void add_laser(std::string_view message) {
+    contents_.laser += (contents_.laser.empty() ? "" : ", ") + std::string(message);
+    contents_.states_beam_angles = contents_.laser != "FLASER" && contents_.laser != "RLASER";
   }
 
   void count(std::string_view message, CarmenLasers::Laser* laser) {
     if (laser == nullptr) {
-      ++statistics_.messages[std::string(message)];
+      ++contents_.messages[std::string(message)];
       return;
     }
     scan_counts_.resize(std::max(scan_counts_.size(), laser->number + 1));
     std::size_t*& lines = scan_counts_[laser->number];
     if (lines == nullptr) {
-      lines = &statistics_.messages[std::string(message)];
-      statistics_.laser_message += (statistics_.laser_message.empty() ? "" : ", ") + std::string(message);
+      lines = &contents_.messages[std::string(message)];
+      add_laser(message);
     }
     ++*lines;
   }
@@ -73,14 +72,14 @@ class CarmenReader::Implementation {
   }
 
   void skip(const MalformedLine& error) {
-    SkippedLines& skipped = statistics_.skipped;
+    SkippedLines& skipped = contents_.skipped;
     if (skipped.count == 0) skipped.first = error.what();
     ++skipped.count;
     if (skipped.count > std::max(kSkippedBeforeTheEnd, lines_needed_ / kLinesForOneSkipped))
       fail_as_garbled();
   }
 
-  /// A frame if the line is a scan with its own odometry; scans without go to the interpolator.
+  /// Returns a frame if the line is a scan with its own odometry. Other scans go to the interpolator.
   std::optional<Frame> take_line(std::string_view line) {
     CarmenFields fields(line, lines_);
     const std::string_view name = fields.message();
@@ -120,7 +119,7 @@ class CarmenReader::Implementation {
                                  : is_robotlaser ? read_robotlaser(fields)
                                                  : read_flaser(fields);
     if (!is_raw && !is_robotlaser && !(message.odom_T_laser == message.odom_T_robot))
-      ++statistics_.scans_with_two_poses;
+      ++contents_.scans_with_two_poses;
     Frame frame;
     frame.time_us = message.time_us;
     frame.odom_T_robot = message.odom_T_robot;
@@ -129,17 +128,17 @@ class CarmenReader::Implementation {
     if (!is_raw) return frame;
     interpolator_.add_scan(std::move(frame));
     if (!interpolator_.has_odometry() && interpolator_.waiting() > OdometryInterpolator::kMaxWaiting)
-      fail_without_odometry("none came with the first " + std::to_string(interpolator_.waiting()) + " scans");
+      fail_without_odometry("none is among the first " + std::to_string(interpolator_.waiting()) + " scans");
     return std::nullopt;
   }
 
-  /// Before a laser's first scan.
+  /// Called before a laser's first scan.
   void begin(CarmenLasers::Laser& laser) {
     for (std::size_t i = 0; i < laser.early_parameters; ++i) {
       ++lines_needed_;
       try {
         parse_parameter(lasers_.parameters()[i], laser.laser);
-      } catch (const MalformedLine& error) {  // the scan in whose line they are taken is none of it
+      } catch (const MalformedLine& error) {  // must not fail the scan whose line is being parsed
         skip(error);
       }
     }
@@ -148,71 +147,57 @@ class CarmenReader::Implementation {
 
   void end_of_log() {
     at_end_ = interpolator_.waiting() == 0;
-    const bool gives_nothing = frames_given_ == 0 && (at_end_ || !interpolator_.has_odometry());
-    if (gives_nothing && statistics_.skipped.count > 0) throw UserError(statistics_.skipped.first);
-    if (at_end_ && statistics_.skipped.count > std::max<std::size_t>(1, lines_needed_ / kLinesForOneSkipped))
+    const bool gives_nothing = frames_given() == 0 && (at_end_ || !interpolator_.has_odometry());
+    if (gives_nothing && contents_.skipped.count > 0) throw UserError(contents_.skipped.first);
+    if (at_end_ && contents_.skipped.count > std::max<std::size_t>(1, lines_needed_ / kLinesForOneSkipped))
       fail_as_garbled();
-    if (at_end_ && frames_given_ == 0) fail_without_scans();
+    if (at_end_ && frames_given() == 0) fail_without_scans();
     if (!at_end_ && !interpolator_.has_odometry()) fail_without_odometry("there is none");
     interpolator_.end_of_log();
   }
 
   [[noreturn]] void fail_as_garbled() const {
-    throw UserError(lines_.path().string() + " is damaged: " + std::to_string(statistics_.skipped.count) +
-                    " of its first " + std::to_string(lines_needed_) +
-                    " messages do not parse, expected at most 1 %; the first is " +
-                    statistics_.skipped.first);
+    throw UserError(
+        lines_.path().string() + " is damaged: " + std::to_string(contents_.skipped.count) +
+        " of its first " + std::to_string(lines_needed_) +
+        " messages do not parse, expected at most 1 %; the first one: " + contents_.skipped.first);
   }
 
   [[noreturn]] void fail_without_odometry(const std::string& found) const {
-    throw UserError(lines_.path().string() + " has no odometry: expected ODOM lines beside its " +
-                    statistics_.laser_message + " lines, and " + found);
+    throw UserError(lines_.path().string() + " has no odometry for its " + contents_.laser +
+                    " lines, expected ODOM lines: " + found);
   }
 
   [[noreturn]] void fail_without_mount(const CarmenLaser& laser) const {
     const std::string& name = laser.message_name();
-    throw UserError(lines_.path().string() + " does not say where the laser of its " + name +
-                    " lines is on the robot, which several lasers at once need: expected " +
-                    (laser.position().empty() ? "" : "PARAM robot_" + laser.position() + "laser_offset or ") +
-                    "log.laser_mounts, such as \"" + name + " 0.2 0 " +
+    const std::string parameter =
+        laser.position().empty() ? "" : ", expected PARAM robot_" + laser.position() + "laser_offset";
+    throw UserError(lines_.path().string() + " does not state where the laser of its " + name +
+                    " lines is mounted, which is required to combine several lasers" + parameter +
+                    ". State it with log.laser_mounts, such as \"" + name + " 0.2 0 " +
                     (laser.position() == "rear" ? "180" : "0") + "\" (metres, degrees)");
   }
 
   [[noreturn]] void fail_without_scans() const {
-    std::string expected;
-    for (const std::string& name : lasers_.candidates()) expected += (expected.empty() ? "" : ", ") + name;
-    std::string found;
-    for (const auto& [name, lines] : statistics_.messages)
-      found += (found.empty() ? "" : ", ") + std::to_string(lines) + " " + name;
-    throw UserError(lines_.path().string() + " has no laser scans: expected lines of one of " + expected +
-                    "; found " + (found.empty() ? "no message at all" : found));
+    std::vector<std::string> found;
+    for (const auto& [name, lines] : contents_.messages) found.push_back(std::to_string(lines) + " " + name);
+    throw UserError(lines_.path().string() + " has no laser scans, expected lines of one of " +
+                    name_list(lasers_.candidates()) + "; found " +
+                    (found.empty() ? "no messages" : name_list(found) + ". Select a laser with log.laser"));
   }
 
   CarmenLasers lasers_;
   LineReader lines_;
   OdometryInterpolator interpolator_;
-  CarmenStatistics statistics_;
-  std::vector<std::size_t*> scan_counts_;  // of each laser, kept out of the search by name
-  std::size_t lines_needed_ = 0;           // that were parsed, or should have been
-  std::size_t frames_given_ = 0;
+  std::vector<std::size_t*> scan_counts_;  // by laser; point into contents_.messages to avoid a search
+  std::size_t lines_needed_ = 0;           // lines parsed so far, malformed ones included
   bool at_end_ = false;
 };
 
-CarmenReader::CarmenReader(const std::filesystem::path& path, const LogOptions& options)
-    : implementation_(std::make_unique<Implementation>(path, options)) {}
+}  // namespace
 
-CarmenReader::~CarmenReader() = default;
-
-std::optional<Frame> CarmenReader::next() {
-  return implementation_->next();
-}
-
-double CarmenReader::progress() const {
-  return implementation_->progress();
-}
-
-const CarmenStatistics& CarmenReader::statistics() const {
-  return implementation_->statistics();
+std::unique_ptr<LogReader> open_carmen_log(const std::filesystem::path& path, const LogOptions& options) {
+  return std::make_unique<CarmenReader>(path, options);
 }
 
 }  // namespace psi_slam

@@ -5,30 +5,36 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+
+#include "psi_slam/user_error.h"
+
+struct gzFile_s;  // of zlib
 
 namespace psi_slam {
 
-/// A file read once from its beginning, plain or gzipped, which its content decides. The constructor throws
-/// UserError when there is no such file, it is a folder or it may not be read.
+/// Reads a file once from its beginning, plain or gzipped; its content decides. The constructor throws
+/// UserError if the file does not exist, is a folder or is not readable.
 class CompressedFile {
  public:
   explicit CompressedFile(std::filesystem::path path);
-  ~CompressedFile();
-  CompressedFile(CompressedFile&&) noexcept;
-  CompressedFile& operator=(CompressedFile&&) noexcept;
 
-  /// The next `size` bytes after decompression; fewer only at the end, and in front of compressed data that
-  /// are damaged or end too early: then the next call throws UserError.
+  /// Reads the next `size` decompressed bytes and returns their number. It is smaller only at the end and
+  /// before damaged or truncated data; then the next call throws UserError.
   std::size_t read(char* bytes, std::size_t size);
 
-  const std::filesystem::path& path() const;
+  const std::filesystem::path& path() const { return path_; }
 
-  /// The share of the file on disk that has been read, in [0, 1].
+  /// Fraction of the file on disk that has been read, in [0, 1].
   double progress() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::optional<UserError> failure_now() const;
+
+  std::filesystem::path path_;
+  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
+  std::uintmax_t bytes_on_disk_ = 0;
+  std::optional<UserError> failure_;  // met after bytes that were returned
 };
 
 }  // namespace psi_slam

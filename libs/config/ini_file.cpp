@@ -46,7 +46,7 @@ bool is_blank(std::string_view text) {
   return stripped(without_comment(text)).empty();
 }
 
-/// The file's bytes, or why they cannot be had.
+/// Reads a file; sets `failure` to the reason if it is not readable.
 std::string contents(const fs::path& path, std::string& failure) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
@@ -60,14 +60,14 @@ std::string contents(const fs::path& path, std::string& failure) {
   return text;
 }
 
-/// A name under which a file is found again, however it was written.
+/// Canonical path of a file, to compare different spellings.
 fs::path identity(const fs::path& path) {
   std::error_code error;
   fs::path canonical = fs::weakly_canonical(path, error);
   return error ? path.lexically_normal() : canonical;
 }
 
-/// Reads one file and, through it, those that it includes.
+/// Reads a file and the files that it includes.
 class Reader {
  public:
   explicit Reader(IniFile& result) : result_(result) {}
@@ -79,7 +79,7 @@ class Reader {
   }
 
  private:
-  /// Where the reading of one file has come to.
+  /// Current position in one file.
   struct Position {
     fs::path path;
     int line = 0;
@@ -94,10 +94,10 @@ class Reader {
   void include(const std::string& name, const Position& from);
 
   IniFile& result_;
-  std::vector<fs::path> open_files_;  ///< the outermost first
+  std::vector<fs::path> open_files_;  ///< outermost first
 };
 
-/// The value behind "key =". Throws UserError when its quotes do not match.
+/// The value of a "key = value" line, unquoted. Throws UserError if its quotes do not match.
 std::string parse_value(std::string_view text, const std::string& where) {
   text = stripped(text);
   if (text.empty() || text[0] != '"') return std::string(stripped(without_comment(text)));
@@ -112,11 +112,12 @@ std::string parse_value(std::string_view text, const std::string& where) {
     value += text[i];
   }
   if (i == text.size()) throw UserError(where + ": the closing quote is missing");
-  if (!is_blank(text.substr(i + 1))) throw UserError(where + ": there is text behind the closing quote");
+  if (!is_blank(text.substr(i + 1)))
+    throw UserError(where + ": expected the end of the line after the closing quote");
   return value;
 }
 
-/// The name of "[name]", perhaps with a comment behind it.
+/// The name in "[name]", which a comment can follow.
 std::string parse_heading(std::string_view line, const std::string& where) {
   const std::size_t end = line.find(']');
   if (end == std::string_view::npos || stripped(line.substr(1, end - 1)).empty() ||
@@ -150,15 +151,15 @@ void Reader::read_assignment(std::string_view line, Position& position) {
     throw UserError(where + ": expected key = value or [section], not " + std::string(line));
   const std::string value = parse_value(line.substr(equals + 1), where);
   if (key == kInclude) {
-    if (position.section) throw UserError(where + ": include must stand before the first section");
+    if (position.section) throw UserError(where + ": include must precede the first section");
     include(value, position);
     return;
   }
-  if (!position.section) throw UserError(where + ": \"" + key + "\" stands before the first [section]");
+  if (!position.section) throw UserError(where + ": \"" + key + "\" precedes the first [section]");
   const auto [first, is_new] = position.line_of_key.try_emplace({*position.section, key}, position.line);
   if (!is_new) {
-    throw UserError(where + ": \"" + key + "\" in [" + *position.section + "] was given before, in line " +
-                    std::to_string(first->second));
+    throw UserError(where + ": \"" + key + "\" in [" + *position.section +
+                    "] is given twice, first in line " + std::to_string(first->second) + "; keep one");
   }
   result_.values.push_back({*position.section, key, value, where});
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads settings files:
 //
-//     include = usual.ini       ; before the first section: that file's values, which this one may override
-//     [front_end]
-//     window_m = 0.15           // a comment
-//     label = "a ; b \"c\" \\"  # quotes keep everything; \" and \\ stand for " and \ within
+//     include = usual.ini       ; before the first section: reads that file, whose values this one can
+//     override [front_end] window_m = 0.15           // a comment label = "a ; b \"c\" \\"  # quotes keep all
+//     characters; inside, \" means " and \\ means a backslash
 //
-// Comments begin with ';' anywhere, or with '#' or '//' at the start of a line, of a value or after a space.
-// Names are case-sensitive. A section may be continued later in the file, but a key given twice in one file
-// is an error. UTF-8 with or without byte order mark; lines end in LF or CRLF.
+// Comments begin with ';' anywhere, or with '#' or '//' at the start of a line or value or after a space.
+// Names are case-sensitive. A section can continue later in the file, but a key must not be given twice in
+// one file. Files are UTF-8, with or without byte order mark; lines end in LF or CRLF.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +17,7 @@
 
 namespace psi_slam {
 
-/// A section's heading in a file.
+/// Heading of a section in a file.
 struct IniSection {
   std::string name;
   std::string where;  ///< "my.ini:12"
@@ -32,22 +31,22 @@ struct IniValue {
   std::string where;  ///< "my.ini:12"
 };
 
-/// In the order in which they take effect: those of an included file before those of the file that includes
-/// it.
+/// Sections and values in the order in which they take effect: those of an included file come before those of
+/// the file that includes it.
 struct IniFile {
   std::vector<IniSection> sections;
   std::vector<IniValue> values;
 };
 
-/// Throws UserError with file and line for a line that means nothing, a key given twice, an included file
-/// that cannot be read or includes itself; and with the file's name when `path` itself cannot be read.
-/// Included names are relative to the folder of the file that includes them.
+/// Reads a settings file. Names of included files are relative to the folder of the including file. Throws
+/// UserError with file and line for a malformed line, a key given twice, and an included file that is not
+/// readable or includes itself; with the file name if `path` is not readable.
 IniFile read_ini(const std::filesystem::path& path);
 
-/// The same for a text in memory, as if it stood in a file called `path`.
+/// Parses a text as the contents of a file called `path`. Throws as read_ini().
 IniFile parse_ini(std::string_view text, const std::filesystem::path& path);
 
-/// `text` so that it can stand behind "key = ": in quotes if it needs them. Line breaks cannot be written.
+/// Returns `text` as the value of a "key = value" line, quoted if necessary. `text` must be one line.
 std::string ini_value_text(const std::string& text);
 
 }  // namespace psi_slam

@@ -9,12 +9,12 @@
 
 namespace psi_slam {
 
-/// The letters to insert, delete, replace or swap with their neighbour to make `b` of `a`, upper and lower
-/// case being the same (optimal string alignment distance).
+/// Number of letters to insert, delete, replace or swap with a neighbour to change `a` into `b`, ignoring
+/// case (optimal string alignment distance).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The name that was probably meant by a misspelt one: the first of those with the smallest edit distance, if
-/// it differs in at most one letter and one more for every four.
+/// Returns the first of the names with the smallest edit distance to a misspelt one. Empty if that distance
+/// is above one plus a quarter of the length.
 std::optional<std::string> nearest_name(std::string_view misspelt, const std::vector<std::string>& names);
 
 }  // namespace psi_slam

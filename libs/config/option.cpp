@@ -2,7 +2,10 @@
 #include "config/option.h"
 
 #include <array>
+#include <cmath>
 #include <utility>
+
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {
@@ -41,19 +44,27 @@ std::string number_values(const Option& option) {
 
 }  // namespace
 
+bool NumberRange::contains(double value) const {
+  if (!std::isfinite(value)) return false;
+  if (min && !(min->inclusive ? value >= min->value : value > min->value)) return false;
+  if (max && !(max->inclusive ? value <= max->value : value < max->value)) return false;
+  return true;
+}
+
+std::string NumberRange::words() const {
+  if (!min && !max) return "";
+  if (!max) return min->inclusive ? exact_text(min->value) + " or more" : "above " + exact_text(min->value);
+  if (!min) return max->inclusive ? exact_text(max->value) + " or less" : "below " + exact_text(max->value);
+  if (min->inclusive && max->inclusive)
+    return "between " + exact_text(min->value) + " and " + exact_text(max->value);
+  return (min->inclusive ? "at least " : "above ") + exact_text(min->value) + " and " +
+         (max->inclusive ? "at most " : "below ") + exact_text(max->value);
+}
+
 std::string Option::expectation() const {
-  switch (type) {
-    case OptionType::kFlag:
-      return "true or false";
-    case OptionType::kInteger:
-    case OptionType::kNumber:
-      return (may_be_auto ? "auto or " : "") + number_expectation(*this);
-    case OptionType::kChoice:
-      return "one of " + joined(choices);
-    case OptionType::kText:
-      return "a text of one line";
-  }
-  return "";
+  if (type == OptionType::kText) return "a text of one line";
+  if (type != OptionType::kInteger && type != OptionType::kNumber) return values();
+  return (may_be_auto ? "auto or " : "") + number_expectation(*this);
 }
 
 std::string Option::values() const {

@@ -12,7 +12,7 @@ std::string default_words(const Option& option) {
   return "default " + ini_value_text(option.default_text);
 }
 
-/// The text as a cell of a Markdown table.
+/// Escapes a text for a cell of a Markdown table.
 std::string cell(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

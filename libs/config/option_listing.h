@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All options as texts for people: a commented settings file, the help of a command line, a page of a manual.
+// Lists all options: as a commented settings file, as help for a terminal, and as a page of the manual.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace psi_slam {
 
-/// A settings file with every option, its help, unit, range and default above its present value. Loading it
-/// restores the present values bit for bit. Throws std::logic_error if a member holds what its option would
-/// not take.
+/// Returns a settings file with the help, range, default and current value of every option. Loading it
+/// restores the current values bit for bit. Throws std::logic_error if a member has a value that its option
+/// does not accept.
 std::string dump(const OptionTable& table);
 
-/// The options with their help, for a terminal.
+/// Returns the options with their help, for a terminal.
 std::string help_text(const OptionTable& table);
 
-/// A Markdown page: a heading and a table for each section.
+/// Returns a Markdown page with a heading and a table for each section.
 std::string markdown_reference(const OptionTable& table);
 
 }  // namespace psi_slam

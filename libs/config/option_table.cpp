@@ -5,7 +5,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "config/exact_number.h"
+#include "base/number_text.h"
 #include "config/nearest_name.h"
 #include "psi_slam/user_error.h"
 
@@ -38,7 +38,7 @@ std::optional<std::string> parse_line(std::string_view text) {
   return std::string(text);
 }
 
-/// The number in the member's unit if it is in the range of the option's unit.
+/// Reads a number and converts it to the unit of the member; empty if it is out of range.
 std::optional<double> parse_in_range(std::string_view text, const NumberRange& range, bool is_angle) {
   const std::optional<double> value = parse_number(text);
   if (!value || !range.contains(*value)) return {};
@@ -110,7 +110,7 @@ std::pair<std::string_view, std::string_view> parts(std::string_view name) {
   return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
-/// What was probably meant by a key that its section does not have, as the end of a sentence; or nothing.
+/// Proposal for an unknown key, as the end of a sentence; can be empty.
 std::string proposal(const std::vector<OptionSection>& sections, const OptionSection& here,
                      std::string_view key) {
   for (const OptionSection& section : sections)

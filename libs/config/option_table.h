@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All options of a program, each described once and bound to a member of the program's settings structs.
+// All options of a program. Each is described once and bound to a member of the program's settings structs:
 //
 //     void describe(OptionTable& table, FrontEndOptions& options) {
 //       table.section("front_end", "Matching each scan with the active local map")
-//           .number("window_m", options.window_m, above(0).at_most(20), "m", "half-width of the search
-//           window") .angle_deg("window_deg", options.window_rad, above(0).at_most(180), "half-width in
-//           heading") .choice("matcher", options.matcher, {{"csm", Matcher::kCsm}, {"ga", Matcher::kGa}},
-//           "how to search");
+//           .number("window_m", options.window_m, above(0).at_most(20), "m", "half-width of the window")
+//           .angle_deg("window_deg", options.window_rad, above(0).at_most(180), "half-width of headings")
+//           .choice("matcher", options.matcher, {{"csm", Matcher::kCsm}, {"ga", Matcher::kGa}}, "search");
 //     }
 #pragma once
 
@@ -31,18 +30,18 @@ struct OptionSection {
   std::vector<Option> options;
 };
 
-/// The describing functions take the members by reference: the settings must outlive the table, and must hold
-/// their defaults while they are described. They throw std::logic_error, naming the option, when a
-/// description contradicts itself: a default outside its own range, a key described twice, an angle whose key
-/// does not end in "_deg" or another number whose key does.
+/// Describing functions take members by reference. The settings must outlive the table and have their default
+/// values while they are described. The functions throw std::logic_error that names the option if a
+/// description is contradictory: a default outside its range, a key described twice, a key with suffix "_deg"
+/// that is not an angle, or an angle without it.
 class OptionTable {
  public:
-  /// The options described next belong to this new section.
+  /// Begins a section; the options described next belong to it.
   OptionTable& section(std::string name, std::string title);
 
   OptionTable& flag(std::string key, bool& member, std::string help);
 
-  /// For int, std::size_t, std::uint64_t, … .
+  /// `Integer` is any integer type except bool.
   template <class Integer>
   OptionTable& integer(std::string key, Integer& member, NumberRange range, std::string unit,
                        std::string help);
@@ -52,7 +51,7 @@ class OptionTable {
   /// The member is in radians; the text and the range are in degrees.
   OptionTable& angle_deg(std::string key, double& member_rad, NumberRange range_deg, std::string help);
 
-  /// A number that may be left to the program: the text "auto" is the empty member.
+  /// A number that the program can choose itself: the text "auto" means the empty member.
   OptionTable& optional_number(std::string key, std::optional<double>& member, NumberRange range,
                                std::string unit, std::string help);
   OptionTable& optional_angle_deg(std::string key, std::optional<double>& member_rad, NumberRange range_deg,
@@ -62,7 +61,7 @@ class OptionTable {
   OptionTable& choice(std::string key, Enum& member, std::vector<std::pair<std::string, Enum>> choices,
                       std::string help);
 
-  /// Any text of one line.
+  /// Accepts any text of one line.
   OptionTable& text(std::string key, std::string& member, std::string help);
 
   /// Accepts an old name: of an option ("old_section.old_key", "section.key") or of a whole section
@@ -79,7 +78,7 @@ class OptionTable {
   bool knows(std::string_view name) const;
 
   /// The option that is or was called `name`, "section.key". Throws UserError that begins with `where`
-  /// ("my.ini:12", "--set") and proposes the nearest name if there is none.
+  /// ("my.ini:12", "--set") and proposes the nearest name if the option is unknown.
   const Option& option(std::string_view name, std::string_view where) const;
 
   /// Throws UserError that begins with `where` unless a section is or was called `name`.

@@ -11,6 +11,7 @@
 
 #include "doctor/pair_alignment.h"
 #include "doctor/scan_alignment.h"
+#include "frames/laser_readings.h"
 
 namespace psi_slam {
 namespace {
@@ -19,10 +20,11 @@ using mrpt::DEG2RAD;
 using mrpt::math::wrapToPi;
 
 constexpr std::size_t kFewestPairs = 20;
-constexpr double kSight_m = 20;  // of the points used
+constexpr double kSight_m = 20;  // maximum range of the points used
 constexpr std::size_t kPoints = 400;
-constexpr double kWorseShare = 0.004;  // of the least distance; below, and
-constexpr double kWorseErrors = 5;     // below so many standard errors, walls do not tell conventions apart
+// Walls rule out a convention if its distance exceeds the smallest one by more than both limits.
+constexpr double kWorseFraction = 0.004;  // of the smallest distance
+constexpr double kWorseErrors = 5;        // in standard errors
 const double kTurnError_rad = DEG2RAD(1.0);
 
 struct Convention {
@@ -36,8 +38,7 @@ std::vector<Convention> conventions_for(const std::vector<float>& used_rad, doub
   for (const BeamAngles angles : stated_beam_angles()) {
     if (angles == BeamAngles::kSkipZero && used_rad.size() % 2 != 0) continue;
     std::vector<float> bearings = make_bearings_rad(angles, used_rad.size(), field_of_view_rad);
-    if (clockwise)
-      for (float& bearing : bearings) bearing = -bearing;
+    if (clockwise) mirror(bearings);
     conventions.push_back({angles, std::make_shared<const std::vector<float>>(std::move(bearings))});
   }
   return conventions;
@@ -52,7 +53,8 @@ bool has_beams(const LaserScan& scan, std::size_t beams) {
   return scan.ranges_m.size() == beams;
 }
 
-/// [pair][convention]: the mean distance to walls, of pairs that every convention aligns reliably.
+/// Returns [pair][convention]: the mean distance to walls. Skips pairs that some convention does not align
+/// reliably.
 std::vector<std::vector<double>> distances_m(const std::vector<FrameMark>& marks,
                                              const std::vector<FramePair>& pairs, const ScanLibrary& library,
                                              const std::vector<Convention>& conventions) {
@@ -92,12 +94,12 @@ void compare_distances(const std::vector<std::vector<double>>& rows, std::vector
       squares += std::pow(row[c] - row[best] - fits[c].worse_by_m, 2);
     const double error_m = std::sqrt(squares) / count;
     fits[c].significance = error_m > 0 ? fits[c].worse_by_m / error_m : 0;
-    fits[c].ruled_out_by_walls =
-        fits[c].worse_by_m > kWorseShare * fits[best].mean_distance_m && fits[c].significance > kWorseErrors;
+    fits[c].ruled_out_by_walls = fits[c].worse_by_m > kWorseFraction * fits[best].mean_distance_m &&
+                                 fits[c].significance > kWorseErrors;
   }
 }
 
-/// By how much the alignments along a full turn exceed 360 degrees.
+/// Returns by how much the alignments along a full turn exceed 360 degrees.
 std::optional<double> turn_error_rad(const std::vector<FrameMark>& marks,
                                      const std::vector<double>& headings_rad,
                                      const std::vector<std::size_t>& frames, const ScanLibrary& library,
@@ -153,7 +155,7 @@ double mean(const std::vector<float>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Whether the step between beams is a multiple of a quarter of a degree, as lasers make them.
+/// Returns whether the step between beams is a multiple of 0.25 degrees, as is usual for lasers.
 bool has_usual_steps(const Convention& convention) {
   const std::vector<float>& bearings = *convention.bearings_rad;
   if (bearings.size() < 2) return true;

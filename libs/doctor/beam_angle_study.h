@@ -1,58 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which bearings a log's beams have, where it does not say: every convention is tried on scans between which
-// the robot turned. What each kind of evidence can and cannot tell:
+// Estimates the bearings of the beams for a log that does not state them: compares all conventions on scans
+// between which the robot turned. There are three kinds of evidence:
 //
-// - The distance of points to walls after alignment shows a kink between the halves of the scan (kSkipZero):
-// walls on
-//   one side meet those on the other. It is blind to the size of the steps: turning stretched scans stretches
-//   the turn.
-// - A full turn on the spot must add up to 360 degrees; this measures the size of the steps, and nothing else
-// here does.
-// - A shift of all bearings is the same as a laser that looks to the side, so only driving ahead shows it:
-// among what
-//   remains, the convention under which the laser looks most nearly where it is said to look is taken.
+// - The distance of points to walls after alignment. It shows the kink between the halves of the scan under a
+//   wrong kSkipZero. It does not show the size of the steps: a turn of stretched scans is stretched too.
+// - A full turn on the spot, which must sum to 360 degrees. Only this measures the size of the steps.
+// - The direction of driving. A shift of all bearings equals a rotated laser, which only driving ahead shows.
+//   Among the remaining conventions, the one whose laser heading is closest to the stated heading is chosen.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "frames/beam_angles.h"
 #include "doctor/scan_sampling.h"
+#include "frames/beam_angles.h"
 
 namespace psi_slam {
 
-/// One convention and how it fares.
+/// One convention and its evidence.
 struct BeamAngleFit {
   BeamAngles angles = BeamAngles::kLeftOpen;
-  double mean_distance_m = 0;      ///< of points to walls over all pairs
-  double worse_by_m = 0;           ///< than the convention with the least, pair by pair
+  double mean_distance_m = 0;      ///< from points to walls, over all pairs
+  double worse_by_m = 0;           ///< mean_distance_m minus the smallest of all conventions
   double significance = 0;         ///< worse_by_m in standard errors
   double full_turn_error_rad = 0;  ///< mean excess over 360 degrees; 0 without full turns
-  double laser_heading_rad = 0;    ///< where the laser looks beside where it is said to look; 0 when unknown
+  double laser_heading_rad = 0;    ///< laser heading minus the stated one; 0 if unknown
   bool ruled_out_by_walls = false;
   bool ruled_out_by_turns = false;
 };
 
 struct BeamAngleStudy {
-  std::size_t pairs = 0;  ///< that every convention aligned reliably
+  std::size_t pairs = 0;  ///< pairs that every convention aligned reliably
   std::size_t full_turns = 0;
-  bool knows_heading = false;      ///< laser_heading_rad is filled
-  std::vector<BeamAngleFit> fits;  ///< empty when there were too few pairs
+  bool knows_heading = false;      ///< whether laser_heading_rad is set
+  std::vector<BeamAngleFit> fits;  ///< empty if there were too few pairs
   BeamAngles best = BeamAngles::kAuto;
 };
 
-/// What a study compares; `library` holds these frames.
+/// Frames that a study compares.
 struct BeamAngleEvidence {
-  std::vector<FramePair> turning_pairs;  ///< 10 ... 45 degrees apart
+  std::vector<FramePair> turning_pairs;  ///< 10 to 45 degrees apart
   std::vector<std::vector<std::size_t>> full_turns;
 };
 
-/// Chooses the evidence by odometry, which must be sound.
+/// Selects the frames by odometry, which must be sound.
 BeamAngleEvidence choose_beam_angle_evidence(const std::vector<FrameMark>& marks);
 
-/// `used` are the bearings that the scans of the library have, those of the first scan; `laser_heading_rad`,
-/// if known, is where the laser looks with them, beside where it is said to look.
+/// Compares the conventions. `library` must hold the frames of `evidence`, read with the bearings `used_rad`.
+/// `laser_heading_rad`, if known, is the laser heading under these bearings minus the stated one.
 BeamAngleStudy study_beam_angles(const std::vector<FrameMark>& marks, const BeamAngleEvidence& evidence,
                                  const ScanLibrary& library, const std::vector<float>& used_rad,
                                  double field_of_view_rad, std::optional<double> laser_heading_rad);

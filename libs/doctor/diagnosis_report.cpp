@@ -3,6 +3,7 @@
 
 #include <mrpt/core/bits_math.h>
 
+#include <array>
 #include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -22,28 +23,10 @@ __attribute__((format(printf, 1, 2))) std::string text(const char* format, ...) 
   return line;
 }
 
-double share_of(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
-const char* name_of(HeadingRelation relation) {
-  switch (relation) {
-    case HeadingRelation::kUnknown:
-      return "unknown";
-    case HeadingRelation::kAgrees:
-      return "agrees";
-    case HeadingRelation::kOpposite:
-      return "opposite";
-    case HeadingRelation::kDegrees:
-      return "degrees";
-    case HeadingRelation::kOppositeDegrees:
-      return "opposite degrees";
-    case HeadingRelation::kNone:
-      return "none";
-    case HeadingRelation::kUnrelated:
-      break;
-  }
-  return "unrelated";
+std::string_view name_of(HeadingRelation relation) {
+  constexpr std::array<std::string_view, 7> kNames{"unknown",          "agrees", "opposite", "degrees",
+                                                   "opposite degrees", "none",   "unrelated"};
+  return kNames.at(static_cast<std::size_t>(relation));
 }
 
 Json to_json(const mrpt::math::TPose2D& pose) {
@@ -55,7 +38,7 @@ Json facts_json(const LogFacts& facts) {
   const RangeFacts& ranges = facts.ranges;
   return {{"broken_off", facts.broken_off},
           {"format", facts.format},
-          {"laser", facts.laser},
+          {"laser", facts.contents.laser},
           {"scans", facts.scans},
           {"beams", facts.beams},
           {"first_bearing_rad", facts.first_bearing_rad},
@@ -80,15 +63,15 @@ Json facts_json(const LogFacts& facts) {
             {"largest_turn_rad", facts.odometry.largest_turn_rad}}},
           {"ranges",
            {{"max_range_m", ranges.max_range_m},
-            {"no_return_share", 1 - share_of(ranges.returns, ranges.readings)},
+            {"no_return_share", 1 - ranges.return_share()},
             {"empty_scans", ranges.empty_scans},
             {"median_return_m", ranges.median_return_m},
             {"largest_reading_m", ranges.largest_reading_m},
             {"ceiling_m", ranges.ceiling_m}}},
-          {"scans_with_two_poses", facts.scans_with_two_poses},
-          {"messages", facts.messages},
-          {"skipped_lines", facts.skipped.count},
-          {"scans_of_other_lasers", facts.other_lasers}};
+          {"scans_with_two_poses", facts.contents.scans_with_two_poses},
+          {"messages", facts.contents.messages},
+          {"skipped_lines", facts.contents.skipped.count},
+          {"scans_of_other_lasers", facts.contents.other_lasers}};
 }
 
 Json beam_angles_json(const BeamAngleStudy& study) {
@@ -117,18 +100,18 @@ std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis) {
   std::vector<std::string> lines;
   lines.push_back(text("%s: %s, %zu scans%s%s of %zu beams from %.2f to %.2f degrees",
                        diagnosis.path.filename().c_str(), facts.format.c_str(), facts.scans,
-                       facts.laser.empty() ? "" : " by ", facts.laser.c_str(), facts.beams,
+                       facts.contents.laser.empty() ? "" : " by ", facts.contents.laser.c_str(), facts.beams,
                        RAD2DEG(facts.first_bearing_rad), RAD2DEG(facts.last_bearing_rad)));
   lines.push_back(text("time: %.1f s from %s, a scan every %.3f s", time.duration_s,
                        format_seconds(time.first_us).c_str(), time.median_period_s));
-  lines.push_back(text("odometry: %.1f m of way, %.0f degrees of turns", facts.odometry.path_length_m,
+  lines.push_back(text("odometry: path of %.1f m, %.0f degrees of turns", facts.odometry.path_length_m,
                        RAD2DEG(facts.odometry.turned_rad)));
   lines.push_back(text("ranges: maximum %.2f m, median %.2f m, %.1f %% of the readings are no returns",
                        static_cast<double>(ranges.max_range_m), static_cast<double>(ranges.median_return_m),
-                       100 * (1 - share_of(ranges.returns, ranges.readings))));
+                       100 * (1 - ranges.return_share())));
   lines.push_back(text("laser on the robot: x %.3f m, y %.3f m, yaw %.2f degrees", facts.robot_T_laser.x,
                        facts.robot_T_laser.y, RAD2DEG(facts.robot_T_laser.phi)));
-  for (const auto& [label, scans] : facts.other_lasers)
+  for (const auto& [label, scans] : facts.contents.other_lasers)
     lines.push_back(text("another laser: %zu scans by \"%s\"", scans, label.c_str()));
   return lines;
 }
@@ -145,8 +128,9 @@ std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study) {
              psi_slam::name_of(fit.angles).data(), 1000 * fit.mean_distance_m, 1000 * fit.worse_by_m,
              fit.significance);
     if (study.full_turns > 0)
-      line += text(", a full turn is %.2f degrees off", RAD2DEG(fit.full_turn_error_rad));
-    if (study.knows_heading) line += text(", laser looks %.2f degrees aside", RAD2DEG(fit.laser_heading_rad));
+      line += text(", full-turn error %.2f degrees", RAD2DEG(fit.full_turn_error_rad));
+    if (study.knows_heading)
+      line += text(", laser heading off by %.2f degrees", RAD2DEG(fit.laser_heading_rad));
     if (fit.ruled_out_by_walls || fit.ruled_out_by_turns) line += ": ruled out";
     lines.push_back(line);
   }

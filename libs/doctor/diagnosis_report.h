@@ -9,16 +9,16 @@
 
 namespace psi_slam {
 
-/// What the log holds, in plain sentences, one a line.
+/// Facts about the log, one per line.
 std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis);
 
-/// The table of the beam-angle study, one convention a line, the best marked; empty when nothing was studied.
+/// Table of the beam angle study, one convention per line, the best marked. Empty without a study.
 std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study);
 
-/// Facts, beam angles and findings with their remedies: what `psi-slam check` prints.
+/// Facts, beam angles and findings with their remedies, as `psi-slam check` prints them.
 std::vector<std::string> describe(const LogDiagnosis& diagnosis);
 
-/// The same for programs, in SI units with the unit in each key.
+/// All measurements and findings as JSON, in SI units with the unit in each key.
 nlohmann::ordered_json to_json(const LogDiagnosis& diagnosis);
 
 }  // namespace psi_slam

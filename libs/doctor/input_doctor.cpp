@@ -6,14 +6,12 @@
 #include <cmath>
 #include <memory>
 
-#include "psi_slam/user_error.h"
-#include "rosbag/bag_plan.h"
-#include "carmen/carmen_reader.h"
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
+#include "logs/open_log_reader.h"
 #include "psi_slam/open_log.h"
-#include "rawlog/rawlog_reader.h"
-#include "rosbag/rosbag_reader.h"
+#include "psi_slam/user_error.h"
+#include "rosbag/bag_plan.h"
 
 namespace psi_slam {
 namespace {
@@ -24,12 +22,11 @@ constexpr double kPairDistance_m = 0.25;
 const double kPairTurn_rad = mrpt::DEG2RAD(12.0);
 constexpr double kUnlimited_m = 1e6;
 
-/// Everything one pass over the log tells.
+/// What the first pass over the log finds.
 struct FirstPass {
   LogFacts facts;
   std::vector<FrameMark> marks;
   std::vector<float> bearings_rad;  // of the first scan
-  bool states_beam_angles = true;
 };
 
 FirstPass read_once(const std::filesystem::path& path, const LogOptions& options) {
@@ -39,52 +36,31 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
   unlimited.min_range_m = 0;
   FirstPass pass;
   LogFactsCollector collector;
-  const auto collect = [&](FrameSource& log) {
-    std::string broken_off;
-    try {
-      while (const auto frame = log.next()) {
-        if (pass.bearings_rad.empty()) pass.bearings_rad = *frame->scan.bearings_rad;
-        collector.add(*frame, first->scan.max_range_m);
-      }
-    } catch (const UserError& error) {
-      if (collector.marks().empty()) throw;
-      broken_off = error.what();
+  const auto log = open_log_reader(path, unlimited);
+  std::string broken_off;
+  try {
+    while (const auto frame = log->next()) {
+      if (pass.bearings_rad.empty()) pass.bearings_rad = *frame->scan.bearings_rad;
+      collector.add(*frame, first->scan.max_range_m);
     }
-    pass.facts = collector.facts();
-    pass.facts.broken_off = broken_off;
-  };
-  const LogFormat format = detect_log_format(path);
-  if (format == LogFormat::kCarmen) {
-    CarmenReader log(path, unlimited);
-    collect(log);
-    const CarmenStatistics& statistics = log.statistics();
-    pass.facts.laser = statistics.laser_message;
-    pass.facts.messages = statistics.messages;
-    pass.facts.skipped = statistics.skipped;
-    pass.facts.scans_with_two_poses = statistics.scans_with_two_poses;
-    pass.states_beam_angles = statistics.laser_message != "FLASER" && statistics.laser_message != "RLASER";
-  } else if (format == LogFormat::kMrptRawlog) {
-    RawlogReader log(path, unlimited);
-    collect(log);
-    pass.facts.laser = log.statistics().sensor_label;
-    pass.facts.other_lasers = log.statistics().scans_of_other_lasers;
-  } else {
-    RosbagReader log(path, unlimited);
-    collect(log);
-    pass.facts.laser = log.statistics().scans;
-    pass.facts.skipped = log.statistics().skipped;
+  } catch (const UserError& error) {
+    if (collector.marks().empty()) throw;
+    broken_off = error.what();
   }
-  pass.facts.format = name_of(format);
+  pass.facts = collector.facts();
+  pass.facts.broken_off = broken_off;
+  pass.facts.contents = log->contents();
+  pass.facts.format = name_of(detect_log_format(path));
   pass.marks = collector.marks();
   return pass;
 }
 
-/// Scans are compared with scans of the same laser: of several, the first is judged.
+/// Selects the first laser, since only scans of one laser are compared with each other.
 LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options) {
   const LogFormat format = detect_log_format(path);
   if (!reads_several_lasers(options, format)) return options;
   if (!is_bag(format)) {
-    options.scan_topic.clear();  // of bags alone
+    options.scan_topic.clear();  // applies to bags only
     const LaserChoice choice = laser_choice("log.laser", options.laser);
     if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
   } else {
@@ -105,7 +81,7 @@ double span_rad(const std::vector<float>& bearings_rad) {
   return std::abs(static_cast<double>(bearings_rad.back() - bearings_rad.front()));
 }
 
-/// The field of view that make_bearings_rad() was given.
+/// Returns the field of view that make_bearings_rad() was called with.
 double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
   if (options.field_of_view_rad) return *options.field_of_view_rad;
   return usual_field_of_view_rad(pass.bearings_rad.size()).value_or(span_rad(pass.bearings_rad));
@@ -118,10 +94,10 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   diagnosis.path = path;
   diagnosis.options = options_of_first_laser(path, options);
   diagnosis.options.every_nth_scan = 1;
-  diagnosis.options.sweep_time_s = 0;  // the log is judged as it was recorded
+  diagnosis.options.sweep_time_s = 0;  // judge the log as recorded
   FirstPass pass = read_once(path, diagnosis.options);
   diagnosis.facts = pass.facts;
-  if (!pass.states_beam_angles) {
+  if (!pass.facts.contents.states_beam_angles) {
     diagnosis.used_beam_angles =
         options.beam_angles == BeamAngles::kAuto ? usual_beam_angles(pass.facts.beams) : options.beam_angles;
   }
@@ -132,7 +108,7 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   const auto suspects = suspected_jumps(marks, pass.facts.time.median_period_s, 100);
   const auto revisits = revisiting_pairs(marks, 0.5, 0.5, 30, 150);
   const BeamAngleEvidence evidence =
-      pass.states_beam_angles ? BeamAngleEvidence{} : choose_beam_angle_evidence(marks);
+      pass.facts.contents.states_beam_angles ? BeamAngleEvidence{} : choose_beam_angle_evidence(marks);
   ScanLibrary library;
   for (const auto& track : tracks) library.want(track);
   library.want(pairs);
@@ -152,7 +128,7 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
     diagnosis.revisits = check_revisits(marks, revisits, library);
     std::optional<double> laser_heading_rad;
     if (diagnosis.mount) laser_heading_rad = (diagnosis.mount->robot_T_laser - pass.facts.robot_T_laser).phi;
-    if (!pass.states_beam_angles) {
+    if (!pass.facts.contents.states_beam_angles) {
       diagnosis.beam_angles = study_beam_angles(marks, evidence, library, pass.bearings_rad,
                                                 field_of_view_rad(pass, options), laser_heading_rad);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks a log over before anything maps it: what it holds, and what looks wrong, each with its remedy.
-// Odometry is judged by the scans themselves, a few seconds' worth of them spread over the whole log.
+// Checks a log before it is mapped: what it contains and what looks wrong, with a remedy for each fault.
+// Odometry is compared with the alignment of a sample of scans from the whole log.
 #pragma once
 
 #include <cstdint>
@@ -11,49 +11,48 @@
 
 #include "doctor/beam_angle_study.h"
 #include "doctor/log_facts.h"
-#include "psi_slam/log_options.h"
 #include "doctor/odometry_check.h"
-#include "doctor/odometry_faults.h"
 #include "doctor/pair_alignment.h"
+#include "psi_slam/log_options.h"
 
 namespace psi_slam {
 
 enum class Severity : std::uint8_t {
-  kNote,     ///< good to know; the log can be mapped as it is
-  kWarning,  ///< something is wrong, and the map will suffer
+  kNote,     ///< information; the log can be mapped as it is
+  kWarning,  ///< a fault that makes the map worse
 };
 
-/// One thing to know about a log.
+/// One statement about a log.
 struct Finding {
-  std::string code;  ///< for programs: "mirrored_scan", "time_backwards", ...
+  std::string code;  ///< identifier for programs: "mirrored_scan", "time_backwards", ...
   Severity severity = Severity::kNote;
   std::string sentence;
-  std::string
-      remedy;  ///< an .ini line ("log.mirrored = true") or what to do; empty when there is nothing to do
+  std::string remedy;  ///< an .ini line ("log.mirrored = true") or advice; may be empty
 };
 
-/// Everything that was measured, and what follows from it.
+/// All measurements and the findings that follow from them.
 struct LogDiagnosis {
   std::filesystem::path path;
   LogFacts facts;
-  LogOptions options;                               ///< those under which the log was judged
-  BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto when the log states its angles
+  LogOptions options;                               ///< options used to read the log
+  BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto if the log states its angles
   OdometryAgreement odometry;
-  bool odometry_is_sound = false;  ///< its units and signs are right; only then the rest is filled
+  bool odometry_is_sound = false;  ///< units and signs are right; otherwise the next five are not set
   LostReversals reversals;
   OdometryJumps jumps;
   RevisitAgreement revisits;
   std::optional<LaserMountEstimate> mount;
   BeamAngleStudy beam_angles;
-  std::vector<FrameMark> marks;  ///< of all frames, for the times of findings
+  std::vector<FrameMark> marks;  ///< of all frames
   std::vector<Finding> findings;
 };
 
-/// Reads the whole log (`options.every_nth_scan` and `sweep_time_s` are not applied) and fills everything. A
-/// log that breaks off is judged up to there. Throws UserError when not even its first scan can be read.
+/// Reads the whole log and judges it. `options.every_nth_scan` and `sweep_time_s` are ignored. Of several
+/// lasers, the first is judged. A truncated or damaged log is judged up to that place. Throws UserError if
+/// its first scan cannot be read.
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options = {});
 
-/// What follows from the measurements: the warnings first, then the notes. `diagnose` has called it.
+/// Derives findings from the measurements, warnings first. diagnose() calls it.
 std::vector<Finding> judge(const LogDiagnosis& diagnosis);
 
 }  // namespace psi_slam

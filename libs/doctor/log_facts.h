@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a log holds, gathered in one pass and without judging it.
+// Facts about a log, collected in one pass without judgement.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -9,29 +9,29 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/time_stamp.h"
+#include "frames/log_reader.h"
 #include "psi_slam/frame.h"
-#include "frames/skipped_lines.h"
+#include "psi_slam/time_stamp.h"
 
 namespace psi_slam {
 
-/// The times between consecutive scans, in the order of the file.
+/// Times of consecutive scans, in the order of the file.
 struct TimeFacts {
   TimeUs first_us = 0;
   TimeUs last_us = 0;
   double duration_s = 0;       ///< from the earliest to the latest scan
   double median_period_s = 0;  ///< between consecutive scans
-  std::size_t gaps = 0;        ///< periods above 1 s and ten times the median
+  std::size_t gaps = 0;        ///< periods above both 1 s and ten times the median
   double largest_gap_s = 0;
-  std::size_t backward_steps = 0;  ///< scans that are earlier than the one before
+  std::size_t backward_steps = 0;  ///< scans that are earlier than the previous one
   double largest_backward_step_s = 0;
-  std::size_t repeated_stamps = 0;  ///< scans with the time of the one before
-  std::size_t repeated_scans = 0;   ///< of these, those with the same ranges, too
+  std::size_t repeated_stamps = 0;  ///< scans with the time of the previous one
+  std::size_t repeated_scans = 0;   ///< of these, scans that also repeat all ranges
 };
 
 struct OdometryFacts {
   double path_length_m = 0;
-  double turned_rad = 0;  ///< the sum of all turns, either way
+  double turned_rad = 0;  ///< sum of all turns in both directions
   double largest_step_m = 0;
   double largest_turn_rad = 0;  ///< between consecutive scans
 };
@@ -40,35 +40,35 @@ struct RangeFacts {
   std::size_t readings = 0;
   std::size_t returns = 0;
   std::size_t empty_scans = 0;  ///< without any return
-  float max_range_m = 0;        ///< beyond which a reading is no return
+  float max_range_m = 0;        ///< readings from here on are no returns
   float median_return_m = 0;
-  float largest_reading_m = 0;  ///< of all that are finite, no returns too; to 1 cm
-  /// Readings within 1 % of the largest, when far more pile up there than below: what the laser reports for
-  /// "no return". Else 0.
+  float largest_reading_m = 0;  ///< of all finite readings, including no returns; rounded to 1 cm
+  /// Number of readings within 1 % of the largest if far more pile up there than below: the laser's code for
+  /// "no return". Otherwise 0.
   std::size_t readings_at_ceiling = 0;
-  float ceiling_m = 0;  ///< the smallest of them
+  float ceiling_m = 0;  ///< smallest of these readings
+
+  double return_share() const {
+    return readings == 0 ? 0 : static_cast<double>(returns) / static_cast<double>(readings);
+  }
 };
 
 struct LogFacts {
-  std::string broken_off;  ///< what is wrong behind the last readable scan, a sentence; empty in a whole log
-  std::string format;      ///< "CARMEN", "MRPT rawlog"
-  std::string laser;       ///< the message or the sensor's label that the scans come from
+  std::string broken_off;  ///< error after the last readable scan; empty for a complete log
+  std::string format;      ///< "CARMEN", "MRPT rawlog", ...
+  LogContents contents;    ///< what the reader has found
   std::size_t scans = 0;
   std::size_t beams = 0;  ///< of the first scan
   double first_bearing_rad = 0;
   double last_bearing_rad = 0;
-  std::size_t scans_of_other_shape = 0;  ///< with another number of beams than the first
+  std::size_t scans_of_other_shape = 0;  ///< scans whose number of beams differs from the first
   mrpt::math::TPose2D robot_T_laser;
   TimeFacts time;
   OdometryFacts odometry;
   RangeFacts ranges;
-  std::size_t scans_with_two_poses = 0;         ///< CARMEN: whose line has another pose beside its odometry
-  std::map<std::string, std::size_t> messages;  ///< CARMEN: lines of each kind
-  SkippedLines skipped;                         ///< messages that were left out
-  std::map<std::string, std::size_t> other_lasers;  ///< rawlog: scans by sensor label
 };
 
-/// What is kept of every frame: scans stay in the file.
+/// Time and odometry of a frame. Scans are not kept.
 struct FrameMark {
   TimeUs time_us = 0;
   mrpt::math::TPose2D odom_T_robot;
@@ -76,12 +76,12 @@ struct FrameMark {
 
 class LogFactsCollector {
  public:
-  /// Takes frames whose ranges were read with an unlimited maximum; `max_range_m` is the one that holds.
+  /// Adds a frame whose ranges were read with an unlimited maximum. `max_range_m` is the actual maximum.
   void add(const Frame& frame, float max_range_m);
 
   const std::vector<FrameMark>& marks() const { return marks_; }
 
-  /// Of all frames so far; fills everything but what only the reader knows.
+  /// Returns the facts of all frames so far, except those that only the reader knows.
   LogFacts facts() const;
 
  private:

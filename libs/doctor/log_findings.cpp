@@ -59,7 +59,7 @@ class Judge {
     findings_.push_back({code, Severity::kWarning, std::move(sentence), std::move(remedy)});
   }
 
-  /// "12.34 s into the log", by the frame's own stamp.
+  /// Time of a frame for messages: "12.34 s into the log".
   std::string moment(std::size_t frame) const {
     return fixed(seconds(diagnosis_.marks[frame].time_us - facts_.time.first_us), 2) + " s into the log";
   }
@@ -67,11 +67,11 @@ class Judge {
   void judge_reading() {
     if (!facts_.broken_off.empty()) {
       warn("broken_off",
-           facts_.broken_off + "; all else is said of the " + counted(facts_.scans, "scan") +
+           facts_.broken_off + "; all other findings refer to the " + counted(facts_.scans, "scan") +
                " that could be read",
-           "fetch the log again, or map what there is");
+           "fetch the log again, or map the readable part");
     }
-    if (facts_.skipped.count > 0) note("skipped_lines", facts_.skipped.sentence());
+    if (facts_.contents.skipped.count > 0) note("skipped_lines", facts_.contents.skipped.sentence());
   }
 
   void judge_time() {
@@ -79,7 +79,7 @@ class Judge {
     if (time.backward_steps > 0) {
       note("time_backwards", "time runs backwards at " + counted(time.backward_steps, "scan") +
                                  ", by up to " + fixed(time.largest_backward_step_s, 3) +
-                                 " s; the order of the file is taken as the truth");
+                                 " s; scans keep the order of the file");
     }
     if (time.gaps > 0) {
       note("time_gaps",
@@ -88,25 +88,25 @@ class Judge {
     if (time.repeated_scans > 0) {
       warn("repeated_scans",
            counted(time.repeated_scans, "scan") +
-               " repeat the one before, time and ranges alike: the log was merged "
-               "or converted badly",
+               " repeat the time and ranges of the previous scan: the log was merged "
+               "or converted incorrectly",
            "remove the repeated lines");
     }
     if (time.repeated_stamps > time.repeated_scans) {
       note("repeated_stamps", counted(time.repeated_stamps - time.repeated_scans, "scan") +
-                                  " have the time of the one before, with other ranges");
+                                  " have the time of the previous scan but other ranges");
     }
   }
 
   void judge_ranges() {
     const RangeFacts& ranges = facts_.ranges;
-    const double returns = share_of(ranges.returns, ranges.readings);
+    const double returns = ranges.return_share();
     const auto max_range_m = static_cast<double>(ranges.max_range_m);
     const auto ceiling_m = static_cast<double>(ranges.ceiling_m);
     if (facts_.scans_of_other_shape > 0) {
       note("changing_beams", counted(facts_.scans_of_other_shape, "scan") +
                                  " have another number of beams than the "
-                                 "first, which has " +
+                                 "first scan, which has " +
                                  std::to_string(facts_.beams));
     }
     if (returns < 0.2 && ranges.largest_reading_m > 500) {
@@ -119,21 +119,22 @@ class Judge {
     }
     if (ceiling_m > 0 && ceiling_m < max_range_m) {
       warn("max_range",
-           percent(share_of(ranges.readings_at_ceiling, ranges.readings)) + " of the readings pile up at " +
-               fixed(ceiling_m, 2) + " m or just above and none lie beyond, but only those from " +
-               fixed(max_range_m, 2) + " m on count as no return",
+           percent(share_of(ranges.readings_at_ceiling, ranges.readings)) + " of the readings are at " +
+               fixed(ceiling_m, 2) + " m or just above and none are larger, but only readings of at least " +
+               fixed(max_range_m, 2) + " m count as no returns",
            "log.max_range_m = " + fixed(ceiling_m, 2));
     }
     if (returns < 0.3) {
       warn("few_returns",
            "only " + percent(returns) + " of the readings are returns below the maximum of " +
                fixed(max_range_m, 2) + " m",
-           "see that log.max_range_m is the sensor's own");
+           "check that log.max_range_m is the maximum range of the sensor");
     }
     if (ranges.empty_scans > 0) {
-      const std::string sentence = counted(ranges.empty_scans, "scan") + " have no return at all";
+      const std::string sentence = counted(ranges.empty_scans, "scan") + " have no returns";
       if (share_of(ranges.empty_scans, facts_.scans) > 0.05) {
-        warn("empty_scans", sentence, "see that log.max_range_m and log.min_range_m are the sensor's own");
+        warn("empty_scans", sentence,
+             "check that log.max_range_m and log.min_range_m are the limits of the sensor");
       } else {
         note("empty_scans", sentence);
       }
@@ -147,7 +148,7 @@ class Judge {
     const bool scans_move =
         odometry.scan_path_m > 0.05 * static_cast<double>(std::max<std::size_t>(odometry.tracks, 1));
     if (odometry_stands && scans_move) {
-      warn("odometry_still", "odometry never moves, but the scans do", "log odometry, or map without it");
+      warn("odometry_still", "odometry never moves, but the scans do", "record the log again with odometry");
       return;
     }
     if (odometry_stands) {
@@ -158,7 +159,7 @@ class Judge {
     judge_heading(odometry);
     if (odometry.length_samples == 0 || odometry.heading == HeadingRelation::kUnknown) {
       note("odometry_unchecked",
-           "too few scans could be compared with each other to tell whether odometry is right");
+           "odometry could not be checked: too few scans could be aligned with each other");
     }
   }
 
@@ -185,7 +186,7 @@ class Judge {
     }
     warn("odometry_unit",
          "odometry moves " + fixed(ratio, ratio < 0.1 ? 4 : 2) + " times as far as the scans",
-         "see that odometry and ranges are in metres");
+         "check that odometry and ranges are in metres");
   }
 
   void judge_heading(const OdometryAgreement& odometry) {
@@ -210,12 +211,12 @@ class Judge {
              "write the headings of the odometry in radians");
         return;
       case HeadingRelation::kNone:
-        warn("odometry_never_turns", "odometry's heading stands still where the scans turn",
-             "see that the log has the heading of the odometry, in radians");
+        warn("odometry_never_turns", "odometry's heading does not change where the scans turn",
+             "check that the log contains the heading of the odometry, in radians");
         return;
       case HeadingRelation::kUnrelated:
-        warn("odometry_unrelated", "odometry's turns have nothing to do with those of the scans",
-             "see that odometry and scans come from one robot and one time");
+        warn("odometry_unrelated", "odometry's turns are unrelated to those of the scans",
+             "check that odometry and scans come from the same robot and the same time");
         return;
       case HeadingRelation::kAgrees:
         judge_direction(odometry);
@@ -231,7 +232,7 @@ class Judge {
     const double heading_rad = mrpt::math::wrapToPi(facts_.robot_T_laser.phi - off_rad);
     warn("laser_heading",
          "the scans move " + fixed(RAD2DEG(off_rad), 0) +
-             " degrees beside where odometry goes: the laser does not look where the log says",
+             " degrees away from the direction of odometry: the stated heading of the laser is wrong",
          "log.laser_yaw_deg = " + fixed(RAD2DEG(heading_rad), 0));
   }
 
@@ -250,9 +251,9 @@ class Judge {
     warn("lost_reversals",
          "odometry has lost the sign of reversing: at " + counted(reversals.pairs.size(), "place") + ", " +
              fixed(reversals.reversed_m, 1) + " of the " + fixed(reversals.checked_m, 0) +
-             " m compared, the scans go back where odometry goes ahead, first " +
+             " m compared, the scans move backwards where odometry moves forwards, first " +
              moment(reversals.pairs.front().first),
-         "let the search windows of scan matching reach twice a step back, or repair the odometry");
+         "enlarge the search window of scan matching to twice a step, or repair the odometry");
   }
 
   void judge_jumps() {
@@ -265,28 +266,28 @@ class Judge {
         fixed(jumps.largest_m, 2) + " m and " + fixed(RAD2DEG(jumps.largest_turn_rad), 0) +
         " degrees between two scans that show no such motion, first " + moment(first->first);
     if (share_of(jumps.pairs.size(), facts_.scans) > 0.01) {
-      warn("odometry_jumps", sentence, "see whether odometry was reset or messages were lost");
+      warn("odometry_jumps", sentence, "check whether odometry was reset or messages were lost");
     } else {
       note("odometry_jumps", sentence);
     }
   }
 
   void judge_correction() {
-    if (facts_.scans_with_two_poses > 0) {
-      note("two_poses", counted(facts_.scans_with_two_poses, "scan") +
-                            " carry a second pose beside their odometry, "
-                            "some mapper's result; the odometry is used");
+    if (facts_.contents.scans_with_two_poses > 0) {
+      note("two_poses", counted(facts_.contents.scans_with_two_poses, "scan") +
+                            " have a second pose besides their odometry, "
+                            "the result of a mapper; the odometry is used");
     }
     const RevisitAgreement& revisits = diagnosis_.revisits;
     if (revisits.agreeing < 8 || share_of(revisits.agreeing, revisits.revisits) < 0.7) return;
     warn("corrected_odometry",
-         "odometry knows old places again to " + fixed(100 * revisits.median_offset_m, 1) + " cm at " +
+         "odometry is accurate to " + fixed(100 * revisits.median_offset_m, 1) + " cm at " +
              std::to_string(revisits.agreeing) + " of " + counted(revisits.revisits, "revisit") +
-             ", better than wheels can: it looks corrected by a mapper or simulated",
-         "use the raw log, or judge no mapper by this one");
+             ", better than wheels allow: it looks corrected by a mapper or simulated",
+         "use the raw log, and compare no mappers on this one");
   }
 
-  /// The heading that would set the laser right once the best beam angles are used: those shift it, too.
+  /// Heading of the laser under the best beam angles, which shift it too.
   double laser_yaw_rad(const LaserMountEstimate& mount) const {
     const BeamAngleStudy& study = diagnosis_.beam_angles;
     for (const BeamAngleFit& fit : study.fits) {
@@ -309,15 +310,16 @@ class Judge {
       const std::string y = fixed(mount.robot_T_laser.y, 3);
       const std::string yaw = fixed(RAD2DEG(yaw_rad), 2);
       note("laser_mount",
-           "scans and odometry move as if the laser stood at x " + x + " m, y " + y + " m, yaw " + yaw +
-               " degrees on the robot (good to " + fixed(mount.deviation_m, 3) + " m and " +
+           "scans and odometry move as if the laser were at x " + x + " m, y " + y + " m, yaw " + yaw +
+               " degrees on the robot (accurate to " + fixed(mount.deviation_m, 3) + " m and " +
                fixed(RAD2DEG(mount.deviation_rad), 2) + " degrees), not at x " + fixed(stated.x, 3) +
                " m, y " + fixed(stated.y, 3) + " m, yaw " + fixed(RAD2DEG(stated.phi), 2) + " degrees",
            "log.laser_x_m = " + x + ", log.laser_y_m = " + y + ", log.laser_yaw_deg = " + yaw);
     }
     if (std::abs(mount.odometry_scale - 1) > 0.03) {
-      note("odometry_scale", "odometry counts " + fixed(100 * std::abs(mount.odometry_scale - 1), 1) +
-                                 " % too " + (mount.odometry_scale > 1 ? "much" : "little") + " way");
+      note("odometry_scale",
+           std::string("odometry ") + (mount.odometry_scale > 1 ? "overstates" : "understates") +
+               " distances by " + fixed(100 * std::abs(mount.odometry_scale - 1), 1) + " %");
     }
   }
 
@@ -338,7 +340,7 @@ class Judge {
     if (is_wrong) {
       warn("beam_angles", sentence + ", which the scans rule out", "log.beam_angles = " + best);
     } else {
-      note("beam_angles", sentence + ", which differs only in where the laser looks",
+      note("beam_angles", sentence + ", which differs only in the heading of the laser",
            "log.beam_angles = " + best);
     }
   }

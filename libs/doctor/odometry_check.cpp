@@ -20,8 +20,7 @@ using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
 
 constexpr std::size_t kFramesInTrack = 15;
-constexpr double kTrackLength_m =
-    0.5;  // a track ends here: beyond, the first scan sees too little of the last
+constexpr double kTrackLength_m = 0.5;  // in a longer track, first and last scan overlap too little
 const double kTrackTurn_rad = DEG2RAD(25.0);
 constexpr double kGoodCost_m = 0.06;
 constexpr double kGoodShare = 0.6;
@@ -33,13 +32,14 @@ const double kLeastTurn_rad = DEG2RAD(1.2);
 constexpr double kDegreesPerRadian = 180.0 / M_PI;
 constexpr double kLeastResultant = 0.35;
 
-struct Step {  // between two consecutive frames of a track
+/// Turns between two consecutive frames of a track.
+struct Step {
   double scan_turn_rad;
   double odometry_turn_rad;
 };
 
 struct Track {
-  TPose2D by_scans;  // the last frame seen from the first
+  TPose2D by_scans;  // pose of the last frame relative to the first
   TPose2D by_odometry;
   double length_deviation_m = 0;
   std::vector<Step> steps;
@@ -49,7 +49,7 @@ bool is_good(const ScanAlignment& alignment) {
   return alignment.cost_m < kGoodCost_m && alignment.matched_share > kGoodShare;
 }
 
-/// Where the scan may be when the way so far says nothing: turned to either side, or ahead.
+/// Guesses that do not assume any motion model: turned to either side, behind or ahead.
 std::vector<TPose2D> fan_of_guesses(const TPose2D& around) {
   std::vector<TPose2D> guesses;
   for (const double turn_deg : {-40.0, -27.0, -18.0, -9.0, 0.0, 9.0, 18.0, 27.0, 40.0})
@@ -121,15 +121,15 @@ void compare_lengths(const std::vector<Track>& tracks, OdometryAgreement& agreem
   agreement.odometry_slip_rad = quantile(slips_rad, 0.5);
 }
 
-/// Whether odometry turned `factor` times what the scans did. A scan's turn is good to about half a degree;
-/// odometry is not, and often belongs to another moment of a fast turn.
+/// Returns whether odometry turned `factor` times as far as the scans. Turns of scans are accurate to about
+/// half a degree. Those of odometry are less accurate and may belong to another moment of a fast turn.
 bool fits(const Step& step, double factor) {
   const double tolerance_rad = DEG2RAD(0.6) + 0.35 * std::abs(step.scan_turn_rad * factor);
   return std::abs(wrapToPi(step.odometry_turn_rad - factor * step.scan_turn_rad)) <= tolerance_rad;
 }
 
-/// How well odometry's turns are the scans' in degrees, after both were wrapped as radians: 1 is perfect, and
-/// unrelated turns come near 0. Small turns are looked at first, as errors become 57 times larger, too.
+/// Returns how well the turns of odometry, in degrees but wrapped as radians, match those of the scans: 1 for
+/// perfect agreement, about 0 for unrelated turns. Tries small turns first, since errors are 57 times larger.
 double degrees_resultant(const std::vector<Step>& steps, double factor) {
   for (const double most_rad : {DEG2RAD(2.5), DEG2RAD(6.0)}) {
     std::complex<double> sum = 0;

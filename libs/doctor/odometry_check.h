@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Does odometry say what the scans say? Judged without presuming that it does: scans are followed from one to
-// the next by themselves, and only then compared with odometry.
+// Compares odometry with the scans without assuming that it is right: first aligns consecutive scans without
+// odometry, then compares the resulting motion with odometry.
 #pragma once
 
 #include <cstddef>
@@ -11,39 +11,38 @@
 
 namespace psi_slam {
 
-/// How the turns of odometry relate to those of the scans.
+/// Relation of odometry's turns to those of the scans.
 enum class HeadingRelation {
-  kUnknown,   ///< too few turns seen
-  kAgrees,    ///
-  kOpposite,  ///< odometry turns left where the scans turn right
-  kDegrees,   ///< odometry's headings are degrees where radians are expected
-  kOppositeDegrees,
-  kNone,  ///< odometry does not turn where the scans do
+  kUnknown,          ///< too few turns
+  kAgrees,           ///< equal turns
+  kOpposite,         ///< odometry turns left where the scans turn right
+  kDegrees,          ///< odometry's headings are in degrees instead of radians
+  kOppositeDegrees,  ///< both of the above
+  kNone,             ///< odometry does not turn where the scans do
   kUnrelated,
 };
 
 struct OdometryAgreement {
-  std::size_t tracks = 0;          ///< stretches that could be followed by scans
-  double scan_path_m = 0;          ///< motion in them by scans, and
-  double odometry_path_m = 0;      ///< by odometry
-  std::size_t length_samples = 0;  ///< stretches with translation that the scans determine
-  double length_ratio = 0;         ///< odometry by scans, their median; 0 when unknown
-  double length_ratio_low = 0;     ///< quartiles
-  double length_ratio_high = 0;
+  std::size_t tracks = 0;          ///< tracks whose scans could be aligned
+  double scan_path_m = 0;          ///< motion in all tracks by scans
+  double odometry_path_m = 0;      ///< motion in all tracks by odometry
+  std::size_t length_samples = 0;  ///< tracks with a translation that the scans determine
+  double length_ratio = 0;         ///< median of odometry's length divided by the scans'; 0 if unknown
+  double length_ratio_low = 0;     ///< lower quartile
+  double length_ratio_high = 0;    ///< upper quartile
   std::size_t turn_samples = 0;
   HeadingRelation heading = HeadingRelation::kUnknown;
-  double heading_share =
-      0;  ///< of the turns that fit this relation; for degrees, how well they do, in [0, 1]
-  /// Direction of motion by scans minus that by odometry, both on the robot: where odometry puts the laser's
-  /// heading wrongly. With its concentration, in [0, 1].
+  double heading_share = 0;  ///< fraction of the turns with this relation; for degrees, its quality in [0, 1]
+  /// Direction of motion by scans minus that by odometry, both relative to the robot: the error of the
+  /// laser's stated heading. The concentration of the directions is in [0, 1].
   double direction_offset_rad = 0;
   double direction_concentration = 0;
-  /// Median angle between odometry's motion and the robot's axis, in [0, pi/2]: large when odometry's
-  /// headings do not belong to its positions.
+  /// Median angle between odometry's motion and the robot's axis, in [0, pi/2]. Large if odometry's headings
+  /// do not match its positions.
   double odometry_slip_rad = 0;
 };
 
-/// The stretches to follow, from each start on; `library` must hold these frames.
+/// Returns the frames of the track from each start. The library of check_odometry() must hold them.
 std::vector<std::vector<std::size_t>> tracks_from(const std::vector<std::size_t>& starts,
                                                   std::size_t frames_in_log);
 

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/pair_alignment.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace psi_slam {
 namespace {
 
+using mrpt::DEG2RAD;
 using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
 
 constexpr double kGoodCost_m = 0.05;
 constexpr double kGoodShare = 0.6;
+constexpr double kJumpSpeed_m_s = 3.0;
+constexpr double kJump_m = 0.4;
+const double kJumpSpeed_rad_s = DEG2RAD(150.0);
+const double kJump_rad = DEG2RAD(30.0);
 
 }  // namespace
 
@@ -37,16 +45,16 @@ std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const 
 
 LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const ScanLibrary& library) {
   constexpr double kLeastMotion_m = 0.12;
-  constexpr double kMostMotion_m = 0.8;  // beyond, the opposite guess is out of reach
+  constexpr double kMaxMotion_m = 0.8;  // the opposite guess of a larger motion is out of reach
   constexpr double kDetermined_m = 0.02;
-  constexpr double kClearlyBetter = 0.7;  // of the cost of driving as odometry says
+  constexpr double kClearlyBetter = 0.7;  // fraction of the cost with odometry's motion
   LostReversals reversals;
   for (const AlignedPair& pair : pairs) {
     const TPose2D& odometry = pair.by_odometry;
     const double way_m = odometry.norm();
-    if (way_m < kLeastMotion_m || way_m > kMostMotion_m) continue;
+    if (way_m < kLeastMotion_m || way_m > kMaxMotion_m) continue;
     const double direction = std::atan2(odometry.y, odometry.x);
-    /// By how much the scans moved along odometry's motion, as a share of it.
+    // Motion by scans along odometry's motion, as a fraction of it.
     const auto share_along = [&](const ScanAlignment& alignment) {
       const TPose2D& motion = alignment.reference_T_scan;
       return (motion.x * odometry.x + motion.y * odometry.y) / (way_m * way_m);
@@ -75,9 +83,9 @@ LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const S
 
 std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<AlignedPair>& pairs,
                                                        const TPose2D& stated_mount) {
-  // With A the robot's motion by odometry, B the laser's by scans and X its mount, A X = X B, or for the
-  // translations (R_A - 1) t_X - s R_X t_B = -t_A: linear in t_X and (s cos, s sin) of the mount's heading, s
-  // the scale of odometry. Turns are taken from the scans on both sides, odometry's being the worse.
+  // A is the robot's motion by odometry, B the laser's motion by scans, X the mount: A X = X B. For the
+  // translations, (R_A - 1) t_X - s R_X t_B = -t_A with the scale s of odometry. This is linear in t_X and in
+  // (s cos, s sin) of the mount's heading. Both sides use the turns of the scans, which are more accurate.
   constexpr std::size_t kFewestPairs = 40;
   constexpr double kNoise_m = 0.02;  // of odometry between the frames of a pair
   constexpr int kIterations = 20;
@@ -97,7 +105,7 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
     const TPose2D laser = (scans.reference_T_scan + stated_mount) - stated_mount;
     const double turn = laser.phi;
     if (std::abs(turn) > 0.1) ++turning;
-    // Odometry that turned too far bent its own way by half of that.
+    // An error of odometry's turn rotates its translation by half of the error.
     const double bend = off_rad / 2;
     const TPose2D& odometry = pair.by_odometry;
     Equation equation;
@@ -119,7 +127,7 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
     }
     solution = hessian.ldlt().solve(gradient);
     covariance = kNoise_m * kNoise_m * hessian.inverse();
-    for (Equation& equation : equations) {  // Cauchy's weights
+    for (Equation& equation : equations) {  // Cauchy weights
       const double residual = (equation.row * solution - equation.value).norm() / kNoise_m;
       equation.weight = 1 / (1 + residual * residual);
     }
@@ -131,6 +139,64 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
   estimate.deviation_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
   estimate.deviation_rad = std::sqrt(std::max(covariance(2, 2), covariance(3, 3))) / estimate.odometry_scale;
   return estimate;
+}
+
+std::vector<FramePair> suspected_jumps(const std::vector<FrameMark>& marks, double median_period_s,
+                                       std::size_t most) {
+  std::vector<std::pair<double, FramePair>> suspects;
+  for (std::size_t i = 1; i < marks.size(); ++i) {
+    const TPose2D step = odometry_between(marks, {i - 1, i});
+    const double period_s = std::max(seconds(marks[i].time_us - marks[i - 1].time_us), median_period_s);
+    const bool too_far = step.norm() > std::max(kJump_m, kJumpSpeed_m_s * period_s);
+    const bool too_fast = std::abs(step.phi) > std::max(kJump_rad, kJumpSpeed_rad_s * period_s);
+    if (too_far || too_fast) suspects.push_back({step.norm() + std::abs(step.phi), {i - 1, i}});
+  }
+  std::stable_sort(suspects.begin(), suspects.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<FramePair> pairs;
+  for (std::size_t i = 0; i < std::min(most, suspects.size()); ++i) pairs.push_back(suspects[i].second);
+  return pairs;
+}
+
+OdometryJumps confirm_jumps(const std::vector<FrameMark>& marks, const std::vector<FramePair>& suspects,
+                            const ScanLibrary& library) {
+  OdometryJumps jumps;
+  for (const FramePair& pair : suspects) {
+    const TPose2D step = odometry_between(marks, pair);
+    std::vector<TPose2D> guesses{step};
+    for (const double turn_deg : {-24.0, -12.0, 0.0, 12.0, 24.0})
+      guesses.push_back({0, 0, DEG2RAD(turn_deg)});
+    const ScanAlignment alignment =
+        align_scans(AlignableScan(library.at(pair.first)), AlignableScan(library.at(pair.second)), guesses);
+    const TPose2D& motion = alignment.reference_T_scan;
+    const bool stayed = is_reliable(alignment) && motion.norm() < 0.5 * step.norm() + 0.05 &&
+                        std::abs(motion.phi) < 0.5 * std::abs(step.phi) + DEG2RAD(5.0);
+    if (!stayed) continue;
+    jumps.pairs.push_back(pair);
+    jumps.largest_m = std::max(jumps.largest_m, step.norm());
+    jumps.largest_turn_rad = std::max(jumps.largest_turn_rad, std::abs(step.phi));
+  }
+  return jumps;
+}
+
+RevisitAgreement check_revisits(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
+                                const ScanLibrary& library) {
+  constexpr double kSame_m = 0.05;
+  const double same_rad = DEG2RAD(1.0);
+  RevisitAgreement agreement;
+  agreement.revisits = pairs.size();
+  std::vector<double> offsets_m;
+  for (const AlignedPair& pair : align_pairs(marks, pairs, library)) {
+    const TPose2D off = pair.by_scans.reference_T_scan - pair.by_odometry;
+    if (!is_reliable(pair.by_scans) || off.norm() > kSame_m || std::abs(off.phi) > same_rad) continue;
+    offsets_m.push_back(off.norm());
+  }
+  agreement.agreeing = offsets_m.size();
+  if (offsets_m.empty()) return agreement;
+  const auto middle = offsets_m.begin() + static_cast<std::ptrdiff_t>(offsets_m.size() / 2);
+  std::nth_element(offsets_m.begin(), middle, offsets_m.end());
+  agreement.median_offset_m = *middle;
+  return agreement;
 }
 
 }  // namespace psi_slam

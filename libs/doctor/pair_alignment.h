@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Compares odometry with the alignment of single pairs of scans: lost reversals, jumps, corrected odometry
+// and the mount of the laser.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -6,52 +8,78 @@
 #include <optional>
 #include <vector>
 
+#include "doctor/log_facts.h"
 #include "doctor/scan_alignment.h"
 #include "doctor/scan_sampling.h"
 
 namespace psi_slam {
 
-/// The motion between two frames by odometry and by their scans.
+/// Motion between two frames by odometry and by their scans.
 struct AlignedPair {
   FramePair frames;
   mrpt::math::TPose2D by_odometry;
-  ScanAlignment by_scans;  ///< found from odometry's motion
+  ScanAlignment by_scans;  ///< aligned with odometry's motion as the guess
 };
 
-/// Whether the alignment can be relied on: most points matched, and close.
+/// Returns whether most points are matched and close to walls.
 bool is_reliable(const ScanAlignment& alignment);
 
-/// All pairs, those that could not be aligned reliably too.
+/// Aligns all pairs. The result includes unreliable alignments.
 std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
                                      const ScanLibrary& library);
 
-// ---- What the aligned pairs of a log show ----
-
-/// Odometry that counts reversing as driving ahead: the scans went back by about as much as odometry went
-/// ahead.
+/// Odometry that counts reversing as driving forwards: the scans move backwards by about as much as odometry
+/// moves forwards.
 struct LostReversals {
-  std::size_t pairs_checked = 0;  ///< with enough motion that the scans determine
-  double checked_m = 0;           ///< their way by odometry
-  std::vector<FramePair> pairs;   ///< that the scans say were driven backwards
-  double reversed_m = 0;          ///< their way by scans
+  std::size_t pairs_checked = 0;  ///< pairs with enough motion that the scans determine
+  double checked_m = 0;           ///< motion of these pairs by odometry
+  std::vector<FramePair> pairs;   ///< pairs with a reversed motion according to the scans
+  double reversed_m = 0;          ///< motion of these pairs by scans
 };
 
-/// Aligns every moving pair once more from the opposite motion; a pair counts when that fits clearly better.
+/// Aligns every moving pair again with the opposite motion as the guess. A pair counts as reversed if that
+/// alignment is clearly better.
 LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const ScanLibrary& library);
 
-/// The pose of the laser on the robot that best explains how scans and odometry moved together (hand-eye
-/// calibration). Beside the pose it says by how much odometry overstates distances.
+/// Pose of the laser on the robot that best explains the motions of scans and odometry (hand-eye
+/// calibration).
 struct LaserMountEstimate {
   std::size_t pairs = 0;
   mrpt::math::TPose2D robot_T_laser;
   double deviation_m = 0;       ///< standard deviation of x, and of y
-  double deviation_rad = 0;     ///< of the heading
-  double odometry_scale = 1.0;  ///< distance by odometry / by scans
+  double deviation_rad = 0;     ///< standard deviation of the heading
+  double odometry_scale = 1.0;  ///< distance by odometry divided by distance by scans
 };
 
-/// None with too few pairs that turn and too few that drive. `stated_mount` is the one the scans were aligned
+/// Empty if too few pairs turn or too few pairs drive. `stated_mount` is the mount that the scans were read
 /// with.
 std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<AlignedPair>& pairs,
                                                        const mrpt::math::TPose2D& stated_mount);
+
+/// Returns pairs of consecutive frames between which odometry moves faster than a robot: above 3 m/s and 0.4
+/// m, or above 150 degrees/s and 30 degrees. At most `most` pairs, largest motion first. The median period is
+/// the lower limit of a pair's time, since stamps may run backwards.
+std::vector<FramePair> suspected_jumps(const std::vector<FrameMark>& marks, double median_period_s,
+                                       std::size_t most);
+
+struct OdometryJumps {
+  std::vector<FramePair> pairs;  ///< pairs whose scans moved by less than half of odometry's motion
+  double largest_m = 0;
+  double largest_turn_rad = 0;
+};
+
+OdometryJumps confirm_jumps(const std::vector<FrameMark>& marks, const std::vector<FramePair>& suspects,
+                            const ScanLibrary& library);
+
+/// How well odometry agrees with the scans at revisited places. Very good agreement shows that a mapper has
+/// corrected the odometry.
+struct RevisitAgreement {
+  std::size_t revisits = 0;    ///< pairs that odometry puts in one place, far apart along the path
+  std::size_t agreeing = 0;    ///< of these, pairs that the scans confirm to 5 cm and 1 degree
+  double median_offset_m = 0;  ///< of the agreeing pairs
+};
+
+RevisitAgreement check_revisits(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
+                                const ScanLibrary& library);
 
 }  // namespace psi_slam

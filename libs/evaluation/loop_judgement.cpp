@@ -7,7 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "trajectory/pose_at_time.h"
+#include "frames/pose_operations.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -20,7 +21,7 @@ struct PathPoint {
   double travelled_m = 0;
 };
 
-/// The path as the front end saw it, by scan and by time.
+/// The path as the front end measured it, by scan and by time.
 class FrontEndPath {
  public:
   FrontEndPath(const std::vector<FrameRecord>& frames, double max_gap_s)
@@ -58,30 +59,34 @@ class FrontEndPath {
   Trajectory by_time_;
 };
 
-/// A relation on the path.
+/// A relation on the path, in one of the two directions in which a loop can match it.
 struct PlacedRelation {
   std::size_t relation = 0;
-  PathPoint end1;
-  PathPoint end2;
-  TPose2D end1_T_end2;  ///< the truth
+  PathPoint node_end;          ///< matched with the loop's node
+  PathPoint map_end;           ///< matched with the loop's local map
+  TPose2D map_end_T_node_end;  ///< true pose
 };
 
-/// A loop on the path.
+/// A loop and its places on the path.
 struct PlacedLoop {
   std::size_t loop = 0;
   PathPoint node;
   PathPoint anchor;
-  double map_begin_m = 0;  ///< of the path, where the local map was filled
-  double map_end_m = 0;
-  TPose2D anchor_T_node;  ///< as matched
+  double map_begin_m = 0;  ///< travelled distance at the first node of the local map
+  double map_end_m = 0;    ///< travelled distance at its last node
+  TPose2D anchor_T_node;   ///< as matched
 };
 
+/// Both directions of each relation, one after the other.
 std::vector<PlacedRelation> place(const std::vector<Relation>& relations, const FrontEndPath& path) {
   std::vector<PlacedRelation> placed;
   for (std::size_t i = 0; i < relations.size(); ++i) {
     const auto end1 = path.at_time(relations[i].time1_us);
     const auto end2 = path.at_time(relations[i].time2_us);
-    if (end1 && end2) placed.push_back({i, *end1, *end2, relations[i].pose1_T_pose2});
+    if (!end1 || !end2) continue;
+    const TPose2D& end1_T_end2 = relations[i].pose1_T_pose2;
+    placed.push_back({i, *end1, *end2, inverse(end1_T_end2)});
+    placed.push_back({i, *end2, *end1, end1_T_end2});
   }
   return placed;
 }
@@ -101,55 +106,47 @@ std::vector<PlacedLoop> place_accepted_loops(const MappingResult& result, const 
   return placed;
 }
 
-bool joins(const PlacedLoop& loop, const PathPoint& node_end, const PathPoint& map_end, double near_m) {
-  return std::abs(node_end.travelled_m - loop.node.travelled_m) <= near_m &&
-         map_end.travelled_m >= loop.map_begin_m - near_m && map_end.travelled_m <= loop.map_end_m + near_m;
+bool joins(const PlacedLoop& loop, const PlacedRelation& relation, double near_m) {
+  return std::abs(relation.node_end.travelled_m - loop.node.travelled_m) <= near_m &&
+         relation.map_end.travelled_m >= loop.map_begin_m - near_m &&
+         relation.map_end.travelled_m <= loop.map_end_m + near_m;
 }
 
-double way_m(const PlacedLoop& loop, const PathPoint& node_end, const PathPoint& map_end) {
-  return std::abs(node_end.travelled_m - loop.node.travelled_m) +
-         std::abs(map_end.travelled_m - loop.anchor.travelled_m);
+double way_m(const PlacedLoop& loop, const PlacedRelation& relation) {
+  return std::abs(relation.node_end.travelled_m - loop.node.travelled_m) +
+         std::abs(relation.map_end.travelled_m - loop.anchor.travelled_m);
 }
 
-/// What the loop and the front end make of the relation from the local map's end to the node's.
-TPose2D predicted(const PlacedLoop& loop, const PathPoint& node_end, const PathPoint& map_end) {
-  const TPose2D map_end_T_anchor = loop.anchor.front_end_T_robot - map_end.front_end_T_robot;
-  const TPose2D node_T_node_end = node_end.front_end_T_robot - loop.node.front_end_T_robot;
+/// Predicts the relation from the loop as matched and the front end's motion to the ends of the relation.
+TPose2D predicted(const PlacedLoop& loop, const PlacedRelation& relation) {
+  const TPose2D map_end_T_anchor = loop.anchor.front_end_T_robot - relation.map_end.front_end_T_robot;
+  const TPose2D node_T_node_end = relation.node_end.front_end_T_robot - loop.node.front_end_T_robot;
   return map_end_T_anchor + loop.anchor_T_node + node_T_node_end;
 }
 
-JudgedLoop judge(const PlacedLoop& loop, const PlacedRelation& relation, bool node_at_end1,
+JudgedLoop judge(const PlacedLoop& loop, const PlacedRelation& relation,
                  const LoopJudgementOptions& options) {
-  const PathPoint& node_end = node_at_end1 ? relation.end1 : relation.end2;
-  const PathPoint& map_end = node_at_end1 ? relation.end2 : relation.end1;
-  const TPose2D truth = node_at_end1 ? TPose2D() - relation.end1_T_end2 : relation.end1_T_end2;
-  const TPose2D error = predicted(loop, node_end, map_end) - truth;
+  const TPose2D error = predicted(loop, relation) - relation.map_end_T_node_end;
   JudgedLoop judged{loop.loop, relation.relation, std::hypot(error.x, error.y),
-                    std::abs(mrpt::math::wrapToPi(error.phi)), way_m(loop, node_end, map_end)};
+                    std::abs(mrpt::math::wrapToPi(error.phi)), way_m(loop, relation)};
   judged.is_false = judged.error_m > options.max_error_m + options.drift_m_per_metre * judged.way_m ||
                     judged.error_rad > options.max_error_rad + options.drift_rad_per_metre * judged.way_m;
   return judged;
 }
 
-/// By the relation with the shortest way; none when no relation joins what the loop joins.
+/// Judges the loop by the nearest relation that joins the same places, if there is one.
 std::optional<JudgedLoop> judge(const PlacedLoop& loop, const std::vector<PlacedRelation>& relations,
                                 const LoopJudgementOptions& options) {
   std::optional<JudgedLoop> best;
-  for (const PlacedRelation& relation : relations) {
-    for (const bool node_at_end1 : {true, false}) {
-      const PathPoint& node_end = node_at_end1 ? relation.end1 : relation.end2;
-      const PathPoint& map_end = node_at_end1 ? relation.end2 : relation.end1;
-      if (!joins(loop, node_end, map_end, options.near_m)) continue;
-      if (best && best->way_m <= way_m(loop, node_end, map_end)) continue;
-      best = judge(loop, relation, node_at_end1, options);
-    }
-  }
+  for (const PlacedRelation& relation : relations)
+    if (joins(loop, relation, options.near_m) && !(best && best->way_m <= way_m(loop, relation)))
+      best = judge(loop, relation, options);
   return best;
 }
 
 bool joins_two_passes(const PlacedRelation& relation, const LoopJudgementOptions& options) {
-  return std::abs(relation.end2.travelled_m - relation.end1.travelled_m) >= options.min_travel_m &&
-         std::hypot(relation.end1_T_end2.x, relation.end1_T_end2.y) <= options.max_distance_m;
+  return std::abs(relation.map_end.travelled_m - relation.node_end.travelled_m) >= options.min_travel_m &&
+         std::hypot(relation.map_end_T_node_end.x, relation.map_end_T_node_end.y) <= options.max_distance_m;
 }
 
 std::optional<double> share(std::size_t part, std::size_t whole) {
@@ -182,12 +179,13 @@ LoopJudgement judge_loops(const MappingResult& result, const std::vector<Relatio
     judgement.judged.push_back(*judged);
     if (judged->is_false) judgement.false_ones.push_back(*judged);
   }
-  for (const PlacedRelation& relation : placed) {
-    if (!joins_two_passes(relation, options)) continue;
+  for (std::size_t i = 0; i < placed.size(); i += 2) {
+    const PlacedRelation& forward = placed[i];
+    const PlacedRelation& backward = placed[i + 1];
+    if (!joins_two_passes(backward, options)) continue;
     ++judgement.passes;
     judgement.joined += std::any_of(loops.begin(), loops.end(), [&](const PlacedLoop& loop) {
-      return joins(loop, relation.end1, relation.end2, options.near_m) ||
-             joins(loop, relation.end2, relation.end1, options.near_m);
+      return joins(loop, forward, options.near_m) || joins(loop, backward, options.near_m);
     });
   }
   return judgement;

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "trajectory/pose_at_time.h"
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 #include "trajectory/text_lines.h"
 
@@ -23,8 +23,8 @@ constexpr std::size_t kRelationWords = 8;
 RelationError error_of(const Relation& relation, const PoseAtTime& pose1, const PoseAtTime& pose2) {
   const TPose2D& truth = relation.pose1_T_pose2;
   const TPose2D estimate = pose2.pose - pose1.pose;
-  const TPose2D error = estimate - truth;                             // truth^-1 * estimate
-  const TPose2D cartographer_error = estimate + (TPose2D() - truth);  // estimate * truth^-1
+  const TPose2D error = estimate - truth;                        // truth^-1 * estimate
+  const TPose2D cartographer_error = estimate + inverse(truth);  // estimate * truth^-1
   RelationError result;
   result.relation = relation;
   result.interpolated = pose1.interpolated || pose2.interpolated;
@@ -34,13 +34,17 @@ RelationError error_of(const Relation& relation, const PoseAtTime& pose1, const 
   return result;
 }
 
-ErrorSummary summarize_errors(const std::vector<RelationError>& errors, double RelationError::*value,
-                              bool squared) {
+/// Summarises one value of all errors, and its squares.
+void summarize_value(const std::vector<RelationError>& errors, double RelationError::*value,
+                     ErrorSummary& plain, ErrorSummary& squared) {
   std::vector<double> values;
-  values.reserve(errors.size());
-  for (const RelationError& error : errors)
-    values.push_back(squared ? error.*value * error.*value : error.*value);
-  return summarize(std::move(values));
+  std::vector<double> squares;
+  for (const RelationError& error : errors) {
+    values.push_back(error.*value);
+    squares.push_back(error.*value * error.*value);
+  }
+  plain = summarize(std::move(values));
+  squared = summarize(std::move(squares));
 }
 
 UserError nothing_matches(const Trajectory& sorted, const std::vector<Relation>& relations) {
@@ -51,10 +55,10 @@ UserError nothing_matches(const Trajectory& sorted, const std::vector<Relation>&
     last = std::max({last, relation.time1_us, relation.time2_us});
   }
   return UserError("none of the " + std::to_string(relations.size()) +
-                   " relations has both its times in the trajectory: the trajectory runs from " +
+                   " relations has both its times in the trajectory. The trajectory runs from " +
                    format_seconds(sorted.front().time_us) + " s to " + format_seconds(sorted.back().time_us) +
                    " s, the relations from " + format_seconds(first) + " s to " + format_seconds(last) +
-                   " s");
+                   " s. Check that both files belong to the same log");
 }
 
 }  // namespace
@@ -72,8 +76,7 @@ std::vector<Relation> read_relations(const std::filesystem::path& path) {
                           mrpt::math::wrapToPi(line.finite_number(7, "yaw in radians"))}});
   });
   if (relations.empty())
-    throw UserError(path.string() +
-                    ": no relation in it, expected lines of 'time1 time2 x y z roll pitch yaw'");
+    throw UserError(path.string() + ": no relation found. Expected lines 'time1 time2 x y z roll pitch yaw'");
   return relations;
 }
 
@@ -100,7 +103,7 @@ RelationsMetric evaluate_relations(Trajectory trajectory, const std::vector<Rela
                     " relations");
   constexpr double kLongest_s = 1e9;
   if (!(options.max_gap_s >= 0))
-    throw std::invalid_argument("evaluate_relations: the gap must not be negative");
+    throw std::invalid_argument("evaluate_relations: max_gap_s must not be negative");
   std::stable_sort(trajectory.begin(), trajectory.end(),
                    [](const StampedPose& a, const StampedPose& b) { return a.time_us < b.time_us; });
   const TimeUs max_gap_us = std::llround(std::min(options.max_gap_s, kLongest_s) * 1e6);
@@ -118,14 +121,12 @@ RelationsMetric evaluate_relations(Trajectory trajectory, const std::vector<Rela
   }
   if (metric.errors.empty()) throw nothing_matches(trajectory, relations);
 
-  metric.translation_abs_m = summarize_errors(metric.errors, &RelationError::translation_m, false);
-  metric.translation_sq_m2 = summarize_errors(metric.errors, &RelationError::translation_m, true);
-  metric.rotation_abs_deg = summarize_errors(metric.errors, &RelationError::rotation_deg, false);
-  metric.rotation_sq_deg2 = summarize_errors(metric.errors, &RelationError::rotation_deg, true);
-  metric.cartographer_translation_abs_m =
-      summarize_errors(metric.errors, &RelationError::cartographer_translation_m, false);
-  metric.cartographer_translation_sq_m2 =
-      summarize_errors(metric.errors, &RelationError::cartographer_translation_m, true);
+  summarize_value(metric.errors, &RelationError::translation_m, metric.translation_abs_m,
+                  metric.translation_sq_m2);
+  summarize_value(metric.errors, &RelationError::rotation_deg, metric.rotation_abs_deg,
+                  metric.rotation_sq_deg2);
+  summarize_value(metric.errors, &RelationError::cartographer_translation_m,
+                  metric.cartographer_translation_abs_m, metric.cartographer_translation_sq_m2);
   return metric;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How good a trajectory is: the relations metric of the Freiburg SLAM benchmark.
+// Accuracy of a trajectory: the relations metric of the Freiburg SLAM benchmark.
 //
 //   R. Kuemmerle et al., "On Measuring the Accuracy of SLAM Algorithms", Autonomous Robots 27(4), 2009: for
-//   the true pose d* of time 2 seen from time 1 and the trajectory's own d = pose1^-1 * pose2, the error is
-//   d*^-1 * d. Its length is the translational error, its angle the rotational one. Averages do not depend on
-//   the map's frame.
+//   the true pose d* of time 2 in the frame of time 1 and the trajectory's d = pose1^-1 * pose2, the error is
+//   d*^-1 * d. Its length is the translational error, its angle the rotational error. The metric does not
+//   depend on the map's frame.
 //
-// Cartographer's tool takes d * d*^-1 instead: the same angle, another length (it grows with |d*| times the
-// angle). Both are given, so that published figures of either kind can be compared with.
+// Cartographer's tool uses d * d*^-1 instead: the same angle but another length, which grows with |d*| times
+// the angle. The metric has both, so that they compare with published figures of either kind.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -21,26 +21,27 @@
 
 namespace psi_slam {
 
-/// A relation known to be true: where the robot was at time 2, seen from where it was at time 1.
+/// The true pose of the robot at time 2 in its frame of time 1.
 struct Relation {
   TimeUs time1_us = 0;
   TimeUs time2_us = 0;
   mrpt::math::TPose2D pose1_T_pose2;
 };
 
-/// Reads `time1 time2 x y z roll pitch yaw` lines (seconds, metres, radians); '#' starts a comment; what
-/// leaves the plane is dropped. Throws UserError (file:line, what was expected), also when there is no
-/// relation in the file.
+/// Reads lines `time1 time2 x y z roll pitch yaw` (seconds, metres, radians) and projects them onto the
+/// plane.
+/// '#' starts a comment. Throws UserError ("file:line: expected ...") on a malformed line, and if the file
+/// has no relation.
 std::vector<Relation> read_relations(const std::filesystem::path& path);
 
 struct RelationsMetricOptions {
-  double max_gap_s = 2.0;  ///< the longest gap between two poses of the trajectory to interpolate in
+  double max_gap_s = 2.0;  ///< longest gap between two poses to interpolate in
 };
 
 /// The error of one relation.
 struct RelationError {
   Relation relation;
-  bool interpolated = false;  ///< one of its poses at least lies between two poses of the trajectory
+  bool interpolated = false;  ///< at least one of its two poses
   double translation_m = 0;
   double rotation_deg = 0;
   double cartographer_translation_m = 0;
@@ -48,19 +49,19 @@ struct RelationError {
 
 struct ErrorSummary {
   double mean = 0;
-  double std = 0;     ///< of the population: divided by n
+  double std = 0;     ///< of the population (divided by n)
   double median = 0;  ///< the upper one of two
-  double p95 = 0;     ///< the value at rank floor(0.95 n), from 0
+  double p95 = 0;     ///< value at rank floor(0.95 n), counted from 0
   double max = 0;
 };
 
-/// Throws std::invalid_argument when `values` is empty.
+/// Computes the summary of `values`. Throws std::invalid_argument if `values` is empty.
 ErrorSummary summarize(std::vector<double> values);
 
 struct RelationsMetric {
   std::size_t exact = 0;         ///< relations with both times in the trajectory
   std::size_t interpolated = 0;  ///< relations with at least one pose interpolated
-  std::size_t skipped = 0;       ///< relations with a time outside the trajectory or in a gap too long
+  std::size_t skipped = 0;       ///< relations with a time outside the trajectory or in a long gap
 
   ErrorSummary translation_abs_m;
   ErrorSummary translation_sq_m2;
@@ -69,14 +70,12 @@ struct RelationsMetric {
   ErrorSummary cartographer_translation_abs_m;
   ErrorSummary cartographer_translation_sq_m2;
 
-  std::vector<RelationError> errors;  ///< of the relations used, in the order given
+  std::vector<RelationError> errors;  ///< of the relations used, in their order
 };
 
-/// The metric over all relations that the trajectory can answer. The trajectory is sorted by time first
-/// (poses of one time keep their order). A pose within 0.1 ms of a relation's time is taken as it is, since
-/// relations are printed with as few as five decimals; otherwise it is interpolated linearly, the angle along
-/// the shorter arc. Throws UserError when no relation can be answered, naming both spans of time;
-/// std::invalid_argument when the gap is negative or no number.
+/// Computes the metric over all relations with both times in the trajectory; see pose_at_time(). Sorts the
+/// trajectory by time first; poses of equal time keep their order. Throws UserError if no relation can be
+/// used, std::invalid_argument if the longest gap is negative or not a number.
 RelationsMetric evaluate_relations(Trajectory trajectory, const std::vector<Relation>& relations,
                                    const RelationsMetricOptions& options = {});
 

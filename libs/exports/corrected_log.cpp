@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/atomic_file.h"
-#include "psi_slam/user_error.h"
 #include "base/number_text.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -23,27 +23,20 @@ using mrpt::math::TPose2D;
 
 constexpr const char* kHost = "psi-slam";
 
-/// FLASER has no bearings: its ranges go counter-clockwise, those of a laser that hangs upside down do not.
+/// True for a laser mounted upside down. FLASER has no bearings: its ranges are counter-clockwise.
 bool runs_clockwise(const LaserScan& scan) {
   return scan.bearings_rad && scan.bearings_rad->size() > 1 &&
          scan.bearings_rad->front() > scan.bearings_rad->back();
 }
 
-double degrees(double radians) {
-  return radians * (180 / M_PI);
-}
+// CARMEN's names of the two lasers that have messages with poses.
+constexpr std::array<const char*, 2> kMessages{"FLASER", "RLASER"};
+constexpr std::array<const char*, 2> kPositions{"front", "rear"};
 
-/// CARMEN has messages for two lasers that carry poses.
-struct Kind {
-  std::string message;
-  std::string position;
-};
-const std::array<Kind, 2> kKinds{Kind{"FLASER", "front"}, Kind{"RLASER", "rear"}};
-
-/// What the lines of a laser cannot say about it.
+/// Mount and bearings, which the messages of a laser cannot hold.
 std::string parameters(const LaserScan& scan) {
   const auto& mount = scan.robot_T_laser;
-  const std::string& position = kKinds.at(scan.laser).position;
+  const std::string position = kPositions.at(scan.laser);
   const std::string param = "PARAM robot_" + position + "laser_";
   std::string text = "# " + (scan.laser == 0 ? "" : position + ' ') + "laser on the robot: x " +
                      fixed_text(mount.x, 6) + " m, y " + fixed_text(mount.y, 6) + " m, yaw " +
@@ -54,8 +47,8 @@ std::string parameters(const LaserScan& scan) {
   text += "PARAM robot_" + position + "_laser_max " + shortest_text(scan.max_range_m) + '\n';
   if (scan.bearings_rad && scan.bearings_rad->size() > 1) {
     const std::size_t beams = scan.bearings_rad->size();
-    double first = degrees(static_cast<double>(scan.bearings_rad->front()));
-    double last = degrees(static_cast<double>(scan.bearings_rad->back()));
+    double first = static_cast<double>(scan.bearings_rad->front()) * (180 / M_PI);
+    double last = static_cast<double>(scan.bearings_rad->back()) * (180 / M_PI);
     if (runs_clockwise(scan)) std::swap(first, last);
     text += "# beams: " + std::to_string(beams) + ", from " + fixed_text(first, 4) + " to " +
             fixed_text(last, 4) + " degrees\n";
@@ -65,15 +58,15 @@ std::string parameters(const LaserScan& scan) {
   return text;
 }
 
-std::string heading(const std::vector<Frame>& log, const FrameSpan& drive) {
-  std::array<const LaserScan*, kKinds.size()> first{};
-  for (std::size_t i = drive.begin; i < drive.end; ++i)
+std::string heading(const std::vector<Frame>& log, const FrameSpan& run) {
+  std::array<const LaserScan*, kMessages.size()> first{};
+  for (std::size_t i = run.begin; i < run.end; ++i)
     for_each_scan(log[i], {}, [&](const LaserScan& scan, const TPose2D&) {
       if (scan.laser < first.size() && first[scan.laser] == nullptr) first[scan.laser] = &scan;
     });
   std::string text = "# corrected log: FLASER n ranges  x y theta (map)  odom_x odom_y odom_theta  ";
   text += "timestamp host logger_timestamp\n";
-  if (first[1] != nullptr) text += "# RLASER: the same of the second laser\n";
+  if (first[1] != nullptr) text += "# RLASER: the same fields for the second laser\n";
   for (const LaserScan* scan : first)
     if (scan != nullptr) text += parameters(*scan);
   return text;
@@ -85,10 +78,10 @@ void append_pose(std::string& line, const TPose2D& pose) {
 
 std::string scan_line(const LaserScan& scan, TimeUs time_us, const TPose2D& map_T_robot,
                       const TPose2D& odom_T_robot) {
-  if (scan.laser >= kKinds.size()) return {};
+  if (scan.laser >= kMessages.size()) return {};
   std::vector<float> ranges_m = scan.ranges_m;
   if (runs_clockwise(scan)) std::reverse(ranges_m.begin(), ranges_m.end());
-  std::string line = kKinds[scan.laser].message + ' ' + std::to_string(ranges_m.size());
+  std::string line = std::string(kMessages[scan.laser]) + ' ' + std::to_string(ranges_m.size());
   for (const float range_m : ranges_m)
     line += ' ' + shortest_text(std::isfinite(range_m) ? range_m : scan.max_range_m);
   append_pose(line, map_T_robot);
@@ -109,24 +102,20 @@ std::string scan_lines(const Frame& frame, const TPose2D& map_T_robot) {
 }  // namespace
 
 void write_corrected_log(const fs::path& path, const std::vector<Frame>& log,
-                         const std::vector<TPose2D>& map_T_robot) {
-  write_corrected_log(path, log, map_T_robot, {0, log.size()});
-}
-
-void write_corrected_log(const fs::path& path, const std::vector<Frame>& log,
-                         const std::vector<TPose2D>& map_T_robot, const FrameSpan& drive) {
+                         const std::vector<TPose2D>& map_T_robot, const std::optional<FrameSpan>& run) {
   if (log.size() != map_T_robot.size())
     throw std::invalid_argument("write_corrected_log: " + std::to_string(log.size()) + " scans but " +
                                 std::to_string(map_T_robot.size()) + " poses");
+  const FrameSpan span = run.value_or(FrameSpan{0, log.size()});
   write_atomically(path, [&](const fs::path& temporary) {
     errno = 0;
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    if (drive.begin < drive.end) file << heading(log, drive);
-    for (std::size_t i = drive.begin; i < drive.end && file; ++i) file << scan_lines(log[i], map_T_robot[i]);
+    if (span.begin < span.end) file << heading(log, span);
+    for (std::size_t i = span.begin; i < span.end && file; ++i) file << scan_lines(log[i], map_T_robot[i]);
     file.close();
     if (!file)
       throw SystemFailure("cannot write " + path.string() + ": " +
-                          (errno != 0 ? std::strerror(errno) : "the disk did not take it"));
+                          (errno != 0 ? std::strerror(errno) : "writing failed"));
   });
 }
 

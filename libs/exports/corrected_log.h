@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The corrected log: the log itself in CARMEN's text format with the mapped pose of every scan, as the tools
-// of the Freiburg benchmark read it.
+// The corrected log: the input log in CARMEN's text format with the mapped pose of each scan, as the tools of
+// the Freiburg benchmark read it.
 //
 //     FLASER n r1..rn  x y theta  odom_x odom_y odom_theta  timestamp host logger_timestamp
 //
-// Both poses are the robot's: the first in the map, the second raw odometry. A beam that returned nothing is
-// written as the sensor's maximum. FLASER has no room for the beams' bearings and the laser's mount: PARAM
-// lines at the top say the mount, and the bearings as far as CARMEN has names for them; a comment says them
-// whole. Ranges go counter-clockwise, also those of a laser that runs clockwise: who reads this log must not
-// set log.mirrored again. The second laser of a robot has RLASER lines, each with the poses of its own time;
-// CARMEN has no lines with poses for a third.
+// Both poses are the robot's: first in the map, then raw odometry. A beam without return is written as the
+// sensor's maximum range. The format has no room for bearings and mount: PARAM lines at the top give the
+// mount and the beam spacing, a comment the bearings. Ranges are always counter-clockwise, so log.mirrored
+// must not be set for this file. A second laser gets RLASER lines with the poses of its own time. CARMEN has
+// no message with poses for a third laser, so its scans are left out.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "psi_slam/frame.h"
@@ -22,13 +22,12 @@
 
 namespace psi_slam {
 
-/// Writes every scan of `log`, in its order, with the pose of the same index in `map_T_robot`; atomically.
-/// Throws std::invalid_argument when their counts differ, SystemFailure when it cannot be written.
+/// Writes the scans of `log` in their order, each with the pose of the same index in `map_T_robot`,
+/// atomically. With `run`, writes only that run: between runs odometry jumps and times decrease, which
+/// readers of CARMEN logs do not expect. Throws std::invalid_argument if the counts differ, SystemFailure if
+/// the file cannot be written.
 void write_corrected_log(const std::filesystem::path& path, const std::vector<Frame>& log,
-                         const std::vector<mrpt::math::TPose2D>& map_T_robot);
-/// Writes the scans of one drive alone. Of several drives odometry jumps and stamps run back from one to the
-/// next, which readers of CARMEN logs do not expect.
-void write_corrected_log(const std::filesystem::path& path, const std::vector<Frame>& log,
-                         const std::vector<mrpt::math::TPose2D>& map_T_robot, const FrameSpan& drive);
+                         const std::vector<mrpt::math::TPose2D>& map_T_robot,
+                         const std::optional<FrameSpan>& run = std::nullopt);
 
 }  // namespace psi_slam

@@ -27,19 +27,7 @@ using mrpt::maps::COccupancyGridMap2D;
 
 constexpr std::uint8_t kNotSeen = 255;
 
-/// What GDAL has to say becomes part of our sentences instead of lines on standard error.
-class QuietGdal {
- public:
-  QuietGdal() {
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-    CPLErrorReset();
-  }
-  ~QuietGdal() { CPLPopErrorHandler(); }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-};
-
-/// A file in memory, gone with its scope.
+/// Name and contents of a file in memory, deleted at the end of its scope.
 class MemoryFile {
  public:
   MemoryFile()
@@ -68,18 +56,20 @@ OGRSpatialReference spatial_reference(int epsg) {
     return system;
   }
   if (system.importFromEPSG(epsg) != OGRERR_NONE)
-    throw UserError(what + ": there is no such coordinate system");
+    throw UserError(what +
+                    ": no such coordinate system. Give the EPSG number of a projected system in metres");
   if (system.IsProjected() == 0 || std::abs(system.GetLinearUnits() - 1) > 1e-12)
-    throw UserError(what + " (" + system.GetName() + "): expected a projected system in metres, as UTM is");
+    throw UserError(what + " (" + system.GetName() +
+                    "): expected a projected coordinate system in metres, such as UTM");
   return system;
 }
 
-/// As map.yaml has it: MRPT keeps lengths as floats.
+/// The precision of map.yaml, since MRPT stores lengths as floats.
 double to_tenth_of_a_millimetre(float length_m) {
   return std::round(static_cast<double>(length_m) * 1e4) / 1e4;
 }
 
-/// From column and row, counted from the upper left corner, to easting and northing.
+/// GDAL's affine transform from column and row (from the upper left corner) to easting and northing.
 std::array<double, 6> geo_transform(const COccupancyGridMap2D& grid, const GeoReference& reference) {
   const double c = std::cos(reference.heading_rad);
   const double s = std::sin(reference.heading_rad);
@@ -126,9 +116,9 @@ bool write_to(const std::string& name, const COccupancyGridMap2D& grid, const Ge
   std::array<double, 6> transform = geo_transform(grid, reference);
   GDALRasterBand& band = *file->GetRasterBand(1);
   band.SetDescription("occupancy [percent]");
-  bool written = file->SetSpatialRef(&system) == CE_None &&
-                 file->SetGeoTransform(transform.data()) == CE_None &&
-                 band.SetNoDataValue(kNotSeen) == CE_None && write_rows(band, grid);
+  const bool written = file->SetSpatialRef(&system) == CE_None &&
+                       file->SetGeoTransform(transform.data()) == CE_None &&
+                       band.SetNoDataValue(kNotSeen) == CE_None && write_rows(band, grid);
   file->FlushCache(false);
   return written && CPLGetLastErrorType() < CE_Failure;
 }
@@ -136,16 +126,17 @@ bool write_to(const std::string& name, const COccupancyGridMap2D& grid, const Ge
 }  // namespace
 
 void check_epsg(int epsg) {
-  const QuietGdal quiet;
+  const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
   spatial_reference(epsg);
 }
 
 void write_geo_tiff(const std::filesystem::path& path, const COccupancyGridMap2D& grid,
                     const GeoReference& reference) {
-  const QuietGdal quiet;
+  const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
+  CPLErrorReset();
   const MemoryFile memory;
   if (!write_to(memory.name(), grid, reference))
-    throw SystemFailure("cannot make " + path.string() + ": " + CPLGetLastErrorMsg());
+    throw SystemFailure("cannot write " + path.string() + ": " + CPLGetLastErrorMsg());
   write_text_atomically(path, memory.bytes());
 }
 

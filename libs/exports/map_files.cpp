@@ -6,29 +6,22 @@
 #include <system_error>
 
 #include "base/atomic_file.h"
-#include "exports/map_dxf.h"
-#include "rendering/map_image.h"
+#include "exports/map_drawing_files.h"
 #include "exports/map_print.h"
 #include "exports/map_server_pair.h"
-#include "exports/map_svg.h"
 #include "exports/mrpt_maps.h"
+#include "rendering/map_image.h"
 
 namespace psi_slam {
 namespace {
 
 namespace fs = std::filesystem;
 
-void remove_if_there(const fs::path& file) {
-  std::error_code ignored;
-  fs::remove(file, ignored);
-}
-
 std::vector<std::vector<mrpt::math::TPose2D>> paths_of(const MappingResult& result) {
   std::vector<std::vector<mrpt::math::TPose2D>> paths;
-  for (const FrameSpan& drive : runs_of(result)) {
+  for (const FrameSpan& run : runs_of(result)) {
     paths.emplace_back();
-    for (std::size_t i = drive.begin; i < drive.end; ++i)
-      paths.back().push_back(result.frames[i].map_T_robot);
+    for (std::size_t i = run.begin; i < run.end; ++i) paths.back().push_back(result.frames[i].map_T_robot);
   }
   return paths;
 }
@@ -45,23 +38,26 @@ MapPrintOptions print_options(const MapFileOptions& options) {
 
 void write_map_files(const fs::path& folder, const MappingResult& result,
                      const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options) {
+  const auto remove = [&](const char* name) {
+    std::error_code ignored;
+    fs::remove(folder / name, ignored);
+  };
   const auto file = [&](bool wanted, const char* name, const std::function<void(const fs::path&)>& write) {
-    wanted ? write(folder / name) : remove_if_there(folder / name);
+    wanted ? write(folder / name) : remove(name);
   };
   file(options.png, "map.png", [&](const fs::path& path) { write_map_image(path, grid); });
   file(options.ros, "map.yaml", [&](const fs::path& path) { write_map_server_pair(path, grid); });
-  if (!options.ros) remove_if_there(folder / "map.pgm");
-  file(options.mrpt, "map.gridmap.gz", [&](const fs::path& path) { write_grid_map(path, grid); });
+  if (!options.ros) remove("map.pgm");
+  file(options.mrpt, "map.gridmap.gz", [&](const fs::path& path) { write_mrpt_map(path, grid); });
   file(options.mrpt, "map.simplemap.gz",
-       [&](const fs::path& path) { write_simple_map(path, simple_map(result)); });
+       [&](const fs::path& path) { write_mrpt_map(path, simple_map(result)); });
   MapDrawing drawing;
   if (options.svg || options.dxf) drawing = draw_map_lines(grid, paths_of(result), options.lines);
   file(options.svg, "map.svg",
        [&](const fs::path& path) { write_text_atomically(path, map_svg(drawing, options.print_scale)); });
   file(options.dxf, "map.dxf", [&](const fs::path& path) { write_text_atomically(path, map_dxf(drawing)); });
-  file(options.print, "map_print.png", [&](const fs::path& path) {
-    write_text_atomically(path, print_map(grid, print_options(options)).png);
-  });
+  file(options.print, "map_print.png",
+       [&](const fs::path& path) { write_text_atomically(path, print_map(grid, print_options(options))); });
   file(options.geotiff, "map.tif", [&](const fs::path& path) { write_geo_tiff(path, grid, options.earth); });
 }
 

@@ -8,15 +8,15 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "rendering/picture_ink.h"
-#include "rendering/map_image.h"
 #include "base/number_text.h"
+#include "rendering/map_image.h"
+#include "rendering/picture_ink.h"
 
 namespace psi_slam {
 namespace {
 
 constexpr double kMetresPerInch = 0.0254;
-constexpr double kFooter_mm = 14;  // of paper
+constexpr double kFooter_mm = 14;  // of paper, height of the strip below the map
 
 std::string big_endian(std::uint32_t number) {
   std::string bytes;
@@ -24,7 +24,7 @@ std::string big_endian(std::uint32_t number) {
   return bytes;
 }
 
-/// The file with the chunk pHYs behind its header: so many pixels a metre of paper.
+/// Inserts the chunk pHYs (pixels per metre of paper) after the header of a PNG file.
 std::string with_resolution(std::string png, double pixels_per_metre) {
   constexpr std::size_t kHeaderEnd = 8 + 25;  // the signature and the chunk IHDR
   const std::string pixels = big_endian(static_cast<std::uint32_t>(std::lround(pixels_per_metre)));
@@ -34,7 +34,7 @@ std::string with_resolution(std::string png, double pixels_per_metre) {
   return png.insert(kHeaderEnd, big_endian(9) + chunk + big_endian(checksum));
 }
 
-/// As many as were asked for, or as fit.
+/// The dots per inch asked for, or fewer if the picture would exceed max_pixels.
 int dpi_that_fits(const MapRaster& raster, const MapPrintOptions& options) {
   const double area_m2 = raster.width_px * raster.resolution_m * raster.height_px * raster.resolution_m;
   const double inches = area_m2 / std::pow(options.scale * kMetresPerInch, 2);
@@ -42,18 +42,14 @@ int dpi_that_fits(const MapRaster& raster, const MapPrintOptions& options) {
   return std::max(1, static_cast<int>(std::min<double>(options.dpi, dpi)));
 }
 
-struct Arrow {
-  cv::Point2d from;
-  double length = 0;
-  double direction_rad = 0;  // counter-clockwise from the right
-};
-
-void draw_arrow(cv::Mat& image, const Arrow& arrow, const std::string& name, double px_per_mm) {
+/// Draws an arrow in a direction counter-clockwise from the x axis, with its name at the tip.
+void draw_arrow(cv::Mat& image, const cv::Point2d& from, double length, double direction_rad,
+                const std::string& name, double px_per_mm) {
   const cv::Scalar ink = scalar_of(kWallInk);
-  const cv::Point2d direction(std::cos(arrow.direction_rad), -std::sin(arrow.direction_rad));
-  const cv::Point2d tip = arrow.from + arrow.length * direction;
+  const cv::Point2d direction(std::cos(direction_rad), -std::sin(direction_rad));
+  const cv::Point2d tip = from + length * direction;
   const int thick = std::max(1, static_cast<int>(std::lround(0.3 * px_per_mm)));
-  cv::arrowedLine(image, arrow.from, tip, ink, thick, cv::LINE_AA, 0, 0.25);
+  cv::arrowedLine(image, from, tip, ink, thick, cv::LINE_AA, 0, 0.25);
   const double font_scale = px_per_mm * 2.5 / 21;  // FONT_HERSHEY_DUPLEX has capitals 21 pixels high
   const cv::Size size = cv::getTextSize(name, cv::FONT_HERSHEY_DUPLEX, font_scale, thick, nullptr);
   const cv::Point2d middle = tip + 2.8 * px_per_mm * direction;
@@ -61,7 +57,7 @@ void draw_arrow(cv::Mat& image, const Arrow& arrow, const std::string& name, dou
               cv::FONT_HERSHEY_DUPLEX, font_scale, ink, thick, cv::LINE_AA);
 }
 
-/// The strip below the map: the scale bar on the left, the axes and north on the right.
+/// Adds the strip below the map: scale bar on the left, north and axes on the right.
 void add_footer(cv::Mat& image, const MapPrintOptions& options, double pixels_a_m, double px_per_mm) {
   const int top = image.rows;
   cv::copyMakeBorder(image, image, 0, static_cast<int>(std::lround(kFooter_mm * px_per_mm)), 0, 0,
@@ -71,45 +67,37 @@ void add_footer(cv::Mat& image, const MapPrintOptions& options, double pixels_a_
   draw_scale_bar(image, {unit, middle, unit}, scale_bar_m(image.cols / pixels_a_m, 1 / pixels_a_m),
                  1 / pixels_a_m, "  1:" + shortest_text(static_cast<float>(options.scale)));
   const cv::Point2d corner(image.cols - 12 * px_per_mm, top + 11 * px_per_mm);
-  draw_arrow(image, {corner, 6 * px_per_mm, 0}, "x", px_per_mm);
-  draw_arrow(image, {corner, 6 * px_per_mm, M_PI / 2}, "y", px_per_mm);
+  draw_arrow(image, corner, 6 * px_per_mm, 0, "x", px_per_mm);
+  draw_arrow(image, corner, 6 * px_per_mm, M_PI / 2, "y", px_per_mm);
   if (options.north_rad) {
     const double length = 5 * px_per_mm;
     const cv::Point2d half(std::cos(*options.north_rad) * length / 2,
                            -std::sin(*options.north_rad) * length / 2);
     const cv::Point2d centre(image.cols - 24 * px_per_mm, top + 7 * px_per_mm);
-    draw_arrow(image, {centre - half, length, *options.north_rad}, "N", px_per_mm);
+    draw_arrow(image, centre - half, length, *options.north_rad, "N", px_per_mm);
   }
 }
 
 }  // namespace
 
-MapPrint print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapPrintOptions& options) {
+std::string print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapPrintOptions& options) {
   MapPictureOptions whole;
   whole.max_side_px = std::numeric_limits<int>::max() / 2;
   MapRaster raster = map_raster(grid, whole);
-  MapPrint print;
-  print.dpi = dpi_that_fits(raster, options);
-  const double paper_pixels_a_m = print.dpi / kMetresPerInch;
-  print.pixels_a_m = paper_pixels_a_m / options.scale;
+  const double paper_pixels_a_m = dpi_that_fits(raster, options) / kMetresPerInch;
+  const double pixels_a_m = paper_pixels_a_m / options.scale;
   const auto pixels = [&](int cells) {
-    return std::max(1, static_cast<int>(std::lround(cells * raster.resolution_m * print.pixels_a_m)));
+    return std::max(1, static_cast<int>(std::lround(cells * raster.resolution_m * pixels_a_m)));
   };
-  if (print.pixels_a_m * raster.resolution_m < 1) {  // walls one cell thin stay to be seen
+  if (pixels_a_m * raster.resolution_m < 1) {  // reduced by map_raster, walls of one cell stay visible
     whole.max_side_px = pixels(std::max(raster.width_px, raster.height_px));
     raster = map_raster(grid, whole);
   }
   cv::Mat image(raster.height_px, raster.width_px, CV_8UC4, raster.pixels.data());
   cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
   cv::resize(image, image, {pixels(raster.width_px), pixels(raster.height_px)}, 0, 0, cv::INTER_NEAREST);
-  print.map_height_px = image.rows;
-  add_footer(image, options, print.pixels_a_m, paper_pixels_a_m / 1000);
-  print.png = with_resolution(png_bytes(image), paper_pixels_a_m);
-  print.width_px = image.cols;
-  print.height_px = image.rows;
-  print.x_min_m = raster.x_min_m;
-  print.y_max_m = raster.y_max_m;
-  return print;
+  add_footer(image, options, pixels_a_m, paper_pixels_a_m / 1000);
+  return with_resolution(png_bytes(image), paper_pixels_a_m);
 }
 
 }  // namespace psi_slam

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gridmap as a picture that prints true to scale: a PNG file that says how many of its pixels make a
-// metre of paper.
+// The grid map as a PNG picture that prints true to scale: the file states its pixels per metre of paper.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -12,26 +11,16 @@
 namespace psi_slam {
 
 struct MapPrintOptions {
-  double scale = 100;  ///< a metre of paper shows so many metres
-  int dpi = 300;       ///< pixels an inch of paper
-  /// A larger picture gets fewer pixels an inch, at the same scale: it shall not exhaust the memory.
+  double scale = 100;  ///< one metre of paper shows this many metres of the map
+  int dpi = 300;       ///< pixels per inch of paper
+  /// Limit of the picture's size, so that it does not exhaust the memory. A larger picture gets fewer pixels
+  /// per inch at the same scale.
   std::size_t max_pixels = 150'000'000;
-  /// The direction of north in the map, where it is known, counter-clockwise from the x axis.
-  std::optional<double> north_rad;
+  std::optional<double> north_rad;  ///< direction of north in the map, counter-clockwise from the x axis
 };
 
-struct MapPrint {
-  std::string png;
-  int dpi = 0;            ///< as written
-  double pixels_a_m = 0;  ///< of the building
-  int map_height_px = 0;  ///< the map; the strip with scale bar and axes is below it
-  int width_px = 0;
-  int height_px = 0;
-  double x_min_m = 0;  ///< of the picture's upper left corner, in the map
-  double y_max_m = 0;
-};
-
-/// The part of the grid that was seen. The same grid gives the same bytes.
-MapPrint print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapPrintOptions& options = {});
+/// Returns the contents of the PNG file: the part of the grid that was seen, and below it a strip with scale
+/// bar, axes and north. Equal grids give equal bytes. Throws SystemFailure if the picture cannot be encoded.
+std::string print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapPrintOptions& options = {});
 
 }  // namespace psi_slam

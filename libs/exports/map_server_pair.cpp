@@ -15,7 +15,7 @@ using mrpt::maps::COccupancyGridMap2D;
 constexpr char kOccupied = '\0';
 constexpr char kFree = static_cast<char>(254);
 constexpr char kUnknown = static_cast<char>(205);
-constexpr float kOccupiedThreshold = 0.65F;  // of the probability of being occupied
+constexpr float kOccupiedThreshold = 0.65F;  // probability that the cell is occupied
 constexpr float kFreeThreshold = 0.196F;
 
 std::string pgm_bytes(const COccupancyGridMap2D& grid) {
@@ -35,14 +35,13 @@ std::string pgm_bytes(const COccupancyGridMap2D& grid) {
   return bytes;
 }
 
-/// MRPT keeps lengths as floats: a tenth of a millimetre is what they hold in a map of a kilometre.
+/// MRPT stores lengths as floats, which resolve a tenth of a millimetre in a map of one kilometre.
 std::string metres(float length) {
-  std::string text = fixed_text(static_cast<double>(length), 4);
-  text.erase(text.find_last_not_of('0') + 1);
-  return text.back() == '.' ? text + '0' : text;
+  const std::string text = trimmed_text(static_cast<double>(length), 4);
+  return text.find('.') == std::string::npos ? text + ".0" : text;
 }
 
-/// As a YAML scalar: a plain one where nothing in it can be taken for YAML, else quoted.
+/// Quotes the text unless it is certain to be a plain YAML scalar.
 std::string yaml_scalar(const std::string& text) {
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
   if (text.find_first_not_of(kPlain) == std::string::npos && text[0] != '-') return text;
@@ -52,18 +51,9 @@ std::string yaml_scalar(const std::string& text) {
 }
 
 std::string yaml_text(const std::string& image, const COccupancyGridMap2D& grid) {
-  return "image: " + yaml_scalar(image) +
-         "\n"
-         "resolution: " +
-         shortest_text(grid.getResolution()) +
-         "\n"
-         "origin: [" +
-         metres(grid.getXMin()) + ", " + metres(grid.getYMin()) +
-         ", 0.0]\n"
-         "negate: 0\n"
-         "occupied_thresh: 0.65\n"
-         "free_thresh: 0.196\n"
-         "mode: trinary\n";
+  return "image: " + yaml_scalar(image) + "\nresolution: " + shortest_text(grid.getResolution()) +
+         "\norigin: [" + metres(grid.getXMin()) + ", " + metres(grid.getYMin()) +
+         ", 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\nmode: trinary\n";
 }
 
 }  // namespace

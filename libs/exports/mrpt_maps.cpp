@@ -6,24 +6,11 @@
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include "compression/gzip_file.h"
 #include "base/atomic_file.h"
-#include "observations/range_observation.h"
+#include "compression/compression.h"
+#include "observations/mrpt_objects.h"
 
 namespace psi_slam {
-namespace {
-
-void write_serialized(const std::filesystem::path& path, const mrpt::serialization::CSerializable& object) {
-  constexpr std::size_t kGrowByBytes = 1 << 22;
-  mrpt::io::CMemoryStream stream;
-  stream.setAllocBlockSize(kGrowByBytes);
-  auto archive = mrpt::serialization::archiveFrom(stream);
-  archive << object;
-  write_text_atomically(path, gzipped(stream.getRawBufferData(), stream.getTotalBytesCount()));
-}
-
-}  // namespace
-
 mrpt::maps::CSimpleMap simple_map(const MappingResult& result) {
   mrpt::math::CMatrixDouble33 covariance = mrpt::math::CMatrixDouble33::Zero();
   covariance.setDiagonal(3, 1e-6);
@@ -38,12 +25,13 @@ mrpt::maps::CSimpleMap simple_map(const MappingResult& result) {
   return map;
 }
 
-void write_simple_map(const std::filesystem::path& path, const mrpt::maps::CSimpleMap& map) {
-  write_serialized(path, map);
-}
-
-void write_grid_map(const std::filesystem::path& path, const mrpt::maps::COccupancyGridMap2D& grid) {
-  write_serialized(path, grid);
+void write_mrpt_map(const std::filesystem::path& path, const mrpt::serialization::CSerializable& map) {
+  constexpr std::size_t kGrowByBytes = 1 << 22;
+  mrpt::io::CMemoryStream stream;
+  stream.setAllocBlockSize(kGrowByBytes);
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << map;
+  write_text_atomically(path, gzipped(stream.getRawBufferData(), stream.getTotalBytesCount()));
 }
 
 }  // namespace psi_slam

@@ -5,22 +5,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "rendering/map_image.h"
 #include "base/number_text.h"
+#include "rendering/map_drawing.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
+using Json = nlohmann::ordered_json;
 
-/// Its stamps, its time and its way: drives may overlap in time, and lie anywhere for all that odometry says.
-void add_run(const std::vector<Frame>& log, const FrameSpan& drive, MappedLogFacts& facts) {
-  TimeUs first_us = log[drive.begin].time_us;
+/// Adds times, duration and odometry of one run. Runs may overlap in time, and odometry jumps between them.
+void add_run(const std::vector<Frame>& log, const FrameSpan& run, MappedLogFacts& facts) {
+  TimeUs first_us = log[run.begin].time_us;
   TimeUs last_us = first_us;
   TimeUs previous_us = first_us;
   std::vector<TPose2D> odometry;
-  for (std::size_t i = drive.begin; i < drive.end; ++i) {
+  for (std::size_t i = run.begin; i < run.end; ++i) {
     const TimeUs time_us = log[i].time_us;
     first_us = std::min(first_us, time_us);
     last_us = std::max(last_us, time_us);
@@ -57,34 +59,17 @@ MappedLogFacts log_facts(const MappingResult& result) {
     });
   }
   facts.returns = beams == 0 ? 0 : static_cast<double>(returns) / static_cast<double>(beams);
-  for (const FrameSpan& drive : runs_of(result)) add_run(result.log, drive, facts);
+  for (const FrameSpan& run : runs_of(result)) add_run(result.log, run, facts);
   return facts;
-}
-
-/// "response 0.41 is below 0.55" -> "response … is below …".
-std::string without_figures(const std::string& reason) {
-  std::string text;
-  for (std::size_t i = 0; i < reason.size();) {
-    const auto is_digit = [&](std::size_t at) {
-      return at < reason.size() && reason[at] >= '0' && reason[at] <= '9';
-    };
-    if (!is_digit(i)) {
-      text += reason[i++];
-      continue;
-    }
-    while (is_digit(i) || (i < reason.size() && reason[i] == '.' && is_digit(i + 1))) ++i;
-    text += "…";
-  }
-  return text;
 }
 
 LoopCounts loop_counts(const MappingResult& result) {
   LoopCounts counts;
-  for (const auto& [name, matcher] : result.loop_matchers) {
+  for (const auto& [kind, matcher] : result.loop_matchers) {
     counts.tried += matcher.effort.attempts;
     counts.found += matcher.effort.found;
   }
-  std::map<std::string, std::size_t> reasons;
+  std::map<LoopRefusal::Reason, std::size_t> reasons;
   for (const LoopRecord& loop : result.loops) {
     counts.by_hand += loop.by_hand ? 1 : 0;
     if (loop.verdict == LoopVerdict::kNotFound) continue;
@@ -95,7 +80,7 @@ LoopCounts loop_counts(const MappingResult& result) {
     }
     if (loop.verdict == LoopVerdict::kDeleted) continue;
     ++(loop.verdict == LoopVerdict::kSwitchedOff ? counts.switched_off : counts.refused);
-    ++reasons[without_figures(loop.reason.empty() ? "no reason given" : loop.reason)];
+    if (loop.refusal) ++reasons[loop.refusal->reason];
   }
   for (const auto& [reason, count] : reasons) counts.reasons.push_back({reason, count});
   std::stable_sort(counts.reasons.begin(), counts.reasons.end(),
@@ -103,19 +88,100 @@ LoopCounts loop_counts(const MappingResult& result) {
   return counts;
 }
 
-MapExtent map_extent(const mrpt::maps::COccupancyGridMap2D& grid) {
+MapExtent map_extent(const mrpt::maps::COccupancyGridMap2D& grid, double asked_resolution_m) {
   const SeenCells seen = seen_cells(grid);
+  const DrawingExtent part = seen_extent(grid, seen);
   const auto cell_m = static_cast<double>(grid.getResolution());
-  const auto x_min = static_cast<double>(grid.getXMin());
-  const auto y_min = static_cast<double>(grid.getYMin());
-  MapExtent extent;
-  extent.x_min_m = x_min + seen.x_begin * cell_m;
-  extent.x_max_m = x_min + seen.x_end * cell_m;
-  extent.y_min_m = y_min + seen.y_begin * cell_m;
-  extent.y_max_m = y_min + seen.y_end * cell_m;
-  extent.resolution_m = cell_m;
-  extent.free_m2 = static_cast<double>(seen.free) * cell_m * cell_m;
-  return extent;
+  return {part.x_min_m,
+          part.y_min_m,
+          part.x_max_m,
+          part.y_max_m,
+          cell_m,
+          asked_resolution_m,
+          static_cast<double>(seen.free) * cell_m * cell_m};
+}
+
+/// Rounds to a readable number of decimals. Null if the value is not finite.
+Json number(double value, int decimals = 6) {
+  if (!std::isfinite(value)) return nullptr;
+  const double scale = std::pow(10.0, decimals);
+  const double rounded = std::round(value * scale) / scale;
+  return std::isfinite(rounded) ? rounded : value;
+}
+
+Json log_json(const MappedLogFacts& log, const std::string& name) {
+  const TPose2D& mount = log.robot_T_laser;
+  return {{"name", name},
+          {"scans", log.scans},
+          {"beams", log.beams},
+          {"first_bearing_rad", number(log.first_bearing_rad)},
+          {"last_bearing_rad", number(log.last_bearing_rad)},
+          {"max_range_m", number(log.max_range_m, 3)},
+          {"robot_T_laser", {number(mount.x), number(mount.y), number(mount.phi)}},
+          {"returns", number(log.returns, 4)},
+          {"companion_scans", log.companion_scans},
+          {"spare_scans", log.spare_scans},
+          {"first_time_s", format_seconds(log.first_time_us)},
+          {"last_time_s", format_seconds(log.last_time_us)},
+          {"duration_s", number(log.duration_s)},
+          {"stamps_back", log.stamps_back},
+          {"odometry_length_m", number(log.odometry_length_m, 3)}};
+}
+
+Json map_json(const MapExtent& map) {
+  return {{"resolution_m", number(map.resolution_m)}, {"asked_resolution_m", number(map.asked_resolution_m)},
+          {"x_min_m", number(map.x_min_m, 3)},        {"y_min_m", number(map.y_min_m, 3)},
+          {"x_max_m", number(map.x_max_m, 3)},        {"y_max_m", number(map.y_max_m, 3)},
+          {"free_m2", number(map.free_m2, 2)}};
+}
+
+Json loop_counts_json(const LoopCounts& loops) {
+  Json reasons = Json::array();
+  for (const ReasonCount& reason : loops.reasons)
+    reasons.push_back({{"reason", text_of(reason.reason)}, {"count", reason.count}});
+  return {{"tried", loops.tried},       {"found", loops.found},
+          {"accepted", loops.accepted}, {"accepted_in_last_pass", loops.accepted_in_final_search},
+          {"refused", loops.refused},   {"switched_off", loops.switched_off},
+          {"by_hand", loops.by_hand},   {"reasons", reasons}};
+}
+
+Json effort_json(const LoopEffort& effort, std::size_t accepted) {
+  return {{"attempts", effort.attempts},
+          {"found", effort.found},
+          {"accepted", accepted},
+          {"evaluations", effort.evaluations},
+          {"milliseconds", number(effort.milliseconds, 3)}};
+}
+
+Json loop_matchers_json(const std::map<MatcherKind, LoopMatcherRecord>& matchers) {
+  Json list = Json::array();
+  for (const auto& [kind, matcher] : matchers) {
+    Json entry = {{"matcher", name(kind)}};
+    entry.update(effort_json(matcher.effort, matcher.accepted));
+    entry["last_pass"] = effort_json(matcher.final_search_effort, matcher.accepted_in_final_search);
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json stages_json(const std::vector<StageTiming>& stages) {
+  Json list = Json::array();
+  for (const StageTiming& stage : stages)
+    list.push_back({{"name", stage.name},
+                    {"calls", stage.calls},
+                    {"mean_ms", number(stage.mean_ms)},
+                    {"std_ms", number(stage.std_ms)},
+                    {"min_ms", number(stage.min_ms)},
+                    {"max_ms", number(stage.max_ms)},
+                    {"total_s", number(stage.total_s)}});
+  return list;
+}
+
+Json runs_json(const std::vector<FrameSpan>& runs) {
+  Json list = Json::array();
+  for (const FrameSpan& run : runs)
+    list.push_back({{"first_scan", run.begin}, {"scans", run.end - run.begin}});
+  return list;
 }
 
 }  // namespace
@@ -151,20 +217,19 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
     summary.mean_response += frame.response;
     matched += frame.response > 0 ? 1 : 0;
   }
-  for (const auto& [name, matcher] : result.loop_matchers)
+  for (const auto& [kind, matcher] : result.loop_matchers)
     summary.evaluations += matcher.final_search_effort.evaluations;
   if (matched > 0) summary.mean_response /= static_cast<double>(matched);
-  for (const FrameSpan& drive : summary.runs) {
+  for (const FrameSpan& run : summary.runs) {
     std::vector<TPose2D> poses;
-    for (std::size_t i = drive.begin; i < drive.end; ++i) poses.push_back(result.frames[i].map_T_robot);
+    for (std::size_t i = run.begin; i < run.end; ++i) poses.push_back(result.frames[i].map_T_robot);
     summary.path_length_m += path_length_m(poses);
   }
   summary.nodes = result.graph.num_nodes();
   summary.edges = result.graph.num_enabled_constraints();
   summary.local_maps = result.local_maps.size();
   summary.loops = loop_counts(result);
-  summary.map = map_extent(grid);
-  summary.map.asked_resolution_m = asked.resolution_m;
+  summary.map = map_extent(grid, asked.resolution_m);
   summary.wall_s = result.wall_s;
   if (result.wall_s > 0) summary.real_time_factor = summary.log.duration_s / result.wall_s;
   summary.peak_memory_mib = peak_memory_mib();
@@ -175,10 +240,39 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
 }
 
 std::optional<std::string> coarser_cells_text(const MapExtent& map) {
-  if (map.resolution_m < 1.5 * map.asked_resolution_m) return std::nullopt;  // it is doubled at least
+  if (map.resolution_m < 1.5 * map.asked_resolution_m)
+    return std::nullopt;  // larger cells are at least twice as large
   const auto metres = [](double value) { return shortest_text(static_cast<float>(value)) + " m"; };
-  return "map.max_cells leaves no room for cells of " + metres(map.asked_resolution_m) +
-         ": those of the map are " + metres(map.resolution_m);
+  return "map.max_cells limits the map to cells of " + metres(map.resolution_m) + " instead of " +
+         metres(map.asked_resolution_m);
+}
+
+std::string summary_json(const MappingResult& result, const RunInfo& info, const RunSummary& summary) {
+  Json json = {{"schema", "psi-slam-summary"},
+               {"schema_version", kSummarySchemaVersion},
+               {"program_version", info.program_version},
+               {"interrupted", summary.interrupted},
+               {"warnings", info.warnings},
+               {"last_pass_cut_short", summary.final_search_cut_short},
+               {"broken_off", summary.broken_off ? Json(*summary.broken_off) : Json(nullptr)},
+               {"log", log_json(summary.log, info.log_name)},
+               {"path_length_m", number(summary.path_length_m, 3)},
+               {"nodes", summary.nodes},
+               {"edges", summary.edges},
+               {"local_maps", summary.local_maps},
+               {"mean_response", number(summary.mean_response, 4)},
+               {"evaluations", summary.evaluations},
+               {"map", map_json(summary.map)},
+               {"wall_s", number(summary.wall_s)},
+               {"real_time_factor", number(summary.real_time_factor, 3)},
+               {"peak_memory_mib", number(summary.peak_memory_mib, 1)},
+               {"stages", stages_json(result.stages)},
+               {"loop_counts", loop_counts_json(summary.loops)},
+               {"loop_matchers", loop_matchers_json(result.loop_matchers)},
+               {"settings", info.settings}};
+  if (summary.runs.size() > 1) json["drives"] = runs_json(summary.runs);
+  // Names and warnings may hold bytes of the user's files that are not UTF-8.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace psi_slam

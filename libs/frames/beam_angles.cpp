@@ -70,8 +70,8 @@ BeamAngles usual_beam_angles(std::size_t beams) {
 std::vector<float> make_bearings_rad(BeamAngles angles, std::size_t beams, double field_of_view_rad) {
   if (angles == BeamAngles::kAuto) angles = usual_beam_angles(beams);
   if (angles == BeamAngles::kSkipZero && beams % 2 != 0) {
-    throw UserError("beam angles skip_zero need an even number of beams, and the scans have " +
-                    std::to_string(beams));
+    throw UserError("log.beam_angles is skip_zero, which needs an even number of beams, but the scans have " +
+                    std::to_string(beams) + ". Choose another convention");
   }
   const bool inclusive = angles == BeamAngles::kCentredStepInclusive;
   const double steps = static_cast<double>(inclusive ? beams - 1 : beams);

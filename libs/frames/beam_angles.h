@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bearings of beams whose log does not state them. CARMEN's FLASER lines carry only a count, and public
-// readers disagree about half of the counts; a wrong guess of one degree bends every turn, so the choice is
-// the user's to make (and to measure: see beam_angle_study.h).
+// Bearings of beams for logs that do not state them. FLASER lines of CARMEN carry only a number of beams, and
+// public readers disagree about half of the numbers. An error of one degree bends every turn of the map, so
+// the user chooses the convention. `psi-slam check` measures which one fits: see beam_angle_study.h.
 #pragma once
 
 #include <cstddef>
@@ -9,35 +9,28 @@
 #include <string_view>
 #include <vector>
 
+#include "psi_slam/log_options.h"
+
 namespace psi_slam {
 
-/// How n beams share a field of view F; bearings run counter-clockwise from the right.
-enum class BeamAngles {
-  kAuto,                  ///< what the log states, else `usual_beam_angles(n)`
-  kCentredStepInclusive,  ///< -F/2 ... +F/2 in steps F/(n-1): a beam on either end
-  kCentredHalfStep,       ///< -F/2 + s/2 ... +F/2 - s/2 in steps s = F/n (180 beams: -89.5 ... +89.5 degrees)
-  kLeftOpen,              ///< -F/2 ... +F/2 - s in steps s = F/n (180 beams: -90 ... +89 degrees)
-  kSkipZero,              ///< as kLeftOpen without the beam at 0 (180 beams: -90 ... -1, +1 ... +90 degrees)
-};
-
-/// All conventions but kAuto.
+/// All conventions except kAuto.
 const std::vector<BeamAngles>& stated_beam_angles();
 
-/// The name in configuration files: "auto", "centred_step_inclusive", "centred_half_step", "left_open",
+/// Name in configuration files: "auto", "centred_step_inclusive", "centred_half_step", "left_open",
 /// "skip_zero".
 std::string_view name_of(BeamAngles angles);
 std::optional<BeamAngles> beam_angles_named(std::string_view name);
 
-/// The field of view that this many beams usually span, radians: 180 and 181 beams, 360 and 361 beams: 180
-/// degrees; 540 and 541: 270; 682, 683 and 769: steps of 360/1024 degrees. None for other counts.
+/// Usual field of view for a number of beams, radians. 180, 181, 360 and 361 beams: 180 degrees; 540 and 541:
+/// 270 degrees; 682, 683 and 769: steps of 360/1024 degrees. Nothing for other numbers.
 std::optional<double> usual_field_of_view_rad(std::size_t beams);
 
-/// What kAuto stands for when the log states no angles: kLeftOpen for 180, 360 and 540 beams, which lack one
-/// beam to span their field of view in whole or half degrees; kCentredStepInclusive for every other count.
+/// Convention that kAuto selects if the log states no angles. 180, 360 and 540 beams: kLeftOpen, since one
+/// more beam would span the field of view in whole or half degrees. Other numbers: kCentredStepInclusive.
 BeamAngles usual_beam_angles(std::size_t beams);
 
-/// One bearing a beam, radians. Needs beams > 0 and a field of view in (0, 2 pi]; an odd count has no
-/// kSkipZero: UserError.
+/// Returns one bearing for each beam, radians. Requires beams > 0 and a field of view in (0, 2 pi]. Throws
+/// UserError for kSkipZero with an odd number of beams.
 std::vector<float> make_bearings_rad(BeamAngles angles, std::size_t beams, double field_of_view_rad);
 
 }  // namespace psi_slam

@@ -9,16 +9,17 @@
 #include <utility>
 #include <vector>
 
+#include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
-#include "frames/odometry_interpolator.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kMostBetweenScans_s = 1.0;
-constexpr double kMostSweeps = 1.5;  // of the time between two scans: beyond, the sweep's time is wrong
+constexpr double kMaxBetweenScans_s = 1.0;
+// Largest ratio of the sweep time to the time between two scans. A larger sweep time is wrong.
+constexpr double kMaxSweepRatio = 1.5;
 
 }  // namespace
 
@@ -26,7 +27,7 @@ LaserScan deskewed(const LaserScan& scan, const TPose2D& motion) {
   LaserScan still = scan;
   still.sweep_time_s = 0;
   std::vector<float> bearings = *scan.bearings_rad;
-  const TPose2D laser_T_robot = TPose2D{0, 0, 0} - scan.robot_T_laser;
+  const TPose2D laser_T_robot = inverse(scan.robot_T_laser);
   const double last = static_cast<double>(bearings.size() - 1);
   for (std::size_t i = 1; i < bearings.size(); ++i) {
     const TPose2D moved = interpolate({0, 0, 0}, motion, static_cast<double>(i) / last);
@@ -37,7 +38,7 @@ LaserScan deskewed(const LaserScan& scan, const TPose2D& motion) {
       const double x = first_T_laser.x + range * std::cos(bearing + first_T_laser.phi);
       const double y = first_T_laser.y + range * std::sin(bearing + first_T_laser.phi);
       still.ranges_m[i] = static_cast<float>(std::hypot(x, y));
-      turned = mrpt::math::wrapToPi(std::atan2(y, x) - bearing);  // bearings run on beyond pi
+      turned = mrpt::math::wrapToPi(std::atan2(y, x) - bearing);  // bearings may exceed pi
     }
     bearings[i] = static_cast<float>(bearing + turned);
   }
@@ -50,8 +51,8 @@ DeskewedSource::DeskewedSource(std::unique_ptr<FrameSource> source, std::optiona
 
 std::optional<TPose2D> DeskewedSource::motion_between(const Mark& from, const Mark& to, double time_s) {
   const double apart_s = seconds(to.time_us - from.time_us);
-  if (!from.has_odometry || !to.has_odometry || !(apart_s > 0) || apart_s > kMostBetweenScans_s ||
-      time_s > kMostSweeps * apart_s)
+  if (!from.has_odometry || !to.has_odometry || !(apart_s > 0) || apart_s > kMaxBetweenScans_s ||
+      time_s > kMaxSweepRatio * apart_s)
     return std::nullopt;
   return interpolate({0, 0, 0}, to.odom_T_robot - from.odom_T_robot, time_s / apart_s);
 }
@@ -64,19 +65,19 @@ DeskewedSource::Marks DeskewedSource::marks_of(const Frame& frame) {
   return marks;
 }
 
-/// The mark of the same laser, else of the first of the frame.
+/// Mark of the same laser; if there is none, the first mark of the frame.
 const DeskewedSource::Mark& DeskewedSource::mark_like(const Mark& mark, const Marks& marks) {
   const auto same =
       std::find_if(marks.begin(), marks.end(), [&](const Mark& other) { return other.laser == mark.laser; });
   return same != marks.end() ? *same : marks.front();
 }
 
-void DeskewedSource::straighten(LaserScan& scan, const Mark& mark, const Marks& behind) const {
+void DeskewedSource::straighten(LaserScan& scan, const Mark& mark, const Marks& next_marks) const {
   const double sweep_s = sweep_time_s_.value_or(static_cast<double>(scan.sweep_time_s));
   if (!(sweep_s > 0) || scan.ranges_m.size() < 2) return;
   std::optional<TPose2D> motion;
-  if (!behind.empty()) motion = motion_between(mark, mark_like(mark, behind), sweep_s);
-  if (!motion && !before_.empty()) motion = motion_between(mark_like(mark, before_), mark, sweep_s);
+  if (!next_marks.empty()) motion = motion_between(mark, mark_like(mark, next_marks), sweep_s);
+  if (!motion && !last_marks_.empty()) motion = motion_between(mark_like(mark, last_marks_), mark, sweep_s);
   const bool moves = motion && !(*motion == TPose2D{0, 0, 0});
   if (moves) scan = deskewed(scan, *motion);
 }
@@ -99,11 +100,11 @@ std::optional<Frame> DeskewedSource::next() {
   std::optional<Frame> frame = std::move(ahead_);
   ahead_ = read_ahead();
   Marks marks = marks_of(*frame);
-  const Marks behind = ahead_ ? marks_of(*ahead_) : Marks{};
-  straighten(frame->scan, marks[0], behind);
+  const Marks next_marks = ahead_ ? marks_of(*ahead_) : Marks{};
+  straighten(frame->scan, marks[0], next_marks);
   for (std::size_t i = 0; i < frame->companions.size(); ++i)
-    straighten(frame->companions[i].scan, marks[i + 1], behind);
-  before_ = std::move(marks);
+    straighten(frame->companions[i].scan, marks[i + 1], next_marks);
+  last_marks_ = std::move(marks);
   return frame;
 }
 

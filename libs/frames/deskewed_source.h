@@ -10,18 +10,19 @@
 
 namespace psi_slam {
 
-/// The scan as the laser would have seen it from where it was at the first beam, had the robot stood still.
-/// Beams are spread evenly over the sweep, in which the robot moved by `motion` (its last pose in the first).
-/// Each beam keeps its place in the order and gets the range and bearing of its point; one without return
-/// turns with the robot. Free space is drawn from the laser's place at the first beam: some centimetres off.
+/// Returns the scan that the laser would have measured from its pose at the first beam if the robot had stood
+/// still. `motion` is the robot's pose at the last beam relative to its pose at the first; the beams are
+/// evenly spread over this motion. Each beam keeps its place in the order and gets the range and bearing of
+/// its point. A beam without a return turns with the robot. All beams then start at the laser's first
+/// position, so the free space they show is a few centimetres off.
 LaserScan deskewed(const LaserScan& scan, const mrpt::math::TPose2D& motion);
 
-/// Takes the robot's motion out of the scans of another source. The motion while a laser turned is that from
-/// the scan's odometry to that of the same laser's next, or where there is no later one, from the one before;
-/// scans more than a second away from both stay as they are, and so do those without odometry.
+/// Removes the robot's motion during a sweep from the scans of another source. The motion is that between the
+/// odometry of a scan and of the same laser's next scan, or of its previous scan if there is no next one. If
+/// both are more than one second away, the scan is unchanged. Scans without odometry are unchanged too.
 class DeskewedSource : public FrameSource {
  public:
-  /// Without a stated time of the sweep, each scan's own holds.
+  /// Without `sweep_time_s`, the sweep time of each scan applies.
   DeskewedSource(std::unique_ptr<FrameSource> source, std::optional<double> sweep_time_s);
 
   std::optional<Frame> next() override;
@@ -42,14 +43,14 @@ class DeskewedSource : public FrameSource {
   static const Mark& mark_like(const Mark& mark, const Marks& marks);
   static std::optional<mrpt::math::TPose2D> motion_between(const Mark& from, const Mark& to, double time_s);
   std::optional<Frame> read_ahead();
-  void straighten(LaserScan& scan, const Mark& mark, const Marks& behind) const;
+  void straighten(LaserScan& scan, const Mark& mark, const Marks& next_marks) const;
 
   std::unique_ptr<FrameSource> source_;
   std::optional<double> sweep_time_s_;
   bool started_ = false;
-  Marks before_;
+  Marks last_marks_;
   std::optional<Frame> ahead_;
-  std::exception_ptr failure_;  // of reading ahead; told behind the frame in front of it
+  std::exception_ptr failure_;  // met while reading ahead; thrown after the last frame before it
 };
 
 }  // namespace psi_slam

@@ -34,7 +34,7 @@ std::optional<double> finite_number(const std::string& word) {
   return value;
 }
 
-/// NAME X Y YAW [mirrored], where the name may have spaces in it.
+/// Parses NAME X Y YAW [mirrored]. The name may contain spaces.
 std::optional<StatedMount> mount_from(const std::string& text) {
   std::vector<std::string> words = split(text, " \t");
   words.erase(std::remove(words.begin(), words.end(), ""), words.end());
@@ -56,10 +56,6 @@ std::optional<StatedMount> mount_from(const std::string& text) {
   return mount;
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 }  // namespace
 
 LaserChoice laser_choice(std::string_view option, std::string_view value) {
@@ -68,12 +64,12 @@ LaserChoice laser_choice(std::string_view option, std::string_view value) {
   if (choice.all || value.empty()) return choice;
   for (const std::string& part : split(value, ",")) {
     const std::string name(trimmed(part));
-    const char* fault = name.empty()                   ? "\" has a name missing"
-                        : contains(choice.names, name) ? "\" has a name twice"
+    const char* fault = name.empty()                   ? "\" with an empty name"
+                        : contains(choice.names, name) ? "\" with a repeated name"
                                                        : nullptr;
     if (fault != nullptr)
-      throw UserError(std::string(option) + " = \"" + std::string(value) + fault +
-                      ", expected one laser, \"all\", or several with a comma between any two");
+      throw UserError(std::string(option) + " is \"" + std::string(value) + fault +
+                      ", expected one laser, \"all\", or several lasers separated by commas");
     choice.names.push_back(name);
   }
   return choice;
@@ -85,9 +81,9 @@ bool reads_several_lasers(const LogOptions& options, LogFormat format) {
                                       : laser_choice("log.laser", options.laser);
   if (choice.several() && options.robot_T_laser)
     throw UserError(
-        "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg are for one laser, and several are read: "
-        "expected "
-        "log.laser_mounts, such as \"RLASER -0.3 0 180\" (metres, degrees)");
+        "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg are for a single laser, but several are "
+        "selected. State their mounts with log.laser_mounts, such as \"RLASER -0.3 0 180\" (metres, "
+        "degrees)");
   return choice.several();
 }
 
@@ -118,9 +114,9 @@ std::vector<StatedMount> stated_mounts(const LogOptions& options) {
   for (const std::string& text : split(options.laser_mounts, ",")) {
     auto mount = mount_from(text);
     if (!mount)
-      throw UserError("log.laser_mounts has \"" + std::string(trimmed(text)) +
+      throw UserError("log.laser_mounts contains \"" + std::string(trimmed(text)) +
                       "\", expected a laser's name, x and y in metres and yaw in degrees, such as \"RLASER "
-                      "-0.3 0 180\", and a comma between any two");
+                      "-0.3 0 180\". Separate several mounts by commas");
     mounts.push_back(*std::move(mount));
   }
   return mounts;
@@ -134,6 +130,16 @@ LogOptions options_of_laser(const LogOptions& options, const std::vector<std::st
     own.mirrored = own.mirrored || mount.mirrored;
   }
   return own;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string name_list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
 }
 
 std::string quoted_list(const std::vector<std::string>& names) {

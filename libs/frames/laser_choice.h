@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which lasers of a log the user wants, and how they are mounted where he says so.
+// Which lasers of a log the user selects, and where the user says they are mounted.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -16,34 +16,34 @@
 
 namespace psi_slam {
 
-/// What an option such as `log.laser` asks for: the format's usual laser, one by name, several by names with
-/// commas between them, or "all". The first of several is the one that opens frames.
+/// Value of an option such as `log.laser`: the format's usual laser, one laser by name, several names
+/// separated by commas, or "all". Scans of the first of several lasers open frames.
 struct LaserChoice {
   bool all = false;
-  std::vector<std::string> names;  ///< empty: all, or the usual one
+  std::vector<std::string> names;  ///< empty: all lasers, or the usual one
 
   bool several() const { return all || names.size() > 1; }
 };
 
-/// Throws UserError, naming the option, when a name is empty or comes twice.
+/// Throws UserError that names the option if a name is empty or repeated.
 LaserChoice laser_choice(std::string_view option, std::string_view value);
 
-/// Whether frames of a log of this format may hold scans of several lasers: topics count for bags alone,
-/// where they stand over `laser`. Throws UserError when a mount is stated that is for one laser, and for
-/// choices that laser_choice() refuses.
+/// Returns whether frames of a log of this format may hold scans of several lasers. `scan_topic` overrides
+/// `laser`, but only for bags. Throws UserError if several lasers are selected and `robot_T_laser` is stated,
+/// and for values that laser_choice() rejects.
 bool reads_several_lasers(const LogOptions& options, LogFormat format);
 
-/// The lasers that are read of a log that names each scan's laser, numbered as in LaserScan::laser: those
-/// that the user lists in his order, all by their first scans, or the first one to come.
+/// Numbers the lasers of a log in which each scan names its laser; see LaserScan::laser. Listed lasers have
+/// the order of the user's list. "all" has the order of their first scans. Otherwise only the first laser is
+/// read.
 class ChosenLasers {
  public:
   explicit ChosenLasers(LaserChoice choice) : choice_(std::move(choice)) {}
 
-  /// The number of a laser that is read; none for the others. A laser that comes for the first time may be
-  /// taken in.
+  /// Returns the number of a laser, or nothing if it is not read. The call may add a new laser.
   std::optional<std::size_t> number_of(const std::string& name);
 
-  /// Those that are read, as far as they have come or were listed.
+  /// Names of the lasers that are read: the listed ones, otherwise those that have appeared.
   std::vector<std::string> names() const;
 
  private:
@@ -51,20 +51,25 @@ class ChosenLasers {
   std::map<std::string, std::size_t> numbers_;
 };
 
-/// The mount of one laser as the user states it.
+/// Pose of one laser on the robot as the user states it.
 struct StatedMount {
   std::string name;
   mrpt::math::TPose2D robot_T_laser;
   bool mirrored = false;
 };
 
-/// `LogOptions::laser_mounts`, taken apart. Throws UserError saying what was expected.
+/// Parses `LogOptions::laser_mounts`. Throws UserError that says what was expected.
 std::vector<StatedMount> stated_mounts(const LogOptions& options);
 
-/// The options for one laser, which goes by any of these names: with its stated mount, if it has one.
+/// Options for the laser that has any of these names, with its stated mount if there is one.
 LogOptions options_of_laser(const LogOptions& options, const std::vector<std::string>& names);
 
-/// Names for a sentence: "a", "b".
+bool contains(const std::vector<std::string>& names, const std::string& name);
+
+/// Names for a message: a, b.
+std::string name_list(const std::vector<std::string>& names);
+
+/// Names for a message: "a", "b".
 std::string quoted_list(const std::vector<std::string>& names);
 
 }  // namespace psi_slam

@@ -11,10 +11,10 @@
 #include <system_error>
 #include <tuple>
 
-#include "compression/compressed_file.h"
 #include "base/text_parts.h"
+#include "compression/compressed_file.h"
+#include "compression/compression.h"
 #include "psi_slam/user_error.h"
-#include "compression/decompression.h"
 
 namespace psi_slam {
 namespace {
@@ -34,8 +34,8 @@ std::optional<LogFormat> bag_format(std::string_view head) {
   return std::nullopt;
 }
 
-/// An MRPT archive begins with an object: one byte, the length of its class's name with the highest bit set,
-/// and the name itself.
+/// An MRPT archive starts with an object: one byte with the length of its class name and the highest bit set,
+/// followed by the class name.
 bool is_mrpt_archive(std::string_view head) {
   if (head.empty()) return false;
   const auto first = static_cast<unsigned char>(head[0]);
@@ -55,7 +55,7 @@ bool is_carmen_message(std::string_view name) {
                      [&](std::string_view beginning) { return starts_with(name, beginning); });
 }
 
-/// Text in which a line begins with the name of a CARMEN message.
+/// Returns whether the text has a line that starts with the name of a CARMEN message.
 bool is_carmen(std::string_view head) {
   if (head.find('\0') != std::string_view::npos) return false;
   while (!head.empty()) {
@@ -72,7 +72,7 @@ bool is_bag_file(const fs::path& path) {
   return path.extension() == ".db3" || path.extension() == ".mcap";
 }
 
-/// "run_2.db3" comes before "run_10.db3".
+/// Orders "run_2.db3" before "run_10.db3".
 bool by_numbers(const fs::path& a, const fs::path& b) {
   const auto key = [](const fs::path& path) {
     const std::string stem = path.stem().string();
@@ -89,7 +89,7 @@ std::vector<fs::path> files_listed(const fs::path& metadata) {
     const auto yaml = mrpt::containers::yaml::FromFile(metadata.string());
     for (const auto& file : yaml["rosbag2_bagfile_information"]["relative_file_paths"].asSequence()) {
       const fs::path name = file.as<std::string>();
-      // The first versions of rosbag2 wrote the paths with the folder's own name in front.
+      // Early versions of rosbag2 wrote paths that start with the name of the folder itself.
       const fs::path beside = metadata.parent_path() / name;
       files.push_back(fs::exists(beside) ? beside : metadata.parent_path() / name.filename());
     }
@@ -103,21 +103,9 @@ std::vector<fs::path> files_listed(const fs::path& metadata) {
 }  // namespace
 
 std::string_view name_of(LogFormat format) {
-  switch (format) {
-    case LogFormat::kCarmen:
-      return "CARMEN";
-    case LogFormat::kMrptRawlog:
-      return "MRPT rawlog";
-    case LogFormat::kRos1Bag:
-      return "ROS 1 bag";
-    case LogFormat::kRos2Sqlite:
-      return "ROS 2 bag (SQLite)";
-    case LogFormat::kRos2Mcap:
-      return "ROS 2 bag (MCAP)";
-    case LogFormat::kRos2Folder:
-      return "ROS 2 bag (folder)";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 6> kNames{
+      "CARMEN", "MRPT rawlog", "ROS 1 bag", "ROS 2 bag (SQLite)", "ROS 2 bag (MCAP)", "ROS 2 bag (folder)"};
+  return kNames.at(static_cast<std::size_t>(format));
 }
 
 bool is_bag(LogFormat format) {
@@ -149,8 +137,8 @@ LogFormat detect_log_format(const fs::path& path) {
   if (is_mrpt_archive(head)) return LogFormat::kMrptRawlog;
   if (is_carmen(head)) return LogFormat::kCarmen;
   if (is_zstd(head))
-    throw UserError(path.string() + " is compressed by zstd, expected it unpacked: zstd -d unpacks it");
-  throw UserError(path.string() + " is none of the formats that are read" + kExpected);
+    throw UserError(path.string() + " is compressed by zstd, which is not supported. Unpack it with zstd -d");
+  throw UserError(path.string() + " has an unknown format" + kExpected);
 }
 
 }  // namespace psi_slam

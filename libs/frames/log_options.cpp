@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "psi_slam/user_error.h"
 #include "frames/laser_choice.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {

@@ -1,32 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frames/odometry_interpolator.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <cmath>
 #include <utility>
+
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kKeptMessages = 1000;  // behind the newest, when no scan asks for them
+constexpr std::size_t kKeptMessages = 1000;
 
 }  // namespace
-
-mrpt::math::TPose2D interpolate(const mrpt::math::TPose2D& from, const mrpt::math::TPose2D& to,
-                                double fraction) {
-  const double turn_rad = mrpt::math::wrapToPi(to.phi - from.phi);
-  return {from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y),
-          mrpt::math::wrapToPi(from.phi + fraction * turn_rad)};
-}
 
 void OdometryInterpolator::add_odometry(TimeUs time_us, const mrpt::math::TPose2D& odom_T_robot) {
   const Odometry message{time_us, odom_T_robot};
   const bool clock_was_set = !odometry_.empty() && time_us < odometry_.back().time_us;
   for (Scan& scan : scans_) {
-    const bool is_next_to_it = !scan.behind;
-    if (is_next_to_it) scan.behind = message;
-    const bool is_of_new_clock = is_next_to_it && belongs_behind(scan);
+    const bool is_next_message = !scan.after;
+    if (is_next_message) scan.after = message;
+    const bool is_of_new_clock = is_next_message && belongs_to_next_message(scan);
     if (clock_was_set && !scan.is_placed && !is_of_new_clock) place(scan);
   }
   if (clock_was_set) odometry_.clear();
@@ -44,22 +37,22 @@ void OdometryInterpolator::add_scan(Frame frame) {
   scans_.push_back(std::move(scan));
 }
 
-bool OdometryInterpolator::belongs_behind(const Scan& scan) {
-  if (!scan.before || !scan.behind) return scan.behind.has_value();
+bool OdometryInterpolator::belongs_to_next_message(const Scan& scan) {
+  if (!scan.before || !scan.after) return scan.after.has_value();
   const auto distance_s = [&](const Odometry& message) {
     return std::abs(seconds(message.time_us) - seconds(scan.frame.time_us));
   };
-  return distance_s(*scan.behind) < distance_s(*scan.before);
+  return distance_s(*scan.after) < distance_s(*scan.before);
 }
 
 void OdometryInterpolator::place(Scan& scan) const {
   if (!place_between_messages(scan.frame))
-    scan.frame.odom_T_robot = (belongs_behind(scan) ? scan.behind : scan.before)->odom_T_robot;
+    scan.frame.odom_T_robot = (belongs_to_next_message(scan) ? scan.after : scan.before)->odom_T_robot;
   scan.is_placed = true;
 }
 
 bool OdometryInterpolator::place_between_messages(Frame& frame) const {
-  // Searched from the newest on: stamps may run backwards, and then the order of the file decides.
+  // The search starts at the newest message: if stamps run backwards, the latest match in the file counts.
   for (std::size_t i = odometry_.size(); i-- > 1;) {
     const Odometry& before = odometry_[i - 1];
     const Odometry& after = odometry_[i];
@@ -76,7 +69,7 @@ bool OdometryInterpolator::place_between_messages(Frame& frame) const {
 
 bool OdometryInterpolator::must_wait(const Scan& scan) const {
   if (scan.is_placed || ended_ || scans_.size() > kMaxWaiting) return false;
-  return scan.frame.time_us > odometry_.back().time_us || (scan.steps_back && !scan.behind);
+  return scan.frame.time_us > odometry_.back().time_us || (scan.steps_back && !scan.after);
 }
 
 std::optional<Frame> OdometryInterpolator::take() {

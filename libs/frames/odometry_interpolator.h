@@ -11,28 +11,24 @@
 
 namespace psi_slam {
 
-/// The pose between two poses, `fraction` in [0, 1] of the way, turning the shorter way round.
-mrpt::math::TPose2D interpolate(const mrpt::math::TPose2D& from, const mrpt::math::TPose2D& to,
-                                double fraction);
-
-/// Gives scans the odometry of their own time where a log has odometry and scans as separate messages. A scan
-/// waits until odometry at least as late has come, and is interpolated between it and the message before. A
-/// scan that lies between no two messages in time gets the pose of one of its two neighbours in the log, the
-/// one nearer in time. Scans leave in the order in which they came.
+/// Finds odometry at the time of each scan, for logs with odometry and scans in separate messages. A scan
+/// waits until odometry of its time or later has arrived. Its pose is interpolated between that message and
+/// the message before. A scan whose time lies between no two messages gets the pose of the message next to it
+/// in the log, before or after, that is nearer in time. Scans leave in the order in which they arrived.
 ///
-/// Where the time of odometry steps back, a clock was set: what came before is forgotten. The scans around
-/// that place belong to the clock of the neighbour that is nearer in time; therefore a scan that steps back
-/// waits for the message behind it.
+/// If the time of odometry steps back, the clock was set, and all earlier odometry is forgotten. Scans near
+/// that place belong to the clock of the neighbouring message that is nearer in time. A scan whose time steps
+/// back therefore waits for the next odometry message.
 class OdometryInterpolator {
  public:
-  /// Scans that wait for odometry beyond this number wait no longer: odometry has stopped.
+  /// At most this number of scans wait for odometry. If more arrive, odometry has stopped.
   static constexpr std::size_t kMaxWaiting = 1000;
 
   void add_odometry(TimeUs time_us, const mrpt::math::TPose2D& odom_T_robot);
   void add_scan(Frame frame);
   void end_of_log() { ended_ = true; }
 
-  /// The next scan whose odometry is known.
+  /// Returns the next scan if its odometry is known.
   std::optional<Frame> take();
 
   bool has_odometry() const { return !odometry_.empty(); }
@@ -44,21 +40,21 @@ class OdometryInterpolator {
     mrpt::math::TPose2D odom_T_robot;
   };
 
-  /// A scan and the odometry next to it in the log.
+  /// A scan and its neighbouring odometry messages in the log.
   struct Scan {
     Frame frame;
     std::optional<Odometry> before;
-    std::optional<Odometry> behind;
-    bool steps_back = false;  // its time does
+    std::optional<Odometry> after;
+    bool steps_back = false;  // earlier than the scan or the oldest odometry before it
     bool is_placed = false;   // its odometry is final
   };
 
-  static bool belongs_behind(const Scan& scan);
+  static bool belongs_to_next_message(const Scan& scan);
   bool must_wait(const Scan& scan) const;
   void place(Scan& scan) const;
   bool place_between_messages(Frame& frame) const;
 
-  std::deque<Odometry> odometry_;  // since time stepped back last; never empty behind the first message
+  std::deque<Odometry> odometry_;  // since time last stepped back; never empty after the first message
   std::deque<Scan> scans_;
   std::optional<TimeUs> last_scan_us_;
   bool ended_ = false;

@@ -8,29 +8,31 @@
 #include <utility>
 #include <vector>
 
+#include "psi_slam/user_error.h"
+
 namespace psi_slam {
 namespace {
 
-constexpr auto kMostApart_us = static_cast<TimeUs>(ScanSynchronizer::kMostApart_s * 1e6);
-constexpr auto kMostDetour_us = static_cast<TimeUs>(ScanSynchronizer::kMostDetour_s * 1e6);
-/// A scan goes on to the next frame only where that is at most so many times as far as the nearest.
+constexpr auto kMaxApart_us = static_cast<TimeUs>(ScanSynchronizer::kMaxApart_s * 1e6);
+constexpr auto kMaxDetour_us = static_cast<TimeUs>(ScanSynchronizer::kMaxDetour_s * 1e6);
+/// A scan may join the next frame only if that is at most this many times as far as the nearest frame.
 constexpr TimeUs kFarther = 2;
 constexpr auto kClockWasSet_us = static_cast<TimeUs>(ScanSynchronizer::kClockWasSet_s * 1e6);
-/// A frame's scans lie within one such time of it, the frames that these might join instead within two; and
-/// messages of different lasers come late by different times.
-constexpr TimeUs kWait_us = 3 * kMostApart_us;
+/// Scans of a frame are at most kMaxApart_us from it, and other frames that these scans may join at most
+/// twice that. The third part allows for different delays of the lasers' messages.
+constexpr TimeUs kWait_us = 3 * kMaxApart_us;
 
-/// In time, and where that is the same, in the log.
+/// Distance in time; if equal, the distance in the log decides.
 template <class Scan>
 std::pair<TimeUs, std::size_t> distance(const Scan& a, const Scan& b) {
   return {std::abs(a.frame.time_us - b.frame.time_us),
           a.place < b.place ? b.place - a.place : a.place - b.place};
 }
 
-/// Whether a robot can have moved so between two scans of a frame; else its odometry jumped.
-bool is_drive(const mrpt::math::TPose2D& motion) {
-  return std::hypot(motion.x, motion.y) <= ScanSynchronizer::kMostMoved_m &&
-         std::abs(motion.phi) <= ScanSynchronizer::kMostTurned_rad;
+/// Returns whether a robot can have moved so far between two scans of a frame. Otherwise odometry jumped.
+bool is_plausible(const mrpt::math::TPose2D& motion) {
+  return std::hypot(motion.x, motion.y) <= ScanSynchronizer::kMaxMotion_m &&
+         std::abs(motion.phi) <= ScanSynchronizer::kMaxTurn_rad;
 }
 
 }  // namespace
@@ -45,12 +47,12 @@ void ScanSynchronizer::add(Frame frame) {
 
 bool ScanSynchronizer::may_join(const Scan& scan, const Scan& opener) {
   return opener.clock == scan.clock && opener.frame.scan.laser < scan.frame.scan.laser &&
-         std::abs(opener.frame.time_us - scan.frame.time_us) <= kMostApart_us;
+         std::abs(opener.frame.time_us - scan.frame.time_us) <= kMaxApart_us;
 }
 
 bool ScanSynchronizer::must_wait(const Scan& scan) const {
   return !ended_ && scan.clock == clock_ && latest_us_ < scan.frame.time_us + kWait_us &&
-         scans_.size() <= kMostWaiting;
+         scans_.size() <= kMaxWaiting;
 }
 
 bool ScanSynchronizer::opens(const Scan& scan) const {
@@ -59,12 +61,12 @@ bool ScanSynchronizer::opens(const Scan& scan) const {
                       [&](const Scan& other) { return may_join(scan, other) && opens(other); });
 }
 
-/// The scan that opens the nearest frame which `scan` may join, left aside that of `but`; none when it opens
-/// one.
-const ScanSynchronizer::Scan* ScanSynchronizer::frame_of(const Scan& scan, const Scan* but) const {
+/// Scan that opens the nearest frame which `scan` may join, except the frame of `excluded`; null if there is
+/// none.
+const ScanSynchronizer::Scan* ScanSynchronizer::frame_of(const Scan& scan, const Scan* excluded) const {
   const Scan* nearest = nullptr;
   for (const Scan& other : scans_) {
-    if (&other == but || !may_join(scan, other) ||
+    if (&other == excluded || !may_join(scan, other) ||
         (nearest != nullptr && !(distance(scan, other) < distance(scan, *nearest))))
       continue;
     if (opens(other)) nearest = &other;
@@ -72,32 +74,33 @@ const ScanSynchronizer::Scan* ScanSynchronizer::frame_of(const Scan& scan, const
   return nearest;
 }
 
-const ScanSynchronizer::Scan& ScanSynchronizer::choose(const std::vector<const Scan*>& claimants, const Scan& opener,
-                                           std::vector<std::size_t>& used) {
+/// Chooses the scan that joins the frame of `opener` among one laser's scans whose nearest frame it is. Adds
+/// the places of all scans to `used`, except those passed on to the next frame.
+const ScanSynchronizer::Scan& ScanSynchronizer::choose(const std::vector<const Scan*>& claimants,
+                                                       const Scan& opener, std::vector<std::size_t>& used) {
   const auto nearest_of = [&](const std::vector<const Scan*>& scans) {
     return *std::min_element(scans.begin(), scans.end(), [&](const Scan* a, const Scan* b) {
       return distance(*a, opener) < distance(*b, opener);
     });
   };
-  std::map<const Scan*, TimeUs> can_go_on;  // and by how much farther
+  std::map<const Scan*, TimeUs> passed_on;  // with the extra time distance
   TimeUs& detours_us = detours_us_[claimants.front()->frame.scan.laser];
   std::vector<const Scan*> others;
   for (const Scan* scan : claimants) {
     const Scan* next = claimants.size() > 1 ? frame_of(*scan, &opener) : nullptr;
     const TimeUs here_us = distance(*scan, opener).first;
     const TimeUs there_us = next == nullptr ? 0 : distance(*scan, *next).first;
-    if (next != nullptr && there_us <= kFarther * here_us &&
-        detours_us + there_us - here_us <= kMostDetour_us)
-      can_go_on[scan] = there_us - here_us;
+    if (next != nullptr && there_us <= kFarther * here_us && detours_us + there_us - here_us <= kMaxDetour_us)
+      passed_on[scan] = there_us - here_us;
     else
       others.push_back(scan);
   }
   const Scan* own = nearest_of(others.empty() ? claimants : others);
-  can_go_on.erase(own);
-  if (can_go_on.empty()) detours_us = 0;
+  passed_on.erase(own);
+  if (passed_on.empty()) detours_us = 0;
   for (const Scan* scan : claimants) {
-    if (const auto going = can_go_on.find(scan); going != can_go_on.end())
-      detours_us += going->second;
+    if (const auto passed = passed_on.find(scan); passed != passed_on.end())
+      detours_us += passed->second;
     else
       used.push_back(scan->place);
   }
@@ -120,14 +123,47 @@ std::optional<Frame> ScanSynchronizer::take() {
     CompanionScan companion{chosen.scan, chosen.time_us, {}};
     if (frame.has_odometry && chosen.has_odometry)
       companion.frame_T_robot = chosen.odom_T_robot - frame.odom_T_robot;
-    if (is_drive(companion.frame_T_robot)) frame.companions.push_back(std::move(companion));
+    if (is_plausible(companion.frame_T_robot)) frame.companions.push_back(std::move(companion));
   }
-  left_out_ += used.size() - 1 - frame.companions.size();
+  spare_scans_ += used.size() - 1 - frame.companions.size();
   const auto is_used = [&](const Scan& scan) {
     return std::find(used.begin(), used.end(), scan.place) != used.end();
   };
   scans_.erase(std::remove_if(scans_.begin(), scans_.end(), is_used), scans_.end());
   return frame;
+}
+
+std::optional<Frame> SynchronizedSource::next() {
+  while (true) {
+    if (auto frame = synchronizer_.take()) {
+      frame->index = frames_given_++;
+      return frame;
+    }
+    if (at_end_) {
+      if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+      return std::nullopt;
+    }
+    read();
+  }
+}
+
+SkippedLines SynchronizedSource::skipped_lines() const {
+  SkippedLines skipped = source_->skipped_lines();
+  skipped.spare_scans += synchronizer_.spare_scans();
+  return skipped;
+}
+
+void SynchronizedSource::read() {
+  try {
+    if (auto scan = source_->next()) {
+      synchronizer_.add(*std::move(scan));
+      return;
+    }
+  } catch (const UserError&) {
+    failure_ = std::current_exception();
+  }
+  at_end_ = true;
+  synchronizer_.end_of_log();
 }
 
 }  // namespace psi_slam

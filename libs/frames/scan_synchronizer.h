@@ -1,75 +1,98 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts the scans of a robot's lasers together into frames.
+// Combines the scans of a robot's lasers into frames (scan synchronisation).
 //
-// Each scan of the first laser opens a frame, and of every other laser one scan may join, if no more than
-// `kMostApart_s` lie between them. Odometry of both stamps tells how the robot moved in between; beyond
-// `kMostMoved_m` or `kMostTurned_rad` it has jumped, and the scan is left out. A scan belongs to the frame
-// nearest in time. Where that has several of a laser, as happens all the time when lasers scan half a period
-// apart, those about half-way to the next frame go on to it, until such detours add up to `kMostDetour_s`; of
-// the others the nearest joins. Of a laser that is faster than the first, the scans in between are left out.
-// A scan that has none of a laser before its own within that time opens a frame of its own: when the first
-// laser falls silent the others go on without it, and lasers that hardly ever scan together take turns.
+// Each scan of the first laser opens a frame. One scan of every other laser may join it if it is at most
+// `kMaxApart_s` away in time. Odometry at both times gives the robot's motion in between. If the motion
+// exceeds `kMaxMotion_m` or `kMaxTurn_rad`, odometry has jumped, and the scan is dropped.
+//
+// A scan belongs to the frame nearest in time. If that frame has several scans of one laser, which is usual
+// if lasers scan half a period apart, the nearest scan joins it. Scans about half-way to the next frame are
+// passed on to that frame, until these detours sum to `kMaxDetour_s`. The other scans are dropped, such as
+// the surplus scans of a laser that is faster than the first.
+//
+// A scan without any scan of an earlier laser within `kMaxApart_s` opens a frame itself. If the first laser
+// falls silent, the others continue without it. Lasers that hardly ever scan together take turns.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
 #include <deque>
+#include <exception>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "psi_slam/frame.h"
+#include "psi_slam/frame_source.h"
 
 namespace psi_slam {
 
 class ScanSynchronizer {
  public:
-  static constexpr double kMostApart_s = 0.15;
-  /// That scans of a laser, one after the other, join farther away than the nearest frame, all together.
-  static constexpr double kMostDetour_s = 0.15;
-  static constexpr double kMostMoved_m = 1.0;
-  static constexpr double kMostTurned_rad = M_PI / 3;
-  /// A stamp that much earlier than the latest tells of a clock that was set: scans before and after it are
-  /// strangers.
+  static constexpr double kMaxApart_s = 0.15;
+  /// Largest sum of the extra time distances by which consecutive scans of a laser join a later frame.
+  static constexpr double kMaxDetour_s = 0.15;
+  static constexpr double kMaxMotion_m = 1.0;
+  static constexpr double kMaxTurn_rad = M_PI / 3;
+  /// A stamp that is earlier than the latest by more than this shows that the clock was set. Scans before and
+  /// after that moment never share a frame.
   static constexpr double kClockWasSet_s = 1.0;
-  /// More scans than this do not wait for later ones: their stamps say nothing.
-  static constexpr std::size_t kMostWaiting = 300;
+  /// At most this number of scans wait for later ones. If more arrive, their time stamps are meaningless.
+  static constexpr std::size_t kMaxWaiting = 300;
 
-  /// Takes one scan with the odometry of its own time, in the order of the log; `scan.laser` counts.
+  /// Adds one scan with odometry of its own time, in the order of the log. `scan.laser` must be set.
   void add(Frame frame);
   void end_of_log() { ended_ = true; }
 
-  /// The next frame all of whose scans have come, by the order in the log of the scans that open frames.
+  /// Returns the next frame if all its scans have arrived. Frames have the order of the scans that open them.
   std::optional<Frame> take();
 
-  /// Scans that are in no frame, of lasers behind the first.
-  std::size_t left_out() const { return left_out_; }
+  /// Number of scans of later lasers that joined no frame.
+  std::size_t spare_scans() const { return spare_scans_; }
 
  private:
   struct Scan {
     Frame frame;
     std::size_t place = 0;  // in the log
-    std::size_t clock = 0;  // how often it was set before
+    std::size_t clock = 0;  // how often the clock was set before
   };
-  using Scans = std::deque<Scan>;
 
   static bool may_join(const Scan& scan, const Scan& opener);
   bool must_wait(const Scan& scan) const;
   bool opens(const Scan& scan) const;
-  const Scan* frame_of(const Scan& scan, const Scan* but = nullptr) const;
-  /// Of one laser's scans whose nearest frame is the opener's, the one that joins it; those that do not go on
-  /// to the next frame are added to `used`.
+  const Scan* frame_of(const Scan& scan, const Scan* excluded = nullptr) const;
   const Scan& choose(const std::vector<const Scan*>& claimants, const Scan& opener,
                      std::vector<std::size_t>& used);
 
-  Scans scans_;
+  std::deque<Scan> scans_;
   TimeUs latest_us_ = 0;
   std::size_t places_ = 0;
   std::size_t clock_ = 0;
-  std::size_t left_out_ = 0;
+  std::size_t spare_scans_ = 0;
   std::map<std::size_t, TimeUs>
-      detours_us_;  // by laser, until one of its scans joins the nearest frame again
+      detours_us_;  // by laser, since one of its scans last joined the nearest frame
   bool ended_ = false;
+};
+
+/// Combines the frames of another source, each a scan of one laser, into frames of all lasers. An error of
+/// the source is thrown after the last frame before it.
+class SynchronizedSource : public FrameSource {
+ public:
+  explicit SynchronizedSource(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+
+  /// The index of each frame counts the combined frames.
+  std::optional<Frame> next() override;
+  double progress() const override { return source_->progress(); }
+  SkippedLines skipped_lines() const override;
+
+ private:
+  void read();
+
+  std::unique_ptr<FrameSource> source_;
+  ScanSynchronizer synchronizer_;
+  std::size_t frames_given_ = 0;
+  bool at_end_ = false;
+  std::exception_ptr failure_;
 };
 
 }  // namespace psi_slam

@@ -11,10 +11,10 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kShortest_s = 1e-3;  // stamps nearer to each other tell no speed
+constexpr double kShortest_s = 1e-3;  // no speed is computed from closer time stamps
 
-/// A motion's translation along the axes halfway through its turn: that of a steady arc is straight ahead
-/// there.
+/// Turns the translation of a motion. Along the axes halfway through its turn, that of an arc is straight
+/// ahead.
 TPose2D turned(const TPose2D& motion, double angle_rad) {
   const double c = std::cos(angle_rad);
   const double s = std::sin(angle_rad);

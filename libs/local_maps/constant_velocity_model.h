@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predicts a robot's motion without odometry: it goes on at the speed it had. The speed is that of the last
-// two scans that were matched, each where it was found.
+// Predicts the motion of a robot without odometry, by the speed between the last two matched scans.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -13,16 +12,15 @@
 namespace psi_slam {
 
 struct ConstantVelocityOptions {
-  double acceleration_mps2 = 1.0;  ///< what it may gain or lose
+  double acceleration_mps2 = 1.0;  ///< standard deviation of the acceleration
   double turn_acceleration_radps2 = radians_from_degrees(90.0L);
-  double first_speed_mps = 0.5;  ///< what it may move at as long as nothing is known
+  double first_speed_mps = 0.5;  ///< standard deviation of the speed while it is unknown
   double first_turn_radps = radians_from_degrees(30.0L);
-  double longest_s =
-      2.0;  ///< beyond so long without a match the speed is no longer believed: it may as well stand
+  double longest_s = 2.0;  ///< the speed counts as unknown after this time without a match
 };
 
 struct PredictedMotion {
-  mrpt::math::TPose2D motion;  ///< seen from the last pose: a steady arc, its end
+  mrpt::math::TPose2D motion;  ///< in the frame of the last pose: the end of an arc at constant velocity
   double sigma_m = 0;
   double sigma_rad = 0;
 };
@@ -31,16 +29,16 @@ class ConstantVelocityModel {
  public:
   explicit ConstantVelocityModel(const ConstantVelocityOptions& options = {}) : options_(options) {}
 
-  /// A scan's pose in any frame that stays the same, and whether it was found by a match; poses that were
-  /// only predicted leave the speed as it was.
+  /// Adds the pose of a scan, in any fixed frame. `matched` tells whether a match found it; a pose that was
+  /// only predicted does not change the speed.
   void moved(TimeUs time_us, const mrpt::math::TPose2D& local_T_robot, bool matched);
 
-  /// Where the robot is likely to be, seen from the last pose; it stands before there is any. Time that runs
-  /// backwards is none.
+  /// Predicts the motion since the last pose. Returns zero motion before the first pose; treats time that
+  /// runs backwards as zero.
   PredictedMotion predict(TimeUs time_us) const;
 
  private:
-  struct Speed {  // along the robot's own axes, a second
+  struct Speed {  // along the axes of the robot
     double x_mps = 0;
     double y_mps = 0;
     double turn_radps = 0;

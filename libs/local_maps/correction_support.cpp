@@ -23,8 +23,9 @@ std::vector<double> scores_at(const ScoreGrid& grid, const ScanPoints& scan,
 
 }  // namespace
 
-PullScores scores_without_best_spot(const ScoreGrid& grid, const ScanPoints& scan,
-                                    const mrpt::math::TPose2D& matched, const mrpt::math::TPose2D& held) {
+CorrectionScores scores_without_best_spot(const ScoreGrid& grid, const ScanPoints& scan,
+                                          const mrpt::math::TPose2D& matched,
+                                          const mrpt::math::TPose2D& held) {
   const std::vector<double> at_matched = scores_at(grid, scan, matched);
   const std::vector<double> at_held = scores_at(grid, scan, held);
   const auto in_spot = [&](std::size_t i, std::size_t middle) {
@@ -41,7 +42,7 @@ PullScores scores_without_best_spot(const ScoreGrid& grid, const ScanPoints& sca
       if (in_spot(i, middle)) gain += at_matched[i] - at_held[i];
     if (gain > best_gain) best_gain = gain, best = middle;
   }
-  PullScores scores;
+  CorrectionScores scores;
   std::size_t count = 0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     if (best < scan.points.size() && in_spot(i, best)) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a match's pull away from odometry has more behind it than one small thing, which may be a person
-// who walks: near the robot a person fills more of the scan than all doors of a corridor do.
+// Tells whether a match's correction of the odometry has more support in the scan than one small object. That
+// object can be a walking person, who fills more of the scan than all doors of a corridor if near the robot.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -10,17 +10,18 @@
 
 namespace psi_slam {
 
-/// What lies within this of one point is taken for one thing.
+/// Points within this distance of one point count as one object.
 inline constexpr double kPersonReach_m = 0.4;
 
-/// Mean scores at two poses, of the points that are counted.
-struct PullScores {
+/// Mean scores of points at two poses, in [0, 1].
+struct CorrectionScores {
   double matched = 0;
-  double held = 0;
+  double held = 0;  ///< at the pose held to odometry
 };
 
-/// Of all points but those of the one spot, kPersonReach_m around a point, that speaks most for the match.
-PullScores scores_without_best_spot(const ScoreGrid& grid, const ScanPoints& scan,
-                                    const mrpt::math::TPose2D& matched, const mrpt::math::TPose2D& held);
+/// Mean scores without the one spot, of radius kPersonReach_m, that supports the match most.
+CorrectionScores scores_without_best_spot(const ScoreGrid& grid, const ScanPoints& scan,
+                                          const mrpt::math::TPose2D& matched,
+                                          const mrpt::math::TPose2D& held);
 
 }  // namespace psi_slam

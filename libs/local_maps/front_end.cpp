@@ -26,7 +26,7 @@ MatcherOptions matcher_options(const FrontEndOptions& options) {
   return matcher;
 }
 
-constexpr double kSteadyTime_s = 0.5;  // a robot's speed is much the same after this long
+constexpr double kSteadyTime_s = 0.5;  // after this time, confidence in constant velocity is one half
 
 }  // namespace
 
@@ -39,7 +39,7 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
   doubtful_correction_m_ *= std::exp(-motion.length_m / options_.doubtful_correction_travel_m);
   step.local_T_robot = last_local_T_robot_ + motion.odometry;
   step.window = search_extent(motion);
-  // A blind scan, or one that a turn would not move, cannot be matched (see make_search_window).
+  // A scan without points, or with points only at the robot, cannot be matched (see make_search_window).
   const bool blind =
       step.points->points.empty() || step.points->farthest_m <= options_.local_map.resolution_m;
   if (!active_.empty() && !blind) match(step, motion);
@@ -60,7 +60,7 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   motion.sigma_m = options_.odometry_sigma_m;
   motion.sigma_rad = options_.odometry_sigma_rad;
   if (!last_) return motion;
-  if (!frame.has_odometry || !last_->has_odometry) return steady_motion(frame.time_us);
+  if (!frame.has_odometry || !last_->has_odometry) return constant_velocity_motion(frame.time_us);
   motion.odometry = frame.odom_T_robot - last_->odom_T_robot;
   motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
   motion.turn_rad = std::abs(mrpt::math::wrapToPi(motion.odometry.phi));
@@ -74,7 +74,7 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   return motion;
 }
 
-FrontEnd::Motion FrontEnd::steady_motion(TimeUs time_us) const {
+FrontEnd::Motion FrontEnd::constant_velocity_motion(TimeUs time_us) const {
   const PredictedMotion predicted = constant_velocity_.predict(time_us);
   Motion motion;
   motion.measured = false;
@@ -138,34 +138,34 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const RefinedPose predicted =
       refine(older.map->scores(), *step.points, best_prior.map_T_robot, options_.refinement, best_prior);
   if (predicted.mean_score >= options_.prediction_share * best->refined_response) chosen = predicted;
-  if (motion.measured && motion.length_m > 0)  // odometry that stands still may be stalled
+  if (motion.measured && motion.length_m > 0)  // an encoder at rest may have stalled
     if (const auto held = held_to_odometry(older.map->scores(), *step.points, chosen, best_prior))
       chosen = *held;
   step.information = chosen.information;
   step.local_T_robot = older.local_T_map + chosen.map_T_robot;
 }
 
-// Along a bare corridor nothing but a handful of points, a person's who walks ahead, decides the position.
-// Each scan's pull by them is small; in sum they hold the robot back.
 std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, const ScanPoints& scan,
                                                       const RefinedPose& matched, const PosePrior& prior) {
-  constexpr double kLeastPull_m = 1e-3;
+  constexpr double kSmallestCorrection_m = 1e-3;
   constexpr double kHeldSigma_m = 5e-3;
   const TPose2D& pose = matched.map_T_robot;
-  const Eigen::Vector2d pull(pose.x - prior.map_T_robot.x, pose.y - prior.map_T_robot.y);
-  if (pull.norm() < kLeastPull_m) return {};
-  const Eigen::Vector2d along = pull.normalized();
+  const Eigen::Vector2d correction(pose.x - prior.map_T_robot.x, pose.y - prior.map_T_robot.y);
+  if (correction.norm() < kSmallestCorrection_m) return {};
+  const Eigen::Vector2d along = correction.normalized();
   PosePrior tight = prior;
   tight.information.topLeftCorner<2, 2>() += along * along.transpose() / (kHeldSigma_m * kHeldSigma_m);
   RefinedPose held = refine(grid, scan, TPose2D(prior.map_T_robot.x, prior.map_T_robot.y, pose.phi),
                             options_.refinement, tight);
   if (held.mean_score < options_.held_share * matched.mean_score) {
-    const PullScores rest = scores_without_best_spot(grid, scan, pose, held.map_T_robot);
-    if (rest.held < options_.held_share * rest.matched) return {};  // enough of the scan asks for it
+    const CorrectionScores rest = scores_without_best_spot(grid, scan, pose, held.map_T_robot);
+    if (rest.held < options_.held_share * rest.matched)
+      return {};  // enough of the scan supports the correction
   }
-  const Eigen::Vector2d strain = doubtful_correction_m_ + Eigen::Rotation2Dd(-pose.phi).toRotationMatrix() * pull;
-  if (strain.norm() <= std::max(options_.max_doubtful_correction_m, doubtful_correction_m_.norm())) {
-    doubtful_correction_m_ = strain;
+  const Eigen::Vector2d sum_m =
+      doubtful_correction_m_ + Eigen::Rotation2Dd(-pose.phi).toRotationMatrix() * correction;
+  if (sum_m.norm() <= std::max(options_.max_doubtful_correction_m, doubtful_correction_m_.norm())) {
+    doubtful_correction_m_ = sum_m;
     return {};
   }
   Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
@@ -174,8 +174,9 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
   return held;
 }
 
-// A Kalman filter's covariance, for each active map: the motion adds odometry's noise, the match takes away
-// what it determines. So a pose known only by odometry along a corridor is passed on as just that.
+// Propagates a covariance for each active map as a Kalman filter does: the motion adds the noise of odometry,
+// the match reduces it. So a position along a corridor that only odometry determines is passed on as
+// uncertain.
 void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& motion) {
   for (PlacedLocalMap& active : active_) {
     const TPose2D before = last_local_T_robot_ - active.local_T_map;
@@ -261,20 +262,16 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
 }
 
 void FrontEnd::begin_run() {
-  FrontEnd anew(options_);
-  anew.next_local_map_ = next_local_map_;
-  anew.next_node_ = next_node_;
-  *this = std::move(anew);
+  FrontEnd next(options_);
+  next.next_local_map_ = next_local_map_;
+  next.next_node_ = next_node_;
+  *this = std::move(next);
 }
 
 std::vector<PlacedLocalMap> FrontEnd::finish() {
-  std::vector<PlacedLocalMap> finished;
-  for (PlacedLocalMap& active : active_) {
-    active.map->finish();
-    finished.push_back(active);
-  }
-  active_.clear();
-  return finished;
+  FrontEndStep step;
+  end_local_maps(step, active_.size());
+  return step.finished;
 }
 
 }  // namespace psi_slam

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The front end (method, step 2): predicts each scan's pose by odometry, or by
-// the robot's speed where there is none, matches it with the active local map
-// (equations 1 and 2), and inserts it when the robot moved enough.
+// The front end: predicts the pose of each scan by odometry, or by constant velocity without odometry,
+// matches the scan with the active local map (equations 1 and 2), and inserts it if the robot moved enough.
 //
-// It works in a frame of its own, "local", which is continuous: no loop closing ever moves it. The mapper
-// knows where that frame lies in the global map. Two local maps are active at a time and overlap by half:
-// scans are matched with the older, inserted into both.
+// It works in a continuous frame, "local", which loop closing never moves. The mapper knows the pose of that
+// frame in the global map. Two local maps are active at a time and overlap by half: scans are matched with
+// the older one and inserted into both.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -17,12 +16,11 @@
 #include <vector>
 
 #include "base/degrees.h"
-#include "local_maps/local_map.h"
-#include "local_maps/placed_local_map.h"
-#include "local_maps/scan_filter.h"
 #include "local_maps/constant_velocity_model.h"
+#include "local_maps/local_map.h"
+#include "local_maps/scan_filter.h"
+#include "matching/make_matcher.h"
 #include "psi_slam/frame.h"
-#include "matching/correlative_matcher.h"
 
 namespace psi_slam {
 
@@ -31,9 +29,8 @@ struct FrontEndOptions {
   LocalMapOptions local_map;
   RefinementOptions refinement;
 
-  // The search window: half-widths of a robot that stands still, and how they grow with the motion that
-  // odometry reports. What odometry and a steady robot (the last step's motion again) disagree about is
-  // added.
+  // Search window: half-widths for a robot at rest, and their growth with the odometry's motion. The
+  // difference between odometry and constant velocity (the motion of the last step) is added.
   double window_m = 0.15;
   double window_rad = radians_from_degrees(7.0L);
   double window_per_metre = 0.3;
@@ -41,92 +38,92 @@ struct FrontEndOptions {
   double window_rad_per_metre = radians_from_degrees(8.5L);
   double max_window_m = 1.0;
   double max_window_rad = radians_from_degrees(35.0L);
-  double min_response = 0.25;  ///< a match below this is not believed: the prediction stands
+  double min_response = 0.25;  ///< below this response, the prediction is kept instead of the match
 
-  // The standard deviations of the prediction, which hold the pose where the scan does not (along corridors):
-  // of a robot that stands still, and how they grow with the motion and with the disagreement above.
+  // Standard deviations of the prediction, which holds the pose where the scan does not (along corridors):
+  // for a robot at rest, and their growth with the motion and with its difference from constant velocity.
   double prior_sigma_m = 0.02;
   double prior_sigma_rad = radians_from_degrees(6.0L);
   double prior_per_metre = 0.1;
   double prior_per_radian = 0.5;
   double prior_per_surprise = 0.5;
-  /// Refined straight from the prediction, a pose that scores at least this share of the searched one is
-  /// preferred: along a corridor the search's best is decided by noise.
+  /// The pose refined directly from the prediction is preferred if it scores at least this share of the
+  /// searched one, because noise decides the search along a corridor.
   double prediction_share = 0.95;
 
-  // A match that contradicts odometry in position for long needs to be supported by enough of the scan, else
-  // a person who walks ahead along a bare corridor holds the robot back. A pull away from odometry is
-  // supported when the pose held to odometry scores less than `held_share` of the match, and still does
-  // without the one spot of the scan, no larger than a person, that speaks most for the match. Pulls that are
-  // not add up to the strain, which is forgotten over `doubtful_correction_travel_m` of travel; those that would raise it
-  // beyond `max_doubtful_correction_m` are not followed. Odometry's scale may so be off by max_doubtful_correction_m / doubtful_correction_travel_m.
+  // Only a small part of the scan supports a doubtful correction of the odometry. A person who walks ahead
+  // along a bare corridor causes such corrections, which would hold the robot back. A correction is doubtful
+  // if the pose held to odometry scores at least `held_share` of the match, with or without the spot of the
+  // scan, no larger than a person, that supports the match most. Doubtful corrections are summed, and the sum
+  // decays over `doubtful_correction_travel_m` of travel. A correction that would raise the sum above
+  // `max_doubtful_correction_m` is not applied. So the scale of odometry may be wrong by
+  // max_doubtful_correction_m / doubtful_correction_travel_m.
   double held_share = 0.9;
   double max_doubtful_correction_m = 0.2;
   double doubtful_correction_travel_m = 3.0;
 
-  // Odometry's noise a step, for the covariance of the poses: where scans determine the pose it hardly
-  // matters.
+  // Noise of odometry per step, for the covariance of the poses. It matters where scans do not determine the
+  // pose.
   double odometry_sigma_m = 0.01;
   double odometry_sigma_rad = radians_from_degrees(0.3L);
   double odometry_sigma_per_metre = 0.05;
   double odometry_sigma_per_radian = 0.05;
 
-  double node_distance_m = 0.15;  ///< a scan becomes a node when the robot moved this far
-  double node_rotation_rad = radians_from_degrees(6.0L);  ///< or turned this much since the last node
-  std::size_t nodes_per_local_map =
-      80;                            ///< a local map ends after these many, the next begins at half of them,
-  double local_map_travel_m = 15.0;  ///< or when the robot has travelled this far in it
-  /// All local maps end when at least two scans in a row were not matched and the robot has travelled this
-  /// far meanwhile: what is drawn after such a stretch is out of place by odometry's error, and would bend
-  /// them.
+  double node_distance_m = 0.15;  ///< a scan becomes a node if the robot moved this far since the last node
+  double node_rotation_rad = radians_from_degrees(6.0L);  ///< or if it turned by this angle since then
+  /// A local map ends after this number of nodes, or this path of the robot. The next begins at half of it.
+  std::size_t nodes_per_local_map = 80;
+  double local_map_travel_m = 15.0;
+  /// All local maps end if at least two successive scans were not matched and the robot has travelled this
+  /// far since. Odometry's error over such a stretch would distort the maps.
   double max_unmatched_travel_m = 0.5;
 };
 
-/// What became of one scan.
+/// Result of one scan.
 struct FrontEndStep {
   mrpt::math::TPose2D local_T_robot;
-  bool matched = false;  ///< false: nothing to match with, or the match was not believed
+  bool matched = false;  ///< false: there was no local map, or the response was too low
   double response = 0;
   SearchExtent window;
   std::int64_t evaluations = 0;
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the match, in the local map's axes
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the match, along the axes of the local map
   std::shared_ptr<const ScanPoints> points;
 
-  std::optional<std::size_t> node;  ///< set when the scan became a node: nodes count from 0
-  /// The local maps it was inserted into, older first, with its pose in each; a map that begins with this
-  /// very node is not among them. A node without a match that ends the local maps is a member of them all the
-  /// same, so that the graph holds together, but its scan is not in them.
+  std::optional<std::size_t> node;  ///< number of the node, from 0, if the scan became one
+  /// A local map with this node, and the node's pose in it. `memberships` excludes maps that begin with this
+  /// node. It includes maps that end here because of unmatched scans, which links the graph, though they do
+  /// not hold this scan.
   struct Membership {
     std::size_t local_map;
     std::size_t anchor;
     mrpt::math::TPose2D anchor_T_node;
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of anchor_T_node, along the anchor's axes
   };
-  std::vector<Membership> memberships;
-  std::vector<PlacedLocalMap> finished;  ///< the local maps that this node completed, older first
+  std::vector<Membership> memberships;   ///< older first
+  std::vector<PlacedLocalMap> finished;  ///< local maps that ended with this node, older first
 };
 
 class FrontEnd {
  public:
   explicit FrontEnd(const FrontEndOptions& options);
 
-  /// The per-scan step.
+  /// Predicts, matches and inserts one scan.
   FrontEndStep add(const Frame& frame);
 
   /// Ends the local maps that are still active and returns them, older first.
   std::vector<PlacedLocalMap> finish();
 
-  /// The next scan is of another drive: nothing before says where it was taken. The frame "local" begins anew
-  /// at its robot; nodes and local maps are numbered on. Needs finish().
+  /// Begins another run, whose start is unrelated to the last pose: resets the frame "local" to the robot of
+  /// the next scan. Numbers of nodes and local maps continue. Call finish() before.
   void begin_run();
 
-  /// The local maps that scans are inserted into, older first, at most two.
+  /// Local maps that scans are inserted into, older first, at most two.
   const std::vector<PlacedLocalMap>& active() const { return active_; }
 
  private:
-  /// The motion since the last scan as odometry reports it, and how far it is from that of a steady robot,
-  /// the last step's again: a wheel that slips, an encoder that stalls or catches up, a stamp that is late
-  /// all show there. The steady robot is believed the less, the more time has passed.
+  /// Motion since the last scan by odometry, and its difference from constant velocity, the motion of the
+  /// last step. The difference reveals slipping wheels, stalling encoders and late time stamps. Confidence in
+  /// the constant-velocity prediction decays with time.
   struct Motion {
     mrpt::math::TPose2D odometry;
     bool measured = true;  ///< false: there is no odometry
@@ -134,18 +131,18 @@ class FrontEnd {
     double turn_rad = 0;
     double surprise_m = 0;
     double surprise_rad = 0;
-    double sigma_m = 0;  ///< its noise, for the covariance of the poses
+    double sigma_m = 0;  ///< noise, for the covariance of the poses
     double sigma_rad = 0;
   };
   Motion motion_to(const Frame& frame) const;
-  /// Without odometry: the motion of a steady robot, as uncertain as its speed.
-  Motion steady_motion(TimeUs time_us) const;
+  /// Motion by the constant-velocity model, for scans without odometry.
+  Motion constant_velocity_motion(TimeUs time_us) const;
   SearchExtent search_extent(const Motion& motion) const;
   PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
   void match(FrontEndStep& step, const Motion& motion);
-  /// The pose held to the prediction in the direction of the match's pull, when too few points support that
-  /// pull and it adds up to too much (see FrontEndOptions::max_doubtful_correction_m); none: the match stands. Its
-  /// information has nothing in that direction. Adds up doubtful_correction_m_.
+  /// Updates the sum of doubtful corrections. If the sum would be too large (see FrontEndOptions), returns
+  /// the pose held to the prediction in the direction of the correction, with no information in that
+  /// direction. Otherwise empty: the match is kept.
   std::optional<RefinedPose> held_to_odometry(const ScoreGrid& grid, const ScanPoints& scan,
                                               const RefinedPose& matched, const PosePrior& prior);
   void propagate_covariances(const FrontEndStep& step, const Motion& motion);
@@ -163,9 +160,9 @@ class FrontEnd {
   ConstantVelocityModel constant_velocity_;
   mrpt::math::TPose2D last_local_T_robot_;
   mrpt::math::TPose2D last_motion_;
-  Eigen::Vector2d doubtful_correction_m_ = Eigen::Vector2d::Zero();  ///< in the robot's axes
-  int misses_ = 0;                                      ///< scans in a row that were not matched
-  double unmatched_travel_m_ = 0;  ///< since the last match, or since the newest local map began
+  Eigen::Vector2d doubtful_correction_m_ = Eigen::Vector2d::Zero();  ///< decaying sum, in the robot's axes
+  int misses_ = 0;                                                   ///< successive scans without a match
+  double unmatched_travel_m_ = 0;  ///< path since the last match, or since the newest local map began
   mrpt::math::TPose2D last_node_local_T_robot_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 using Grid = mrpt::maps::COccupancyGridMap2D;
 
-constexpr double kGrowthStep_m = 5.0;  // grids grow in steps this large, so that they grow seldom
+constexpr double kGrowthStep_m = 5.0;  // grids grow in large steps, so that they grow rarely
 
 }  // namespace
 
@@ -102,7 +102,7 @@ void LocalMap::draw_way(int x0, int y0, int x1, int y1) {
 
 void LocalMap::insert(const std::vector<Beams>& scans) {
   grow_to_hold(scans);
-  if (++scan_ == 0) {  // the counter came round
+  if (++scan_ == 0) {  // the counter overflowed
     std::fill(last_scan_.begin(), last_scan_.end(), std::uint16_t{0});
     scan_ = 1;
   }
@@ -111,7 +111,7 @@ void LocalMap::insert(const std::vector<Beams>& scans) {
   for (const Way& way : ways) draw_way(way.from_x, way.from_y, way.to_x, way.to_y);
 }
 
-// Draws the hits and adds the ways to them, which come last.
+// Draws the hits and adds the ways to them, which insert() draws after all hits.
 void LocalMap::draw_hits(const Beams& beams, std::vector<Way>& ways) {
   const int origin_x = grid_->x2idx(beams.origin.x);
   const int origin_y = grid_->y2idx(beams.origin.y);
@@ -151,7 +151,7 @@ const ScoreGrid& LocalMap::scores() {
   return scores_;
 }
 
-// All observed cells, and around them what their smoothing reaches.
+// All observed cells, and the cells around that their smoothing reaches.
 LocalMap::Region LocalMap::observed_region() const {
   const int width = static_cast<int>(grid_->getSizeX());
   const int height = static_cast<int>(grid_->getSizeY());
@@ -172,7 +172,7 @@ LocalMap::Region LocalMap::observed_region() const {
 void LocalMap::finish() {
   if (finished_) return;
   scores();
-  const Region region = observed_region();  // grids grow in large steps: the rest is given back
+  const Region region = observed_region();  // drops the unused part of the last growth step
   const int width = region.x_end - region.x;
   const int height = region.y_end - region.y;
   scores_ = scores_.cropped(region.x, region.y, width, height);
@@ -186,7 +186,7 @@ void LocalMap::finish() {
       if (row[x] != 0) observed_[static_cast<std::size_t>(y / 2 * half_width + x / 2)] = 1;
   }
   finished_ = true;
-  last_scan_ = std::vector<std::uint16_t>();  // "= {}" would keep its memory
+  last_scan_ = std::vector<std::uint16_t>();  // "= {}" would keep the memory
   grid_.reset();
 }
 
@@ -220,7 +220,7 @@ bool LocalMap::observed(int x, int y) const {
 LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
                                         const mrpt::math::TPose2D& map_T_robot) const {
   constexpr int kHitScore = 64;  // a quarter: about one and a half sigma from a wall
-  if (packed_) throw std::logic_error("a packed local map was compared with a scan");
+  if (packed_) throw std::logic_error("LocalMap::agreement: the local map is packed, call unpack() first");
   Agreement agreement;
   const ScoreLevel& finest = scores_.finest();
   const double c = std::cos(map_T_robot.phi);
@@ -235,7 +235,7 @@ LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
     ++agreement.observed;
     std::uint8_t best = 0;
     for (int j = -1; j <= 1; ++j) {
-      const std::uint8_t* row = finest.cell(x, y + j);  // what was observed has a margin around it
+      const std::uint8_t* row = finest.cell(x, y + j);  // observed cells have a margin around them
       best = std::max({best, row[-1], row[0], row[1]});
     }
     if (best >= kHitScore) ++agreement.hits;

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A local map: MRPT's occupancy grid over a bounded run of scans, and the score grid that scans are matched
-// with.
+// A local map: MRPT's occupancy grid of a limited number of scans, and the score grid for matching with them.
 //
-// Its frame is the pose of its first node, the anchor. While it is active, scans are inserted and the score
-// grid follows; once finished it never changes again: its pyramid is built and the occupancy grid is given
-// back. A finished one that is not needed for a while can be packed: it then takes a small part of the
-// memory, and unpacked it is what it was.
+// Its frame is the pose of its first node, the anchor. While the map is active, scans are inserted and the
+// score grid is updated. A finished map never changes: finish() builds its pyramid and frees the occupancy
+// grid. A finished map can be packed without loss, which frees most of its memory until it is unpacked.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "base/packed_bytes.h"
+#include "compression/packed_bytes.h"
 #include "matching/scan_points.h"
 #include "matching/score_grid.h"
 
@@ -25,74 +25,72 @@ namespace psi_slam {
 
 struct LocalMapOptions {
   double resolution_m = 0.05;
-  double hit_probability = 0.65;   ///< of a cell being occupied, given that a scan point fell into it
-  double miss_probability = 0.48;  ///< of a cell being occupied, given that a beam passed through it
-  double smoothing_sigma_m =
-      0.03;  ///< of the Gaussian that turns occupancy into scores: range noise and cell size
-  double max_insert_range_m = 40.0;  ///< beams are cut there: beyond, nothing is drawn
+  double hit_probability = 0.65;     ///< of occupancy, given a scan point in the cell
+  double miss_probability = 0.48;    ///< of occupancy, given a beam through the cell
+  double smoothing_sigma_m = 0.03;   ///< of the Gaussian from occupancy to scores: range noise, cell size
+  double max_insert_range_m = 40.0;  ///< longer beams are cut there
 };
 
-/// One scan ready to be drawn: beams from `origin` to each of `ends`, in the local map's frame, metres.
+/// One scan for drawing: beams from `origin` to each of `ends`, in the local map's frame, metres.
 struct Beams {
   mrpt::math::TPoint2D origin;
   std::vector<mrpt::math::TPoint2D> ends;
-  std::vector<bool> hits;  ///< false: the beam was cut at the largest range, there is nothing at its end
+  std::vector<bool> hits;  ///< false: the beam was cut at the largest range
 };
 
 class LocalMap {
  public:
   explicit LocalMap(const LocalMapOptions& options);
 
-  /// A finished one of a grid that was drawn elsewhere, in the grid's frame and of its resolution.
+  /// Makes a finished map from an occupancy grid, in the frame and with the resolution of the grid.
   LocalMap(const LocalMapOptions& options, const mrpt::maps::COccupancyGridMap2D& drawn);
 
-  /// Draws a scan: cells at beam ends become more occupied, cells on the way there less, each at most once a
-  /// scan and ends before ways. Must not be called after finish().
+  /// Draws a scan: cells at beam ends become more occupied, cells along the beams less. A scan changes a cell
+  /// at most once, and ends take precedence. Must not be called after finish().
   void insert(const Beams& beams) { insert(std::vector<Beams>{beams}); }
 
-  /// Scans of several lasers at once, each with the origin of its own, are drawn as one: no beam of one laser
-  /// wipes out what another saw at that very time.
+  /// Draws simultaneous scans of several lasers as one scan, so that no beam of one laser erases the beam
+  /// ends of another.
   void insert(const std::vector<Beams>& scans);
 
-  /// What was inserted so far; none once finished.
+  /// Occupancy of all inserted scans; empty once the map is finished.
   const std::optional<mrpt::maps::COccupancyGridMap2D>& occupancy() const { return grid_; }
 
-  /// The score grid of all that was inserted so far.
+  /// Score grid of all inserted scans.
   const ScoreGrid& scores();
   const ScoreGrid& scores() const { return scores_; }  ///< of a finished map
 
-  /// No more scans: builds the pyramid and frees the occupancy grid.
+  /// Ends the insertion of scans: builds the pyramid and frees the occupancy grid.
   void finish();
   bool finished() const { return finished_; }
 
-  /// Packs a finished map, or unpacks it; nothing happens where it is so already. A packed map has no scores
-  /// and cannot be compared with (std::logic_error): unpack it first. Not to be called while another thread
-  /// looks at the map.
+  /// Packs or unpacks a finished map; does nothing if it already is. A packed map has no scores, and
+  /// agreement() throws std::logic_error. Not thread-safe.
   void pack();
   void unpack();
   bool packed() const { return packed_; }
 
-  /// How well points drawn at a pose agree with what the map saw there.
+  /// Agreement of a scan at a pose with what the map observed there.
   struct Agreement {
-    std::size_t observed = 0;  ///< points in space that the map has observed, free or occupied
-    std::size_t hits = 0;      ///< of those, points on or beside something occupied
+    std::size_t observed = 0;  ///< points in cells that the map has observed, free or occupied
+    std::size_t hits = 0;      ///< observed points on or beside an occupied cell
     double share() const {
       return observed == 0 ? 0 : static_cast<double>(hits) / static_cast<double>(observed);
     }
   };
-  /// Of a finished map, or of an active one whose score grid is up to date.
+  /// The map must be finished, or its score grid up to date after scores().
   Agreement agreement(const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot) const;
 
   std::size_t memory_bytes() const;
 
  private:
-  struct Region {  // of cells, empty when x_end <= x
+  struct Region {  // of cells, empty if x_end <= x
     int x = 0;
     int y = 0;
     int x_end = 0;
     int y_end = 0;
   };
-  struct Way {  // from cell to cell
+  struct Way {  // of a beam, from cell to cell
     int from_x = 0;
     int from_y = 0;
     int to_x = 0;
@@ -107,20 +105,33 @@ class LocalMap {
   void draw_way(int x0, int y0, int x1, int y1);
 
   LocalMapOptions options_;
-  /// Until it is finished. MRPT's grid keeps its memory when it is made smaller, so that it must go
-  /// altogether.
+  /// Empty once finished. MRPT's grid keeps its memory when it shrinks, so the grid is destroyed.
   std::optional<mrpt::maps::COccupancyGridMap2D> grid_;
-  std::vector<std::uint16_t> last_scan_;  ///< for each cell, the scan that last touched it
+  std::vector<std::uint16_t> last_scan_;  ///< for each cell, the last scan that changed it
   std::uint16_t scan_ = 0;
   Region dirty_;
   ScoreGrid scores_;
-  std::vector<std::uint8_t>
-      observed_;               ///< of a finished map: of each 2 x 2 cells, 1 when any was observed, else 0
-  PackedBytes packed_scores_;  ///< both made when it is packed first, then kept
+  std::vector<std::uint8_t> observed_;  ///< of a finished map: 1 for 2 x 2 cells with an observed one, else 0
+  PackedBytes packed_scores_;           ///< kept, as packed_observed_, from the first pack() on
   PackedBytes packed_observed_;
   bool packed_ = false;
-  bool scores_fit_ = false;  ///< the score grid has the occupancy grid's size
+  bool scores_fit_ = false;  ///< whether the score grid has the size of the occupancy grid
   bool finished_ = false;
+};
+
+/// A local map with its place on the robot's path. The front end, which fills the map, and loop closing share
+/// it.
+struct PlacedLocalMap {
+  std::size_t id = 0;               ///< counts from 0 in the order of creation
+  std::size_t anchor = 0;           ///< first node; its pose is the frame of the map
+  mrpt::math::TPose2D local_T_map;  ///< the anchor's pose in the front end's frame
+  std::size_t first_node = 0;       ///< the map holds the scans of the nodes [first_node, last_node]
+  std::size_t last_node = 0;
+  double travelled_m = 0;  ///< path of the robot while the map was active
+  /// Covariance of the robot's pose in this map while the map is active, along the map's axes: m^2, m rad,
+  /// rad^2.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  std::shared_ptr<LocalMap> map;
 };
 
 }  // namespace psi_slam

@@ -10,18 +10,17 @@ namespace {
 using mrpt::math::TPose2D;
 using Point = mrpt::math::TPoint2Df;
 
-constexpr std::ptrdiff_t kReach = 3;  // neighbours on either side that a line is fitted to
-constexpr float kMaxGap_m = 0.4F;     // between neighbours on one surface,
-constexpr float kMaxGapPerMetre =
-    0.15F;  // or this share of their distance: far walls are seen at grazing angles
-constexpr float kMaxResidual_m = 0.04F;  // root mean square, of points on a straight surface
+constexpr std::ptrdiff_t kReach = 3;      // neighbours on either side for the line through a point
+constexpr float kMaxGap_m = 0.4F;         // between neighbours on one surface
+constexpr float kMaxGapPerMetre = 0.15F;  // or this gap per metre of range, for walls at grazing angles
+constexpr float kMaxResidual_m = 0.04F;   // root mean square, of points on a straight surface
 
 bool on_one_surface(const Point& a, const Point& b) {
   const float gap = std::hypot(a.x - b.x, a.y - b.y);
   return gap <= std::max(kMaxGap_m, kMaxGapPerMetre * std::hypot(a.x, a.y));
 }
 
-// The normal of the line through a point and its neighbours, (0, 0) when they do not lie on one.
+// Normal of the line through a point and its neighbours; (0, 0) if they do not lie on a line.
 Point normal_at(const std::vector<Point>& points, std::size_t index) {
   const auto size = static_cast<std::ptrdiff_t>(points.size());
   const auto i = static_cast<std::ptrdiff_t>(index);
@@ -65,7 +64,7 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
   double farthest_squared = 0;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;  // NaN too
+    if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;  // also for NaN
     const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + robot_T_laser.phi;
     const double x = robot_T_laser.x + range * std::cos(bearing);
     const double y = robot_T_laser.y + range * std::sin(bearing);
@@ -76,7 +75,7 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
     farthest_squared = std::max(farthest_squared, x * x + y * y);
     result.points.emplace_back(static_cast<float>(x), static_cast<float>(y));
   }
-  result.points.shrink_to_fit();  // nodes keep theirs
+  result.points.shrink_to_fit();  // nodes keep these points
   result.normals.reserve(result.points.size());
   for (std::size_t i = 0; i < result.points.size(); ++i)
     result.normals.push_back(normal_at(result.points, i));

@@ -9,8 +9,7 @@ namespace {
 
 using Grid = mrpt::maps::COccupancyGridMap2D;
 
-// A cell this likely occupied is full evidence: one hit is enough, so that thinned logs can be matched as
-// well.
+// Occupancy that counts as full evidence. One hit reaches it, so that logs with few scans can be matched.
 constexpr double kCertain = 0.65;
 
 }  // namespace
@@ -35,7 +34,7 @@ void ScorePainter::paint(const Grid& grid, int x, int y, int x_end, int y_end, S
   const int width = x_end - x;
   const int height = y_end - y;
   if (width <= 0 || height <= 0) return;
-  // A frame of `reach` around the region, so that evidence is spread without looking where it lands.
+  // The margin of `reach` around the region avoids bounds checks while spreading the evidence.
   const int row = width + 4 * reach_;
   sums_.assign(static_cast<std::size_t>(row) * static_cast<std::size_t>(height + 4 * reach_), 0);
   const int side = 2 * reach_ + 1;

@@ -11,7 +11,7 @@
 #include "localization/localizer_options.h"
 #include "localization/reference_map.h"
 #include "loop_closure/keyframe_store.h"
-#include "matching/correlative_matcher.h"
+#include "matching/make_matcher.h"
 #include "psi_slam/localizer.h"
 
 namespace psi_slam {

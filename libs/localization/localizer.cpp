@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "frames/inverse_pose.h"
+#include "frames/pose_operations.h"
 #include "localization/global_search.h"
 #include "localization/localizer_options.h"
 #include "psi_slam/pose_graph.h"
@@ -59,6 +59,10 @@ Localizer::Localizer(const mrpt::maps::COccupancyGridMap2D& map, const Localizer
 
 Localizer::Localizer(ReferenceMap map, const LocalizerOptions& options)
     : m_(std::make_unique<Members>(std::move(map), options)) {}
+
+Localizer Localizer::open(const std::filesystem::path& map, const LocalizerOptions& options) {
+  return {read_map_file(map), options};
+}
 
 Localizer::~Localizer() = default;
 

@@ -3,19 +3,19 @@
 
 #include <utility>
 
-#include "psi_slam/user_error.h"
 #include "carmen/carmen_reader.h"
 #include "frames/deskewed_source.h"
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
+#include "frames/scan_synchronizer.h"
+#include "logs/open_log_reader.h"
 #include "rawlog/rawlog_reader.h"
 #include "rosbag/rosbag_reader.h"
-#include "frames/synchronized_source.h"
 
 namespace psi_slam {
 namespace {
 
-/// Every nth frame of another source, from the first on, numbered anew.
+/// Yields every nth frame of another source, starting with the first. The index counts the yielded frames.
 class ThinnedSource : public FrameSource {
  public:
   ThinnedSource(std::unique_ptr<FrameSource> source, std::size_t every_nth)
@@ -38,33 +38,24 @@ class ThinnedSource : public FrameSource {
   std::size_t every_nth_;
 };
 
-std::unique_ptr<FrameSource> open_as_recorded(const std::filesystem::path& path, LogFormat format,
-                                              const LogOptions& options) {
-  switch (format) {
-    case LogFormat::kCarmen:
-      return std::make_unique<CarmenReader>(path, options);
-    case LogFormat::kMrptRawlog:
-      return std::make_unique<RawlogReader>(path, options);
-    case LogFormat::kRos1Bag:
-    case LogFormat::kRos2Sqlite:
-    case LogFormat::kRos2Mcap:
-    case LogFormat::kRos2Folder:
-      return std::make_unique<RosbagReader>(path, options);
-  }
-  throw SystemFailure("a log format without reader");
-}
-
-/// Only bags may state how long a sweep takes.
+/// Returns whether scans may have a sweep time. Only bags may state one.
 bool may_be_skewed(LogFormat format, const LogOptions& options) {
   return options.sweep_time_s ? *options.sweep_time_s > 0 : is_bag(format);
 }
 
 }  // namespace
 
+std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options) {
+  const LogFormat format = detect_log_format(path);
+  if (format == LogFormat::kCarmen) return open_carmen_log(path, options);
+  if (format == LogFormat::kMrptRawlog) return open_rawlog(path, options);
+  return open_bag_log(path, options);
+}
+
 std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const LogOptions& options) {
   check_log_options(options);
   const LogFormat format = detect_log_format(path);
-  auto source = open_as_recorded(path, format, options);
+  std::unique_ptr<FrameSource> source = open_log_reader(path, options);
   if (reads_several_lasers(options, format)) source = std::make_unique<SynchronizedSource>(std::move(source));
   if (may_be_skewed(format, options))
     source = std::make_unique<DeskewedSource>(std::move(source), options.sweep_time_s);

@@ -10,10 +10,10 @@
 namespace psi_slam {
 namespace {
 
-// Pairs matched between two reports of the progress.
+// Pairs matched between two reports of progress.
 constexpr std::size_t kBatch = 64;
 
-/// Where the nodes of a local map lie: what is farther from it than the reach is so from all of them.
+/// Bounding box of the nodes of a local map: a quick test before the distance to every node.
 struct Box {
   double x_min, y_min, x_max, y_max;
 
@@ -52,16 +52,16 @@ struct Pair {
 };
 
 std::vector<Pair> pairs_near_each_other(
-    const KeyframeStore& memory, const PoseGraph& graph, const FinalSearchOptions& options,
+    const KeyframeStore& keyframes, const PoseGraph& graph, const FinalSearchOptions& options,
     const std::function<bool(std::size_t node, std::size_t local_map)>& known) {
   std::vector<Pair> pairs;
-  for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
-    const PlacedLocalMap& local_map = memory.local_maps[m];
+  for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
+    const PlacedLocalMap& local_map = keyframes.local_maps[m];
     const Box box(local_map, graph);
-    for (std::size_t node = 0; node < memory.nodes.size(); ++node) {
+    for (std::size_t node = 0; node < keyframes.nodes.size(); ++node) {
       if (!box.is_near(graph.pose(node), options.reach_m)) continue;
       if (node >= local_map.first_node && node <= local_map.last_node) continue;
-      if (!begins_stretch(node, memory.nodes, options.travel_m) || known(node, m) ||
+      if (!begins_stretch(node, keyframes.nodes, options.travel_m) || known(node, m) ||
           !is_near(node, local_map, graph, options.reach_m))
         continue;
       Pair pair;
@@ -77,25 +77,27 @@ std::vector<Pair> pairs_near_each_other(
 
 }  // namespace
 
-FinalSearchOutcome final_search(const KeyframeStore& memory, const PoseGraph& graph,
-                          const std::function<const Matcher&(std::size_t)>& matcher_of,
-                          const LoopVerificationOptions& verification, const FinalSearchOptions& options,
-                          const std::function<bool(std::size_t, std::size_t)>& known, std::uint64_t run_seed,
-                          WorkerPool& pool, const std::function<bool(double)>& progress) {
-  const std::vector<Pair> pairs = pairs_near_each_other(memory, graph, options, known);
+FinalSearchOutcome final_search(const KeyframeStore& keyframes, const PoseGraph& graph,
+                                const std::function<ChosenMatcher(std::size_t)>& matcher_of,
+                                const LoopVerificationOptions& verification,
+                                const FinalSearchOptions& options,
+                                const std::function<bool(std::size_t, std::size_t)>& known,
+                                std::uint64_t run_seed, WorkerPool& pool,
+                                const std::function<bool(double)>& progress) {
+  const std::vector<Pair> pairs = pairs_near_each_other(keyframes, graph, options, known);
   FinalSearchOutcome outcome;
   for (std::size_t begin = 0; begin < pairs.size(); begin += kBatch) {
     const std::size_t end = std::min(begin + kBatch, pairs.size());
     std::vector<std::size_t> local_maps;
     for (std::size_t i = begin; i < end; ++i) local_maps.push_back(pairs[i].candidate.local_map);
-    unpack_local_maps(memory, local_maps, pool);
+    unpack_local_maps(keyframes, local_maps, pool);
     auto attempts = map_in_parallel<LoopAttempt>(pool, end - begin, [&](std::size_t index) {
       const auto& [node, candidate] = pairs[begin + index];
-      return attempt_loop(node, *memory.nodes[node].points, candidate, memory, matcher_of(node), verification,
-                          run_seed);
+      return attempt_loop(node, *keyframes.nodes[node].points, candidate, keyframes, matcher_of(node),
+                          verification, run_seed);
     });
     for (std::size_t i = 0; i < attempts.size(); ++i) {
-      outcome.effort[matcher_of(pairs[begin + i].node).name()] += attempts[i].effort;
+      outcome.effort[matcher_of(pairs[begin + i].node).kind] += attempts[i].effort;
       if (!attempts[i].loop || attempts[i].loop->verdict == LoopVerdict::kNotFound) continue;
       attempts[i].loop->in_final_search = true;
       outcome.loops.push_back(*std::move(attempts[i].loop));

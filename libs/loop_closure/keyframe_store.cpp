@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "pose_graph/information_matrix.h"
+
 namespace psi_slam {
 namespace {
 
@@ -12,30 +14,43 @@ constexpr std::size_t kUnpackedLocalMaps = 48;
 }  // namespace
 
 KeyframeStore make_keyframe_store() {
-  KeyframeStore memory;
-  memory.cache = std::make_shared<LocalMapCache>(kUnpackedLocalMaps);
-  return memory;
+  KeyframeStore keyframes;
+  keyframes.cache = std::make_shared<LocalMapCache>(kUnpackedLocalMaps);
+  return keyframes;
 }
 
-void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& memory) {
+void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& keyframes) {
   NodeScan node;
   node.frame = frame;
   node.local_T_robot = step.local_T_robot;
   node.points = step.points;
-  if (!memory.nodes.empty()) {
-    const mrpt::math::TPose2D motion = step.local_T_robot - memory.nodes.back().local_T_robot;
-    node.travelled_m = memory.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
+  if (!keyframes.nodes.empty()) {
+    const mrpt::math::TPose2D motion = step.local_T_robot - keyframes.nodes.back().local_T_robot;
+    node.travelled_m = keyframes.nodes.back().travelled_m + std::hypot(motion.x, motion.y);
   }
-  memory.nodes.push_back(std::move(node));
+  keyframes.nodes.push_back(std::move(node));
 }
 
-void remember_local_map(const PlacedLocalMap& finished, KeyframeStore& memory) {
-  memory.local_maps.push_back(finished);
-  if (memory.cache) memory.cache->add(finished.map);
+void constrain_to_local_maps(const FrontEndStep& step, const LocalMapNoise& noise, PoseGraph& graph) {
+  for (const FrontEndStep::Membership& membership : step.memberships) {
+    Constraint constraint;
+    constraint.kind = Constraint::Kind::kLocalMap;
+    constraint.from = membership.anchor;
+    constraint.to = step.node.value();
+    constraint.from_T_to = membership.anchor_T_node;
+    constraint.information = noisy_information(membership.covariance, noise.sigma_m, noise.sigma_rad);
+    graph.add_constraint(constraint);
+  }
 }
 
-void unpack_local_maps(const KeyframeStore& memory, const std::vector<std::size_t>& local_maps, WorkerPool& pool) {
-  if (memory.cache) memory.cache->use(local_maps, pool);
+void remember_local_map(const PlacedLocalMap& finished, KeyframeStore& keyframes) {
+  keyframes.local_maps.push_back(finished);
+  if (keyframes.cache) keyframes.cache->add(finished.map);
+}
+
+void unpack_local_maps(const KeyframeStore& keyframes, const std::vector<std::size_t>& local_maps,
+                       WorkerPool& pool) {
+  if (keyframes.cache) keyframes.cache->use(local_maps, pool);
 }
 
 bool begins_stretch(std::size_t node, const std::vector<NodeScan>& nodes, double stretch_m) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What loop closing remembers of the places the robot has been: each node's points and pose in the front
-// end's frame, and the finished local maps.
+// The places that the robot has visited, for loop closing: points and pose of each node, and the finished
+// local maps.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -13,6 +13,7 @@
 #include "local_maps/front_end.h"
 #include "loop_closure/local_map_cache.h"
 #include "matching/scan_points.h"
+#include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
 
@@ -26,23 +27,35 @@ struct NodeScan {
 struct KeyframeStore {
   std::vector<NodeScan> nodes;             ///< by node number
   std::vector<PlacedLocalMap> local_maps;  ///< finished ones, in the order of their ids
-  std::shared_ptr<LocalMapCache> cache;  ///< that all of them lie on, in this order; none: nothing is packed
+  std::shared_ptr<LocalMapCache> cache;    ///< holds all local maps in this order; null: none is packed
 };
 
-/// Empty, with a shelf that keeps those local maps unpacked that the robot comes by again within metres.
+/// An empty store with a cache. The cache keeps enough local maps unpacked for a robot that returns within
+/// metres.
 KeyframeStore make_keyframe_store();
 
-/// Appends the node that the front end has made of a frame, which it is asked for.
-void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& memory);
+/// Appends the node that the front end made of a frame.
+void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& keyframes);
 
-void remember_local_map(const PlacedLocalMap& finished, KeyframeStore& memory);
+/// Noise of a node's pose in a local map, added to the front end's covariance.
+struct LocalMapNoise {
+  double sigma_m = 0;
+  double sigma_rad = 0;
+};
 
-/// Before local maps are looked at: unpacks them, where there is a shelf.
-void unpack_local_maps(const KeyframeStore& memory, const std::vector<std::size_t>& local_maps, WorkerPool& pool);
+/// Adds a constraint from the anchor of each of its local maps to the step's node. All these nodes must be in
+/// the graph.
+void constrain_to_local_maps(const FrontEndStep& step, const LocalMapNoise& noise, PoseGraph& graph);
 
-/// Whether `node` is the first in its stretch, when the path is cut into stretches of `stretch_m`. Loops are
-/// looked for at such nodes only, whichever were found before: one match more or less does not shift all that
-/// follow. Every node is one when `stretch_m` is 0.
+void remember_local_map(const PlacedLocalMap& finished, KeyframeStore& keyframes);
+
+/// Unpacks local maps if there is a cache. Call before reading them.
+void unpack_local_maps(const KeyframeStore& keyframes, const std::vector<std::size_t>& local_maps,
+                       WorkerPool& pool);
+
+/// Whether `node` is the first node of a stretch, if the path is divided into stretches of `stretch_m`. Loops
+/// are searched at such nodes only. The choice does not depend on loops found before, so one match more or
+/// less does not shift later searches. With `stretch_m` 0 every node is one.
 bool begins_stretch(std::size_t node, const std::vector<NodeScan>& nodes, double stretch_m);
 
 }  // namespace psi_slam

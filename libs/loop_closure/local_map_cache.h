@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where finished local maps lie packed, all but those that were used last: the memory of a long drive grows
-// by what its walls need, not by the area of all local maps.
+// Cache of compressed local maps: all finished local maps are packed except those used last. Memory of a long
+// run then grows with the length of its walls, not with the area of its local maps.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ namespace psi_slam {
 
 class LocalMapCache {
  public:
-  /// Of so many local maps at most stay unpacked what is not in use.
+  /// Packs local maps that are not in use when more than `most_unpacked` are unpacked.
   explicit LocalMapCache(std::size_t most_unpacked) : most_unpacked_(most_unpacked) {}
 
-  /// Puts a finished local map there, whose number is the count of those before.
+  /// Appends a finished local map; the first has number 0.
   void add(std::shared_ptr<LocalMap> map);
 
-  /// Unpacks local maps by their numbers, ready for any number of threads to look at until the next call, and
-  /// packs what has not been used for longest. Does nothing about numbers that the shelf does not have.
+  /// Unpacks local maps by number, and packs those unused for longest. Any number of threads may read the
+  /// unpacked ones until the next call. Ignores unknown numbers.
   void use(const std::vector<std::size_t>& maps, WorkerPool& pool);
 
   std::size_t unpacked() const { return unpacked_.size(); }

@@ -5,12 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "loop_closure/two_decimals.h"
-
 namespace psi_slam {
 namespace {
 
-// A blind scan has no points, or none that a turn would move (see make_search_window).
+// Needs points, and some that a turn would move by a cell (see make_search_window).
 bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
   return !scan.points.empty() && scan.farthest_m > std::as_const(*local_map.map).scores().resolution_m();
 }
@@ -18,11 +16,11 @@ bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
 }  // namespace
 
 LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCandidate& candidate,
-                         const KeyframeStore& memory, const Matcher& matcher,
+                         const KeyframeStore& keyframes, const ChosenMatcher& matcher,
                          const LoopVerificationOptions& verification, std::uint64_t run_seed) {
   LoopAttempt attempt;
-  const NodeScan& here = memory.nodes[node];
-  const PlacedLocalMap& local_map = memory.local_maps[candidate.local_map];
+  const NodeScan& here = keyframes.nodes[node];
+  const PlacedLocalMap& local_map = keyframes.local_maps[candidate.local_map];
   if (!can_be_searched(scan, local_map)) return attempt;
   MatchProblem problem{std::as_const(*local_map.map).scores(), scan, candidate.anchor_T_node,
                        candidate.extent};
@@ -30,7 +28,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   problem.measure_ambiguity = true;
   problem.seed = {run_seed, here.frame, local_map.id};
   const auto start = std::chrono::steady_clock::now();
-  const MatchResult match = matcher.match(problem);
+  const MatchResult match = matcher.matcher.match(problem);
   const auto time = std::chrono::steady_clock::now() - start;
   attempt.effort.attempts = 1;
   attempt.effort.found = match.found ? 1 : 0;
@@ -42,7 +40,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   loop.node = node;
   loop.local_map = candidate.local_map;
   loop.anchor = local_map.anchor;
-  loop.matcher = matcher.name();
+  loop.matcher = matcher.kind;
   loop.anchor_T_predicted = candidate.anchor_T_node;
   loop.window = candidate.extent;
   loop.evaluations = match.evaluations;
@@ -50,7 +48,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   if (!match.found) {
     loop.anchor_T_node = candidate.anchor_T_node;
     loop.verdict = LoopVerdict::kNotFound;
-    loop.reason = "nothing in its window scores " + two_decimals(problem.min_response);
+    loop.refusal = LoopRefusal{LoopRefusal::Reason::kNothingFound, 0, problem.min_response};
     return attempt;
   }
   loop.anchor_T_node = match.map_T_robot;
@@ -59,7 +57,7 @@ LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCan
   loop.ambiguity = match.ambiguity.value_or(0);
   loop.moved_m = std::hypot(match.map_T_robot.x - candidate.anchor_T_node.x,
                             match.map_T_robot.y - candidate.anchor_T_node.y);
-  verify(loop, scan, memory, verification);
+  verify(loop, scan, keyframes, verification);
   return attempt;
 }
 

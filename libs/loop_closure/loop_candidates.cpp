@@ -19,55 +19,50 @@ double nearest_node_m(const PlacedLocalMap& local_map, const mrpt::math::TPose2D
   return std::sqrt(nearest_squared);
 }
 
-double travel_between_m(std::size_t node, const PlacedLocalMap& local_map, const KeyframeStore& memory) {
+double travel_between_m(std::size_t node, const PlacedLocalMap& local_map, const KeyframeStore& keyframes) {
   if (node > local_map.last_node)
-    return memory.nodes[node].travelled_m - memory.nodes[local_map.last_node].travelled_m;
+    return keyframes.nodes[node].travelled_m - keyframes.nodes[local_map.last_node].travelled_m;
   if (node < local_map.first_node)
-    return memory.nodes[local_map.first_node].travelled_m - memory.nodes[node].travelled_m;
+    return keyframes.nodes[local_map.first_node].travelled_m - keyframes.nodes[node].travelled_m;
   return 0;
+}
+
+SearchExtent window_of(const PositionSigma& sigma, const LoopCandidateOptions& options) {
+  const auto half_width = [&](double deviation, double least, double most) {
+    return std::clamp(options.window_sigmas * deviation, least, most);
+  };
+  return {half_width(sigma.metres, options.min_window_m, options.max_window.x_m),
+          half_width(sigma.metres, options.min_window_m, options.max_window.y_m),
+          half_width(sigma.radians, options.min_window_rad, options.max_window.theta_rad)};
 }
 
 }  // namespace
 
-std::vector<std::size_t> local_maps_in_reach(std::size_t node, const KeyframeStore& memory,
-                                             const PoseGraph& graph, const LoopCandidateOptions& options) {
+std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& keyframes,
+                                           const PoseGraph& graph, const LoopCandidateOptions& options,
+                                           const SigmasOfAnchors& sigmas_of_anchors) {
+  const mrpt::math::TPose2D& map_T_node = graph.pose(node);
   const double reach_m =
       options.reach_m + std::max({options.max_window.x_m, options.max_window.y_m, options.min_window_m});
-  std::vector<std::size_t> in_reach;
-  for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
-    const PlacedLocalMap& local_map = memory.local_maps[m];
-    if (travel_between_m(node, local_map, memory) >= options.min_travel_m &&
-        nearest_node_m(local_map, graph.pose(node), graph) <= reach_m)
-      in_reach.push_back(m);
-  }
-  return in_reach;
-}
-
-std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& memory,
-                                           const PoseGraph& graph,
-                                           const std::vector<PositionSigma>& sigma_of_anchor,
-                                           const LoopCandidateOptions& options) {
-  std::vector<LoopCandidate> candidates;
-  const mrpt::math::TPose2D& map_T_node = graph.pose(node);
-  for (std::size_t m = 0; m < memory.local_maps.size(); ++m) {
-    const PlacedLocalMap& local_map = memory.local_maps[m];
-    if (travel_between_m(node, local_map, memory) < options.min_travel_m) continue;
-    const auto half_width = [&](double sigma, double least, double most) {
-      return std::clamp(options.window_sigmas * sigma, least, most);
-    };
-    const PositionSigma& sigma = sigma_of_anchor[m];
-    const SearchExtent extent = {
-        half_width(sigma.metres, options.min_window_m, options.max_window.x_m),
-        half_width(sigma.metres, options.min_window_m, options.max_window.y_m),
-        half_width(sigma.radians, options.min_window_rad, options.max_window.theta_rad)};
+  std::vector<LoopCandidate> in_reach;
+  std::vector<std::size_t> local_maps;
+  for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
+    const PlacedLocalMap& local_map = keyframes.local_maps[m];
+    if (travel_between_m(node, local_map, keyframes) < options.min_travel_m) continue;
     const double distance_m = nearest_node_m(local_map, map_T_node, graph);
-    if (distance_m > options.reach_m + std::max(extent.x_m, extent.y_m)) continue;
-    LoopCandidate candidate;
-    candidate.local_map = m;
-    candidate.anchor_T_node = map_T_node - graph.pose(local_map.anchor);
-    candidate.distance_m = distance_m;
-    candidate.extent = extent;
-    candidates.push_back(candidate);
+    if (distance_m > reach_m) continue;
+    in_reach.push_back({m, map_T_node - graph.pose(local_map.anchor), {}, distance_m});
+    local_maps.push_back(m);
+  }
+  if (in_reach.empty()) return {};
+
+  const std::vector<PositionSigma> sigmas = sigmas_of_anchors(local_maps);
+  std::vector<LoopCandidate> candidates;
+  for (std::size_t i = 0; i < in_reach.size(); ++i) {
+    LoopCandidate candidate = in_reach[i];
+    candidate.extent = window_of(sigmas[i], options);
+    if (candidate.distance_m <= options.reach_m + std::max(candidate.extent.x_m, candidate.extent.y_m))
+      candidates.push_back(candidate);
   }
   return candidates;
 }

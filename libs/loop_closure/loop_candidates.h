@@ -1,55 +1,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which finished local maps a node may see again, and how large a window each needs: the pose graph's own
-// uncertainty of the node seen from the local map, projected along the best path between them (Olson 2009,
+// Which finished local maps a node may see again, and how large a search window each needs: the pose graph's
+// uncertainty of the node relative to the local map, along the best path between them (Olson 2009,
 // "Recognizing places using spectrally clustered local matches").
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
 
-#include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "base/degrees.h"
 #include "loop_closure/keyframe_store.h"
-#include "matching/search_window.h"
+#include "psi_slam/matching.h"
 #include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
 
 struct LoopCandidateOptions {
-  SearchExtent max_window = {8.0, 8.0, radians_from_degrees(30.0L)};  ///< the paper's W: 8 m, 30 degrees
+  SearchExtent max_window = {8.0, 8.0, radians_from_degrees(30.0L)};  ///< the paper's W
   double min_window_m = 0.25;
   double min_window_rad = radians_from_degrees(3.5L);
-  double window_sigmas = 3.0;  ///< the window covers this many standard deviations of the prediction
-  double reach_m = 5.0;  ///< a local map is near when one of its nodes is at most this far from the window
-  double min_travel_m =
-      10.0;  ///< between the node and the local map's last node: nearer ones share their scans
+  double window_sigmas = 3.0;  ///< half-width of the window in standard deviations of the prediction
+  double reach_m = 5.0;        ///< largest distance between the window and a node of the local map
+  /// Shortest path between the node and the local map's nearest node. Nearer local maps share scans with it.
+  double min_travel_m = 10.0;
 };
 
 struct LoopCandidate {
   std::size_t local_map = 0;          ///< index in KeyframeStore::local_maps
-  mrpt::math::TPose2D anchor_T_node;  ///< predicted from the graph
+  mrpt::math::TPose2D anchor_T_node;  ///< predicted by the graph
   SearchExtent extent;
   double distance_m = 0;  ///< from the predicted position to the nearest node of the local map
 };
 
-/// The local maps that may be candidates however uncertain the node is, ascending: near in the graph, though
-/// not along the path. What is not among them is not worth a look at the uncertainty.
-std::vector<std::size_t> local_maps_in_reach(std::size_t node, const KeyframeStore& memory,
-                                             const PoseGraph& graph, const LoopCandidateOptions& options);
-
-/// How far the pose of a node seen from another one can be trusted.
+/// Standard deviations of a node's pose relative to another node. Infinite where nothing is known.
 struct PositionSigma {
   double metres = 0;
   double radians = 0;
 };
 
-/// The candidates of a node, in the order of the local maps' ids. `sigma_of_anchor[m]` is the node's
-/// uncertainty seen from the anchor of local map m.
-std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& memory,
-                                           const PoseGraph& graph,
-                                           const std::vector<PositionSigma>& sigma_of_anchor,
-                                           const LoopCandidateOptions& options);
+/// Returns the node's uncertainty relative to the anchor of each of these local maps, in their order.
+using SigmasOfAnchors = std::function<std::vector<PositionSigma>(const std::vector<std::size_t>& local_maps)>;
+
+/// The candidates of a node by ascending local map. Calls `sigmas_of_anchors` at most once, and only for
+/// local maps within reach of the largest window.
+std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& keyframes,
+                                           const PoseGraph& graph, const LoopCandidateOptions& options,
+                                           const SigmasOfAnchors& sigmas_of_anchors);
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The per-loop step: a node against every nearby finished local map.
+// The per-loop step: matches a node with every finished local map nearby.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "base/worker_pool.h"
-#include "loop_closure/loop_candidates.h"
-#include "loop_closure/loop_effort.h"
-#include "psi_slam/loop_record.h"
-#include "loop_closure/loop_verification.h"
 #include "loop_closure/keyframe_store.h"
+#include "loop_closure/loop_candidates.h"
+#include "loop_closure/loop_verification.h"
+#include "loop_closure/matcher_policy.h"
 #include "loop_closure/scan_context.h"
-#include "matching/matcher.h"
 #include "pose_graph/path_covariance.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
@@ -23,28 +22,28 @@ struct LoopClosureOptions {
   LoopCandidateOptions candidates;
   LoopVerificationOptions verification;
   ScanContextOptions context;
-  double attempt_distance_m = 0.5;  ///< loops are looked for once in so much travel
+  double attempt_distance_m = 0.5;  ///< searches for loops once in this much travel
 };
 
 class LoopCloser {
  public:
-  /// `run_seed` is that of MatchSeed.
+  /// `run_seed` goes into MatchSeed.
   LoopCloser(const LoopClosureOptions& options, std::uint64_t run_seed)
       : options_(options), run_seed_(run_seed) {}
 
   struct Outcome {
-    std::vector<LoopRecord>
-        loops;  ///< every attempt, accepted, refused or without a match, in the order of the local maps
+    std::vector<LoopRecord> loops;  ///< all attempts in the order of the local maps
     LoopEffort effort;
   };
-  /// Matches `node` with every local map it may see again, several at a time.
-  Outcome close(std::size_t node, const KeyframeStore& memory, const PoseGraph& graph, const Matcher& matcher,
-                WorkerPool& pool);
+  /// Matches `node` with all its candidates, several at a time.
+  Outcome close(std::size_t node, const KeyframeStore& keyframes, const PoseGraph& graph,
+                const ChosenMatcher& matcher, WorkerPool& pool);
 
-  /// Matches `node` with one local map in a window that somebody else chose, verified like the others. None
-  /// when the scan is blind.
-  std::optional<LoopRecord> match(std::size_t node, const LoopCandidate& candidate, const KeyframeStore& memory,
-                                  const Matcher& matcher, WorkerPool& pool) const;
+  /// Matches `node` with one local map in a given window, and verifies the match. None if the scan has no
+  /// points to match.
+  std::optional<LoopRecord> match(std::size_t node, const LoopCandidate& candidate,
+                                  const KeyframeStore& keyframes, const ChosenMatcher& matcher,
+                                  WorkerPool& pool) const;
 
  private:
   LoopClosureOptions options_;

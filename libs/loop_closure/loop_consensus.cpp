@@ -16,7 +16,7 @@ double weight(const LoopConsensus::Vote& vote) {
 
 }  // namespace
 
-// Where `a` would have the robot now is compared with where `b` has it.
+// Compares the robot's pose implied by `a`, carried along the path, with that implied by `b`.
 bool LoopConsensus::agree(const Vote& a, const Vote& b, const PoseGraph& graph) const {
   const mrpt::math::TPose2D carried =
       graph.pose(a.anchor) + a.anchor_T_robot + (b.local_T_robot - a.local_T_robot);
@@ -43,11 +43,11 @@ std::vector<std::size_t> LoopConsensus::add(const Vote& vote, const PoseGraph& g
     first_m = std::min(first_m, other.travelled_m);
   }
   if (together < options_.min_weight || vote.travelled_m - first_m < options_.min_span_m) return {};
-  for (const Vote& rival : counted) {
-    if (agree(rival, vote, graph)) continue;
+  for (const Vote& opponent : counted) {
+    if (agree(opponent, vote, graph)) continue;
     double against = 0;
     for (const Vote& other : counted)
-      if (!agree(other, vote, graph) && agree(other, rival, graph)) against += weight(other);
+      if (!agree(other, vote, graph) && agree(other, opponent, graph)) against += weight(other);
     if (against > options_.max_rival_share * together) return {};
   }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "loop_closure/outlier_loops.h"
@@ -12,19 +11,21 @@
 namespace psi_slam {
 namespace {
 
+using Reason = LoopRefusal::Reason;
+
 LoopPair pair_of(const LoopRecord& loop) {
   return {loop.node, loop.local_map};
 }
 
-void delete_by_hand(LoopRecord& loop, const char* reason) {
+void delete_by_hand(LoopRecord& loop, Reason reason) {
   loop.verdict = LoopVerdict::kDeleted;
-  loop.reason = reason;
+  loop.refusal = LoopRefusal{reason};
   loop.by_hand = true;
 }
 
 void accept_by_hand(LoopRecord& loop) {
   loop.verdict = LoopVerdict::kAccepted;
-  loop.reason.clear();
+  loop.refusal.reset();
   loop.by_hand = true;
 }
 
@@ -35,7 +36,7 @@ std::size_t LoopLedger::add(LoopRecord loop) {
   if (wanted != by_hand_.end()) {
     wanted->second.before.push_back({loops_.size(), loop, std::nullopt});
     if (wanted->second.kind == LoopEdit::Kind::kDelete)
-      delete_by_hand(loop, "deleted by hand");
+      delete_by_hand(loop, Reason::kDeletedByHand);
     else if (wanted->second.kind == LoopEdit::Kind::kForce && loop.verdict != LoopVerdict::kNotFound &&
              (!wanted->second.of_final_search || loop.in_final_search))
       accept_by_hand(loop);
@@ -79,9 +80,8 @@ void LoopLedger::settle(PoseGraph& graph, SparsePoseAdjustment& solver, double m
     LoopRecord& loop = loops_[loops[i]];
     const bool fits = graph.enabled(constraints[i]);
     loop.verdict = fits ? LoopVerdict::kAccepted : LoopVerdict::kSwitchedOff;
-    loop.reason = fits ? ""
-                       : "the other constraints contradict it by " + std::to_string(std::lround(chi[i])) +
-                             " standard deviations";
+    loop.refusal.reset();
+    if (!fits) loop.refusal = LoopRefusal{Reason::kContradicted, chi[i], max_chi};
   }
 }
 
@@ -89,15 +89,16 @@ void LoopLedger::refuse_pending() {
   for (LoopRecord& loop : loops_) {
     if (loop.verdict != LoopVerdict::kPending) continue;
     loop.verdict = LoopVerdict::kRefused;
-    loop.reason = "found in a wide window, and too few other matches agree with it";
+    loop.refusal = LoopRefusal{Reason::kNoConsensus};
   }
 }
 
 std::set<LoopPair> LoopLedger::searched_pairs() const {
   std::set<LoopPair> pairs;
   for (const LoopRecord& loop : loops_) {
-    const bool failed = loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kNotFound ||
-                        (loop.verdict == LoopVerdict::kDeleted && !loop.by_hand);  // taken back
+    const bool failed =
+        loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kNotFound ||
+        (loop.verdict == LoopVerdict::kDeleted && !loop.by_hand);  // match by hand, taken back
     if (!failed || loop.in_final_search || loop.by_hand) pairs.insert(pair_of(loop));
   }
   return pairs;
@@ -105,7 +106,7 @@ std::set<LoopPair> LoopLedger::searched_pairs() const {
 
 void LoopLedger::remove(const LoopPair& pair, PoseGraph& graph) {
   take_over(pair, LoopEdit::Kind::kDelete, graph);
-  for (const std::size_t loop : attempts_of(pair)) strike(loop, "deleted by hand", graph);
+  for (const std::size_t loop : attempts_of(pair)) strike(loop, Reason::kDeletedByHand, graph);
 }
 
 bool LoopLedger::force(const LoopPair& pair, bool of_final_search, PoseGraph& graph) {
@@ -113,11 +114,12 @@ bool LoopLedger::force(const LoopPair& pair, bool of_final_search, PoseGraph& gr
   by_hand_[pair].of_final_search = of_final_search;
   const std::vector<std::size_t> attempts = attempts_of(pair);
   const auto found = std::find_if(attempts.rbegin(), attempts.rend(), [&](std::size_t loop) {
-    return loops_[loop].verdict != LoopVerdict::kNotFound && (!of_final_search || loops_[loop].in_final_search);
+    return loops_[loop].verdict != LoopVerdict::kNotFound &&
+           (!of_final_search || loops_[loop].in_final_search);
   });
   if (found == attempts.rend()) return false;
   for (const std::size_t other : attempts)
-    if (other != *found) strike(other, "another match of the same two was forced by hand", graph);
+    if (other != *found) strike(other, Reason::kOtherMatchForced, graph);
   accept_by_hand(loops_[*found]);
   if (constraint_of_[*found])
     graph.set_enabled(*constraint_of_[*found], true);
@@ -142,7 +144,7 @@ void LoopLedger::replace(LoopRecord loop, PoseGraph& graph) {
   const LoopPair pair = pair_of(loop);
   take_over(pair, LoopEdit::Kind::kMatch, graph);
   const std::vector<std::size_t> attempts = attempts_of(pair);
-  for (const std::size_t before : attempts) strike(before, "matched again by hand", graph);
+  for (const std::size_t before : attempts) strike(before, Reason::kMatchedAgain, graph);
   loop.by_hand = true;
   const bool accepted = loop.verdict == LoopVerdict::kAccepted;
   const std::size_t index = attempts.empty() ? enter(loop) : attempts.back();
@@ -154,7 +156,7 @@ bool LoopLedger::restore(const LoopPair& pair, PoseGraph& graph) {
   const auto wanted = by_hand_.find(pair);
   if (wanted == by_hand_.end()) return false;
   for (const std::size_t loop : attempts_of(pair)) {
-    strike(loop, "matched by hand, then taken back", graph);
+    strike(loop, Reason::kMatchTakenBack, graph);
     loops_[loop].by_hand = false;
   }
   for (const Entry& entry : wanted->second.before) {
@@ -195,7 +197,7 @@ void LoopLedger::link(std::size_t loop, std::size_t constraint) {
   constraints_.emplace_back(constraint, loop);
 }
 
-void LoopLedger::strike(std::size_t loop, const char* reason, PoseGraph& graph) {
+void LoopLedger::strike(std::size_t loop, Reason reason, PoseGraph& graph) {
   if (const auto constraint = std::exchange(constraint_of_[loop], std::nullopt)) {
     graph.set_enabled(*constraint, false);
     constraints_.erase(std::find(constraints_.begin(), constraints_.end(), std::pair(*constraint, loop)));

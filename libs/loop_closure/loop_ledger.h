@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All attempts to close a loop, which of them are constraints of the pose graph, and what a person changed
-// about them. A plain value: copied together with its graph, it can be gone back to.
+// All attempts to close loops, the constraints that they became, and the changes by hand. A plain value: a
+// copy of it and of its graph is a state that can be restored.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,19 @@
 #include <utility>
 #include <vector>
 
-#include "loop_closure/loop_edit.h"
+#include "pose_graph/sparse_pose_adjustment.h"
 #include "psi_slam/loop_record.h"
 #include "psi_slam/pose_graph.h"
-#include "pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {
 
-/// The noise of a loop on top of its match's covariance.
+/// Noise of a loop, added to its match's covariance.
 struct LoopNoise {
   double sigma_m = 0;
   double sigma_rad = 0;
 };
 
-/// A scan, by its node, and a local map.
+/// A node and a local map.
 using LoopPair = std::pair<std::size_t, std::size_t>;
 
 class LoopLedger {
@@ -31,52 +30,52 @@ class LoopLedger {
   explicit LoopLedger(const LoopNoise& noise) : noise_(noise) {}
 
   const std::vector<LoopRecord>& loops() const { return loops_; }
-  /// The last thing that is asked of a ledger.
+  /// Moves the loops out. Call nothing else afterwards.
   std::vector<LoopRecord> take_loops() { return std::move(loops_); }
 
-  /// Enters an attempt and returns its number. Where a person has deleted or forced the loop of this pair,
-  /// its verdict becomes what they want.
+  /// Adds an attempt and returns its number. If a person deleted or forced the loop of this pair, its verdict
+  /// follows.
   std::size_t add(LoopRecord loop);
 
-  /// Makes a constraint of a loop that is accepted or pending; returns by how many standard deviations of
-  /// loops the graph contradicts it. None, and nothing happens, where it is a constraint already or no longer
-  /// to be one.
+  /// Makes an accepted or pending loop a constraint. Returns its residual in standard deviations of the loop
+  /// noise. Does nothing and returns none for other loops and existing constraints.
   std::optional<double> accept(std::size_t loop, PoseGraph& graph);
 
-  /// Optimises the graph, and switches off the loops that it contradicts by more than `max_chi` standard
-  /// deviations; never those that a person forced.
+  /// Optimises the graph and switches off loops with residuals above `max_chi` standard deviations, except
+  /// forced ones.
   void settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi);
 
   void refuse_pending();
 
-  /// The pairs that a last search for loops leaves out: those whose loop is more than refused, those that it
-  /// has tried before, and those whose match a person has settled.
+  /// Pairs that the final search leaves out: loops that were not refused, pairs that it has tried before, and
+  /// pairs that a person decided.
   std::set<LoopPair> searched_pairs() const;
 
-  // What a person does. It holds for attempts that come later, too.
+  // Changes by hand. They also hold for later attempts.
 
   void remove(const LoopPair& pair, PoseGraph& graph);
-  /// False when no match of the pair has been found: the first that comes is taken. With `of_final_search` only
-  /// one that the last pass finds will do.
+  /// False if there is no match of the pair yet; then the first one to come is forced. With `of_final_search`
+  /// it must be a match of the final search.
   bool force(const LoopPair& pair, bool of_final_search, PoseGraph& graph);
-  /// `loop` is what the person had matched: it stands instead of what was found before.
+  /// Replaces earlier attempts of the pair by `loop`, a match by hand.
   void replace(LoopRecord loop, PoseGraph& graph);
-  /// Takes back the other three. False when there is nothing to take back.
+  /// Takes back the other three. False if there was no change.
   bool restore(const LoopPair& pair, PoseGraph& graph);
 
+  /// Forced pairs without an accepted loop.
   std::vector<LoopPair> forced_in_vain() const;
 
   /// The newest attempt of the pair, or null.
   const LoopRecord* find(const LoopPair& pair) const;
 
  private:
-  /// An attempt as it was.
+  /// An attempt before a change by hand.
   struct Entry {
     std::size_t loop = 0;
     LoopRecord record;
     std::optional<std::size_t> constraint;
   };
-  /// What a person wants of a pair, and its attempts as they were before.
+  /// A change by hand, and the pair's attempts before it.
   struct ByHand {
     LoopEdit::Kind kind = LoopEdit::Kind::kDelete;
     bool of_final_search = false;  ///< see force()
@@ -84,16 +83,16 @@ class LoopLedger {
   };
 
   std::vector<std::size_t> attempts_of(const LoopPair& pair) const;
-  /// Begins anew from what the mapper itself had found.
+  /// Starts a change by hand from the attempts of the mapper, without earlier changes.
   void take_over(const LoopPair& pair, LoopEdit::Kind kind, PoseGraph& graph);
   std::size_t enter(LoopRecord loop);
   void link(std::size_t loop, std::size_t constraint);
-  void strike(std::size_t loop, const char* reason, PoseGraph& graph);
+  void strike(std::size_t loop, LoopRefusal::Reason reason, PoseGraph& graph);
 
   LoopNoise noise_;
   std::vector<LoopRecord> loops_;
   std::vector<std::optional<std::size_t>> constraint_of_;  ///< by loop
-  /// Those that are constraints, switched off or not: constraint, loop. In the order they became so.
+  /// Constraint and loop, enabled or not, in the order of accept().
   std::vector<std::pair<std::size_t, std::size_t>> constraints_;
   std::map<LoopPair, ByHand> by_hand_;
 };

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "loop_closure/range_image.h"
-#include "loop_closure/two_decimals.h"
 
 namespace psi_slam {
 namespace {
@@ -22,85 +20,81 @@ double largest_sigma_m(const Eigen::Matrix3d& covariance) {
   return std::sqrt(mean + std::hypot(half_difference, covariance(0, 1)));
 }
 
-// The scans taken around the node, put where the match puts them: what is true of one scan must be true of
-// the run.
-LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeStore& memory,
+// Places the neighbouring scans by the match: if the match is true, they fit the local map too.
+LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeStore& keyframes,
                                          double neighbourhood_m) {
-  const LocalMap& map = *memory.local_maps[loop.local_map].map;
-  const NodeScan& here = memory.nodes[loop.node];
+  const LocalMap& map = *keyframes.local_maps[loop.local_map].map;
+  const NodeScan& here = keyframes.nodes[loop.node];
   LocalMap::Agreement sum;
   const auto add = [&](std::size_t node) {
-    const NodeScan& there = memory.nodes[node];
+    const NodeScan& there = keyframes.nodes[node];
     const LocalMap::Agreement one =
         map.agreement(*there.points, loop.anchor_T_node + (there.local_T_robot - here.local_T_robot));
     sum.observed += one.observed;
     sum.hits += one.hits;
   };
   const auto near = [&](std::size_t node) {
-    return std::abs(memory.nodes[node].travelled_m - here.travelled_m) <= neighbourhood_m;
+    return std::abs(keyframes.nodes[node].travelled_m - here.travelled_m) <= neighbourhood_m;
   };
   for (std::size_t node = loop.node; node-- > 0 && near(node);) add(node);
-  for (std::size_t node = loop.node + 1; node < memory.nodes.size() && near(node); ++node) add(node);
+  for (std::size_t node = loop.node + 1; node < keyframes.nodes.size() && near(node); ++node) add(node);
   return sum;
 }
 
-// The local map's scans taken nearest to the matched pose, seen from the scan.
-RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const KeyframeStore& memory) {
-  const PlacedLocalMap& local_map = memory.local_maps[loop.local_map];
-  const TPose2D& local_T_anchor = memory.nodes[local_map.anchor].local_T_robot;
+// Compares the local map's scans nearest to the matched pose with the ranges of the scan.
+RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const KeyframeStore& keyframes) {
+  const PlacedLocalMap& local_map = keyframes.local_maps[loop.local_map];
+  const TPose2D& local_T_anchor = keyframes.nodes[local_map.anchor].local_T_robot;
   std::size_t nearest = local_map.first_node;
   double nearest_m = std::numeric_limits<double>::infinity();
   for (std::size_t node = local_map.first_node; node <= local_map.last_node; ++node) {
-    const TPose2D anchor_T_other = memory.nodes[node].local_T_robot - local_T_anchor;
+    const TPose2D anchor_T_other = keyframes.nodes[node].local_T_robot - local_T_anchor;
     const double distance_m =
         std::hypot(anchor_T_other.x - loop.anchor_T_node.x, anchor_T_other.y - loop.anchor_T_node.y);
     if (distance_m < nearest_m) nearest_m = distance_m, nearest = node;
   }
-  const RangeImage image(*memory.nodes[loop.node].points);
+  const RangeImage image(*keyframes.nodes[loop.node].points);
   RangeImage::Agreement sum;
   const std::size_t first = std::max(local_map.first_node, nearest < 3 ? 0 : nearest - 3);
   const std::size_t last = std::min(local_map.last_node, nearest + 3);
   for (std::size_t node = first; node <= last; ++node) {
-    const TPose2D anchor_T_other = memory.nodes[node].local_T_robot - local_T_anchor;
-    const RangeImage::Agreement one =
-        image.compare(*memory.nodes[node].points, anchor_T_other - loop.anchor_T_node, kReverseTolerance_m);
+    const TPose2D anchor_T_other = keyframes.nodes[node].local_T_robot - local_T_anchor;
+    const RangeImage::Agreement one = image.compare(*keyframes.nodes[node].points,
+                                                    anchor_T_other - loop.anchor_T_node, kReverseTolerance_m);
     sum.agree += one.agree;
     sum.contradict += one.contradict;
   }
   return sum;
 }
 
-std::string objection(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& memory,
-                      const LoopVerificationOptions& options) {
+/// The first reason to refuse the loop. Fills in its shares as far as they are needed to decide.
+std::optional<LoopRefusal> find_objection(LoopRecord& loop, const ScanPoints& scan,
+                                          const KeyframeStore& keyframes,
+                                          const LoopVerificationOptions& options) {
+  using Reason = LoopRefusal::Reason;
+  const bool wide = is_wide(loop.window, options);
   const double needed = min_response(loop.window, options);
-  if (loop.response < needed)
-    return "the response " + two_decimals(loop.response) + " is below " + two_decimals(needed);
-  if (!is_wide(loop.window, options) && loop.ambiguity > options.max_ambiguity)
-    return "another place fits as well: its response is " + two_decimals(loop.ambiguity) +
-           " of the best, more than " + two_decimals(options.max_ambiguity);
+  if (loop.response < needed) return LoopRefusal{Reason::kLowResponse, loop.response, needed};
+  if (!wide && loop.ambiguity > options.max_ambiguity)
+    return LoopRefusal{Reason::kAmbiguous, loop.ambiguity, options.max_ambiguity};
   const double sigma_m = largest_sigma_m(loop.covariance);
   if (sigma_m > options.max_sigma_m)
-    return "the scan does not determine the position: its standard deviation is " + two_decimals(sigma_m) +
-           " m, more than " + two_decimals(options.max_sigma_m) + " m";
+    return LoopRefusal{Reason::kUncertainPosition, sigma_m, options.max_sigma_m};
 
-  const LocalMap::Agreement own = memory.local_maps[loop.local_map].map->agreement(scan, loop.anchor_T_node);
+  const LocalMap::Agreement own =
+      keyframes.local_maps[loop.local_map].map->agreement(scan, loop.anchor_T_node);
   loop.observed_share = static_cast<double>(own.observed) / static_cast<double>(scan.points.size());
-  if (!is_wide(loop.window, options) && loop.observed_share < options.min_observed_share)
-    return "only " + two_decimals(loop.observed_share) +
-           " of the scan lies in space the local map has observed, less than " +
-           two_decimals(options.min_observed_share);
+  if (!wide && loop.observed_share < options.min_observed_share)
+    return LoopRefusal{Reason::kUnobserved, loop.observed_share, options.min_observed_share};
 
-  loop.neighbours_agree = neighbours_agreement(loop, memory, options.neighbourhood_m).share();
+  loop.neighbours_agree = neighbours_agreement(loop, keyframes, options.neighbourhood_m).share();
   if (loop.neighbours_agree < options.min_neighbours_agree)
-    return "only " + two_decimals(loop.neighbours_agree) +
-           " of the neighbouring scans' points fit the local map, less than " +
-           two_decimals(options.min_neighbours_agree);
+    return LoopRefusal{Reason::kNeighboursDisagree, loop.neighbours_agree, options.min_neighbours_agree};
 
-  loop.reverse_agree = reverse_agreement(loop, memory).share();
+  loop.reverse_agree = reverse_agreement(loop, keyframes).share();
   if (loop.reverse_agree < options.min_reverse_agree)
-    return "seen from the other side only " + two_decimals(loop.reverse_agree) +
-           " of the points agree, less than " + two_decimals(options.min_reverse_agree);
-  return {};
+    return LoopRefusal{Reason::kReverseDisagrees, loop.reverse_agree, options.min_reverse_agree};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -113,10 +107,10 @@ double min_response(const SearchExtent& extent, const LoopVerificationOptions& o
   return is_wide(extent, options) ? options.min_context_response : options.min_response;
 }
 
-void verify(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& memory,
+void verify(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& keyframes,
             const LoopVerificationOptions& options) {
-  loop.reason = objection(loop, scan, memory, options);
-  if (!loop.reason.empty())
+  loop.refusal = find_objection(loop, scan, keyframes, options);
+  if (loop.refusal)
     loop.verdict = LoopVerdict::kRefused;
   else
     loop.verdict = is_wide(loop.window, options) ? LoopVerdict::kPending : LoopVerdict::kAccepted;

@@ -6,33 +6,24 @@
 
 namespace psi_slam {
 
-MatcherKind matcher_kind(LoopMatcher choice, const PsiOptions& options, double psi) {
-  switch (choice) {
-    case LoopMatcher::kCsm:
-      return MatcherKind::kCsm;
-    case LoopMatcher::kCsmGa:
-      return MatcherKind::kCsmGa;
-    case LoopMatcher::kGa:
-      return MatcherKind::kGa;
-    case LoopMatcher::kAdaptive:
-      break;
-  }
+MatcherKind matcher_kind(std::optional<MatcherKind> choice, const PsiOptions& options, double psi) {
+  if (choice) return *choice;
   if (psi <= options.psi_1) return MatcherKind::kCsm;
   return psi >= options.psi_2 ? MatcherKind::kGa : MatcherKind::kCsmGa;
 }
 
-MatcherPolicy::MatcherPolicy(LoopMatcher choice, const PsiOptions& psi, const MatcherOptions& matcher,
-                             const GeneticOptions& genetic)
+MatcherPolicy::MatcherPolicy(std::optional<MatcherKind> choice, const PsiOptions& psi,
+                             const MatcherOptions& matcher, const GeneticOptions& genetic)
     : choice_(choice), psi_(psi) {
-  for (const MatcherKind kind : {MatcherKind::kCsm, MatcherKind::kCsmGa, MatcherKind::kGa})
-    if (choice == LoopMatcher::kAdaptive || matcher_kind(choice, psi, 0) == kind)
+  for (const MatcherKind kind : kMatcherKinds)
+    if (!choice || *choice == kind)
       matchers_[static_cast<std::size_t>(kind)] = make_matcher(kind, matcher, genetic);
 }
 
-const Matcher& MatcherPolicy::matcher(MatcherKind kind) const {
+ChosenMatcher MatcherPolicy::matcher(MatcherKind kind) const {
   const auto& matcher = matchers_.at(static_cast<std::size_t>(kind));
-  if (!matcher) throw std::invalid_argument(std::string("MatcherPolicy: it never comes to ") + name(kind));
-  return *matcher;
+  if (!matcher) throw std::invalid_argument(std::string("MatcherPolicy never chooses ") + name(kind));
+  return {kind, *matcher};
 }
 
 }  // namespace psi_slam

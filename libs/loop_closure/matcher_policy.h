@@ -1,43 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which matcher searches for loops (method, section 6). The paper: where loops are rare, the exhaustive one, which
-// misses none; where they come so often that one missed costs little, the genetic one; in between both, one
-// after the other. See PsiOptions for what the defaults make of that.
+// Chooses the matcher that searches for loops (method, section 6). The paper searches exhaustively where
+// loops are rare, because a missed loop costs much there. Where loops are frequent it uses the genetic
+// matcher, and in between both in turn. PsiOptions tells how the defaults differ from the paper.
 #pragma once
 
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "loop_closure/loop_closure_factor.h"
 #include "matching/make_matcher.h"
 
 namespace psi_slam {
 
-enum class LoopMatcher {
-  kCsm,
-  kCsmGa,
-  kGa,
-  kAdaptive,  ///< as the factor Psi says
+/// `choice` if there is one; otherwise kCsm for psi <= psi_1, kGa for psi >= psi_2, and kCsmGa in between.
+MatcherKind matcher_kind(std::optional<MatcherKind> choice, const PsiOptions& options, double psi);
+
+struct ChosenMatcher {
+  MatcherKind kind;
+  const Matcher& matcher;
 };
 
-/// Psi <= psi_1 is kCsm, Psi >= psi_2 is kGa, all between is kCsmGa; any other choice than kAdaptive stands
-/// whatever Psi is.
-MatcherKind matcher_kind(LoopMatcher choice, const PsiOptions& options, double psi);
-
-/// Owns the matchers that a choice may come to.
+/// Owns the matchers that it may choose.
 class MatcherPolicy {
  public:
-  MatcherPolicy(LoopMatcher choice, const PsiOptions& psi, const MatcherOptions& matcher,
+  MatcherPolicy(std::optional<MatcherKind> choice, const PsiOptions& psi, const MatcherOptions& matcher,
                 const GeneticOptions& genetic);
 
   MatcherKind kind(double psi) const { return matcher_kind(choice_, psi_, psi); }
 
-  /// Throws std::invalid_argument when kind() never is this one.
-  const Matcher& matcher(MatcherKind kind) const;
+  /// Throws std::invalid_argument if kind() never returns `kind`.
+  ChosenMatcher matcher(MatcherKind kind) const;
 
  private:
-  LoopMatcher choice_;
+  std::optional<MatcherKind> choice_;
   PsiOptions psi_;
-  std::array<std::unique_ptr<const Matcher>, 3> matchers_;  ///< by kind
+  std::array<std::unique_ptr<const Matcher>, kMatcherKinds.size()> matchers_;  ///< by kind
 };
 
 }  // namespace psi_slam

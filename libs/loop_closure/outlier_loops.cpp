@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop_closure/outlier_loops.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
-#include "loop_closure/inlier_loops.h"
+#include "pose_graph/constraint_error.h"
+#include "pose_graph/graduated_non_convexity.h"
+#include "pose_graph/path_covariance.h"
+#include "pose_graph/spanning_tree.h"
 
 namespace psi_slam {
 namespace {
 
-// Of the worst contradiction, what loops have at least that are switched off together with it.
+// Share of the worst residual that a loop needs to be disabled in the same round.
 constexpr double kShareOfWorst = 0.5;
 
 std::vector<double> optimized_chi(PoseGraph& graph, SparsePoseAdjustment& solver,
@@ -20,7 +26,7 @@ std::vector<double> optimized_chi(PoseGraph& graph, SparsePoseAdjustment& solver
   return chi;
 }
 
-// Ends, since every round switches off one at least.
+// Every round disables at least one loop, so this ends.
 void switch_off_worst_first(PoseGraph& graph, SparsePoseAdjustment& solver,
                             const std::vector<std::size_t>& loops, double max_chi, std::vector<double>& chi) {
   while (true) {
@@ -46,14 +52,22 @@ double contradicted_share(const PoseGraph& graph, const std::vector<std::size_t>
   return on == 0 ? 0 : static_cast<double>(contradicted) / static_cast<double>(on);
 }
 
+void place_without_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
+                         const std::vector<std::size_t>& loops) {
+  for (const std::size_t loop : loops) graph.set_enabled(loop, false);
+  const std::vector<mrpt::math::TPose2D> poses = spanning_tree_poses(graph);
+  for (std::size_t node = 0; node < poses.size(); ++node) graph.set_pose(node, poses[node]);
+  solver.optimize(graph);
+}
+
 }  // namespace
 
 std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
-                                                  const std::vector<std::size_t>& loops, double max_chi,
-                                                  double doubtful_share) {
+                                             const std::vector<std::size_t>& loops, double max_chi,
+                                             double doubtful_share) {
   std::vector<double> chi = optimized_chi(graph, solver, loops);
   if (contradicted_share(graph, loops, max_chi, chi) > doubtful_share) {
-    trust_loops(graph, solver, loops, max_chi);
+    select_inlier_loops(graph, solver, loops, max_chi);
     chi = optimized_chi(graph, solver, loops);
   }
   switch_off_worst_first(graph, solver, loops, max_chi, chi);
@@ -68,6 +82,41 @@ std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustm
     switch_off_worst_first(graph, solver, loops, max_chi, chi);
   }
   return chi;
+}
+
+std::vector<double> path_chi(const PoseGraph& graph, const std::vector<std::size_t>& loops) {
+  std::map<std::size_t, std::vector<std::size_t>> by_start;  // indices of `loops`; one search for each start
+  for (std::size_t i = 0; i < loops.size(); ++i) by_start[graph.constraint(loops[i]).from].push_back(i);
+  std::vector<double> chi(loops.size());
+  PathCovarianceSearch search;
+  for (const auto& [start, indices] : by_start) {
+    PathCovarianceOptions to_ends;
+    for (const std::size_t i : indices) to_ends.targets.push_back(graph.constraint(loops[i]).to);
+    search.run(graph, start, to_ends);
+    for (const std::size_t i : indices) {
+      const Constraint& loop = graph.constraint(loops[i]);
+      const RelativeUncertainty uncertainty = search.of(loop.to);
+      if (!uncertainty.reached) continue;  // nothing contradicts the loop
+      const Eigen::Vector3d error = constraint_error(loop.from_T_to, RotatedPose(graph.pose(loop.from)),
+                                                     RotatedPose(graph.pose(loop.to)));
+      const Eigen::Matrix3d covariance = uncertainty.covariance + loop.information.inverse();
+      chi[i] = std::sqrt(std::max(0.0, error.dot(covariance.ldlt().solve(error))));
+    }
+  }
+  return chi;
+}
+
+void select_inlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
+                         const std::vector<std::size_t>& loops, double max_chi) {
+  place_without_loops(graph, solver, loops);
+  const std::vector<double> off_path = path_chi(graph, loops);
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    graph.set_enabled(loops[i], off_path[i] <= kPathGate * max_chi);
+  GraduatedOptions options;
+  options.inlier_width = max_chi;
+  const std::vector<ConstraintFit> fits = optimize_graduated(graph, solver, options).solution.fits;
+  for (const std::size_t loop : loops) graph.set_enabled(loop, fits[loop].chi2 <= max_chi * max_chi);
+  solver.optimize(graph);
 }
 
 }  // namespace psi_slam

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One scan as a range image, to ask whether what another scan saw agrees with it: a point of the other that
-// this scan looked straight through contradicts it, a point on what it measured agrees, and a point hidden
-// behind says nothing. Of a robot with several lasers each has an image of its own, and a point that any of
-// them measured agrees.
+// One scan as a range image, to test whether the points of another scan agree with it. A point in space that
+// a beam passed through contradicts the scan. A point at the measured range agrees. A point hidden by a
+// nearer obstacle does not count. Each laser has an image of its own; a point that agrees with any of them
+// agrees.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -26,17 +26,17 @@ class RangeImage {
                                      : static_cast<double>(agree) / static_cast<double>(agree + contradict);
     }
   };
-  /// Compares the points of another scan, `this_T_other` being its robot's pose in this scan's robot frame.
+  /// Compares the points of another scan. `this_T_other` is its robot's pose in this scan's robot frame.
   Agreement compare(const ScanPoints& other, const mrpt::math::TPose2D& this_T_other,
                     double tolerance_m) const;
 
  private:
   enum class Verdict { kNothing, kContradicts, kAgrees };
-  /// What one laser saw.
+  /// The ranges of one laser.
   struct View {
     mrpt::math::TPoint2Df origin;
-    std::vector<float> nearest_m;   ///< per bin of bearings; infinite where no beam went
-    std::vector<float> farthest_m;  ///< 0 where no beam went
+    std::vector<float> nearest_m;   ///< per bin of bearings; infinite without a beam
+    std::vector<float> farthest_m;  ///< 0 without a beam
 
     Verdict judge(double x, double y, double tolerance_m) const;
   };

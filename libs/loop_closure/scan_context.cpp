@@ -9,7 +9,7 @@
 namespace psi_slam {
 namespace {
 
-// One number for each square of the plane.
+// Identifies a square of the plane.
 std::int64_t square_of(float x, float y, double size_m) {
   const auto column = static_cast<std::int64_t>(std::floor(static_cast<double>(x) / size_m));
   const auto row = static_cast<std::int64_t>(std::floor(static_cast<double>(y) / size_m));
@@ -18,8 +18,8 @@ std::int64_t square_of(float x, float y, double size_m) {
 
 }  // namespace
 
-ScanPoints scan_context(std::size_t node, const KeyframeStore& memory, const ScanContextOptions& options) {
-  const NodeScan& here = memory.nodes[node];
+ScanPoints scan_context(std::size_t node, const KeyframeStore& keyframes, const ScanContextOptions& options) {
+  const NodeScan& here = keyframes.nodes[node];
   ScanPoints context;
   context.origin = here.points->origin;
   std::unordered_set<std::int64_t> taken;
@@ -45,7 +45,7 @@ ScanPoints scan_context(std::size_t node, const KeyframeStore& memory, const Sca
   add(here);
   double last_m = here.travelled_m;
   for (std::size_t before = node; before-- > 0;) {
-    const NodeScan& there = memory.nodes[before];
+    const NodeScan& there = keyframes.nodes[before];
     if (here.travelled_m - there.travelled_m > options.travel_m) break;
     if (last_m - there.travelled_m < options.node_spacing_m) continue;
     last_m = there.travelled_m;

@@ -9,7 +9,7 @@ using mrpt::math::TPose2D;
 
 void carry_frames_along(const std::vector<TPose2D>& map_T_node, const std::vector<std::size_t>& node_frames,
                         std::vector<FrameRecord>& frames, const std::vector<std::size_t>& later_run_frames) {
-  const auto begins_drive = [&](std::size_t frame) {
+  const auto begins_run = [&](std::size_t frame) {
     return std::binary_search(later_run_frames.begin(), later_run_frames.end(), frame);
   };
   std::size_t node = 0;
@@ -20,7 +20,7 @@ void carry_frames_along(const std::vector<TPose2D>& map_T_node, const std::vecto
       return map_T_node[by] + (front_end_T_robot - frames[node_frames[by]].front_end_T_robot);
     };
     TPose2D pose = carried(node);
-    if (node + 1 < node_frames.size() && !begins_drive(node_frames[node + 1])) {
+    if (node + 1 < node_frames.size() && !begins_run(node_frames[node + 1])) {
       const TPose2D next = carried(node + 1);
       const double u = static_cast<double>(i - node_frames[node]) /
                        static_cast<double>(node_frames[node + 1] - node_frames[node]);

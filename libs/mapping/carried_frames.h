@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the scans between the nodes of the graph are, once the nodes have their places.
+// Poses of the scans between the nodes of the graph.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -11,9 +11,9 @@
 
 namespace psi_slam {
 
-/// Sets `map_T_robot` of every frame: as the front end saw it from the node before and from the node behind,
-/// in between the two in proportion. `node_frames` is the frame of each node, `later_run_frames` the first frame
-/// of each drive behind the first: the front end's frame is another from there on.
+/// Sets `map_T_robot` of every frame. Applies the front end's motion to the previous and the next node's
+/// pose, and interpolates between the two results by frame number. `node_frames` has the frame of each node.
+/// `later_run_frames` has the first frame of each later run; no interpolation reaches across it.
 void carry_frames_along(const std::vector<mrpt::math::TPose2D>& map_T_node,
                         const std::vector<std::size_t>& node_frames, std::vector<FrameRecord>& frames,
                         const std::vector<std::size_t>& later_run_frames = {});

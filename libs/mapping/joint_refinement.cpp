@@ -14,9 +14,9 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Stretches refined between two reports of the progress.
+// Nodes refined between two reports of progress, each with the frames up to the next node.
 constexpr std::size_t kBatch = 64;
-// A metre away counts for as much as this turn when the nearest nodes are chosen.
+// Turn that counts like a metre of distance when the nearest nodes are chosen.
 constexpr double kRadiansPerMetre = 1.0;
 
 mrpt::math::TPoint2Df position(const TPose2D& pose) {
@@ -29,14 +29,14 @@ PointIndex positions(const std::vector<TPose2D>& poses) {
   return PointIndex(std::move(points));
 }
 
-/// One round: where the nodes are in it, and what they saw.
+/// Poses and surfaces of the nodes in one round.
 class Round {
  public:
   Round(std::vector<TPose2D> map_T_node, const std::vector<SurfacePoints>& seen,
         const JointRefinementOptions& options)
       : map_T_node_(std::move(map_T_node)), seen_(seen), options_(options), index_(positions(map_T_node_)) {}
 
-  /// What the nodes near `node` saw, without itself.
+  /// Surfaces seen by the nodes near `node`, without its own.
   SurfaceMap surfaces_near(std::size_t node) const {
     std::vector<SurfaceMap::Part> parts;
     for (const std::size_t other : references(node)) parts.push_back({&seen_[other], map_T_node_[other]});

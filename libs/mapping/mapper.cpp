@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/mapper.h"
+#include "mapping/mapper_implementation.h"
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string>
 #include <utility>
 
-#include "frames/inverse_pose.h"
-#include "loop_closure/local_map_constraints.h"
+#include "frames/pose_operations.h"
 #include "mapping/carried_frames.h"
 #include "pose_graph/information_matrix.h"
 
@@ -17,30 +15,26 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// How far the place where a drive was found is trusted, until loops hold it: for the windows that they are
-// looked for in.
+// Uncertainty of the start of a later run until loops hold it. It sizes the windows in which those are
+// searched.
 constexpr double kStartSigma_m = 0.3;
 constexpr double kStartSigma_rad = radians_from_degrees(3.0L);
 
-// The graph is optimised at once where a loop says by this many standard deviations of loops that it is
-// wrong; where less, only after it has grown by this share of itself: such news costs a node about the same
-// then, however large the graph.
-constexpr double kUrgentResidual = 5;
-constexpr double kGrowthForSmallResidual = 1e-3;
-
-// Drives lie so far apart along the path that nothing that looks along it reaches from one to the other.
-double between_runs_m(const MapperOptions& options) {
+// Distance along the path put between two runs, so that no search along the path reaches from one to the
+// other.
+double between_runs_m(const BackEndOptions& options) {
   return 1 + std::max({options.loop_closure.candidates.min_travel_m, options.loop_closure.context.travel_m,
                        options.loop_closure.attempt_distance_m, options.loop_consensus.memory_m,
                        options.loop_closure.verification.neighbourhood_m, options.final_search.travel_m});
 }
 
-/// Of node_T_robot: the place found moves with it as a rigid arm does.
+/// Information of node_T_robot. The place where the run was found is known best; it moves with the start of
+/// the run like the end of a rigid arm.
 Eigen::Matrix3d information_of(const RunStart& start) {
   const double c = std::cos(start.node_T_robot.phi);
   const double s = std::sin(start.node_T_robot.phi);
   const TPose2D& arm = start.robot_T_found;
-  Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();  // the place found, by the start
+  Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();  // derivative of the place found
   moved(0, 2) = -(s * arm.x + c * arm.y);
   moved(1, 2) = c * arm.x - s * arm.y;
   return moved.transpose() * noisy_information(Eigen::Matrix3d::Zero(), kStartSigma_m, kStartSigma_rad) *
@@ -49,16 +43,16 @@ Eigen::Matrix3d information_of(const RunStart& start) {
 
 }  // namespace
 
-Mapper::Mapper(const MapperOptions& options)
+Mapper::Implementation::Implementation(const MapperOptions& options)
     : options_(options),
       front_end_(options.front_end),
-      back_end_(options),
+      back_end_(options.back_end),
       solver_(options.pose_graph),
-      memory_(make_keyframe_store()) {
-  result_.psi = options.psi;
+      keyframes_(make_keyframe_store()) {
+  result_.psi = {options.back_end.psi.psi_1, options.back_end.psi.psi_2};
 }
 
-const FrameRecord& Mapper::add(Frame frame) {
+const FrameRecord& Mapper::Implementation::add(Frame frame) {
   FrameRecord record;
   record.time_us = frame.time_us;
 
@@ -86,7 +80,7 @@ const FrameRecord& Mapper::add(Frame frame) {
   return result_.frames.back();
 }
 
-void Mapper::begin_run(const RunStart& start) {
+void Mapper::Implementation::begin_run(const RunStart& start) {
   end_log();
   front_end_.begin_run();
   run_start_ = start;
@@ -94,8 +88,8 @@ void Mapper::begin_run(const RunStart& start) {
   result_.later_run_frames.push_back(result_.frames.size());
 }
 
-// Where a drive begins in the map, its odometry begins in the first drive's.
-void Mapper::rebase_odometry(FrameRecord& record) {
+// Odometry of a later run continues that of the first run at the place where the run begins in the map.
+void Mapper::Implementation::rebase_odometry(FrameRecord& record) {
   if (run_start_) {
     const TPose2D odom_T_start = result_.frames.front().odom_T_robot + (map_T_local_ - graph_.pose(0));
     odom_T_run_ = odom_T_start + inverse(record.odom_T_robot);
@@ -103,19 +97,18 @@ void Mapper::rebase_odometry(FrameRecord& record) {
   if (odom_T_run_) record.odom_T_robot = *odom_T_run_ + record.odom_T_robot;
 }
 
-// The front end's frame lies where the newest node puts it, or where the drive begins that is to come.
-void Mapper::follow_graph() {
+// Places the front end's frame by the newest node, or by the start of a run whose first scan is to come.
+void Mapper::Implementation::follow_graph() {
   if (run_start_) {
     map_T_local_ = graph_.pose(run_start_->node) + run_start_->node_T_robot;
     return;
   }
   const std::size_t newest = graph_.num_nodes() - 1;
-  map_T_local_ = graph_.pose(newest) + inverse(memory_.nodes[newest].local_T_robot);
+  map_T_local_ = graph_.pose(newest) + inverse(keyframes_.nodes[newest].local_T_robot);
 }
 
-// The robot is where the front end has it, corrected by the loops of the frames before: in the map, as its
-// start is.
-void Mapper::record_factor(FrameRecord& record, const FrontEndStep& step) {
+// Psi measures distances in the map: the front end's pose, corrected by the loops of earlier frames.
+void Mapper::Implementation::record_factor(FrameRecord& record, const FrontEndStep& step) {
   double odometry_m = 0;
   if (!result_.frames.empty() && !run_start_) {
     const TPose2D motion = record.odom_T_robot - result_.frames.back().odom_T_robot;
@@ -129,8 +122,8 @@ void Mapper::record_factor(FrameRecord& record, const FrontEndStep& step) {
   record.mean_loops = factor.mean_loops;
 }
 
-void Mapper::add_node(const FrontEndStep& step, std::size_t frame) {
-  remember_node(step, frame, memory_);
+void Mapper::Implementation::add_node(const FrontEndStep& step, std::size_t frame) {
+  remember_node(step, frame, keyframes_);
   result_.node_frames.push_back(frame);
 
   graph_.add_node(map_T_local_ + step.local_T_robot);
@@ -138,10 +131,12 @@ void Mapper::add_node(const FrontEndStep& step, std::size_t frame) {
   if (run_start_) join_run();
 }
 
-// Loops take over: this keeps the graph in one piece until they come, and tells where to look for them.
-void Mapper::join_run() {
-  const std::size_t first = memory_.nodes.size() - 1;
-  memory_.nodes[first].travelled_m = memory_.nodes[first - 1].travelled_m + between_runs_m(options_);
+// Joins the run's first node to the map. The weak constraint keeps the graph connected and tells where to
+// search until loops take over.
+void Mapper::Implementation::join_run() {
+  const std::size_t first = keyframes_.nodes.size() - 1;
+  keyframes_.nodes[first].travelled_m =
+      keyframes_.nodes[first - 1].travelled_m + between_runs_m(options_.back_end);
   Constraint constraint;
   constraint.from = run_start_->node;
   constraint.to = first;
@@ -152,51 +147,32 @@ void Mapper::join_run() {
   run_start_.reset();
 }
 
-void Mapper::remember(const PlacedLocalMap& finished) {
-  remember_local_map(finished, memory_);
+void Mapper::Implementation::remember(const PlacedLocalMap& finished) {
+  remember_local_map(finished, keyframes_);
   result_.local_maps.push_back({finished.anchor, finished.first_node, finished.last_node});
 }
 
-void Mapper::close_loops(std::size_t node, FrameRecord& record) {
-  NodeLoops loops;
-  record.loop_closing_ms = loop_clock_.time([&] { loops = back_end_.close(node, memory_, graph_); });
+void Mapper::Implementation::close_loops(std::size_t node, FrameRecord& record) {
+  const NodeLoops loops = back_end_.close(node, keyframes_, graph_);
   record.matcher = loops.matcher;
   record.loops_tried = static_cast<int>(loops.effort.attempts);
   record.loops_accepted = loops.accepted;
   record.loop_evaluations = loops.effort.evaluations;
   record.evaluations += loops.effort.evaluations;
   record.loop_matching_ms = loops.effort.milliseconds;
+  record.loop_closing_ms = loops.milliseconds;
   result_.loop_matchers[loops.matcher].effort += loops.effort;
-  worst_residual_ = std::max({worst_residual_, loops.news, loops.agreed ? kUrgentResidual : 0});
-  if (!is_time_to_optimize()) return;
-  record.pose_graph_ms = graph_clock_.time([&] { optimize(); });
+  record.pose_graph_ms = back_end_.optimize_if_due(graph_, solver_);
 }
 
-void Mapper::optimize() {
-  solver_.optimize(graph_);
-  optimized_nodes_ = graph_.num_nodes();
-  worst_residual_ = 0;
-}
-
-bool Mapper::is_time_to_optimize() const {
-  if (worst_residual_ >= kUrgentResidual) return true;
-  const std::size_t grown_by = graph_.num_nodes() - optimized_nodes_;
-  return worst_residual_ > 1 &&
-         static_cast<double>(grown_by) >= kGrowthForSmallResidual * static_cast<double>(graph_.num_nodes());
-}
-
-void Mapper::run_final_search(const std::function<bool(double)>& progress) {
-  for (const auto& [matcher, effort] : back_end_.run_final_search(memory_, graph_, progress)) {
+void Mapper::Implementation::finish_loops(FinalProgress& progress) {
+  for (const auto& [matcher, effort] : back_end_.finish_loops(keyframes_, graph_, solver_, progress)) {
     result_.loop_matchers[matcher].effort += effort;
     result_.loop_matchers[matcher].final_search_effort += effort;
   }
 }
 
-void Mapper::settle_loops() {
-  graph_clock_.time([&] { back_end_.settle(graph_, solver_); });
-}
-
-void Mapper::count_accepted_loops() {
+void Mapper::Implementation::count_accepted_loops() {
   for (const LoopRecord& loop : back_end_.loops()) {
     if (loop.verdict != LoopVerdict::kAccepted) continue;
     ++result_.loop_matchers[loop.matcher].accepted;
@@ -204,72 +180,98 @@ void Mapper::count_accepted_loops() {
   }
 }
 
-// Of all frames, and of the graph's nodes with them.
-void Mapper::refine_poses(const std::function<bool(double)>& progress) {
+void Mapper::Implementation::refine_poses(FinalProgress& progress) {
   RefinedScans scans;
   for (const FrameRecord& frame : result_.frames) scans.map_T_frame.push_back(frame.map_T_robot);
   scans.node_frames = result_.node_frames;
   scans.points = [&](std::size_t frame) {
     const std::optional<std::size_t>& node = result_.frames[frame].node;
-    return node ? *memory_.nodes[*node].points : matching_points(result_.log[frame], options_.front_end.scan);
+    return node ? *keyframes_.nodes[*node].points
+                : matching_points(result_.log[frame], options_.front_end.scan);
   };
-  refine_jointly(scans, options_.joint_refinement, back_end_.pool(), progress);
-  // The map's frame stays that of the first node, as the graph has it.
-  const TPose2D first = scans.map_T_frame[result_.node_frames.front()];
-  for (TPose2D& pose : scans.map_T_frame) pose = graph_.pose(0) + (pose - first);
+  back_end_.refine(scans, graph_, progress);
   for (std::size_t i = 0; i < result_.frames.size(); ++i)
     result_.frames[i].map_T_robot = scans.map_T_frame[i];
-  for (std::size_t node = 0; node < result_.node_frames.size(); ++node)
-    graph_.set_pose(node, scans.map_T_frame[result_.node_frames[node]]);
 }
 
-void Mapper::end_log() {
+void Mapper::Implementation::end_log() {
   for (const PlacedLocalMap& finished : front_end_.finish()) remember(finished);
   serve_waiting_edits();
 }
 
-MappingResult Mapper::finish(const std::function<bool(double)>& progress, AfterFinish after) {
+MappingResult Mapper::Implementation::finish(const std::function<bool(double)>& progress, AfterFinish after) {
   end_log();
   if (after == AfterFinish::kReopen)
     before_finish_ = {graph_, back_end_.ledger(), solver_, result_.loop_matchers};
-  back_end_.ledger().refuse_pending();
-  const int steps = options_.final_search.passes + (options_.joint_refinement.rounds > 0 ? 1 : 0);
-  const auto go_on = [&](double done) {
-    const bool wanted = !progress || progress(done / steps);
-    result_.final_search_cut_short = !wanted && done < steps;
-    return wanted;
-  };
-  if (options_.close_loops && !memory_.nodes.empty()) {
-    settle_loops();
-    for (int pass = 0; pass < options_.final_search.passes && !result_.final_search_cut_short; ++pass) {
-      final_search_clock_.time([&] {
-        run_final_search(
-            [&](double share) { return final_search_clock_.leave_out([&] { return go_on(pass + share); }); });
-      });
-      settle_loops();
-    }
-    back_end_.ledger().refuse_pending();
-  }
+  FinalProgress steps(options_.back_end, progress);
+  const bool closes_loops = options_.close_loops && !keyframes_.nodes.empty();
+  if (closes_loops) finish_loops(steps);
   result_.unmet_edits = unmet_edits();
   count_accepted_loops();
   carry_frames_along(graph_.poses(), result_.node_frames, result_.frames, result_.later_run_frames);
-  if (options_.close_loops && !memory_.nodes.empty() && !result_.final_search_cut_short)
-    refinement_clock_.time([&] {
-      refine_poses([&](double share) {
-        return refinement_clock_.leave_out([&] { return go_on(options_.final_search.passes + share); });
-      });
-    });
-  result_.interrupted = result_.final_search_cut_short;
+  if (closes_loops) refine_poses(steps);
+  result_.final_search_cut_short = result_.interrupted = steps.cut_short();
   result_.graph = graph_;
   result_.loops = after == AfterFinish::kReopen ? back_end_.loops() : back_end_.ledger().take_loops();
-  for (const StageClock* clock :
-       {&front_end_clock_, &loop_clock_, &graph_clock_, &final_search_clock_, &refinement_clock_})
-    result_.stages.push_back(clock->timing());
+  result_.stages = back_end_.stages();
+  result_.stages.insert(result_.stages.begin(), front_end_clock_.timing());
   return std::move(result_);
 }
 
-TPose2D Mapper::map_T_robot() const {
+TPose2D Mapper::Implementation::map_T_robot() const {
   return result_.frames.empty() ? TPose2D(0, 0, 0) : map_T_local_ + result_.frames.back().front_end_T_robot;
+}
+
+Mapper::Mapper() : Mapper(MapperOptions()) {}
+Mapper::Mapper(const MapperOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}
+Mapper::~Mapper() = default;
+Mapper::Mapper(Mapper&& other) noexcept = default;
+Mapper& Mapper::operator=(Mapper&& other) noexcept = default;
+
+const FrameRecord& Mapper::add(Frame frame) {
+  return implementation_->add(std::move(frame));
+}
+void Mapper::begin_run(const RunStart& start) {
+  implementation_->begin_run(start);
+}
+LoopEditOutcome Mapper::edit(const LoopEdit& edit) {
+  return implementation_->edit(edit);
+}
+LoopEditOutcome Mapper::judge(const LoopEdit& edit, const std::vector<FrameRecord>& frames) const {
+  return implementation_->judge(edit, frames);
+}
+void Mapper::end_log() {
+  implementation_->end_log();
+}
+MappingResult Mapper::finish(const std::function<bool(double)>& progress, AfterFinish after) {
+  return implementation_->finish(progress, after);
+}
+void Mapper::reopen(MappingResult&& result) {
+  implementation_->reopen(std::move(result));
+}
+TPose2D Mapper::map_T_robot() const {
+  return implementation_->map_T_robot();
+}
+const PoseGraph& Mapper::graph() const {
+  return implementation_->graph();
+}
+const std::vector<Frame>& Mapper::log() const {
+  return implementation_->result().log;
+}
+const std::vector<FrameRecord>& Mapper::frames() const {
+  return implementation_->result().frames;
+}
+const std::vector<std::size_t>& Mapper::later_run_frames() const {
+  return implementation_->result().later_run_frames;
+}
+const std::vector<LoopRecord>& Mapper::loops() const {
+  return implementation_->loops();
+}
+const KeyframeStore& Mapper::keyframes() const {
+  return implementation_->keyframes();
+}
+const std::vector<PlacedLocalMap>& Mapper::active_local_maps() const {
+  return implementation_->active_local_maps();
 }
 
 }  // namespace psi_slam

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a person changes about the loops, while the log is mapped and after its end.
+// Changes of loops by hand, during and after mapping.
 #include <algorithm>
 #include <utility>
 
-#include "loop_closure/loop_edit.h"
-#include "psi_slam/mapper.h"
+#include "mapping/mapper_implementation.h"
 
 namespace psi_slam {
 namespace {
@@ -13,7 +12,7 @@ using State = LoopEditOutcome::State;
 
 }  // namespace
 
-LoopEditOutcome Mapper::edit(const LoopEdit& edit) {
+LoopEditOutcome Mapper::Implementation::edit(const LoopEdit& edit) {
   const auto same = [&](const LoopEdit& other) { return same_loop(edit, other); };
   const auto waited = std::remove_if(waiting_edits_.begin(), waiting_edits_.end(), same);
   const bool any_waited = waited != waiting_edits_.end();
@@ -25,21 +24,22 @@ LoopEditOutcome Mapper::edit(const LoopEdit& edit) {
   return outcome;
 }
 
-LoopEditOutcome Mapper::judge(const LoopEdit& edit, const std::vector<FrameRecord>& frames) const {
+LoopEditOutcome Mapper::Implementation::judge(const LoopEdit& edit,
+                                              const std::vector<FrameRecord>& frames) const {
   const std::string scan = "scan " + std::to_string(edit.frame);
   const std::string map = "local map " + std::to_string(edit.local_map);
   if (!options_.close_loops) return {State::kImpossible, "loop closing is switched off"};
   if (edit.frame >= frames.size()) return {State::kWaits, scan + " has not been mapped"};
   const std::optional<std::size_t> node = frames[edit.frame].node;
   if (!node) return {State::kImpossible, scan + " is no node of the graph: the robot had hardly moved"};
-  if (edit.local_map >= memory_.local_maps.size()) return {State::kWaits, map + " is not finished"};
-  const PlacedLocalMap& local_map = memory_.local_maps[edit.local_map];
+  if (edit.local_map >= keyframes_.local_maps.size()) return {State::kWaits, map + " is not finished"};
+  const PlacedLocalMap& local_map = keyframes_.local_maps[edit.local_map];
   if (*node >= local_map.first_node && *node <= local_map.last_node)
     return {State::kImpossible, scan + " is part of " + map};
   return {};
 }
 
-LoopEditOutcome Mapper::carry_out(const LoopEdit& edit) {
+LoopEditOutcome Mapper::Implementation::carry_out(const LoopEdit& edit) {
   const std::size_t node = *result_.frames[edit.frame].node;
   const LoopPair pair{node, edit.local_map};
   LoopEditOutcome outcome;
@@ -49,28 +49,26 @@ LoopEditOutcome Mapper::carry_out(const LoopEdit& edit) {
       break;
     case LoopEdit::Kind::kForce:
       if (!back_end_.ledger().force(pair, edit.of_final_search, graph_))
-        outcome = {State::kWaits, edit.of_final_search ? "the last pass is to find its match again"
-                                                    : "no match of them has been found yet"};
+        outcome = {State::kWaits, edit.of_final_search ? "the final search has to find its match again"
+                                                       : "no match of them has been found yet"};
       break;
     case LoopEdit::Kind::kMatch:
-      loop_clock_.time([&] {
-        if (!back_end_.match_by_hand(edit, node, memory_, graph_))
-          outcome = {State::kImpossible, "the scan has no returns to match"};
-      });
+      if (!back_end_.match_by_hand(edit, node, keyframes_, graph_))
+        outcome = {State::kImpossible, "the scan has no returns to match"};
       break;
     case LoopEdit::Kind::kRestore:
       if (!back_end_.ledger().restore(pair, graph_))
-        outcome = {State::kImpossible, "there is nothing to take back"};
+        outcome = {State::kImpossible, "there is no edit to take back"};
       break;
   }
   if (outcome.state == State::kImpossible) return outcome;
-  graph_clock_.time([&] { optimize(); });
+  back_end_.optimize(graph_, solver_);
   follow_graph();
   return outcome;
 }
 
-// Those whose scan and local map have come since.
-void Mapper::serve_waiting_edits() {
+// Carries out waiting edits whose scan and local map exist by now.
+void Mapper::Implementation::serve_waiting_edits() {
   for (const LoopEdit& waiting : std::exchange(waiting_edits_, {})) {
     const LoopEditOutcome outcome = edit(waiting);
     if (outcome.state == State::kImpossible)
@@ -78,17 +76,17 @@ void Mapper::serve_waiting_edits() {
   }
 }
 
-std::vector<std::string> Mapper::unmet_edits() const {
+std::vector<std::string> Mapper::Implementation::unmet_edits() const {
   std::vector<std::string> unmet = impossible_edits_;
   for (const LoopEdit& waiting : waiting_edits_)
     unmet.push_back(text_of(waiting) + ": " + judge(waiting, result_.frames).reason);
   for (const auto& [node, local_map] : back_end_.ledger().forced_in_vain())
-    unmet.push_back(text_of({LoopEdit::Kind::kForce, memory_.nodes[node].frame, local_map}) +
+    unmet.push_back(text_of({LoopEdit::Kind::kForce, keyframes_.nodes[node].frame, local_map}) +
                     ": no match of them was found");
   return unmet;
 }
 
-void Mapper::reopen(MappingResult&& result) {
+void Mapper::Implementation::reopen(MappingResult&& result) {
   Checkpoint& before = before_finish_.value();
   graph_ = std::move(before.graph);
   back_end_.ledger() = std::move(before.ledger);

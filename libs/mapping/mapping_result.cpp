@@ -16,21 +16,19 @@ std::vector<FrameSpan> runs_of(const MappingResult& result) {
 }
 
 std::optional<std::size_t> unjoined_run(const MappingResult& result) {
-  const auto drive_of_node = [&](std::size_t node) {
+  const auto run_of_node = [&](std::size_t node) {
     const auto& begins = result.later_run_frames;
-    const auto behind = std::upper_bound(begins.begin(), begins.end(), result.node_frames[node]);
-    return static_cast<std::size_t>(behind - begins.begin());
+    const auto next = std::upper_bound(begins.begin(), begins.end(), result.node_frames[node]);
+    return static_cast<std::size_t>(next - begins.begin());
   };
-  std::vector<std::size_t> group(result.later_run_frames.size() + 1);  // of each drive: its lowest drive
+  std::vector<std::size_t> group(result.later_run_frames.size() + 1);  // by run: the lowest run joined to it
   std::iota(group.begin(), group.end(), 0U);
   for (const LoopRecord& loop : result.loops) {
     if (loop.verdict != LoopVerdict::kAccepted) continue;
-    const auto [low, high] =
-        std::minmax({group[drive_of_node(loop.node)], group[drive_of_node(loop.anchor)]});
+    const auto [low, high] = std::minmax({group[run_of_node(loop.node)], group[run_of_node(loop.anchor)]});
     std::replace(group.begin(), group.end(), high, low);
   }
-  const auto unjoined =
-      std::find_if(group.begin(), group.end(), [](std::size_t drive) { return drive != 0; });
+  const auto unjoined = std::find_if(group.begin(), group.end(), [](std::size_t run) { return run != 0; });
   if (unjoined == group.end()) return std::nullopt;
   return static_cast<std::size_t>(unjoined - group.begin());
 }

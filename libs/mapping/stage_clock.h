@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long each stage of the work takes: mean, spread and extremes over all its calls.
+// Measures the stages of the work: mean, standard deviation and extremes over all calls.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
-#include <cstddef>
+#include <cmath>
 #include <string>
+#include <utility>
+
+#include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
-
-/// Time spent in one stage of the work, over all its calls.
-struct StageTiming {
-  std::string name;  ///< as a person reads it: "match scan to local map"
-  std::size_t calls = 0;
-  double mean_ms = 0;
-  double std_ms = 0;
-  double min_ms = 0;
-  double max_ms = 0;
-  double total_s = 0;
-};
 
 class StageClock {
  public:
@@ -32,7 +25,7 @@ class StageClock {
     return ms;
   }
 
-  /// In the midst of time(): what is called here is no part of the stage, such as telling of it, or a pause.
+  /// Runs `call` inside time() without counting it, for example to report progress.
   template <class Call>
   auto leave_out(const Call& call) {
     decltype(call()) result{};
@@ -40,8 +33,21 @@ class StageClock {
     return result;
   }
 
-  void add(double ms);
-  StageTiming timing() const;
+  void add(double ms) {
+    ++timing_.calls;
+    timing_.total_s += ms * 1e-3;
+    timing_.min_ms = timing_.calls == 1 ? ms : std::min(timing_.min_ms, ms);
+    timing_.max_ms = timing_.calls == 1 ? ms : std::max(timing_.max_ms, ms);
+    const double before = ms - timing_.mean_ms;
+    timing_.mean_ms += before / static_cast<double>(timing_.calls);
+    squares_about_mean_ += before * (ms - timing_.mean_ms);
+  }
+
+  StageTiming timing() const {
+    StageTiming timing = timing_;
+    if (timing.calls > 0) timing.std_ms = std::sqrt(squares_about_mean_ / static_cast<double>(timing.calls));
+    return timing;
+  }
 
  private:
   template <class Work>

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/genetic_operators.h"
 
-#include "base/mixed_bits.h"
-
 #include <algorithm>
 
+#include "base/random_draws.h"
+
 namespace psi_slam {
-namespace {
-
-__extension__ using Wide = unsigned __int128;
-
-}  // namespace
 
 Random random_for(const MatchSeed& seed) {
   return Random(mixed_bits(mixed_bits(mixed_bits(seed.run) + seed.scan) + seed.local_map));
@@ -18,6 +13,7 @@ Random random_for(const MatchSeed& seed) {
 
 // Lemire, "Fast random integer generation in an interval", 2019.
 std::uint64_t draw_below(std::uint64_t count, Random& random) {
+  __extension__ using Wide = unsigned __int128;
   Wide product = static_cast<Wide>(random()) * count;
   if (static_cast<std::uint64_t>(product) < count) {
     const std::uint64_t uneven = (0 - count) % count;

@@ -1,24 +1,128 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/make_matcher.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <stdexcept>
 
-#include "matching/coarse_to_genetic_matcher.h"
-#include "matching/correlative_matcher.h"
-#include "matching/genetic_matcher.h"
+#include "matching/coarse_search.h"
+#include "matching/exact_search.h"
+#include "matching/genetic_search.h"
 
 namespace psi_slam {
+namespace {
 
-const char* name(MatcherKind kind) {
-  switch (kind) {
-    case MatcherKind::kCsm:
-      return "csm";
-    case MatcherKind::kCsmGa:
-      return "csm_ga";
-    case MatcherKind::kGa:
-      return "ga";
+FoundPeaks evolve_cells(const SearchLattice& lattice, const std::vector<Tile>& cells,
+                        const PeakRequest& request, const MemeticGeneticOptions& options) {
+  const CellTiles space(lattice.window(), cells, options.heading_stride, options.gray_code);
+  std::vector<Chromosome> first_generation;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) first_generation.push_back(space.encode(cell));
+  Random random = random_for(request.seed);
+  return evolve_tiles(lattice, space, first_generation, options.pooled_fitness, request, options, random);
+}
+
+// The paper's variant: a genetic search in each of the best cells, with chromosomes of equation 10 for the
+// small window of that cell. It scores a quarter of the cell's poses; with more, scoring all would be
+// cheaper.
+FoundPeaks search_cells_by_paper(const SearchLattice& lattice, const std::vector<Tile>& cells,
+                                 int heading_stride, const PeakRequest& request,
+                                 const PaperGeneticOptions& options) {
+  constexpr std::size_t kCells = 32;
+  constexpr int kGenerations = 4;
+  SearchWindow window = lattice.window();
+  window.n_x = window.n_y = 4;
+  window.n_theta = std::max(1, heading_stride / 2);
+  PaperGeneticOptions in_cell = options;
+  in_cell.generations = kGenerations;
+  in_cell.population = 2 * window.n_x * window.n_y * window.n_theta / kGenerations;
+
+  TileScorer scorer(lattice);
+  std::vector<Candidate> best_of_cells;
+  FoundPeaks peaks;
+  for (std::size_t i = 0; i < std::min(cells.size(), kCells); ++i) {
+    const LatticePose centre = {cells[i].block.first.x + window.n_x, cells[i].block.first.y + window.n_y,
+                                cells[i].theta};
+    const SearchLattice cell(lattice.grid(), lattice.scan(), lattice.pose(centre), window);
+    PeakRequest in_this_cell;
+    in_this_cell.seed = request.seed;
+    in_this_cell.seed.run ^= (static_cast<std::uint64_t>(i) + 1) << 32;
+    const FoundPeaks found = paper_genetic_search(cell, in_this_cell, in_cell);
+    peaks.evaluations += found.evaluations;
+    peaks.genetic.generations += found.genetic.generations;
+    peaks.genetic.decoded += found.genetic.decoded;
+    peaks.genetic.repaired += found.genetic.repaired;
+    const LatticePose pose = {centre.x + found.best->pose.x, centre.y + found.best->pose.y,
+                              centre.theta + found.best->pose.theta};
+    const SearchWindow& whole = lattice.window();
+    if (std::abs(pose.x) > whole.n_x || std::abs(pose.y) > whole.n_y || std::abs(pose.theta) > whole.n_theta)
+      continue;
+    best_of_cells.push_back(scorer.score({pose.theta, {{pose.x, pose.y}, 1, 1}}, TileLevel::kFinest));
   }
-  throw std::invalid_argument("no such kind of matcher");
+  peaks.evaluations += scorer.evaluations();
+  pick_peaks(best_of_cells, request, peaks);
+  return peaks;
+}
+
+// Scan matching by a genetic algorithm on binary chromosomes (see GeneticVariant).
+class GeneticMatcher : public WindowMatcher {
+ public:
+  GeneticMatcher(const MatcherOptions& options, const GeneticOptions& genetic)
+      : WindowMatcher(options), genetic_(genetic) {}
+  std::string name() const override { return "ga"; }
+
+ protected:
+  virtual FoundPeaks search(const SearchLattice& lattice, const PeakRequest& request) const {
+    return genetic_.variant == GeneticVariant::kPaper ? paper_genetic_search(lattice, request, genetic_.paper)
+                                                      : memetic_search(lattice, request, genetic_.memetic);
+  }
+
+  GeneticOptions genetic_;
+
+ private:
+  FoundPeaks find_peaks(const SearchLattice& lattice, const PeakRequest& request) const override {
+    FoundPeaks peaks = search(lattice, request);
+    if (needs_exact_next(lattice.window())) find_next_exactly(lattice, request, peaks);
+    return peaks;
+  }
+};
+
+// The middle mode of the paper (section 3.2): ranks coarse cells exhaustively, as the coarse stage of
+// correlative matching does, then searches the best of them genetically. The paper's variant searches each of
+// the best 32 cells by the paper's GA. A window of one block (see WindowTiles) leaves only headings to rank;
+// the genetic search of the whole window does that too, so there the two modes are one.
+class CoarseToGeneticMatcher : public GeneticMatcher {
+ public:
+  using GeneticMatcher::GeneticMatcher;
+  std::string name() const override { return "csm_ga"; }
+
+ private:
+  FoundPeaks search(const SearchLattice& lattice, const PeakRequest& request) const override {
+    const MemeticGeneticOptions& memetic = genetic_.memetic;
+    const bool by_paper = genetic_.variant == GeneticVariant::kPaper;
+    const WindowTiles tiles(lattice.window(), memetic.gray_code);
+    if (!by_paper && tiles.columns() * tiles.rows() == 1) return memetic_search(lattice, request, memetic);
+    const CoarseCells coarse =
+        rank_coarse_cells(lattice, memetic.heading_stride, genetic_.coarse.cells, request.min_sum);
+    FoundPeaks peaks;
+    if (!coarse.best.empty()) {
+      peaks = by_paper ? search_cells_by_paper(lattice, coarse.best, memetic.heading_stride, request,
+                                               genetic_.paper)
+                       : evolve_cells(lattice, coarse.best, request, memetic);
+    }
+    peaks.evaluations += coarse.evaluations;
+    return peaks;
+  }
+};
+
+}  // namespace
+
+FoundPeaks CorrelativeMatcher::find_peaks(const SearchLattice& lattice, const PeakRequest& request) const {
+  const SearchOutcome outcome = exact_search(lattice, request.min_sum);
+  FoundPeaks peaks;
+  peaks.best = outcome.best;
+  peaks.evaluations = outcome.evaluations;
+  find_next_exactly(lattice, request, peaks);
+  return peaks;
 }
 
 std::unique_ptr<Matcher> make_matcher(MatcherKind kind, const MatcherOptions& options,

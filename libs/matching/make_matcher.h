@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The matchers by the names that the `.ini` and the records give them.
+// The matchers of the paper, by the names that `.ini` files and records give them.
 #pragma once
 
 #include <memory>
 
 #include "matching/genetic_options.h"
 #include "matching/window_matcher.h"
+#include "psi_slam/matching.h"
 
 namespace psi_slam {
 
-enum class MatcherKind {
-  kCsm,    ///< "csm": the exact best pose of the window
-  kCsmGa,  ///< "csm_ga": coarse cells ranked exhaustively, the best of them searched genetically
-  kGa,     ///< "ga": the whole window searched genetically
-};
+/// Correlative scan matching (CSM), equations 1 and 2: finds the exact best pose of the window, then refines
+/// it below a cell. Olson, "Real-time correlative scan matching", ICRA 2009.
+class CorrelativeMatcher : public WindowMatcher {
+ public:
+  explicit CorrelativeMatcher(const MatcherOptions& options) : WindowMatcher(options) {}
+  std::string name() const override { return "csm"; }
 
-const char* name(MatcherKind kind);
+ private:
+  FoundPeaks find_peaks(const SearchLattice& lattice, const PeakRequest& request) const override;
+};
 
 std::unique_ptr<Matcher> make_matcher(MatcherKind kind, const MatcherOptions& options,
                                       const GeneticOptions& genetic);

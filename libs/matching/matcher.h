@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one interface of all scan matchers: a scan, a score grid and a search window in; a match that answers
-// everything a caller may ask out. Matchers differ only in how they search the window; sub-cell refinement,
-// covariance and ambiguity are the same for all.
+// The interface of all scan matchers. A matcher takes a scan, a score grid and a search window, and returns
+// the matched pose with its response, covariance and ambiguity. Matchers differ only in how they search the
+// window.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -18,7 +18,7 @@
 
 namespace psi_slam {
 
-/// What a random matcher seeds its generator with, so that results depend neither on threads nor on order.
+/// Seeds the generator of a random matcher, so that results depend neither on threads nor on their order.
 struct MatchSeed {
   std::uint64_t run = 0;
   std::uint64_t scan = 0;
@@ -26,35 +26,35 @@ struct MatchSeed {
 };
 
 struct MatchProblem {
-  const ScoreGrid& grid;                ///< in the frame called "map" here: the local map's own
+  const ScoreGrid& grid;                ///< in the frame of its local map, called "map" here
   const ScanPoints& scan;               ///< in the robot's frame
-  mrpt::math::TPose2D map_T_robot;      ///< predicted; the window's centre
+  mrpt::math::TPose2D map_T_robot;      ///< predicted pose: the centre of the window
   SearchExtent extent;                  ///< half-widths of the window
-  double min_response = 0;              ///< below this nothing is found; a higher value is a faster search
-  bool measure_ambiguity = false;       ///< also look for the next best distinct peak
-  std::optional<PosePrior> prior = {};  ///< holds the refinement where the scan alone does not
+  double min_response = 0;              ///< smallest response of a match; higher values speed up the search
+  bool measure_ambiguity = false;       ///< also finds the second best distinct peak
+  std::optional<PosePrior> prior = {};  ///< constrains the refinement where the scan does not
   MatchSeed seed = {};
 };
 
-/// What a genetic search did; all zero for the others.
+/// Effort of a genetic search; zero for other searches.
 struct GeneticEffort {
   int generations = 0;
   std::int64_t decoded = 0;   ///< chromosomes that became poses
-  std::int64_t repaired = 0;  ///< of those, codes that lay outside the window
+  std::int64_t repaired = 0;  ///< decoded chromosomes whose code was outside the window
 };
 
 struct MatchResult {
   bool found = false;                ///< false: no pose of the window reaches min_response
-  mrpt::math::TPose2D map_T_robot;   ///< refined below a cell
-  mrpt::math::TPose2D lattice_pose;  ///< the best pose of the search lattice, before refinement
+  mrpt::math::TPose2D map_T_robot;   ///< matched pose, refined below a cell
+  mrpt::math::TPose2D lattice_pose;  ///< best pose of the search lattice, before refinement
   double response = 0;               ///< R_v of equation 11 at the lattice pose, in [0, 1]
   double refined_response = 0;       ///< mean interpolated score at map_T_robot
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();   ///< of map_T_robot: m, m, rad
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the scan alone, unbounded; see refine()
-  /// Response of the best pose of the window that is distinct from the result (see MatcherOptions) over the
-  /// response; empty where not measured, 0 where no other pose reaches MatcherOptions::ambiguity_floor.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();   ///< of map_T_robot: m^2, m rad, rad^2
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the scan alone; see refine()
+  /// Response of the second best distinct pose of the window (see MatcherOptions), divided by `response`.
+  /// Empty if not measured; 0 if no other pose reaches MatcherOptions::ambiguity_floor.
   std::optional<double> ambiguity;
-  SearchWindow window;           ///< as searched
+  SearchWindow window;           ///< window that was searched
   std::int64_t evaluations = 0;  ///< poses scored on any level of the grid
   GeneticEffort genetic;
 };
@@ -63,11 +63,11 @@ class Matcher {
  public:
   virtual ~Matcher() = default;
 
-  /// Throws std::invalid_argument on a degenerate window (see make_search_window) or a grid without its
-  /// pyramid where the search needs it. Safe to call from several threads at once.
+  /// Searches the window for the pose with the best response. Throws std::invalid_argument for a degenerate
+  /// window (see make_search_window) and for a grid without a pyramid if the search needs one. Thread-safe.
   virtual MatchResult match(const MatchProblem& problem) const = 0;
 
-  /// As in the `.ini` and the records: "csm", ...
+  /// Name in `.ini` files and records: "csm", "csm_ga" or "ga".
   virtual std::string name() const = 0;
 };
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/paper_genetic_search.h"
+#include "matching/genetic_search.h"
 
 #include <tuple>
 #include <vector>
 
-#include "matching/genetic_operators.h"
 #include "matching/pose_code.h"
 
 namespace psi_slam {

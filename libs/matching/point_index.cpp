@@ -12,7 +12,7 @@ namespace {
 
 using Point = mrpt::math::TPoint2Df;
 
-/// As nanoflann reads points.
+/// Data source in the form that nanoflann expects.
 struct PointSource {
   const Point* first = nullptr;
   std::size_t count = 0;
@@ -28,7 +28,7 @@ struct PointSource {
   // NOLINTEND
 };
 
-/// What nanoflann puts points into: all that are at most so far.
+/// Result set of nanoflann: all points within a distance.
 class Within {
  public:
   explicit Within(float square) : square_(square) {}
@@ -53,7 +53,7 @@ class Within {
 struct PointIndex::Tree {
   explicit Tree(const std::vector<Point>& points) : source{points.data(), points.size()} {}
 
-  PointSource source;  // points into the vector's heap, which stays where it is when the vector moves
+  PointSource source;  // stays valid when the vector moves, because its heap memory does not
   nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointSource>, PointSource, 2,
                                       std::size_t>
       index{2, source};

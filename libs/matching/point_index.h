@@ -9,11 +9,10 @@
 
 namespace psi_slam {
 
-/// Points of the plane in a k-d tree. Searching it changes nothing and may be done by several threads at
-/// once.
+/// Points of the plane in a k-d tree. Searches are thread-safe.
 class PointIndex {
  public:
-  /// Of points that are all finite; there may be none.
+  /// All points must be finite; an empty vector is valid.
   explicit PointIndex(std::vector<mrpt::math::TPoint2Df> points);
   ~PointIndex();
   PointIndex(PointIndex&&) noexcept;
@@ -21,12 +20,12 @@ class PointIndex {
 
   const std::vector<mrpt::math::TPoint2Df>& points() const { return points_; }
 
-  /// Puts the numbers of up to `count` points nearest to `at` into `found`, the nearest first, those farther
-  /// than `max_distance_m` left out.
+  /// Puts the indices of the at most `count` points nearest to `at`, and not farther than `max_distance_m`,
+  /// into `found`; nearest first.
   void nearest(const mrpt::math::TPoint2Df& at, std::size_t count, float max_distance_m,
                std::vector<std::size_t>& found) const;
 
-  /// The numbers of all points at most `radius_m` from `at`, in ascending order.
+  /// Returns the indices of all points at most `radius_m` from `at`, in ascending order.
   std::vector<std::size_t> within(const mrpt::math::TPoint2Df& at, float radius_m) const;
 
  private:

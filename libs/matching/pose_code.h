@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The chromosome of equations 9, 10 and 12: a pose of the search window as two whole numbers in binary, the
-// linear index of its cell and the index of its angle.
+// The chromosome of equations 9, 10 and 12: a pose of the search window as two binary integers, the linear
+// index of its cell and the index of its angle.
 //
 //     L = (y + n_y) 2 n_x + (x + n_x),   0 <= L < L_max = 2 n_x 2 n_y
 //     R = theta + n_theta,               0 <= R < R_max = 2 n_theta
 //     smallest l_1, l_2 with 2^l_1 > L_max, 2^l_2 > R_max
 //
-// in steps from the window's centre. Cells are half open: the last column, row and angle of the exhaustive
-// search, +n, have no code: a genetic search never finds a pose there (see method, section 4). Codes outside
-// the window are repaired by the modulus.
+// with x, y, theta in steps from the window's centre. Cells are half open: the last column, row and angle of
+// the exhaustive search, +n, have no code, so a genetic search never finds a pose there. With them, +n would
+// alias onto the next row. Codes outside the window are repaired by the modulus.
 #pragma once
 
 #include <cstdint>
@@ -23,17 +23,17 @@ using Chromosome = std::uint64_t;
 
 class PoseCode {
  public:
-  /// Throws std::invalid_argument when the window needs more than 64 bits.
+  /// Throws std::invalid_argument if the window needs more than 64 bits or has no steps along an axis.
   explicit PoseCode(const SearchWindow& window);
 
   int position_bits() const { return position_bits_; }  ///< l_1
   int angle_bits() const { return angle_bits_; }        ///< l_2
   int bits() const { return position_bits_ + angle_bits_; }
 
-  /// Of a pose with -n <= steps < n on each axis.
+  /// Encodes a pose with -n <= steps < n on each axis.
   Chromosome encode(const LatticePose& pose) const;
 
-  /// Of any bits() bits: codes outside the window stand for their remainder.
+  /// Decodes any bits() bits: codes outside the window are replaced by their remainder.
   LatticePose decode(Chromosome chromosome) const;
 
   /// False for codes that decode() repairs.

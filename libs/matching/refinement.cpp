@@ -22,7 +22,7 @@ struct Linearisation {
   Eigen::Vector3d descent = Eigen::Vector3d::Zero();
 };
 
-// A straight surface says nothing of where along it a point lies: what slope the grid has in that direction
+// Removes the slope along a straight surface: a point does not determine the position along it, so this slope
 // is noise.
 void keep_normal_part(ScoreGrid::Sample& sample, const mrpt::math::TPoint2Df& normal, double c, double s) {
   if (normal.x == 0.0F && normal.y == 0.0F) return;
@@ -66,7 +66,7 @@ Linearisation linearise(const ScoreGrid& grid, const ScanPoints& scan, const TPo
   return result;
 }
 
-// Where the scan determines nothing, as along a corridor, noise alone would carry the pose away.
+// Prior at the start, against noise in directions that the scan does not determine, as along a corridor.
 PosePrior held_at(const TPose2D& map_T_robot) {
   constexpr double kSigma_m = 0.15;
   PosePrior prior;
@@ -87,7 +87,7 @@ RefinedPose refine(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D&
   int iterations = 0;
   while (iterations < options.max_iterations) {
     ++iterations;
-    // Where the scan determines nothing, as along a corridor, rounding must not move the pose.
+    // Keeps rounding errors from moving the pose in directions that the scan does not determine.
     const double least = 1e-6 * (1 + std::max(here.hessian(0, 0), here.hessian(1, 1)));
     const Eigen::Vector3d undetermined(least, least, 1e-6 * (1 + here.hessian(2, 2)));
     Eigen::Matrix3d damped = here.hessian;
@@ -116,7 +116,7 @@ RefinedPose refine(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D&
 
 Eigen::Matrix3d bounded_covariance(const Eigen::Matrix3d& information, double min_sigma_m, double max_sigma_m,
                                    double lever_m) {
-  const Eigen::Vector3d scale(1, 1, 1 / lever_m);  // radians from metres at the lever's end
+  const Eigen::Vector3d scale(1, 1, 1 / lever_m);  // radians to metres at the end of the lever
   const Eigen::Matrix3d scaled = scale.asDiagonal() * information * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scaled);
   Eigen::Vector3d variances;

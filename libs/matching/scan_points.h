@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points of one scan as the matchers take them.
+// Points of one scan, the input of the matchers.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -9,25 +9,24 @@
 
 namespace psi_slam {
 
-/// Of a frame that holds scans of several lasers: a run of points that one of them saw.
+/// Points of one further laser, in a frame that holds scans of several lasers.
 struct LaserPoints {
   std::size_t first_point = 0;
-  mrpt::math::TPoint2Df origin{0, 0};  ///< of its beams, in the robot's frame
+  mrpt::math::TPoint2Df origin{0, 0};  ///< position of the laser in the robot's frame
 };
 
 /// Points of one scan in the robot's frame, metres.
 struct ScanPoints {
   std::vector<mrpt::math::TPoint2Df> points;
-  /// For each point the unit normal of the straight surface it lies on, (0, 0) where there is none; empty:
-  /// unknown.
+  /// For each point, the unit normal of its straight surface, or (0, 0) without one. Empty: unknown.
   std::vector<mrpt::math::TPoint2Df> normals;
-  mrpt::math::TPoint2Df origin{0, 0};  ///< of the beams: the laser's position on the robot
-  double farthest_m = 0;  ///< d_max of equation 7: the largest distance of a point from the robot
-  /// Where the points of the robot's other lasers begin, ascending; those before are seen from `origin`.
+  mrpt::math::TPoint2Df origin{0, 0};  ///< position of the first laser in the robot's frame
+  double farthest_m = 0;               ///< d_max of equation 7: largest distance of a point from the robot
+  /// First points of the other lasers, ascending. The points before them were seen from `origin`.
   std::vector<LaserPoints> other_lasers;
 };
 
-/// Calls `take(origin, first, end)` for each run of points that one laser saw.
+/// Calls `take(origin, first, end)` for the points of each laser, [first, end).
 template <class Take>
 void for_each_laser(const ScanPoints& scan, Take take) {
   std::size_t first = 0;

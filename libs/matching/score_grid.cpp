@@ -12,7 +12,7 @@ int ceil_divide(int a, int b) {
   return (a + b - 1) / b;
 }
 
-// The maximum over aligned stride x stride blocks of `fine`, then over two neighbouring blocks a side.
+// Maximum over aligned stride x stride blocks of `fine`, then over 2 x 2 neighbouring blocks.
 ScoreLevel pool(const ScoreLevel& fine, int stride) {
   const int blocks_x = ceil_divide(fine.width(), stride);
   const int blocks_y = ceil_divide(fine.height(), stride);
@@ -22,7 +22,7 @@ ScoreLevel pool(const ScoreLevel& fine, int stride) {
     std::uint8_t* block = blocks.cell(0, y / stride);
     for (int x = 0; x < fine.width(); ++x) block[x / stride] = std::max(block[x / stride], row[x]);
   }
-  // In the margin, cell -1 too sees the first block: it stands for points just left of or below the grid.
+  // Cell -1 in the margin covers points just left of or below the grid, so it includes the first block.
   ScoreLevel pooled(blocks_x, blocks_y, stride);
   for (int y = -1; y < blocks_y; ++y)
     for (int x = -1; x < blocks_x; ++x)
@@ -34,7 +34,7 @@ ScoreLevel pool(const ScoreLevel& fine, int stride) {
 using Four = float __attribute__((vector_size(16)));
 using FourBytes = std::uint8_t __attribute__((vector_size(4)));
 
-// Catmull-Rom weights of the four neighbours for u in [0, 1) between the middle two, and their derivatives.
+// Catmull-Rom weights of four neighbours, and their derivatives, for u in [0, 1) between the middle two.
 struct CubicWeights {
   Four value;
   Four slope;
@@ -92,7 +92,7 @@ ScoreGrid::Sample ScoreGrid::interpolate(double x_m, double y_m) const {
   if (!finest_.inside(column - 1, row - 1) || !finest_.inside(column + 2, row + 2)) return {0, 0, 0};
   const CubicWeights wx = cubic_weights(static_cast<float>(x - column));
   const CubicWeights wy = cubic_weights(static_cast<float>(y - row));
-  Four across = {};  // the column-wise sums, weighted by rows
+  Four across = {};  // sums of the columns, weighted by row
   Four across_slope = {};
   for (int j = 0; j < 4; ++j) {
     FourBytes bytes;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The poses of a search window as whole numbers: shifts by cells and turns by angular steps around the
-// predicted pose (the paper's look-up table: the scan is rotated once per angle, then only shifted).
+// Poses of a search window as integers: shifts by cells and turns by angular steps around the predicted pose.
+// The scan is rotated once per angle, then only shifted (the look-up table of the paper).
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -28,16 +28,16 @@ struct LatticePose {
   int theta = 0;
 };
 
-/// A scored pose. Candidates have a total order, so that every search finds the same one: the higher sum;
-/// then the pose nearest to the window's centre; then the lower (theta, y, x).
+/// A scored pose. Candidates have a total order, so that every search finds the same one: the higher sum,
+/// then the pose nearer to the window's centre, then the lower (theta, y, x).
 struct Candidate {
-  std::uint32_t sum = 0;  ///< of the scores under the points, each 0 .. 255
+  std::uint32_t sum = 0;  ///< sum of the scores under the points, each 0 .. 255
   LatticePose pose;
 
   bool better_than(const Candidate& other) const;
 };
 
-/// Poses that a search leaves out: those nearer to `centre` than `cells` along both axes and than `turns` in
+/// Poses that a search skips: those less than `cells` from `centre` along both axes and less than `turns` in
 /// angle.
 struct ExcludedRegion {
   LatticePose centre;
@@ -54,8 +54,8 @@ struct ShiftBlock {
   int height = 0;
 };
 
-/// What the region leaves of a block at a heading: all of it, or the strips below, above, left and right of
-/// the excluded square, some of them perhaps empty.
+/// Returns the part of a block outside the region at a heading: the whole block, or the strips below, above,
+/// left and right of the excluded square. Strips can be empty.
 std::array<ShiftBlock, 4> outside(const ExcludedRegion& excluded, int theta, const ShiftBlock& block);
 
 class SearchLattice {
@@ -74,15 +74,15 @@ class SearchLattice {
   /// The largest possible sum: every point on a cell of probability 1.
   std::uint32_t goal_max() const { return static_cast<std::uint32_t>(255 * points_); }
 
-  /// The finest cells of all points, turned by `theta` steps and not shifted. Computed when first asked for:
-  /// a lattice must not be shared between threads.
+  /// Finest cells of all points, turned by `theta` steps and not shifted. Computed at the first call for each
+  /// `theta`, so a lattice is not thread-safe.
   const Cell* cells(int theta) const {
     const auto turn = static_cast<std::size_t>(theta + window_.n_theta);
     if (!turned_[turn]) turn_scan(theta);
     return cells_.get() + turn * points_;
   }
   mrpt::math::TPose2D pose(const LatticePose& steps) const;
-  /// R_v of equation 11.
+  /// Response R_v of equation 11.
   double response(std::uint32_t sum) const { return static_cast<double>(sum) / goal_max(); }
 
  private:
@@ -93,16 +93,15 @@ class SearchLattice {
   SearchWindow window_;
   mrpt::math::TPose2D centre_;
   std::size_t points_;
-  mutable std::unique_ptr<Cell[]> cells_;  // left unwritten until turned
+  mutable std::unique_ptr<Cell[]> cells_;  // uninitialised until turned
   mutable std::vector<bool> turned_;
 };
 
-/// Sums of scores for a block of neighbouring shifts: scratch memory of one search, reused from block to
-/// block.
+/// Sums of scores for a block of neighbouring shifts. A search reuses the memory from block to block.
 class ShiftSums {
  public:
-  /// For x < width, y < height: the sum, over all cells, of the level's score at cell + shift + (x, y)
-  /// strides. `shift` is in finest cells.
+  /// Computes, for x < width and y < height, the sum over all cells of the level's score at cell + shift +
+  /// (x, y) strides. `shift` is in finest cells.
   void compute(const ScoreLevel& level, const Cell* cells, std::size_t points, Cell shift, int width,
                int height);
 

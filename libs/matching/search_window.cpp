@@ -8,15 +8,15 @@
 namespace psi_slam {
 namespace {
 
-constexpr double kMaxSteps = 1e6;  // 50 km of cells: nobody searches that, but an int can hold it
+constexpr double kMaxSteps = 1e6;  // far more than any search needs, and fits an int
 
-// A quotient that is whole but for rounding stays whole.
+// Number of steps, rounded up. The tolerance keeps rounding errors from adding a step.
 double covering_steps(double half_width, double step) {
   return std::ceil(half_width / step - 1e-9);
 }
 
 bool countable(double steps) {
-  return steps >= 0 && steps <= kMaxSteps;  // false for NaN, too
+  return steps >= 0 && steps <= kMaxSteps;  // false for NaN
 }
 
 }  // namespace
@@ -34,8 +34,8 @@ SearchWindow make_search_window(const SearchExtent& extent, double resolution_m,
     text << "no search window from half-widths " << extent.x_m << " m, " << extent.y_m << " m, "
          << extent.theta_rad << " rad, resolution " << resolution_m << " m and farthest point "
          << farthest_point_m
-         << " m: all must be positive, the farthest point beyond half a cell, and no more "
-         << "than a million steps cover a half-width";
+         << " m: expected positive values, a farthest point beyond half a cell, and at most a million steps "
+         << "per half-width";
     throw std::invalid_argument(text.str());
   }
   SearchWindow window;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/sum_kernel.h"
 
-#include "matching/sum_kernel_sets.h"
-
 namespace psi_slam {
 namespace {
 
@@ -27,28 +25,12 @@ SumKernel sum_kernel_for(InstructionSet set) {
   return sum_kernel_baseline();
 }
 
-InstructionSet sum_kernel_instruction_set() {
-  static const InstructionSet best = machine_has(InstructionSet::kAvx512) ? InstructionSet::kAvx512
-                                     : machine_has(InstructionSet::kAvx2) ? InstructionSet::kAvx2
-                                                                          : InstructionSet::kBaseline;
-  return best;
-}
-
 SumKernel sum_kernel() {
-  static const SumKernel kernel = sum_kernel_for(sum_kernel_instruction_set());
+  static const SumKernel kernel =
+      sum_kernel_for(machine_has(InstructionSet::kAvx512) ? InstructionSet::kAvx512
+                     : machine_has(InstructionSet::kAvx2) ? InstructionSet::kAvx2
+                                                          : InstructionSet::kBaseline);
   return kernel;
-}
-
-const char* name(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::kAvx2:
-      return "AVX2";
-    case InstructionSet::kAvx512:
-      return "AVX-512";
-    case InstructionSet::kBaseline:
-      break;
-  }
-  return "baseline";
 }
 
 }  // namespace psi_slam

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/sum_kernel_body.h"
-#include "matching/sum_kernel_sets.h"
 
 namespace psi_slam {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scan laid on the surfaces that other scans saw, points on lines (Chen and Medioni 1992; Censi 2008), for
-// poses that are right to a few centimetres already. No grid stands in between: what a grid's cells round off
-// is what this can still win.
+// Aligns a scan to the surfaces that other scans saw, by point-to-line distances (Chen and Medioni 1992;
+// Censi 2008), for poses that are already accurate to a few centimetres. It uses no grid, so that cells do
+// not limit its accuracy.
 //
 //     minimise over the pose:  sum_j rho(n_j . (T p_j - q_j)) / s^2  +  |x - x_held|^2 / sigma_prior^2
 //
-// over the points p_j of the scan; q_j and n_j are the mean point and the mean normal of the surface points
-// nearest to it, rho is the kernel of Geman and McClure, and s the noise of one point, taken from the
-// residuals themselves.
+// over the points p_j of the scan. q_j and n_j are the mean point and the mean normal of the surface points
+// nearest to p_j, rho is the kernel of Geman and McClure, and s is the noise of one point, estimated from the
+// residuals.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -21,16 +21,16 @@
 
 namespace psi_slam {
 
-/// Points that lie on straight surfaces, each with the surface's unit normal on the side it was seen from.
+/// Points on straight surfaces, each with the unit normal of its surface on the side that the laser saw.
 struct SurfacePoints {
   std::vector<mrpt::math::TPoint2Df> points;
   std::vector<mrpt::math::TPoint2Df> normals;
 };
 
-/// Those of a scan's points that have a normal, in the robot's frame.
+/// Returns the points of a scan that have a normal, in the robot's frame.
 SurfacePoints surface_points(const ScanPoints& scan);
 
-/// The surface points of several scans in one frame, ready to be searched.
+/// Searchable surface points of several scans in one frame.
 class SurfaceMap {
  public:
   struct Part {
@@ -40,7 +40,7 @@ class SurfaceMap {
   explicit SurfaceMap(const std::vector<Part>& parts);
 
   const PointIndex& index() const { return index_; }
-  /// Of the index's points, by number.
+  /// Normals of the points of index(), in the same order.
   const std::vector<mrpt::math::TPoint2Df>& normals() const { return normals_; }
 
  private:
@@ -49,22 +49,22 @@ class SurfaceMap {
 };
 
 struct SurfaceAlignmentOptions {
-  std::size_t neighbours = 8;    ///< surface points whose mean each point of the scan is compared with
-  double max_distance_m = 0.12;  ///< points farther apart are of two surfaces,
-  double max_turn_rad = radians_from_degrees(30.0L);  ///< and those whose normals differ by more; below pi/2
-  double kernel_m = 0.03;       ///< residual at which a point has lost three quarters of its weight
-  double prior_sigma_m = 0.01;  ///< how far the start may be off: along a corridor nothing else holds
+  std::size_t neighbours = 8;    ///< surface points averaged for the comparison with one point of the scan
+  double max_distance_m = 0.12;  ///< largest distance between points of one surface
+  double max_turn_rad = radians_from_degrees(30.0L);  ///< largest angle between their normals; below pi/2
+  double kernel_m = 0.03;       ///< residual at which a point has a quarter of its weight
+  double prior_sigma_m = 0.01;  ///< of the start; holds the pose along a corridor
   double prior_sigma_rad = radians_from_degrees(0.25L);
   int iterations = 4;
-  std::size_t min_points = 20;  ///< of the scan near surfaces; with fewer the pose stays where it was
+  std::size_t min_points = 20;  ///< points near surfaces; with fewer, the result is the start
 };
 
 struct SurfaceAlignment {
   mrpt::math::TPose2D map_T_robot;
-  std::size_t points = 0;  ///< of the scan that were near surfaces at the last iteration
+  std::size_t points = 0;  ///< points of the scan near surfaces at the last iteration
 };
 
-/// The pose near `start` at which the scan's points lie on the surfaces; held by a prior at `held_at`.
+/// Finds the pose near `start` at which the scan's points lie on the surfaces, with a prior at `held_at`.
 SurfaceAlignment align_to_surfaces(const SurfaceMap& map, const SurfacePoints& scan,
                                    const mrpt::math::TPose2D& start, const mrpt::math::TPose2D& held_at,
                                    const SurfaceAlignmentOptions& options);

@@ -7,7 +7,7 @@
 namespace psi_slam {
 namespace {
 
-// The fewest bits that hold 0 .. count - 1.
+// Smallest number of bits that hold 0 .. count - 1.
 int bits_for(std::size_t count) {
   int bits = 0;
   while ((std::uint64_t{1} << bits) < count) ++bits;
@@ -100,7 +100,7 @@ Chromosome CellTiles::encode(const Place& place) const {
   return code_of(static_cast<std::size_t>(place.turn), gray_) | (code_of(place.cell, gray_) << turn_bits_);
 }
 
-// Headings beyond the window's edge stand for the edge's own.
+// Clamps headings to the window.
 CellTiles::Place CellTiles::decode(Chromosome chromosome) const {
   const auto cell =
       static_cast<std::size_t>(number_in(chromosome, turn_bits_, cell_bits_, cells_.size(), gray_));
@@ -126,6 +126,38 @@ std::optional<Chromosome> CellTiles::turned(Chromosome chromosome, int steps) co
   const int theta = cells_[place.cell].theta + turn - turns_ / 2;
   if (turn < 0 || turn >= turns_ || std::abs(theta) > window_.n_theta) return std::nullopt;
   return encode(Place{place.cell, turn});
+}
+
+Candidate TileScorer::score(const Tile& tile, TileLevel level) {
+  const ScoreGrid& grid = lattice_.grid();
+  const ScoreLevel& scores = level == TileLevel::kPooled ? grid.pyramid(0) : grid.finest();
+  const int stride = scores.stride_cells();
+  const int width = (tile.block.width + stride - 1) / stride;
+  const int height = (tile.block.height + stride - 1) / stride;
+  sums_.compute(scores, lattice_.cells(tile.theta), lattice_.points(), tile.block.first, width, height);
+  evaluations_ += static_cast<std::int64_t>(width) * height;
+  Candidate best = {0, {tile.block.first.x, tile.block.first.y, tile.theta}};
+  for (int y = 0; y < height; ++y) {
+    const std::uint32_t* row = sums_.row(y);
+    for (int x = 0; x < width; ++x) {
+      if (row[x] < best.sum) continue;
+      const Candidate candidate = {
+          row[x], {tile.block.first.x + x * stride, tile.block.first.y + y * stride, tile.theta}};
+      if (candidate.better_than(best)) best = candidate;
+    }
+  }
+  return best;
+}
+
+Candidate TileScorer::best_near(const LatticePose& pose) {
+  constexpr int kNear = 8;
+  const SearchWindow& window = lattice_.window();
+  const int x = std::max(pose.x - kNear, -window.n_x);
+  const int y = std::max(pose.y - kNear, -window.n_y);
+  return score(
+      {pose.theta,
+       {{x, y}, std::min(pose.x + kNear, window.n_x + 1) - x, std::min(pose.y + kNear, window.n_y + 1) - y}},
+      TileLevel::kFinest);
 }
 
 }  // namespace psi_slam

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The individuals of the memetic search: tiles of the search window, and the chromosomes that stand for them.
+// The individuals of the memetic search: tiles of the search window, their chromosomes and their fitness.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -10,36 +11,36 @@
 
 namespace psi_slam {
 
-/// All shifts of a block at one heading. The sum kernel
-/// scores them together for little more than the price of one pose.
+/// All shifts of a block at one heading. The sum kernel scores them together at little more than the cost of
+/// one pose.
 struct Tile {
   int theta = 0;  ///< steps from the window's centre
   ShiftBlock block;
 };
 
-/// A set of tiles and their codes.
+/// A set of tiles and their chromosomes.
 class TileSpace {
  public:
   virtual ~TileSpace() = default;
 
-  virtual std::int64_t size() const = 0;  ///< tiles in all
+  virtual std::int64_t size() const = 0;  ///< number of tiles
   virtual int bits() const = 0;
-  /// Of any bits() bits: numbers beyond the last stand for their remainder.
+  /// Decodes any bits() bits: numbers beyond the last are replaced by their remainder.
   virtual Tile tile(Chromosome chromosome) const = 0;
-  /// The one chromosome of its tile: itself, unless it had to be repaired.
+  /// Returns the canonical chromosome of the tile, which differs if the chromosome was repaired.
   virtual Chromosome repaired(Chromosome chromosome) const = 0;
-  /// The tile turned by so many steps; empty where the space holds none.
+  /// Returns the tile turned by `steps`; empty if it is outside the space.
   virtual std::optional<Chromosome> turned(Chromosome chromosome, int steps) const = 0;
 };
 
-/// A whole window, cut into blocks: the bits of the heading, of the column and of the row of the block, each
-/// the fewest that hold it, side by side.
+/// A whole window, cut into blocks. A chromosome holds the heading, the column and the row of a block, each
+/// in as few bits as possible.
 class WindowTiles : public TileSpace {
  public:
-  static constexpr int kSide = 16;   ///< of a block, in shifts: as wide as the kernel's lanes
-  static constexpr int kWhole = 32;  ///< a window of at most so many shifts a side is one block
+  static constexpr int kSide = 16;   ///< side of a block in shifts: the number of lanes of the kernel
+  static constexpr int kWhole = 32;  ///< a window of at most this many shifts a side is one block
 
-  /// With `gray`, neighbours along each axis differ in one bit.
+  /// With `gray`, neighbours along each axis differ in one bit (Gray code).
   WindowTiles(const SearchWindow& window, bool gray);
 
   int columns() const { return columns_; }
@@ -77,16 +78,16 @@ class WindowTiles : public TileSpace {
   int row_bits_;
 };
 
-/// Some coarse cells of a window: the bits of a cell's number, and those of the heading inside it. As in
-/// WindowTiles, the fewest bits that hold all: equation 10, whose lengths are at times one more, is
-/// PoseCode's.
+/// Some coarse cells of a window. A chromosome holds the heading inside a cell and the number of the cell,
+/// each in as few bits as possible. The lengths of equation 10, which PoseCode uses, are sometimes one bit
+/// longer.
 class CellTiles : public TileSpace {
  public:
-  /// Cells are named by their middle heading, and span [theta - turns / 2, theta - turns / 2 + turns). At
-  /// least one.
+  /// `cells` must not be empty. A cell has the middle heading theta and spans [theta - turns / 2,
+  /// theta - turns / 2 + turns).
   CellTiles(const SearchWindow& window, std::vector<Tile> cells, int turns, bool gray);
 
-  /// The middle of a cell.
+  /// Chromosome of the middle heading of a cell.
   Chromosome encode(std::size_t cell) const;
 
   std::int64_t size() const override { return static_cast<std::int64_t>(cells_.size()) * turns_; }
@@ -109,6 +110,31 @@ class CellTiles : public TileSpace {
   bool gray_;
   int turn_bits_;
   int cell_bits_;
+};
+
+enum class TileLevel {
+  kPooled,  ///< upper bound for the tile's poses, from the first level of the pyramid
+  kFinest,  ///< best pose of the tile
+};
+
+/// Scores tiles on a lattice.
+class TileScorer {
+ public:
+  explicit TileScorer(const SearchLattice& lattice) : lattice_(lattice) {}
+
+  /// Returns the best sum of the tile with its pose; on the pooled level, the first pose of the pooled block.
+  Candidate score(const Tile& tile, TileLevel level);
+
+  /// Returns the best of the 16 x 16 poses at -8 .. 7 shifts around `pose`, at its heading. The heading must
+  /// be inside the window.
+  Candidate best_near(const LatticePose& pose);
+
+  std::int64_t evaluations() const { return evaluations_; }
+
+ private:
+  const SearchLattice& lattice_;
+  ShiftSums sums_;
+  std::int64_t evaluations_ = 0;
 };
 
 }  // namespace psi_slam

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all matchers share that look for the best pose of a lattice: the window, the refinement below a cell,
-// the covariance, the ambiguity. They differ in find_peaks() alone.
+// Base of all matchers that search a lattice for the best pose: computes the window, the refinement below a
+// cell, the covariance and the ambiguity. The matchers differ in find_peaks() only.
 #pragma once
 
 #include <vector>
@@ -12,22 +12,22 @@
 
 namespace psi_slam {
 
-/// How a found pose is refined and judged.
+/// Options for the refinement and the ambiguity of a matched pose.
 struct MatcherOptions {
   RefinementOptions refinement;
-  double distinct_m = 0.5;  ///< another peak is distinct when it lies this far away along x or y,
-  double distinct_rad = radians_from_degrees(10.0L);  ///< or is turned by this much
-  double ambiguity_floor = 0.6;  ///< peaks below this share of the best response are not looked for
-  double min_sigma_m = 0.005;    ///< bounds of the covariance's standard deviations
+  double distinct_m = 0.5;                            ///< smallest distance along x or y of a distinct peak
+  double distinct_rad = radians_from_degrees(10.0L);  ///< or smallest turn of a distinct peak
+  double ambiguity_floor = 0.6;  ///< smallest response of a second peak, as a share of the best
+  double min_sigma_m = 0.005;    ///< lower bound of the covariance's standard deviations
   double max_sigma_m = 2.0;
 };
 
-/// Which peaks of the response a search is asked for.
+/// The peaks of the response that a search must find.
 struct PeakRequest {
-  std::uint32_t min_sum = 0;  ///< lower ones are not wanted
+  std::uint32_t min_sum = 0;  ///< smallest sum of the best peak
 
-  /// A second one, distinct from the best: at least so many cells away along x or y or turned by so many
-  /// steps, and of at least this share of the best one's sum.
+  /// Conditions for a second peak: at least `cells` away from the best along x or y, or turned by at least
+  /// `turns` steps; and a sum of at least `share` of the best sum.
   struct Next {
     int cells = 1;
     int turns = 1;
@@ -35,7 +35,7 @@ struct PeakRequest {
   };
   std::optional<Next> next;
 
-  MatchSeed seed;  ///< of random searches
+  MatchSeed seed;  ///< for random searches
 };
 
 struct FoundPeaks {
@@ -45,7 +45,7 @@ struct FoundPeaks {
   GeneticEffort genetic;
 };
 
-/// The peaks that are asked for among scored poses, into `peaks`.
+/// Puts the requested peaks among `scored` into `peaks`.
 void pick_peaks(const std::vector<Candidate>& scored, const PeakRequest& request, FoundPeaks& peaks);
 
 class WindowMatcher : public Matcher {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MRPT's deciders are templates without a compiled form: this is the one place that makes them.
+// The only file that instantiates MRPT's deciders, which are templates.
 #include "mrpt/decider_catalogue.h"
 
 #include <mrpt/graphslam/CGraphSlamEngine.h>
@@ -13,11 +13,8 @@
 #include <mrpt/graphslam/NRD/CICPCriteriaNRD.h>
 #include <mrpt/graphslam/apps_related/TUserOptionsChecker.h>
 
-#include "psi_slam/user_error.h"
 #include "config/nearest_name.h"
-#include "psi_slam/front_end_nrd.h"
-#include "psi_slam/loop_closer_erd.h"
-#include "psi_slam/sparse_pose_gso.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -29,7 +26,7 @@ constexpr const char* kActionsOrOdometry =
     "CActionRobotMovement2D - Format #1, CObservationOdometry - Format #2";
 constexpr const char* kScans = "CObservation2DRangeScan - Format #1, #2";
 
-/// MRPT 2.5.8 leaves its own abstract, and makes a CLevMarqGSO of its name.
+/// MRPT 2.5.8 leaves CEmptyGSO abstract, and creates a CLevMarqGSO under its name.
 class EmptyOptimizer : public mrpt::graphslam::optimizers::CEmptyGSO<MrptGraph> {
  protected:
   void optimizeGraph() override {}
@@ -82,8 +79,8 @@ class DeciderCatalogue::Checker : public mrpt::graphslam::apps::TUserOptionsChec
         "Match each scan with a local map and register a node when the robot has moved or turned enough"));
     regs_descriptions.push_back(our_decider(
         "CPsiLoopCloserERD", "Edge",
-        "Close loops by matching nodes with local maps, exhaustively or genetically as the factor Psi says; "
-        "needs CPsiFrontEndNRD"));
+        "Close loops by matching nodes with local maps by the matcher that the factor Psi chooses; needs "
+        "CPsiFrontEndNRD"));
     auto* const optimizer = new TOptimizerProps;
     optimizer->name = "CPsiSpaGSO";
     optimizer->description = "Sparse pose adjustment, for the edges of any deciders";

@@ -1,55 +1,68 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/front_end_nrd.h"
-
 #include <cmath>
 #include <iostream>
 
-#include "mrpt/class_verbosity.h"
-#include "mrpt/passed_user_error.h"
-#include "mrpt/graphslam_settings.h"
+#include "local_maps/front_end.h"
 #include "mapping/carried_frames.h"
-#include "exports/mapped_trajectory.h"
+#include "mrpt/entry_frames.h"
+#include "mrpt/graph_mirror.h"
+#include "mrpt/graphslam_settings.h"
+#include "mrpt/passed_user_error.h"
+#include "psi_slam/graphslam_deciders.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr char kSpeaker[] = "rawlog: ";
+constexpr char kSpeaker[] = "rawlog";
 
 double length_m(const TPose2D& motion) {
   return std::hypot(motion.x, motion.y);
 }
 
-void keep_local_maps(const std::vector<PlacedLocalMap>& finished, KeyframeStore& memory) {
-  for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, memory);
+void keep_local_maps(const std::vector<PlacedLocalMap>& finished, KeyframeStore& keyframes) {
+  for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, keyframes);
 }
 
 }  // namespace
 
-CPsiFrontEndNRD::CPsiFrontEndNRD() : map_(std::make_shared<SharedMap>()) {
+struct CPsiFrontEndNRD::State {
+  LocalMapNoise local_map_noise;
+  bool log_options_set = false;
+  std::unique_ptr<EntryFrames> entries;
+  std::unique_ptr<FrontEnd> front_end;
+  FrontEndStep step;  ///< of the last scan
+  std::vector<FrameRecord> frames;
+  std::vector<std::size_t> node_frames;
+  double odometry_m = 0;
+  std::size_t unmatched = 0;
+  std::string params_text;
+};
+
+CPsiFrontEndNRD::CPsiFrontEndNRD() : state_(std::make_unique<State>()), map_(std::make_shared<SharedMap>()) {
   setClassName("CPsiFrontEndNRD");
   logging_enable_keep_record = true;
-  map_->memory = make_keyframe_store();
+  map_->keyframes = make_keyframe_store();
 }
 
 CPsiFrontEndNRD::~CPsiFrontEndNRD() = default;
 
 void CPsiFrontEndNRD::loadParams(const std::string& source_fname) {
-  BoundSettings bound;
-  through_engine([&] { load_graphslam_settings(source_fname, bound); });
-  const Settings& settings = bound.settings;
-  options_ = {settings.mapper.front_end,
-              {settings.mapper.local_map_sigma_m, settings.mapper.local_map_sigma_rad}};
-  if (!log_options_set_) entries_ = std::make_unique<EntryFrames>(log_options(settings), kSpeaker);
-  front_end_ = std::make_unique<FrontEnd>(options_.front_end);
-  params_text_ = graphslam_options_text(bound.table, kNodeDeciderSection);
-  setMinLoggingLevel(class_verbosity(source_fname, kNodeDeciderSection));
+  const DeciderParams params =
+      through_engine([&] { return read_decider_params(source_fname, kNodeDeciderSection); });
+  const MapperOptions& mapper = params.settings.mapper;
+  state_->local_map_noise = {mapper.local_map_sigma_m, mapper.local_map_sigma_rad};
+  if (!state_->log_options_set)
+    state_->entries = std::make_unique<EntryFrames>(log_options(params.settings), kSpeaker);
+  state_->front_end = std::make_unique<FrontEnd>(mapper.front_end);
+  state_->params_text = params.text;
+  setMinLoggingLevel(params.verbosity);
 }
 
 void CPsiFrontEndNRD::set_log_options(const LogOptions& options) {
-  entries_ = std::make_unique<EntryFrames>(options, kSpeaker);
-  log_options_set_ = true;
+  state_->entries = std::make_unique<EntryFrames>(options, kSpeaker);
+  state_->log_options_set = true;
 }
 
 bool CPsiFrontEndNRD::updateState(mrpt::obs::CActionCollection::Ptr action,
@@ -61,17 +74,17 @@ bool CPsiFrontEndNRD::updateState(mrpt::obs::CActionCollection::Ptr action,
 bool CPsiFrontEndNRD::update(const mrpt::obs::CActionCollection::Ptr& action,
                              const mrpt::obs::CSensoryFrame::Ptr& observations,
                              const mrpt::obs::CObservation::Ptr& observation) {
-  // The engine has moved all nodes since its last new one; others may have added edges.
+  // The engine moves all nodes after each new node, and other deciders may add edges.
   map_->mirror.read(*m_graph);
   if (map_->solver)
     map_->mirror.write_poses(*m_graph);
   else
     map_->mirror.read_poses(*m_graph);
 
-  entries_->take(action, observations, observation);
+  state_->entries->take(action, observations, observation);
   bool registered = false;
   while (!registered) {
-    const std::optional<Frame> frame = entries_->next();
+    const std::optional<Frame> frame = state_->entries->next();
     if (!frame) break;
     registered = add(*frame);
   }
@@ -79,78 +92,85 @@ bool CPsiFrontEndNRD::update(const mrpt::obs::CActionCollection::Ptr& action,
 }
 
 bool CPsiFrontEndNRD::add(const Frame& frame) {
-  step_ = front_end_->add(frame);
+  state_->step = state_->front_end->add(frame);
   FrameRecord record;
   record.time_us = frame.time_us;
   record.odom_T_robot = frame.odom_T_robot;
-  record.front_end_T_robot = step_.local_T_robot;
-  record.response = step_.response;
-  record.node = step_.node;
-  if (!frames_.empty()) odometry_m_ += length_m(record.odom_T_robot - frames_.back().odom_T_robot);
-  if (!step_.matched) ++unmatched_;
-  frames_.push_back(record);
+  record.front_end_T_robot = state_->step.local_T_robot;
+  record.response = state_->step.response;
+  record.node = state_->step.node;
+  if (!state_->frames.empty())
+    state_->odometry_m += length_m(record.odom_T_robot - state_->frames.back().odom_T_robot);
+  if (!state_->step.matched) ++state_->unmatched;
+  state_->frames.push_back(record);
   return checkRegistrationCondition();
 }
 
 bool CPsiFrontEndNRD::checkRegistrationCondition() {
-  const std::vector<NodeScan>& nodes = map_->memory.nodes;
+  const std::vector<NodeScan>& nodes = map_->keyframes.nodes;
   m_since_prev_node_PDF = {};
-  if (!step_.node) {
+  if (!state_->step.node) {
     if (nodes.empty()) return false;
-    m_since_prev_node_PDF.mean = mrpt::poses::CPose2D(step_.local_T_robot - nodes.back().local_T_robot);
+    m_since_prev_node_PDF.mean =
+        mrpt::poses::CPose2D(state_->step.local_T_robot - nodes.back().local_T_robot);
     return false;
   }
   add_node();
-  if (*step_.node == 0) return false;
+  if (*state_->step.node == 0) return false;
   map_->mirror.publish(*m_graph);
-  m_prev_registered_nodeID = *step_.node;
+  m_prev_registered_nodeID = *state_->step.node;
   return true;
 }
 
 void CPsiFrontEndNRD::add_node() {
-  KeyframeStore& memory = map_->memory;
+  KeyframeStore& keyframes = map_->keyframes;
   PoseGraph& graph = map_->mirror.graph();
   TPose2D pose(0, 0, 0);
-  if (!memory.nodes.empty())
-    pose = graph.pose(graph.num_nodes() - 1) + (step_.local_T_robot - memory.nodes.back().local_T_robot);
-  node_frames_.push_back(frames_.size() - 1);
-  remember_node(step_, node_frames_.back(), memory);
-  map_->odometry_m.push_back(odometry_m_);
+  if (!keyframes.nodes.empty())
+    pose = graph.pose(graph.num_nodes() - 1) +
+           (state_->step.local_T_robot - keyframes.nodes.back().local_T_robot);
+  state_->node_frames.push_back(state_->frames.size() - 1);
+  remember_node(state_->step, state_->node_frames.back(), keyframes);
+  map_->odometry_m.push_back(state_->odometry_m);
 
   graph.add_node(pose);
-  constrain_to_local_maps(step_, options_.local_map_noise, graph);
-  keep_local_maps(step_.finished, memory);
+  constrain_to_local_maps(state_->step, state_->local_map_noise, graph);
+  keep_local_maps(state_->step.finished, keyframes);
 }
 
 void CPsiFrontEndNRD::finish() {
-  entries_->end_of_log();
-  while (const std::optional<Frame> frame = entries_->next()) add(*frame);
-  keep_local_maps(front_end_->finish(), map_->memory);
+  state_->entries->end_of_log();
+  while (const std::optional<Frame> frame = state_->entries->next()) add(*frame);
+  keep_local_maps(state_->front_end->finish(), map_->keyframes);
 }
 
-Trajectory CPsiFrontEndNRD::trajectory() const {
-  if (node_frames_.empty()) return {};
+std::vector<FrameRecord> CPsiFrontEndNRD::frames() const {
+  if (state_->node_frames.empty()) return {};
   std::vector<TPose2D> map_T_node;
-  for (std::size_t node = 0; node < node_frames_.size(); ++node) {
-    const auto in_graph = m_graph->nodes.find(node);  // not there: the only node of a robot that never moved
+  for (std::size_t node = 0; node < state_->node_frames.size(); ++node) {
+    const auto in_graph = m_graph->nodes.find(node);  // a robot that never moves has no node in MRPT's graph
     map_T_node.push_back(in_graph == m_graph->nodes.end() ? map_->mirror.graph().pose(node)
                                                           : in_graph->second.asTPose());
   }
-  std::vector<FrameRecord> frames = frames_;
-  carry_frames_along(map_T_node, node_frames_, frames);
-  return trajectory_of(frames);
+  std::vector<FrameRecord> frames = state_->frames;
+  carry_frames_along(map_T_node, state_->node_frames, frames);
+  return frames;
+}
+
+std::size_t CPsiFrontEndNRD::unmatched() const {
+  return state_->unmatched;
 }
 
 void CPsiFrontEndNRD::printParams() const {
-  std::cout << params_text_;
+  std::cout << state_->params_text;
 }
 
 void CPsiFrontEndNRD::getDescriptiveReport(std::string* report_str) const {
   CNodeRegistrationDecider::getDescriptiveReport(report_str);
-  *report_str += "CPsiFrontEndNRD: " + std::to_string(frames_.size()) + " scans, " +
-                 std::to_string(node_frames_.size()) + " nodes, " +
-                 std::to_string(map_->memory.local_maps.size()) + " finished local maps, " +
-                 std::to_string(unmatched_) + " scans that could not be matched\n";
+  *report_str += "CPsiFrontEndNRD: " + std::to_string(state_->frames.size()) + " scans, " +
+                 std::to_string(state_->node_frames.size()) + " nodes, " +
+                 std::to_string(map_->keyframes.local_maps.size()) + " finished local maps, " +
+                 std::to_string(state_->unmatched) + " scans that could not be matched\n";
 }
 
 }  // namespace psi_slam

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "psi_slam/user_error.h"
 #include "pose_graph/information_matrix.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -44,7 +44,7 @@ void GraphMirror::publish(MrptGraph& network) {
 void GraphMirror::read(const MrptGraph& network) {
   if (network.nodes.size() > shared_nodes_) add_nodes_of(network);
   if (network.edges.size() == shared_constraints_) return;
-  // A multimap keeps the edges of one pair of nodes in the order of their insertion.
+  // A multimap keeps the edges between two nodes in the order of insertion.
   for (auto edge = network.edges.begin(); edge != network.edges.end();) {
     const Ends ends = edge->first;
     const auto known = edges_.find(ends);
@@ -70,7 +70,7 @@ void GraphMirror::add_nodes_of(const MrptGraph& network) {
     if (node == network.nodes.end())
       throw UserError("the pose graph has no node " + std::to_string(id) + ": its " +
                       std::to_string(network.nodes.size()) + " nodes must be numbered from 0 without a gap");
-    // Where MRPT's deciders register it the root has another pose, but the engine keeps it at the origin.
+    // MRPT's deciders may register the root with another pose, but the engine keeps it at the origin.
     TPose2D pose = id == network.root ? TPose2D(0, 0, 0) : node->second.asTPose();
     for (const auto& [ends, edge] : network.edges) {
       const bool leads_here = ends.second == id && ends.first < graph_.num_nodes();

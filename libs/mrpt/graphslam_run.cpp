@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one place that makes MRPT's engine, a template without a compiled form.
+// The only file that instantiates MRPT's engine, which is a template.
 #include "mrpt/graphslam_run.h"
 
+#include <fcntl.h>
 #include <mrpt/graphslam/CGraphSlamEngine.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <optional>
@@ -11,16 +13,14 @@
 #include <string_view>
 #include <utility>
 
-#include "mrpt/graphslam_window.h"
-#include "mrpt/no_standard_input.h"
 #include "base/atomic_file.h"
-#include "base/atomic_folder.h"
-#include "psi_slam/user_error.h"
-#include "psi_slam/front_end_nrd.h"
-#include "mrpt/graphslam_settings.h"
-#include "mrpt/log_entries.h"
+#include "exports/mapped_trajectory.h"
 #include "frames/laser_choice.h"
-#include "observations/rawlog_objects.h"
+#include "mrpt/graphslam_settings.h"
+#include "mrpt/graphslam_window.h"
+#include "mrpt/log_entries.h"
+#include "observations/mrpt_objects.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -29,16 +29,41 @@ namespace fs = std::filesystem;
 using mrpt::graphs::TNodeID;
 using mrpt::math::TPose2D;
 
-/// MRPT's engine, whose map can be drawn when all is done.
+/// Redirects standard input to /dev/null for its lifetime. MRPT 2.5.8's engine warns that it does not
+/// recognise the class of its own graph, and would wait for a key.
+class NoStandardInput {
+ public:
+  NoStandardInput() : kept_(::dup(STDIN_FILENO)) {
+    const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (nothing < 0) return;
+    ::dup2(nothing, STDIN_FILENO);
+    if (nothing != STDIN_FILENO) ::close(nothing);
+  }
+  ~NoStandardInput() {
+    if (kept_ < 0) {
+      ::close(STDIN_FILENO);
+    } else {
+      ::dup2(kept_, STDIN_FILENO);
+      ::close(kept_);
+    }
+  }
+  NoStandardInput(const NoStandardInput&) = delete;
+  NoStandardInput& operator=(const NoStandardInput&) = delete;
+
+ private:
+  int kept_ = -1;
+};
+
+/// MRPT's engine, extended by drawing the final map.
 class Engine : public mrpt::graphslam::CGraphSlamEngine<MrptGraph> {
  public:
   template <class... Arguments>
   explicit Engine(Arguments&&... arguments) : CGraphSlamEngine(std::forward<Arguments>(arguments)...) {
-    m_time_logger.setMinLoggingLevel(getMinLoggingLevel());  // of the figures it prints at its end
+    m_time_logger.setMinLoggingLevel(getMinLoggingLevel());  // for the timings printed at its end
   }
 
-  /// The map of the graph's poses as they are now. Nodes that were registered before the first scan have
-  /// none: MRPT would follow a null pointer.
+  /// Draws the map at the graph's current poses. Removes nodes registered before the first scan, for which
+  /// MRPT would follow a null pointer.
   mrpt::maps::COccupancyGridMap2D::Ptr draw_map() {
     for (auto node = m_nodes_to_laser_scans2D.begin(); node != m_nodes_to_laser_scans2D.end();)
       node = node->second ? std::next(node) : m_nodes_to_laser_scans2D.erase(node);
@@ -48,15 +73,15 @@ class Engine : public mrpt::graphslam::CGraphSlamEngine<MrptGraph> {
     return map;
   }
 
-  /// MRPT's reports of itself and the deciders, complete when this returns: MRPT would keep them open.
+  /// Writes the reports of the engine and the deciders, and closes the files, which MRPT would keep open.
   void write_reports(const fs::path& folder) {
     generateReportFiles(folder.string());
     m_out_streams.clear();
   }
 };
 
-/// The result of `work` in MRPT's engine. Throws UserError for a mistake of the user, SystemFailure for what
-/// MRPT complains of.
+/// Returns the result of `work` in MRPT's engine. Passes UserError on, and throws SystemFailure for errors of
+/// MRPT.
 template <class Work>
 auto in_engine(const Work& work) {
   try {
@@ -65,11 +90,11 @@ auto in_engine(const Work& work) {
     throw;
   } catch (const mrpt::ExceptionWithCallBackBase& failure) {
     std::string words = failure.originalWhat.substr(failure.originalWhat.find_first_not_of("\r\n "));
-    throw SystemFailure("MRPT's graph-slam engine gave up: " + words.substr(0, words.find('\n')));
+    throw SystemFailure("MRPT's graph-slam engine failed: " + words.substr(0, words.find('\n')));
   }
 }
 
-/// MRPT looks neither at a file's words nor at its length. Returns the number of poses.
+/// Checks the format, which MRPT does not. Returns the number of poses.
 std::size_t check_ground_truth(const fs::path& path) {
   constexpr std::size_t kWords = 4;
   std::ifstream file(path);
@@ -86,21 +111,21 @@ std::size_t check_ground_truth(const fs::path& path) {
   return lines;
 }
 
-/// Lets a writer of MRPT's, which may add to the name, write at `path`, so that its files appear whole or not
-/// at all.
+/// Calls a writer of MRPT, which may add suffixes to the name, so that its files appear complete or not at
+/// all.
 void write_named(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   write_files_atomically(path.parent_path(),
                          [&](const fs::path& temporary) { write(temporary / path.filename()); });
 }
 
-/// Throws SystemFailure, naming `path`, when the file is missing or lacks the chunk that every PNG ends with.
+/// Throws SystemFailure, naming `path`, if the file is missing or lacks the final chunk of a PNG file.
 void require_whole_png(const fs::path& png, const fs::path& path) {
   constexpr std::string_view kEnd("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
   std::ifstream file(png, std::ios::binary);
   std::string end(kEnd.size(), ' ');
   file.seekg(-static_cast<std::streamoff>(kEnd.size()), std::ios::end);
   if (!file.read(end.data(), static_cast<std::streamsize>(end.size())) || end != kEnd)
-    throw SystemFailure("cannot write " + path.string() + ": the disk did not take it");
+    throw SystemFailure("cannot write " + path.string() + ": the file is incomplete, the disk may be full");
 }
 
 mrpt::obs::CObservation2DRangeScan::Ptr scan_of(const LogEntry& entry) {
@@ -109,11 +134,9 @@ mrpt::obs::CObservation2DRangeScan::Ptr scan_of(const LogEntry& entry) {
   return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(entry.observation);
 }
 
-}  // namespace
-
-class GraphSlamRun::Implementation {
+class EngineRun : public GraphSlamRun {
  public:
-  Implementation(const GraphSlamSetup& setup, const DeciderCatalogue& catalogue)
+  EngineRun(const GraphSlamSetup& setup, const DeciderCatalogue& catalogue)
       : general_(read_graphslam_general(setup.ini)),
         log_(setup.log),
         node_decider_(catalogue.make_node_decider(setup.node_decider)),
@@ -138,7 +161,7 @@ class GraphSlamRun::Implementation {
     });
   }
 
-  bool step() {
+  bool step() override {
     if (at_end_ || broken_off_) return false;
     try {
       return map_next_entry();
@@ -149,9 +172,9 @@ class GraphSlamRun::Implementation {
     }
   }
 
-  void finish(const std::function<bool(double)>& progress) {
+  void finish(const std::function<bool(double)>& progress) override {
     if (front_end_ != nullptr && scans_ == 0)
-      throw UserError(log_.string() + ": no scan was read, there is nothing to map");
+      throw UserError(log_.string() + ": no scan was read, so there is nothing to map");
     interrupted_ = !at_end_ && !broken_off_;
     finish_deciders(*node_decider_, *edge_decider_, *optimizer_, [&](double share) {
       if (!progress || progress(share)) return true;
@@ -160,11 +183,11 @@ class GraphSlamRun::Implementation {
     });
   }
 
-  const std::optional<std::string>& broken_off() const { return broken_off_; }
-  bool interrupted() const { return interrupted_; }
+  const std::optional<std::string>& broken_off() const override { return broken_off_; }
+  bool interrupted() const override { return interrupted_; }
 
-  Trajectory trajectory() const {
-    if (front_end_ != nullptr) return front_end_->trajectory();
+  Trajectory trajectory() const override {
+    if (front_end_ != nullptr) return trajectory_of(front_end_->frames());
     const auto& nodes = engine_->getGraph().nodes;
     Trajectory path;
     for (const PathPose& pose : path_) {
@@ -175,17 +198,17 @@ class GraphSlamRun::Implementation {
     return path;
   }
 
-  std::map<std::string, int> edge_counts() const {
+  std::map<std::string, int> edge_counts() const override {
     std::map<std::string, int> counts;
     edge_decider_->getEdgesStats(&counts);
     return counts;
   }
 
-  std::size_t unmatched_scans() const { return front_end_ != nullptr ? front_end_->unmatched() : 0; }
+  std::size_t unmatched_scans() const override { return front_end_ != nullptr ? front_end_->unmatched() : 0; }
 
-  // MRPT does not tell when the disk is full: what can be, is written by us, and of the map's picture the end
-  // is looked for.
-  void write(const OutputFolder& folder) {
+  // MRPT does not report a full disk. Therefore psi-slam writes what it can itself, and checks the end of the
+  // map's picture.
+  void write(const OutputFolder& folder) override {
     write_tum(folder.path() / "trajectory.tum", trajectory());
     if (general_.save_graph) {
       std::ostringstream graph;
@@ -204,10 +227,10 @@ class GraphSlamRun::Implementation {
     });
   }
 
-  const Engine& engine() const { return *engine_; }
-  const LogEntries& entries() const { return *entries_; }
-  std::size_t scans() const { return scans_; }
-  void wait_for_window() {
+  const MrptGraph& graph() const override { return engine_->getGraph(); }
+  double progress() const override { return entries_->progress(); }
+  std::size_t scans() const override { return scans_; }
+  void wait_for_window() override {
     if (window_) window_->wait_until_closed();
   }
 
@@ -230,7 +253,7 @@ class GraphSlamRun::Implementation {
     at_end_ = !entry;
     if (!entry) return false;
     if (true_poses_ && steps_ >= *true_poses_)
-      throw UserError("the file of true poses ends after " + std::to_string(*true_poses_) +
+      throw UserError("the ground truth file ends after " + std::to_string(*true_poses_) +
                       " poses, before the log does");
     const auto scan = scan_of(*entry);
     const bool go_on = in_engine([&] {
@@ -263,7 +286,7 @@ class GraphSlamRun::Implementation {
   std::unique_ptr<NodeDecider> node_decider_;
   std::unique_ptr<EdgeDecider> edge_decider_;
   std::unique_ptr<GraphOptimizer> optimizer_;
-  CPsiFrontEndNRD* front_end_ = nullptr;  // the node decider, where it is ours
+  CPsiFrontEndNRD* front_end_ = nullptr;  // null unless the node decider is of psi-slam
   std::unique_ptr<LogEntries> entries_;
   std::optional<std::size_t> true_poses_;
   std::unique_ptr<GraphSlamWindow> window_;
@@ -273,60 +296,14 @@ class GraphSlamRun::Implementation {
   bool at_end_ = false;
   std::optional<std::string> broken_off_;
   bool interrupted_ = false;
-  std::vector<PathPose> path_;  // of node deciders of MRPT's
+  std::vector<PathPose> path_;  // filled with node deciders of MRPT
 };
 
-GraphSlamRun::GraphSlamRun(const GraphSlamSetup& setup, const DeciderCatalogue& catalogue)
-    : implementation_(std::make_unique<Implementation>(setup, catalogue)) {}
+}  // namespace
 
-GraphSlamRun::~GraphSlamRun() = default;
-
-bool GraphSlamRun::step() {
-  return implementation_->step();
-}
-
-double GraphSlamRun::progress() const {
-  return implementation_->entries().progress();
-}
-
-void GraphSlamRun::finish(const std::function<bool(double)>& progress) {
-  implementation_->finish(progress);
-}
-
-const std::optional<std::string>& GraphSlamRun::broken_off() const {
-  return implementation_->broken_off();
-}
-
-bool GraphSlamRun::interrupted() const {
-  return implementation_->interrupted();
-}
-
-Trajectory GraphSlamRun::trajectory() const {
-  return implementation_->trajectory();
-}
-
-const MrptGraph& GraphSlamRun::graph() const {
-  return implementation_->engine().getGraph();
-}
-
-std::size_t GraphSlamRun::scans() const {
-  return implementation_->scans();
-}
-
-std::size_t GraphSlamRun::unmatched_scans() const {
-  return implementation_->unmatched_scans();
-}
-
-std::map<std::string, int> GraphSlamRun::edge_counts() const {
-  return implementation_->edge_counts();
-}
-
-void GraphSlamRun::write(const OutputFolder& folder) {
-  implementation_->write(folder);
-}
-
-void GraphSlamRun::wait_for_window() {
-  implementation_->wait_for_window();
+std::unique_ptr<GraphSlamRun> make_graphslam_run(const GraphSlamSetup& setup,
+                                                 const DeciderCatalogue& catalogue) {
+  return std::make_unique<EngineRun>(setup, catalogue);
 }
 
 }  // namespace psi_slam

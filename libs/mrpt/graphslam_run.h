@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run of MRPT's graph-slam engine over a log, with any of its deciders and ours:
+// One run of MRPT's graph-slam engine over a log, with any deciders of MRPT and psi-slam:
 //
-//     GraphSlamRun run(setup, DeciderCatalogue());
-//     while (run.step()) {}
-//     run.finish();
-//     run.write(folder);
+//     auto run = make_graphslam_run(setup, DeciderCatalogue());
+//     while (run->step()) {}
+//     run->finish();
+//     run->write(folder);
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,6 @@
 #include <string>
 
 #include "mrpt/decider_catalogue.h"
-#include "mrpt/graphslam_general.h"
 #include "report/output_folder.h"
 #include "trajectory/trajectory_file.h"
 
@@ -34,49 +33,45 @@ struct GraphSlamSetup {
 
 class GraphSlamRun {
  public:
-  /// Throws UserError when a file cannot be read, the settings are wrong, there is no decider of a name or
-  /// they do not work together; SystemFailure when MRPT's engine gives up.
-  GraphSlamRun(const GraphSlamSetup& setup, const DeciderCatalogue& catalogue);
-  ~GraphSlamRun();
-  GraphSlamRun(const GraphSlamRun&) = delete;
-  GraphSlamRun& operator=(const GraphSlamRun&) = delete;
+  virtual ~GraphSlamRun() = default;
 
-  /// Hands the next entry to the engine. False at the end of the log, where it breaks off (see broken_off()),
-  /// and when the user wishes so in the window. Throws as the constructor when the log breaks off before its
-  /// first scan, and when MRPT's engine gives up.
-  bool step();
-  double progress() const;
+  /// Passes the next entry to the engine. False at the end of the log, at damage (see broken_off()), and when
+  /// the user stops the run in the window. Throws UserError if the log is damaged before its first scan, and
+  /// SystemFailure if MRPT's engine fails.
+  virtual bool step() = 0;
+  virtual double progress() const = 0;
 
-  /// What is wrong with the log, or with the true poses, behind the last entry that was mapped: a sentence.
-  const std::optional<std::string>& broken_off() const;
+  /// What is wrong with the log or the ground truth after the last mapped entry, as a sentence.
+  virtual const std::optional<std::string>& broken_off() const = 0;
 
-  /// Once after the last step, be that the end of the log or not: see finish_deciders(). Throws UserError
-  /// when our node decider has seen no scan.
-  void finish(const std::function<bool(double)>& progress = {});
+  /// Finishes the map, see finish_deciders(). Call once after the last step. Throws UserError if
+  /// CPsiFrontEndNRD got no scan.
+  virtual void finish(const std::function<bool(double)>& progress = {}) = 0;
 
-  /// Known after finish(): whether scans were left in the log, or finish() was told to end early.
-  bool interrupted() const;
+  /// After finish(): whether the run stopped before the end of the log, or finish() was cut short.
+  virtual bool interrupted() const = 0;
 
-  /// Where the robot was at each scan, as the graph's poses have it now: of deciders of MRPT's from the node
-  /// that was the newest then, as the decider saw the way from there.
-  Trajectory trajectory() const;
-  const MrptGraph& graph() const;
-  std::size_t scans() const;
-  /// Those that could not be matched, so that odometry stands for them; of our node decider only.
-  std::size_t unmatched_scans() const;
-  /// What the edge decider counts, by its own names; MRPT's call loops "LC".
-  std::map<std::string, int> edge_counts() const;
+  /// Pose of the robot at each scan. With node deciders of MRPT it is the motion since the newest node at
+  /// that time, applied to that node's present pose.
+  virtual Trajectory trajectory() const = 0;
+  virtual const MrptGraph& graph() const = 0;
+  virtual std::size_t scans() const = 0;
+  /// Scans that could not be matched, whose poses come from odometry. 0 with node deciders of MRPT.
+  virtual std::size_t unmatched_scans() const = 0;
+  /// Numbers of edges by type, as the edge decider names them; MRPT calls loops "LC".
+  virtual std::map<std::string, int> edge_counts() const = 0;
 
-  /// Writes trajectory.tum, and what the settings ask for, as MRPT's graphslam-engine does; each file appears
-  /// whole or not at all. Throws SystemFailure when the disk does not take it, as far as MRPT tells.
-  void write(const OutputFolder& folder);
+  /// Writes trajectory.tum and the files that the settings request, as MRPT's graphslam-engine does. Each
+  /// file appears complete or not at all. Throws SystemFailure if writing fails, as far as MRPT reports it.
+  virtual void write(const OutputFolder& folder) = 0;
 
-  /// Until the user closes MRPT's window, if there is one.
-  void wait_for_window();
-
- private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  /// Waits until the user closes MRPT's window, if there is one.
+  virtual void wait_for_window() = 0;
 };
+
+/// Throws UserError if a file cannot be read, a setting is wrong, or a decider is unknown or does not work
+/// with the others; SystemFailure if MRPT's engine fails.
+std::unique_ptr<GraphSlamRun> make_graphslam_run(const GraphSlamSetup& setup,
+                                                 const DeciderCatalogue& catalogue);
 
 }  // namespace psi_slam

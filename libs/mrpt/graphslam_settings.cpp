@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mrpt/graphslam_settings.h"
 
+#include <mrpt/config/CConfigFile.h>
+
 #include <array>
 #include <vector>
 
-#include "psi_slam/user_error.h"
 #include "config/ini_file.h"
+#include "config/option_table.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
 struct Owner {
   const char* section;
-  std::vector<std::string> options;  ///< sections of psi-slam's, or single options
+  std::vector<std::string> options;  ///< sections of psi-slam, or single options
 };
 
 const std::array<Owner, 3>& owners() {
@@ -21,14 +24,14 @@ const std::array<Owner, 3>& owners() {
         {"log", "front_end", "local_maps", "pose_graph.local_map_sigma_m",
          "pose_graph.local_map_sigma_theta_deg"}},
        {kEdgeDeciderSection,
-        {"loop_closure", "psi", "genetic", "verification", "consensus", "final_search", "joint_refinement",
-         "run", "pose_graph.loop_sigma_m", "pose_graph.loop_sigma_theta_deg", "pose_graph.max_loop_chi"}},
+        {"loop_closure", "psi", "genetic", "verification", "consensus", "final_search", "last_pass",
+         "joint_refinement", "run", "pose_graph.loop_sigma_m", "pose_graph.loop_sigma_theta_deg",
+         "pose_graph.max_loop_chi"}},
        {kOptimizerSection, {"pose_graph"}}}};
   return kOwners;
 }
 
-/// Options without effect there: the app reads every scan, and it is the choice of an edge decider whether
-/// loops are closed.
+/// Options without effect in the engine: it reads every scan, and the edge decider decides on loop closing.
 bool has_no_effect(const std::string& option) {
   return option == "log.every_nth_scan" || option == "loop_closure.enabled" || option.rfind("map.", 0) == 0;
 }
@@ -46,6 +49,34 @@ bool is_deciders_section(const std::string& section) {
   for (const Owner& owner : owners())
     if (section == owner.section) return true;
   return false;
+}
+
+constexpr const char* kGeneralSection = "GeneralConfiguration";
+
+/// Keys of MRPT itself, read by it or contained in its example files.
+struct MrptsOwn {
+  bool user_decides_about_output_dir = false;
+  std::string ground_truth_file_format = "NavSimul";
+  int LC_min_nodeid_diff = 0;
+  int class_verbosity = 1;
+};
+
+void describe(OptionTable& table, GraphSlamGeneral& general, MrptsOwn& mrpt) {
+  table.section(kGeneralSection, "Output files")
+      .text("output_dir_fname", general.output_dir_fname, "folder for the results")
+      .flag("save_graph", general.save_graph, "write the graph")
+      .text("save_graph_fname", general.save_graph_fname, "name of its file")
+      .flag("save_map", general.save_map, "write the map")
+      .text("save_map_fname", general.save_map_fname, "prefix of the names of its files")
+      .flag("save_3DScene", general.save_3DScene, "write the scene of the window, if there is one")
+      .text("save_3DScene_fname", general.save_3DScene_fname, "name of its file")
+      .flag("user_decides_about_output_dir", mrpt.user_decides_about_output_dir,
+            "no effect: only --force overwrites files")
+      .text("ground_truth_file_format", mrpt.ground_truth_file_format, "format of the ground truth file")
+      .integer("LC_min_nodeid_diff", mrpt.LC_min_nodeid_diff, any_number(), "nodes",
+               "smallest difference of node numbers for loops; read by MRPT's deciders")
+      .integer("class_verbosity", mrpt.class_verbosity, between(0, 4), "",
+               "least level of the engine's messages to print");
 }
 
 }  // namespace
@@ -83,6 +114,28 @@ std::string graphslam_options_text(const OptionTable& table, const std::string& 
               ini_value_text(option.text()) + '\n';
     }
   return text;
+}
+
+DeciderParams read_decider_params(const std::filesystem::path& ini, const std::string& section) {
+  BoundSettings bound;
+  load_graphslam_settings(ini, bound);
+  const mrpt::config::CConfigFile file(ini.string());
+  const int verbosity = file.read_int(section, "class_verbosity", mrpt::system::LVL_INFO, false);
+  return {bound.settings, graphslam_options_text(bound.table, section),
+          static_cast<mrpt::system::VerbosityLevel>(verbosity)};
+}
+
+GraphSlamGeneral read_graphslam_general(const std::filesystem::path& ini) {
+  GraphSlamGeneral general;
+  MrptsOwn mrpt;
+  OptionTable table;
+  describe(table, general, mrpt);
+  for (const IniValue& value : read_ini(ini).values)
+    if (value.section == kGeneralSection) table.set(value.section + '.' + value.key, value.text, value.where);
+  if (mrpt.ground_truth_file_format != "NavSimul")
+    throw UserError("ground_truth_file_format = " + mrpt.ground_truth_file_format +
+                    " is not supported. Set NavSimul, the only format of MRPT's engine.");
+  return general;
 }
 
 }  // namespace psi_slam

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of our deciders and our optimizer in the settings files of MRPT's graphslam-engine. There a key
-// with a dot in it is one of psi-slam's options by its whole name, in the section of whom it belongs to:
+// Options of psi-slam's deciders and optimizer in the settings files of MRPT's graphslam-engine. A key with a
+// dot is an option of psi-slam by its full name, in the section of the class that it belongs to:
 //
 //     [NodeRegistrationDeciderParameters]
 //     front_end.node_distance_m = 0.15
-//     class_verbosity = 1                 ; keys without a dot are MRPT's, which we leave to it
+//     class_verbosity = 1                 ; keys without a dot are MRPT's own
 #pragma once
+
+#include <mrpt/system/COutputLogger.h>
 
 #include <filesystem>
 #include <string>
@@ -18,18 +20,41 @@ inline constexpr const char* kNodeDeciderSection = "NodeRegistrationDeciderParam
 inline constexpr const char* kEdgeDeciderSection = "EdgeRegistrationDeciderParameters";
 inline constexpr const char* kOptimizerSection = "OptimizerParameters";
 
-/// The section that one of psi-slam's options, "front_end.window_m", is read from; "" for those without
-/// effect there, such as how the map is drawn.
+/// The section that holds an option such as "front_end.window_m". Empty for options without effect in the
+/// engine, such as how the map is drawn.
 std::string graphslam_section_of(const std::string& option);
 
-/// Takes all of psi-slam's options in the file. Throws UserError, with file and line, for an option that does
-/// not exist, stands in another's section, has no effect there or does not take its value; and when two
-/// contradict each other.
+/// Reads all options of psi-slam in the file. Throws UserError, with file and line, for an option that is
+/// unknown, stands in another section, has no effect in the engine or has an invalid value; and if two
+/// options contradict each other.
 void load_graphslam_settings(const std::filesystem::path& ini, BoundSettings& bound);
 Settings read_graphslam_settings(const std::filesystem::path& ini);
 
-/// The options that are read from one of the sections, each with its description and its value now, as lines
-/// of a settings file.
+/// The options of one section, each with its help and current value, as lines of a settings file.
 std::string graphslam_options_text(const OptionTable& table, const std::string& section);
+
+/// What a decider or optimizer reads in loadParams().
+struct DeciderParams {
+  Settings settings;
+  std::string text;                        ///< see graphslam_options_text()
+  mrpt::system::VerbosityLevel verbosity;  ///< messages from this level on are printed
+};
+/// Throws UserError as load_graphslam_settings() does.
+DeciderParams read_decider_params(const std::filesystem::path& ini, const std::string& section);
+
+/// The section [GeneralConfiguration] of MRPT's graphslam-engine.
+struct GraphSlamGeneral {
+  std::string output_dir_fname = "graphslam_results";
+  bool save_graph = true;
+  std::string save_graph_fname = "output_graph.graph";
+  bool save_map = true;
+  std::string save_map_fname = "output_map";
+  bool save_3DScene = true;
+  std::string save_3DScene_fname = "scene.3DScene";
+};
+
+/// Reads the section and ignores keys that only MRPT's engine and deciders read. Throws UserError, with file
+/// and line, for an unknown key or an invalid value.
+GraphSlamGeneral read_graphslam_general(const std::filesystem::path& ini);
 
 }  // namespace psi_slam

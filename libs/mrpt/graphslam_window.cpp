@@ -17,7 +17,8 @@ namespace {
 void expect_display() {
   const char* const display = std::getenv("DISPLAY");
   if (display == nullptr || *display == '\0')
-    throw UserError("there is no display for the window: give --disable-visuals to run without it");
+    throw UserError(
+        "no display for the window: DISPLAY is not set. Run without window by --disable-visuals.");
 }
 
 }  // namespace

@@ -10,13 +10,13 @@ namespace psi_slam {
 /// The window that MRPT's graph-slam engine draws into.
 class GraphSlamWindow {
  public:
-  /// Throws UserError when there is no display.
+  /// Throws UserError if there is no display.
   GraphSlamWindow();
   ~GraphSlamWindow();
 
   mrpt::graphslam::CWindowManager& manager() { return manager_; }
 
-  /// Returns when the user has closed it or asked for the end.
+  /// Returns when the user has closed the window or pressed Ctrl+C in it.
   void wait_until_closed();
 
  private:

@@ -8,13 +8,12 @@
 #include <set>
 #include <string>
 
-#include "psi_slam/user_error.h"
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
+#include "observations/mrpt_objects.h"
 #include "psi_slam/open_log.h"
+#include "psi_slam/user_error.h"
 #include "rawlog/rawlog_archive.h"
-#include "observations/range_observation.h"
-#include "observations/robot_action.h"
 
 namespace psi_slam {
 namespace {
@@ -23,9 +22,9 @@ using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
 
-/// Stands where a sensory frame has no action: MRPT's engine wants one, for its time.
+/// An action without movement, for sensory frames without one. MRPT's engine needs its time stamp.
 CActionCollection::Ptr no_movement(const CSensoryFrame& frame) {
-  constexpr double kVariance = 1e-6;  // MRPT's deciders invert it
+  constexpr double kVariance = 1e-6;  // positive, because MRPT's deciders invert the covariance
   mrpt::obs::CActionRobotMovement3D action;
   if (frame.size() > 0) action.timestamp = (*frame.begin())->timestamp;
   action.poseChange.cov.setDiagonal(kVariance);
@@ -34,14 +33,13 @@ CActionCollection::Ptr no_movement(const CSensoryFrame& frame) {
   return collection;
 }
 
-/// The scans of one laser only: MRPT's engine and deciders take whichever comes for that of the robot's only
-/// one.
+/// The entries of a rawlog with the scans of one laser. MRPT's engine and deciders do not tell lasers apart.
 class RawlogEntries : public LogEntries {
  public:
   RawlogEntries(const std::filesystem::path& rawlog, const LogOptions& options)
       : archive_(rawlog), lasers_(laser_choice("log.laser", options.laser)), laser_(options.laser) {}
 
-  // Objects that are none of the three, as comments, are passed over.
+  // Skips other objects, such as comments.
   std::optional<LogEntry> next() override {
     LogEntry entry;
     while (const auto object = archive_.next()) {

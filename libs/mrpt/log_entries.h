@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log as MRPT's graph-slam engine takes it, entry by entry.
+// Reads a log entry by entry, in the form that MRPT's graph-slam engine takes.
 #pragma once
 
 #include <mrpt/obs/CActionCollection.h>
@@ -15,7 +15,7 @@
 
 namespace psi_slam {
 
-/// An action with a sensory frame, or else a single observation.
+/// An action with a sensory frame, or a single observation.
 struct LogEntry {
   mrpt::obs::CActionCollection::Ptr action;
   mrpt::obs::CSensoryFrame::Ptr observations;
@@ -25,19 +25,19 @@ struct LogEntry {
 class LogEntries {
  public:
   virtual ~LogEntries() = default;
-  /// The next entry, or none at the end. Throws UserError when the log breaks off.
+  /// The next entry, or none at the end. Throws UserError if the log is damaged.
   virtual std::optional<LogEntry> next() = 0;
-  /// How much has been read, in [0, 1].
+  /// Share of the log read so far, in [0, 1].
   virtual double progress() const = 0;
-  /// Whether the entries say what the log's reader has made of it; then `options` have been heeded and must
-  /// not be once more.
+  /// Whether the entries are made from frames. Then the log options are applied already and must not be
+  /// applied again.
   virtual bool are_made() const = 0;
 };
 
-/// Of a rawlog the entries as they are, but for scans of other lasers than the one that is read (log.laser,
-/// or the first to come). Of a log of any other format, and where several lasers are read at once, a movement
-/// and the scans of all lasers, the first one's first, for each frame: MRPT's deciders take the first. Throws
-/// UserError when the log cannot be opened; its next() throws when no laser has the label that was asked for.
+/// Opens a log. Entries of a rawlog are unchanged, except that scans of other lasers than log.laser, or the
+/// first laser, are left out. For other formats, and for several lasers, there is an entry per frame: the
+/// movement and the scans of all lasers, the main laser first, since MRPT's deciders take the first scan.
+/// Throws UserError if the log cannot be opened; next() throws it if no laser has the label of log.laser.
 std::unique_ptr<LogEntries> open_log_entries(const std::filesystem::path& log, const LogOptions& options);
 
 }  // namespace psi_slam

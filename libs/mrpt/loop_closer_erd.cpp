@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "psi_slam/loop_closer_erd.h"
-
 #include <iostream>
 #include <numeric>
 #include <utility>
 
-#include "mrpt/class_verbosity.h"
-#include "mrpt/passed_user_error.h"
+#include "mapping/back_end.h"
+#include "mrpt/graph_mirror.h"
 #include "mrpt/graphslam_settings.h"
+#include "mrpt/passed_user_error.h"
+#include "psi_slam/graphslam_deciders.h"
 
 namespace psi_slam {
 
-CPsiLoopCloserERD::CPsiLoopCloserERD() {
+struct CPsiLoopCloserERD::State {
+  std::unique_ptr<BackEnd> back_end;
+  std::size_t handled_nodes = 0;
+  double odometry_m = 0;  ///< at the node handled last
+  std::string params_text;
+};
+
+CPsiLoopCloserERD::CPsiLoopCloserERD() : state_(std::make_unique<State>()) {
   setClassName("CPsiLoopCloserERD");
   logging_enable_keep_record = true;
 }
@@ -19,19 +26,17 @@ CPsiLoopCloserERD::CPsiLoopCloserERD() {
 CPsiLoopCloserERD::~CPsiLoopCloserERD() = default;
 
 void CPsiLoopCloserERD::loadParams(const std::string& source_fname) {
-  BoundSettings bound;
-  through_engine([&] { load_graphslam_settings(source_fname, bound); });
-  back_end_ = std::make_unique<BackEnd>(mapper_options(bound.settings));
-  passes_ = bound.settings.mapper.final_search.passes;
-  refinement_ = bound.settings.mapper.joint_refinement;
-  params_text_ = graphslam_options_text(bound.table, kEdgeDeciderSection);
-  setMinLoggingLevel(class_verbosity(source_fname, kEdgeDeciderSection));
+  const DeciderParams params =
+      through_engine([&] { return read_decider_params(source_fname, kEdgeDeciderSection); });
+  state_->back_end = std::make_unique<BackEnd>(mapper_options(params.settings).back_end);
+  state_->params_text = params.text;
+  setMinLoggingLevel(params.verbosity);
 }
 
 SharedMap& CPsiLoopCloserERD::map() const {
   if (!map_)
     throw UserError(
-        "CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD: take that as the node decider");
+        "CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD: choose that as the node decider");
   return *map_;
 }
 
@@ -44,71 +49,66 @@ bool CPsiLoopCloserERD::updateState(mrpt::obs::CActionCollection::Ptr /*action*/
   return true;
 }
 
-// The first node waits for the second, as the engine wants it.
+// The engine takes the first two nodes together, so the first waits for the second.
 std::size_t CPsiLoopCloserERD::close_loops_of_new_nodes() {
   SharedMap& map = this->map();
-  if (map.memory.nodes.size() < 2) return 0;
+  if (map.keyframes.nodes.size() < 2) return 0;
   std::size_t made = 0;
-  for (; handled_nodes_ < map.memory.nodes.size(); ++handled_nodes_) {
-    const mrpt::math::TPose2D& pose = map.mirror.graph().pose(handled_nodes_);
-    back_end_->move(map.odometry_m[handled_nodes_] - odometry_m_, {pose.x, pose.y});
-    odometry_m_ = map.odometry_m[handled_nodes_];
-    made += static_cast<std::size_t>(back_end_->close(handled_nodes_, map.memory, map.mirror.graph()).accepted);
+  for (; state_->handled_nodes < map.keyframes.nodes.size(); ++state_->handled_nodes) {
+    const mrpt::math::TPose2D& pose = map.mirror.graph().pose(state_->handled_nodes);
+    state_->back_end->move(map.odometry_m[state_->handled_nodes] - state_->odometry_m, {pose.x, pose.y});
+    state_->odometry_m = map.odometry_m[state_->handled_nodes];
+    made += static_cast<std::size_t>(
+        state_->back_end->close(state_->handled_nodes, map.keyframes, map.mirror.graph()).accepted);
   }
   return made;
 }
 
 void CPsiLoopCloserERD::finish(const std::function<bool(double)>& progress) {
   SharedMap& map = this->map();
-  if (map.memory.nodes.size() < 2) return;
+  if (map.keyframes.nodes.size() < 2) return;
   close_loops_of_new_nodes();
-  back_end_->ledger().refuse_pending();
+  BackEnd& back_end = *state_->back_end;
   if (map.solver) {
-    const double steps = passes_ + 1;
-    bool go_on = true;
-    const auto told = [&](double done) { return go_on = go_on && (!progress || progress(done / steps)); };
     PoseGraph& graph = map.mirror.graph();
-    back_end_->settle(graph, *map.solver);
-    for (int pass = 0; pass < passes_ && go_on; ++pass) {
-      back_end_->run_final_search(map.memory, graph, [&](double share) { return told(pass + share); });
-      back_end_->settle(graph, *map.solver);
-    }
-    back_end_->ledger().refuse_pending();
-    if (go_on) refine([&](double share) { return told(passes_ + share); });
+    FinalProgress steps(back_end.options(), progress);
+    back_end.finish_loops(map.keyframes, graph, *map.solver, steps);
+    RefinedScans scans;
+    scans.map_T_frame = graph.poses();
+    scans.node_frames.resize(graph.num_nodes());
+    std::iota(scans.node_frames.begin(), scans.node_frames.end(), std::size_t{0});
+    scans.points = [&](std::size_t node) { return *map.keyframes.nodes[node].points; };
+    back_end.refine(scans, graph, steps);
+  } else {
+    back_end.ledger().refuse_pending();
   }
   map.mirror.publish(*m_graph);
   map.mirror.remove_disabled(*m_graph);
   if (map.solver) map.mirror.write_poses(*m_graph);
 }
 
-void CPsiLoopCloserERD::refine(const std::function<bool(double)>& progress) {
-  SharedMap& map = this->map();
-  PoseGraph& graph = map.mirror.graph();
-  RefinedScans scans;
-  scans.map_T_frame = graph.poses();
-  scans.node_frames.resize(graph.num_nodes());
-  std::iota(scans.node_frames.begin(), scans.node_frames.end(), std::size_t{0});
-  scans.points = [&](std::size_t node) { return *map.memory.nodes[node].points; };
-  refine_jointly(scans, refinement_, back_end_->pool(), progress);
-  const mrpt::math::TPose2D first = scans.map_T_frame.front();  // the map's frame stays that of the root
-  for (std::size_t node = 0; node < graph.num_nodes(); ++node)
-    graph.set_pose(node, scans.map_T_frame[node] - first);
+const std::vector<LoopRecord>& CPsiLoopCloserERD::loops() const {
+  return state_->back_end->loops();
+}
+
+std::size_t CPsiLoopCloserERD::accepted_loops() const {
+  return state_->back_end->accepted();
 }
 
 void CPsiLoopCloserERD::getEdgesStats(std::map<std::string, int>* edge_type_to_num) const {
-  const int loops = static_cast<int>(back_end_->accepted());
+  const int loops = static_cast<int>(accepted_loops());
   (*edge_type_to_num)["ICP2D"] = loops;  // the engine's name for edges of range scans
   (*edge_type_to_num)["LC"] = loops;
 }
 
 void CPsiLoopCloserERD::printParams() const {
-  std::cout << params_text_;
+  std::cout << state_->params_text;
 }
 
 void CPsiLoopCloserERD::getDescriptiveReport(std::string* report_str) const {
   CEdgeRegistrationDecider::getDescriptiveReport(report_str);
-  *report_str += "CPsiLoopCloserERD: " + std::to_string(back_end_->loops().size()) + " matches found, " +
-                 std::to_string(back_end_->accepted()) + " accepted\n";
+  *report_str += "CPsiLoopCloserERD: " + std::to_string(loops().size()) + " matches found, " +
+                 std::to_string(accepted_loops()) + " accepted\n";
 }
 
 }  // namespace psi_slam

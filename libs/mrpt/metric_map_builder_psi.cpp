@@ -14,11 +14,13 @@
 #include <utility>
 #include <vector>
 
-#include "psi_slam/user_error.h"
+#include "mapping/mapper_options.h"
 #include "mrpt/entry_frames.h"
+#include "observations/mrpt_objects.h"
 #include "pose_graph/marginal_covariance.h"
+#include "psi_slam/mapper.h"
+#include "psi_slam/user_error.h"
 #include "rendering/map_image.h"
-#include "observations/range_observation.h"
 
 namespace psi_slam {
 namespace {
@@ -30,14 +32,14 @@ using mrpt::obs::CSensoryFrame;
 using mrpt::poses::CPose2D;
 using mrpt::poses::CPosePDFGaussian;
 
-// An observation that came alone, as the map keeps it.
+// A sensory frame with a single observation, for the map.
 CSensoryFrame::Ptr frame_of(const CObservation::Ptr& observation) {
   auto frame = CSensoryFrame::Create();
   frame->insert(observation);
   return frame;
 }
 
-// What came with the scan that opened a frame, and the scans of other lasers that did not come with it.
+// The observations taken with a frame's first scan, and the scans of other lasers that came separately.
 CSensoryFrame::Ptr with_all_scans(const CSensoryFrame::Ptr& kept, const Frame& frame) {
   const auto came = std::count_if(kept->begin(), kept->end(), [](const CObservation::Ptr& observation) {
     return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation) != nullptr;
@@ -52,15 +54,17 @@ CSensoryFrame::Ptr with_all_scans(const CSensoryFrame::Ptr& kept, const Frame& f
 void expect_map_updating(bool enabled) {
   if (!enabled)
     throw UserError(
-        "CMetricMapBuilderPsi: map updating is off, expected it on: psi-slam does not localise in "
-        "a fixed map");
+        "CMetricMapBuilderPsi: options.enableMapUpdating is false. Set it to true: psi-slam does not "
+        "localise "
+        "in a fixed map.");
 }
 
 }  // namespace
 
 class CMetricMapBuilderPsi::Implementation {
  public:
-  explicit Implementation(const Options& options) : options_(options) {
+  explicit Implementation(const Options& options)
+      : options_(options), mapper_options_(options.mapper ? *options.mapper : MapperOptions()) {
     check_log_options(options.log);
     start(CPosePDFGaussian());
   }
@@ -68,9 +72,9 @@ class CMetricMapBuilderPsi::Implementation {
   void initialize(const mrpt::maps::CSimpleMap& initial_map, const mrpt::poses::CPosePDF* x0) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!initial_map.empty())
-      throw UserError("CMetricMapBuilderPsi::initialize: the map to begin with has " +
+      throw UserError("CMetricMapBuilderPsi::initialize: initial_map has " +
                       std::to_string(initial_map.size()) +
-                      " frames, expected none: a map made before cannot be gone on with");
+                      " frames. Give an empty map: psi-slam cannot extend an earlier map.");
     start(x0 != nullptr ? CPosePDFGaussian(*x0) : estimate());
   }
 
@@ -79,7 +83,7 @@ class CMetricMapBuilderPsi::Implementation {
     expect_unfinished();
     entries_->take(std::make_shared<mrpt::obs::CActionCollection>(actions), nullptr, nullptr);
     map_ready_scans();
-    // A copy of the list, not of what it holds: the caller may fill the frame anew.
+    // Copies the list of observations, since the caller may reuse the frame. The observations are shared.
     const auto kept = std::make_shared<CSensoryFrame>(observations);
     for (const CObservation::Ptr& observation : *kept) take(observation, kept);
   }
@@ -87,7 +91,8 @@ class CMetricMapBuilderPsi::Implementation {
   void process(const CObservation::Ptr& observation) {
     const std::lock_guard<std::mutex> lock(mutex_);
     expect_unfinished();
-    if (!observation) throw std::invalid_argument("CMetricMapBuilderPsi: no observation");
+    if (!observation)
+      throw std::invalid_argument("CMetricMapBuilderPsi::processObservation: the observation is null");
     take(observation, frame_of(observation));
   }
 
@@ -144,8 +149,8 @@ class CMetricMapBuilderPsi::Implementation {
  private:
   void start(const CPosePDFGaussian& map_T_start) {
     start_ = map_T_start;
-    mapper_ = std::make_unique<Mapper>(options_.mapper);
-    entries_.emplace(options_.log, "CMetricMapBuilderPsi: ");
+    mapper_ = std::make_unique<Mapper>(mapper_options_);
+    entries_.emplace(options_.log, "CMetricMapBuilderPsi");
     waiting_observations_.clear();
     log_.clear();
     frames_.clear();
@@ -160,7 +165,8 @@ class CMetricMapBuilderPsi::Implementation {
 
   void expect_unfinished() const {
     if (finished_)
-      throw std::logic_error("CMetricMapBuilderPsi: the map is finished, initialize() begins another one");
+      throw std::logic_error(
+          "CMetricMapBuilderPsi: the map is finished. Call initialize() to begin another one.");
   }
 
   void take(const CObservation::Ptr& observation, const CSensoryFrame::Ptr& kept) {
@@ -172,7 +178,7 @@ class CMetricMapBuilderPsi::Implementation {
 
   void map_ready_scans() {
     while (std::optional<Frame> frame = entries_->next()) {
-      // Scans of other lasers joined a frame before this one, or were too many.
+      // Skips scans of other lasers that joined an earlier frame or were dropped.
       while (waiting_observations_.front().first != entries_->opened_by()) waiting_observations_.pop_front();
       const CSensoryFrame::Ptr kept = with_all_scans(waiting_observations_.front().second, *frame);
       waiting_observations_.pop_front();
@@ -191,7 +197,7 @@ class CMetricMapBuilderPsi::Implementation {
   const std::vector<FrameRecord>& frames() const { return finished_ ? frames_ : mapper_->frames(); }
   const PoseGraph& graph() const { return finished_ ? graph_ : mapper_->graph(); }
 
-  // Of the newest node. The graph changes with its nodes and constraints, and in finish(), only.
+  // Covariance of the newest node. The graph changes only with its nodes and constraints, and in finish().
   const Eigen::Matrix3d& newest_marginal() const {
     const std::pair<std::size_t, std::size_t> state(graph().num_nodes(), graph().num_constraints());
     if (!newest_marginal_ || marginal_state_ != state) {
@@ -209,8 +215,8 @@ class CMetricMapBuilderPsi::Implementation {
     if (frames().empty()) return start_;
     CPosePDFGaussian robot(CPose2D(frames().back().map_T_robot));
     Eigen::Matrix3d covariance = newest_marginal();
-    const double sigma_m = options_.mapper.local_map_sigma_m;
-    const double sigma_rad = options_.mapper.local_map_sigma_rad;
+    const double sigma_m = mapper_options_.local_map_sigma_m;
+    const double sigma_rad = mapper_options_.local_map_sigma_rad;
     covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) robot.cov(i, j) = covariance(i, j);
@@ -219,7 +225,7 @@ class CMetricMapBuilderPsi::Implementation {
     return estimate;
   }
 
-  // Of each scan: its own pose after finish(), before it where it stood relative to the last node.
+  // Pose of each scan: after finish() its own, before that relative to the previous node.
   std::vector<TPose2D> poses() const {
     std::vector<TPose2D> poses;
     std::size_t node = 0;
@@ -234,7 +240,7 @@ class CMetricMapBuilderPsi::Implementation {
     return poses;
   }
 
-  // Grids that were handed out are left alone: others may be reading them.
+  // Draws a new object instead of changing the last grid, which others may be reading.
   COccupancyGridMap2D::Ptr up_to_date_grid() const {
     const bool drawn = drawn_grid_ && drawn_scans_ == log().size() && drawn_finished_ == finished_;
     if (!drawn) {
@@ -246,23 +252,24 @@ class CMetricMapBuilderPsi::Implementation {
   }
 
   const Options options_;
-  mutable std::mutex mutex_;  // of all that follows
+  const MapperOptions mapper_options_;
+  mutable std::mutex mutex_;  // protects all members below
 
   CPosePDFGaussian start_;
-  std::unique_ptr<Mapper> mapper_;  // gone after finish()
+  std::unique_ptr<Mapper> mapper_;  // null after finish()
   std::optional<EntryFrames> entries_;
-  std::deque<std::pair<std::size_t, CSensoryFrame::Ptr>> waiting_observations_;  // of the scans that wait
+  std::deque<std::pair<std::size_t, CSensoryFrame::Ptr>> waiting_observations_;  // by number of the scan
 
   std::vector<std::size_t> node_frames_;
   std::vector<CSensoryFrame::Ptr> node_observations_;
-  std::vector<Frame> log_;  // these three: after finish()
+  std::vector<Frame> log_;  // log_, frames_ and graph_: set by finish()
   std::vector<FrameRecord> frames_;
   PoseGraph graph_;
   bool finished_ = false;
 
   mutable MarginalCovariance marginals_;
   mutable std::optional<Eigen::Matrix3d> newest_marginal_;
-  mutable std::pair<std::size_t, std::size_t> marginal_state_;  // nodes and constraints it was computed for
+  mutable std::pair<std::size_t, std::size_t> marginal_state_;  // numbers of nodes and constraints
   mutable COccupancyGridMap2D::Ptr drawn_grid_;
   mutable std::size_t drawn_scans_ = 0;
   mutable bool drawn_finished_ = false;

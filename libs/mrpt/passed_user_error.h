@@ -7,14 +7,15 @@
 
 namespace psi_slam {
 
-/// MRPT's engine lets exceptions of its own kind pass and makes a nameless one of all others.
+/// A UserError that passes through MRPT's engine. The engine passes only exceptions of its own kind and
+/// replaces all others.
 class PassedUserError : public UserError, public mrpt::ExceptionWithCallBackBase {
  public:
   explicit PassedUserError(const UserError& error)
       : UserError(error), mrpt::ExceptionWithCallBackBase(error.what(), mrpt::TCallStackBackTrace()) {}
 };
 
-/// The result of `work`, whose UserError gets through MRPT's engine as one.
+/// Returns the result of `work`. Throws its UserError in a form that passes through MRPT's engine.
 template <class Work>
 auto through_engine(const Work& work) {
   try {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/block_cholesky.h"
 
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-// y -= l * x; written out because the compiler keeps x in registers over a whole column this way.
+// y -= l * x for 3x3 blocks. Written out so that the compiler keeps x in registers over a column.
 inline void subtract_product(const double* l, const double* x, double* y) {
   for (int c = 0; c < 3; ++c) {
     const double x0 = x[3 * c];
@@ -19,9 +21,8 @@ inline void subtract_product(const double* l, const double* x, double* y) {
   }
 }
 
-// The inverse of the Cholesky factor of a symmetric 3x3 matrix of which the lower triangle is read. False
-// when it is not positive definite, judged against the size of what was there before the elimination: a pivot
-// that is only the rounding left over by a subtraction is no pivot.
+// Inverts the Cholesky factor of a symmetric 3x3 matrix, of which it reads the lower triangle. Returns false
+// if the matrix is not positive definite. A pivot must exceed the rounding error of the original diagonal.
 inline bool invert_factor(const Matrix3d& a, const Eigen::Vector3d& original_diagonal, Matrix3d& inverse) {
   constexpr double kRounding = 1e-15;
   const auto is_pivot = [&](double pivot, int i) { return pivot > kRounding * original_diagonal[i]; };
@@ -48,7 +49,24 @@ inline bool invert_factor(const Matrix3d& a, const Eigen::Vector3d& original_dia
 
 }  // namespace
 
-// The columns of row k of L in topological order at the end of pattern_; returns where they begin.
+std::vector<std::uint32_t> fill_reducing_order(
+    std::size_t num_variables, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& links) {
+  using Pattern = Eigen::SparseMatrix<float, Eigen::ColMajor, int>;
+  const auto size = static_cast<int>(num_variables);
+  std::vector<Eigen::Triplet<float, int>> entries;
+  entries.reserve(links.size() + num_variables);
+  for (int i = 0; i < size; ++i) entries.emplace_back(i, i, 1.0F);
+  for (const auto& [row, column] : links)
+    entries.emplace_back(static_cast<int>(row), static_cast<int>(column), 1.0F);
+  Pattern pattern(size, size);
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  Eigen::AMDOrdering<int>::PermutationType permutation;
+  Eigen::AMDOrdering<int>()(pattern, permutation);
+  const auto& indices = permutation.indices();
+  return {indices.data(), indices.data() + indices.size()};
+}
+
+// Puts the columns of row k of L in topological order at the end of pattern_. Returns the index of the first.
 std::size_t BlockCholesky::reach(const SymmetricBlockMatrix& matrix, std::uint32_t k) {
   std::size_t top = size();
   mark_[k] = k;

@@ -1,52 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sparse Cholesky factorisation A = L L^T of a symmetric positive definite matrix of 3x3 blocks: the
-// up-looking algorithm (Davis, Direct Methods for Sparse Linear Systems, 2006, section 4.7) with a block
-// where that has a number. The blocks of a pose graph are dense, so that one index, one path in the
-// elimination tree and one look-up serve nine numbers: about three times as fast as Eigen's simplicial one in
-// the same order, which the tests compare it with.
+// Sparse Cholesky factorisation A = L L^T of a symmetric positive definite matrix of 3x3 blocks, by the
+// up-looking algorithm (Davis, Direct Methods for Sparse Linear Systems, 2006, section 4.7). One index and
+// one path in the elimination tree serve the nine numbers of a dense block. This is about three times as fast
+// as Eigen's simplicial factorisation in the same order, with which the tests compare it.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace psi_slam {
 
 /// The upper triangle of a symmetric block matrix, by columns. All blocks are stored column by column.
 struct SymmetricBlockMatrix {
-  std::vector<std::size_t>
-      column_begin;                 ///< n + 1: the blocks (row, k), row < k, are [column_begin[k], [k + 1])
-  std::vector<std::uint32_t> rows;  ///< ascending within a column
-  std::vector<Eigen::Matrix3d> blocks;    ///< beside `rows`
+  /// n + 1 entries: the blocks (row, k), row < k, are [column_begin[k], column_begin[k + 1]).
+  std::vector<std::size_t> column_begin;
+  std::vector<std::uint32_t> rows;        ///< ascending within a column
+  std::vector<Eigen::Matrix3d> blocks;    ///< parallel to `rows`
   std::vector<Eigen::Matrix3d> diagonal;  ///< n; symmetric
 
   std::size_t size() const { return diagonal.size(); }
 };
 
+/// Returns an order of elimination that keeps the Cholesky factor of a symmetric block matrix sparse:
+/// order[k] is the variable eliminated k-th. Approximate minimum degree (Amestoy, Davis, Duff 1996) on the
+/// graph of the blocks. `links` are the blocks off the diagonal, each once or more, as (row, column) in
+/// either order.
+std::vector<std::uint32_t> fill_reducing_order(
+    std::size_t num_variables, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& links);
+
 class BlockCholesky {
  public:
-  /// The symbolic factorisation: everything that depends on `column_begin` and `rows` alone.
+  /// Symbolic factorisation: computes what depends on `column_begin` and `rows` alone.
   void analyze(const SymmetricBlockMatrix& matrix);
 
-  /// The numeric factorisation of A + D, where D is lambda times the diagonal of A (Levenberg-Marquardt, as
-  /// scaled by Marquardt 1963). The matrix must have the structure that was analyzed. False when A + D is not
-  /// positive definite; then there is no factor.
+  /// Numeric factorisation of A + D, where D is lambda times the diagonal of A (the scaling of Marquardt
+  /// 1963). The matrix must have the structure passed to analyze(). Returns false, without a factor, if A + D
+  /// is not positive definite.
   bool factorize(const SymmetricBlockMatrix& matrix, double lambda = 0);
 
-  /// Solves (A + D) x = b in place; b holds 3 numbers a block row.
+  /// Solves (A + D) x = b in place; b holds 3 numbers per block row.
   void solve(Eigen::VectorXd& b) const;
 
-  /// Non-zero blocks of columns of L^-1, for marginal covariances: L Y = [the three unit columns of block row
-  /// k]. They lie on the path from k to the root of the elimination tree.
+  /// Non-zero blocks of the columns of L^-1 for block row k, for marginal covariances. They solve L Y = the
+  /// three unit columns of row k, and lie on the path from k to the root of the elimination tree.
   struct InverseColumns {
     std::vector<std::uint32_t> rows;      ///< ascending
-    std::vector<Eigen::Matrix3d> blocks;  ///< beside `rows`
+    std::vector<Eigen::Matrix3d> blocks;  ///< parallel to `rows`
   };
   InverseColumns inverse_columns(std::size_t k) const;
 
   std::size_t size() const { return parent_.size(); }
-  /// Products of two blocks that a factorisation takes: its work, and so the measure of an order's quality.
+  /// Number of block products of a factorisation. It measures the quality of an order of elimination.
   std::size_t num_products() const { return num_products_; }
 
  private:
@@ -57,12 +64,12 @@ class BlockCholesky {
   std::size_t num_products_ = 0;
   std::vector<std::uint32_t> parent_;      // elimination tree
   std::vector<std::size_t> column_begin_;  // of L, n + 1
-  std::vector<std::size_t> column_end_;    // while factorising: where the next block of each column goes
+  std::vector<std::size_t> column_end_;    // during factorize(): where the next block of each column goes
   std::vector<std::uint32_t> rows_;
   std::vector<Eigen::Matrix3d> blocks_;
   std::vector<Eigen::Matrix3d> inverse_diagonal_;  // inverse of the diagonal blocks of L, lower triangular
 
-  std::vector<std::uint32_t> mark_;     // scratch: mark_[i] == k when i was reached for row k
+  std::vector<std::uint32_t> mark_;     // scratch: mark_[i] == k if i was reached for row k
   std::vector<std::uint32_t> pattern_;  // scratch: the columns of row k of L, in topological order
   std::vector<std::uint32_t> path_;     // scratch
   std::vector<Eigen::Matrix3d> work_;   // scratch: zero between rows

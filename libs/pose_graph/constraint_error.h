@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The error of one constraint, equations 5 and 6: e = z - f(x_i, x_j) with
-// f = [R_i^T (t_j - t_i); theta_j - theta_i], the angle wrapped to (-pi, pi]; e is in the axes of node i.
+// Error of one constraint, equations 5 and 6: e = z - f(x_i, x_j) with
+// f = [R_i^T (t_j - t_i); theta_j - theta_i], the angle wrapped to (-pi, pi]. e is in the axes of node i.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -8,11 +8,19 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "pose_graph/angle.h"
-
 namespace psi_slam {
 
-/// A pose with the sine and cosine of its heading at hand: each node has many constraints.
+inline constexpr double kPi = 3.14159265358979323846;
+
+/// The same angle in (-pi, pi], radians. Returns angles in this range bit for bit; mrpt::math::wrapToPi adds
+/// and subtracts pi, which rounds small angles.
+inline double wrap_to_pi(double angle) {
+  if (angle > -kPi && angle <= kPi) return angle;
+  const double wrapped = std::remainder(angle, 2 * kPi);
+  return wrapped > -kPi ? wrapped : kPi;
+}
+
+/// A pose with the sine and cosine of its heading, computed once for the many constraints of a node.
 struct RotatedPose {
   double x = 0, y = 0, theta = 0;
   double cosine = 1, sine = 0;
@@ -53,7 +61,7 @@ inline ConstraintJacobians constraint_jacobians(const RotatedPose& map_T_i, cons
   return jacobians;
 }
 
-/// What one constraint adds to the normal equations H dx = -g of equation 6, J^T Omega J and J^T Omega e.
+/// Terms of one constraint in the normal equations H dx = -g of equation 6, J^T Omega J and J^T Omega e.
 struct ConstraintNormals {
   Eigen::Matrix3d ii;  ///< block (i, i) of H
   Eigen::Matrix3d ij;  ///< block (i, j) of H
@@ -62,8 +70,8 @@ struct ConstraintNormals {
   Eigen::Vector3d j;   ///< of g
 };
 
-/// The same products as constraint_jacobians() gives, at a fraction of the work: with R = diag(R_i, 1) and
-/// U = I + [0 0 -dy; 0 0 dx; 0 0 0] the Jacobians are R^T U and -R^T, so that with W = R Omega R^T
+/// Computes the products of constraint_jacobians() at a fraction of the work. With R = diag(R_i, 1) and
+/// U = I + [0 0 -dy; 0 0 dx; 0 0 0], the Jacobians are R^T U and -R^T. With W = R Omega R^T, they give
 /// H_jj = W, H_ij = -U^T W, H_ii = U^T W U, g_j = -R Omega e and g_i = -U^T g_j.
 inline ConstraintNormals constraint_normals(const Eigen::Matrix3d& information, const Eigen::Vector3d& error,
                                             const RotatedPose& map_T_i, const RotatedPose& map_T_j) {

@@ -11,10 +11,11 @@
 #include <system_error>
 
 #include "base/atomic_file.h"
-#include "base/line_reader.h"
-#include "psi_slam/user_error.h"
+#include "base/number_text.h"
+#include "compression/line_reader.h"
 #include "pose_graph/information_matrix.h"
 #include "pose_graph/spanning_tree.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -40,7 +41,7 @@ struct Fix {
   std::size_t line = 0;
 };
 
-// The information in the axes of an edge's beginning, given in those of its end: they are turned by theta.
+// Converts an information matrix from the axes of an edge's end, turned by theta, to those of its beginning.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& information, double theta) {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   rotation.topLeftCorner<2, 2>() << std::cos(theta), -std::sin(theta), std::sin(theta), std::cos(theta);
@@ -48,12 +49,12 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& information, double theta) {
   return 0.5 * (product + product.transpose());
 }
 
-// The words of a line, taken one by one.
+// Reads the words of a line one by one.
 class Fields {
  public:
   Fields(std::string_view line, const LineReader& reader) : rest_(line), reader_(reader) {}
 
-  // Empty at the end of the line.
+  // Next word; empty at the end of the line.
   std::string_view word() {
     constexpr std::string_view kBlank = " \t\r";
     const std::size_t begin = std::min(rest_.find_first_not_of(kBlank), rest_.size());
@@ -68,19 +69,15 @@ class Fields {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
-      throw bad("'" + std::string(text) + "' is no vertex id", layout);
+      throw bad("'" + std::string(text) + "' is not a vertex id", layout);
     return value;
   }
 
   double number(const char* layout) {
-    std::string_view text = word();
-    const std::string shown(text);
-    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-      throw bad("'" + shown + "' is no finite number", layout);
-    return value;
+    const std::string_view text = word();
+    const std::optional<double> value = parse_number(text);
+    if (!value) throw bad("'" + std::string(text) + "' is not a finite number", layout);
+    return *value;
   }
 
   void end(const char* layout) {
@@ -97,7 +94,7 @@ class Fields {
   const LineReader& reader_;
 };
 
-// Where the six numbers of an edge's information stand, as (row, column), and in whose axes they are.
+// Layout of an edge: the entries of its information matrix as (row, column), and the axes of the matrix.
 struct EdgeFormat {
   const char* layout;
   std::array<std::array<int, 2>, 6> entries;
@@ -173,7 +170,7 @@ Contents read_lines(const std::filesystem::path& path) {
     } else {
       throw UserError(
           reader.place() + ": '" + std::string(tag.substr(0, 40)) +
-          "' is no entry of a 2D pose graph, expected VERTEX_SE2, EDGE_SE2, FIX, VERTEX2 or EDGE2");
+          "' is not an entry of a 2D pose graph, expected VERTEX_SE2, EDGE_SE2, FIX, VERTEX2 or EDGE2");
     }
   }
   return contents;
@@ -183,7 +180,7 @@ std::string place(const std::filesystem::path& path, std::size_t line) {
   return path.string() + ":" + std::to_string(line);
 }
 
-// The node of an id, by the ascending ids.
+// Node with an id; `ids` are ascending.
 std::optional<std::size_t> node_of(const std::vector<std::int64_t>& ids, std::int64_t id) {
   const auto found = std::lower_bound(ids.begin(), ids.end(), id);
   if (found == ids.end() || *found != id) return std::nullopt;
@@ -205,7 +202,7 @@ PoseGraphFile read_pose_graph(const std::filesystem::path& path) {
     throw UserError(path.string() + " does not exist, expected a pose graph in g2o or TORO format");
   Contents contents = read_lines(path);
   if (contents.vertices.empty() && contents.edges.empty())
-    throw UserError(path.string() + " holds no pose graph, expected VERTEX_SE2 and EDGE_SE2 lines");
+    throw UserError(path.string() + " contains no pose graph, expected VERTEX_SE2 and EDGE_SE2 lines");
 
   PoseGraphFile result;
   const bool without_poses = contents.vertices.empty();
@@ -221,7 +218,7 @@ PoseGraphFile read_pose_graph(const std::filesystem::path& path) {
     if (!result.ids.empty() && result.ids.back() == vertex.id) {
       if (without_poses) continue;
       throw UserError(place(path, vertex.line) + ": vertex " + std::to_string(vertex.id) +
-                      " comes a second time, expected every id once");
+                      " is defined twice, expected every id once");
     }
     result.ids.push_back(vertex.id);
     result.graph.add_node(vertex.pose);
@@ -229,8 +226,8 @@ PoseGraphFile read_pose_graph(const std::filesystem::path& path) {
   const auto existing = [&](std::int64_t id, std::size_t line) {
     const std::optional<std::size_t> node = node_of(result.ids, id);
     if (!node) {
-      throw UserError(place(path, line) + ": there is no vertex " + std::to_string(id) +
-                      " in the file, expected a line VERTEX_SE2 (or VERTEX2) for it");
+      throw UserError(place(path, line) + ": vertex " + std::to_string(id) +
+                      " is missing, expected a line VERTEX_SE2 (or VERTEX2) for it");
     }
     return *node;
   };

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pose graphs as text files: g2o's (VERTEX_SE2, EDGE_SE2, FIX) and, to read, TORO's (VERTEX2, EDGE2), plain
-// or gzipped.
+// Reads pose graphs in g2o format (VERTEX_SE2, EDGE_SE2, FIX) and TORO format (VERTEX2, EDGE2), plain or
+// compressed, and writes them in g2o format.
 //
 //   VERTEX_SE2 id x y theta
 //   EDGE_SE2 from to dx dy dtheta  I_xx I_xy I_xt I_yy I_yt I_tt
 //   FIX id
 //   EDGE2 from to dx dy dtheta  I_xx I_xy I_yy I_tt I_xt I_yt
 //
-// The two formats differ not only in the order of the information's numbers but also in its axes: g2o weighs
-// the error z^-1 (x_i^-1 x_j), whose axes are those of the measured *end* of the edge, TORO the error of
-// equation 5, in the axes of its beginning. Both are turned into a Constraint's, so that chi2 is what g2o (or
-// TORO) says of the same file.
+// The formats differ in the order of the information's entries and in its axes. g2o weights the error
+// z^-1 (x_i^-1 x_j), in the axes of the measured end of the edge. TORO weights the error of equation 5, in
+// the axes of the beginning. Both are converted to a Constraint, so that chi2 equals that of g2o (or TORO).
 #pragma once
 
 #include <cstdint>
@@ -23,18 +22,18 @@ namespace psi_slam {
 
 struct PoseGraphFile {
   PoseGraph graph;
-  std::vector<std::int64_t>
-      ids;  ///< the file's vertex id of each node, ascending: ids 0 .. N-1 are the node numbers
+  std::vector<std::int64_t> ids;  ///< vertex id in the file for each node, ascending
 };
 
-/// Edges between successive nodes become odometry, the others loops. The vertex of a FIX line becomes the
-/// root, else the first node is. A file with edges only gets its poses by spanning_tree_poses(). Throws
-/// UserError naming file and line when a line is not understood, incomplete or inconsistent with another (a
-/// vertex that comes twice or is missing, a second fixed vertex), or when the file cannot be read.
+/// Reads a pose graph. Edges between successive nodes become odometry, other edges loops. The root is the
+/// vertex of the FIX line, or the first node without one. A file of edges only gets poses by
+/// spanning_tree_poses(). Throws UserError with file and line for a line that is malformed or inconsistent
+/// with another (a repeated or missing vertex, a second fixed vertex), and with the file if it is not
+/// readable.
 PoseGraphFile read_pose_graph(const std::filesystem::path& path);
 
-/// All nodes, FIX of the root, and the enabled constraints; every number in the fewest digits that read back
-/// as the same double. The file appears whole or not at all. Throws SystemFailure when it cannot be written.
+/// Writes all nodes, FIX for the root, and the enabled constraints, with the fewest digits that read back as
+/// the same numbers, by write_atomically(). Throws SystemFailure if the file cannot be written.
 void write_g2o(const PoseGraph& graph, const std::filesystem::path& path);
 
 }  // namespace psi_slam

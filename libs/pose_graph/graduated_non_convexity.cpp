@@ -9,7 +9,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// So wide that the kernel weighs every error alike.
+// So wide that the kernel gives every error the same weight.
 constexpr double kNearlyConvexWidth2 = 1e20;
 
 bool is_enabled_loop(const PoseGraph& graph, std::size_t constraint) {
@@ -27,7 +27,7 @@ void set_poses(PoseGraph& graph, const std::vector<TPose2D>& poses) {
   for (std::size_t node = 0; node < poses.size(); ++node) graph.set_pose(node, poses[node]);
 }
 
-// Gives the solver its options back, whatever happens.
+// Restores the options of the solver at the end of the scope.
 class OptionsGuard {
  public:
   explicit OptionsGuard(SparsePoseAdjustment& solver) : solver_(solver), options_(solver.options()) {}
@@ -61,7 +61,7 @@ GraduatedReport optimize_graduated(PoseGraph& graph, SparsePoseAdjustment& solve
   GraduatedReport report;
   const std::vector<TPose2D> start = graph.poses();
   const PoseAdjustmentReport from_start = solve(inlier_width2, given.max_iterations);
-  const std::vector<TPose2D> rival = graph.poses();
+  const std::vector<TPose2D> narrow_poses = graph.poses();
 
   set_poses(graph, start);
   const PoseAdjustmentReport convex = solve(kNearlyConvexWidth2, options.first_iterations);
@@ -73,7 +73,7 @@ GraduatedReport optimize_graduated(PoseGraph& graph, SparsePoseAdjustment& solve
   report.solution = solve(inlier_width2, given.max_iterations);
   if (from_start.final_robust_chi2 < report.solution.final_robust_chi2) {
     report.solution = from_start;
-    set_poses(graph, rival);
+    set_poses(graph, narrow_poses);
   }
   report.solution.initial_chi2 = from_start.initial_chi2;
   report.solution.initial_robust_chi2 = from_start.initial_robust_chi2;

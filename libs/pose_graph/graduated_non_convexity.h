@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Optimisation of a graph in which a part of the loop constraints may be false, without knowing which:
-// graduated non-convexity (Yang, Antonante, Tzoumas, Carlone, "Graduated non-convexity for robust spatial
-// perception", RA-L 2020) with the Geman-McClure kernel. It begins with a kernel so wide that E is nearly the
-// plain one, and narrows it solve by solve, so that constraints that the others speak against lose their say
-// one after another. Where so many are false that the wide kernels lead astray, the narrow kernel from the
-// given poses may end lower; the lower one is taken.
+// Optimises a graph in which unknown loop constraints are false, by graduated non-convexity (Yang, Antonante,
+// Tzoumas, Carlone, "Graduated non-convexity for robust spatial perception", RA-L 2020) with the
+// Geman-McClure kernel. It begins with a kernel so wide that E is almost the plain sum, and narrows it from
+// solve to solve, so that constraints that contradict the others lose weight one after another. With many
+// false constraints, the narrow kernel from the given poses can end at a lower E; the lower solution is used.
 #pragma once
 
 #include <cstddef>
@@ -15,24 +14,24 @@
 namespace psi_slam {
 
 struct GraduatedOptions {
-  double inlier_width = 3.37;  ///< in standard deviations: the root of the 99 % quantile of chi-square, 3 dof
-  double narrowing = 1.2;      ///< > 1: the width's square falls by this factor a round
+  double inlier_width = 3.37;  ///< in standard deviations: root of the 99 % quantile of chi-square, 3 dof
+  double narrowing = 1.2;      ///< > 1: factor by which the squared width falls per round
   int max_rounds = 200;
-  int first_iterations = 10;  ///< of the solve with the widest kernel
+  int first_iterations = 10;  ///< iterations of the solve with the widest kernel
   int iterations_per_round = 2;
 };
 
 struct GraduatedReport {
-  PoseAdjustmentReport
-      solution;    ///< at the inlier width; its iterations are the last solve's, its time is of all
-  int rounds = 0;  ///< kernels between the widest and the inlier width
-  std::vector<std::size_t>
-      outliers;  ///< enabled constraints of the kind kLoop beyond the inlier width, ascending
+  /// Solution at the inlier width, with the iterations of the last solve and the time of all solves.
+  PoseAdjustmentReport solution;
+  int rounds = 0;  ///< solves between the widest kernel and the inlier width
+  /// Enabled constraints of the kind kLoop beyond the inlier width, ascending.
+  std::vector<std::size_t> outliers;
 };
 
-/// Moves the graph's poses; the constraints stay as they are, enabled or not. The kernel replaces the
-/// solver's for loops while this runs; constraints with a kernel of their own keep it. Throws as
-/// SparsePoseAdjustment::optimize.
+/// Moves the poses of the graph and leaves its constraints unchanged. During the call, the kernel replaces
+/// that of the solver for loops; constraints with their own kernel keep it. Throws as
+/// SparsePoseAdjustment::optimize().
 GraduatedReport optimize_graduated(PoseGraph& graph, SparsePoseAdjustment& solver,
                                    const GraduatedOptions& options = {});
 

@@ -6,14 +6,14 @@
 
 namespace psi_slam {
 
-/// Whether the matrix can be an inverse covariance: finite, symmetric and positive semi-definite, each up to
-/// rounding.
+/// Whether the matrix can be an inverse covariance: finite, and, up to rounding, symmetric and positive
+/// semi-definite.
 inline bool is_information_matrix(const Eigen::Matrix3d& information) {
   if (!information.allFinite()) return false;
   const double scale = information.cwiseAbs().maxCoeff();
   if (!(information - information.transpose()).isZero(1e-9 * scale)) return false;
   if (information.diagonal().minCoeff() < 0) return false;
-  // The entries as correlations, so that the units of x, y and theta play no part.
+  // Checks correlations instead of entries, so that the units of x, y and theta do not matter.
   const Eigen::Vector3d norm = information.diagonal().cwiseSqrt();
   const auto correlation = [&](int row, int column) {
     const double entry = information(row, column);
@@ -22,13 +22,13 @@ inline bool is_information_matrix(const Eigen::Matrix3d& information) {
   const double xy = correlation(0, 1);
   const double xt = correlation(0, 2);
   const double yt = correlation(1, 2);
-  constexpr double kRounding = 3e-5;  // of text files with six digits
+  constexpr double kRounding = 3e-5;  // in text files with six digits
   const double limit = 1 + kRounding;
   const double determinant = 1 + 2 * xy * xt * yt - xy * xy - xt * xt - yt * yt;
   return xy * xy <= limit && xt * xt <= limit && yt * yt <= limit && determinant >= -kRounding;
 }
 
-/// The inverse of a covariance of (x, y, theta) to which independent noise is added.
+/// Inverse of a covariance of (x, y, theta) plus independent noise.
 inline Eigen::Matrix3d noisy_information(const Eigen::Matrix3d& covariance, double sigma_m,
                                          double sigma_rad) {
   const Eigen::Vector3d noise(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/marginal_covariance.h"
 
-#include "psi_slam/user_error.h"
 #include "pose_graph/constraint_error.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 using Columns = BlockCholesky::InverseColumns;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-// The block of H^-1 of two variables: Y_a^T Y_b. Both row lists ascend and end in common.
+// Block of H^-1 for two variables: Y_a^T Y_b. Both row lists ascend and end with the same row.
 Eigen::Matrix3d product(const Columns& a, const Columns& b) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (std::size_t i = a.rows.size(), j = b.rows.size(); i > 0 && j > 0;) {
@@ -49,11 +49,11 @@ void MarginalCovariance::update(const PoseGraph& graph, const std::vector<double
   if (!equations_.factorize(0)) {
     poses_.clear();
     throw UserError(
-        "the constraints of the pose graph leave some pose undetermined: their information is singular");
+        "the constraints of the pose graph do not determine all poses: their information is singular");
   }
 }
 
-// No rows for the root, which is certain.
+// Returns no rows for the root, whose pose is exact.
 Columns MarginalCovariance::columns_of(std::size_t node) const {
   static_cast<void>(poses_.at(node));
   const std::uint32_t variable = equations_.variable_of(node);

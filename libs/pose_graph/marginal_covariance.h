@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How uncertain the poses of a graph are, given all its constraints: blocks of the inverse of H = J^T Omega J
-// at the current poses, H^-1 = L^-T L^-1 by the columns of L^-1 that a block needs (Kaess and Dellaert,
-// "Covariance recovery from a square root information matrix for data association", RAS 2009).
+// Uncertainty of the poses of a graph, given all its constraints: blocks of the inverse of H = J^T Omega J at
+// the current poses. Computes H^-1 = L^-T L^-1 from the columns of L^-1 that a block needs (Kaess and
+// Dellaert, "Covariance recovery from a square root information matrix for data association", RAS 2009).
 #pragma once
 
 #include <Eigen/Core>
@@ -13,25 +13,25 @@
 
 namespace psi_slam {
 
-/// Covariances of (x, y, theta): m^2, m rad, rad^2. Keep the object between calls: as the solver, it keeps
-/// the order and the layout of a graph that grows.
+/// Covariances of (x, y, theta): m^2, m rad, rad^2. Keep the object between calls, because it reuses the
+/// order of elimination and the memory layout of a growing graph.
 class MarginalCovariance {
  public:
-  /// Factorises the graph's H at its current poses; the questions below are about that state. `weights`
-  /// multiply the information matrices (ConstraintFit::weight); empty means 1 each. Throws UserError when a
-  /// node is not linked to the root, or the constraints leave a pose undetermined.
+  /// Factorises H of the graph at its current poses, for the functions below. `weights` multiply the
+  /// information matrices (ConstraintFit::weight); empty means 1 each. Throws UserError if a node is not
+  /// linked to the root, or if the constraints do not determine all poses.
   void update(const PoseGraph& graph, const std::vector<double>& weights = {});
 
-  /// Of a node's pose, in the axes of the map; the root's is zero. 3x3.
+  /// 3x3 covariance of the pose of a node, in the axes of the map. That of the root is zero.
   Eigen::Matrix3d marginal(std::size_t node) const;
 
-  /// Of the poses of two nodes, first a, then b, in the axes of the map. 6x6.
+  /// 6x6 covariance of the poses of nodes a and b, in the axes of the map.
   Eigen::Matrix<double, 6, 6> joint(std::size_t a, std::size_t b) const;
 
-  /// Of the pose of b in the axes of a. 3x3.
+  /// 3x3 covariance of the pose of b relative to a, in the axes of a.
   Eigen::Matrix3d relative(std::size_t a, std::size_t b) const { return relative(a, std::vector{b}).front(); }
 
-  /// The same for many b, which is less than half the work.
+  /// relative() for several nodes b, at less than half the work per node.
   std::vector<Eigen::Matrix3d> relative(std::size_t a, const std::vector<std::size_t>& others) const;
 
  private:

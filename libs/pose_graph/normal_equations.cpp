@@ -5,15 +5,14 @@
 #include <numeric>
 #include <utility>
 
-#include "pose_graph/block_ordering.h"
-#include "pose_graph/unreachable_node.h"
+#include "pose_graph/spanning_tree.h"
 
 namespace psi_slam {
 namespace {
 
-// An order serves until the nodes added at its end are this share of all, ...
+// An order is replaced when the nodes added at its end exceed this share of all nodes.
 constexpr double kMaxAppendedShare = 0.2;
-// ... or until it has wasted about as much work as it takes to find a new one: so many block products a
+// It is also replaced when it has wasted the work of computing a new one: this number of block products per
 // constraint.
 constexpr double kProductsOfOrderingPerLink = 15;
 
@@ -22,8 +21,7 @@ std::uint32_t find_set(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   return i;
 }
 
-// Block products of one factorisation over what it would take had the order stayed as good as when it was
-// found.
+// Block products of one factorisation beyond those of an order that is as good as the last new order.
 double wasted_products(std::size_t products, std::size_t variables, double ordered_products,
                        std::size_t ordered_variables) {
   const double growth =
@@ -113,7 +111,7 @@ void NormalEquations::prepare(const PoseGraph& graph) {
 }
 
 void NormalEquations::find_order(const PoseGraph& graph) {
-  // In the order of insertion first, so that the result does not depend on earlier orders.
+  // Starts from the order of insertion, so that the result does not depend on earlier orders.
   node_of_.clear();
   for (std::uint32_t node = 0; node < graph.num_nodes(); ++node) {
     variable_of_[node] = node == root_ ? kHeld : static_cast<std::uint32_t>(node_of_.size());
@@ -135,7 +133,7 @@ void NormalEquations::find_order(const PoseGraph& graph) {
 
 void NormalEquations::lay_out(const PoseGraph& graph) {
   const std::size_t n = node_of_.size();
-  // Two counting sorts: by the row, then by the column, which leaves the rows of a column ascending.
+  // Two counting sorts, by row and then by column, leave the rows of each column ascending.
   std::vector<std::uint32_t> by_row(ends_.size());
   std::vector<std::size_t> begin(n + 1, 0);
   const auto ends_of = [&](std::size_t i) {
@@ -223,7 +221,7 @@ void NormalEquations::linearize(const PoseGraph& graph, const std::vector<Rotate
   }
 }
 
-// Cuts one coordinate of all nodes out of the system: its step becomes 0.
+// Removes one coordinate of all nodes from the system: its step becomes 0.
 void NormalEquations::hold(int coordinate) {
   for (Eigen::Matrix3d& block : hessian_.blocks) {
     block.row(coordinate).setZero();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The normal equations H dx = -g of a pose graph (equation 6, with H = J^T Omega J and g = J^T Omega e) and
-// their sparse factorisation. They are made to be kept between the solves of a growing graph: each constraint
-// knows its place in H, and the order of elimination is kept and extended at its end until it has aged.
+// their sparse factorisation. Keep the object between the solves of a growing graph: it stores the place of
+// each constraint in H, and extends the order of elimination until a new order pays off.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,46 +16,45 @@ namespace psi_slam {
 
 class NormalEquations {
  public:
-  /// Which of a pose's coordinates may move. Headings alone see the heading parts of the constraints only.
+  /// Coordinates of the poses that may move. kHeadings uses only the heading parts of the constraints.
   enum class Coordinates { kAll, kHeadings, kPositions };
 
-  /// Makes room for every node but the root, which is held, and for every enabled constraint. What is known
-  /// from earlier calls is used again as far as the graph still is the same or has grown; any other graph is
-  /// taken in as new. Throws UserError when no chain of enabled constraints leads from the root to some node.
+  /// Prepares H for all nodes except the root, which is held, and for the enabled constraints. Reuses the
+  /// results of earlier calls if the graph is the same or has grown. Throws unreachable_node().
   void prepare(const PoseGraph& graph);
 
-  /// H and g at `poses`. `errors` and `weights` have an entry for each constraint of the graph; a weight
+  /// Computes H and g at `poses`. `errors` and `weights` have one entry per constraint of the graph; a weight
   /// multiplies the information matrix.
   void linearize(const PoseGraph& graph, const std::vector<RotatedPose>& poses,
                  const std::vector<Eigen::Vector3d>& errors, const std::vector<double>& weights,
                  Coordinates coordinates = Coordinates::kAll);
 
-  /// Factorises H + lambda diag(H); false when that is not positive definite.
+  /// Factorises H + lambda diag(H). Returns false if it is not positive definite.
   bool factorize(double lambda);
 
-  /// dx of (H + lambda diag(H)) dx = -g, three numbers a variable. Needs factorize().
+  /// Solves (H + lambda diag(H)) dx = -g after factorize(); dx has three numbers per variable.
   Eigen::VectorXd step() const;
 
-  /// By how much the linearised error sum E falls with that step: -2 g^T dx - dx^T H dx.
+  /// Decrease of the linearised error sum E by a step: -2 g^T dx - dx^T H dx.
   double predicted_decrease(const Eigen::VectorXd& step, double lambda) const;
 
-  /// The largest entry of the gradient of E in absolute value, 2 |g|.
+  /// Largest absolute entry of the gradient of E, 2 |g|.
   double max_gradient() const { return gradient_.size() == 0 ? 0 : 2 * gradient_.cwiseAbs().maxCoeff(); }
 
   static constexpr std::uint32_t kHeld = 0xffffffff;
-  /// The number of a node's variable, in the order of elimination; kHeld for the root.
+  /// Number of the variable of a node, in the order of elimination; kHeld for the root.
   std::uint32_t variable_of(std::size_t node) const { return variable_of_[node]; }
 
   const BlockCholesky& factor() const { return factor_; }
   const SymmetricBlockMatrix& hessian() const { return hessian_; }
 
-  /// True when the last prepare() found a new order of elimination, or had to lay out H anew.
+  /// Whether the last prepare() computed a new order of elimination, or a new layout of H.
   bool reordered() const { return reordered_; }
   bool restructured() const { return restructured_; }
 
  private:
   struct Place {
-    std::uint32_t block = 0;  // of hessian_.blocks; kNoBlock when an end is held
+    std::uint32_t block = 0;  // of hessian_.blocks; kNoBlock if an end is held
     bool known = false;
     bool transposed = false;  // the block of H is (to, from)
   };
@@ -70,11 +69,11 @@ class NormalEquations {
   std::size_t root_ = 0;
   std::vector<std::uint32_t> node_of_;                         // by variable
   std::vector<std::uint32_t> variable_of_;                     // by node
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;  // of the constraints taken in so far
-  std::vector<Place> places_;                                  // beside ends_
-  std::size_t ordered_variables_ = 0;                          // when the order was found
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;  // of the constraints added so far
+  std::vector<Place> places_;                                  // parallel to ends_
+  std::size_t ordered_variables_ = 0;                          // at the last new order
   double ordered_products_ = 0;                                // of a factorisation then
-  double wasted_products_ = 0;  // since then, over what the order would have taken had it stayed as good
+  double wasted_products_ = 0;  // since then, beyond those of an equally good order
   bool reordered_ = false;
   bool restructured_ = false;
 

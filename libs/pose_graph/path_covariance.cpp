@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 namespace psi_slam {
+namespace {
 
-// Positions are turned by the angle, headings stay.
-PathCovarianceSearch::Covariance PathCovarianceSearch::turned(const Covariance& a, double cosine,
-                                                              double sine) {
+// Covariance in axes turned by the angle.
+PoseCovariance turned(const PoseCovariance& a, double cosine, double sine) {
   const double off = sine * cosine * (a.xx - a.yy);
   const double cc = cosine * cosine;
   const double ss = sine * sine;
@@ -18,14 +18,14 @@ PathCovarianceSearch::Covariance PathCovarianceSearch::turned(const Covariance& 
           ss * a.xx + both + cc * a.yy, sine * a.xt + cosine * a.yt, a.tt};
 }
 
-// Of a point that is carried at (dx, dy) from the pose with this covariance.
-PathCovarianceSearch::Covariance PathCovarianceSearch::carried(const Covariance& a, double dx, double dy) {
+// Covariance of a pose at (dx, dy) from the pose with covariance `a`.
+PoseCovariance carried(const PoseCovariance& a, double dx, double dy) {
   const double xt = a.xt - dy * a.tt;
   const double yt = a.yt + dx * a.tt;
   return {a.xx - dy * (a.xt + xt), a.xy + dx * a.xt - dy * yt, xt, a.yy + dx * (a.yt + yt), yt, a.tt};
 }
 
-void PathCovarianceSearch::add(Covariance& a, const Covariance& b) {
+void add(PoseCovariance& a, const PoseCovariance& b) {
   a.xx += b.xx;
   a.xy += b.xy;
   a.xt += b.xt;
@@ -34,40 +34,41 @@ void PathCovarianceSearch::add(Covariance& a, const Covariance& b) {
   a.tt += b.tt;
 }
 
-// One step of a chain. Forwards, the new node's error is the old one's carried to it plus the measurement's;
-// backwards the measurement's heading error turns the step as the old one's does: both are carried.
-PathCovarianceSearch::Covariance PathCovarianceSearch::extended(const Covariance& at_previous,
-                                                                const GraphLink& link, const Node& previous,
-                                                                const Node& next, bool forwards) {
-  const Node& from = forwards ? previous : next;
-  const Covariance measured =
-      turned({link.xx, link.xy, link.xt, link.yy, link.yt, link.tt}, from.cosine, from.sine);
+// One step of a chain. Forwards, the error of the new node is that of the old node, carried to the new one,
+// plus that of the measurement. Backwards, the heading error of the measurement also turns the step: both are
+// carried.
+PoseCovariance extended(const PoseCovariance& at_previous, const GraphLink& link, const RotatedPose& previous,
+                        const RotatedPose& next, bool forwards) {
+  const RotatedPose& from = forwards ? previous : next;
+  const PoseCovariance measured = turned(link.covariance, from.cosine, from.sine);
   const double dx = next.x - previous.x;
   const double dy = next.y - previous.y;
-  Covariance result = at_previous;
+  PoseCovariance result = at_previous;
   if (!forwards) add(result, measured);
   result = carried(result, dx, dy);
   if (forwards) add(result, measured);
   return result;
 }
 
-// The cost of extended() without the work: a trace needs no rotation of the measurement's position part.
-double PathCovarianceSearch::extended_cost(const Covariance& at_previous, const GraphLink& link,
-                                           const Node& previous, const Node& next, bool forwards,
-                                           double lever2) {
+// The cost of extended(), faster: a trace needs no rotation of the position part of the measurement.
+double extended_cost(const PoseCovariance& at_previous, const GraphLink& link, const RotatedPose& previous,
+                     const RotatedPose& next, bool forwards, double lever2) {
+  const PoseCovariance& measured = link.covariance;
   double xt = at_previous.xt;
   double yt = at_previous.yt;
   double tt = at_previous.tt;
   if (!forwards) {
-    xt += next.cosine * link.xt - next.sine * link.yt;
-    yt += next.sine * link.xt + next.cosine * link.yt;
-    tt += link.tt;
+    xt += next.cosine * measured.xt - next.sine * measured.yt;
+    yt += next.sine * measured.xt + next.cosine * measured.yt;
+    tt += measured.tt;
   }
   const double dx = next.x - previous.x;
   const double dy = next.y - previous.y;
-  return at_previous.xx + at_previous.yy + link.xx + link.yy + 2 * (dx * yt - dy * xt) +
-         (dx * dx + dy * dy) * tt + lever2 * (at_previous.tt + link.tt);
+  return at_previous.xx + at_previous.yy + measured.xx + measured.yy + 2 * (dx * yt - dy * xt) +
+         (dx * dx + dy * dy) * tt + lever2 * (at_previous.tt + measured.tt);
 }
+
+}  // namespace
 
 double RelativeUncertainty::position_sigma_m() const {
   const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
@@ -79,13 +80,9 @@ PathCovarianceSearch::Node& PathCovarianceSearch::node_at(const PoseGraph& graph
   Node& node = nodes_.at(index);
   if (node.run == run_) return node;
   ++seen_;
-  const mrpt::math::TPose2D& pose = graph.poses()[index];
   node = Node();
   node.run = run_;
-  node.x = pose.x;
-  node.y = pose.y;
-  node.cosine = std::cos(pose.phi);
-  node.sine = std::sin(pose.phi);
+  node.pose = RotatedPose(graph.poses()[index]);
   return node;
 }
 
@@ -95,7 +92,7 @@ void PathCovarianceSearch::settle(const PoseGraph& graph, std::uint32_t here) {
   if (here == source_) return;
   const Node& previous = nodes_[node.previous];
   const GraphLink& link = graph.links()[node.constraint];
-  node.covariance = extended(previous.covariance, link, previous, node, link.to == here);
+  node.covariance = extended(previous.covariance, link, previous.pose, node.pose, link.to == here);
 }
 
 void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t here, double lever2,
@@ -107,7 +104,7 @@ void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t her
     const std::uint32_t there = forwards ? link.to : link.from;
     Node& next = node_at(graph, there);
     if (next.settled || !graph.enabled(index)) continue;
-    const double cost = extended_cost(node.covariance, link, node, next, forwards, lever2);
+    const double cost = extended_cost(node.covariance, link, node.pose, next.pose, forwards, lever2);
     if (!(cost < next.cost) || cost > max_cost) continue;
     next.cost = cost;
     next.constraint = index;
@@ -119,7 +116,7 @@ void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t her
 void PathCovarianceSearch::run(const PoseGraph& graph, std::size_t source,
                                const PathCovarianceOptions& options) {
   if (source >= graph.num_nodes())
-    throw std::out_of_range("path_covariances: the source is no node of the graph");
+    throw std::out_of_range("path_covariances: the source is not a node of the graph");
   ++run_;
   seen_ = 0;
   source_ = source;
@@ -152,23 +149,13 @@ RelativeUncertainty PathCovarianceSearch::of(std::size_t index) const {
   RelativeUncertainty uncertainty;
   const Node& node = nodes_.at(index);
   if (node.run != run_ || !node.settled) return uncertainty;
-  const Node& source = nodes_[source_];
-  const Covariance own = turned(node.covariance, source.cosine, -source.sine);
+  const RotatedPose& source = nodes_[source_].pose;
+  const PoseCovariance own = turned(node.covariance, source.cosine, -source.sine);
   uncertainty.reached = true;
   uncertainty.previous = node.previous;
   uncertainty.constraint = node.constraint;
   uncertainty.covariance << own.xx, own.xy, own.xt, own.xy, own.yy, own.yt, own.xt, own.yt, own.tt;
   return uncertainty;
-}
-
-std::vector<RelativeUncertainty> path_covariances(const PoseGraph& graph, std::size_t source,
-                                                  const PathCovarianceOptions& options) {
-  PathCovarianceSearch search;
-  search.run(graph, source, options);
-  std::vector<RelativeUncertainty> all;
-  all.reserve(graph.num_nodes());
-  for (std::size_t node = 0; node < graph.num_nodes(); ++node) all.push_back(search.of(node));
-  return all;
 }
 
 }  // namespace psi_slam

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "pose_graph/angle.h"
 #include "pose_graph/constraint_error.h"
 #include "pose_graph/information_matrix.h"
 
@@ -32,8 +31,7 @@ GraphLink link_of(const Constraint& constraint) {
   link.to = static_cast<std::uint32_t>(constraint.to);
   Eigen::Matrix3d covariance;
   bool invertible = false;
-  // Scaled to a unit diagonal first, so that the units of x, y and theta do not decide what counts as
-  // singular.
+  // Scaled to a unit diagonal, so that units do not decide whether the matrix counts as singular.
   const Eigen::Vector3d scale = constraint.information.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::Matrix3d scaled = scale.asDiagonal() * constraint.information * scale.asDiagonal();
   constexpr double kSingular = 1e-12;
@@ -43,16 +41,50 @@ GraphLink link_of(const Constraint& constraint) {
   } else {
     covariance = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
   }
-  link.xx = covariance(0, 0);
-  link.xy = covariance(0, 1);
-  link.xt = covariance(0, 2);
-  link.yy = covariance(1, 1);
-  link.yt = covariance(1, 2);
-  link.tt = covariance(2, 2);
+  link.covariance = {covariance(0, 0), covariance(0, 1), covariance(0, 2),
+                     covariance(1, 1), covariance(1, 2), covariance(2, 2)};
   return link;
 }
 
 }  // namespace
+
+double RobustKernel::cost(double chi2) const {
+  const double width2 = width * width;
+  switch (type) {
+    case Type::kNone:
+      return chi2;
+    case Type::kHuber:
+      return chi2 <= width2 ? chi2 : 2 * width * std::sqrt(chi2) - width2;
+    case Type::kCauchy:
+      return width2 * std::log1p(chi2 / width2);
+    case Type::kDynamicScaling:
+      return chi2 <= width2 ? chi2 : width2 * (3 * chi2 - width2) / (chi2 + width2);
+    case Type::kGemanMcClure:
+      return width2 * chi2 / (width2 + chi2);
+  }
+  return chi2;
+}
+
+double RobustKernel::weight(double chi2) const {
+  const double width2 = width * width;
+  switch (type) {
+    case Type::kNone:
+      return 1;
+    case Type::kHuber:
+      return chi2 <= width2 ? 1 : width / std::sqrt(chi2);
+    case Type::kCauchy:
+      return 1 / (1 + chi2 / width2);
+    case Type::kDynamicScaling: {
+      const double scale = chi2 <= width2 ? 1 : 2 * width2 / (width2 + chi2);
+      return scale * scale;
+    }
+    case Type::kGemanMcClure: {
+      const double scale = width2 / (width2 + chi2);
+      return scale * scale;
+    }
+  }
+  return 1;
+}
 
 std::size_t PoseGraph::add_node(const TPose2D& map_T_node) {
   poses_.push_back(checked(map_T_node));

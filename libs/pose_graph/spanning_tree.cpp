@@ -3,8 +3,7 @@
 
 #include <cstdint>
 #include <deque>
-
-#include "pose_graph/unreachable_node.h"
+#include <string>
 
 namespace psi_slam {
 
@@ -18,7 +17,7 @@ std::vector<mrpt::math::TPose2D> spanning_tree_poses(const PoseGraph& graph) {
   };
   std::vector<char> reached(graph.num_nodes(), 0);
   std::deque<Arrival> by_odometry{{graph.root(), graph.pose(graph.root())}};
-  std::deque<Arrival> by_others;  // taken only when odometry leads no further, so that their number ascends
+  std::deque<Arrival> by_others;  // taken only when odometry leads no further
   while (!by_odometry.empty() || !by_others.empty()) {
     std::deque<Arrival>& queue = by_odometry.empty() ? by_others : by_odometry;
     const Arrival arrival = queue.front();
@@ -40,6 +39,11 @@ std::vector<mrpt::math::TPose2D> spanning_tree_poses(const PoseGraph& graph) {
   for (std::size_t node = 0; node < poses.size(); ++node)
     if (reached[node] == 0) throw unreachable_node(node, graph.root());
   return poses;
+}
+
+UserError unreachable_node(std::size_t node, std::size_t root) {
+  return UserError("node " + std::to_string(node) + " of the pose graph is not linked to node " +
+                   std::to_string(root) + ": expected a chain of constraints from every node to that node");
 }
 
 }  // namespace psi_slam

@@ -6,12 +6,16 @@
 #include <vector>
 
 #include "psi_slam/pose_graph.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 
-/// The pose of every node by chaining measurements from the root's pose, along a path with as few constraints
-/// other than odometry as possible: dead reckoning where there is odometry, and a first guess for files
-/// without poses. Throws UserError when no chain of enabled constraints leads from the root to some node.
+/// Returns the pose of every node by chaining measurements from the root's pose, along a path with as few
+/// constraints other than odometry as possible. This is dead reckoning where there is odometry, and a first
+/// guess for files without poses. Throws unreachable_node().
 std::vector<mrpt::math::TPose2D> spanning_tree_poses(const PoseGraph& graph);
+
+/// Error for a node that no chain of enabled constraints links to the root.
+UserError unreachable_node(std::size_t node, std::size_t root);
 
 }  // namespace psi_slam

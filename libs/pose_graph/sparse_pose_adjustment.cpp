@@ -10,17 +10,17 @@
 namespace psi_slam {
 namespace {
 
-// Damping after the first rejected step, and how it changes from then on.
+// Damping after the first rejected step, and its factors for further steps.
 constexpr double kFirstLambda = 1e-5;
 constexpr double kLambdaUp = 10;
 constexpr double kLambdaDown = 0.1;
-constexpr double kMinLambda = 1e-8;  // below it, none
-constexpr double kMaxLambda = 1e10;  // beyond it no step is left to try
-// A small decrease under stronger damping says nothing about how far the minimum is.
+constexpr double kMinLambda = 1e-8;  // less is set to 0
+constexpr double kMaxLambda = 1e10;  // ends the optimisation
+// Convergence is tested only up to this damping: strong damping makes all decreases small.
 constexpr double kMaxLambdaOfConvergence = 1e-3;
 
 constexpr int kMaxUphillSteps = 2;
-// The linearisation is poor where E after a step is this many times what it promised.
+// The linearisation is poor if E after a step exceeds the predicted E by this factor.
 constexpr double kPoorPrediction = 10;
 
 }  // namespace
@@ -99,8 +99,8 @@ void SparsePoseAdjustment::linearize(const PoseGraph& graph, PoseAdjustmentRepor
   linearized_ = true;
 }
 
-// Leaves in trial_ where the damped step leads, or the solution of headings and positions if that is better;
-// E there is infinite when there is neither.
+// Computes trial_: the state after the damped step, or the separate solution of headings and positions if
+// that is better. Its E is infinite if neither exists.
 SparsePoseAdjustment::Attempt SparsePoseAdjustment::attempt_step(const PoseGraph& graph) {
   Attempt attempt;
   attempt.from_current = equations_.factorize(lambda_);
@@ -115,15 +115,15 @@ SparsePoseAdjustment::Attempt SparsePoseAdjustment::attempt_step(const PoseGraph
   if (headings_tried_ || trial_.robust_sum <= kPoorPrediction * expected) return attempt;
   headings_tried_ = true;
   linearized_ = false;
-  State rival;
-  if (solve_headings_first(graph, rival) && !(trial_.robust_sum <= rival.robust_sum)) {
-    std::swap(trial_, rival);
+  State separate;
+  if (solve_headings_first(graph, separate) && !(trial_.robust_sum <= separate.robust_sum)) {
+    std::swap(trial_, separate);
     attempt.from_current = false;
   }
   return attempt;
 }
 
-// From current_ and with its weights. False when a factorisation fails.
+// Starts from current_ with its weights. Returns false if a factorisation fails.
 bool SparsePoseAdjustment::solve_headings_first(const PoseGraph& graph, State& result) {
   using Coordinates = NormalEquations::Coordinates;
   State turned;
@@ -136,7 +136,7 @@ bool SparsePoseAdjustment::solve_headings_first(const PoseGraph& graph, State& r
   return true;
 }
 
-// Takes trial_ or goes back; true when the minimum is reached.
+// Accepts or rejects trial_. Returns true at the minimum.
 bool SparsePoseAdjustment::judge(const Attempt& attempt, PoseAdjustmentReport& report) {
   const bool may_converge = attempt.from_current && uphill_steps_ == 0 && lambda_ <= kMaxLambdaOfConvergence;
   if (trial_.robust_sum <= lowest_) {  // false for NaN
@@ -149,13 +149,13 @@ bool SparsePoseAdjustment::judge(const Attempt& attempt, PoseAdjustmentReport& r
     lambda_ = lambda_ * kLambdaDown < kMinLambda ? 0 : lambda_ * kLambdaDown;
     return converged;
   }
-  if (may_converge && attempt.promised <= negligible()) return true;  // the minimum up to rounding
+  if (may_converge && attempt.promised <= negligible()) return true;  // at the minimum up to rounding
   ++report.rejected_steps;
   reject();
   return false;
 }
 
-// Goes on from trial_ for a while although E rose, or returns to the best state and damps the next step.
+// Continues from trial_ for some steps although E rose, or returns to the best state and damps the next step.
 void SparsePoseAdjustment::reject() {
   if (lambda_ == 0 && uphill_steps_ < kMaxUphillSteps && std::isfinite(trial_.robust_sum)) {
     if (uphill_steps_ == 0) best_ = current_;

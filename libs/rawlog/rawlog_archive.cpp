@@ -14,8 +14,8 @@
 namespace psi_slam {
 namespace {
 
-/// What mrpt::serialization::archiveFrom() needs of a stream, with one byte of look-ahead: only so can an end
-/// between objects be told from one within.
+/// Stream for mrpt::serialization::archiveFrom(). One byte of look-ahead distinguishes an end between objects
+/// from an end within an object.
 class ArchiveStream {
  public:
   explicit ArchiveStream(const std::filesystem::path& path) : file_(path) {}
@@ -47,7 +47,7 @@ class ArchiveStream {
   const CompressedFile& file() const { return file_; }
   bool ended_early() const { return ended_early_; }
 
-  /// Why decompression failed: MRPT wraps exceptions that pass through it.
+  /// Reason why decompression failed. It is kept here because MRPT wraps exceptions.
   const std::optional<UserError>& failure() const { return failure_; }
 
  private:
@@ -83,7 +83,7 @@ struct RawlogArchive::State {
 };
 
 RawlogArchive::RawlogArchive(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {
-  // Logs hold observations whose classes live in libraries that nothing else here refers to.
+  // Logs hold observations whose classes are in libraries that nothing else here refers to.
   mrpt::obs::registerAllClasses_mrpt_obs();
   mrpt::maps::registerAllClasses_mrpt_maps();
 }
@@ -98,9 +98,10 @@ mrpt::serialization::CSerializable::Ptr RawlogArchive::next() {
     return state_->archive.ReadObject();
   } catch (const std::exception&) {
     if (stream.failure()) throw UserError(*stream.failure());
-    if (stream.ended_early()) throw UserError(place() + ": the file is cut off within this object");
+    if (stream.ended_early())
+      throw UserError(place() + ": the file ends within this object. Fetch the log again");
     throw UserError(place() +
-                    " is damaged or of a class that this version of MRPT does not know, expected an "
+                    " is damaged or has a class that this version of MRPT does not know, expected an "
                     "action, a sensory frame or an observation");
   }
 }

@@ -10,17 +10,17 @@
 
 namespace psi_slam {
 
-/// The objects of an MRPT rawlog one after the other, plain or gzipped.
+/// Reads the objects of an MRPT rawlog in order, plain or gzipped.
 class RawlogArchive {
  public:
   explicit RawlogArchive(const std::filesystem::path& path);
   ~RawlogArchive();
 
-  /// The next object, or none at the end. Throws UserError when the file ends within an object, is damaged or
-  /// has an object that this MRPT does not know.
+  /// Returns the next object, or null at the end. Throws UserError if the file ends within an object, is
+  /// damaged, or holds an object that this version of MRPT does not know.
   mrpt::serialization::CSerializable::Ptr next();
 
-  /// "path: object 12" of the object last read, counted from 1.
+  /// Place of the last object for messages, counted from 1: "path: object 12".
   std::string place() const;
 
   const std::filesystem::path& path() const;

@@ -7,17 +7,15 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
-#include <deque>
 #include <functional>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "observations/mrpt_objects.h"
+#include "observations/observation_frames.h"
 #include "psi_slam/user_error.h"
-#include "frames/odometry_interpolator.h"
 #include "rawlog/rawlog_archive.h"
-#include "observations/rawlog_lasers.h"
-#include "observations/rawlog_objects.h"
 
 namespace psi_slam {
 namespace {
@@ -27,6 +25,7 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
+using Odometry = ObservationFrames::Odometry;
 
 void for_each_observation(mrpt::serialization::CSerializable& object,
                           const std::function<void(const CObservation&)>& take) {
@@ -35,12 +34,12 @@ void for_each_observation(mrpt::serialization::CSerializable& object,
     for (const auto& observation : *frame) take(*observation);
 }
 
-struct Contents {
-  std::string sensor_label;
-  bool has_actions = false;
+struct LasersAndOdometry {
+  std::string labels;  // separated by commas
+  Odometry odometry;
 };
 
-/// The labels that the user names, and the option in which he does.
+/// Labels that the user states, each with the name of its option.
 std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& options) {
   std::vector<std::pair<std::string, std::string>> named;
   for (const std::string& label : laser_choice("log.laser", options.laser).names)
@@ -49,22 +48,25 @@ std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& 
   return named;
 }
 
-/// Reads on until it has found a laser, all those that the user names, and odometry.
-Contents find_lasers_and_odometry(const std::filesystem::path& path, const LogOptions& options) {
+/// Reads until a laser, all lasers that the user names, and odometry have appeared.
+LasersAndOdometry find_lasers_and_odometry(const std::filesystem::path& path, const LogOptions& options) {
   RawlogArchive archive(path);
   const auto named = named_labels(options);
   ChosenLasers chosen(laser_choice("log.laser", options.laser));
-  std::optional<bool> has_actions;
+  auto odometry = Odometry::kUndecided;
   std::set<std::string> labels;
   const auto is_missing = [&](const auto& name) { return labels.count(name.first) == 0; };
-  while (!has_actions || labels.empty() || std::any_of(named.begin(), named.end(), is_missing)) {
+  while (odometry == Odometry::kUndecided || labels.empty() ||
+         std::any_of(named.begin(), named.end(), is_missing)) {
     const auto object = archive.next();
     if (!object) break;
     const auto* actions = dynamic_cast<const CActionCollection*>(object.get());
-    if (!has_actions && actions != nullptr && movement_of(*actions)) has_actions = true;
+    if (odometry == Odometry::kUndecided && actions != nullptr && movement_of(*actions))
+      odometry = Odometry::kActions;
     for_each_observation(*object, [&](const CObservation& observation) {
-      if (!has_actions && dynamic_cast<const CObservationOdometry*>(&observation) != nullptr)
-        has_actions = false;
+      if (odometry == Odometry::kUndecided &&
+          dynamic_cast<const CObservationOdometry*>(&observation) != nullptr)
+        odometry = Odometry::kObservations;
       if (dynamic_cast<const CObservation2DRangeScan*>(&observation) == nullptr) return;
       labels.insert(observation.sensorLabel);
       chosen.number_of(observation.sensorLabel);
@@ -78,122 +80,59 @@ Contents find_lasers_and_odometry(const std::filesystem::path& path, const LogOp
     throw UserError(missing->second + " is \"" + missing->first + "\", expected the label of a laser of " +
                     path.string() + ": " + quoted_list({labels.begin(), labels.end()}));
   }
-  if (!has_actions) {
+  if (odometry == Odometry::kUndecided) {
     throw UserError(
         path.string() +
         " has no odometry, expected actions of class CActionRobotMovement2D or observations of class "
         "CObservationOdometry");
   }
-  std::string label;
-  for (const std::string& name : chosen.names()) label += (label.empty() ? "" : ", ") + name;
-  return {label, *has_actions};
+  return {name_list(chosen.names()), odometry};
 }
 
-}  // namespace
-
-class RawlogReader::Implementation {
+class RawlogReader : public LogReader {
  public:
-  Implementation(const std::filesystem::path& path, const LogOptions& options)
-      : archive_(path), lasers_(options) {
-    const Contents contents = find_lasers_and_odometry(path, options);
-    statistics_.sensor_label = contents.sensor_label;
-    statistics_.has_actions = contents.has_actions;
+  RawlogReader(const std::filesystem::path& path, const LogOptions& options)
+      : archive_(path), found_(find_lasers_and_odometry(path, options)), frames_(options, found_.odometry) {
+    contents_.laser = found_.labels;
   }
 
-  std::optional<Frame> next() {
+  double progress() const override { return archive_.progress(); }
+
+ protected:
+  std::optional<Frame> read_frame() override {
     while (true) {
-      if (auto frame = take_ready()) {
-        frame->index = frames_given_++;
-        return frame;
-      }
+      if (auto frame = frames_.next()) return frame;
       if (at_end_) return std::nullopt;
       if (const auto object = archive_.next()) {
         take(*object);
       } else {
-        at_end_ = interpolator_.waiting() == 0;
-        interpolator_.end_of_log();
+        at_end_ = true;
+        frames_.end_of_log(archive_.path().string());
       }
     }
   }
 
-  double progress() const { return archive_.progress(); }
-  const RawlogStatistics& statistics() const { return statistics_; }
-
  private:
-  std::optional<Frame> take_ready() {
-    if (ready_.empty()) return interpolator_.take();
-    Frame frame = std::move(ready_.front());
-    ready_.pop_front();
-    return frame;
-  }
-
   void take(mrpt::serialization::CSerializable& object) {
-    const auto* actions = dynamic_cast<const CActionCollection*>(&object);
-    if (statistics_.has_actions && actions != nullptr)
-      if (const auto increment = movement_of(*actions)) odom_T_robot_ = odom_T_robot_ + *increment;
+    if (const auto* actions = dynamic_cast<const CActionCollection*>(&object)) frames_.take(*actions);
     for_each_observation(object, [&](const CObservation& observation) {
-      if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) take_scan(*scan);
-      if (statistics_.has_actions) return;
-      if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&observation))
-        take_odometry(*odometry);
+      const std::size_t scans = frames_.scans();
+      frames_.take(observation, archive_.place());
+      const bool is_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
+      if (is_scan && frames_.scans() == scans) ++contents_.other_lasers[observation.sensorLabel];
     });
   }
 
-  void take_scan(const CObservation2DRangeScan& observation) {
-    auto scan = lasers_.scan(observation, archive_.place());
-    if (!scan) {
-      ++statistics_.scans_of_other_lasers[observation.sensorLabel];
-      return;
-    }
-    Frame frame;
-    frame.time_us = stamp_of(observation, "scan");
-    frame.scan = *std::move(scan);
-    frame.odom_T_robot = odom_T_robot_;
-    if (statistics_.has_actions) {
-      ready_.push_back(std::move(frame));
-    } else {
-      interpolator_.add_scan(std::move(frame));
-    }
-  }
-
-  void take_odometry(const CObservationOdometry& observation) {
-    if (!odometry_label_) odometry_label_ = observation.sensorLabel;
-    if (observation.sensorLabel != *odometry_label_) return;
-    interpolator_.add_odometry(stamp_of(observation, "odometry"), observation.odometry.asTPose());
-  }
-
-  TimeUs stamp_of(const CObservation& observation, const char* what) const {
-    if (const auto stamp = time_us(observation)) return *stamp;
-    throw UserError(archive_.place() + ": the " + what +
-                    " has no time stamp, expected one on every observation");
-  }
-
   RawlogArchive archive_;
-  RawlogLasers lasers_;
-  RawlogStatistics statistics_;
-  mrpt::math::TPose2D odom_T_robot_{0, 0, 0};  // the sum of the actions
-  std::optional<std::string> odometry_label_;
-  std::deque<Frame> ready_;
-  OdometryInterpolator interpolator_;
-  std::size_t frames_given_ = 0;
+  LasersAndOdometry found_;
+  ObservationFrames frames_;
   bool at_end_ = false;
 };
 
-RawlogReader::RawlogReader(const std::filesystem::path& path, const LogOptions& options)
-    : implementation_(std::make_unique<Implementation>(path, options)) {}
+}  // namespace
 
-RawlogReader::~RawlogReader() = default;
-
-std::optional<Frame> RawlogReader::next() {
-  return implementation_->next();
-}
-
-double RawlogReader::progress() const {
-  return implementation_->progress();
-}
-
-const RawlogStatistics& RawlogReader::statistics() const {
-  return implementation_->statistics();
+std::unique_ptr<LogReader> open_rawlog(const std::filesystem::path& path, const LogOptions& options) {
+  return std::make_unique<RawlogReader>(path, options);
 }
 
 }  // namespace psi_slam

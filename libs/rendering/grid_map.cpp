@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/grid_map.h"
 
+#include <mrpt/math/TBoundingBox.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +15,7 @@ namespace psi_slam {
 namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
+using mrpt::math::TBoundingBox;
 using mrpt::math::TPose2D;
 
 constexpr int kHitEvidence = 3;
@@ -26,114 +29,93 @@ struct Point {
   double y = 0;
 };
 
-/// A beam that returned: where it ends, and whether that end is an obstacle.
+/// End of a beam with a return, in the map, and whether an obstacle is there.
 struct Ray {
   Point end;
   bool hit = false;
 };
 
-/// The rays of one scan, which start where its laser was.
+/// The rays of one scan. They start at its laser.
 struct Fan {
   Point start;
   std::vector<Ray> rays;
 };
 
-/// Turns scans into rays in the map's frame; sines and cosines of the bearings are kept from scan to scan.
+/// Turns scans into rays in the map's frame. Keeps the directions of each laser's beams from scan to scan.
 class RayMaker {
  public:
   explicit RayMaker(double max_range_m) : max_range_m_(max_range_m) {}
 
-  const Fan& fan(const LaserScan& scan, const TPose2D& map_T_robot) {
-    if (scan.bearings_rad != bearings_) use_bearings(scan.bearings_rad);
-    const std::size_t beams = scan.ranges_m.size();
-    if (directions_.size() != beams)
-      throw std::invalid_argument("draw_grid_map: " + std::to_string(beams) + " ranges but " +
-                                  std::to_string(directions_.size()) + " bearings");
-    const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
-    if (!std::isfinite(map_T_laser.x) || !std::isfinite(map_T_laser.y) || !std::isfinite(map_T_laser.phi))
-      throw std::invalid_argument("draw_grid_map: a pose is not finite");
-    const double c = std::cos(map_T_laser.phi);
-    const double s = std::sin(map_T_laser.phi);
-    fan_.start = {map_T_laser.x, map_T_laser.y};
-    fan_.rays.clear();
-    for (std::size_t i = 0; i < beams; ++i) {
-      const double range_m = static_cast<double>(scan.ranges_m[i]);
-      if (!std::isfinite(range_m)) continue;
-      const double length = std::min(range_m, max_range_m_);
-      const Point& direction = directions_[i];
-      fan_.rays.push_back({{fan_.start.x + length * (c * direction.x - s * direction.y),
-                            fan_.start.y + length * (s * direction.x + c * direction.y)},
-                           range_m <= max_range_m_});
-    }
-    return fan_;
-  }
-
- private:
-  void use_bearings(const BeamBearings& bearings) {
-    bearings_ = bearings;
-    directions_.clear();
-    if (!bearings) return;
-    for (const float bearing : *bearings) {
-      const double angle = static_cast<double>(bearing);
-      directions_.push_back({std::cos(angle), std::sin(angle)});
-    }
-  }
-
-  double max_range_m_;
-  BeamBearings bearings_;
-  std::vector<Point> directions_;
-  Fan fan_;
-};
-
-/// A maker for each laser of the robot, since all have bearings of their own.
-class FanMaker {
- public:
-  explicit FanMaker(double max_range_m) : max_range_m_(max_range_m) {}
-
-  /// Of all scans of a frame; valid until the next call.
+  /// Returns the rays of all scans of a frame, valid until the next call.
   const std::vector<const Fan*>& fans(const Frame& frame, const TPose2D& map_T_robot) {
     fans_.clear();
     for_each_scan(frame, map_T_robot, [&](const LaserScan& scan, const TPose2D& map_T_robot_then) {
-      while (makers_.size() <= scan.laser) makers_.emplace_back(max_range_m_);
-      fans_.push_back(&makers_[scan.laser].fan(scan, map_T_robot_then));
+      while (lasers_.size() <= scan.laser) lasers_.emplace_back();
+      cast(scan, map_T_robot_then, lasers_[scan.laser]);
+      fans_.push_back(&lasers_[scan.laser].fan);
     });
     return fans_;
   }
 
  private:
+  struct Laser {
+    BeamBearings bearings;
+    std::vector<Point> directions;  // of the beams, unit vectors in the laser's frame
+    Fan fan;
+  };
+
+  void cast(const LaserScan& scan, const TPose2D& map_T_robot, Laser& laser) const {
+    if (scan.bearings_rad != laser.bearings) {
+      laser.bearings = scan.bearings_rad;
+      laser.directions.clear();
+      for (std::size_t i = 0; laser.bearings && i < laser.bearings->size(); ++i) {
+        const double angle = static_cast<double>((*laser.bearings)[i]);
+        laser.directions.push_back({std::cos(angle), std::sin(angle)});
+      }
+    }
+    const std::size_t beams = scan.ranges_m.size();
+    if (laser.directions.size() != beams)
+      throw std::invalid_argument("draw_grid_map: " + std::to_string(beams) + " ranges but " +
+                                  std::to_string(laser.directions.size()) + " bearings");
+    const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
+    if (!std::isfinite(map_T_laser.x) || !std::isfinite(map_T_laser.y) || !std::isfinite(map_T_laser.phi))
+      throw std::invalid_argument("draw_grid_map: a pose is not finite");
+    const double c = std::cos(map_T_laser.phi);
+    const double s = std::sin(map_T_laser.phi);
+    laser.fan.start = {map_T_laser.x, map_T_laser.y};
+    laser.fan.rays.clear();
+    for (std::size_t i = 0; i < beams; ++i) {
+      const double range_m = static_cast<double>(scan.ranges_m[i]);
+      if (!std::isfinite(range_m)) continue;
+      const double length = std::min(range_m, max_range_m_);
+      const Point& direction = laser.directions[i];
+      laser.fan.rays.push_back({{laser.fan.start.x + length * (c * direction.x - s * direction.y),
+                                 laser.fan.start.y + length * (s * direction.x + c * direction.y)},
+                                range_m <= max_range_m_});
+    }
+  }
+
   double max_range_m_;
-  std::deque<RayMaker> makers_;  // whose fans stay where they are
+  std::deque<Laser> lasers_;  // a deque, so that pointers to fans stay valid
   std::vector<const Fan*> fans_;
 };
 
-struct Bounds {
-  double x_min = std::numeric_limits<double>::infinity();
-  double y_min = std::numeric_limits<double>::infinity();
-  double x_max = -std::numeric_limits<double>::infinity();
-  double y_max = -std::numeric_limits<double>::infinity();
-
-  void include(const Point& point) {
-    x_min = std::min(x_min, point.x);
-    y_min = std::min(y_min, point.y);
-    x_max = std::max(x_max, point.x);
-    y_max = std::max(y_max, point.y);
-  }
-};
-
-Bounds bounds_of(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot, double max_range_m) {
-  FanMaker maker(max_range_m);
-  Bounds bounds;
+TBoundingBox bounds_of(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
+                       double max_range_m) {
+  RayMaker maker(max_range_m);
+  TBoundingBox bounds = TBoundingBox::PlusMinusInfinity();
+  const auto include = [&](const Point& point) { bounds.updateWithPoint({point.x, point.y, 0}); };
   for (std::size_t i = 0; i < log.size(); ++i) {
     for (const Fan* fan : maker.fans(log[i], map_T_robot[i])) {
-      for (const Ray& ray : fan->rays) bounds.include(ray.end);
-      bounds.include(fan->start);
+      for (const Ray& ray : fan->rays) include(ray.end);
+      include(fan->start);
     }
   }
-  if (log.empty()) bounds.include({0, 0});
+  if (log.empty()) include({0, 0});
   return bounds;
 }
 
-/// Where the cells lie: the corner of cell (0, 0) is that many cells away from the map's origin.
+/// Cells of the map. (x_min, y_min) is the offset of its lower left corner from the map's origin, in cells.
 struct Layout {
   double resolution_m = 0;
   std::int64_t x_min = 0;
@@ -142,28 +124,27 @@ struct Layout {
   std::int64_t height = 0;
 };
 
-Layout layout_for(const Bounds& bounds, const GridMapOptions& options) {
-  constexpr double kMinMarginCells = 2;  // a ray's digital line may leave its end cells by one
-  Layout layout;
+Layout layout_for(const TBoundingBox& bounds, const GridMapOptions& options) {
+  constexpr double kMinMarginCells = 2;  // the digital line of a ray may end one cell beside its end
   for (double resolution_m = options.resolution_m;; resolution_m *= 2) {
     const double margin = std::max(options.margin_m / resolution_m, kMinMarginCells);
-    const double x_min = std::floor(bounds.x_min / resolution_m - margin);
-    const double y_min = std::floor(bounds.y_min / resolution_m - margin);
-    const double width = std::ceil(bounds.x_max / resolution_m + margin) - x_min;
-    const double height = std::ceil(bounds.y_max / resolution_m + margin) - y_min;
+    const double x_min = std::floor(bounds.min.x / resolution_m - margin);
+    const double y_min = std::floor(bounds.min.y / resolution_m - margin);
+    const double width = std::ceil(bounds.max.x / resolution_m + margin) - x_min;
+    const double height = std::ceil(bounds.max.y / resolution_m + margin) - y_min;
     if (width * height > static_cast<double>(options.max_cells) && width * height > 100) continue;
     return {resolution_m, std::llround(x_min), std::llround(y_min), std::llround(width),
             std::llround(height)};
   }
 }
 
-/// What the scans say about each cell.
+/// Evidence of all scans for each cell: hits count up, passes count down.
 class Evidence {
  public:
   explicit Evidence(const Layout& layout)
       : layout_(layout), cells_(static_cast<std::size_t>(layout.width * layout.height)) {}
 
-  /// What several lasers saw at once counts once in each cell, obstacles first.
+  /// Counts all lasers of a frame once per cell. Hits take precedence over passes.
   void add_frame(const std::vector<const Fan*>& fans) {
     next_scan();
     for (const Fan* fan : fans)
@@ -225,7 +206,7 @@ class Evidence {
     return static_cast<std::int64_t>(cell.y) * layout_.width + static_cast<std::int64_t>(cell.x);
   }
 
-  /// Counts the cells of the digital line but for the last step, where the hit is; coordinates are in cells.
+  /// Counts a pass in each cell of the digital line except the last, which holds the hit. Units are cells.
   void pass(const Point& start, const Point& end) {
     if (std::abs(end.x - start.x) >= std::abs(end.y - start.y)) {
       walk(start.x, start.y, end.x, end.y, 1, layout_.width);
@@ -234,8 +215,8 @@ class Evidence {
     }
   }
 
-  /// Steps along the axis on which the line is longer; `across` is followed at the middle of each step, in
-  /// fixed point so that every machine takes the same cells.
+  /// Steps along the longer axis of the line and evaluates `across` at the middle of each step, in fixed
+  /// point so that all machines choose the same cells.
   void walk(double along0, double across0, double along1, double across1, std::int64_t along_stride,
             std::int64_t across_stride) {
     constexpr int kFractionBits = 32;
@@ -260,23 +241,18 @@ class Evidence {
   std::uint16_t scan_ = 0;
 };
 
-void check(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
-           const GridMapOptions& options) {
+}  // namespace
+
+COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
+                                       const GridMapOptions& options) {
   if (log.size() != map_T_robot.size())
     throw std::invalid_argument("draw_grid_map: " + std::to_string(log.size()) + " scans but " +
                                 std::to_string(map_T_robot.size()) + " poses");
   if (!(options.resolution_m > 0) || !(options.max_range_m > 0) || !(options.margin_m >= 0))
     throw std::invalid_argument(
-        "draw_grid_map: resolution and range must be positive, the margin not negative");
-}
-
-}  // namespace
-
-COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
-                                       const GridMapOptions& options) {
-  check(log, map_T_robot, options);
+        "draw_grid_map: resolution_m and max_range_m must be positive, margin_m must not be negative");
   Evidence evidence(layout_for(bounds_of(log, map_T_robot, options.max_range_m), options));
-  FanMaker maker(options.max_range_m);
+  RayMaker maker(options.max_range_m);
   for (std::size_t i = 0; i < log.size(); ++i) evidence.add_frame(maker.fans(log[i], map_T_robot[i]));
   return evidence.grid();
 }

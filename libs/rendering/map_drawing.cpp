@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "rendering/cell_state.h"
 #include "rendering/map_image.h"
 
 namespace psi_slam {
@@ -14,7 +13,7 @@ using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPoint2D;
 using CellLine = std::vector<cv::Point>;
 
-/// 255 where a cell of `seen` is occupied; row 0 is the lowest.
+/// 255 where a cell is occupied, else 0. Row 0 is the lowest.
 cv::Mat occupied_mask(const COccupancyGridMap2D& grid, const SeenCells& seen) {
   cv::Mat mask(seen.y_end - seen.y_begin, seen.x_end - seen.x_begin, CV_8UC1);
   for (int y = 0; y < mask.rows; ++y) {
@@ -60,24 +59,15 @@ MapLine path_line(const std::vector<mrpt::math::TPose2D>& map_T_robot, double to
   return line;
 }
 
-DrawingExtent extent_of(const COccupancyGridMap2D& grid, const SeenCells& seen,
-                        const std::vector<MapLine>& paths) {
+}  // namespace
+
+DrawingExtent seen_extent(const COccupancyGridMap2D& grid, const SeenCells& seen) {
   const auto cell_m = static_cast<double>(grid.getResolution());
   const auto x_min_m = static_cast<double>(grid.getXMin());
   const auto y_min_m = static_cast<double>(grid.getYMin());
-  DrawingExtent extent{x_min_m + seen.x_begin * cell_m, x_min_m + seen.x_end * cell_m,
-                       y_min_m + seen.y_begin * cell_m, y_min_m + seen.y_end * cell_m};
-  for (const MapLine& path : paths)
-    for (const TPoint2D& point : path) {
-      extent.x_min_m = std::min(extent.x_min_m, point.x);
-      extent.x_max_m = std::max(extent.x_max_m, point.x);
-      extent.y_min_m = std::min(extent.y_min_m, point.y);
-      extent.y_max_m = std::max(extent.y_max_m, point.y);
-    }
-  return extent;
+  return {x_min_m + seen.x_begin * cell_m, x_min_m + seen.x_end * cell_m, y_min_m + seen.y_begin * cell_m,
+          y_min_m + seen.y_end * cell_m};
 }
-
-}  // namespace
 
 MapDrawing draw_map_lines(const COccupancyGridMap2D& grid,
                           const std::vector<std::vector<mrpt::math::TPose2D>>& paths,
@@ -85,8 +75,16 @@ MapDrawing draw_map_lines(const COccupancyGridMap2D& grid,
   const SeenCells seen = seen_cells(grid);
   MapDrawing drawing;
   drawing.walls = wall_lines(grid, seen, options);
-  for (const auto& path : paths) drawing.trajectories.push_back(path_line(path, options.tolerance_m));
-  drawing.extent = extent_of(grid, seen, drawing.trajectories);
+  drawing.extent = seen_extent(grid, seen);
+  for (const auto& path : paths) {
+    drawing.trajectories.push_back(path_line(path, options.tolerance_m));
+    for (const TPoint2D& point : drawing.trajectories.back()) {
+      drawing.extent.x_min_m = std::min(drawing.extent.x_min_m, point.x);
+      drawing.extent.x_max_m = std::max(drawing.extent.x_max_m, point.x);
+      drawing.extent.y_min_m = std::min(drawing.extent.y_min_m, point.y);
+      drawing.extent.y_max_m = std::max(drawing.extent.y_max_m, point.y);
+    }
+  }
   drawing.cell_m = static_cast<double>(grid.getResolution());
   return drawing;
 }

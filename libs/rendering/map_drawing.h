@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map as lines, for drawings: outlines of what is occupied, and the robot's path.
+// The map as lines for drawings: outlines of walls, and the robot's path.
 //
-// An outline runs through the centres of the outermost cells of a wall: a laser's returns lie anywhere in
-// their cell, so its centre is where the surface is, give or take half a cell. A wall one cell thin is there
-// and back on one line; a wall that was seen from both sides only on its surfaces has an outline for each.
+// An outline passes through the centres of the outermost cells of a wall: returns lie anywhere in their cell,
+// so its centre is the surface to within half a cell. The outline of a wall one cell thick runs there and
+// back on the same line. A thick wall seen from both sides has an outline for each surface.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -12,14 +12,16 @@
 
 #include <vector>
 
+#include "rendering/map_image.h"
+
 namespace psi_slam {
 
 struct MapDrawingOptions {
-  double tolerance_m = 0.05;  ///< what a line may deviate from what it is simplified from
-  double min_wall_m = 0.1;    ///< occupied spots that are smaller both ways are left out
+  double tolerance_m = 0.05;  ///< largest deviation of a simplified line
+  double min_wall_m = 0.1;    ///< walls smaller than this in both directions are left out
 };
 
-/// In the map's frame.
+/// Points in the map's frame.
 using MapLine = std::vector<mrpt::math::TPoint2D>;
 
 /// A rectangle in the map's frame.
@@ -33,14 +35,18 @@ struct DrawingExtent {
   double height_m() const { return y_max_m - y_min_m; }
 };
 
+/// Returns the rectangle of the cells seen.
+DrawingExtent seen_extent(const mrpt::maps::COccupancyGridMap2D& grid, const SeenCells& seen);
+
 struct MapDrawing {
-  std::vector<MapLine> walls;  ///< closed; those of two points are there and back
-  std::vector<MapLine> trajectories;  ///< open; one a drive
-  DrawingExtent extent;        ///< of all lines and of all that was seen
-  double cell_m = 0;           ///< how thick an outline is
+  std::vector<MapLine> walls;         ///< closed; a line of two points runs there and back
+  std::vector<MapLine> trajectories;  ///< open, one for each run
+  DrawingExtent extent;               ///< of all lines and of everything seen
+  double cell_m = 0;                  ///< thickness of an outline
 };
 
-/// The same grid and paths, one of each drive, give the same lines, in the same order.
+/// Traces the walls of the grid and the paths (robot poses in the map, one path for each run). Equal input
+/// gives equal lines in the same order.
 MapDrawing draw_map_lines(const mrpt::maps::COccupancyGridMap2D& grid,
                           const std::vector<std::vector<mrpt::math::TPose2D>>& paths,
                           const MapDrawingOptions& options = {});

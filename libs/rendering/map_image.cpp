@@ -7,21 +7,21 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "rendering/cell_state.h"
-#include "rendering/picture_ink.h"
 #include "base/atomic_file.h"
+#include "rendering/picture_ink.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
+
 Pixel mixed(const Pixel& a, const Pixel& b, double share_of_b) {
   Pixel result;
   for (int i = 0; i < 4; ++i) result[i] = cv::saturate_cast<std::uint8_t>(a[i] + (b[i] - a[i]) * share_of_b);
   return result;
 }
 
-/// The cells that one pixel shows.
+/// Number of cells that one pixel shows.
 struct Block {
   int cells = 0;
   int free = 0;
@@ -43,7 +43,7 @@ Block block_at(const COccupancyGridMap2D& grid, int x_begin, int y_begin, int si
   return block;
 }
 
-/// A wall one cell thin that crosses the block is as dark as a thick one.
+/// A wall of one cell that crosses the block is as dark as a thick wall.
 Pixel colour(const Block& block, int side, const Pixel& unknown) {
   const int open = block.cells - block.occupied;
   const Pixel ground =
@@ -51,7 +51,7 @@ Pixel colour(const Block& block, int side, const Pixel& unknown) {
   return mixed(ground, kWallInk, std::min(1.0, static_cast<double>(block.occupied) / side));
 }
 
-/// The raster's own pixels.
+/// Returns a view of the raster's pixels.
 cv::Mat image_of(MapRaster& raster) {
   return {raster.height_px, raster.width_px, CV_8UC4, raster.pixels.data()};
 }

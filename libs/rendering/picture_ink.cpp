@@ -8,13 +8,13 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "psi_slam/user_error.h"
 #include "base/number_text.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
-/// The largest of 1, 2 and 5 times a power of ten that is not longer.
+/// Rounds down to 1, 2 or 5 times a power of ten.
 double round_length(double length_m) {
   const double power = std::pow(10, std::floor(std::log10(length_m)));
   for (const double digit : {5.0, 2.0})
@@ -45,7 +45,7 @@ void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, do
 std::string png_bytes(const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
   if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9}))
-    throw SystemFailure("cannot make a PNG picture of the map");
+    throw SystemFailure("cannot encode the map as a PNG picture");
   return {bytes.begin(), bytes.end()};
 }
 

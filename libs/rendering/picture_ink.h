@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the pictures of the map share: their colours, the scale bar, and how they become a PNG file.
+// Shared by all pictures of the map: colours, scale bar, PNG encoding.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,7 +7,7 @@
 
 namespace psi_slam {
 
-using Pixel = cv::Vec4b;  // blue, green, red, opacity
+using Pixel = cv::Vec4b;  ///< blue, green, red, opacity
 
 inline const Pixel kWallInk{38, 28, 22, 255};
 inline const Pixel kFreeInk{255, 255, 255, 255};
@@ -19,22 +19,23 @@ inline cv::Scalar scalar_of(const Pixel& pixel) {
           static_cast<double>(pixel[3])};
 }
 
-/// Where a scale bar stands in a picture, in pixels.
+/// Position and size of a scale bar in a picture, in pixels.
 struct ScaleBarPlace {
   int left = 0;
   int middle = 0;  ///< row of the bar's middle
-  int unit = 6;    ///< height of the bar's ends; all its measures follow it
+  int unit = 6;    ///< height of the end marks; the bar's other sizes are proportional to it
 };
 
-/// The length of a bar of about a fifth of a width: 1, 2 or 5 times a power of ten.
+/// Returns the length of the scale bar for a picture `width_m` wide with pixels of `resolution_m` metres: 1,
+/// 2 or 5 times a power of ten, at most a fifth of the width.
 double scale_bar_m(double width_m, double resolution_m);
 
-/// Draws the bar with its length, and `note` behind that.
+/// Draws the scale bar with its length, followed by `note`.
 void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, double resolution_m,
                     const std::string& note = {});
 
-/// The file's bytes; `image` has one, three or four channels. Throws SystemFailure when there is no making
-/// it.
+/// Returns `image` (one, three or four channels) as the contents of a PNG file. Throws SystemFailure if it
+/// cannot be encoded.
 std::string png_bytes(const cv::Mat& image);
 
 }  // namespace psi_slam

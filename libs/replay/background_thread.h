@@ -6,11 +6,11 @@
 
 namespace psi_slam {
 
-/// Lets this thread, and those that it will start, give way to the window's where processors are scarce: a
-/// window that is late annoys more than a map that is.
-inline void give_way() {
+/// Lowers the priority of the calling thread and of threads that it starts later, so that the window's thread
+/// runs first.
+inline void lower_thread_priority() {
   constexpr int kNiceness = 5;
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);  // Linux: of this thread alone
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);  // on Linux, affects one thread only
 }
 
 }  // namespace psi_slam

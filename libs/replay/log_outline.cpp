@@ -23,13 +23,13 @@ std::shared_ptr<const std::vector<TimeUs>> LogOutline::stamps_us() const {
 }
 
 void LogOutline::read(const SessionInput& log, const LogOptions& options) {
-  give_way();
+  lower_thread_priority();
   auto stamps_us = std::make_shared<std::vector<TimeUs>>();
   try {
     const auto source = log.open(options);
     for (std::optional<Frame> frame; !stop_ && (frame = source->next());)
       stamps_us->push_back(frame->time_us);
-  } catch (const std::exception&) {  // who maps the log meets the same, and tells it
+  } catch (const std::exception&) {  // the mapping reports the same error
   }
   {
     const std::lock_guard lock(mutex_);

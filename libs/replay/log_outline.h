@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many scans a log holds and when each was taken, found out ahead of the mapping in a thread of its own:
-// what a time slider needs.
 #pragma once
 
 #include <atomic>
@@ -9,26 +7,27 @@
 #include <thread>
 #include <vector>
 
-#include "psi_slam/time_stamp.h"
 #include "psi_slam/log_options.h"
+#include "psi_slam/time_stamp.h"
 #include "session/session_input.h"
 
 namespace psi_slam {
 
+/// Time stamps of all scans of a log, for a time slider. A thread reads them ahead of the mapping.
 class LogOutline {
  public:
   LogOutline(const SessionInput& log, const LogOptions& options);
+  /// Stops reading and waits for the thread.
   ~LogOutline();
   LogOutline(const LogOutline&) = delete;
   LogOutline& operator=(const LogOutline&) = delete;
 
-  /// Reads no further.
+  /// Tells the thread to stop reading. Does not wait for it.
   void stop() { stop_ = true; }
-  /// The thread has come to its end: the destructor will not wait.
+  /// True once the thread has ended, so that the destructor does not wait.
   bool ended() const { return ended_; }
 
-  /// The stamps of all scans that can be read, in the log's order; null until they are known. Called by any
-  /// thread.
+  /// Time stamps of all readable scans, in the log's order. Null until they are known. Any thread may call.
   std::shared_ptr<const std::vector<TimeUs>> stamps_us() const;
 
  private:
@@ -36,7 +35,7 @@ class LogOutline {
 
   std::atomic<bool> stop_{false};
   std::atomic<bool> ended_{false};
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards stamps_us_
   std::shared_ptr<const std::vector<TimeUs>> stamps_us_;
 
   std::thread thread_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When the next scan of a log is due that is replayed as fast as it was recorded, or so many times faster.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
@@ -9,21 +9,34 @@
 
 namespace psi_slam {
 
+/// Times at which the scans of a log are due when it is replayed at a multiple of its recorded speed.
 class LogPace {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Times the recording's own speed; 0: as fast as possible.
-  void set_speed(double speed);
-  double speed() const { return speed_; }
+  /// Sets the speed as a multiple of the recorded speed; 0 is as fast as possible. Also calls restart().
+  void set_speed(double speed) {
+    speed_ = speed;
+    restart();
+  }
 
-  /// Time begins anew at the next scan: after a pause, or another speed.
+  /// Makes the next scan start a new schedule. Call it after a pause.
   void restart() { last_.reset(); }
 
-  /// A scan with this stamp was shown at `now`: when the one after it may be. A gap in the log, forwards or
-  /// backwards, is waited for one second at most, and where the mapper cannot keep up, it is not hurried
-  /// afterwards to make up for more than that.
-  Clock::time_point due_after(TimeUs time_us, Clock::time_point now);
+  /// Returns when the next scan is due after a scan with time stamp `time_us` was shown at `now`. Waits at
+  /// most one second for gaps in the log and for stamps that run backwards. A mapper that is too slow catches
+  /// up at most one second later.
+  Clock::time_point due_after(TimeUs time_us, Clock::time_point now) {
+    if (speed_ <= 0) return now;
+    if (last_) {
+      const double step_s = std::clamp(seconds(time_us - last_->time_us) / speed_, 0.0, 1.0);
+      const auto step = std::chrono::round<std::chrono::microseconds>(std::chrono::duration<double>(step_s));
+      constexpr std::chrono::seconds kLongest{1};
+      now = std::clamp<Clock::time_point>(last_->due + step, now - kLongest, now + kLongest);
+    }
+    last_ = Shown{time_us, now};
+    return now;
+  }
 
  private:
   struct Shown {

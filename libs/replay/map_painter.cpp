@@ -65,7 +65,7 @@ std::shared_ptr<const DrawnMap> MapPainter::drawn() const {
 }
 
 void MapPainter::work() {
-  give_way();
+  lower_thread_priority();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stop_ || wanted_; });
@@ -77,7 +77,7 @@ void MapPainter::work() {
     std::shared_ptr<const DrawnMap> drawn;
     try {
       drawn = draw(sketch, options_);
-    } catch (const std::exception&) {  // no memory for it: the drawing before stays to be looked at
+    } catch (const std::exception&) {  // out of memory: keep the previous drawing
     }
     const auto rest = std::max<Clock::duration>(kLeastRest, kRestPerWork * (Clock::now() - start));
     lock.lock();

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws the gridmap of a run while it goes on, in a thread of its own: neither the mapper nor a window waits
-// for it.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -15,50 +13,51 @@
 #include <vector>
 
 #include "psi_slam/frame.h"
-#include "replay/shared_history.h"
 #include "psi_slam/grid_map.h"
 #include "rendering/map_image.h"
+#include "replay/shared_history.h"
 
 namespace psi_slam {
 
-/// What the gridmap is to show.
+/// Scans and poses to draw a grid map from.
 struct MapSketch {
   HistoryView<Frame> log;
-  std::vector<std::size_t> frames;               ///< of the log, those that are drawn
-  std::vector<mrpt::math::TPose2D> map_T_robot;  ///< of each
+  std::vector<std::size_t> frames;               ///< indices into `log` of the scans to draw
+  std::vector<mrpt::math::TPose2D> map_T_robot;  ///< pose of each of `frames`
 };
 
-/// A gridmap that was drawn; it never changes.
+/// Drawn grid map. It never changes.
 struct DrawnMap {
-  MapRaster raster;  ///< transparent where nothing was seen
+  MapRaster raster;  ///< transparent where no scan has been
   std::size_t scans = 0;
 };
 
+/// Draws the grid map of a run in a thread of its own, so that neither the mapper nor the window waits.
 class MapPainter {
  public:
   explicit MapPainter(const GridMapOptions& options);
-  /// Waits for a drawing under way.
+  /// Waits until the present drawing is finished.
   ~MapPainter();
   MapPainter(const MapPainter&) = delete;
   MapPainter& operator=(const MapPainter&) = delete;
 
-  /// Asks for a drawing. The newest request replaces one that waits: drawing takes a share of one processor
-  /// only, so that large maps are drawn less often.
+  /// Asks for a drawing; replaces a request that still waits. After each drawing the thread rests twice as
+  /// long as it worked, so that it uses at most a third of one processor.
   void request(MapSketch sketch);
 
-  /// No drawing is begun any more.
+  /// Makes the thread start no further drawing.
   void stop();
-  /// The thread has come to its end: the destructor will not wait.
+  /// True once the thread has ended, so that the destructor does not wait.
   bool ended() const { return ended_; }
 
-  /// The newest drawing, or null. Called by any thread.
+  /// The newest drawing, or null. Any thread may call.
   std::shared_ptr<const DrawnMap> drawn() const;
 
  private:
   void work();
 
   const GridMapOptions options_;
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members up to stop_
   std::condition_variable changed_;
   std::optional<MapSketch> wanted_;
   std::shared_ptr<const DrawnMap> drawn_;

@@ -6,8 +6,8 @@
 #include <new>
 #include <utility>
 
-#include "replay/background_thread.h"
 #include "psi_slam/user_error.h"
+#include "replay/background_thread.h"
 #include "replay/snapshot_maker.h"
 
 namespace psi_slam {
@@ -16,19 +16,23 @@ namespace {
 using Clock = LogPace::Clock;
 
 constexpr std::chrono::milliseconds kBetweenSnapshots{100};
-constexpr int kWorkPerPublishing = 20;  // snapshots cost the engine at most a twentieth of its time
+constexpr int kWorkPerPublishing = 20;  // snapshots take at most 1/20 of the engine's time
 
-/// Why `write` could not write `what`, a sentence; empty: it could.
+/// Calls `write`. Returns why it failed, as a sentence, or nothing after success.
 template <class Write>
 std::string failure_of(const Write& write, const std::string& what) {
   try {
     write();
   } catch (const std::bad_alloc&) {
-    return "there is not enough memory to write " + what;
+    return "Out of memory while writing " + what;
   } catch (const std::exception& error) {
     return error.what();
   }
   return {};
+}
+
+PsiThresholds thresholds(const Settings& settings) {
+  return {settings.mapper.back_end.psi.psi_1, settings.mapper.back_end.psi.psi_2};
 }
 
 }  // namespace
@@ -41,7 +45,7 @@ Replay::Replay(SessionInput input, const Settings& settings)
       settings_(settings),
       outline_(input_, log_options(settings)),
       painter_(settings.map),
-      maker_(std::make_unique<SnapshotMaker>(settings.mapper.psi, input_.edits().edits())),
+      maker_(std::make_unique<SnapshotMaker>(thresholds(settings), input_.edits().edits())),
       snapshot_(maker_->snapshot(phase_)),
       thread_([this] { run(); }) {}
 
@@ -50,17 +54,8 @@ Replay::~Replay() {
   thread_.join();
 }
 
-template <class Change>
-void Replay::tell(Change change) {
-  {
-    const std::lock_guard lock(mutex_);
-    change();
-  }
-  changed_.notify_all();
-}
-
 void Replay::play() {
-  tell([&] {
+  change([&] {
     playing_ = true;
     held_ = false;
     pace_.restart();
@@ -69,7 +64,7 @@ void Replay::play() {
 }
 
 void Replay::pause() {
-  tell([&] {
+  change([&] {
     playing_ = false;
     held_ = true;
     steps_ = 0;
@@ -78,7 +73,7 @@ void Replay::pause() {
 }
 
 void Replay::step() {
-  tell([&] {
+  change([&] {
     playing_ = false;
     held_ = false;
     ++steps_;
@@ -86,63 +81,44 @@ void Replay::step() {
 }
 
 void Replay::set_speed(double times) {
-  tell([&] {
+  change([&] {
     pace_.set_speed(times);
     due_ = Clock::now();
   });
 }
 
 void Replay::hurry_to(std::size_t scans) {
-  tell([&] {
+  change([&] {
     held_ = false;
     hurry_to_ = scans;
   });
 }
 
 void Replay::finish() {
-  tell([&] {
+  change([&] {
     held_ = false;
     finish_ = true;
   });
 }
 
-void Replay::cut_final_search() {
-  tell([&] {
-    cut_final_search_ = true;
-    stop_final_search_ = true;
-  });
-}
-
-void Replay::edit(const LoopEdit& edit) {
-  wish({EditKind::kEdit, edit});
-}
-
-void Replay::undo() {
-  wish({EditKind::kUndo});
-}
-
-void Replay::redo() {
-  wish({EditKind::kRedo});
-}
-
-void Replay::wish(const EditWish& edit) {
+void Replay::request(const EditRequest& edit) {
   ++edits_asked_;
-  tell([&] {
-    edit_wishes_.push_back(edit);
+  change([&] {
+    edit_requests_.push_back(edit);
     stop_final_search_ = true;
   });
 }
 
 void Replay::export_to(std::filesystem::path folder, bool replace) {
-  tell([&] { export_ = ExportWish{std::move(folder), replace}; });
+  change([&] { export_ = ExportRequest{std::move(folder), replace}; });
 }
 
 void Replay::save_session(std::filesystem::path file) {
-  tell([&] { save_ = std::move(file); });
+  change([&] { save_ = std::move(file); });
 }
 
 void Replay::close() {
-  tell([&] {
+  change([&] {
     close_ = true;
     stop_final_search_ = true;
   });
@@ -156,15 +132,15 @@ std::shared_ptr<const ReplaySnapshot> Replay::snapshot() const {
 }
 
 void Replay::run() noexcept {
-  give_way();
+  lower_thread_priority();
   try {
     work();
   } catch (const std::bad_alloc&) {
-    fail("there is not enough memory");
+    fail("Out of memory: the run has stopped");
   } catch (const std::exception& error) {
     fail(error.what());
   }
-  refuse_wishes();
+  refuse_requests();
   ended_ = true;
 }
 
@@ -181,23 +157,17 @@ void Replay::work() {
 
 void Replay::finish_map(MappingSession& session) {
   phase_ = ReplayPhase::kFinalSearch;
-  publish();  // all scans, as long as the mapper can be followed
-  {
-    const std::lock_guard lock(mutex_);
-    stop_final_search_ = close_ || cut_final_search_ || !edit_wishes_.empty();
-  }
+  publish();  // all scans, while the mapper can still be followed
+  locked([&] { stop_final_search_ = close_ || cut_final_search_ || !edit_requests_.empty(); });
   session.finish(stop_final_search_);
   session_ = nullptr;
-  {
-    const std::lock_guard lock(mutex_);
-    final_search_stopped_ = stop_final_search_ && !cut_final_search_ && !close_;
-  }
-  maker_->note_warnings(session.warnings());
+  locked([&] { final_search_stopped_ = stop_final_search_ && !cut_final_search_ && !close_; });
+  maker_->now.warnings = session.warnings();
   maker_->take(session.result());
   painter_.request(maker_->sketch());
 }
 
-/// Until the end of the log, or until told to; false when told to close.
+/// Maps until the end of the log or finish(). Returns false after close().
 bool Replay::map_scans(MappingSession& session) {
   while (true) {
     const Turn turn = next_turn();
@@ -239,27 +209,20 @@ Replay::Turn Replay::next_turn() {
     }
     if (phase_ != ReplayPhase::kPaused || stale_) {
       phase_ = ReplayPhase::kPaused;
-      lock.unlock();
-      publish();
-      lock.lock();
+      publish_unlocked(lock);
       continue;
     }
     changed_.wait(lock);
   }
 }
 
-/// Shows meanwhile what has not been shown.
+/// Waits until a scan is due or something changes. Publishes a snapshot while it waits, if one is pending.
 void Replay::wait_for_due_scan(std::unique_lock<std::mutex>& lock) {
-  if (stale_ && Clock::now() >= next_publication()) {
-    lock.unlock();
-    publish();
-    lock.lock();
-    return;
-  }
+  if (stale_ && Clock::now() >= next_publication()) return publish_unlocked(lock);
   changed_.wait_until(lock, stale_ ? std::min(due_, next_publication()) : due_);
 }
 
-/// Exports and edits; true when the map is to be finished again, false when told to close.
+/// Serves exports, saves and edits. Returns true if the map must be finished again, false after close().
 bool Replay::serve_finished(MappingSession& session) {
   while (true) {
     const Turn turn = next_turn_when_finished();
@@ -277,32 +240,28 @@ Replay::Turn Replay::next_turn_when_finished() {
   if (!urgent_turn()) {
     held_ = false;
     phase_ = ReplayPhase::kFinished;
-    lock.unlock();
-    publish();
-    lock.lock();
+    publish_unlocked(lock);
   }
   changed_.wait(lock, [this] { return urgent_turn() || export_; });
   return urgent_turn().value_or(Turn::kExport);
 }
 
-/// What comes before anything else, in this order.
+/// Requests that go before all others, the most urgent first.
 std::optional<Replay::Turn> Replay::urgent_turn() const {
   if (close_) return Turn::kClose;
-  if (!edit_wishes_.empty()) return Turn::kEdit;
+  if (!edit_requests_.empty()) return Turn::kEdit;
   if (save_) return Turn::kSave;
   return std::nullopt;
 }
 
 void Replay::serve_edits(MappingSession& session) {
-  std::vector<EditWish> wishes;
-  {
-    const std::lock_guard lock(mutex_);
-    wishes.swap(edit_wishes_);
+  const std::vector<EditRequest> requests = locked([&] {
     cut_final_search_ = false;
-  }
-  for (const EditWish& wish : wishes) make_edit(session, wish);
-  maker_->note_served(static_cast<int>(wishes.size()));
-  if (session.finished()) {  // nothing was changed
+    return std::exchange(edit_requests_, {});
+  });
+  for (const EditRequest& request : requests) make_edit(session, request);
+  maker_->now.edits_served += static_cast<int>(requests.size());
+  if (session.finished()) {  // no edit was possible
     if (!final_search_stopped_) return;
     session.reopen();
   }
@@ -313,13 +272,13 @@ void Replay::serve_edits(MappingSession& session) {
   publish();
 }
 
-void Replay::make_edit(MappingSession& session, const EditWish& wish) {
-  EditHistory::Reversal wanted{wish.edit, {}};
-  if (wish.kind == EditKind::kUndo) {
+void Replay::make_edit(MappingSession& session, const EditRequest& request) {
+  EditHistory::Reversal wanted{request.edit, {}};
+  if (request.kind == EditKind::kUndo) {
     auto back = edit_history_.undo();
     if (!back) return;
     wanted = *std::move(back);
-  } else if (wish.kind == EditKind::kRedo) {
+  } else if (request.kind == EditKind::kRedo) {
     const auto again = edit_history_.redo();
     if (!again) return;
     wanted.edit = *again;
@@ -329,44 +288,36 @@ void Replay::make_edit(MappingSession& session, const EditWish& wish) {
   const LoopEditOutcome outcome = session.edit(wanted.edit);
   session.plan(wanted.later);
   const bool made = outcome.state != LoopEditOutcome::State::kImpossible;
-  if (made && wish.kind == EditKind::kEdit) edit_history_.note(wanted.edit, before, std::move(later));
-  maker_->note_edited({++edits_made_, wanted.edit, outcome});
+  if (made && request.kind == EditKind::kEdit) edit_history_.note(wanted.edit, before, std::move(later));
+  maker_->now.edited = EditOutcome{++edits_made_, wanted.edit, outcome};
 }
 
 void Replay::save_once(const MappingSession& session) {
-  SaveOutcome outcome{++saves_, {}, "", "", {}};
-  {
-    const std::lock_guard lock(mutex_);
-    outcome.file = std::exchange(save_, std::nullopt).value();
-  }
+  WriteOutcome outcome{++saves_, {}, "", "", {}};
+  outcome.path = locked([&] { return std::exchange(save_, std::nullopt).value(); });
   SavedSession saved;
-  outcome.failure = failure_of([&] { saved = session.save(outcome.file); }, "the session");
+  outcome.failure = failure_of([&] { saved = session.save(outcome.path); }, "the session");
   outcome.remark = saved.remark;
   outcome.written.scans = saved.scans;
   maker_->note_save(std::move(outcome));
 }
 
 void Replay::export_once(MappingSession& session) {
-  ExportWish wish;
-  {
-    const std::lock_guard lock(mutex_);
-    wish = std::exchange(export_, std::nullopt).value();
-  }
+  const ExportRequest request = locked([&] { return std::exchange(export_, std::nullopt).value(); });
   phase_ = ReplayPhase::kExporting;
   publish();
-  ExportOutcome outcome{++exports_, wish.folder, "", {}};
-  outcome.failure =
-      failure_of([&] { session.export_to(OutputFolder::prepare(wish.folder, wish.replace)); }, "the results");
+  WriteOutcome outcome{++exports_, request.folder, "", "", {}};
+  outcome.failure = failure_of(
+      [&] { session.export_to(OutputFolder::prepare(request.folder, request.replace)); }, "the results");
   maker_->note_export(std::move(outcome));
 }
 
 void Replay::observe(const SessionProgress& progress) {
-  maker_->note_progress(progress);
+  maker_->now.progress = progress;
   if (progress.phase == SessionProgress::Phase::kMapping) {
     maker_->note_scan(progress.share);
     stale_ = true;
-    const std::lock_guard lock(mutex_);
-    scans_ = progress.scans;
+    locked([&] { scans_ = progress.scans; });
   } else if (session_ != nullptr) {
     maker_->follow_local_maps(session_->mapper());
   }
@@ -374,18 +325,16 @@ void Replay::observe(const SessionProgress& progress) {
   if (progress.phase == SessionProgress::Phase::kFinalSearch) hold_final_search();
 }
 
-/// As long as it is paused.
+/// Waits while the final loop search is paused.
 void Replay::hold_final_search() {
-  const auto goes_on = [this] { return !held_ || stop_final_search_; };
+  const auto continues = [this] { return !held_ || stop_final_search_; };
   std::unique_lock lock(mutex_);
-  if (goes_on()) return;
+  if (continues()) return;
+  maker_->now.final_search_held = true;
+  publish_unlocked(lock);
+  changed_.wait(lock, continues);
   lock.unlock();
-  maker_->note_held(true);
-  publish();
-  lock.lock();
-  changed_.wait(lock, goes_on);
-  lock.unlock();
-  maker_->note_held(false);
+  maker_->now.final_search_held = false;
   publish();
 }
 
@@ -399,38 +348,45 @@ void Replay::publish() {
     maker_->follow(session_->mapper(), phase_ == ReplayPhase::kPaused
                                            ? SnapshotMaker::ActiveMaps::kAtOnce
                                            : SnapshotMaker::ActiveMaps::kNowAndThen);
-    maker_->note_warnings(session_->warnings());
+    maker_->now.warnings = session_->warnings();
     if (stale_) painter_.request(maker_->sketch());
   }
-  auto snapshot = maker_->snapshot(phase_);
-  {
-    const std::lock_guard lock(snapshot_mutex_);
-    snapshot_ = std::move(snapshot);
-  }
+  publish_as_it_is();
   stale_ = false;
   published_at_ = Clock::now();
   publishing_took_ = published_at_ - start;
 }
 
-/// What was asked for and can no longer be done, is told.
-void Replay::refuse_wishes() {
+void Replay::publish_unlocked(std::unique_lock<std::mutex>& lock) {
+  lock.unlock();
+  publish();
+  lock.lock();
+}
+
+/// Publishes a snapshot without copying anything from the mapper.
+void Replay::publish_as_it_is() {
+  auto snapshot = maker_->snapshot(phase_);
+  const std::lock_guard lock(snapshot_mutex_);
+  snapshot_ = std::move(snapshot);
+}
+
+/// Reports the requests that were never served, after the end of the run.
+void Replay::refuse_requests() {
   session_ = nullptr;
   const std::lock_guard lock(mutex_);
-  const auto words = [](const std::filesystem::path& path) {
-    return path.string() + " was not written: the run ended before it could be";
+  const auto refusal = [](int number, const std::filesystem::path& path) {
+    return WriteOutcome{number, path, path.string() + " was not written: the run ended first", "", {}};
   };
-  if (save_) maker_->note_save({++saves_, *save_, words(*save_), "", {}});
-  if (export_) maker_->note_export({++exports_, export_->folder, words(export_->folder), {}});
-  const std::lock_guard snapshot_lock(snapshot_mutex_);
-  snapshot_ = maker_->snapshot(phase_);
+  if (save_) maker_->note_save(refusal(++saves_, *save_));
+  if (export_) maker_->note_export(refusal(++exports_, export_->folder));
+  publish_as_it_is();
 }
 
 void Replay::fail(const std::string& sentence) {
   session_ = nullptr;
   phase_ = ReplayPhase::kFailed;
-  maker_->note_failure(sentence);
-  const std::lock_guard lock(snapshot_mutex_);
-  snapshot_ = maker_->snapshot(phase_);
+  maker_->now.failure = sentence;
+  publish_as_it_is();
 }
 
 }  // namespace psi_slam

@@ -1,15 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mapping run that can be watched: a MappingSession in a thread of its own, which is told to play, pause or
-// step, and publishes snapshots of what it does.
-//
-//     Replay replay("my.log", settings);      // opens in its thread, and waits
-//     replay.set_speed(5);
-//     replay.play();
-//     view.show(*replay.snapshot());          // now and then
-//     replay.export_to("out", false);         // once it is finished
-//
-// All functions may be called by any thread and return at once; what they ask for shows in later snapshots.
-// The results are those of the headless program to the last bit, however the run was played.
 #pragma once
 
 #include <atomic>
@@ -36,81 +25,103 @@ namespace psi_slam {
 
 class SnapshotMaker;
 
+/// A mapping run that can be watched: a MappingSession in a thread of its own that can play, pause and step,
+/// and that publishes snapshots.
+///
+///     Replay replay("my.log", settings);      // opens the log in its thread and waits
+///     replay.set_speed(5);
+///     replay.play();
+///     view.show(*replay.snapshot());          // repeatedly
+///     replay.export_to("out", false);         // after the run has finished
+///
+/// Any thread may call any function. All functions return at once; their effects appear in later snapshots.
+/// The results equal those of psi-slam bit by bit, whatever was paused or stepped.
 class Replay {
  public:
-  /// `edits` are made on the way, each at its time.
+  /// Makes each of `edits` at its own time.
   Replay(const std::filesystem::path& log, const Settings& settings, EditJournal edits = {});
-  /// The same of a recording, see SessionInput.
+  /// Replays a log or a recording with its edits.
   Replay(SessionInput input, const Settings& settings);
-  /// Closes, and waits for it.
+  /// Calls close() and waits for the threads.
   ~Replay();
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 
   const SessionInput& input() const { return input_; }
-  /// That is read; empty where a recording is all there is.
+  /// Path of the log that is read; empty if the input is only a recording.
   const std::filesystem::path& log() const { return input_.log(); }
   const Settings& settings() const { return settings_; }
 
-  /// Maps scan after scan, at the speed set. At the end of the log the last pass follows by itself.
+  /// Maps scan after scan at the given speed. The final loop search follows after the last scan.
   void play();
-  /// Between two scans, or in the midst of the last pass: see ReplaySnapshot::final_search_held.
+  /// Pauses after the present scan, or within the final loop search (see ReplaySnapshot::final_search_held).
   void pause();
-  /// Maps one more scan, and pauses. (The last pass has no steps.)
+  /// Maps one more scan and pauses. Not for the final loop search, which has no steps.
   void step();
-  /// Times the speed of the recording; 0: as fast as possible. It is 1 at first.
+  /// Sets the speed as a multiple of the recorded speed; 0 is as fast as possible. Initially 1.
   void set_speed(double times);
-  /// Goes on as fast as possible until so many scans were mapped, and then as before.
+  /// Maps as fast as possible until `scans` scans are mapped, then continues as before.
   void hurry_to(std::size_t scans);
-  /// Reads no further: the last pass follows, and the map is of the scans mapped until then.
+  /// Stops reading the log. The final loop search follows, with the scans mapped so far.
   void finish();
-  /// The last pass ends where it is.
-  void cut_final_search();
+  /// Stops the final loop search before its end.
+  void cut_final_search() {
+    change([&] { stop_final_search_ = cut_final_search_ = true; });
+  }
 
-  /// Changes a loop by hand, between two scans or after the last one: then the last pass follows again. What
-  /// became of it is ReplaySnapshot::edited.
-  void edit(const LoopEdit& edit);
-  /// The edits made here, not those that it began with.
-  void undo();
-  void redo();
-  /// Of these three; ReplaySnapshot::edits_served tells how many have been seen to.
+  /// Changes a loop by hand, between two scans or after the last scan; in that case the final loop search is
+  /// repeated. ReplaySnapshot::edited has the outcome.
+  void edit(const LoopEdit& edit) { request({EditKind::kEdit, edit}); }
+  /// Undo and redo edits made by edit(), not those given to the constructor.
+  void undo() { request({EditKind::kUndo}); }
+  void redo() { request({EditKind::kRedo}); }
+  /// Number of calls of edit(), undo() and redo(). ReplaySnapshot::edits_served counts those with an outcome.
   int edits_asked() const { return edits_asked_; }
 
-  /// Writes all results once the run is finished; a request before waits for that. See
-  /// ReplaySnapshot::exported.
+  /// Writes all results; before the run is finished, the request waits. With `replace`, results in the folder
+  /// are replaced. ReplaySnapshot::exported has the outcome.
   void export_to(std::filesystem::path folder, bool replace);
 
-  /// Writes what was mapped until now as a session file, which is replaced: between two scans, or once the
-  /// last pass has ended. See ReplaySnapshot::saved.
+  /// Writes the scans mapped so far to a session file and replaces an existing one. Happens between two scans
+  /// or after the final loop search. ReplaySnapshot::saved has the outcome.
   void save_session(std::filesystem::path file);
 
-  /// Ends the threads as soon as may be, mapping or not; an export under way is written to its end.
+  /// Ends the threads as soon as possible, but completes an export that has begun. Does not wait.
   void close();
-  /// All threads have come to their ends: the destructor will not wait.
+  /// True once all threads have ended, so that the destructor does not wait.
   bool ended() const { return ended_ && outline_.ended() && painter_.ended(); }
 
-  /// Never null.
+  /// The newest snapshot; never null.
   std::shared_ptr<const ReplaySnapshot> snapshot() const;
-  /// The gridmap as it was drawn last, or null.
+  /// The newest drawing of the grid map, or null.
   std::shared_ptr<const DrawnMap> drawn_map() const { return painter_.drawn(); }
-  /// When each scan of the whole log was taken, or null as long as that is not known.
+  /// Time stamps of all scans of the log, or null until they are known.
   std::shared_ptr<const std::vector<TimeUs>> stamps_us() const { return outline_.stamps_us(); }
 
  private:
   enum class Turn { kStep, kEdit, kSave, kExport, kFinish, kClose };
   enum class EditKind { kEdit, kUndo, kRedo };
-  struct EditWish {
+  struct EditRequest {
     EditKind kind = EditKind::kEdit;
     LoopEdit edit{};
   };
-  struct ExportWish {
+  struct ExportRequest {
     std::filesystem::path folder;
     bool replace = false;
   };
 
-  /// Changes what is wished for, and wakes the engine's thread.
+  /// Changes requests under the lock and wakes the engine's thread.
   template <class Change>
-  void tell(Change change);
+  void change(const Change& make_change) {
+    locked(make_change);
+    changed_.notify_all();
+  }
+  template <class Action>
+  auto locked(const Action& action) {
+    const std::lock_guard lock(mutex_);
+    return action();
+  }
+  void request(const EditRequest& edit);
   void run() noexcept;
   void work();
   bool map_scans(MappingSession& session);
@@ -120,31 +131,32 @@ class Replay {
   void wait_for_due_scan(std::unique_lock<std::mutex>& lock);
   void finish_map(MappingSession& session);
   bool serve_finished(MappingSession& session);
-  void wish(const EditWish& edit);
   void serve_edits(MappingSession& session);
-  void make_edit(MappingSession& session, const EditWish& wish);
+  void make_edit(MappingSession& session, const EditRequest& request);
   void save_once(const MappingSession& session);
   void export_once(MappingSession& session);
   void observe(const SessionProgress& progress);
   void hold_final_search();
   void publish();
+  void publish_unlocked(std::unique_lock<std::mutex>& lock);
+  void publish_as_it_is();
   LogPace::Clock::time_point next_publication() const;
   void fail(const std::string& sentence);
-  void refuse_wishes();
+  void refuse_requests();
 
   const SessionInput input_;
   const Settings settings_;
   LogOutline outline_;
   MapPainter painter_;
 
-  // The engine's thread only.
+  // Used by the engine's thread only.
   std::unique_ptr<SnapshotMaker> maker_;
   EditHistory edit_history_;
   int edits_made_ = 0;
-  bool final_search_stopped_ = false;     // for edits, and is to be begun anew
+  bool final_search_stopped_ = false;  // for edits, so that it must be repeated
   MappingSession* session_ = nullptr;  // while its mapper can be followed
   ReplayPhase phase_ = ReplayPhase::kOpening;
-  bool stale_ = false;  // something happened since the last snapshot
+  bool stale_ = false;  // the last snapshot is out of date
   LogPace::Clock::time_point published_at_;
   LogPace::Clock::duration publishing_took_{};
   int exports_ = 0;
@@ -153,23 +165,23 @@ class Replay {
   mutable std::mutex snapshot_mutex_;
   std::shared_ptr<const ReplaySnapshot> snapshot_;
 
-  std::mutex mutex_;  // of what is wished for
+  std::mutex mutex_;  // guards the requests, up to scans_
   std::condition_variable changed_;
   bool playing_ = false;
-  bool held_ = false;  // the last pass, if it is on
+  bool held_ = false;  // the final loop search is paused
   std::size_t steps_ = 0;
-  std::size_t hurry_to_ = 0;  // scans
+  std::size_t hurry_to_ = 0;  // number of scans
   LogPace pace_;
-  LogPace::Clock::time_point due_;  // the next scan, when playing
+  LogPace::Clock::time_point due_;  // of the next scan, while playing
   bool finish_ = false;
   bool close_ = false;
   bool cut_final_search_ = false;
-  std::vector<EditWish> edit_wishes_;
-  std::optional<ExportWish> export_;
+  std::vector<EditRequest> edit_requests_;
+  std::optional<ExportRequest> export_;
   std::optional<std::filesystem::path> save_;
-  std::size_t scans_ = 0;  // mapped
+  std::size_t scans_ = 0;  // mapped so far
 
-  std::atomic<bool> stop_final_search_{false};  // cut, or to be begun anew
+  std::atomic<bool> stop_final_search_{false};  // to end the final loop search, or to repeat it after edits
   std::atomic<int> edits_asked_{0};
   std::atomic<bool> ended_{false};
   std::thread thread_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run looks like at one moment, for views: plain values that never change once they are published.
+// State of a run at one moment, for views: plain values that never change once they are published.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -12,98 +12,96 @@
 #include <string>
 #include <vector>
 
-#include "psi_slam/frame.h"
-#include "loop_closure/keyframe_store.h"
-#include "psi_slam/mapping_result.h"
-#include "replay/shared_history.h"
 #include "exports/run_summary.h"
+#include "loop_closure/keyframe_store.h"
+#include "psi_slam/frame.h"
+#include "psi_slam/mapping_result.h"
 #include "psi_slam/mapping_session.h"
+#include "session/edit_journal.h"
+#include "replay/shared_history.h"
 
 namespace psi_slam {
 
 enum class ReplayPhase {
   kOpening,
-  kPaused,    ///< waits to be told to go on
-  kPlaying,   ///< maps scans
-  kFinalSearch,  ///< the last search for loops
-  kFinished,  ///< the map is ready to be exported
+  kPaused,       ///< waits for Replay::play()
+  kPlaying,      ///< maps scans
+  kFinalSearch,  ///< the final loop search
+  kFinished,     ///< the map is ready for export
   kExporting,
-  kFailed,  ///< see ReplaySnapshot::failure; nothing goes on from here
+  kFailed,  ///< see ReplaySnapshot::failure; the run has ended
 };
 
-/// A local map that scans are inserted into at the moment, as it is.
+/// Copy of a local map that scans are still inserted into.
 struct ActiveLocalMap {
   std::size_t id = 0;
-  std::size_t anchor = 0;  ///< the node whose pose is its frame
+  std::size_t anchor = 0;  ///< the node whose pose is the local map's frame
   std::shared_ptr<const mrpt::maps::COccupancyGridMap2D> occupancy;
 };
 
-/// What of a run is in files.
+/// The part of a run that has been written to files.
 struct WrittenWork {
   std::size_t scans = 0;
   std::shared_ptr<const std::vector<TimedEdit>> edits = std::make_shared<std::vector<TimedEdit>>();
 };
 
-/// What became of the last export.
-struct ExportOutcome {
-  int number = 0;  ///< they count from 1
-  std::filesystem::path folder;
-  std::string failure;  ///< a sentence; empty: all was written
+/// Outcome of an export or of saving a session.
+struct WriteOutcome {
+  int number = 0;              ///< counts exports, or saved sessions, from 1
+  std::filesystem::path path;  ///< the folder of an export, the file of a session
+  std::string failure;         ///< a sentence; empty after success
+  std::string remark;          ///< what a session file lacks; empty if it is complete
   WrittenWork written{};
 };
 
-/// What became of the last session file that was asked for.
-struct SaveOutcome {
-  int number = 0;  ///< they count from 1
-  std::filesystem::path file;
-  std::string failure;  ///< a sentence; empty: it was written
-  std::string remark;   ///< what the file lacks; empty: nothing
-  WrittenWork written{};
-};
-
-/// What became of the last edit.
+/// Outcome of an edit.
 struct EditOutcome {
-  int number = 0;  ///< they count from 1
+  int number = 0;  ///< counts edits from 1
   LoopEdit edit;
   LoopEditOutcome outcome;
 };
 
 struct ReplaySnapshot {
   ReplayPhase phase = ReplayPhase::kOpening;
-  bool final_search_held = false;  ///< in the last pass: it waits to be told to play, to be cut or to close
+  bool final_search_held = false;  ///< the final loop search is paused
   SessionProgress progress;
-  std::string failure;                ///< a sentence, where the phase is kFailed
-  std::vector<std::string> warnings;  ///< what is wrong with the log, a sentence each
+  std::string failure;                ///< a sentence, if the phase is kFailed
+  std::vector<std::string> warnings;  ///< problems of the log, a sentence each
 
   HistoryView<Frame> log;  ///< the scans mapped so far
   HistoryView<FrameRecord> frames;
-  std::vector<std::size_t> later_run_frames;  ///< the first frame of each drive behind the first
-  HistoryView<double> shares;             ///< of the log that had been read with each of them, in [0, 1]
+  std::vector<std::size_t> later_run_frames;  ///< the first frame of each run except the first run
+  HistoryView<double> shares;                 ///< share of the log read at each scan, in [0, 1]
   HistoryView<NodeScan> nodes;
-  /// Finished ones, by number; of what they hold there are the nodes' points. (The engine packs and unpacks
-  /// the maps themselves: nobody else may look at them.)
+  /// Finished local maps by number. Only their nodes' points are available: the engine packs and unpacks the
+  /// grids, so no other thread may read them.
   HistoryView<LocalMapRecord> local_maps;
   std::vector<ActiveLocalMap> active_local_maps;
   mrpt::math::TPose2D map_T_robot;
 
-  /// Of the graph as it was optimised last; never null.
+  /// Pose of each node after the last optimisation of the graph; never null.
   std::shared_ptr<const std::vector<mrpt::math::TPose2D>> map_T_node =
       std::make_shared<std::vector<mrpt::math::TPose2D>>();
-  /// Never null. Views may tell by the pointer whether anything has changed.
+  /// Never null. Another pointer than before means that the loops have changed.
   std::shared_ptr<const std::vector<LoopRecord>> loops = std::make_shared<std::vector<LoopRecord>>();
 
-  /// Those made and those to come, as they were taken up last; never null.
+  /// Edits made so far and planned for later; never null.
   std::shared_ptr<const std::vector<TimedEdit>> edits = std::make_shared<std::vector<TimedEdit>>();
-  std::optional<EditOutcome> edited;  ///< the last that was asked for
-  int edits_served = 0;               ///< of Replay::edits_asked()
-  std::string undo_text;              ///< what Replay::undo() would take back; empty: nothing
-  std::string redo_text;
+  std::optional<EditOutcome> edited;  ///< outcome of the last edit
+  int edits_served = 0;               ///< how many of Replay::edits_asked() have an outcome
+  std::string undo_text;              ///< what Replay::undo() would take back; empty if nothing
+  std::string redo_text;              ///< what Replay::redo() would make again; empty if nothing
 
-  PsiOptions psi;
+  PsiThresholds psi;
   std::vector<StageTiming> stages;  ///< once finished
-  bool interrupted = false;         ///< once finished: not all of the log was mapped, or its last pass cut
-  std::optional<ExportOutcome> exported;  ///< the last export that has ended
-  std::optional<SaveOutcome> saved;       ///< the last session file
+  bool interrupted =
+      false;  ///< once finished: scans are left unmapped, or the final loop search was cut short
+  std::optional<WriteOutcome> exported;  ///< outcome of the last export
+  std::optional<WriteOutcome> saved;     ///< outcome of the last saved session
 };
+
+/// Pose of the robot at a scan in the present map. Once the run is finished it is the result's pose; before,
+/// it is the pose of the last node up to the scan, moved by the front end's motion since that node.
+mrpt::math::TPose2D map_T_frame(const ReplaySnapshot& snapshot, std::size_t frame);
 
 }  // namespace psi_slam

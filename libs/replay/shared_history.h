@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A list that one thread appends to while others read what was there when they were given a view of it:
-// nothing is copied but the list of its blocks. How a view comes from the one thread to the others is theirs
-// to synchronise.
 #pragma once
 
 #include <array>
@@ -14,7 +11,7 @@ namespace psi_slam {
 
 inline constexpr std::size_t kHistoryBlock = 512;
 
-/// The entries of a SharedHistory at one moment; they live as long as any view of them.
+/// The entries of a SharedHistory at one moment. They live as long as any view of them.
 template <class T>
 class HistoryView {
  public:
@@ -36,6 +33,8 @@ class HistoryView {
   std::size_t size_ = 0;
 };
 
+/// List that one thread appends to while other threads read views of its earlier entries. A view copies only
+/// the list of blocks. The threads must synchronise how they pass a view on.
 template <class T>
 class SharedHistory {
  public:

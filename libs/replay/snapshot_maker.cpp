@@ -10,7 +10,7 @@ namespace {
 constexpr std::chrono::milliseconds kBetweenActiveMaps{400};
 
 template <class T>
-void catch_up(SharedHistory<T>& history, const std::vector<T>& all) {
+void append_new(SharedHistory<T>& history, const std::vector<T>& all) {
   while (history.size() < all.size()) history.push_back(all[history.size()]);
 }
 
@@ -20,63 +20,63 @@ bool same_poses(const std::vector<mrpt::math::TPose2D>& a, const std::vector<mrp
 
 }  // namespace
 
-SnapshotMaker::SnapshotMaker(const PsiOptions& psi, const std::vector<TimedEdit>& edits) {
-  now_.psi = psi;
-  now_.edits = std::make_shared<std::vector<TimedEdit>>(edits);
+SnapshotMaker::SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits) {
+  now.psi = psi;
+  now.edits = std::make_shared<std::vector<TimedEdit>>(edits);
 }
 
-void SnapshotMaker::note_save(SaveOutcome outcome) {
-  outcome.written.edits = now_.edits;
-  now_.saved = std::move(outcome);
+void SnapshotMaker::note_save(WriteOutcome outcome) {
+  outcome.written.edits = now.edits;
+  now.saved = std::move(outcome);
 }
 
-void SnapshotMaker::note_export(ExportOutcome outcome) {
-  outcome.written = {shares_.size(), now_.edits};
-  now_.exported = std::move(outcome);
+void SnapshotMaker::note_export(WriteOutcome outcome) {
+  outcome.written = {shares_.size(), now.edits};
+  now.exported = std::move(outcome);
 }
 
 void SnapshotMaker::follow(const Mapper& mapper, ActiveMaps active) {
-  catch_up(log_, mapper.log());
-  catch_up(frames_, mapper.frames());
-  now_.later_run_frames = mapper.later_run_frames();
-  catch_up(nodes_, mapper.memory().nodes);
+  append_new(log_, mapper.log());
+  append_new(frames_, mapper.frames());
+  now.later_run_frames = mapper.later_run_frames();
+  append_new(nodes_, mapper.keyframes().nodes);
   follow_local_maps(mapper);
-  now_.map_T_robot = mapper.map_T_robot();
-  if (!same_poses(*now_.map_T_node, mapper.graph().poses()))
-    now_.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(mapper.graph().poses());
-  // While scans are mapped, a loop's verdict changes only when another loop comes.
-  const bool verdicts_may_change = now_.progress.phase != SessionProgress::Phase::kMapping;
+  now.map_T_robot = mapper.map_T_robot();
+  if (!same_poses(*now.map_T_node, mapper.graph().poses()))
+    now.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(mapper.graph().poses());
+  // While scans are mapped, verdicts change only when a loop is added.
+  const bool verdicts_may_change = now.progress.phase != SessionProgress::Phase::kMapping;
   if (verdicts_may_change || std::exchange(loops_changed_, false) ||
-      now_.loops->size() != mapper.loops().size())
-    now_.loops = std::make_shared<std::vector<LoopRecord>>(mapper.loops());
+      now.loops->size() != mapper.loops().size())
+    now.loops = std::make_shared<std::vector<LoopRecord>>(mapper.loops());
   copy_active(mapper, active);
 }
 
 void SnapshotMaker::note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history) {
-  now_.edits = std::make_shared<std::vector<TimedEdit>>(edits);
-  now_.undo_text = history.undo_text();
-  now_.redo_text = history.redo_text();
+  now.edits = std::make_shared<std::vector<TimedEdit>>(edits);
+  now.undo_text = history.undo_text();
+  now.redo_text = history.redo_text();
   loops_changed_ = true;
   finished_ = false;
 }
 
 void SnapshotMaker::follow_local_maps(const Mapper& mapper) {
-  const std::vector<PlacedLocalMap>& all = mapper.memory().local_maps;
+  const std::vector<PlacedLocalMap>& all = mapper.keyframes().local_maps;
   for (std::size_t i = local_maps_.size(); i < all.size(); ++i)
     local_maps_.push_back({all[i].anchor, all[i].first_node, all[i].last_node});
 }
 
 void SnapshotMaker::copy_active(const Mapper& mapper, ActiveMaps active) {
-  const auto time = std::chrono::steady_clock::now();
   if (frames_copied_active_ == frames_.size()) return;
-  const bool early = frames_copied_active_ > 0 && time - copied_active_at_ < kBetweenActiveMaps;
-  if (early && active == ActiveMaps::kNowAndThen) return;
+  const auto time = std::chrono::steady_clock::now();
+  const bool recent = frames_copied_active_ > 0 && time - copied_active_at_ < kBetweenActiveMaps;
+  if (recent && active == ActiveMaps::kNowAndThen) return;
   frames_copied_active_ = frames_.size();
   copied_active_at_ = time;
-  now_.active_local_maps.clear();
+  now.active_local_maps.clear();
   for (const PlacedLocalMap& local_map : mapper.active_local_maps())
     if (local_map.map->occupancy())
-      now_.active_local_maps.push_back(
+      now.active_local_maps.push_back(
           {local_map.id, local_map.anchor,
            std::make_shared<mrpt::maps::COccupancyGridMap2D>(*local_map.map->occupancy())});
 }
@@ -84,26 +84,26 @@ void SnapshotMaker::copy_active(const Mapper& mapper, ActiveMaps active) {
 void SnapshotMaker::take(const MappingResult& result) {
   finished_ = true;
   SharedHistory<FrameRecord> frames;
-  catch_up(frames, result.frames);
+  append_new(frames, result.frames);
   frames_ = std::move(frames);
   std::vector<mrpt::math::TPose2D> poses;
   for (const std::size_t frame : result.node_frames) poses.push_back(result.frames[frame].map_T_robot);
-  now_.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(std::move(poses));
-  now_.loops = std::make_shared<std::vector<LoopRecord>>(result.loops);
-  now_.active_local_maps.clear();
-  if (!result.frames.empty()) now_.map_T_robot = result.frames.back().map_T_robot;
-  now_.stages = result.stages;
-  now_.interrupted = result.interrupted;
+  now.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(std::move(poses));
+  now.loops = std::make_shared<std::vector<LoopRecord>>(result.loops);
+  now.active_local_maps.clear();
+  if (!result.frames.empty()) now.map_T_robot = result.frames.back().map_T_robot;
+  now.stages = result.stages;
+  now.interrupted = result.interrupted;
 }
 
 std::shared_ptr<const ReplaySnapshot> SnapshotMaker::snapshot(ReplayPhase phase) {
-  now_.phase = phase;
-  now_.log = log_.view();
-  now_.frames = frames_.view();
-  now_.shares = shares_.view();
-  now_.nodes = nodes_.view();
-  now_.local_maps = local_maps_.view();
-  return std::make_shared<ReplaySnapshot>(now_);
+  now.phase = phase;
+  now.log = log_.view();
+  now.frames = frames_.view();
+  now.shares = shares_.view();
+  now.nodes = nodes_.view();
+  now.local_maps = local_maps_.view();
+  return std::make_shared<ReplaySnapshot>(now);
 }
 
 MapSketch SnapshotMaker::sketch() const {
@@ -118,7 +118,7 @@ MapSketch SnapshotMaker::sketch() const {
   } else {
     const HistoryView<NodeScan> nodes = nodes_.view();
     for (std::size_t i = 0; i < nodes.size(); ++i) sketch.frames.push_back(nodes[i].frame);
-    sketch.map_T_robot = *now_.map_T_node;
+    sketch.map_T_robot = *now.map_T_node;
   }
   return sketch;
 }

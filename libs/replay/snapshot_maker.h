@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Follows a session in the engine's thread and makes snapshots of it, copying only what is new.
 #pragma once
 
 #include <chrono>
@@ -14,44 +13,41 @@
 
 namespace psi_slam {
 
+/// Makes snapshots of a session in the engine's thread. Copies only what has changed since the last snapshot.
 class SnapshotMaker {
  public:
-  /// `edits` are those that the run begins with.
-  SnapshotMaker(const PsiOptions& psi, const std::vector<TimedEdit>& edits);
+  /// `edits` are planned before the run starts.
+  SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits);
 
-  /// A scan was mapped, with this much of the log read.
+  /// The next snapshot. The caller may set all members except the histories and those that note_written(),
+  /// note_edits(), follow() and take() set.
+  ReplaySnapshot now;
+
+  /// Notes that a scan was mapped, at this share of the log.
   void note_scan(double share) { shares_.push_back(share); }
-  void note_progress(const SessionProgress& progress) { now_.progress = progress; }
-  void note_warnings(std::vector<std::string> sentences) { now_.warnings = std::move(sentences); }
-  /// What was edited until now was written, or not; an export holds all scans, too.
-  void note_save(SaveOutcome outcome);
-  void note_export(ExportOutcome outcome);
-  void note_held(bool held) { now_.final_search_held = held; }
-  /// Loops, poses and edits are others now.
+  /// Note the outcome of an export, which contains all scans, or of saving a session.
+  void note_export(WriteOutcome outcome);
+  void note_save(WriteOutcome outcome);
+  /// Notes that edits have changed loops and poses.
   void note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history);
-  void note_edited(EditOutcome outcome) { now_.edited = std::move(outcome); }
-  /// So many of those asked for were made or found impossible.
-  void note_served(int edits) { now_.edits_served += edits; }
-  void note_failure(std::string sentence) { now_.failure = std::move(sentence); }
 
-  /// Takes over what is new, before the session is finished; active local maps, which cost most, at each call
-  /// or now and then.
+  /// Copies what the mapper has added, before the session is finished. Active local maps are expensive to
+  /// copy: kNowAndThen copies them at most every 400 ms.
   enum class ActiveMaps { kAtOnce, kNowAndThen };
   void follow(const Mapper& mapper, ActiveMaps active);
-  /// The last local maps end when the last pass begins.
+  /// Copies only the finished local maps. The last ones are finished when the final loop search begins.
   void follow_local_maps(const Mapper& mapper);
-  /// Takes over the result, once it is.
+  /// Copies the result of the finished session.
   void take(const MappingResult& result);
 
   std::shared_ptr<const ReplaySnapshot> snapshot(ReplayPhase phase);
 
-  /// The map as it is known: of the nodes' scans, after take() of all scans.
+  /// What to draw the present map from: the nodes' scans, or all scans after take().
   MapSketch sketch() const;
 
  private:
   void copy_active(const Mapper& mapper, ActiveMaps active);
 
-  ReplaySnapshot now_;
   SharedHistory<Frame> log_;
   SharedHistory<FrameRecord> frames_;
   SharedHistory<double> shares_;

@@ -3,36 +3,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "base/number_text.h"
 
 namespace psi_slam {
+namespace {
+
+/// Inserts a comma between thousands.
+std::string with_commas(std::string number) {
+  const std::size_t first_digit = number[0] == '-' ? 1 : 0;
+  for (std::size_t i = std::min(number.find('.'), number.size()); i > first_digit + 3;) {
+    i -= 3;
+    number.insert(i, ",");
+  }
+  return number;
+}
+
+}  // namespace
 
 std::string escape_html(std::string_view text) {
+  constexpr std::string_view kSpecial = "&<>\"'";
+  constexpr const char* kEntities[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
   std::string escaped;
   escaped.reserve(text.size());
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default: {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool control = (byte < 32 && c != '\n' && c != '\t') || byte == 127;
-        escaped += control ? '?' : c;
-      }
+    const auto byte = static_cast<unsigned char>(c);
+    const std::size_t special = kSpecial.find(c);
+    if (special != std::string_view::npos) {
+      escaped += kEntities[special];
+    } else {
+      escaped += (byte < 32 && c != '\n' && c != '\t') || byte == 127 ? '?' : c;
     }
   }
   return escaped;
@@ -52,31 +53,17 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-std::string grouped(std::int64_t number) {
-  std::string text = std::to_string(number);
-  const std::size_t first_digit = number < 0 ? 1 : 0;
-  for (std::size_t i = text.size(); i > first_digit + 3;) {
-    i -= 3;
-    text.insert(i, ",");
-  }
-  return text;
+std::string grouped(std::size_t count) {
+  return with_commas(std::to_string(count));
 }
 
 std::string grouped(double value, int decimals) {
-  if (!std::isfinite(value)) return "–";
-  std::string text = fixed_text(value, decimals);
-  const std::size_t first_digit = text[0] == '-' ? 1 : 0;
-  for (std::size_t i = std::min(text.find('.'), text.size()); i > first_digit + 3;) {
-    i -= 3;
-    text.insert(i, ",");
-  }
-  return text;
+  return std::isfinite(value) ? with_commas(fixed_text(value, decimals)) : "–";
 }
 
 std::string duration_text(double duration_s) {
   if (!std::isfinite(duration_s)) return "–";
-  if (duration_s < 10) return fixed_text(duration_s, 2) + " s";
-  if (duration_s < 100) return fixed_text(duration_s, 1) + " s";
+  if (duration_s < 100) return fixed_text(duration_s, duration_s < 10 ? 2 : 1) + " s";
   const auto whole = static_cast<std::int64_t>(std::llround(duration_s));
   if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
   return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
@@ -88,7 +75,7 @@ std::string milliseconds_text(double milliseconds) {
 }
 
 std::string counted(std::size_t count, const char* one, const char* many) {
-  return grouped(static_cast<std::int64_t>(count)) + ' ' + (count == 1 ? one : many);
+  return grouped(count) + ' ' + (count == 1 ? one : many);
 }
 
 }  // namespace psi_slam

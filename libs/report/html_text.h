@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text for pages: escaping, and numbers as a person reads them.
+// Text for HTML pages: escaping, and numbers as people read them.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace psi_slam {
 
-/// Text for HTML and XML, between tags or within quoted attributes. Control characters become '?'.
+/// Escapes text for HTML and XML, between tags or in quoted attributes. Control characters become '?'.
 std::string escape_html(std::string_view text);
 
-/// RFC 4648, with padding.
+/// Returns the bytes in base64 (RFC 4648) with padding.
 std::string base64(std::string_view bytes);
 
-/// "13,631".
-std::string grouped(std::int64_t number);
+/// Returns a count such as "13,631".
+std::string grouped(std::size_t count);
 
-/// "1,234.5"; "–" where the value is not finite.
+/// Returns a number such as "1,234.5", or "–" if it is not finite.
 std::string grouped(double value, int decimals);
 
-/// "44 min 51 s", "2 h 7 min", "8.25 s".
+/// Returns a duration such as "44 min 51 s", "2 h 7 min" or "8.25 s", or "–" if it is not finite.
 std::string duration_text(double duration_s);
 
-/// With about three digits: "0.012", "1.53", "15.1", "1,840".
+/// Returns about three digits without unit: "0.012", "1.53", "15.1", "1,840".
 std::string milliseconds_text(double milliseconds);
 
-/// "1 loop", "3 loops".
+/// Returns a count and its noun: "1 loop", "3 loops".
 std::string counted(std::size_t count, const char* one, const char* many);
 
 }  // namespace psi_slam

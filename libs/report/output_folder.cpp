@@ -8,14 +8,10 @@
 #include <vector>
 
 #include "base/atomic_file.h"
-#include "base/atomic_folder.h"
-#include "psi_slam/user_error.h"
 #include "exports/corrected_log.h"
-#include "exports/frames_csv.h"
-#include "exports/loops_csv.h"
-#include "exports/mapped_trajectory.h"
+#include "exports/csv_tables.h"
+#include "psi_slam/user_error.h"
 #include "report/report_html.h"
-#include "exports/summary_json.h"
 #include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
@@ -23,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The way to `path` must be folders: says which part of it is something else.
+/// Throws UserError if a part of the path is a file.
 void check_no_file_in_the_way(const fs::path& path) {
   std::error_code ignored;
   fs::path part;
@@ -35,16 +31,17 @@ void check_no_file_in_the_way(const fs::path& path) {
   }
 }
 
-/// Where there are several drives, a trajectory and a corrected log for each: their stamps may overlap.
-void write_drives(const fs::path& folder, const MappingResult& result) {
-  const auto file = [&](std::size_t drive, const char* kind) {
-    return folder / ("trajectory-" + std::to_string(drive) + kind);
+/// Writes a corrected log, or for several runs a trajectory and a corrected log of each, since their times
+/// may overlap. Deletes such files of older results.
+void write_runs(const fs::path& folder, const MappingResult& result) {
+  const auto file = [&](std::size_t run, const char* kind) {
+    return folder / ("trajectory-" + std::to_string(run) + kind);
   };
   const fs::path whole_log = folder / "trajectory.carmen";
   const Trajectory whole = trajectory_of(result.frames);
   const std::vector<mrpt::math::TPose2D> poses = mapped_poses(result);
   std::vector<FrameSpan> runs = runs_of(result);
-  std::error_code ignored;  // of what an older map may have left
+  std::error_code ignored;
   if (runs.size() == 1) {
     write_corrected_log(whole_log, result.log, poses);
     runs.clear();
@@ -63,18 +60,18 @@ void write_drives(const fs::path& folder, const MappingResult& result) {
 }  // namespace
 
 OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
-  if (path.empty()) throw UserError("the output folder has no name");
+  if (path.empty()) throw UserError("the name of the output folder is empty");
   check_no_file_in_the_way(path);
   std::error_code error;
   fs::create_directories(path, error);
   if (error && !fs::is_directory(path))
-    throw UserError("cannot make the output folder " + path.string() + ": " + error.message());
+    throw UserError("cannot create the output folder " + path.string() + ": " + error.message());
   remove_leftovers(path);
   const bool empty = fs::is_empty(path, error);
-  if (error) throw UserError("cannot look into the output folder " + path.string() + ": " + error.message());
+  if (error) throw UserError("cannot read the output folder " + path.string() + ": " + error.message());
   if (!empty && !force)
     throw UserError("the output folder " + path.string() +
-                    " is not empty: name a new one, or give --force to replace the results in it");
+                    " is not empty. Name a new folder, or replace the results in it with --force");
   if (::access(path.c_str(), W_OK | X_OK) != 0)
     throw UserError("cannot write to the output folder " + path.string() + ": no permission");
   return OutputFolder(path);
@@ -84,9 +81,9 @@ void export_results(const MappingResult& result, const mrpt::maps::COccupancyGri
                     const OutputFolder& folder, const MapFileOptions& map_files) {
   const auto file = [&](const char* name) { return folder.path() / name; };
   write_tum(file("trajectory.tum"), trajectory_of(result.frames));
-  write_drives(folder.path(), result);
-  write_frames_csv(file("frames.csv"), result.frames);
-  write_loops_csv(file("loops.csv"), result.loops);
+  write_runs(folder.path(), result);
+  write_text_atomically(file("frames.csv"), frames_csv(result.frames));
+  write_text_atomically(file("loops.csv"), loops_csv(result.loops));
   write_map_files(folder.path(), result, grid, map_files);
 }
 
@@ -94,13 +91,6 @@ void export_account(const MappingResult& result, const RunInfo& info, const RunS
                     const mrpt::maps::COccupancyGridMap2D& grid, const OutputFolder& folder) {
   write_text_atomically(folder.path() / "summary.json", summary_json(result, info, summary));
   write_text_atomically(folder.path() / "report.html", report_html(result, info, summary, grid));
-}
-
-std::vector<mrpt::math::TPose2D> mapped_poses(const MappingResult& result) {
-  std::vector<mrpt::math::TPose2D> poses;
-  poses.reserve(result.frames.size());
-  for (const FrameRecord& frame : result.frames) poses.push_back(frame.map_T_robot);
-  return poses;
 }
 
 }  // namespace psi_slam

@@ -1,31 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The folder of a run's results, under fixed names:
+// The folder with the results of a run, under fixed names:
 //
-//     map.*  map_print.png                  the map, in the forms that MapFileOptions names
-//     trajectory.tum  trajectory.carmen     the trajectory of all scans, and the corrected log
-//     trajectory-1.tum  trajectory-1.carmen where several drives were merged, each one's, and so on; and no
-//                                           trajectory.carmen: see write_corrected_log()
+//     map.*  map_print.png                  the map, in the formats chosen by MapFileOptions
+//     trajectory.tum                        the robot's path
+//     trajectory.carmen                     the corrected log of a single run
+//     trajectory-1.tum  trajectory-1.carmen path and corrected log of each run, if several were merged
 //     frames.csv  loops.csv  summary.json  report.html
 //
-// MappingSession adds graph.g2o, and loops.edits where loops were edited.
+// MappingSession adds graph.g2o, and loops.edits if loops were edited.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
 #include <filesystem>
+#include <utility>
 
-#include "psi_slam/mapping_result.h"
 #include "exports/map_files.h"
+#include "exports/mapped_trajectory.h"
 #include "exports/run_summary.h"
+#include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
 
-/// A folder that is ready to be written to.
+/// A folder that exists and can be written to.
 class OutputFolder {
  public:
-  /// Makes the folder, with those above it. It must be new or empty, unless `force`: then files of a run's
-  /// names will be replaced and others are left alone. Throws UserError when it holds something, is not a
-  /// folder, or cannot be made or written to. Call it before the work, so that a mistake is told at once.
+  /// Creates the folder and its parents. An existing folder must be empty unless `force` is given; `force`
+  /// replaces the files of a run and keeps all others. Throws UserError if the folder is not empty, is a
+  /// file, or cannot be created or written to. Call it before mapping, so that the user sees the error at
+  /// once.
   static OutputFolder prepare(const std::filesystem::path& path, bool force);
 
   const std::filesystem::path& path() const { return path_; }
@@ -35,18 +38,14 @@ class OutputFolder {
   std::filesystem::path path_;
 };
 
-/// Writes the maps, the trajectories and the tables, each file whole or not at all. `grid` is the map of
-/// `result` as draw_grid_map makes it. Throws SystemFailure (a sentence that names the file) when the disk
-/// does not take one.
+/// Writes the maps, trajectories and tables, each file atomically. `grid` is the map of `result` by
+/// draw_grid_map. Throws SystemFailure naming the file that cannot be written.
 void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
                     const OutputFolder& folder, const MapFileOptions& map_files = {});
 
-/// Writes summary.json and, last of all, report.html: after the rest, so that their times include the writing
-/// of it. Throws as export_results.
+/// Writes summary.json and report.html. Call it after export_results, so that their times include it. Throws
+/// SystemFailure naming the file that cannot be written.
 void export_account(const MappingResult& result, const RunInfo& info, const RunSummary& summary,
                     const mrpt::maps::COccupancyGridMap2D& grid, const OutputFolder& folder);
-
-/// Where each scan was taken in the map, in the log's order.
-std::vector<mrpt::math::TPose2D> mapped_poses(const MappingResult& result);
 
 }  // namespace psi_slam

@@ -1,51 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/report_html.h"
 
-#include "report/html_text.h"
 #include "base/number_text.h"
-#include "report/report_map.h"
-#include "report/report_plot.h"
-#include "report/report_style.h"
-#include "report/report_tables.h"
+#include "report/html_text.h"
+#include "report/report_sections.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr const char* kLogo =
-    "<svg viewBox=\"0 0 64 64\" aria-hidden=\"true\"><defs><linearGradient id=\"dusk\" x1=\"0\" y1=\"0\" "
-    "x2=\"1\" "
-    "y2=\"1\"><stop offset=\"0\" stop-color=\"#2f62eb\"/><stop offset=\".55\" stop-color=\"#8b4de6\"/><stop "
-    "offset=\"1\" stop-color=\"#e23e8c\"/></linearGradient></defs><rect width=\"64\" height=\"64\" rx=\"15\" "
-    "fill=\"url(#dusk)\"/><path d=\"M14 17c6 0 6 5 6 10 0 10 5 14 12 14s12-4 12-14c0-5 0-10 6-10M32 13v38M25 "
-    "51h14\" "
-    "fill=\"none\" stroke=\"#fff\" stroke-width=\"4.4\" stroke-linecap=\"round\"/></svg>";
-
-constexpr const char* kMapFiles =
-    "<ul class=\"files\">\n"
-    "<li><a href=\"map.png\">map.png</a> <span>the gridmap as a picture</span></li>\n"
-    "<li><a href=\"map.yaml\">map.yaml</a> <span>and map.pgm, for ROS and nav2</span></li>\n"
-    "<li><a href=\"map.gridmap.gz\">map.gridmap.gz</a> <span>the gridmap for MRPT</span></li>\n"
-    "<li><a href=\"map.simplemap.gz\">map.simplemap.gz</a> <span>nodes and scans for MRPT</span></li>\n"
-    "<li><a href=\"trajectory.tum\">trajectory.tum</a> <span>for evo</span></li>\n";
-constexpr const char* kTables =
-    "<li><a href=\"graph.g2o\">graph.g2o</a> <span>the pose graph</span></li>\n"
-    "<li><a href=\"frames.csv\">frames.csv</a> <span>a row for each scan</span></li>\n"
-    "<li><a href=\"loops.csv\">loops.csv</a> <span>a row for each loop found</span></li>\n"
-    "<li><a href=\"summary.json\">summary.json</a> <span>these figures for programs</span></li>\n"
-    "</ul>\n";
-
-/// Where several drives were merged, each has its own path and log.
 std::string files_list(std::size_t runs) {
-  const auto file = [](const std::string& name, const char* what) {
-    return "<li><a href=\"" + name + "\">" + name + "</a> <span>" + what + "</span></li>\n";
+  std::string list = "<ul class=\"files\">\n";
+  const auto add = [&](const std::string& name, const std::string& what) {
+    list += "<li><a href=\"" + name + "\">" + name + "</a> <span>" + what + "</span></li>\n";
   };
-  std::string list = kMapFiles;
-  if (runs <= 1) return list + file("trajectory.carmen", "the corrected log") + kTables;
-  for (std::size_t drive = 1; drive <= runs; ++drive) {
-    const std::string name = "trajectory-" + std::to_string(drive);
-    list += file(name + ".tum", "the path of one drive") + file(name + ".carmen", "its corrected log");
+  add("map.png", "the map as a picture");
+  add("map.yaml", "and map.pgm, for ROS and nav2");
+  add("map.gridmap.gz", "the map for MRPT");
+  add("map.simplemap.gz", "nodes and scans for MRPT");
+  add("trajectory.tum", "for evo");
+  if (runs <= 1) add("trajectory.carmen", "the corrected log");
+  for (std::size_t run = 1; runs > 1 && run <= runs; ++run) {
+    const std::string name = "trajectory-" + std::to_string(run);
+    add(name + ".tum", "path of run " + std::to_string(run));
+    add(name + ".carmen", "corrected log of run " + std::to_string(run));
   }
-  return list + kTables;
+  add("graph.g2o", "the pose graph");
+  add("frames.csv", "one row per scan");
+  add("loops.csv", "one row per loop found");
+  add("summary.json", "the figures of this report for programs");
+  return list + "</ul>\n";
 }
 
 std::string card(const std::string& title, const std::string& note, const std::string& content) {
@@ -60,23 +43,19 @@ std::string banner(const std::string& text) {
 std::string stop_text(const RunSummary& summary) {
   const std::string scans = counted(summary.log.scans, "scan", "scans");
   if (!summary.final_search_cut_short)
-    return "The run was stopped before the end of the log: all below is of its first " + scans + '.';
-  return "The run was stopped: all below is of the " + scans +
-         " read until then, and what comes after the last of them, the last search for loops and the "
-         "refinement of all "
-         "scans, was cut short.";
+    return "The run was stopped before the end of the log. This report covers the first " + scans + '.';
+  return "The run was stopped after " + scans +
+         ". The final loop search and the refinement of all scans were cut short.";
 }
 
-/// "Mapped by psi-slam 0.1.0 in 51.3 s, 52 times faster than it was recorded."
+/// "Mapped by psi-slam 0.1.0 in 51.3 s, 52 times faster than real time."
 std::string story(const RunInfo& info, const RunSummary& summary) {
   std::string text = "Mapped by psi-slam";
   if (!info.program_version.empty()) text += ' ' + escape_html(info.program_version);
   text += " in " + duration_text(summary.wall_s);
   const double factor = summary.real_time_factor;
-  if (factor >= 1.05)
-    text += ", " + fixed_text(factor, factor < 10 ? 1 : 0) + " times faster than it was recorded";
-  if (factor > 0 && factor < 0.95)
-    text += ", " + fixed_text(1 / factor, 1) + " times slower than it was recorded";
+  if (factor >= 1.05) text += ", " + fixed_text(factor, factor < 10 ? 1 : 0) + " times faster than real time";
+  if (factor > 0 && factor < 0.95) text += ", " + fixed_text(1 / factor, 1) + " times slower than real time";
   return text + '.';
 }
 
@@ -86,7 +65,8 @@ std::string head(const std::string& title) {
          title + " – psi-slam</title>\n<style>" + kReportStyle + "</style>\n</head>\n";
 }
 
-constexpr const char* kKey = "<span class=\"key\"></span>mean<span class=\"key range\"></span>least to most";
+constexpr const char* kKey =
+    "<span class=\"key\"></span>mean<span class=\"key range\"></span>minimum to maximum";
 
 std::string response_key(const RunSummary& summary) {
   std::string key = fixed_text(summary.mean_response, 2) + " on average" + kKey;
@@ -98,13 +78,12 @@ std::string response_key(const RunSummary& summary) {
 std::string loops_card(const MappingResult& result, const LoopCounts& loops) {
   std::string text = "<p class=\"none\">" + counted(loops.accepted, "loop was", "loops were") + " closed";
   if (loops.accepted_in_final_search > 0)
-    text += ", " + grouped(static_cast<std::int64_t>(loops.accepted_in_final_search)) +
-            " of them after the last scan";
+    text += ", " + grouped(loops.accepted_in_final_search) + " of them in the final search";
   text += "; " + counted(loops.refused, "was", "were") + " refused";
   if (loops.switched_off > 0)
-    text +=
-        " and " + counted(loops.switched_off, "was", "were") + " switched off, since the others contradict";
-  if (loops.by_hand > 0) text += "; " + counted(loops.by_hand, "was", "were") + " settled by hand";
+    text += "; " + counted(loops.switched_off, "was", "were") +
+            " switched off because other loops contradict " + (loops.switched_off == 1 ? "it" : "them");
+  if (loops.by_hand > 0) text += "; " + counted(loops.by_hand, "was", "were") + " edited by hand";
   text += ".</p>\n";
   return card("Loops", "", text + loop_matchers_table(result) + reasons_table(loops) + loops_table(result));
 }
@@ -114,11 +93,11 @@ std::string loops_card(const MappingResult& result, const LoopCounts& loops) {
 std::string report_html(const MappingResult& result, const RunInfo& info, const RunSummary& summary,
                         const mrpt::maps::COccupancyGridMap2D& grid) {
   const std::string name = escape_html(info.log_name.empty() ? "A run of psi-slam" : info.log_name);
-  std::string html = head(name) + "<body>\n<main>\n<header>" + kLogo + "<div><h1>" + name + "</h1><p>" +
+  std::string html = head(name) + "<body>\n<main>\n<header>" + kReportLogo + "<div><h1>" + name + "</h1><p>" +
                      story(info, summary) + "</p></div></header>\n";
   if (summary.broken_off)
-    html += banner("The log breaks off: " + escape_html(*summary.broken_off) + ". All below is of the " +
-                   counted(summary.log.scans, "scan", "scans") + " before that.");
+    html += banner("The log breaks off: " + escape_html(*summary.broken_off) + ". This report covers the " +
+                   counted(summary.log.scans, "scan", "scans") + " before the break.");
   if (summary.interrupted) html += banner(stop_text(summary));
   if (const auto coarser = coarser_cells_text(summary.map)) html += banner(*coarser + '.');
   for (const std::string& warning : info.warnings) html += banner(escape_html(warning) + '.');
@@ -126,12 +105,12 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
   html += card("Map", "", report_map(result, grid));
   html += card("Response of the front end", response_key(summary), response_plot(result));
   html += card("The factor Ψ and the matcher in use", psi_key(result), psi_plot(result));
-  html += card("Matching loops, for each node", kKey, loop_matching_plot(result));
-  html += card("Where the time went", "", stages_table(result.stages, result.wall_s));
-  html += card("Work for each scan", kKey, work_plot(result));
+  html += card("Loop matching time per node", kKey, loop_matching_plot(result));
+  html += card("Time per stage", "", stages_table(result.stages, result.wall_s));
+  html += card("Processing time per scan", kKey, work_plot(result));
   html += loops_card(result, summary.loops);
-  html += "<div class=\"pair\">\n" + card("What was read", "", log_table(summary.log, info.log_name)) +
-          card("Files of this folder", "", files_list(summary.runs.size())) + "</div>\n";
+  html += "<div class=\"pair\">\n" + card("Input log", "", log_table(summary.log, info.log_name)) +
+          card("Files in this folder", "", files_list(summary.runs.size())) + "</div>\n";
   html += card("Settings", "", settings_table(info.settings));
   return html + "</main>\n<script>" + kReportScript + "</script>\n</body>\n</html>\n";
 }

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// report.html: one page that shows a run to a person: key figures, the map with trajectory and loops, what
-// was read, how the time was spent, which loops were closed or refused and why, and with what settings. It is
-// one file that needs no network: style, script and pictures are inside.
+// report.html: one page that shows a run to a person. One file that needs no network: style, script and
+// pictures are inside.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
 #include <string>
 
-#include "psi_slam/mapping_result.h"
 #include "exports/run_summary.h"
+#include "psi_slam/mapping_result.h"
 
 namespace psi_slam {
 
+/// Returns the page: key figures, map with trajectory and loops, plots over time, which loops were closed or
+/// refused and why, the input log, the files and the settings. `grid` is the map of `result`.
 std::string report_html(const MappingResult& result, const RunInfo& info, const RunSummary& summary,
                         const mrpt::maps::COccupancyGridMap2D& grid);
 

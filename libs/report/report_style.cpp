@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/report_style.h"
+#include "report/report_sections.h"
 
 namespace psi_slam {
+
+const char* const kReportLogo = R"svg(<svg viewBox="0 0 64 64" aria-hidden="true">
+<defs><linearGradient id="dusk" x1="0" y1="0" x2="1" y2="1"><stop offset="0" stop-color="#2f62eb"/><stop offset=".55" stop-color="#8b4de6"/><stop offset="1" stop-color="#e23e8c"/></linearGradient></defs>
+<rect width="64" height="64" rx="15" fill="url(#dusk)"/>
+<path d="M14 17c6 0 6 5 6 10 0 10 5 14 12 14s12-4 12-14c0-5 0-10 6-10M32 13v38M25 51h14" fill="none" stroke="#fff" stroke-width="4.4" stroke-linecap="round"/>
+</svg>)svg";
 
 const char* const kReportStyle = R"css(
 :root {
@@ -136,7 +142,6 @@ code { font: .86rem ui-monospace, "Cascadia Mono", "DejaVu Sans Mono", monospace
 .files { list-style: none; margin: 0; padding: 0; display: grid; grid-template-columns: repeat(auto-fill, minmax(17rem, 1fr)); gap: .3rem 1.4rem; font-size: .9rem; }
 .files span { color: var(--soft); }
 a { color: var(--accent); text-decoration: none; } a:hover { text-decoration: underline; }
-footer { color: var(--soft); font-size: .84rem; margin-top: 1.6rem; }
 @media (max-width: 900px) { .tiles { grid-template-columns: repeat(2, 1fr); } }
 @media (max-width: 640px) { .hint { display: none; } body { padding: 1.2rem .7rem 3rem; } .card { padding: .9rem; } }
 @media print { body { background: #fff; } .card, .tile { box-shadow: none; break-inside: avoid; } .hint { display: none; } }

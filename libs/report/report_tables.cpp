@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/report_tables.h"
-
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
-#include "report/html_text.h"
 #include "base/number_text.h"
-#include "exports/verdict_text.h"
+#include "report/html_text.h"
+#include "report/report_sections.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kLoopsShownOfAVerdict = 100;
-
-std::string whole(std::size_t count) {
-  return grouped(static_cast<std::int64_t>(count));
-}
+constexpr std::size_t kMaxLoopsOfVerdict = 100;
 
 std::string degrees(double radians) {
   const std::string size = fixed_text(std::abs(radians) * 180 / M_PI, 1) + "°";
@@ -24,11 +19,10 @@ std::string degrees(double radians) {
 
 /// "5 cm", "2.5 cm", "10 cm".
 std::string centimetres(double metres) {
-  const double value = std::round(metres * 1000) / 10;
-  return fixed_text(value, value == std::round(value) ? 0 : 1) + " cm";
+  return trimmed_text(std::round(metres * 1000) / 10, 1) + " cm";
 }
 
-/// Seconds as a clock shows them: "44:51", "2:07:57".
+/// "44:51", "2:07:57".
 std::string clock_text(double duration_s) {
   const auto all = static_cast<std::int64_t>(std::llround(duration_s));
   const auto two = [](std::int64_t value) { return (value < 10 ? "0" : "") + std::to_string(value); };
@@ -53,8 +47,33 @@ std::string cells(std::initializer_list<std::string> values) {
   return row;
 }
 
-std::string speed_text(double real_time_factor) {
-  return fixed_text(real_time_factor, real_time_factor < 10 ? 1 : 0) + "×";
+/// Opens a table of figures; `more` is HTML after the headings of the columns.
+std::string table_begin(const std::string& css, std::initializer_list<const char*> columns,
+                        const std::string& more = {}) {
+  std::string head;
+  for (const char* column : columns) head += std::string("<th>") + column + "</th>";
+  return "<div class=\"" + css + "\"><table class=\"rows\">\n<thead><tr>" + head + more +
+         "</tr></thead>\n<tbody>\n";
+}
+
+constexpr const char* kTableEnd = "</tbody></table></div>";
+
+std::string bar(const std::string& css, double percent) {
+  return "<span class=\"" + css + "\" style=\"width:" + fixed_text(percent, 1) + "%\"></span>";
+}
+
+std::string loop_row(const LoopRecord& loop) {
+  const std::string css = loop.verdict == LoopVerdict::kAccepted  ? "good"
+                          : loop.verdict == LoopVerdict::kRefused ? "bad"
+                                                                  : "warn";
+  return "<tr><td><span class=\"badge " + css + "\">" + verdict_text(loop.verdict) + "</span></td>" +
+         cells({grouped(loop.frame), grouped(loop.node), grouped(loop.local_map), name(loop.matcher),
+                fixed_text(loop.response, 3), fixed_text(loop.ambiguity, 2),
+                fixed_text(loop.observed_share, 2), fixed_text(loop.neighbours_agree, 2),
+                fixed_text(loop.reverse_agree, 2), fixed_text(loop.moved_m, 2),
+                milliseconds_text(loop.milliseconds)}) +
+         "<td class=\"text\">" + escape_html(text_of(loop.refusal)) +
+         (loop.in_final_search ? " (final search)" : "") + "</td></tr>\n";
 }
 
 }  // namespace
@@ -65,49 +84,48 @@ std::string key_figures(const RunSummary& summary) {
       log.duration_s > 0 && log.scans > 1 ? static_cast<double>(log.scans - 1) / log.duration_s : 0;
   const LoopCounts& loops = summary.loops;
   const MapExtent& map = summary.map;
+  const double factor = summary.real_time_factor;
+  const std::string speed = factor > 0 ? fixed_text(factor, factor < 10 ? 1 : 0) + "×" : "–";
   std::string html = "<section class=\"tiles\">\n";
   html += tile("Duration", clock_text(log.duration_s), log.duration_s < 3600 ? "min" : "h",
-               "as recorded, " + fixed_text(rate_hz, 1) + " scans a second");
-  html += tile("Scans", whole(log.scans), "", whole(log.beams) + " beams each");
+               fixed_text(rate_hz, 1) + " scans per second");
+  html += tile("Scans", grouped(log.scans), "", grouped(log.beams) + " beams per scan");
   html += tile("Path", grouped(summary.path_length_m, 0), "m",
-               "odometry counted " + grouped(log.odometry_length_m, 0) + " m");
+               "odometry: " + grouped(log.odometry_length_m, 0) + " m");
   html += tile("Free space", grouped(map.free_m2, 0), "m²",
                fixed_text(map.x_max_m - map.x_min_m, 0) + " × " + fixed_text(map.y_max_m - map.y_min_m, 0) +
-                   " m seen, cells of " + centimetres(map.resolution_m));
-  html += tile("Graph", whole(summary.nodes), "nodes",
+                   " m, cells of " + centimetres(map.resolution_m));
+  html += tile("Graph", grouped(summary.nodes), "nodes",
                counted(summary.edges, "edge", "edges") + ", " +
                    counted(summary.local_maps, "local map", "local maps"));
-  html += tile("Loops closed", whole(loops.accepted), "",
-               "of " + whole(loops.tried) + " tried" +
-                   (loops.switched_off > 0 ? ", " + whole(loops.switched_off) + " switched off" : ""));
-  html += tile("Real-time factor", summary.real_time_factor > 0 ? speed_text(summary.real_time_factor) : "–",
-               "", duration_text(summary.wall_s) + " of work");
-  html += tile("Peak memory", grouped(summary.peak_memory_mib, 0), "MiB", "of the whole process");
+  html += tile("Loops closed", grouped(loops.accepted), "",
+               "of " + grouped(loops.tried) + " tried" +
+                   (loops.switched_off > 0 ? ", " + grouped(loops.switched_off) + " switched off" : ""));
+  html += tile("Real-time factor", speed, "", "mapped in " + duration_text(summary.wall_s));
+  html += tile("Peak memory", grouped(summary.peak_memory_mib, 0), "MiB", "of the process");
   return html + "</section>\n";
 }
 
 std::string log_table(const MappedLogFacts& log, const std::string& name) {
   std::string html = "<table class=\"facts\">\n";
   html += fact("Log", escape_html(name));
-  html += fact("Scans", whole(log.scans) + " of " + whole(log.beams) + " beams, " +
+  html += fact("Scans", grouped(log.scans) + " of " + grouped(log.beams) + " beams, " +
                             degrees(log.first_bearing_rad) + " to " + degrees(log.last_bearing_rad));
-  html += fact("Returns", fixed_text(100 * log.returns, 1) + " % of the beams, sensor's maximum " +
+  html += fact("Returns", fixed_text(100 * log.returns, 1) + " % of the beams, maximum range " +
                               fixed_text(log.max_range_m, 1) + " m");
   if (log.companion_scans + log.spare_scans > 0)
-    html +=
-        fact("Further lasers",
-             counted(log.companion_scans, "scan", "scans") + " taken together with those of the first; " +
-                 (log.spare_scans == 0 ? std::string("none") : counted(log.spare_scans, "scan", "scans")) +
-                 " left out for want of one near enough");
-  html += fact("Laser on the robot", "x " + fixed_text(log.robot_T_laser.x, 3) + " m, y " +
-                                         fixed_text(log.robot_T_laser.y, 3) + " m, yaw " +
-                                         degrees(log.robot_T_laser.phi));
+    html += fact("Further lasers", counted(log.companion_scans, "scan", "scans") +
+                                       " synchronised with the first laser, " + grouped(log.spare_scans) +
+                                       " left out because no scan of the first laser is near in time");
+  html += fact("Laser mount", "x " + fixed_text(log.robot_T_laser.x, 3) + " m, y " +
+                                  fixed_text(log.robot_T_laser.y, 3) + " m, yaw " +
+                                  degrees(log.robot_T_laser.phi));
   html += fact("Time", format_seconds(log.first_time_us) + " to " + format_seconds(log.last_time_us) +
                            " s (" + duration_text(log.duration_s) + ")");
-  html +=
-      fact("Order", log.stamps_back == 0 ? std::string("time stamps never run back")
-                                         : counted(log.stamps_back, "time stamp runs", "time stamps run") +
-                                               " back; the file's order was kept");
+  html += fact("Order", log.stamps_back == 0
+                            ? std::string("time stamps never decrease")
+                            : counted(log.stamps_back, "time stamp decreases", "time stamps decrease") +
+                                  "; scans stay in file order");
   html += fact("Odometry", grouped(log.odometry_length_m, 1) + " m");
   return html + "</table>\n";
 }
@@ -118,9 +136,8 @@ std::string reasons_table(const LoopCounts& loops) {
   std::string html = "<table class=\"bars\">\n";
   for (const ReasonCount& reason : loops.reasons) {
     const double share = 100 * static_cast<double>(reason.count) / static_cast<double>(most);
-    html += "<tr><td class=\"number\">" + whole(reason.count) +
-            "</td><td><span class=\"bar bad\" style=\"width:" + fixed_text(std::max(share, 1.0), 1) +
-            "%\"></span>" + escape_html(reason.reason) + "</td></tr>\n";
+    html += "<tr><td class=\"number\">" + grouped(reason.count) + "</td><td>" +
+            bar("bar bad", std::max(share, 1.0)) + escape_html(text_of(reason.reason)) + "</td></tr>\n";
   }
   return html + "</table>\n";
 }
@@ -128,81 +145,62 @@ std::string reasons_table(const LoopCounts& loops) {
 std::string stages_table(const std::vector<StageTiming>& stages, double wall_s) {
   if (stages.empty()) return "<p class=\"none\">No stage was timed.</p>\n";
   std::string html =
-      "<div class=\"wide\"><table class=\"rows\">\n<thead><tr><th>Stage</th><th>calls</th><th>mean ± std</th>"
-      "<th>[min, max] ms</th><th>total</th><th>share of the run</th></tr></thead>\n<tbody>\n";
+      table_begin("wide", {"Stage", "calls", "mean ± std", "[min, max] ms", "total", "share of the run"});
   for (const StageTiming& stage : stages) {
     const double share = wall_s > 0 ? 100 * stage.total_s / wall_s : 0;
     html += "<tr><th>" + escape_html(stage.name) + "</th>" +
-            cells({whole(stage.calls),
+            cells({grouped(stage.calls),
                    milliseconds_text(stage.mean_ms) +
                        (stage.calls > 1 ? " ± " + milliseconds_text(stage.std_ms) : ""),
                    "[" + milliseconds_text(stage.min_ms) + ", " + milliseconds_text(stage.max_ms) + "]",
                    duration_text(stage.total_s)}) +
-            "<td class=\"share\"><span class=\"bar\" style=\"width:" +
-            fixed_text(std::clamp(share, 0.5, 100.0), 1) + "%\"></span><b>" + fixed_text(share, 1) +
-            " %</b></td></tr>\n";
+            "<td class=\"share\">" + bar("bar", std::clamp(share, 0.5, 100.0)) + "<b>" +
+            fixed_text(share, 1) + " %</b></td></tr>\n";
   }
-  return html + "</tbody></table></div>\n";
+  return html + kTableEnd + "\n";
 }
 
 std::string loop_matchers_table(const MappingResult& result) {
   if (result.loop_matchers.empty()) return {};
-  std::string html =
-      "<div class=\"wide\"><table class=\"rows\">\n<thead><tr><th>Matcher</th><th>tried</th><th>found</th>"
-      "<th>closed</th><th>poses scored a try</th><th>ms a try</th><th>total</th><th>of it in the last "
-      "pass</th>"
-      "</tr></thead>\n<tbody>\n";
-  for (const auto& [name, matcher] : result.loop_matchers) {
+  std::string html = table_begin("wide", {"Matcher", "tried", "found", "closed", "poses scored per try",
+                                          "ms per try", "total", "of this in the final search"});
+  for (const auto& [kind, matcher] : result.loop_matchers) {
     const LoopEffort& effort = matcher.effort;
     const double tries = static_cast<double>(std::max<std::size_t>(effort.attempts, 1));
-    html += "<tr><th>" + escape_html(name) + "</th>" +
-            cells({whole(effort.attempts), whole(effort.found), whole(matcher.accepted),
+    html += "<tr><th>" + std::string(name(kind)) + "</th>" +
+            cells({grouped(effort.attempts), grouped(effort.found), grouped(matcher.accepted),
                    grouped(static_cast<double>(effort.evaluations) / tries, 0),
                    milliseconds_text(effort.milliseconds / tries), duration_text(effort.milliseconds * 1e-3),
                    duration_text(matcher.final_search_effort.milliseconds * 1e-3)}) +
             "</tr>\n";
   }
-  return html + "</tbody></table></div>\n";
+  return html + kTableEnd + "\n";
 }
 
 std::string loops_table(const MappingResult& result) {
-  if (std::all_of(result.loops.begin(), result.loops.end(),
-                  [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kNotFound; }))
-    return "<p class=\"none\">No match was found.</p>\n";
+  const auto found = static_cast<std::size_t>(
+      std::count_if(result.loops.begin(), result.loops.end(),
+                    [](const LoopRecord& loop) { return loop.verdict != LoopVerdict::kNotFound; }));
+  if (found == 0) return "<p class=\"none\">No match was found.</p>\n";
   std::string rows;
   std::size_t shown = 0;
   for (const LoopVerdict verdict : {LoopVerdict::kDeleted, LoopVerdict::kAccepted, LoopVerdict::kSwitchedOff,
                                     LoopVerdict::kPending, LoopVerdict::kRefused}) {
     std::size_t of_verdict = 0;
     for (const LoopRecord& loop : result.loops) {
-      if (loop.verdict != verdict || of_verdict == kLoopsShownOfAVerdict) continue;
+      if (loop.verdict != verdict || of_verdict == kMaxLoopsOfVerdict) continue;
       ++of_verdict;
       ++shown;
-      const std::string css = verdict == LoopVerdict::kAccepted  ? "good"
-                              : verdict == LoopVerdict::kRefused ? "bad"
-                                                                 : "warn";
-      rows += "<tr><td><span class=\"badge " + css + "\">" + verdict_text(verdict) + "</span></td>" +
-              cells({whole(loop.frame), whole(loop.node), whole(loop.local_map), escape_html(loop.matcher),
-                     fixed_text(loop.response, 3), fixed_text(loop.ambiguity, 2),
-                     fixed_text(loop.observed_share, 2), fixed_text(loop.neighbours_agree, 2),
-                     fixed_text(loop.reverse_agree, 2), fixed_text(loop.moved_m, 2),
-                     milliseconds_text(loop.milliseconds)}) +
-              "<td class=\"text\">" + escape_html(loop.reason) + (loop.in_final_search ? " (last pass)" : "") +
-              "</td></tr>\n";
+      rows += loop_row(loop);
     }
   }
-  const auto found = static_cast<std::size_t>(
-      std::count_if(result.loops.begin(), result.loops.end(),
-                    [](const LoopRecord& loop) { return loop.verdict != LoopVerdict::kNotFound; }));
   const std::size_t left = found - shown;
-  return "<details><summary>" + counted(found, "match found", "matches found") +
-         "</summary><div class=\"wide tall\"><table "
-         "class=\"rows\">\n<thead><tr><th>Verdict</th><th>scan</th><th>node</th>"
-         "<th>local "
-         "map</th><th>matcher</th><th>response</th><th>ambiguity</th><th>observed</th><th>neighbours</"
-         "th><th>reverse</th><th>moved, m</th><th>ms</th>"
-         "<th class=\"text\">why</th></tr></thead>\n<tbody>\n" +
-         rows + "</tbody></table></div>" +
+  return "<details><summary>" + counted(found, "match found", "matches found") + "</summary>" +
+         table_begin("wide tall",
+                     {"Verdict", "scan", "node", "local map", "matcher", "response", "ambiguity", "observed",
+                      "neighbours", "reverse", "moved, m", "ms"},
+                     "<th class=\"text\">why</th>") +
+         rows + kTableEnd +
          (left > 0 ? "<p class=\"none\">" + counted(left, "more is", "more are") +
                          " in <a href=\"loops.csv\">loops.csv</a>.</p>"
                    : "") +
@@ -210,7 +208,7 @@ std::string loops_table(const MappingResult& result) {
 }
 
 std::string settings_table(const std::map<std::string, std::string>& settings) {
-  if (settings.empty()) return "<p class=\"none\">The caller named no settings.</p>\n";
+  if (settings.empty()) return "<p class=\"none\">No settings recorded.</p>\n";
   std::map<std::string, std::map<std::string, std::string>> sections;
   for (const auto& [key, value] : settings) {
     const std::size_t point = key.find('.');

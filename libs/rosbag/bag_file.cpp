@@ -1,14 +1,61 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rosbag/bag_file.h"
 
-#include "psi_slam/user_error.h"
-#include "rosbag/bag_folder.h"
+#include <utility>
+
 #include "frames/log_format.h"
-#include "rosbag/mcap_bag.h"
-#include "rosbag/ros1_bag.h"
-#include "rosbag/sqlite_bag.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Several files of one bag, read one after the other.
+class BagFolder : public BagFile {
+ public:
+  explicit BagFolder(std::vector<fs::path> files)
+      : files_(std::move(files)), file_(open_bag(files_.front())) {}
+
+  std::vector<BagTopic> topics() override {
+    std::vector<BagTopic> all;
+    for (const fs::path& path : files_) {
+      try {
+        for (const BagTopic& topic : open_bag(path)->topics()) add_topic(all, topic);
+      } catch (const UserError&) {
+        if (path == files_.front()) throw;  // errors of later files are reported when they are read
+      }
+    }
+    return all;
+  }
+
+  void want(const std::vector<std::string>& topics) override {
+    BagFile::want(topics);
+    file_->want(topics);
+  }
+
+  bool next(BagMessage& message) override {
+    while (!file_->next(message)) {
+      if (current_ + 1 == files_.size()) return false;
+      file_ = open_bag(files_[++current_]);
+      file_->want(wanted());
+    }
+    return true;
+  }
+
+  double progress() const override {
+    return (static_cast<double>(current_) + file_->progress()) / static_cast<double>(files_.size());
+  }
+
+  std::string place() const override { return file_->place(); }
+
+ private:
+  std::vector<fs::path> files_;
+  std::size_t current_ = 0;  // number of the file in files_
+  std::unique_ptr<BagFile> file_;
+};
+
+}  // namespace
 
 std::string ros1_type_name(std::string_view type) {
   constexpr std::string_view kMiddle = "/msg/";
@@ -18,18 +65,22 @@ std::string ros1_type_name(std::string_view type) {
   return name;
 }
 
-std::unique_ptr<BagFile> open_bag(const std::filesystem::path& path) {
+void add_topic(std::vector<BagTopic>& topics, const BagTopic& topic) {
+  if (std::find(topics.begin(), topics.end(), topic) == topics.end()) topics.push_back(topic);
+}
+
+std::unique_ptr<BagFile> open_bag(const fs::path& path) {
   switch (detect_log_format(path)) {
     case LogFormat::kRos1Bag:
-      return std::make_unique<Ros1Bag>(path);
+      return open_ros1_bag(path);
     case LogFormat::kRos2Sqlite:
-      return std::make_unique<SqliteBag>(path);
+      return open_sqlite_bag(path);
     case LogFormat::kRos2Mcap:
-      return std::make_unique<McapBag>(path);
+      return open_mcap_bag(path);
     case LogFormat::kRos2Folder:
       return std::make_unique<BagFolder>(files_of_bag_folder(path));
     default:
-      throw UserError(path.string() + " is no ROS bag");
+      throw UserError(path.string() + " is not a ROS bag, expected a .bag, .db3 or .mcap file");
   }
 }
 

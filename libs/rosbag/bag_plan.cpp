@@ -7,25 +7,16 @@
 #include <memory>
 #include <optional>
 
-#include "psi_slam/user_error.h"
 #include "base/byte_cursor.h"
 #include "frames/laser_choice.h"
+#include "psi_slam/user_error.h"
 #include "rosbag/ros_messages.h"
 
 namespace psi_slam {
 namespace {
 
+using mrpt::poses::CPose3D;
 using Names = std::vector<std::string>;
-
-bool contains(const Names& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-std::string list(const Names& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 Names topics_of_type(const std::vector<BagTopic>& topics, const char* type) {
   Names names;
@@ -34,7 +25,7 @@ Names topics_of_type(const std::vector<BagTopic>& topics, const char* type) {
   return names;
 }
 
-/// A topic's name as the bag has it: users leave out the slash in front, and so do some programs.
+/// Name of a topic in the bag: users and some programs omit the leading slash.
 std::string as_in_bag(const std::string& name, const Names& all) {
   return contains(all, '/' + name) ? '/' + name : name;
 }
@@ -68,7 +59,7 @@ class Planner {
       Names found;
       for (const BagTopic& topic : topics_) found.push_back(topic.name + " (" + topic.type + ")");
       throw UserError(path_ + " has no laser scans, expected a topic of type " + kRosLaserScan + "; found " +
-                      (found.empty() ? "no topic at all" : list(found)));
+                      (found.empty() ? "no topics" : name_list(found)));
     }
     const bool by_topic = !options_.scan_topic.empty();
     const char* option = by_topic ? "log.scan_topic" : "log.laser";
@@ -77,7 +68,7 @@ class Planner {
     for (const std::string& name : choice.names) {
       const std::string topic = choose(option, name, all, kRosLaserScan);
       if (contains(plan_.scan_topics, topic))
-        throw UserError(std::string(option) + " names the topic " + topic + " twice, expected each once");
+        throw UserError(std::string(option) + " names the topic " + topic + " twice. Name each topic once");
       plan_.scan_topics.push_back(topic);
     }
     if (plan_.scan_topics.empty()) plan_.scan_topics = {choose("log.scan_topic", "", all, kRosLaserScan)};
@@ -105,12 +96,12 @@ class Planner {
   std::string choose(const char* option, const std::string& wanted, const Names& all,
                      const char* type) const {
     if (wanted.empty() && all.size() > 1)
-      throw UserError(path_ + " has several topics of type " + type + ": " + list(all) + "; expected " +
-                      option + " to name one of them");
+      throw UserError(path_ + " has several topics of type " + type + ": " + name_list(all) +
+                      ". Select one with " + option);
     if (wanted.empty()) return all.front();
     if (const std::string name = as_in_bag(wanted, all); contains(all, name)) return name;
     throw UserError(std::string(option) + " is \"" + wanted + "\", expected a topic of type " + type +
-                    " of " + path_ + ": " + (all.empty() ? "it has none" : list(all)));
+                    " of " + path_ + ": " + (all.empty() ? "it has none" : name_list(all)));
   }
 
   void read_until_complete() {
@@ -143,14 +134,15 @@ class Planner {
 
   void take_odometry(const BagMessage& message) {
     const std::optional<RosTransform> odometry = read_ros_odometry(message);
-    if (!odometry && no_pose_.empty()) no_pose_ = bag_->place() + ": " + no_pose_text(message.topic->name);
+    if (!odometry && invalid_pose_.empty())
+      invalid_pose_ = bag_->place() + ": " + invalid_pose_text(message.topic->name);
     if (!odometry) return;
     has_odometry_ = true;
     if (plan_.odom_frame.empty()) plan_.odom_frame = odometry->header.frame;
     if (plan_.base_frame.empty()) plan_.base_frame = odometry->child_frame;
   }
 
-  /// On the way up from a laser, or from the robot's frame where the user names it.
+  /// Searches upwards from the lasers, and from the robot's frame if the user states it.
   void find_odometry_transform() {
     Names starts;
     if (!options_.base_frame.empty()) starts.push_back(options_.base_frame);
@@ -181,7 +173,7 @@ class Planner {
     return options_of_topic(options_, topic).robot_T_laser.has_value();
   }
 
-  /// Transforms, where there are any, tell of a laser whose mount is stated whether it is upside down.
+  /// If there are transforms, they are needed even for a stated mount: they show whether it is upside down.
   bool is_complete() const {
     const bool has_transforms = !plan_.transform_topics.empty();
     return has_odometry_ && knows_scan_frames() &&
@@ -190,30 +182,31 @@ class Planner {
            });
   }
 
-  /// What a bag that breaks off must have told of before.
+  /// Returns whether enough is known if the bag ends here.
   bool is_enough() const { return has_odometry_ && knows_scan_frames(); }
 
   void require_complete() const {
     for (const std::string& topic : plan_.scan_topics)
-      if (scan_frames_.count(topic) == 0) throw UserError(path_ + " has no message on " + topic);
-    if (!has_odometry_ && !no_pose_.empty()) throw UserError(no_pose_ + ", as in all of its messages");
+      if (scan_frames_.count(topic) == 0) throw UserError(path_ + " has no message on the topic " + topic);
+    if (!has_odometry_ && !invalid_pose_.empty())
+      throw UserError(invalid_pose_ + ", as in all of its messages");
     if (!has_odometry_ && !plan_.odometry_topic.empty())
-      throw UserError(path_ + " has no message on " + plan_.odometry_topic);
+      throw UserError(path_ + " has no message on the topic " + plan_.odometry_topic);
     if (!has_odometry_) {
       throw UserError(
           path_ + " has no odometry, expected a topic of type " + kRosOdometry +
-          " or a transform from a frame named like \"odom\" to the robot's, or log.odom_frame and "
-          "log.base_frame to name them; its transforms: " +
+          " or a transform from a frame named like \"odom\" to the robot's frame. Name the frames with "
+          "log.odom_frame and log.base_frame. Transforms of the bag: " +
           plan_.transforms.text());
     }
     for (const auto& [topic, frame] : scan_frames_) {
       if (states_mount(topic) || knows_mount(frame)) continue;
-      throw UserError(path_ + " does not say where the laser of " + topic +
-                      " is on the robot: no transform leads from \"" + plan_.base_frame + "\" to \"" + frame +
-                      "\", expected log.base_frame to name the robot's frame, or " +
+      throw UserError(path_ + " does not state where the laser of " + topic +
+                      " is mounted: no transform leads from \"" + plan_.base_frame + "\" to \"" + frame +
+                      "\". Name the robot's frame with log.base_frame, or state the mount with " +
                       (plan_.scan_topics.size() > 1 ? "log.laser_mounts, such as \"" + topic + " 0.2 0 0\""
                                                     : "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg") +
-                      "; its transforms: " + plan_.transforms.text());
+                      ". Transforms of the bag: " + plan_.transforms.text());
     }
   }
 
@@ -223,11 +216,55 @@ class Planner {
   std::vector<BagTopic> topics_;
   BagPlan plan_;
   std::map<std::string, std::string> scan_frames_;  // by topic
-  std::string no_pose_;                             // where the first odometry without a pose is
+  std::string invalid_pose_;                        // message about the first invalid odometry
   bool has_odometry_ = false;
 };
 
 }  // namespace
+
+void TransformTree::add(const RosTransform& transform) {
+  if (transform.child_frame == transform.header.frame) return;
+  links_[transform.child_frame] = {transform.header.frame, CPose3D(transform.pose)};
+}
+
+std::vector<std::string> TransformTree::way_up(const std::string& frame) const {
+  std::vector<std::string> way{frame};
+  // A valid way up has at most as many links as the tree. A damaged tree may contain a cycle.
+  while (way.size() <= links_.size()) {
+    const auto link = links_.find(way.back());
+    if (link == links_.end()) break;
+    way.push_back(link->second.parent);
+  }
+  return way;
+}
+
+CPose3D TransformTree::above_T_frame(std::string frame, std::size_t steps) const {
+  CPose3D pose;
+  for (std::size_t i = 0; i < steps; ++i) {
+    const Link& link = links_.at(frame);
+    pose = link.parent_T_frame + pose;
+    frame = link.parent;
+  }
+  return pose;
+}
+
+std::optional<CPose3D> TransformTree::base_T_frame(const std::string& base, const std::string& frame) const {
+  const std::vector<std::string> above_base = way_up(base);
+  const std::vector<std::string> above_frame = way_up(frame);
+  for (std::size_t i = 0; i < above_frame.size(); ++i) {
+    const auto meeting = std::find(above_base.begin(), above_base.end(), above_frame[i]);
+    if (meeting == above_base.end()) continue;
+    const auto steps = static_cast<std::size_t>(meeting - above_base.begin());
+    return above_T_frame(frame, i) - above_T_frame(base, steps);
+  }
+  return std::nullopt;
+}
+
+std::string TransformTree::text() const {
+  std::string text;
+  for (const auto& [frame, link] : links_) text += (text.empty() ? "" : ", ") + frame + " < " + link.parent;
+  return text.empty() ? "none" : text;
+}
 
 Names BagPlan::topics() const {
   Names all = scan_topics;
@@ -236,8 +273,8 @@ Names BagPlan::topics() const {
   return all;
 }
 
-std::string no_pose_text(const std::string& topic) {
-  return "the odometry on " + topic + " is not finite, or its quaternion is none of length 1";
+std::string invalid_pose_text(const std::string& topic) {
+  return "the odometry on " + topic + " is not finite, or the length of its quaternion is not 1";
 }
 
 bool is_transforms(const BagTopic& topic) {
@@ -247,7 +284,7 @@ bool is_transforms(const BagTopic& topic) {
 
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic) {
   std::vector<std::string> names{topic};
-  if (topic.front() == '/') names.push_back(topic.substr(1));  // users leave it out
+  if (topic.front() == '/') names.push_back(topic.substr(1));  // users omit it
   return options_of_laser(options, names);
 }
 

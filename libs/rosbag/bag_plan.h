@@ -1,40 +1,70 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/poses/CPose3D.h>
+
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "rosbag/bag_file.h"
 #include "psi_slam/log_options.h"
-#include "rosbag/transform_tree.h"
+#include "rosbag/bag_file.h"
+#include "rosbag/ros_messages.h"
 
 namespace psi_slam {
 
-/// What of a ROS bag is read.
+/// Frames of /tf and /tf_static, each with the newest pose in its parent.
+class TransformTree {
+ public:
+  void add(const RosTransform& transform);
+
+  /// Returns the frame and the frames above it, up to the root.
+  std::vector<std::string> way_up(const std::string& frame) const;
+
+  /// Returns the pose of `frame` in `base`, or nothing if they are not connected.
+  std::optional<mrpt::poses::CPose3D> base_T_frame(const std::string& base, const std::string& frame) const;
+
+  /// Each frame with its parent for messages: "base_link < odom, laser < base_link".
+  std::string text() const;
+
+ private:
+  struct Link {
+    std::string parent;
+    mrpt::poses::CPose3D parent_T_frame;
+  };
+
+  /// Returns the pose of a frame in the frame that is `steps` above it.
+  mrpt::poses::CPose3D above_T_frame(std::string frame, std::size_t steps) const;
+
+  std::map<std::string, Link> links_;  // by frame
+};
+
+/// Topics and frames of a ROS bag that are read.
 struct BagPlan {
-  std::vector<std::string> scan_topics;  ///< by the numbers of the lasers (LaserScan::laser)
-  std::string odometry_topic;  ///< empty: odometry is the transform from odom_frame to base_frame
+  std::vector<std::string> scan_topics;  ///< ordered by LaserScan::laser
+  std::string odometry_topic;            ///< empty: odometry is the transform from odom_frame to base_frame
   std::vector<std::string> transform_topics;
   std::string odom_frame;
-  std::string base_frame;    ///< the robot's: that which odometry moves
-  TransformTree transforms;  ///< as far as they were needed to find the frames
+  std::string base_frame;    ///< the robot's frame, which odometry moves
+  TransformTree transforms;  ///< those that were needed to find the frames
 
-  /// All topics to read.
+  /// Names of all topics to read.
   std::vector<std::string> topics() const;
 };
 
-/// What is wrong with odometry that has no pose.
-std::string no_pose_text(const std::string& topic);
+/// Message about odometry with an invalid pose.
+std::string invalid_pose_text(const std::string& topic);
 
-/// The poses of robots in bags come from a topic of their own or from a transform.
+/// Returns whether the messages of the topic are transforms.
 bool is_transforms(const BagTopic& topic);
 
-/// The options for the laser of a topic, with its stated mount.
+/// Options for the laser of a topic, with its stated mount.
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic);
 
-/// Finds the topics by their types, or by name where the user names them, and the frames by reading on until
-/// all are known. Throws UserError when something is missing, or there are several and none is named.
+/// Finds the topics by their types, or by the names that the user states. Then reads until all frames are
+/// known. Throws UserError if something is missing, or if several topics match and the user names none.
 BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options);
 
 }  // namespace psi_slam

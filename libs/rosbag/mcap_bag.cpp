@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rosbag/mcap_bag.h"
-
 #include <zlib.h>
 
-#include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "psi_slam/user_error.h"
-#include "compression/decompression.h"
+#include "rosbag/record_bag.h"
 
 namespace psi_slam {
 namespace {
 
 constexpr std::string_view kMagic = "\x89MCAP0\r\n";
-constexpr std::int64_t kFooterBytes = 1 + 8 + 20 + 8;  // with the magic behind it
+constexpr std::int64_t kFooterBytes = 1 + 8 + 20 + 8;  // including the magic bytes after it
 
 enum Kind : std::uint8_t {
   kFooter = 0x02,
@@ -47,14 +48,27 @@ std::uint32_t crc_of(std::string_view bytes) {
   return static_cast<std::uint32_t>(crc);
 }
 
-}  // namespace
+/// Channels that the records have stated so far. The type of a channel is the name of its schema.
+class Channels {
+ public:
+  void add_schema(ByteCursor record);
+  void add_channel(ByteCursor record);
 
-void McapChannels::add_schema(ByteCursor record) {
+  /// Returns null for an unknown channel.
+  const BagTopic* topic(std::uint16_t channel) const;
+  std::vector<BagTopic> topics() const;
+
+ private:
+  std::map<std::uint16_t, std::string> schemas_;
+  std::map<std::uint16_t, BagTopic> channels_;
+};
+
+void Channels::add_schema(ByteCursor record) {
   const auto id = record.number<std::uint16_t>();
   schemas_[id] = ros1_type_name(text(record));
 }
 
-void McapChannels::add_channel(ByteCursor record) {
+void Channels::add_channel(ByteCursor record) {
   const auto id = record.number<std::uint16_t>();
   const auto schema = schemas_.find(record.number<std::uint16_t>());
   BagTopic topic;
@@ -64,53 +78,62 @@ void McapChannels::add_channel(ByteCursor record) {
   channels_.emplace(id, std::move(topic));
 }
 
-const BagTopic* McapChannels::topic(std::uint16_t channel) const {
+const BagTopic* Channels::topic(std::uint16_t channel) const {
   const auto found = channels_.find(channel);
   return found == channels_.end() ? nullptr : &found->second;
 }
 
-std::vector<BagTopic> McapChannels::topics() const {
+std::vector<BagTopic> Channels::topics() const {
   std::vector<BagTopic> topics;
-  for (const auto& [id, topic] : channels_)
-    if (std::find(topics.begin(), topics.end(), topic) == topics.end()) topics.push_back(topic);
+  for (const auto& [id, topic] : channels_) add_topic(topics, topic);
   return topics;
 }
 
-McapBag::McapBag(const std::filesystem::path& path) : stream_(path) {
+class McapBag : public RecordBag {
+ public:
+  explicit McapBag(const std::filesystem::path& path);
+
+  std::vector<BagTopic> topics() override;
+
+ protected:
+  bool read_record_of_file() override;
+  void read_record_of_chunk(ByteCursor& chunk) override;
+  bool take_record(BagMessage& message) override;
+
+ private:
+  bool take_message(ByteCursor cursor, BagMessage& message) const;
+  void open_chunk(ByteCursor cursor);
+  std::vector<BagTopic> topics_of_summary() const;
+
+  std::uint8_t kind_ = 0;  // of the record
+  std::string_view bytes_;
+  Channels channels_;
+  bool at_end_ = false;
+};
+
+McapBag::McapBag(const std::filesystem::path& path) : RecordBag(path) {
   if (stream_.read_up_to(kMagic.size()) != kMagic)
-    throw UserError(path.string() + " is no MCAP file of version 0");
+    throw UserError(path.string() + " is not an MCAP file of version 0");
 }
 
-bool McapBag::read_record(Record& record) {
-  if (in_chunk_ && !in_chunk_->at_end()) {
-    offset_in_chunk_ = in_chunk_->offset();
-    record.kind = in_chunk_->number<std::uint8_t>();
-    record.bytes = long_piece(*in_chunk_, in_chunk_->number<std::uint64_t>());
-    return true;
-  }
-  in_chunk_.reset();
+bool McapBag::read_record_of_file() {
   if (at_end_) return false;
   record_offset_ = stream_.offset();
   ByteCursor head(stream_.read(9));
-  record.kind = head.number<std::uint8_t>();
-  record.bytes = stream_.read(head.number<std::uint64_t>());
-  at_end_ = record.kind == kDataEnd || record.kind == kFooter;
+  kind_ = head.number<std::uint8_t>();
+  bytes_ = stream_.read(head.number<std::uint64_t>());
+  at_end_ = kind_ == kDataEnd || kind_ == kFooter;
   return !at_end_;
 }
 
-bool McapBag::next(BagMessage& message) {
-  try {
-    for (Record record; read_record(record);)
-      if (take(record, message)) return true;
-  } catch (const MalformedBytes& error) {
-    throw UserError(place() + ": the bag is damaged: " + error.what());
-  }
-  return false;
+void McapBag::read_record_of_chunk(ByteCursor& chunk) {
+  kind_ = chunk.number<std::uint8_t>();
+  bytes_ = long_piece(chunk, chunk.number<std::uint64_t>());
 }
 
-bool McapBag::take(const Record& record, BagMessage& message) {
-  const ByteCursor cursor(record.bytes);
-  switch (record.kind) {
+bool McapBag::take_record(BagMessage& message) {
+  const ByteCursor cursor(bytes_);
+  switch (kind_) {
     case kSchema:
       channels_.add_schema(cursor);
       return false;
@@ -120,7 +143,6 @@ bool McapBag::take(const Record& record, BagMessage& message) {
     case kMessage:
       return take_message(cursor, message);
     case kChunk:
-      if (in_chunk_) throw MalformedBytes("a chunk stands within a chunk");
       open_chunk(cursor);
       return false;
     default:  // indices, attachments, metadata
@@ -132,37 +154,31 @@ bool McapBag::take_message(ByteCursor cursor, BagMessage& message) const {
   const BagTopic* topic = channels_.topic(cursor.number<std::uint16_t>());
   if (topic == nullptr) throw MalformedBytes("a message has no channel");
   if (!is_wanted(*topic)) return false;
-  cursor.number<std::uint32_t>();  // its number in the channel
+  cursor.number<std::uint32_t>();  // number in the channel
   const auto recorded_ns = cursor.number<std::uint64_t>();
-  cursor.number<std::uint64_t>();  // when it was published
+  cursor.number<std::uint64_t>();  // time of publication
   message = {topic, static_cast<TimeUs>(recorded_ns / 1000), cursor.rest()};
   return true;
 }
 
 void McapBag::open_chunk(ByteCursor cursor) {
-  cursor.take(16);  // the times of its first and last message
+  cursor.take(16);  // times of the first and last message
   const auto size = cursor.number<std::uint64_t>();
   const auto crc = cursor.number<std::uint32_t>();
   const std::string_view compression = text(cursor);
   const std::string_view bytes = long_piece(cursor, cursor.number<std::uint64_t>());
-  if (compression.empty()) {
-    chunk_ = bytes;
-  } else if (is_known_compression(compression)) {
-    chunk_ = decompress(compression, bytes, size);
-  } else {
-    throw MalformedBytes("its compression is \"" + std::string(compression) + "\", expected lz4 or zstd");
-  }
-  if (crc != 0 && crc != crc_of(chunk_)) throw MalformedBytes("the checksum of a chunk is another");
-  in_chunk_.emplace(chunk_);
+  unpack_chunk(compression, bytes, size);
+  if (crc != 0 && crc != crc_of(chunk_)) throw MalformedBytes("the checksum of a chunk is wrong");
+  begin_chunk();
 }
 
 std::vector<BagTopic> McapBag::topics_of_summary() const {
-  const std::string footer = tail_of_file(stream_.path(), -kFooterBytes).value_or("");
+  const std::string footer = tail_of_file(stream_.path(), -kFooterBytes);
   if (footer.empty() || footer.front() != kFooter) return {};
   const auto start = ByteCursor(std::string_view(footer).substr(9)).number<std::uint64_t>();
   if (start == 0 || start > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) return {};
-  const std::string summary = tail_of_file(stream_.path(), static_cast<std::int64_t>(start)).value_or("");
-  McapChannels channels;
+  const std::string summary = tail_of_file(stream_.path(), static_cast<std::int64_t>(start));
+  Channels channels;
   for (ByteCursor cursor(summary); cursor.left() > static_cast<std::size_t>(kFooterBytes);) {
     const auto kind = cursor.number<std::uint8_t>();
     const ByteCursor record(long_piece(cursor, cursor.number<std::uint64_t>()));
@@ -176,21 +192,17 @@ std::vector<BagTopic> McapBag::topics() {
   try {
     if (auto topics = topics_of_summary(); !topics.empty()) return topics;
   } catch (const MalformedBytes&) {
-    // Then the records in front of it tell.
+    // The summary is damaged. The records before it state the topics too.
   }
   McapBag whole(stream_.path());
-  try {
-    for (BagMessage message; whole.next(message);) continue;
-  } catch (const UserError&) {
-    // What is wrong will be said when reading comes there.
-  }
+  whole.read_to_end();
   return whole.channels_.topics();
 }
 
-std::string McapBag::place() const {
-  std::string place = stream_.place_of(record_offset_);
-  if (in_chunk_) place += ", byte " + std::to_string(offset_in_chunk_) + " of the chunk";
-  return place;
+}  // namespace
+
+std::unique_ptr<BagFile> open_mcap_bag(const std::filesystem::path& path) {
+  return std::make_unique<McapBag>(path);
 }
 
 }  // namespace psi_slam

@@ -13,7 +13,7 @@
 namespace psi_slam {
 namespace {
 
-/// The fields of a message one by one, in either encoding.
+/// Parses the fields of a message in order, in either encoding.
 class RosFields {
  public:
   explicit RosFields(const BagMessage& message)
@@ -37,7 +37,7 @@ class RosFields {
   std::vector<float> floats() {
     const auto count = number<std::uint32_t>();
     if (count > cursor_.left() / sizeof(float))
-      throw MalformedBytes(std::to_string(count) + " numbers are announced but " +
+      throw MalformedBytes("it states " + std::to_string(count) + " numbers, but only " +
                            std::to_string(cursor_.left()) + " bytes are left");
     std::vector<float> values(count);
     for (float& value : values) value = number<float>();
@@ -45,7 +45,7 @@ class RosFields {
   }
 
  private:
-  /// Behind the four bytes in front of CDR, which say how it is encoded.
+  /// Skips the four bytes before CDR data, which state the encoding.
   static ByteCursor cursor_over(const BagMessage& message, std::size_t& alignment) {
     if (message.topic->encoding == BagEncoding::kRos1) return ByteCursor(message.bytes);
     ByteCursor head(message.bytes);
@@ -54,7 +54,7 @@ class RosFields {
     head.take(2);
     const bool is_plain_cdr2 = kind == 6 || kind == 7;
     if (kind > 1 && !is_plain_cdr2)
-      throw MalformedBytes("its encoding is of kind " + std::to_string(kind) + ", expected plain CDR");
+      throw MalformedBytes("its encoding has kind " + std::to_string(kind) + ", expected plain CDR");
     alignment = is_plain_cdr2 ? 4 : 8;
     return ByteCursor(head.rest(), kind % 2 == 1 ? ByteOrder::kLittleEndian : ByteOrder::kBigEndian);
   }
@@ -64,7 +64,7 @@ class RosFields {
     cursor_.take((step - cursor_.offset() % step) % step);
   }
 
-  std::size_t alignment_ = 8;  // at most; filled with the cursor, so declared in front of it
+  std::size_t alignment_ = 8;  // maximum; set together with cursor_, so declared before it
   bool cdr_;
   ByteCursor cursor_;
 };
@@ -76,7 +76,7 @@ std::string frame_name(std::string name) {
 
 RosHeader header(RosFields& fields, TimeUs recorded_us) {
   RosHeader header;
-  if (!fields.is_cdr()) fields.number<std::uint32_t>();  // its number
+  if (!fields.is_cdr()) fields.number<std::uint32_t>();  // sequence number
   const std::int64_t stamp_s = fields.is_cdr() ? std::int64_t{fields.number<std::int32_t>()}
                                                : std::int64_t{fields.number<std::uint32_t>()};
   const auto stamp_ns = std::int64_t{fields.number<std::uint32_t>()};
@@ -86,7 +86,8 @@ RosHeader header(RosFields& fields, TimeUs recorded_us) {
   return header;
 }
 
-/// A place and a quaternion x, y, z, w; none when the one is not finite or the other no rotation.
+/// Parses a position and a quaternion x, y, z, w. Empty if a position is not finite or the quaternion does
+/// not have length 1.
 std::optional<mrpt::math::TPose3D> pose(RosFields& fields) {
   double values[7];
   for (double& value : values) value = fields.number<double>();
@@ -107,7 +108,7 @@ RosLaserScan read_ros_laser_scan(const BagMessage& message) {
   RosLaserScan scan;
   scan.header = header(fields, message.recorded_us);
   scan.angle_min_rad = fields.number<float>();
-  fields.number<float>();  // angle_max, which says the same again
+  fields.number<float>();  // angle_max, which follows from the others
   scan.angle_increment_rad = fields.number<float>();
   scan.time_increment_s = fields.number<float>();
   scan.scan_time_s = fields.number<float>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The messages of ROS that are read, as far as they are needed, out of the bytes of ROS 1 (packed, little
-// endian) and of ROS 2 (CDR of either byte order, numbers aligned to their size).
+// Parses the messages of ROS that we need, from the bytes of ROS 1 (packed, little endian) and of ROS 2 (CDR
+// of either byte order, numbers aligned to their size).
 #pragma once
 
 #include <mrpt/math/TPose3D.h>
@@ -22,7 +22,7 @@ inline constexpr const char* kRosOldTransforms = "tf/tfMessage";  ///< the same 
 
 struct RosHeader {
   TimeUs time_us = 0;
-  std::string frame;  ///< without the slash in front that old programs write
+  std::string frame;  ///< without the leading slash that old programs write
 };
 
 struct RosLaserScan {
@@ -36,20 +36,20 @@ struct RosLaserScan {
   std::vector<float> ranges_m;
 };
 
-/// Where `child_frame` is in the frame of the header; from an odometry message or a transform.
+/// Pose of `child_frame` in the frame of the header, from an odometry message or a transform.
 struct RosTransform {
   RosHeader header;
   std::string child_frame;
   mrpt::math::TPose3D pose;
 };
 
-// Each throws MalformedBytes when the message is shorter than it says.
+// Each function throws MalformedBytes if the message is shorter than it states.
 RosLaserScan read_ros_laser_scan(const BagMessage& message);
 
-/// None when its pose is none: not finite, or no rotation.
+/// Empty if the pose is invalid: not finite, or a quaternion whose length is not 1.
 std::optional<RosTransform> read_ros_odometry(const BagMessage& message);
 
-/// Transforms that are none (not finite, or no rotation) are left out: most are of no concern here.
+/// Skips invalid transforms, since most transforms are not needed.
 std::vector<RosTransform> read_ros_transforms(const BagMessage& message);
 
 }  // namespace psi_slam

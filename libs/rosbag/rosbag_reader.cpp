@@ -2,15 +2,20 @@
 #include "rosbag/rosbag_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "base/byte_cursor.h"
+#include "frames/beam_angles.h"
+#include "frames/laser_choice.h"
+#include "frames/laser_readings.h"
+#include "frames/odometry_interpolator.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_plan.h"
-#include "base/byte_cursor.h"
-#include "frames/odometry_interpolator.h"
-#include "rosbag/ros_laser.h"
+#include "rosbag/ros_messages.h"
 
 namespace psi_slam {
 namespace {
@@ -19,37 +24,104 @@ mrpt::math::TPose2D on_floor(const mrpt::math::TPose3D& pose) {
   return {pose.x, pose.y, pose.yaw};
 }
 
-}  // namespace
+/// Sweep time, or 0 if the stated one is implausible: drivers may leave it 0, or state more than the time
+/// between scans or than any laser needs.
+float sweep_time_s(const RosLaserScan& message) {
+  constexpr float kMaxSweep_s = 1;
+  const float sweep_s = message.time_increment_s * static_cast<float>(message.ranges_m.size() - 1);
+  const float max_sweep_s =
+      message.scan_time_s > 0 ? std::min(kMaxSweep_s, 1.5F * message.scan_time_s) : kMaxSweep_s;
+  return sweep_s > 0 && sweep_s <= max_sweep_s ? sweep_s : 0;
+}
 
-class RosbagReader::Implementation {
+/// Turns the scans of one topic into ours. The user's options override the messages. The number of beams and
+/// the angles may differ between messages.
+class RosLaser {
  public:
-  Implementation(const std::filesystem::path& path, const LogOptions& options)
+  explicit RosLaser(const LogOptions& options) : options_(options) {}
+
+  /// `mount` is the laser's mount according to the transforms. A stated pose overrides its pose, but not
+  /// whether it is upside down. Throws UserError that starts with `place` for invalid angles.
+  LaserScan scan(RosLaserScan message, const FloorMount& mount, const std::string& place);
+
+ private:
+  using Geometry = std::tuple<std::size_t, float, float, bool>;  // beams, first bearing, step, clockwise
+
+  std::vector<float> bearings_rad(const RosLaserScan& message, bool clockwise) const;
+
+  LogOptions options_;
+  Geometry geometry_;  // of bearings_
+  BeamBearings bearings_;
+};
+
+std::vector<float> RosLaser::bearings_rad(const RosLaserScan& message, bool clockwise) const {
+  const auto step_rad = static_cast<double>(message.angle_increment_rad);
+  const std::size_t beams = message.ranges_m.size();
+  std::vector<float> bearings(beams);
+  if (options_.beam_angles == BeamAngles::kAuto && !options_.field_of_view_rad) {
+    for (std::size_t i = 0; i < beams; ++i)
+      bearings[i] =
+          static_cast<float>(static_cast<double>(message.angle_min_rad) + static_cast<double>(i) * step_rad);
+  } else {
+    const bool is_auto = options_.beam_angles == BeamAngles::kAuto;
+    const double steps = static_cast<double>(std::max<std::size_t>(beams - 1, 1));
+    const double span_rad = std::min(std::abs(step_rad) * steps, 2 * M_PI);
+    bearings = make_bearings_rad(is_auto ? BeamAngles::kCentredStepInclusive : options_.beam_angles, beams,
+                                 options_.field_of_view_rad.value_or(span_rad));
+    if (step_rad < 0) mirror(bearings);
+  }
+  if (clockwise) mirror(bearings);
+  return bearings;
+}
+
+LaserScan RosLaser::scan(RosLaserScan message, const FloorMount& mount, const std::string& place) {
+  const bool clockwise = mount.upside_down != options_.mirrored;
+  const Geometry geometry{message.ranges_m.size(), message.angle_min_rad, message.angle_increment_rad,
+                          clockwise};
+  const bool has_angles = std::isfinite(message.angle_min_rad) &&
+                          std::isfinite(message.angle_increment_rad) &&
+                          (message.ranges_m.size() < 2 || message.angle_increment_rad != 0);
+  if (!has_angles)
+    throw UserError(place + ": the scan's angles start at " + std::to_string(message.angle_min_rad) +
+                    " in steps of " + std::to_string(message.angle_increment_rad) +
+                    " radians, expected finite angles and a step other than 0");
+  if (!bearings_ || geometry != geometry_) {
+    bearings_ = std::make_shared<const std::vector<float>>(bearings_rad(message, clockwise));
+    geometry_ = geometry;
+  }
+  LaserScan scan;
+  scan.bearings_rad = bearings_;
+  scan.robot_T_laser = options_.robot_T_laser.value_or(mount.robot_T_laser);
+  scan.sweep_time_s = sweep_time_s(message);
+  scan.ranges_m = std::move(message.ranges_m);
+  limit_ranges(scan, options_,
+               std::isfinite(message.range_max_m) ? static_cast<double>(message.range_max_m) : 0,
+               static_cast<double>(message.range_min_m));
+  return scan;
+}
+
+class RosbagReader : public LogReader {
+ public:
+  RosbagReader(const std::filesystem::path& path, const LogOptions& options)
       : plan_(plan_bag(path, options)), bag_(open_bag(path)) {
     bag_->want(plan_.topics());
-    for (const std::string& topic : plan_.scan_topics) {
-      statistics_.scans += (statistics_.scans.empty() ? "" : ", ") + topic;
-      lasers_.emplace_back(options_of_topic(options, topic));
-    }
-    statistics_.odometry =
-        plan_.odometry_topic.empty() ? plan_.odom_frame + " -> " + plan_.base_frame : plan_.odometry_topic;
+    contents_.laser = name_list(plan_.scan_topics);
+    for (const std::string& topic : plan_.scan_topics) lasers_.emplace_back(options_of_topic(options, topic));
   }
 
-  std::optional<Frame> next() {
+  double progress() const override { return at_end_ ? 1 : bag_->progress(); }
+
+ protected:
+  std::optional<Frame> read_frame() override {
     while (true) {
-      if (auto frame = interpolator_.take()) {
-        frame->index = frames_given_++;
-        return frame;
-      }
+      if (auto frame = interpolator_.take()) return frame;
       if (at_end_) return end();
       read_message();
     }
   }
 
-  double progress() const { return at_end_ ? 1 : bag_->progress(); }
-  const RosbagStatistics& statistics() const { return statistics_; }
-
  private:
-  /// The end of what can be read ends the waiting for odometry; what is wrong there is told behind the scans.
+  /// After an error no odometry follows, so the waiting scans leave first. Then the error is thrown.
   void read_message() {
     try {
       BagMessage message;
@@ -99,8 +171,8 @@ class RosbagReader::Implementation {
       interpolator_.add_odometry(odometry->header.time_us, on_floor(odometry->pose));
       return;
     }
-    if (statistics_.skipped.count++ == 0)
-      statistics_.skipped.first = bag_->place() + ": " + no_pose_text(message.topic->name);
+    if (contents_.skipped.count++ == 0)
+      contents_.skipped.first = bag_->place() + ": " + invalid_pose_text(message.topic->name);
   }
 
   std::size_t laser_of(const std::string& topic) const {
@@ -109,7 +181,7 @@ class RosbagReader::Implementation {
   }
 
   void take_scan(RosLaserScan message, std::size_t laser) {
-    if (message.ranges_m.empty()) return;  // nothing to map
+    if (message.ranges_m.empty()) return;
     const auto robot_T_laser = plan_.transforms.base_T_frame(plan_.base_frame, message.header.frame);
     const FloorMount mount = robot_T_laser ? floor_mount(*robot_T_laser, bag_->place()) : FloorMount{};
     Frame frame;
@@ -121,29 +193,16 @@ class RosbagReader::Implementation {
 
   BagPlan plan_;
   std::unique_ptr<BagFile> bag_;
-  std::vector<RosLaser> lasers_;  // by the topics of the plan
+  std::vector<RosLaser> lasers_;  // in the order of the plan's topics
   OdometryInterpolator interpolator_;
-  RosbagStatistics statistics_;
   std::exception_ptr failure_;
-  std::size_t frames_given_ = 0;
   bool at_end_ = false;
 };
 
-RosbagReader::RosbagReader(const std::filesystem::path& path, const LogOptions& options)
-    : implementation_(std::make_unique<Implementation>(path, options)) {}
+}  // namespace
 
-RosbagReader::~RosbagReader() = default;
-
-std::optional<Frame> RosbagReader::next() {
-  return implementation_->next();
-}
-
-double RosbagReader::progress() const {
-  return implementation_->progress();
-}
-
-const RosbagStatistics& RosbagReader::statistics() const {
-  return implementation_->statistics();
+std::unique_ptr<LogReader> open_bag_log(const std::filesystem::path& path, const LogOptions& options) {
+  return std::make_unique<RosbagReader>(path, options);
 }
 
 }  // namespace psi_slam

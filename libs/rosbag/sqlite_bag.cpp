@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rosbag/sqlite_bag.h"
-
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <map>
+#include <string>
 
-#include "psi_slam/user_error.h"
-#include "compression/decompression.h"
 #include "base/byte_cursor.h"
+#include "compression/compression.h"
+#include "psi_slam/user_error.h"
+#include "rosbag/bag_file.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr std::uint64_t kMostOfMessage = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxMessageBytes = std::uint64_t{1} << 30;
 
 std::string text_at(sqlite3_stmt* row, int column) {
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
@@ -31,13 +33,39 @@ std::string uri_of(const std::filesystem::path& path) {
       uri += c;
     }
   }
-  // A recorder that was killed leaves its last messages in a journal beside the file; without one nothing is
-  // written beside it.
+  // A recorder that was killed leaves its last messages in a journal next to the file. Without a journal, the
+  // file is opened such that SQLite creates no files next to it.
   const bool has_journal = std::filesystem::exists(path.string() + "-wal");
   return uri + (has_journal ? "?mode=ro" : "?mode=ro&immutable=1");
 }
 
-}  // namespace
+class SqliteBag : public BagFile {
+ public:
+  explicit SqliteBag(const std::filesystem::path& path);
+
+  std::vector<BagTopic> topics() override;
+  bool next(BagMessage& message) override;
+  double progress() const override;
+  std::string place() const override;
+
+ private:
+  using Database = std::unique_ptr<sqlite3, int (*)(sqlite3*)>;
+  using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
+
+  Statement prepare(const std::string& query) const;
+  bool step(const Statement& statement) const;
+  void read_topics();
+  void begin_messages();
+  [[noreturn]] void fail() const;
+
+  std::filesystem::path path_;
+  Database database_;
+  Statement messages_;
+  std::map<std::int64_t, BagTopic> topics_;
+  std::string unpacked_;
+  std::int64_t id_ = 0;  // of the last message
+  std::int64_t last_id_ = 0;
+};
 
 SqliteBag::SqliteBag(const std::filesystem::path& path)
     : path_(path), database_(nullptr, &sqlite3_close), messages_(nullptr, &sqlite3_finalize) {
@@ -51,12 +79,10 @@ SqliteBag::SqliteBag(const std::filesystem::path& path)
   sqlite3_limit(
       database, SQLITE_LIMIT_LENGTH,
       static_cast<int>(std::clamp<std::uintmax_t>(bytes, 1 << 20, std::numeric_limits<int>::max())));
-  // Without it a file that is cut off is refused as a whole.
+  // Without this, SQLite rejects a truncated file as a whole.
   sqlite3_exec(database, "PRAGMA writable_schema = ON", nullptr, nullptr, nullptr);
   read_topics();
 }
-
-SqliteBag::~SqliteBag() = default;
 
 SqliteBag::Statement SqliteBag::prepare(const std::string& query) const {
   sqlite3_stmt* statement = nullptr;
@@ -81,8 +107,7 @@ void SqliteBag::read_topics() {
 
 std::vector<BagTopic> SqliteBag::topics() {
   std::vector<BagTopic> topics;
-  for (const auto& [id, topic] : topics_)
-    if (std::find(topics.begin(), topics.end(), topic) == topics.end()) topics.push_back(topic);
+  for (const auto& [id, topic] : topics_) add_topic(topics, topic);
   return topics;
 }
 
@@ -96,7 +121,7 @@ void SqliteBag::begin_messages() {
     const Statement last = prepare("SELECT max(id) FROM messages");
     if (step(last)) last_id_ = sqlite3_column_int64(last.get(), 0);
   } catch (const UserError&) {
-    last_id_ = 0;  // the end of the file is missing; then there is no saying how far reading has come
+    last_id_ = 0;  // the end of the file is missing, so that progress is unknown
   }
 }
 
@@ -112,7 +137,7 @@ bool SqliteBag::next(BagMessage& message) {
   message = {&topic->second, sqlite3_column_int64(row, 2) / 1000, std::string_view(data, data ? size : 0)};
   if (!is_zstd(message.bytes)) return true;
   try {
-    unpacked_ = decompress_zstd_frame(message.bytes, kMostOfMessage);
+    unpacked_ = decompress_zstd_frame(message.bytes, kMaxMessageBytes);
   } catch (const MalformedBytes& error) {
     throw UserError(place() + ": the bag is damaged: " + error.what());
   }
@@ -132,8 +157,14 @@ std::string SqliteBag::place() const {
 void SqliteBag::fail() const {
   const std::string reason = database_ ? sqlite3_errmsg(database_.get()) : "out of memory";
   const std::string where =
-      id_ > 0 ? path_.string() + ": behind message " + std::to_string(id_) : path_.string();
-  throw UserError(where + ": the bag is cut off or damaged, or no ROS 2 bag (" + reason + ")");
+      id_ > 0 ? path_.string() + ": after message " + std::to_string(id_) : path_.string();
+  throw UserError(where + ": the bag is cut off or damaged, or is not a ROS 2 bag (" + reason + ")");
+}
+
+}  // namespace
+
+std::unique_ptr<BagFile> open_sqlite_bag(const std::filesystem::path& path) {
+  return std::make_unique<SqliteBag>(path);
 }
 
 }  // namespace psi_slam

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "loop_closure/loop_edit.h"
+#include "psi_slam/loop_record.h"
 #include "session/edit_journal.h"
 
 namespace psi_slam {

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "base/atomic_file.h"
-#include "base/line_reader.h"
+#include "compression/line_reader.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

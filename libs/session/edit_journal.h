@@ -24,7 +24,7 @@
 #include <string_view>
 #include <vector>
 
-#include "loop_closure/loop_edit.h"
+#include "psi_slam/loop_record.h"
 
 namespace psi_slam {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/exact_number.h"
+#include "base/number_text.h"
 #include "config/nearest_name.h"
 #include "psi_slam/user_error.h"
 #include "session/edit_journal.h"
@@ -96,7 +96,7 @@ class Values {
 };
 
 MatcherKind matcher_of(const std::string& text) {
-  for (const MatcherKind kind : {MatcherKind::kCsm, MatcherKind::kCsmGa, MatcherKind::kGa})
+  for (const MatcherKind kind : kMatcherKinds)
     if (text == name(kind)) return kind;
   throw UserError("matcher=" + text + ": expected csm, csm_ga or ga");
 }

@@ -9,9 +9,11 @@
 
 #include "base/file_checksum.h"
 #include "pose_graph/g2o_file.h"
+#include "psi_slam/configuration.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
 #include "report/output_folder.h"
 #include "session/session_file.h"
 #include "session/session_input.h"
@@ -100,12 +102,8 @@ struct MappingSession::Members {
   std::size_t stages_of_mapping = 0;  ///< in result.stages, before those of the export
 };
 
-MappingSession MappingSession::open(const fs::path& log, const fs::path& config,
-                                    const std::vector<std::string>& assignments) {
-  BoundSettings bound;
-  bound.load(config, assignments);
-  return MappingSession(SessionInput(log), bound.settings, {});
-}
+MappingSession::MappingSession(const fs::path& log, const Configuration& configuration)
+    : MappingSession(SessionInput(log), configuration, configuration.warnings()) {}
 
 MappingSession::MappingSession(const fs::path& log, const Settings& settings)
     : MappingSession(SessionInput(log), settings, {}) {}
@@ -306,7 +304,7 @@ void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
       m.later_runs.push_back(later);
     }
   m.edits.add(
-      run.edits().of_run(m.scans, inner ? inner->frames.size() : 0, m.mapper->memory().local_maps.size()));
+      run.edits().of_run(m.scans, inner ? inner->frames.size() : 0, m.mapper->keyframes().local_maps.size()));
   m.recording.reset();  // it is only a part of what is mapped now
   m.log_path = run.log();
   m.log_sha256.clear();

@@ -5,7 +5,7 @@
 #include <limits>
 #include <memory>
 
-#include "frames/inverse_pose.h"
+#include "frames/pose_operations.h"
 #include "local_maps/front_end.h"
 #include "psi_slam/localizer.h"
 #include "psi_slam/user_error.h"

@@ -11,7 +11,7 @@
 
 #include "base/atomic_file.h"
 #include "base/file_checksum.h"
-#include "compression/decompression.h"
+#include "compression/compression.h"
 #include "psi_slam/user_error.h"
 #include "session/frame_bytes.h"
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/file_checksum.h"
+#include "exports/geo_tiff.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 #include "session/read_ahead.h"
@@ -61,6 +62,11 @@ std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const
   if (log_.empty()) return std::make_unique<RecordedSource>(recording_);
   const auto kind = same_log_ ? RecordedSource::Log::kLast : RecordedSource::Log::kNext;
   return std::make_unique<RecordedSource>(recording_, kind, open_log(log_, options), log_);
+}
+
+void check(const Settings& settings) {
+  check_values(settings);
+  check_epsg(settings.map_files.earth.epsg);
 }
 
 std::unique_ptr<FrameSource> open_input(const SessionInput& input, const Settings& settings) {

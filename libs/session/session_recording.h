@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "frames/skipped_lines.h"
-#include "mapping/run_start.h"
 #include "psi_slam/frame.h"
+#include "psi_slam/frame_source.h"
+#include "psi_slam/mapper.h"
 #include "session/edit_journal.h"
 
 namespace psi_slam {

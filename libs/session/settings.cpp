@@ -8,6 +8,8 @@
 #include "config/apply_settings.h"
 #include "config/ini_file.h"
 #include "config/option_listing.h"
+#include "frames/beam_angles.h"
+#include "psi_slam/version.h"
 #include "session/settings_parts.h"
 
 namespace psi_slam {
@@ -209,8 +211,7 @@ void describe_map_files(OptionTable& table, MapFileOptions& files) {
 void describe_localization(OptionTable& table, LocalizerOptions& localization) {
   GlobalSearchOptions& search = localization.search;
   table.section("localization", "psi-slam localize: finding and tracking a robot in a finished map")
-      .choice("matcher", search.matcher,
-              {{"csm", MatcherKind::kCsm}, {"csm_ga", MatcherKind::kCsmGa}, {"ga", MatcherKind::kGa}},
+      .choice("matcher", search.matcher, matcher_choices<MatcherKind>(),
               "Matcher that searches the whole map while the robot is lost.")
       .number("search_resolution_m", search.resolution_m, between(0.005, 10), "m",
               "Cell size for searching the whole map. Larger cells of the map itself are kept.")

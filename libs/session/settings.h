@@ -14,7 +14,7 @@
 #include "localization/localizer_options.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/log_options.h"
-#include "psi_slam/mapper.h"
+#include "mapping/mapper_options.h"
 
 namespace psi_slam {
 
@@ -67,6 +67,9 @@ std::string settings_file_text(const Settings& settings);
 
 /// Throws UserError if two options contradict each other. Each single option is checked when it is set.
 void check(const Settings& settings);
+
+/// check() without the coordinate system map.epsg, which only GDAL knows.
+void check_values(const Settings& settings);
 
 /// Options of the log's reader. If the laser's mount is stated in part, the rest of it is 0.
 LogOptions log_options(const Settings& settings);

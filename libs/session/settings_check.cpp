@@ -2,10 +2,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "config/exact_number.h"
-#include "exports/geo_tiff.h"
-#include "localization/reference_map.h"
-#include "psi_slam/localizer.h"
+#include "base/number_text.h"
 #include "psi_slam/user_error.h"
 #include "session/settings.h"
 
@@ -46,7 +43,7 @@ void check_ranges(const Settings& settings) {
 
 void check_windows(const MapperOptions& mapper) {
   const FrontEndOptions& front_end = mapper.front_end;
-  const LoopCandidateOptions& loops = mapper.loop_closure.candidates;
+  const LoopCandidateOptions& loops = mapper.back_end.loop_closure.candidates;
   require_at_most({"front_end.window_m", front_end.window_m},
                   {"front_end.max_window_m", front_end.max_window_m});
   require_at_most({"front_end.window_theta_deg", front_end.window_rad, true},
@@ -57,25 +54,24 @@ void check_windows(const MapperOptions& mapper) {
                   {"loop_closure.window_y_m", loops.max_window.y_m});
   require_at_most({"loop_closure.min_window_theta_deg", loops.min_window_rad, true},
                   {"loop_closure.window_theta_deg", loops.max_window.theta_rad, true});
-  require_at_most({"final_search.window_m", mapper.final_search.window_m},
-                  {"verification.wide_window_m", mapper.loop_closure.verification.wide_window_m});
+  require_at_most({"final_search.window_m", mapper.back_end.final_search.window_m},
+                  {"verification.wide_window_m", mapper.back_end.loop_closure.verification.wide_window_m});
 }
 
 void check_matchers(const MapperOptions& mapper) {
-  const MatcherOptions& matcher = mapper.loop_matcher;
+  const MatcherOptions& matcher = mapper.back_end.loop_matcher;
   require_at_most({"loop_closure.min_sigma_m", matcher.min_sigma_m},
                   {"loop_closure.max_sigma_m", matcher.max_sigma_m});
-  require_below({"psi.psi_1", mapper.psi.psi_1}, {"psi.psi_2", mapper.psi.psi_2});
+  require_below({"psi.psi_1", mapper.back_end.psi.psi_1}, {"psi.psi_2", mapper.back_end.psi.psi_2});
 }
 
 }  // namespace
 
-void check(const Settings& settings) {
+void check_values(const Settings& settings) {
   check_ranges(settings);
   check_windows(settings.mapper);
   check_matchers(settings.mapper);
   check_log_options(log_options(settings));
-  check_epsg(settings.map_files.earth.epsg);
 }
 
 LogOptions log_options(const Settings& settings) {
@@ -89,28 +85,20 @@ LogOptions log_options(const Settings& settings) {
 
 MapperOptions mapper_options(const Settings& settings) {
   MapperOptions options = settings.mapper;
-  options.seed = settings.run.seed;
-  options.threads = worker_threads(settings.run);
+  options.back_end.seed = settings.run.seed;
+  options.back_end.threads = worker_threads(settings.run);
   return options;
 }
 
 LocalizerOptions localizer_options(const Settings& settings) {
   LocalizerOptions options = settings.localization;
   options.front_end = settings.mapper.front_end;
-  options.consensus = settings.mapper.loop_consensus;
-  options.search.genetic = settings.mapper.genetic;
-  options.search.match = settings.mapper.loop_matcher;
+  options.consensus = settings.mapper.back_end.loop_consensus;
+  options.search.genetic = settings.mapper.back_end.genetic;
+  options.search.match = settings.mapper.back_end.loop_matcher;
   options.search.smoothing_sigma_m = settings.mapper.front_end.local_map.smoothing_sigma_m;
   options.seed = settings.run.seed;
   return options;
-}
-
-Localizer Localizer::open(const std::filesystem::path& map, const std::filesystem::path& config,
-                          const std::vector<std::string>& assignments) {
-  BoundSettings bound;
-  bound.load(config, assignments);
-  check(bound.settings);
-  return {read_map_file(map), localizer_options(bound.settings)};
 }
 
 int worker_threads(const RunOptions& run) {

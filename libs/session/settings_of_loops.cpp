@@ -7,17 +7,15 @@ namespace psi_slam {
 namespace {
 
 void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
-  LoopClosureOptions& loops = mapper.loop_closure;
-  MatcherOptions& matcher = mapper.loop_matcher;
+  LoopClosureOptions& loops = mapper.back_end.loop_closure;
+  MatcherOptions& matcher = mapper.back_end.loop_matcher;
   LoopCandidateOptions& candidates = loops.candidates;
+  auto choices = matcher_choices<std::optional<MatcherKind>>();
+  choices.emplace_back("adaptive", std::nullopt);
   table.section("loop_closure", "Loop closing: finding places that the robot has visited before")
       .flag("enabled", mapper.close_loops,
             "Closes loops. Without loops, the map is that of the front end alone.")
-      .choice("matcher", mapper.matcher,
-              {{"csm", LoopMatcher::kCsm},
-               {"csm_ga", LoopMatcher::kCsmGa},
-               {"ga", LoopMatcher::kGa},
-               {"adaptive", LoopMatcher::kAdaptive}},
+      .choice("matcher", mapper.back_end.matcher, choices,
               "How to search for loops: csm is exhaustive, csm_ga partly genetic, ga genetic. adaptive "
               "chooses among them by the factor Psi.")
       .number("window_x_m", candidates.max_window.x_m, above(0).at_most(100), "m",
@@ -197,11 +195,11 @@ void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
       .angle_deg(
           "local_map_sigma_theta_deg", mapper.local_map_sigma_rad, above(0).at_most(180),
           "Standard deviation of a node's heading in a local map, added to the front end's covariance.")
-      .number("loop_sigma_m", mapper.loop_sigma_m, above(0), "m",
+      .number("loop_sigma_m", mapper.back_end.loop_sigma_m, above(0), "m",
               "Standard deviation of a loop's position, added to the covariance of its match.")
-      .angle_deg("loop_sigma_theta_deg", mapper.loop_sigma_rad, above(0).at_most(180),
+      .angle_deg("loop_sigma_theta_deg", mapper.back_end.loop_sigma_rad, above(0).at_most(180),
                  "Standard deviation of a loop's heading, added to the covariance of its match.")
-      .number("max_loop_chi", mapper.max_loop_chi, above(0), "sigma",
+      .number("max_loop_chi", mapper.back_end.max_loop_chi, above(0), "sigma",
               "A loop whose residual in the finished graph exceeds this many standard deviations is switched "
               "off.");
   describe_kernel(table, "local_map", "the constraints between nodes and their local maps",
@@ -267,13 +265,13 @@ void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refin
 
 void describe_loops(OptionTable& table, MapperOptions& mapper) {
   describe_loop_closure(table, mapper);
-  describe_psi(table, mapper.psi);
-  describe_genetic(table, mapper.genetic);
-  describe_verification(table, mapper.loop_closure.verification);
-  describe_consensus(table, mapper.loop_consensus);
+  describe_psi(table, mapper.back_end.psi);
+  describe_genetic(table, mapper.back_end.genetic);
+  describe_verification(table, mapper.back_end.loop_closure.verification);
+  describe_consensus(table, mapper.back_end.loop_consensus);
   describe_pose_graph(table, mapper);
-  describe_final_search(table, mapper.final_search);
-  describe_joint_refinement(table, mapper.joint_refinement);
+  describe_final_search(table, mapper.back_end.final_search);
+  describe_joint_refinement(table, mapper.back_end.joint_refinement);
 }
 
 }  // namespace psi_slam

@@ -25,7 +25,7 @@ void split(std::string_view text, std::vector<std::string_view>& words) {
   }
 }
 
-/// A word as it can be shown to a person: short, and printable even when the file is not text at all.
+/// Quotes at most 40 characters of a word for an error message and replaces those that are not printable.
 std::string quoted(std::string_view word) {
   constexpr std::size_t kLongest = 40;
   std::string shown(word.substr(0, kLongest));
@@ -67,7 +67,7 @@ void for_each_text_line(const fs::path& path, const std::function<void(const Tex
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw UserError("cannot read " + path.string() + ": " +
-                    (errno != 0 ? std::strerror(errno) : "it does not open"));
+                    (errno != 0 ? std::strerror(errno) : "it cannot be opened"));
   std::string text;
   TextLine line{path, 0, {}};
   while (std::getline(file, text)) {
@@ -75,7 +75,7 @@ void for_each_text_line(const fs::path& path, const std::function<void(const Tex
     split(text, line.words);
     if (!line.words.empty()) visit(line);
   }
-  if (file.bad()) throw SystemFailure("cannot read " + path.string() + ": the disk failed half-way");
+  if (file.bad()) throw SystemFailure("cannot read " + path.string() + ": reading failed part-way through");
 }
 
 }  // namespace psi_slam

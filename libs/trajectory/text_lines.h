@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text files of blank-separated words, one record a line, as trajectories, relations and CARMEN logs are: '#'
-// starts a comment, empty lines are passed over, and every mistake is reported as "file:line: ...".
+// Text files with one record per line and words separated by blanks: trajectories, relations, CARMEN logs.
+// '#' starts a comment, empty lines are skipped, and errors read "file:line: ...".
 #pragma once
 
 #include <cstddef>
@@ -15,21 +15,22 @@
 
 namespace psi_slam {
 
-/// One line that says something; its words live as long as the visit does.
+/// The words of one line that is not empty. The views are valid during the visit only.
 struct TextLine {
   const std::filesystem::path& path;
   std::size_t number = 0;  ///< from 1
   std::vector<std::string_view> words;
 
-  /// "file:line: complaint".
+  /// Returns the error "file:line: complaint".
   UserError error(const std::string& complaint) const;
-  /// Word `i` as a finite number; throws UserError naming the word and `what` was expected.
+  /// Returns word `i` as a finite number. Throws UserError naming the word and `what` was expected.
   double finite_number(std::size_t i, const char* what) const;
-  /// Word `i` as a time stamp in decimal seconds; throws UserError naming the word.
+  /// Returns word `i`, a time stamp in decimal seconds. Throws UserError naming the word.
   TimeUs time(std::size_t i) const;
 };
 
-/// Visits the lines of a text file in their order. Throws UserError when the file cannot be read.
+/// Calls `visit` for each line with words, from first to last. Throws UserError if the file cannot be opened,
+/// SystemFailure if reading fails later.
 void for_each_text_line(const std::filesystem::path& path, const std::function<void(const TextLine&)>& visit);
 
 }  // namespace psi_slam

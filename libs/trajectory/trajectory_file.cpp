@@ -3,11 +3,14 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/atomic_file.h"
-#include "psi_slam/user_error.h"
 #include "base/number_text.h"
+#include "frames/pose_operations.h"
+#include "psi_slam/user_error.h"
 #include "trajectory/text_lines.h"
 
 namespace psi_slam {
@@ -15,43 +18,41 @@ namespace {
 
 constexpr std::size_t kPlaneWords = 4;
 constexpr std::size_t kTumWords = 8;
+constexpr TimeUs kSameTimeUs = 100;  // exclusive
 
 bool is_message_name(std::string_view word) {
   return word[0] >= 'A' && word[0] <= 'Z';
 }
 
-StampedPose plane_pose(const TextLine& line) {
-  return {line.time(0),
-          {line.finite_number(1, "x in metres"), line.finite_number(2, "y in metres"),
-           mrpt::math::wrapToPi(line.finite_number(3, "theta in radians"))}};
+/// Reads x, y and theta from three words in a row.
+StampedPose plane_pose(const TextLine& line, std::size_t stamp, std::size_t x) {
+  return {line.time(stamp),
+          {line.finite_number(x, "x in metres"), line.finite_number(x + 1, "y in metres"),
+           mrpt::math::wrapToPi(line.finite_number(x + 2, "theta in radians"))}};
 }
 
 StampedPose tum_pose(const TextLine& line) {
   for (const std::size_t out_of_plane : {3, 4, 5})
-    line.finite_number(out_of_plane, out_of_plane == 3 ? "tz in metres" : "a part of a quaternion");
+    line.finite_number(out_of_plane, out_of_plane == 3 ? "tz in metres" : "a component of the quaternion");
   const double q_z = line.finite_number(6, "qz of a quaternion");
   const double q_w = line.finite_number(7, "qw of a quaternion");
   if (q_z == 0 && q_w == 0)
-    throw line.error("expected a turn in the plane, found a quaternion with qz = qw = 0");
+    throw line.error("expected a rotation about the z axis, found a quaternion with qz = qw = 0");
   return {line.time(0),
           {line.finite_number(1, "tx in metres"), line.finite_number(2, "ty in metres"),
            mrpt::math::wrapToPi(2 * std::atan2(q_z, q_w))}};
 }
 
 StampedPose flaser_pose(const TextLine& line) {
-  constexpr std::size_t kWordsBesideRanges =
-      2 + 9;  // name, n; two poses, time stamp, host, logger's time stamp
+  constexpr std::size_t kWordsBesideRanges = 2 + 9;  // see the format in the header
   const std::size_t words = line.words.size();
   const std::size_t ranges = words < kWordsBesideRanges ? 0 : words - kWordsBesideRanges;
   if (words < kWordsBesideRanges ||
       line.finite_number(1, "the number of ranges") != static_cast<double>(ranges))
     throw line.error(
         "expected 'FLASER n', n ranges, two poses, time stamp, host and the logger's time stamp, found " +
-        std::to_string(words) + " words that do not add up");
-  const std::size_t x = 2 + ranges;
-  return {line.time(x + 6),
-          {line.finite_number(x, "x in metres"), line.finite_number(x + 1, "y in metres"),
-           mrpt::math::wrapToPi(line.finite_number(x + 2, "theta in radians"))}};
+        std::to_string(words) + " words, which does not match n");
+  return plane_pose(line, 2 + ranges + 6, 2 + ranges);
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     } else if (line.words.size() == kTumWords) {
       trajectory.push_back(tum_pose(line));
     } else if (line.words.size() == kPlaneWords) {
-      trajectory.push_back(plane_pose(line));
+      trajectory.push_back(plane_pose(line, 0, 1));
     } else {
       throw line.error("expected 'timestamp x y theta' or 'timestamp tx ty tz qx qy qz qw', found " +
                        std::to_string(line.words.size()) + (line.words.size() == 1 ? " word" : " words"));
@@ -91,9 +92,26 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   });
   if (trajectory.empty())
     throw UserError(path.string() +
-                    ": no pose in it, expected lines of 'timestamp x y theta', of TUM's format or " +
-                    "CARMEN's FLASER");
+                    ": no pose found. Expected lines 'timestamp x y theta', lines in TUM format, or FLASER " +
+                    "messages of CARMEN");
   return trajectory;
+}
+
+std::optional<PoseAtTime> pose_at_time(const Trajectory& sorted, TimeUs time_us, TimeUs max_gap_us) {
+  const auto after =
+      std::lower_bound(sorted.begin(), sorted.end(), time_us,
+                       [](const StampedPose& pose, TimeUs time) { return pose.time_us < time; });
+  const auto at = static_cast<std::size_t>(after - sorted.begin());
+  if (after != sorted.begin() && time_us - std::prev(after)->time_us < kSameTimeUs)
+    return PoseAtTime{std::prev(after)->pose, false, at - 1};
+  if (after != sorted.end() && after->time_us - time_us < kSameTimeUs)
+    return PoseAtTime{after->pose, false, at};
+  if (after == sorted.begin() || after == sorted.end()) return std::nullopt;
+  const StampedPose& before = *std::prev(after);
+  const auto gap_us = after->time_us - before.time_us;
+  if (gap_us > max_gap_us) return std::nullopt;
+  const double fraction = static_cast<double>(time_us - before.time_us) / static_cast<double>(gap_us);
+  return PoseAtTime{interpolate(before.pose, after->pose, fraction), true, at - 1};
 }
 
 }  // namespace psi_slam

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectories as text, readable by evo and the benchmark's tools. Lengths are metres, angles radians, stamps
-// seconds.
+// Trajectories, and their text files as evo and the tools of the Freiburg benchmark read them. Lengths are
+// metres, angles radians, time stamps seconds.
 //
 //     TUM       timestamp tx ty tz qx qy qz qw      with tz = qx = qy = 0, qz = sin(yaw/2), qw = cos(yaw/2)
 //     plane     timestamp x y theta
 //     CARMEN    FLASER n r1..rn  x y theta  odom_x odom_y odom_theta  timestamp host logger_timestamp
-//
-// The order of a trajectory is its log's order, which need not be the order of time.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,25 +19,36 @@
 
 namespace psi_slam {
 
-/// Where something (usually the robot, in the map) was at one time.
+/// Pose of something (usually of the robot in the map) at one time.
 struct StampedPose {
   TimeUs time_us = 0;
   mrpt::math::TPose2D pose;
 };
 
+/// Poses in the order of the log. Their times may decrease.
 using Trajectory = std::vector<StampedPose>;
 
-/// The trajectory in TUM's format, one pose a line in the order given; no header, so that every reader takes
-/// it.
+/// Returns the trajectory in TUM format: no header, one line per pose, in the order given.
 std::string tum_text(const Trajectory& trajectory);
 
-/// Writes `tum_text` atomically. Throws SystemFailure when it cannot be written.
+/// Writes `tum_text` atomically. Throws SystemFailure if the file cannot be written.
 void write_tum(const std::filesystem::path& path, const Trajectory& trajectory);
 
-/// Reads any of the three formats above; the first line that is no comment tells which. In TUM files
-/// everything out of the plane is dropped; of a CARMEN log the first pose of each FLASER line is taken and
-/// all other messages are passed over. Comments start with '#'. Throws UserError (file:line, what was
-/// expected) on a malformed line, and when there is no pose in the file.
+/// Reads a file in any of the three formats above; the first line that is not a comment decides which. '#'
+/// starts a comment. Projects TUM poses onto the plane. Takes the first pose of each FLASER line of a CARMEN
+/// log and ignores its other messages. Throws UserError ("file:line: expected ...") on a malformed line, and
+/// if the file has no pose.
 Trajectory read_trajectory(const std::filesystem::path& path);
+
+struct PoseAtTime {
+  mrpt::math::TPose2D pose;
+  bool interpolated = false;
+  std::size_t from = 0;  ///< index of the pose taken, or of the earlier one of the two interpolated
+};
+
+/// Returns the trajectory's pose less than 0.1 ms from `time_us` if there is one. Otherwise interpolates
+/// linearly between its neighbours, the angle along the shorter arc. `sorted` is sorted by time. Returns
+/// nothing outside the trajectory's span of time and in gaps longer than `max_gap_us`.
+std::optional<PoseAtTime> pose_at_time(const Trajectory& sorted, TimeUs time_us, TimeUs max_gap_us);
 
 }  // namespace psi_slam

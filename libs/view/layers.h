@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn into each layer of a map's scene: a layer is emptied and filled anew.
+// Functions that draw a snapshot into the layers of a scene. Each adds its objects to an empty layer.
 #pragma once
 
 #include <mrpt/opengl/CSetOfObjects.h>
@@ -15,8 +15,8 @@ namespace psi_slam {
 
 using SceneLayer = mrpt::opengl::CSetOfObjects;
 
-/// Of the layers above the ground: those of one viewport are drawn from the lowest to the highest. Low, or
-/// perspective would shift them.
+/// Heights of the layers above the ground; within a viewport the highest is drawn last. They are small
+/// because perspective shifts higher layers.
 namespace height_m {
 inline constexpr double kLocalMaps = 0.005;
 inline constexpr double kOdometry = 0.01;
@@ -33,26 +33,25 @@ inline constexpr double kMeasure = 0.055;
 
 void draw_grid(SceneLayer& layer, const DrawnMap& map);
 
-/// The local maps that are filled at the moment, tinted.
+/// Draws the tinted active local maps at the origin; place_local_maps() moves them to their poses.
 void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
 void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
 
-/// By odometry alone, from the same start.
+/// Draws the path by odometry alone, from the first pose in the map.
 void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot);
 void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot);
 
 void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot);
-/// From each node to the anchors of the local maps that hold its scan.
+/// Draws lines from each node to the anchors of the local maps that contain its scan.
 void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot);
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style);
-/// The loop that a person looks at.
+/// Draws the selected loop, and the window of its search.
 void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);
-/// Where its match was searched for; added to what the layer holds.
 void draw_loop_window(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);
 
 void draw_robot(SceneLayer& layer, const mrpt::math::TPose2D& map_T_robot);
 void draw_scan(SceneLayer& layer, const Frame& frame, const mrpt::math::TPose2D& map_T_robot);
-/// Where the front end searched for the pose of this scan, and the windows of its loops.
+/// Draws the search windows of a scan: the front end's and those of its loops.
 void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t frame);
 
 void draw_measure(SceneLayer& layer, const Measure& measure);

@@ -5,15 +5,15 @@
 #include <cmath>
 
 #include "base/number_text.h"
-#include "exports/verdict_text.h"
-#include "view/loop_residual.h"
+#include "psi_slam/loop_record.h"
+#include "view/loop_picture.h"
 #include "view/palette.h"
 
 namespace psi_slam {
 namespace {
 
 constexpr int kResidualShades = 8;
-constexpr int kScaleSteps = 4;  // of the residual in the legend
+constexpr int kScaleSteps = 4;  // of the legend's scale
 
 }  // namespace
 
@@ -30,8 +30,8 @@ mrpt::img::TColor loop_colour(const LoopRecord& loop, const ReplaySnapshot& snap
 }
 
 LoopLegend loop_legend(const ReplaySnapshot& snapshot, const LoopStyle& style) {
-  const auto any = [&](const auto& of_that_kind) {
-    return std::any_of(snapshot.loops->begin(), snapshot.loops->end(), of_that_kind);
+  const auto any = [&](const auto& condition) {
+    return std::any_of(snapshot.loops->begin(), snapshot.loops->end(), condition);
   };
   const auto any_with = [&](LoopVerdict verdict) {
     return any([verdict](const LoopRecord& loop) { return loop.verdict == verdict; });
@@ -39,11 +39,11 @@ LoopLegend loop_legend(const ReplaySnapshot& snapshot, const LoopStyle& style) {
   LoopLegend legend;
   if (style.colour == LoopStyle::Colour::kMatcher) {
     legend.title = "Loops, by matcher";
-    for (const char* matcher : {"csm", "csm_ga", "ga"})
+    for (const MatcherKind matcher : kMatcherKinds)
       if (any([&](const LoopRecord& loop) {
             return loop.verdict == LoopVerdict::kAccepted && loop.matcher == matcher;
           }))
-        legend.entries.push_back({matcher, matcher_colour(matcher)});
+        legend.entries.push_back({name(matcher), matcher_colour(matcher)});
   } else if (any_with(LoopVerdict::kAccepted)) {
     legend.title = "Loops, by residual";
     for (int step = 0; step <= kScaleSteps; ++step) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the colours of the loops in a MapScene mean.
+// Colours of the loops in a MapScene, and their legend.
 #pragma once
 
 #include <mrpt/img/TColor.h>
@@ -12,7 +12,7 @@
 
 namespace psi_slam {
 
-/// Found, but not in the graph, by the program's judgement or a person's: drawn only where LoopStyle::refused.
+/// True for matches that were refused or deleted. They are drawn only with LoopStyle::refused.
 bool was_no_loop(LoopVerdict verdict);
 
 /// The colour in which a scene with this style draws a loop.
@@ -25,13 +25,12 @@ struct LoopLegend {
     bool operator==(const Entry& other) const { return name == other.name && colour == other.colour; }
   };
   std::string title;
-  std::vector<Entry> entries;  ///< none: no loop is drawn
+  std::vector<Entry> entries;  ///< empty if no loop is drawn
 
   bool operator==(const LoopLegend& other) const { return title == other.title && entries == other.entries; }
 };
 
-/// Of the loops that are drawn: their matchers, or the scale of the residual, and verdicts other than
-/// accepted.
+/// Legend of the drawn loops: their matchers, or the scale of residuals, and the verdicts except "accepted".
 LoopLegend loop_legend(const ReplaySnapshot& snapshot, const LoopStyle& style);
 
 }  // namespace psi_slam

@@ -2,7 +2,10 @@
 #include "view/loop_picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+
+#include "pose_graph/constraint_error.h"
 
 namespace psi_slam {
 namespace {
@@ -20,7 +23,7 @@ std::vector<mrpt::math::TPoint2D> placed(const ScanPoints& scan, const mrpt::mat
   return points;
 }
 
-/// All points that the scans of a local map hit, in its frame.
+/// Points of all scans of a local map, in its frame.
 std::vector<mrpt::math::TPoint2D> points_of(const LocalMapRecord& map, const HistoryView<NodeScan>& nodes) {
   std::vector<mrpt::math::TPoint2D> points;
   const mrpt::math::TPose2D local_T_map = nodes[map.anchor].local_T_robot;
@@ -31,7 +34,7 @@ std::vector<mrpt::math::TPoint2D> points_of(const LocalMapRecord& map, const His
   return points;
 }
 
-/// White, and each cell the darker the more points fell into it.
+/// A white raster. Each point makes its cell darker.
 MapRaster raster_of(const std::vector<mrpt::math::TPoint2D>& points) {
   MapRaster raster;
   raster.resolution_m = kCell_m;
@@ -68,6 +71,12 @@ std::optional<LoopPicture> loop_picture(const ReplaySnapshot& snapshot, std::siz
                       {}};
   if (loop.verdict != LoopVerdict::kNotFound) picture.after = placed(scan, loop.anchor_T_node);
   return picture;
+}
+
+LoopResidual loop_residual(const LoopRecord& loop, const std::vector<mrpt::math::TPose2D>& map_T_node) {
+  const Eigen::Vector3d error = constraint_error(loop.anchor_T_node, RotatedPose(map_T_node.at(loop.anchor)),
+                                                 RotatedPose(map_T_node.at(loop.node)));
+  return {std::hypot(error.x(), error.y()), std::abs(error.z())};
 }
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MRPT's orbiting camera over the ground plane: what a pixel shows, and from where all of a map is seen.
+// MRPT's orbit camera over the ground plane: from pixels to places, and a view of a whole map.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -9,10 +9,10 @@
 namespace psi_slam {
 
 struct MapCamera {
-  mrpt::math::TPoint2D target;    ///< the point of the ground in the middle of the picture
-  double distance_m = 40;         ///< of the eye from it
-  double azimuth_deg = -90;       ///< of the eye, seen from the target; -90: y points up
-  double elevation_deg = 90;      ///< 90: from straight above
+  mrpt::math::TPoint2D target;    ///< the place on the ground in the middle of the picture
+  double distance_m = 40;         ///< from the target to the eye
+  double azimuth_deg = -90;       ///< of the eye, seen from the target; at -90, y points up
+  double elevation_deg = 90;      ///< of the eye; 90 looks straight down
   double field_of_view_deg = 30;  ///< from the lower to the upper edge
 };
 
@@ -21,7 +21,7 @@ struct PictureSize {
   int height_px = 1;
 };
 
-/// The point of the ground that a pixel shows, from the upper left; none above the horizon.
+/// Place on the ground that a pixel shows; (0, 0) is the upper left corner. Nothing above the horizon.
 std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const PictureSize& size, double x_px,
                                               double y_px);
 
@@ -30,7 +30,7 @@ struct GroundRectangle {
   mrpt::math::TPoint2D max;
 };
 
-/// Looks straight down on all of the rectangle, with a little around it, keeping the azimuth -90.
+/// Camera that looks straight down on the whole rectangle with a small margin, at azimuth -90.
 MapCamera camera_above(const GroundRectangle& rectangle, const PictureSize& size);
 
 }  // namespace psi_slam

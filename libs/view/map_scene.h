@@ -1,10 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run as one of MRPT's scenes: for windows, reports and tests. It holds a layer for each thing to be seen,
-// and redraws those alone whose matter has changed since it was shown last.
-//
-// Layers lie centimetres above each other, which OpenGL cannot always tell apart from far above; so the maps,
-// the lines on them and the marks on those are viewports, drawn one over the other whatever their depths. All
-// follow the camera of the first, "main".
 #pragma once
 
 #include <mrpt/img/CImage.h>
@@ -14,7 +8,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,59 +31,66 @@ enum class MapLayer {
 };
 inline constexpr std::size_t kMapLayers = 10;
 
-/// For menus: "Gridmap", ...
+/// Name of a layer for menus, such as "Grid map".
 const char* name_of(MapLayer layer);
-/// What is shown unless somebody says otherwise.
+/// True if the layer is visible by default.
 bool shown_at_first(MapLayer layer);
 
 struct LoopStyle {
   enum class Colour { kMatcher, kResidual };
   Colour colour = Colour::kMatcher;
-  bool refused = false;  ///< those that never became a constraint are shown, too
+  bool refused = false;  ///< also draw matches that were refused or deleted
 
   bool operator==(const LoopStyle& other) const { return colour == other.colour && refused == other.refused; }
 };
 
-/// The residual that is as red as can be.
+/// Residuals of this size and larger have the last colour of the scale.
 inline constexpr double kWorstResidual_m = 0.25;
 
-/// A distance that a person measures, in the map.
+/// A line with which a person measures a distance, in the map's frame.
 struct Measure {
   mrpt::math::TPoint2D from;
   mrpt::math::TPoint2D to;
   double distance_m() const { return (to - from).norm(); }
 };
 
+/// A run as an MRPT scene, for windows, reports and tests. Has one layer for each kind of object, and redraws
+/// only layers whose data has changed.
+///
+/// The layers are millimetres apart in height, which OpenGL cannot always resolve from far above. So maps,
+/// lines and marks have a viewport each, and the viewports are drawn one over the other. All use the camera
+/// of the first one, "main".
 class MapScene {
  public:
   MapScene();
 
-  /// The scene itself stays the same object.
+  /// The scene, which is always the same object.
   const mrpt::opengl::COpenGLScene::Ptr& scene() const { return scene_; }
-  /// Nothing nearer to the eye is drawn, and nothing farther.
+  /// Sets the range of distances from the eye within which objects are drawn.
   void set_clip_distances(double nearest_m, double farthest_m);
 
-  /// Brings all layers up to date. `frame` is the scan to show instead of the newest. True when anything has
-  /// changed.
+  /// Brings all visible layers up to date. Shows the scan `frame`, or the newest one. Returns true if
+  /// anything has changed.
   bool show(const std::shared_ptr<const ReplaySnapshot>& snapshot, const std::shared_ptr<const DrawnMap>& map,
             std::optional<std::size_t> frame = {});
 
   void set_visible(MapLayer layer, bool visible);
-  bool visible(MapLayer layer) const;
+  bool visible(MapLayer layer) const { return this->layer(layer).isVisible(); }
   void set_loop_style(const LoopStyle& style) { loop_style_ = style; }
   const LoopStyle& loop_style() const { return loop_style_; }
-  /// A loop to stand out, by its index in ReplaySnapshot::loops.
+  /// Highlights a loop by its index in ReplaySnapshot::loops.
   void choose_loop(std::optional<std::size_t> loop) { chosen_loop_ = loop; }
   void set_measure(const std::optional<Measure>& measure);
 
-  /// Pixels of the screen to one of a desktop that is not scaled: lines and points are so many times as
-  /// large.
+  /// Multiplies the sizes of lines and points, for desktops that are scaled.
   void set_pixel_scale(float scale);
-  /// A picture in the lower left corner, pixel for pixel, this far from the edges; an empty one: none.
+  /// Shows a picture in the lower left corner in its own size, or none if it is empty.
   void set_legend(mrpt::img::CImage picture, int margin_px);
 
-  /// The objects of a layer; for those who want to know what is drawn.
-  const mrpt::opengl::CSetOfObjects& layer(MapLayer layer) const;
+  /// The objects of a layer.
+  const mrpt::opengl::CSetOfObjects& layer(MapLayer layer) const {
+    return *layers_[static_cast<std::size_t>(layer)];
+  }
 
  private:
   struct Shown {
@@ -100,11 +100,13 @@ class MapScene {
     LoopStyle loop_style;
     std::optional<std::size_t> chosen_loop;
   };
-  using Fill = std::function<void(mrpt::opengl::CSetOfObjects&)>;
-  mrpt::opengl::CSetOfObjects& of(MapLayer layer);
-  void fill(mrpt::opengl::CSetOfObjects& layer, const Fill& draw) const;
+  mrpt::opengl::CSetOfObjects& of(MapLayer layer) { return *layers_[static_cast<std::size_t>(layer)]; }
+  template <class Draw>
+  void fill(mrpt::opengl::CSetOfObjects& layer, const Draw& draw) const;
+  template <class Draw, class... Matter>
+  void redraw(MapLayer layer, const Draw& draw, const Matter&... matter);
   bool show_graph(const ReplaySnapshot& snapshot, bool poses_changed);
-  bool show_robot(const ReplaySnapshot& snapshot, std::optional<std::size_t> frame, bool changed);
+  void show_robot(const ReplaySnapshot& snapshot, std::optional<std::size_t> frame);
 
   mrpt::opengl::COpenGLScene::Ptr scene_ = mrpt::opengl::COpenGLScene::Create();
   std::array<mrpt::opengl::CSetOfObjects::Ptr, kMapLayers> layers_;

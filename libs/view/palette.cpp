@@ -5,34 +5,30 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 namespace psi_slam {
 
 using mrpt::img::TColor;
 
-TColor matcher_colour(const std::string& matcher) {
-  if (matcher == "csm") return {117, 76, 180};
-  if (matcher == "csm_ga") return {0, 122, 204};
-  if (matcher == "ga") return {0, 145, 90};
-  return {140, 140, 140};
+TColor matcher_colour(MatcherKind matcher) {
+  switch (matcher) {
+    case MatcherKind::kCsm:
+      return {117, 76, 180};
+    case MatcherKind::kCsmGa:
+      return {0, 122, 204};
+    case MatcherKind::kGa:
+      return {0, 145, 90};
+  }
+  return {};
 }
 
 TColor verdict_colour(LoopVerdict verdict) {
-  switch (verdict) {
-    case LoopVerdict::kAccepted:
-      return {0, 130, 70};
-    case LoopVerdict::kPending:
-      return {176, 112, 0};
-    case LoopVerdict::kRefused:
-      return {120, 124, 130};
-    case LoopVerdict::kSwitchedOff:
-      return {196, 30, 40};
-    case LoopVerdict::kNotFound:
-      return {160, 164, 170};
-    case LoopVerdict::kDeleted:
-      return {150, 20, 110};
-  }
-  return {};
+  static const std::map<LoopVerdict, TColor> kColours{
+      {LoopVerdict::kAccepted, {0, 130, 70}},    {LoopVerdict::kPending, {176, 112, 0}},
+      {LoopVerdict::kRefused, {120, 124, 130}},  {LoopVerdict::kSwitchedOff, {196, 30, 40}},
+      {LoopVerdict::kNotFound, {160, 164, 170}}, {LoopVerdict::kDeleted, {150, 20, 110}}};
+  return kColours.at(verdict);
 }
 
 TColor heat_colour(double share) {

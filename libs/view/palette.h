@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The colours of the views, the same in scenes, plots, tables and legends.
+// Colours shared by scenes, plots, tables and legends.
 #pragma once
 
 #include <mrpt/img/TColor.h>
-
-#include <string>
 
 #include "psi_slam/loop_record.h"
 
@@ -27,12 +25,12 @@ inline constexpr mrpt::img::TColor kBefore{224, 130, 20};
 inline constexpr mrpt::img::TColor kAfter{0, 130, 80};
 }  // namespace palette
 
-/// Of loops and of Psi's ranges, by the matcher's name; grey for "" and others.
-mrpt::img::TColor matcher_colour(const std::string& matcher);
+/// Colour of a matcher in plots, tables and scenes.
+mrpt::img::TColor matcher_colour(MatcherKind matcher);
 
 mrpt::img::TColor verdict_colour(LoopVerdict verdict);
 
-/// From green over yellow to red, for 0 .. 1 and more.
+/// Colour from green (0) over yellow to red (1); values outside [0, 1] are clamped.
 mrpt::img::TColor heat_colour(double share);
 
 }  // namespace psi_slam

@@ -2,7 +2,6 @@
 # Functions that make the targets of the project, one for each kind of target. All targets share language level, warnings,
 # layout and installation.
 include(GNUInstallDirs)
-include(CMakePackageConfigHelpers)
 
 # Sets language level, strict warnings and sanitizers of a target.
 function(psi_slam_configure_target target)
@@ -27,20 +26,25 @@ function(psi_slam_configure_target target)
 endfunction()
 
 # psi_slam_add_library(NAME SOURCES file... [PUBLIC dependency...] [PRIVATE dependency...])
-# A library of libs/NAME, exported as psi-slam::NAME. Its own headers lie beside its sources and are included as
-# "NAME/file.h"; the public headers of all libraries are libs/include/psi_slam/*.h.
+# A static library of libs/NAME, known as psi-slam::NAME. Its own headers lie beside its sources and are included as
+# "NAME/file.h"; the public headers of all libraries are libs/include/psi_slam/*.h. It is installed if a component of
+# the package needs it, see PsiSlamInstallation.cmake.
 function(psi_slam_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target psi_slam_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(psi-slam::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${psi-slam_SOURCE_DIR}/libs> $<BUILD_INTERFACE:${psi-slam_SOURCE_DIR}/libs/include>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+    $<BUILD_INTERFACE:${psi-slam_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC})
+  foreach(dependency IN LISTS ARG_PRIVATE)
+    if(dependency MATCHES "^(nanoflann|nlohmann_json)::")  # headers only: users of the static library need none of it
+      set(dependency $<BUILD_INTERFACE:${dependency}>)
+    endif()
+    target_link_libraries(${target} PRIVATE ${dependency})
+  endforeach()
   psi_slam_configure_target(${target})
-  install(TARGETS ${target} EXPORT psi-slam-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 endfunction()
 
 # psi_slam_add_app(NAME [COMPONENT component] SOURCES file... LINK dependency...)
@@ -71,20 +75,4 @@ function(psi_slam_add_tests name)
   target_link_libraries(${name}_tests PRIVATE ${ARG_LINK} psi_slam_test_support GTest::gmock_main)
   psi_slam_configure_target(${name}_tests)
   gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
-endfunction()
-
-# Makes find_package(psi-slam) work for other projects.
-function(psi_slam_install_package)
-  set(destination ${CMAKE_INSTALL_LIBDIR}/cmake/psi-slam)
-  configure_package_config_file(${PROJECT_SOURCE_DIR}/share/cmake/psi-slam-config.cmake.in
-    ${PROJECT_BINARY_DIR}/psi-slam-config.cmake INSTALL_DESTINATION ${destination})
-  write_basic_package_version_file(${PROJECT_BINARY_DIR}/psi-slam-config-version.cmake
-    COMPATIBILITY SameMinorVersion)
-  install(FILES ${PROJECT_BINARY_DIR}/psi-slam-config.cmake ${PROJECT_BINARY_DIR}/psi-slam-config-version.cmake
-    DESTINATION ${destination} COMPONENT development)
-  install(EXPORT psi-slam-targets NAMESPACE psi-slam:: DESTINATION ${destination} COMPONENT development)
-  install(DIRECTORY libs/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
-  install(DIRECTORY libs/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-    FILES_MATCHING PATTERN "*.h" PATTERN include EXCLUDE)
-  install(DIRECTORY ini/ DESTINATION ${CMAKE_INSTALL_DATADIR}/psi-slam/ini COMPONENT programs)
 endfunction()

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Makes the Debian packages of a build and installs them with apt-get in a minimal Debian 12 system in a temporary folder.
-# Maps a log and builds the example there.
+# Maps a log and builds the examples there.
 #
 #   share/scripts/check-package.sh [BUILD]        default: build/release, with all targets built
 #
@@ -115,11 +115,11 @@ fi
 inside apt-get purge --quiet --quiet --yes psi-slam >"$work/purge.log" 2>&1 || fail "the package psi-slam cannot be removed"
 if [ -e "$system/usr/share/psi-slam" ]; then fail "removing the package psi-slam leaves /usr/share/psi-slam"; fi
 
-say "building the example with libpsi-slam-dev"
+say "building the examples with libpsi-slam-dev"
 cp "$library" "$system/tmp/libpsi-slam-dev.deb"
 inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/libpsi-slam-dev.deb cmake g++ make \
   >"$work/install-dev.log" 2>&1 || fail "the package libpsi-slam-dev cannot be installed: $(tail -5 "$work/install-dev.log")"
-inside sh -c "cmake -S /usr/share/doc/libpsi-slam-dev/examples/map-a-log -B /tmp/example && cmake --build /tmp/example" \
-  >"$work/example.log" 2>&1 || fail "the example does not build: $(tail -5 "$work/example.log")"
-inside test -x /tmp/example/map_a_log || fail "the build of the example made no map_a_log"
+inside sh -c "cmake -S /usr/share/doc/libpsi-slam-dev/examples -B /tmp/examples && cmake --build /tmp/examples" \
+  >"$work/examples.log" 2>&1 || fail "the examples do not build: $(tail -5 "$work/examples.log")"
+inside test -x /tmp/examples/01_map_a_log || fail "the build of the examples made no 01_map_a_log"
 say "all packages passed"

@@ -10,7 +10,7 @@ packages=(
   libgl1-mesa-dri xauth xvfb
   libcli11-dev nlohmann-json3-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev
   libssl-dev libnanoflann-dev libgdal-dev libgtest-dev libgmock-dev python3
-  python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs
+  doxygen python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs
   libopenmpi-dev openmpi-bin
   gdal-bin python3-gdal python3-ezdxf python3-pil librsvg2-bin man-db groff-base dpkg-dev file
 )

@@ -124,8 +124,7 @@ TEST_F(PsiSlamApp, prints_the_summary_as_json) {
 TEST_F(PsiSlamApp, warns_if_the_map_is_coarser_than_requested) {
   const AppRun run = map(room_log(), "out", {"--json", "--set", "map.max_cells=20000"});
   EXPECT_EQ(run.code, 0);
-  EXPECT_EQ(run.err,
-            "psi-slam: map.max_cells leaves no room for cells of 0.05 m: those of the map are 0.1 m\n");
+  EXPECT_EQ(run.err, "psi-slam: map.max_cells limits the map to cells of 0.1 m instead of 0.05 m\n");
   const Json summary = Json::parse(run.out);
   EXPECT_EQ(summary["map"]["resolution_m"], 0.1);
   EXPECT_EQ(summary["map"]["asked_resolution_m"], 0.05);
@@ -219,7 +218,7 @@ TEST_F(PsiSlamApp, applies_a_file_of_edits) {
   EXPECT_EQ(summary["loop_counts"]["accepted"], 0);
   EXPECT_GT(summary["loop_counts"]["by_hand"], 0);
   EXPECT_THAT(bytes_of(output("edited") / "loops.edits"), HasSubstr("delete scan="));
-  EXPECT_THAT(bytes_of(output("edited") / "report.html"), HasSubstr("settled by hand"));
+  EXPECT_THAT(bytes_of(output("edited") / "report.html"), HasSubstr("edited by hand"));
   EXPECT_NE(bytes_of(output("edited") / "graph.g2o"), bytes_of(output("as_it_is") / "graph.g2o"));
 }
 

@@ -67,7 +67,7 @@ TEST_F(WrongInput, a_missing_log_is_reported_before_the_folder_is_made) {
 
 TEST_F(WrongInput, a_file_that_is_no_log) {
   EXPECT_THAT(refusal(write("letter.rawlog", "Dear robot,\nwhere have you been?\n")),
-              AllOf(HasSubstr("letter.rawlog is none of the formats that are read"),
+              AllOf(HasSubstr("letter.rawlog has an unknown format"),
                     HasSubstr("expected a CARMEN log or an MRPT .rawlog, plain or gzipped, or a ROS bag")));
   EXPECT_THAT(refusal(folder_.path().string()), HasSubstr("is a folder"));
 }
@@ -181,7 +181,7 @@ TEST_F(WrongInput, an_output_that_is_not_an_empty_folder) {
 TEST_F(WrongInput, an_unwritable_output) {
   const AppRun run = run_app({room_log(room_log_lines(5)), "-o", "/proc/psi-slam"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(one_sentence(run.err), HasSubstr("cannot make the output folder /proc/psi-slam"));
+  EXPECT_THAT(one_sentence(run.err), HasSubstr("cannot create the output folder /proc/psi-slam"));
 }
 
 TEST_F(WrongInput, a_full_disk) {

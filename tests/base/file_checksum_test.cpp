@@ -9,22 +9,22 @@
 namespace psi_slam {
 namespace {
 
-TEST(FileChecksum, is_the_sha_256_of_the_standard) {
+TEST(FileChecksum, equals_the_examples_of_the_standard) {
   EXPECT_EQ(sha256_of_text("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256_of_text(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 
-TEST(FileChecksum, of_a_file_is_that_of_its_bytes) {
+TEST(FileChecksum, of_a_file_equals_that_of_its_bytes) {
   const TemporaryFolder folder;
-  const std::string bytes(200'001, '\0');  // more than is read at once
+  const std::string bytes(200'001, '\0');  // more than one block
   write_file(folder.path() / "zeros", bytes);
   EXPECT_EQ(sha256_of_file(folder.path() / "zeros"), sha256_of_text(bytes));
   EXPECT_NE(sha256_of_text(bytes), sha256_of_text(bytes + '\0'));
   EXPECT_NE(sentence_of([&] { sha256_of_file(folder.path() / "none"); }).find("none"), std::string::npos);
-  EXPECT_NE(sentence_of([&] { sha256_of_file(folder.path()); }).find("cannot be read"), std::string::npos);
+  EXPECT_NE(sentence_of([&] { sha256_of_file(folder.path()); }).find("is not readable"), std::string::npos);
 }
 
-TEST(FileChecksum, of_a_log_that_is_a_folder_is_that_of_its_files_and_their_names) {
+TEST(FileChecksum, of_a_folder_depends_on_its_files_and_their_names) {
   const TemporaryFolder folder;
   write_file(folder.path() / "b", "2");
   write_file(folder.path() / "a", "1");

@@ -4,12 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <clocale>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
+#include <random>
 
 namespace psi_slam {
 namespace {
 
-TEST(NumberText, has_as_many_decimals_as_asked_for) {
+TEST(NumberText, has_the_requested_number_of_decimals) {
   EXPECT_EQ(fixed_text(0.5, 3), "0.500");
   EXPECT_EQ(fixed_text(-1234.56789, 2), "-1234.57");
   EXPECT_EQ(fixed_text(1e20, 0), "100000000000000000000");
@@ -25,11 +29,79 @@ TEST(NumberText, the_shortest_text_of_a_float_reads_back_as_that_float) {
   EXPECT_EQ(std::stof(shortest_text(1.0F / 3.0F)), 1.0F / 3.0F);
 }
 
-TEST(NumberText, does_not_care_for_the_locale) {
+TEST(NumberText, does_not_depend_on_the_locale) {
   const char* german = std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
   if (german == nullptr) GTEST_SKIP() << "this system has no German locale";
   EXPECT_EQ(fixed_text(0.5, 1), "0.5");
   std::setlocale(LC_NUMERIC, "C");
+}
+
+std::uint64_t bits(double value) {
+  std::uint64_t result = 0;
+  std::memcpy(&result, &value, sizeof result);
+  return result;
+}
+
+double any_finite(std::mt19937_64& random) {
+  while (true) {
+    const std::uint64_t drawn = random();
+    double value = 0;
+    std::memcpy(&value, &drawn, sizeof value);
+    if (std::isfinite(value)) return value;
+  }
+}
+
+TEST(ExactNumber, keeps_every_bit_of_a_number) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 20'000; ++i) {
+    const double value = any_finite(random);
+    ASSERT_EQ(bits(parse_number(exact_text(value)).value()), bits(value)) << exact_text(value);
+  }
+}
+
+TEST(ExactNumber, keeps_every_bit_of_an_angle) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> usual(-7, 7);
+  for (int i = 0; i < 20'000; ++i) {
+    const double radians = usual(random);
+    ASSERT_EQ(bits(parse_degrees(exact_degrees_text(radians)).value()), bits(radians));
+  }
+  for (int i = 0; i < 2'000; ++i) {
+    const double radians =
+        any_finite(random) / 64;  // the largest doubles in degrees exceed the range of a double
+    ASSERT_EQ(bits(parse_degrees(exact_degrees_text(radians)).value()), bits(radians))
+        << exact_degrees_text(radians);
+  }
+  for (const double radians : {0.0, -0.0, M_PI, -M_PI, M_PI / 2, 2 * M_PI, 0.07})
+    EXPECT_EQ(bits(parse_degrees(exact_degrees_text(radians)).value()), bits(radians));
+}
+
+TEST(ExactNumber, a_typed_angle_is_printed_as_it_was_typed) {
+  for (const char* text : {"0", "5", "-5", "90", "180", "360", "0.25", "12.5", "0.001", "57.3", "1000"})
+    EXPECT_EQ(exact_degrees_text(parse_degrees(text).value()), text);
+  EXPECT_EQ(parse_degrees("180"), M_PI);
+}
+
+TEST(ExactNumber, writes_the_shortest_text_without_exponent_for_usual_numbers) {
+  EXPECT_EQ(exact_text(0.1), "0.1");
+  EXPECT_EQ(exact_text(100000), "100000");
+  EXPECT_EQ(exact_text(0.00002), "0.00002");
+  EXPECT_EQ(exact_text(1e-9), "1e-09");
+  EXPECT_EQ(exact_text(std::numeric_limits<double>::infinity()), "inf");
+}
+
+TEST(ExactNumber, reads_numbers_as_people_write_them) {
+  EXPECT_EQ(parse_number("12"), 12);
+  EXPECT_EQ(parse_number("+.5"), 0.5);
+  EXPECT_EQ(parse_number("-1.5e-3"), -0.0015);
+}
+
+TEST(ExactNumber, rejects_other_texts) {
+  for (const char* text : {"", "+", "-", "12abc", "abc", "1,5", "1 2", " 1", "1 ", "nan", "-nan", "inf",
+                           "+inf", "infinity", "1e999", "0x10", "--1", "+-1", "1.2.3"}) {
+    EXPECT_EQ(parse_number(text), std::nullopt) << text;
+    EXPECT_EQ(parse_degrees(text), std::nullopt) << text;
+  }
 }
 
 }  // namespace

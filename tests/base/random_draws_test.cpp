@@ -6,7 +6,7 @@
 namespace psi_slam {
 namespace {
 
-TEST(RandomDraws, a_seed_a_name_and_a_part_name_a_stream) {
+TEST(RandomDraws, seed_name_and_part_identify_a_stream) {
   const auto first = [](std::uint64_t seed, const char* name, std::uint32_t part) {
     return RandomDraws(seed, name, part).share();
   };
@@ -17,7 +17,7 @@ TEST(RandomDraws, a_seed_a_name_and_a_part_name_a_stream) {
   EXPECT_NE(first(1, "intel", 0), first(1, "intel", 1));
 }
 
-TEST(RandomDraws, normal_ones_have_their_moments) {
+TEST(RandomDraws, normal_draws_have_their_moments) {
   RandomDraws draws(1, "", 0);
   constexpr int kDraws = 100'000;
   double sum = 0;
@@ -40,6 +40,11 @@ TEST(RandomDraws, shares_and_indices_stay_in_their_bounds) {
     EXPECT_LT(draws.index(3), 3U);
     EXPECT_LE(std::abs(draws.plus_minus(0.5)), 0.5);
   }
+}
+
+TEST(MixedBits, equal_the_numbers_of_split_mix_64) {  // the first two published numbers of seed 0
+  EXPECT_EQ(mixed_bits(0), 0xe220a8397b1dcdafU);
+  EXPECT_EQ(mixed_bits(0x9e3779b97f4a7c15), 0x6e789e6aa1b965f4U);
 }
 
 }  // namespace

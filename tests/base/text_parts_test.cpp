@@ -6,7 +6,7 @@
 namespace psi_slam {
 namespace {
 
-TEST(TextParts, aTextStartsWithItsBeginning) {
+TEST(TextParts, a_text_starts_with_its_beginning) {
   EXPECT_TRUE(starts_with("RAWLASER1 181", "RAWLASER"));
   EXPECT_TRUE(starts_with("RAWLASER", "RAWLASER"));
   EXPECT_TRUE(starts_with("", ""));
@@ -14,7 +14,7 @@ TEST(TextParts, aTextStartsWithItsBeginning) {
   EXPECT_FALSE(starts_with("a RAWLASER", "RAWLASER"));
 }
 
-TEST(TextParts, spaceIsTrimmedAtBothEndsOnly) {
+TEST(TextParts, space_is_trimmed_at_both_ends_only) {
   EXPECT_EQ(trimmed(" \t one two\t "), "one two");
   EXPECT_EQ(trimmed("one"), "one");
   EXPECT_EQ(trimmed(" \t "), "");

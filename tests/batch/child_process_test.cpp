@@ -2,8 +2,14 @@
 #include "batch/child_process.h"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <map>
+#include <mutex>
 
 #include "psi_slam/user_error.h"
 
@@ -18,7 +24,7 @@ ChildProcess shell(const std::string& script) {
   return child;
 }
 
-TEST(ChildProcess, gives_its_words_and_what_it_took) {
+TEST(ChildProcess, reports_output_time_and_memory) {
   const ChildEnd end = run_child(shell("cat; echo result; echo remark >&2"));
   EXPECT_EQ(end.code, 0);
   EXPECT_EQ(end.out, "result\n") << "standard input is empty";
@@ -29,15 +35,15 @@ TEST(ChildProcess, gives_its_words_and_what_it_took) {
   EXPECT_GT(end.peak_memory_mib, 0.1);
 }
 
-TEST(ChildProcess, does_not_choke_on_many_words) {
+TEST(ChildProcess, keeps_the_end_of_long_output) {
   const ChildEnd end =
       run_child(shell("head -c 3000000 /dev/zero; head -c 3000000 /dev/zero >&2; echo end >&2"));
   EXPECT_EQ(end.out.size(), 3'000'000U);
   EXPECT_LT(end.err.size(), 1'000'000U);
-  EXPECT_EQ(end.err.substr(end.err.size() - 4), "end\n") << "the last words are kept";
+  EXPECT_EQ(end.err.substr(end.err.size() - 4), "end\n") << "the end is kept";
 }
 
-TEST(ChildProcess, says_why_it_is_no_success) {
+TEST(ChildProcess, reports_the_reason_of_a_failure) {
   EXPECT_EQ(run_child(shell("echo first >&2; echo the disk is full >&2; exit 3")).failure(),
             "the disk is full");
   EXPECT_EQ(run_child(shell("exit 3")).failure(), "ended with code 3");
@@ -46,7 +52,7 @@ TEST(ChildProcess, says_why_it_is_no_success) {
   EXPECT_THAT(killed.failure(), HasSubstr("ended by a signal: "));
 }
 
-TEST(ChildProcess, is_ended_by_its_time_limit_and_on_request) {
+TEST(ChildProcess, is_killed_at_its_time_limit_and_on_request) {
   ChildProcess slow = shell("exec sleep 600");
   slow.time_limit_s = 0.1;
   EXPECT_EQ(run_child(slow).failure(), "stopped at its time limit");
@@ -55,25 +61,115 @@ TEST(ChildProcess, is_ended_by_its_time_limit_and_on_request) {
   EXPECT_EQ(run_child(stopped).failure(), "interrupted");
 }
 
-TEST(ChildProcess, a_signal_that_comes_meanwhile_is_nothing) {
+TEST(ChildProcess, ignores_signals_to_the_caller) {
   static volatile std::sig_atomic_t came = 0;
   struct sigaction count {};
-  count.sa_handler = [](int) { came = came + 1; };  // and no SA_RESTART: poll() returns with EINTR
+  count.sa_handler = [](int) { came = came + 1; };  // without SA_RESTART, so that poll() returns with EINTR
   struct sigaction before {};
   ASSERT_EQ(sigaction(SIGUSR1, &count, &before), 0);
   EXPECT_EQ(run_child(shell("echo first; sleep 0.05; kill -USR1 $PPID; sleep 0.05; echo last")).out,
             "first\nlast\n");
   ChildProcess slow = shell("echo first; sleep 0.05; kill -USR1 $PPID; exec sleep 30");
   slow.time_limit_s = 0.3;
-  EXPECT_TRUE(run_child(slow).over_time) << "it went on looking at its time";
+  EXPECT_TRUE(run_child(slow).over_time) << "the time limit still applies";
   sigaction(SIGUSR1, &before, nullptr);
   EXPECT_GE(came, 1);
 }
 
-TEST(ChildProcess, a_program_that_is_not_there_is_a_failure) {
+TEST(ChildProcess, a_missing_program_is_a_system_failure) {
   ChildProcess none;
   none.words = {"/no/such/program"};
   EXPECT_THROW(run_child(none), SystemFailure);
+}
+
+TEST(RunningChild, is_killed_by_its_destructor) {
+  const pid_t pid = ::fork();
+  if (pid == 0)
+    for (;;) ::pause();
+  ASSERT_GT(pid, 0);
+  { const RunningChild child(pid); }
+  EXPECT_EQ(::kill(pid, 0), -1);
+  EXPECT_EQ(errno, ESRCH) << "the destructor waited for the child";
+}
+
+TEST(RunningChild, reports_its_exit) {
+  const pid_t pid = ::fork();
+  if (pid == 0) ::_exit(7);
+  ASSERT_GT(pid, 0);
+  RunningChild child(pid);
+  const EndedChild end = child.wait();
+  ASSERT_TRUE(WIFEXITED(end.status));
+  EXPECT_EQ(WEXITSTATUS(end.status), 7);
+  EXPECT_GT(end.peak_memory_mib, 0);
+}
+
+TEST(Pipe, returns_written_bytes_then_the_end) {
+  Pipe pipe;
+  ASSERT_EQ(::write(pipe.writing(), "words", 5), 5);
+  pipe.close_writing();
+  std::string text;
+  EXPECT_TRUE(pipe.read_to(text));
+  EXPECT_FALSE(pipe.read_to(text));
+  EXPECT_EQ(text, "words");
+}
+
+class ChildWorkersTest : public testing::Test {
+ protected:
+  void run(int processes, const std::vector<ChildWords>& children) {
+    local_child_workers(processes)(children, {[this] { return stop_.load(); }, [](std::size_t) {},
+                                              [this](std::size_t child, ChildEnd end) {
+                                                const std::lock_guard lock(mutex_);
+                                                EXPECT_EQ(ends_.count(child), 0U) << "once";
+                                                ends_[child] = std::move(end);
+                                              }});
+  }
+
+  std::atomic<bool> stop_{false};
+  std::mutex mutex_;
+  std::map<std::size_t, ChildEnd> ends_;
+};
+
+TEST_F(ChildWorkersTest, all_programs_run_to_their_end_even_after_a_failure) {
+  run(2, {{"/bin/echo", "one"},
+          {"/bin/sh", "-c", "echo why >&2; exit 3"},
+          {"/nowhere/at-all"},
+          {"/bin/echo", "four"}});
+  ASSERT_EQ(ends_.size(), 4U);
+  EXPECT_EQ(ends_[0].out, "one\n");
+  EXPECT_EQ(ends_[1].failure(), "why");
+  EXPECT_THAT(ends_[2].failure(), HasSubstr("/nowhere/at-all"));
+  EXPECT_EQ(ends_[3].failure(), "");
+}
+
+TEST_F(ChildWorkersTest, after_a_stop_no_program_starts_and_killed_ones_are_not_reported) {
+  local_child_workers(1)({{"/bin/sleep", "1000"}, {"/bin/echo", "two"}},
+                         {[this] { return stop_.load(); }, [this](std::size_t) { stop_ = true; },
+                          [this](std::size_t child, ChildEnd end) { ends_[child] = std::move(end); }});
+  EXPECT_TRUE(ends_.empty());
+}
+
+TEST(ChildTexts, restore_words_and_ends_with_any_bytes) {
+  const ChildWords words{"/bin/a b", "caf\xe9", "", "--x=\"1\"\n"};
+  EXPECT_EQ(read_child_words(child_words_text(words)), words);
+  ChildEnd end;
+  end.code = 3;
+  end.signal = 9;
+  end.over_time = true;
+  end.out = std::string("a\0b\xff", 4);
+  end.err = "\xe9";
+  end.wall_s = 0.1;
+  end.cpu_s = 1e-9;
+  end.peak_memory_mib = 123.456;
+  const ChildEnd read = read_child_end(child_end_text(end));
+  EXPECT_EQ(read.code, 3);
+  EXPECT_EQ(read.signal, 9);
+  EXPECT_TRUE(read.over_time);
+  EXPECT_FALSE(read.stopped);
+  EXPECT_EQ(read.out, end.out);
+  EXPECT_EQ(read.err, end.err);
+  EXPECT_EQ(read.wall_s, end.wall_s);
+  EXPECT_EQ(read.cpu_s, end.cpu_s);
+  EXPECT_EQ(read.peak_memory_mib, end.peak_memory_mib);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace psi_slam {
 namespace {
 
-TEST(KeptRun, is_found_by_its_key_on_a_machine_that_is_no_quieter) {
+TEST(KeptRun, is_found_by_its_key_unless_the_machine_was_busier) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "run.json";
   EXPECT_FALSE(kept_run(file, {"key", 1}));

@@ -53,7 +53,7 @@ TEST_F(SweepPlanTest, crosses_logs_settings_and_seeds) {
   EXPECT_EQ(folders.size(), plan.runs.size());
 }
 
-TEST_F(SweepPlanTest, the_key_is_of_all_that_the_result_depends_on) {
+TEST_F(SweepPlanTest, the_key_depends_on_everything_that_the_result_depends_on) {
   const std::string log = file("a.log", "1");
   const SweepRequest asked = request({log});
   const std::string key = plan_sweep(asked, "program").runs.front().key;
@@ -73,7 +73,7 @@ TEST_F(SweepPlanTest, the_key_is_of_all_that_the_result_depends_on) {
             plan_sweep(asked, "program").runs.front().key);
 }
 
-TEST_F(SweepPlanTest, lays_files_and_choices_over_the_logs_own_settings) {
+TEST_F(SweepPlanTest, files_and_choices_override_the_logs_own_settings) {
   const std::string log = file("a.log");
   const std::string own = file("own.ini", "[log]\nmax_range_m = 30\n[map]\nresolution_m = 0.2\n");
   SweepRequest asked = request({log + '@' + own});
@@ -103,7 +103,7 @@ TEST_F(SweepPlanTest, finds_a_logs_own_settings_by_its_name) {
   EXPECT_THAT(plan_sweep(asked, "program").runs.front().settings, HasSubstr("\nmax_range_m = 20\n"));
 }
 
-TEST_F(SweepPlanTest, a_log_may_have_an_at_sign_in_its_name_and_a_namesake) {
+TEST_F(SweepPlanTest, accepts_an_at_sign_in_a_log_name_and_two_logs_of_one_name) {
   std::filesystem::create_directory(folder_.path() / "sub");
   const std::string log = file("robot@lab.log");
   const std::string namesake = file("sub/robot@lab.log", "other");
@@ -125,26 +125,26 @@ TEST_F(SweepPlanTest, a_log_may_be_a_folder) {
   EXPECT_EQ(plan_sweep(asked, "program").logs.front().ini, folder_.path() / "recording.ini");
 }
 
-TEST_F(SweepPlanTest, refuses_with_a_sentence) {
+TEST_F(SweepPlanTest, refuses_wrong_requests_in_one_sentence) {
   const std::string log = file("a.log");
   EXPECT_THAT(refusal(request({})), HasSubstr("name the logs"));
-  EXPECT_THAT(refusal(request({log + "x"})), HasSubstr("a.logx is no file"));
-  EXPECT_THAT(refusal(request({log + "@none.ini"})), HasSubstr("none.ini is no file"));
-  EXPECT_THAT(refusal(request({log, log})), HasSubstr("would be the same"));
+  EXPECT_THAT(refusal(request({log + "x"})), HasSubstr("a.logx is not a file"));
+  EXPECT_THAT(refusal(request({log + "@none.ini"})), HasSubstr("none.ini is not a file"));
+  EXPECT_THAT(refusal(request({log, log})), HasSubstr("would be equal"));
   const auto with_choice = [&](const std::vector<std::string>& choices) {
     SweepRequest asked = request({log});
     asked.choices = choices;
     return refusal(asked);
   };
-  EXPECT_THAT(with_choice({"map.resolution_m=0.1,0.1"}), HasSubstr("would be the same"));
+  EXPECT_THAT(with_choice({"map.resolution_m=0.1,0.1"}), HasSubstr("would be equal"));
   EXPECT_THAT(with_choice({"map.resolution_m=0.1,wide"}), HasSubstr("map.resolution_m"));
   EXPECT_THAT(with_choice({"map.resolution_m"}), HasSubstr("expected SECTION.KEY=VALUE"));
   EXPECT_THAT(with_choice({"map.resolution_m=1", "map.resolution_m=2"}), HasSubstr("is set twice"));
-  EXPECT_THAT(with_choice({"run.seed=1,2"}), HasSubstr("seeds from --seeds"));
-  EXPECT_THAT(with_choice({"log.laser=FLASER,RLASER"}), HasSubstr("log.laser is a list itself"));
+  EXPECT_THAT(with_choice({"run.seed=1,2"}), HasSubstr("with --seeds"));
+  EXPECT_THAT(with_choice({"log.laser=FLASER,RLASER"}), HasSubstr("log.laser is a list"));
   SweepRequest asked = request({log, file("b.log", "y")});
   asked.relations = log;
-  EXPECT_THAT(refusal(asked), HasSubstr("--relations goes with one log"));
+  EXPECT_THAT(refusal(asked), HasSubstr("--relations works with one log"));
 }
 
 }  // namespace

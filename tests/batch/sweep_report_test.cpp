@@ -39,7 +39,7 @@ class SweepReportTest : public testing::Test {
   SweepResult result_;
 };
 
-TEST_F(SweepReportTest, a_row_for_each_run_with_times_last) {
+TEST_F(SweepReportTest, csv_has_a_line_for_each_run_with_times_last) {
   const std::string csv = sweep_csv(plan_, result_);
   EXPECT_THAT(csv, HasSubstr("a,0.1,2,done,0.300000,0.000000,1.000000,"));
   EXPECT_THAT(csv, HasSubstr(",runs/a-0.12,,3.500,0.000,0.0\n"));
@@ -49,7 +49,7 @@ TEST_F(SweepReportTest, a_row_for_each_run_with_times_last) {
   EXPECT_EQ(commas(csv.substr(0, csv.find('\n'))), 19);
 }
 
-TEST_F(SweepReportTest, mean_and_deviation_by_setting_with_the_best_marked) {
+TEST_F(SweepReportTest, markdown_has_means_by_setting_and_marks_the_best) {
   EXPECT_THAT(sweep_markdown(plan_, result_),
               AllOf(HasSubstr("| a | 0.1 | 2 | **0.2000 ± 0.1414** | **1.000 ± 0.000** |"),
                     HasSubstr("| a | 0.2 | 1 of 2 | 0.5000 | **1.000** |"), HasSubstr("1 run failed"),
@@ -64,7 +64,7 @@ TEST_F(SweepReportTest, without_relations_nothing_is_best) {
   EXPECT_THAT(sweep_csv(plan_, result_), HasSubstr("a,0.1,1,done,,,,,,0,0,12,"));
 }
 
-TEST_F(SweepReportTest, tells_what_is_to_go) {
+TEST_F(SweepReportTest, counts_the_runs_that_are_not_made_yet) {
   result_.outcomes[1].reset();
   EXPECT_EQ(result_.to_go(), 1U);
   EXPECT_THAT(sweep_markdown(plan_, result_), HasSubstr("1 not made yet"));

@@ -49,7 +49,7 @@ class SweepRunTest : public testing::Test {
   fs::path begun_ = folder_.path() / "begun";
 };
 
-TEST_F(SweepRunTest, keeps_what_is_asked_for_and_is_not_made_again) {
+TEST_F(SweepRunTest, keeps_the_requested_files_and_is_not_repeated) {
   SweepOrder run = order(kGoodRun);
   EXPECT_FALSE(kept_outcome(run));
   const SweepOutcome made = outcome(run);
@@ -77,7 +77,7 @@ TEST_F(SweepRunTest, keeps_what_is_asked_for_and_is_not_made_again) {
   EXPECT_FALSE(kept_outcome(run));
 }
 
-TEST_F(SweepRunTest, measures_by_the_relations) {
+TEST_F(SweepRunTest, evaluates_the_path_by_the_relations) {
   SweepOrder run = order(kGoodRun);
   run.relations = folder_.path() / "a.relations";
   write_file(run.relations, "0 1 0.75 0 0 0 0 0\n");
@@ -88,7 +88,7 @@ TEST_F(SweepRunTest, measures_by_the_relations) {
   EXPECT_NE(outcome(run).failure, "") << "no relation is of this log";
 }
 
-TEST_F(SweepRunTest, a_run_that_is_killed_once_is_made_nevertheless) {
+TEST_F(SweepRunTest, a_run_that_is_killed_once_succeeds_in_the_second_attempt) {
   const SweepOrder run =
       order("[ $(wc -l < " + begun_.string() + ") -gt 1 ] || kill -KILL $$\n" + std::string(kGoodRun));
   const SweepOutcome made = outcome(run);
@@ -96,7 +96,7 @@ TEST_F(SweepRunTest, a_run_that_is_killed_once_is_made_nevertheless) {
   EXPECT_EQ(made.attempts, 2);
 }
 
-TEST_F(SweepRunTest, a_run_that_crashes_is_tried_twice_and_told_of) {
+TEST_F(SweepRunTest, a_run_that_crashes_twice_has_failed) {
   const SweepOrder run = order("kill -SEGV $$\n");
   const SweepOutcome made = outcome(run);
   EXPECT_FALSE(made.figures);
@@ -105,7 +105,7 @@ TEST_F(SweepRunTest, a_run_that_crashes_is_tried_twice_and_told_of) {
   EXPECT_THAT(names_in(run.folder.parent_path()), testing::IsEmpty());
 }
 
-TEST_F(SweepRunTest, what_the_user_must_mend_is_tried_once) {
+TEST_F(SweepRunTest, wrong_input_is_tried_once) {
   const SweepOutcome made = outcome(order("echo 'psi-slam: the log is empty' >&2; exit 2\n"));
   EXPECT_EQ(made.failure, "the log is empty");
   EXPECT_EQ(times_begun(), 1U);
@@ -122,7 +122,7 @@ TEST_F(SweepRunTest, a_run_without_a_readable_summary_is_a_failure) {
   EXPECT_NE(outcome(order("exit 0\n")).failure, "");
 }
 
-TEST_F(SweepRunTest, orders_and_outcomes_travel_as_text) {
+TEST_F(SweepRunTest, orders_and_outcomes_survive_as_text) {
   SweepOrder run = order(kGoodRun);
   run.keep = SweepKeep::kMaps;
   EXPECT_EQ(order_text(read_order(order_text(run))), order_text(run));

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command_fixture.h"
-#include "psi_slam/time_stamp.h"
-#include "psi_slam/open_log.h"
 #include "evaluation/relations_metric.h"
+#include "psi_slam/open_log.h"
+#include "psi_slam/time_stamp.h"
 #include "shared_logs.h"
 #include "progress_line.h"
 
@@ -32,7 +32,7 @@ TEST_F(BenchApp, compares_the_matchers_on_a_log) {
       << err_.str();
   EXPECT_THAT(err_.str(), AllOf(HasSubstr("mapping room"), HasSubstr(" left")));
   EXPECT_EQ(out_.str(), read_file(output / "match.md"));
-  EXPECT_THAT(out_.str(), HasSubstr("Single scans: it has only 0 of 1 negative cases"))
+  EXPECT_THAT(out_.str(), HasSubstr("Single scans: the log has only 0 of 1 negative cases"))
       << "the room is too small";
   const Json json = Json::parse(read_file(json_file));
   EXPECT_EQ(json["matchers"][0]["matcher"], "csm");
@@ -42,14 +42,15 @@ TEST_F(BenchApp, compares_the_matchers_on_a_log) {
   EXPECT_EQ(json["logs"][0]["positive"], 1);
 }
 
-TEST_F(BenchApp, leaves_out_logs_whose_truth_cannot_be_trusted) {
+TEST_F(BenchApp, leaves_out_logs_without_a_trustworthy_truth) {
   write_room_benchmark(data_, ini_, 1.5);
-  EXPECT_THAT(refusal({}), AllOf(HasSubstr("no log can be used: room"), HasSubstr("off the true relations")));
+  EXPECT_THAT(refusal({}),
+              AllOf(HasSubstr("no log can be used: room"), HasSubstr("is too large for a truth")));
   fs::remove(data_ / "room.relations");
-  EXPECT_THAT(refusal({}), HasSubstr("there are no relations"));
+  EXPECT_THAT(refusal({}), HasSubstr("it has no relations"));
 }
 
-TEST_F(BenchApp, gives_the_same_figures_again_but_for_the_times) {
+TEST_F(BenchApp, repeats_all_figures_but_the_times) {
   write_room();
   std::vector<Json> runs;
   for (const char* name : {"first.json", "again.json"}) {
@@ -64,7 +65,7 @@ TEST_F(BenchApp, gives_the_same_figures_again_but_for_the_times) {
   EXPECT_EQ(runs[0]["seed"], 5);
 }
 
-TEST_F(BenchApp, draws_both_kinds_from_a_benchmark_log_with_the_settings_that_come_along) {
+TEST_F(BenchApp, draws_both_kinds_from_a_benchmark_log_with_the_shipped_settings) {
   if (!shared_file("mit-csail.clf.gz")) GTEST_SKIP() << kNeedsData;
   for (const char* name : {"mit-csail.clf.gz", "mit-csail.relations"})
     fs::create_symlink(shared_file(name).value(), data_ / name);
@@ -80,9 +81,11 @@ TEST_F(BenchApp, draws_both_kinds_from_a_benchmark_log_with_the_settings_that_co
 TEST_F(BenchApp, adds_false_loops_to_the_graph_of_a_log) {
   write_room();
   const fs::path json_file = folder_.path() / "false.json";
+  const fs::path csv_file = folder_.path() / "false.csv";
   const fs::path output = folder_.path() / "out";
   ASSERT_EQ(run_program({"false-loops", "--data", data_.string(), "--ini", ini_.string(), "--shares",
-                         "50,200", "--seeds", "2", "--json", json_file.string(), "-o", output.string()},
+                         "50,200", "--seeds", "2", "--json", json_file.string(), "--csv", csv_file.string(),
+                         "-o", output.string()},
                         true),
             0)
       << err_.str();
@@ -93,6 +96,9 @@ TEST_F(BenchApp, adds_false_loops_to_the_graph_of_a_log) {
   const Json json = Json::parse(read_file(json_file));
   EXPECT_THAT(out_.str(), HasSubstr(json["files"][0]["sha256"].get<std::string>()));
   ASSERT_EQ(json["rows"].size(), 6U);
+  const std::string csv = read_file(csv_file);
+  EXPECT_THAT(csv, HasSubstr(",undefended.translation_error_m.mean,"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
   EXPECT_GT(json["logs"][0]["loops"], 10);
   for (const Json& row : json["rows"]) {
     EXPECT_EQ(row["seeds"], Json({1, 2}));
@@ -101,7 +107,7 @@ TEST_F(BenchApp, adds_false_loops_to_the_graph_of_a_log) {
   }
 }
 
-TEST_F(BenchApp, commands_on_chosen_logs_name_what_is_missing) {
+TEST_F(BenchApp, commands_name_missing_logs_and_relations) {
   write_room();
   const auto refused = [&](const std::vector<std::string>& options) {
     return refusal_of(words("false-loops", options));
@@ -114,7 +120,7 @@ TEST_F(BenchApp, commands_on_chosen_logs_name_what_is_missing) {
   EXPECT_THAT(refused({"--logs", "room"}), HasSubstr("expected room.relations"));
 }
 
-TEST_F(BenchApp, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
+TEST_F(BenchApp, wrong_usage_and_input_give_one_sentence_and_exit_code_2) {
   EXPECT_THAT(refusal({}), HasSubstr("there is no log in " + data_.string()));
   write_lines(data_ / "other.log", room_log_lines(2));
   EXPECT_THAT(refusal({}), AllOf(HasSubstr("other.log has no settings"), HasSubstr("other.ini")));
@@ -127,7 +133,7 @@ TEST_F(BenchApp, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
   EXPECT_THAT(refusal({"--json", (folder_.path() / "no" / "a.json").string()}), HasSubstr("does not exist"));
   EXPECT_THAT(refusal({"-o", (data_ / "other.log").string()}), HasSubstr("other.log"));
   EXPECT_EQ(run_program({"match", "--data", (folder_.path() / "no").string()}), 2);
-  EXPECT_THAT(err_.str(), HasSubstr("is no folder"));
+  EXPECT_THAT(err_.str(), HasSubstr("is not a folder"));
   EXPECT_EQ(run_program({}), 2);
   EXPECT_EQ(run_program({"match"}), 2);
   EXPECT_EQ(run_program({"--help"}), 0);
@@ -135,10 +141,10 @@ TEST_F(BenchApp, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
   EXPECT_THAT(out_.str(), HasSubstr("--windows"));
 }
 
-TEST_F(BenchApp, simulates_drives_and_writes_one_as_a_log_with_its_truth) {
+TEST_F(BenchApp, simulates_a_run_and_writes_it_as_a_log_with_its_truth) {
   const fs::path json_file = folder_.path() / "simulate.json";
   const fs::path output = folder_.path() / "out";
-  const fs::path log = folder_.path() / "drive.clf.gz";
+  const fs::path log = folder_.path() / "run.clf.gz";
   ASSERT_EQ(run_program({"simulate", "--path-m", "40", "--seed", "3", "--json", json_file.string(), "-o",
                          output.string(), "--write-log", log.string()},
                         true),
@@ -148,14 +154,14 @@ TEST_F(BenchApp, simulates_drives_and_writes_one_as_a_log_with_its_truth) {
   EXPECT_EQ(out_.str(), read_file(output / "simulate.md"));
   for (const char* name : {"plan", "error", "time", "memory"})
     EXPECT_THAT(read_file(output / (std::string("simulate-") + name + ".svg")), HasSubstr("</svg>"));
-  const Json drive = Json::parse(read_file(json_file))["drives"][0];
-  EXPECT_EQ(drive["false_loops"], 0);
-  EXPECT_LT(drive["error_mean_m"], 0.3);
-  EXPECT_GT(drive["peak_memory_mib"], 10);
+  const Json simulated = Json::parse(read_file(json_file))["drives"][0];
+  EXPECT_EQ(simulated["false_loops"], 0);
+  EXPECT_LT(simulated["error_mean_m"], 0.3);
+  EXPECT_GT(simulated["peak_memory_mib"], 10);
 
-  const Trajectory truth = read_trajectory(folder_.path() / "drive.tum");
-  EXPECT_EQ(truth.size(), drive["scans"]);
-  const std::vector<Relation> relations = read_relations(folder_.path() / "drive.relations");
+  const Trajectory truth = read_trajectory(folder_.path() / "run.tum");
+  EXPECT_EQ(truth.size(), simulated["scans"]);
+  const std::vector<Relation> relations = read_relations(folder_.path() / "run.relations");
   EXPECT_LT(evaluate_relations(truth, relations).translation_abs_m.max, 1e-4);
   const auto source = open_log(log, LogOptions());
   std::size_t frames = 0;
@@ -168,7 +174,7 @@ TEST_F(BenchApp, simulates_drives_and_writes_one_as_a_log_with_its_truth) {
   EXPECT_EQ(frames, truth.size());
 }
 
-TEST_F(BenchApp, refuses_simulations_that_make_no_sense) {
+TEST_F(BenchApp, refuses_impossible_simulations) {
   const std::vector<std::vector<std::string>> wrong = {
       {"--path-m", "5"},
       {"--path-m", "far"},
@@ -185,7 +191,7 @@ TEST_F(BenchApp, refuses_simulations_that_make_no_sense) {
   }
 }
 
-TEST(WorkProgress, tells_the_time_left_once_it_can) {
+TEST(WorkProgress, shows_the_time_left_once_it_can) {
   EXPECT_EQ(work_progress_text("intel", 0.25, 60), "intel    25 %   3:00 left");
   EXPECT_EQ(work_progress_text("intel", 0.001, 60), "intel     0 %");
 }

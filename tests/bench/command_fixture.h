@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of the commands of psi-slam-bench share: a folder for logs and settings, the program called
-// in this process or as one of its own, and the sentences of what it refuses.
+// Fixture for tests of the commands of psi-slam-bench: a folder with logs and settings, the program run in
+// this process or as a child, and its error messages.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "bench_app.h"
 #include "batch/child_process.h"
+#include "bench_app.h"
 #include "room_benchmark.h"
 #include "temporary_folder.h"
 
@@ -18,7 +18,7 @@ namespace psi_slam {
 
 class BenchCommand : public testing::Test {
  protected:
-  /// `command` is what run() and refusal() call, with --data and --ini.
+  /// `command` is the command that run() and refusal() call with --data and --ini.
   explicit BenchCommand(std::string command = {}) : command_(std::move(command)) {
     for (const std::filesystem::path& folder : {data_, ini_}) std::filesystem::create_directories(folder);
   }
@@ -29,7 +29,7 @@ class BenchCommand : public testing::Test {
     return all;
   }
 
-  /// In this process, with whatever arguments.
+  /// Runs the program in this process with any arguments.
   int run_program(const std::vector<std::string>& arguments, bool terminal = false) {
     out_.str("");
     err_.str("");
@@ -40,7 +40,7 @@ class BenchCommand : public testing::Test {
     return run_program(words(command_, options), terminal);
   }
 
-  /// The sentence with which it is refused as the user's fault.
+  /// The error message of a refused call.
   std::string refusal(const std::vector<std::string>& options) {
     return refusal_of(words(command_, options));
   }
@@ -52,7 +52,7 @@ class BenchCommand : public testing::Test {
     return err_.str();
   }
 
-  /// The built program as a process of its own, which looks for others in `search_path`.
+  /// Runs the built program as a child process with `search_path` as PATH.
   static ChildEnd run_process(const std::vector<std::string>& arguments, const std::string& search_path) {
     ChildProcess program;
     program.words = {"/usr/bin/env", "PATH=" + search_path, PSI_SLAM_BENCH_PROGRAM};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "covariance_check.h"
+#include "simulate/covariance_check.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "base/random_draws.h"
-#include "psi_slam/pose_graph.h"
 #include "pose_graph/sparse_pose_adjustment.h"
+#include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
 namespace {
@@ -42,7 +42,7 @@ std::vector<double> drawn_squares(double believed_share_of_sigma) {
   return squares;
 }
 
-TEST(CovarianceCheck, finds_right_covariances_right) {
+TEST(CovarianceCheck, accepts_correct_covariances) {
   const NormalisedErrors errors = normalised_errors("x", drawn_squares(1));
   EXPECT_EQ(errors.of, "x");
   EXPECT_EQ(errors.count, 20000U);
@@ -51,22 +51,22 @@ TEST(CovarianceCheck, finds_right_covariances_right) {
   EXPECT_NEAR(errors.beyond_95, 0.05, 0.006);
 }
 
-TEST(CovarianceCheck, finds_deviations_taken_for_half) {
+TEST(CovarianceCheck, detects_standard_deviations_that_are_half_as_large) {
   const NormalisedErrors errors = normalised_errors("x", drawn_squares(0.5));
   EXPECT_NEAR(errors.mean, 4, 0.1);
   EXPECT_NEAR(errors.median, 4, 0.1);
   EXPECT_NEAR(errors.beyond_95, 0.58, 0.02);  // P(chi-square of 3 > 7.815 / 4)
 }
 
-TEST(CovarianceCheck, of_nothing_is_zeros) {
+TEST(CovarianceCheck, is_zero_without_errors) {
   const NormalisedErrors errors = normalised_errors("x", {});
   EXPECT_EQ(errors.count, 0U);
   EXPECT_EQ(errors.mean, 0);
   EXPECT_EQ(errors.beyond_95, 0);
 }
 
-// A chain of nodes measured with noise of just its covariance, and one loop.
-TEST(CovarianceCheck, tells_constraints_loops_and_pairs_apart) {
+// A chain of nodes whose measurements have noise of the stated covariance, and one loop.
+TEST(CovarianceCheck, distinguishes_local_maps_loops_and_pairs) {
   RandomDraws random(9, "chain", 0);
   constexpr std::size_t kNodes = 400;
   MappingResult result;
@@ -104,9 +104,9 @@ TEST(CovarianceCheck, tells_constraints_loops_and_pairs_apart) {
   EXPECT_EQ(errors[1].count, 1U);
   EXPECT_EQ(errors[2].count, 600U);
   EXPECT_EQ(errors[3].count, 600U);
-  EXPECT_GT(errors[3].mean, 0.2);  // one graph is one draw: its pairs err together
+  EXPECT_GT(errors[3].mean, 0.2);  // errors of pairs in one graph are correlated
   EXPECT_LT(errors[3].mean, 4);
-  EXPECT_LT(errors[2].mean, errors[3].mean);  // a path knows less than the graph
+  EXPECT_LT(errors[2].mean, errors[3].mean);  // a path contains less information than the graph
 }
 
 }  // namespace

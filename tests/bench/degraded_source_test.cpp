@@ -19,7 +19,7 @@ using mrpt::math::TPose2D;
 constexpr std::size_t kStepsAhead = 30;
 constexpr std::size_t kStepsInAll = 40;
 
-/// By turns, 3 m ahead and 3 rad on the spot.
+/// Alternates between 3 m ahead and 3 rad on the spot.
 TPose2D step(std::size_t i) {
   return i % kStepsInAll < kStepsAhead ? TPose2D(0.1, 0, 0) : TPose2D(0, 0, 0.3);
 }
@@ -63,7 +63,7 @@ std::vector<TPose2D> odometry_of(const std::vector<Frame>& frames) {
   return poses;
 }
 
-TEST(DegradedSource, leaves_a_log_alone_unless_told_otherwise) {
+TEST(DegradedSource, leaves_a_log_unchanged_by_default) {
   const std::vector<Frame> frames = frames_of({}, 20);
   HandMadeSource source(20);
   ASSERT_EQ(frames.size(), 20U);
@@ -76,7 +76,7 @@ TEST(DegradedSource, leaves_a_log_alone_unless_told_otherwise) {
   }
 }
 
-TEST(DegradedSource, keeps_every_nth_scan_and_numbers_them_anew) {
+TEST(DegradedSource, keeps_every_nth_scan_with_new_indices) {
   DegradationOptions options;
   options.keep_every_nth = 3;
   const std::vector<Frame> frames = frames_of(options, 8);
@@ -87,18 +87,18 @@ TEST(DegradedSource, keeps_every_nth_scan_and_numbers_them_anew) {
   }
 }
 
-TEST(DegradedSource, beams_beside_the_field_of_view_are_no_returns) {
+TEST(DegradedSource, beams_outside_the_field_of_view_have_no_return) {
   DegradationOptions options;
   options.field_of_view_rad = M_PI / 2;
   const std::vector<float> ranges = frames_of(options, 1).front().scan.ranges_m;
   ASSERT_EQ(ranges.size(), 5U);
   EXPECT_TRUE(std::isnan(ranges[0]) && std::isnan(ranges[4]));
-  EXPECT_EQ(ranges[1], 2) << "the outermost one inside";
+  EXPECT_EQ(ranges[1], 2) << "the outermost beam inside";
   EXPECT_EQ(ranges[2], 3);
   EXPECT_EQ(ranges[3], 4);
 }
 
-TEST(DegradedSource, frames_without_odometry_say_so) {
+TEST(DegradedSource, marks_frames_without_odometry) {
   DegradationOptions options;
   options.no_odometry = true;
   options.odometry_noise_scale = 4;
@@ -108,13 +108,13 @@ TEST(DegradedSource, frames_without_odometry_say_so) {
   }
 }
 
-/// Root mean squares of odometry's errors, end to end, over the stretches of one kind.
+/// Root mean squares of the errors of odometry over the stretches of one kind.
 struct StretchErrors {
   double way_m = 0;
   double turn_rad = 0;
 };
 
-/// Over the stretches of so many steps that begin with each `first` of kStepsInAll.
+/// Over stretches of a number of steps, starting at `first` and every kStepsInAll steps after it.
 StretchErrors errors_over(const std::vector<TPose2D>& odometry, const std::vector<TPose2D>& truth,
                           std::size_t first, std::size_t steps) {
   StretchErrors squares;
@@ -129,7 +129,7 @@ StretchErrors errors_over(const std::vector<TPose2D>& odometry, const std::vecto
   return {std::sqrt(squares.way_m / stretches), std::sqrt(squares.turn_rad / stretches)};
 }
 
-/// Where the robot was, if odometry is that noisy.
+/// True poses of the robot for odometry with this noise.
 std::vector<TPose2D> truth_of(const std::vector<TPose2D>& odometry, const OdometryNoise& noise) {
   std::vector<TPose2D> truth{odometry.front()};
   RandomDraws draws(5, "truth", 0);
@@ -145,13 +145,13 @@ std::vector<TPose2D> truth_of(const std::vector<TPose2D>& odometry, const Odomet
   return truth;
 }
 
-TEST(DegradedSource, odometry_gets_as_many_times_its_natural_error) {
+TEST(DegradedSource, multiplies_the_error_of_odometry) {
   constexpr std::size_t kFrames = 60'000;
   const std::vector<TPose2D> odometry = odometry_of(frames_of({}, kFrames));
   const std::vector<TPose2D> truth = truth_of(odometry, {0.01, 0.02, 0.03});
   DegradationOptions options;
   options.natural_noise = measure_odometry_noise(odometry, truth);
-  // Pose i is reached by step i: stretches ahead, turns, and both with what the turns do to the way.
+  // Step i leads to pose i. Stretches: ahead, rotations, and both with the effect of rotations on positions.
   constexpr std::size_t kLast = kStepsInAll - 1;
   for (const auto& [first, steps] :
        {std::pair(kLast, kStepsAhead), std::pair(kStepsAhead - 1, std::size_t{10}),
@@ -167,7 +167,7 @@ TEST(DegradedSource, odometry_gets_as_many_times_its_natural_error) {
   }
 }
 
-TEST(DegradedSource, the_noise_is_that_of_the_seed_however_many_scans_are_kept) {
+TEST(DegradedSource, the_noise_does_not_depend_on_the_number_of_kept_scans) {
   DegradationOptions options;
   options.odometry_noise_scale = 2;
   options.natural_noise = {0.1, 0.1, 0.1};
@@ -179,7 +179,7 @@ TEST(DegradedSource, the_noise_is_that_of_the_seed_however_many_scans_are_kept) 
   EXPECT_FALSE(odometry_of(frames_of(options, 9))[2] == all[8]);
 }
 
-TEST(DegradedSource, refuses_what_leaves_nothing) {
+TEST(DegradedSource, refuses_options_that_leave_nothing) {
   DegradationOptions options;
   options.keep_every_nth = 0;
   EXPECT_THROW(frames_of(options, 1), std::invalid_argument);

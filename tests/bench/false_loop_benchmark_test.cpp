@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "false_loop_benchmark.h"
+#include "false_loops/false_loop_benchmark.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "../pose_graph/test_graphs.h"
-#include "false_loop_report.h"
 #include "pose_graph/spanning_tree.h"
 
 namespace psi_slam {
@@ -16,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A building whose loops are closed, and where the robot would be without them.
+/// A building with closed loops, and the poses of the robot without them.
 LoopTrial building_trial() {
   const KnownGraph known = building(1000, 2, 2);
   LoopTrial trial;
@@ -44,7 +43,7 @@ TEST(FalseLoopBenchmark, the_back_end_survives_10_100_and_500_percent) {
       const FalseLoopRow row = run_loop_trial(trial, kind, share_percent, 1);
       EXPECT_EQ(row.false_loops, std::lround(share_percent / 100 * static_cast<double>(row.true_loops)));
       EXPECT_EQ(row.undefended.false_kept, row.false_loops);
-      if (kind != FalseLoopKind::kNearby) {  // those average out
+      if (kind != FalseLoopKind::kNearby) {  // the errors of nearby loops average out
         EXPECT_GT(row.undefended.error.translation_m, 1.1 * error_m);
       }
       for (const LoopTrialOutcome* outcome : {&row.defended, &row.from_map}) {
@@ -56,7 +55,7 @@ TEST(FalseLoopBenchmark, the_back_end_survives_10_100_and_500_percent) {
   }
 }
 
-TEST(FalseLoopBenchmark, is_reported_for_people_and_programs) {
+TEST(FalseLoopBenchmark, is_reported_as_page_json_csv_and_plots) {
   FalseLoopBenchmark benchmark;
   benchmark.logs = {{"office", 100, 40, {0.02, 0.5}, {0.3, 1.5}}};
   FalseLoopRow row;
@@ -73,18 +72,21 @@ TEST(FalseLoopBenchmark, is_reported_for_people_and_programs) {
   benchmark.identities = {{"office", "a0a0", "b0b0"}};
   FalseLoopBenchmarkOptions options;
   options.seeds = {1, 2};
+  const BenchReport report = false_loop_report(benchmark, options, "a machine");
   EXPECT_THAT(
-      false_loop_markdown(benchmark, options, "a machine"),
+      report.markdown,
       testing::AllOf(HasSubstr("| office | groups | 50 | 20 | 7.000 ± 0.000 [7.000] |"),
                      HasSubstr("| office | `a0a0` | `b0b0` |"),
                      HasSubstr("| 0.0313 ± 0.0141 [0.0413] | 0.700 ± 0.141 [0.800] | 4.0 / 4.0 | 13 |"),
                      HasSubstr("a machine; seeds 1 to 2")));
-  const auto json = nlohmann::json::parse(false_loop_json(benchmark, options, "a machine"));
+  const auto json = nlohmann::json::parse(report.json);
   EXPECT_EQ(json["rows"][0]["kind"], "groups");
   EXPECT_EQ(json["rows"][0]["defended"]["true_lost"]["mean"], 4);
   EXPECT_EQ(json["rows"].size(), 1U);
   EXPECT_EQ(json["files"][0]["sha256"], "a0a0");
   EXPECT_EQ(json["logs"][0]["without_loops"]["translation_error_m"], 0.3);
+  EXPECT_THAT(report.csv, HasSubstr("\noffice,groups,50.0,1 2,0,20,7.0,0.0,7.0,7.0,"));
+  EXPECT_EQ(report.plots.size(), 3U);
   const std::string plot = false_loop_plot(benchmark, FalseLoopKind::kGroups);
   EXPECT_THAT(plot, testing::AllOf(HasSubstr(">50 %<"), HasSubstr(">office<"), HasSubstr("10 m<"),
                                    HasSubstr("class=\"spread\"")));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "false_loops.h"
+#include "false_loops/false_loops.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ double turn_between(const TPose2D& a, const TPose2D& b) {
   return std::abs(wrap_to_pi(a.phi - b.phi));
 }
 
-TEST(FalseLoops, are_as_many_as_asked_for_and_false) {
+TEST(FalseLoops, have_the_requested_number_and_are_false) {
   const KnownGraph known = building(600, 2, 2);
   for (const FalseLoopKind kind :
        {FalseLoopKind::kScattered, FalseLoopKind::kGroups, FalseLoopKind::kNearby}) {
@@ -62,10 +62,10 @@ TEST(FalseLoops, groups_agree_with_each_other) {
     EXPECT_LT(turn_between(moved, truth), 1e-9);
     ++agreeing;
   }
-  EXPECT_GT(agreeing, 400 * 3 / 4) << "a group of five has four of them";
+  EXPECT_GT(agreeing, 400 * 3 / 4) << "a group of five has four such pairs";
 }
 
-TEST(FalseLoops, a_seed_gives_the_same_ones_again) {
+TEST(FalseLoops, are_the_same_for_the_same_seed) {
   const KnownGraph known = building(300, 2, 2);
   const auto sum_of = [&](std::uint64_t seed) {
     PoseGraph graph = known.graph;
@@ -80,7 +80,7 @@ TEST(FalseLoops, a_seed_gives_the_same_ones_again) {
   EXPECT_NE(sum_of(1), sum_of(2));
 }
 
-TEST(FalseLoops, a_graph_without_loops_gets_none) {
+TEST(FalseLoops, a_graph_without_loops_stays_unchanged) {
   KnownGraph known = ring(30, 0, 1);
   EXPECT_TRUE(add_false_loops(known.graph, known.truth, options_of(FalseLoopKind::kScattered, 5)).empty());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "forked_work.h"
+#include "simulate/forked_work.h"
 
 #include <gmock/gmock.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using Report = std::function<void(const std::string&)>;
 
-TEST(ForkedWork, hands_back_reports_and_result) {
+TEST(ForkedWork, returns_reports_and_result) {
   std::vector<std::string> reports;
   const ForkedResult result = run_forked(
       [](const Report& report) {
@@ -27,7 +27,7 @@ TEST(ForkedWork, hands_back_reports_and_result) {
   EXPECT_THAT(reports, testing::ElementsAre("one", ""));
 }
 
-TEST(ForkedWork, tells_the_memory_of_each_child_alone) {
+TEST(ForkedWork, measures_the_memory_of_each_child) {
   const auto holding = [](std::size_t bytes) {
     return run_forked(
                [bytes](const Report&) {
@@ -42,7 +42,7 @@ TEST(ForkedWork, tells_the_memory_of_each_child_alone) {
   EXPECT_LT(holding(1000), much_mib - 150);
 }
 
-TEST(ForkedWork, its_errors_are_thrown_here) {
+TEST(ForkedWork, rethrows_errors_of_the_child) {
   const auto ignore = [](const std::string&) {};
   EXPECT_THROW(run_forked([](const Report&) -> std::string { throw UserError("mistaken"); }, ignore),
                UserError);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg_benchmark.h"
+#include "freiburg/freiburg_benchmark.h"
 
 #include <gmock/gmock.h>
 
-#include "freiburg_report.h"
 #include "psi_slam/user_error.h"
 #include "room_benchmark.h"
 #include "temporary_folder.h"
@@ -41,7 +40,7 @@ class FreiburgBenchmarks : public testing::Test {
     return count;
   }
 
-  /// All figures but the times and the memory, which differ from run to run.
+  /// All figures except times and memory, which differ from run to run.
   static std::string path_figures(const FreiburgBenchmark& benchmark) {
     std::string text;
     for (const FreiburgCell& cell : benchmark.cells)
@@ -62,7 +61,7 @@ class FreiburgBenchmarks : public testing::Test {
   std::string doing_;
 };
 
-TEST_F(FreiburgBenchmarks, runs_every_matcher_with_every_seed_but_csm_once) {
+TEST_F(FreiburgBenchmarks, runs_csm_once_and_other_matchers_with_every_seed) {
   const FreiburgBenchmark benchmark = run();
   ASSERT_EQ(benchmark.cells.size(), 2U);
   EXPECT_EQ(benchmark.cells[0].runs.size(), 1U);
@@ -78,13 +77,13 @@ TEST_F(FreiburgBenchmarks, runs_every_matcher_with_every_seed_but_csm_once) {
     }
 }
 
-TEST_F(FreiburgBenchmarks, a_run_that_is_there_is_not_made_again) {
+TEST_F(FreiburgBenchmarks, kept_runs_are_not_repeated) {
   const FreiburgBenchmark first = run();
   EXPECT_EQ(made(first), 3U);
   const FreiburgBenchmark again = run();
   EXPECT_EQ(made(again), 0U);
-  EXPECT_EQ(freiburg_markdown(again, options_, "m"), freiburg_markdown(first, options_, "m"))
-      << "the times of the first runs stand";
+  EXPECT_EQ(freiburg_report(again, options_, "m").markdown, freiburg_report(first, options_, "m").markdown)
+      << "the times of the first runs are kept";
   options_.seeds = {1, 3};
   EXPECT_EQ(made(run()), 1U) << "the new seed";
   fs::remove(output_ / "runs" / "room-ga-2.json");
@@ -92,32 +91,32 @@ TEST_F(FreiburgBenchmarks, a_run_that_is_there_is_not_made_again) {
   EXPECT_EQ(made(run()), 2U);
 }
 
-TEST_F(FreiburgBenchmarks, runs_of_a_quieter_machine_stand_and_those_of_a_busier_one_do_not) {
+TEST_F(FreiburgBenchmarks, runs_of_a_busier_machine_are_repeated) {
   options_.matchers = {"csm"};
   options_.processes = 2;
   run();
   options_.processes = 1;
-  EXPECT_EQ(made(run()), 1U) << "its times were measured beside others";
+  EXPECT_EQ(made(run()), 1U) << "its times were measured beside another run";
   options_.processes = 2;
   const FreiburgBenchmark again = run();
   EXPECT_EQ(made(again), 0U);
-  EXPECT_THAT(freiburg_markdown(again, options_, "m"), HasSubstr("at most 2 runs at a time"));
+  EXPECT_THAT(freiburg_report(again, options_, "m").markdown, HasSubstr("at most 2 runs at a time"));
 }
 
-TEST_F(FreiburgBenchmarks, other_inputs_are_other_runs) {
+TEST_F(FreiburgBenchmarks, changed_inputs_repeat_the_runs) {
   options_.matchers = {"csm"};
   run();
   write_file(ini_ / "room.ini", "[front_end]\nnode_distance_m = 0.3\n");
   EXPECT_EQ(made(run()), 1U) << "settings";
   write_file(ini_ / "room.ini", "; a remark\n[front_end]\nnode_distance_m = 0.3\n");
-  EXPECT_EQ(made(run()), 0U) << "the same settings, worded otherwise";
+  EXPECT_EQ(made(run()), 0U) << "the same settings in other words";
   write_room_benchmark(data_, ini_, 1.5);
   EXPECT_EQ(made(run()), 1U) << "relations";
   write_lines(data_ / "room.log", room_log_lines(191));
   EXPECT_EQ(made(run()), 1U) << "log";
 }
 
-TEST_F(FreiburgBenchmarks, two_processes_find_the_same_figures_as_one) {
+TEST_F(FreiburgBenchmarks, two_processes_give_the_same_figures_as_one) {
   const std::string alone = path_figures(run());
   options_.processes = 2;
   options_.output = folder_.path() / "other";
@@ -125,7 +124,7 @@ TEST_F(FreiburgBenchmarks, two_processes_find_the_same_figures_as_one) {
   EXPECT_EQ(path_figures(run()), alone);
 }
 
-TEST_F(FreiburgBenchmarks, a_run_that_fails_is_told_and_the_others_go_on) {
+TEST_F(FreiburgBenchmarks, reports_a_failed_run_and_continues_with_the_others) {
   write_lines(data_ / "blind.log",
               {with_ranges(room_log_lines(1).front(), 0, kRoomBeams, std::to_string(kRoomNoReturn_m))});
   write_file(ini_ / "blind.ini", "[log]\n");
@@ -137,14 +136,14 @@ TEST_F(FreiburgBenchmarks, a_run_that_fails_is_told_and_the_others_go_on) {
   EXPECT_FALSE(benchmark.cells[0].runs.at(0).figures);
   EXPECT_THAT(benchmark.cells[0].runs.at(0).failure, AllOf(HasSubstr("blind.log"), HasSubstr("return")));
   EXPECT_TRUE(benchmark.cells[1].runs.at(0).figures);
-  const std::string page = freiburg_markdown(benchmark, options_, "m");
+  const std::string page = freiburg_report(benchmark, options_, "m").markdown;
   EXPECT_THAT(page, HasSubstr("| blind | csm | failed: " + data_.string()));
   EXPECT_THAT(page, HasSubstr("- blind, csm, seed 1: failed: " + data_.string()));
-  EXPECT_THAT(freiburg_json(benchmark, options_, "m"), HasSubstr("\"reason\": \"" + data_.string()));
-  EXPECT_EQ(made(run()), 1U) << "what failed is tried again";
+  EXPECT_THAT(freiburg_report(benchmark, options_, "m").json, HasSubstr("\"reason\": \"" + data_.string()));
+  EXPECT_EQ(made(run()), 1U) << "a failed run is repeated";
 }
 
-TEST_F(FreiburgBenchmarks, a_killed_run_is_a_failed_one) {
+TEST_F(FreiburgBenchmarks, a_killed_run_has_failed) {
   const fs::path program = folder_.path() / "suicide.sh";
   write_file(program, "#!/bin/sh\nkill -KILL $$\n");
   fs::permissions(program, fs::perms::owner_all);
@@ -154,14 +153,14 @@ TEST_F(FreiburgBenchmarks, a_killed_run_is_a_failed_one) {
       EXPECT_THAT(result.failure, HasSubstr("ended by a signal"));
 }
 
-TEST_F(FreiburgBenchmarks, a_run_that_cannot_be_started_is_a_failed_one) {
+TEST_F(FreiburgBenchmarks, a_run_that_cannot_be_started_has_failed) {
   options_.program = folder_.path() / "no_program";
   write_file(options_.program, "text");
   for (const FreiburgCell& cell : run().cells)
     for (const FreiburgResult& result : cell.runs) EXPECT_THAT(result.failure, HasSubstr("cannot start"));
 }
 
-TEST_F(FreiburgBenchmarks, interrupted_it_keeps_what_is_finished) {
+TEST_F(FreiburgBenchmarks, keeps_finished_runs_after_an_interrupt) {
   options_.matchers = {"csm"};
   run();
   options_.matchers = {"csm", "ga"};

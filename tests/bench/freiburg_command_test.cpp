@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nlohmann/json.hpp>
 
-#include "well_formed.h"
+#include "baseline_files.h"
 #include "command_fixture.h"
-#include "rival_files.h"
+#include "well_formed.h"
 
 namespace psi_slam {
 namespace {
@@ -17,7 +17,7 @@ class FreiburgCommand : public BenchCommand {
  protected:
   FreiburgCommand() : BenchCommand("freiburg") {}
 
-  /// The built program, since it starts itself.
+  /// Uses the built program, which starts itself.
   ChildEnd run(std::vector<std::string> options) const {
     return run_process(words("freiburg", with_output(std::move(options))), path_);
   }
@@ -69,7 +69,7 @@ TEST_F(FreiburgCommand, maps_the_logs_and_writes_page_figures_and_plots) {
   EXPECT_NE(json["commit"], "");
 }
 
-TEST_F(FreiburgCommand, says_by_its_code_that_a_run_failed) {
+TEST_F(FreiburgCommand, a_failed_run_gives_exit_code_1) {
   write_room();
   write_file(data_ / "room.relations", "1 2 0 0 0 0 0 0\n");  // long before the log
   const ChildEnd end = run({"--matchers", "csm"});
@@ -78,13 +78,13 @@ TEST_F(FreiburgCommand, says_by_its_code_that_a_run_failed) {
   EXPECT_THAT(end.out, HasSubstr("| room | csm | failed: "));
 }
 
-TEST_F(FreiburgCommand, shows_the_rivals_that_are_installed_beside_ours) {
+TEST_F(FreiburgCommand, compares_with_installed_baselines) {
   write_room();
-  install_rival(folder_.path(), rival_kinds()[0], standing_still(190));
-  install_rival(folder_.path(), rival_kinds()[1], "exec sleep 600");
+  install_baseline(folder_.path(), baseline_kinds()[0], standing_still(190));
+  install_baseline(folder_.path(), baseline_kinds()[1], "exec sleep 600");
   const fs::path json_file = folder_.path() / "freiburg.json";
   const ChildEnd end =
-      run({"--matchers", "csm", "--rivals", "--rival-limit-s", "1", "--json", json_file.string()});
+      run({"--matchers", "csm", "--baselines", "--baseline-limit-s", "1", "--json", json_file.string()});
   ASSERT_EQ(end.code, 0) << end.err;
   EXPECT_THAT(end.out, AllOf(HasSubstr("MRPT icp-slam (run here)"), HasSubstr("MRPT 9.9.9 - Sources"),
                              HasSubstr("| room | icp-slam | "),
@@ -96,30 +96,31 @@ TEST_F(FreiburgCommand, shows_the_rivals_that_are_installed_beside_ours) {
   EXPECT_THAT(read_file(output_ / "freiburg-room.svg"), HasSubstr("MRPT icp-slam (run here)"));
 }
 
-TEST_F(FreiburgCommand, says_which_rivals_are_missing) {
+TEST_F(FreiburgCommand, names_missing_baselines) {
   write_room();
   path_ = (folder_.path() / "bin").string();
-  const ChildEnd none = run({"--matchers", "csm", "--rivals"});
+  const ChildEnd none = run({"--matchers", "csm", "--baselines"});
   EXPECT_EQ(none.code, 2);
   EXPECT_THAT(none.err,
               AllOf(HasSubstr("icp-slam is not on PATH, rbpf-slam is not on PATH"), HasSubstr("mrpt-apps")));
-  install_rival(folder_.path(), rival_kinds()[1], "exit 3");
+  install_baseline(folder_.path(), baseline_kinds()[1], "exit 3");
   write_file(folder_.path() / "bin" / "icp-slam", "no program");
-  const ChildEnd one = run({"--matchers", "csm", "--rivals"});
+  const ChildEnd one = run({"--matchers", "csm", "--baselines"});
   EXPECT_EQ(one.code, 0) << one.err;
-  EXPECT_THAT(one.err, HasSubstr("warning: --rivals: icp-slam is not on PATH"));
+  EXPECT_THAT(one.err, HasSubstr("warning: --baselines: icp-slam is not on PATH"));
   EXPECT_THAT(one.out, HasSubstr("- not run: icp-slam is not on PATH"));
   EXPECT_THAT(one.out, HasSubstr("| room | rbpf-slam | failed: ended with code 3 | –"));
 }
 
-TEST_F(FreiburgCommand, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
+TEST_F(FreiburgCommand, wrong_usage_and_input_give_one_sentence_and_exit_code_2) {
   EXPECT_THAT(refusal({}), HasSubstr("there is no log in " + data_.string()));
   write_room();
   EXPECT_THAT(refusal({"--bogus"}), HasSubstr("--bogus"));
   EXPECT_THAT(refusal({"--seeds", "0"}), HasSubstr("--seeds"));
   EXPECT_THAT(refusal({"--seeds", "-1"}), HasSubstr("--seeds"));
-  EXPECT_THAT(refusal({"--rival-limit-s", "5"}), HasSubstr("--rivals"));
-  EXPECT_THAT(refusal({"--rivals", "--rival-limit-s", "0"}), HasSubstr("--rival-limit-s"));
+  EXPECT_THAT(refusal({"--baseline-limit-s", "5"}), HasSubstr("--baselines"));
+  EXPECT_THAT(refusal({"--rivals", "--rival-limit-s", "0"}), HasSubstr("--rival-limit-s")) << "the old names";
+  EXPECT_THAT(refusal({"--baselines", "--baseline-limit-s", "0"}), HasSubstr("--baseline-limit-s"));
   EXPECT_THAT(refusal({"--processes", "0"}), HasSubstr("--processes"));
   EXPECT_THAT(refusal({"--threads", "some"}), HasSubstr("--threads"));
   EXPECT_THAT(refusal({"--matchers", "csm,icp"}), AllOf(HasSubstr("--matchers"), HasSubstr("icp")));
@@ -134,7 +135,7 @@ TEST_F(FreiburgCommand, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
   EXPECT_THAT(refusal({"--logs", "room"}), HasSubstr("expected room.relations"));
 }
 
-TEST_F(FreiburgCommand, an_output_folder_that_cannot_be_made_is_told_before_the_work) {
+TEST_F(FreiburgCommand, refuses_an_impossible_output_folder_before_the_work) {
   write_room();
   output_ = data_ / "room.log";
   EXPECT_THAT(refusal({}), HasSubstr("room.log"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg_comparison.h"
+#include "freiburg/freiburg_comparison.h"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Mapped by the adaptive matcher with that mean translational error, the other errors 1.
+/// One log mapped by the adaptive matcher with this mean translational error; the other errors are 1.
 FreiburgBenchmark benchmark_with(const std::string& log, double error_m) {
   FreiburgResult run;
   run.figures.emplace();
@@ -36,7 +36,7 @@ std::vector<std::string> best_of(const Comparison& comparison, const ComparisonR
   return names;
 }
 
-TEST(FreiburgComparison, the_best_is_who_has_the_least_mean) {
+TEST(FreiburgComparison, the_best_system_has_the_least_mean) {
   using Names = std::vector<std::string>;
   const auto best_with = [](double error_m) {
     const Comparison comparison = compare_with_others(benchmark_with("intel", error_m));
@@ -55,7 +55,7 @@ TEST(FreiburgComparison, the_table_shows_the_best_in_bold_and_has_every_log_of_t
   EXPECT_THAT(table, HasSubstr("| Freiburg hospital | translation [m] | – | 0.5750 ± 0.8360 |"));
 }
 
-TEST(FreiburgComparison, marks_what_is_unchecked_and_means_of_which_some_runs_failed) {
+TEST(FreiburgComparison, marks_unchecked_figures_and_means_without_failed_runs) {
   FreiburgBenchmark benchmark = benchmark_with("intel", 0.02);
   const std::string whole = comparison_table(compare_with_others(benchmark));
   EXPECT_THAT(whole, HasSubstr("0.4530 † |"));
@@ -64,18 +64,18 @@ TEST(FreiburgComparison, marks_what_is_unchecked_and_means_of_which_some_runs_fa
   benchmark.cells[1].runs.emplace_back().failure = "no memory";
   const std::string some = comparison_table(compare_with_others(benchmark));
   EXPECT_THAT(some, HasSubstr("**0.0200 ± 0.5000 ‡**"));
-  EXPECT_THAT(some, HasSubstr("\n‡ some of these runs failed"));
+  EXPECT_THAT(some, HasSubstr("\n‡ some runs failed"));
 }
 
-TEST(FreiburgComparison, rivals_that_were_run_here_are_columns_like_the_others) {
+TEST(FreiburgComparison, baselines_run_here_are_columns) {
   FreiburgBenchmark benchmark = benchmark_with("intel", 0.02);
-  benchmark.rivals.programs.push_back(
-      {rival_kinds()[0], "/usr/bin/icp-slam", "/some/icp.ini", "MRPT 9", "c"});
-  RivalResult result;
+  benchmark.baselines.programs.push_back(
+      {baseline_kinds()[0], "/usr/bin/icp-slam", "/some/icp.ini", "MRPT 9", "c"});
+  BaselineResult result;
   result.log = "intel";
-  result.rival = "icp-slam";
+  result.baseline = "icp-slam";
   result.figures.emplace().errors.translation_abs_m = {0.01, 0.02};
-  benchmark.rival_results = {result};
+  benchmark.baseline_results = {result};
   const Comparison comparison = compare_with_others(benchmark);
   EXPECT_EQ(best_of(comparison, row_of(comparison, "Intel", 0)).front(), "MRPT icp-slam (run here)");
   EXPECT_THAT(comparison.columns[1].source,
@@ -83,7 +83,7 @@ TEST(FreiburgComparison, rivals_that_were_run_here_are_columns_like_the_others) 
   EXPECT_FALSE(row_of(comparison, "ACES", 0).values[1]);
 }
 
-TEST(FreiburgComparison, a_log_of_somebody_else_has_our_figures_only) {
+TEST(FreiburgComparison, another_log_has_only_our_figures) {
   const Comparison comparison = compare_with_others(benchmark_with("my room", 0.02));
   const ComparisonRow row = row_of(comparison, "my room", 0);
   EXPECT_TRUE(row.values[0]);
@@ -91,7 +91,7 @@ TEST(FreiburgComparison, a_log_of_somebody_else_has_our_figures_only) {
   EXPECT_EQ(comparison.rows.size(), (benchmark_log_titles().size() + 1) * kPaperFigures);
 }
 
-TEST(FreiburgComparison, the_hospital_stands_beside_what_was_published_of_it) {
+TEST(FreiburgComparison, compares_the_hospital_with_published_figures) {
   const Comparison comparison = compare_with_others(benchmark_with("hospital", 0.05));
   EXPECT_EQ(best_of(comparison, row_of(comparison, "Freiburg hospital", 0)).front(), "psi-slam, adaptive");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg_figures.h"
+#include "freiburg/freiburg_benchmark.h"
 
 #include <gtest/gtest.h>
 

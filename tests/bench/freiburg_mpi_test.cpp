@@ -6,8 +6,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "batch/child_process.h"
 #include "command_fixture.h"
-#include "batch/child_workers.h"
 
 namespace psi_slam {
 namespace {
@@ -21,7 +21,7 @@ class FreiburgByMpi : public BenchCommand {
   FreiburgByMpi() : BenchCommand("freiburg") {
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);  // what containers may forbid
+    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);  // containers may forbid it
     write_room();
   }
 
@@ -44,7 +44,7 @@ class FreiburgByMpi : public BenchCommand {
 
   static bool is_being_written(const fs::path& file) { return file.filename().string().front() == '.'; }
 
-  /// Of each run, by its file's name, without what it took.
+  /// Results of the runs by file name, without times and memory.
   std::map<std::string, Json> figures(const std::string& name) const {
     std::map<std::string, Json> all;
     for (const auto& file : fs::directory_iterator(output(name) / "runs")) {
@@ -63,7 +63,7 @@ class FreiburgByMpi : public BenchCommand {
   }
 };
 
-TEST_F(FreiburgByMpi, gives_the_figures_of_processes_and_a_page) {
+TEST_F(FreiburgByMpi, gives_the_same_figures_as_processes_and_a_page) {
   const ChildEnd processes = by_processes("processes");
   ASSERT_EQ(processes.code, 0) << processes.err;
   const ChildEnd mpi = by_mpi("mpi");
@@ -74,12 +74,12 @@ TEST_F(FreiburgByMpi, gives_the_figures_of_processes_and_a_page) {
   EXPECT_THAT(mpi.out, HasSubstr("| room | ga | 3 | 0.0"));
 
   const auto made = times("processes");
-  const ChildEnd again = by_mpi("processes");  // a single run at a time spoils no times
+  const ChildEnd again = by_mpi("processes");  // one run at a time
   ASSERT_EQ(again.code, 0) << again.err;
-  EXPECT_EQ(times("processes"), made) << "what is there is not made again";
+  EXPECT_EQ(times("processes"), made) << "kept runs are not repeated";
 }
 
-TEST_F(FreiburgByMpi, a_job_that_was_killed_goes_on_with_the_same_command) {
+TEST_F(FreiburgByMpi, the_same_command_continues_a_killed_job) {
   const auto runs = output("mpi") / "runs";
   by_mpi("mpi", [&] { return fs::exists(runs / "room-csm-1.json") || fs::exists(runs / "room-ga-1.json"); });
   const auto kept = times("mpi");
@@ -91,14 +91,14 @@ TEST_F(FreiburgByMpi, a_job_that_was_killed_goes_on_with_the_same_command) {
   for (const auto& [name, time] : kept) EXPECT_EQ(now.at(name), time) << name;
 }
 
-TEST_F(FreiburgByMpi, mistakes_are_told_once_with_exit_code_2) {
+TEST_F(FreiburgByMpi, mistakes_are_reported_once_with_exit_code_2) {
   const ChildEnd end = run_child({{PSI_SLAM_MPIRUN, "--oversubscribe", "-n", "3", PSI_SLAM_BENCH_MPI_PROGRAM,
                                    "freiburg", "--data", folder_.path().string() + "/none"}});
   EXPECT_EQ(end.code, 2) << end.err;
   const std::string sentence = "psi-slam-bench-mpi: ";
   const auto first = end.err.find(sentence);
   ASSERT_NE(first, std::string::npos) << end.err;
-  EXPECT_THAT(end.err, HasSubstr("none is no folder"));
+  EXPECT_THAT(end.err, HasSubstr("none is not a folder"));
   EXPECT_EQ(end.err.find(sentence, first + 1), std::string::npos) << end.err;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg_run.h"
+#include "freiburg/freiburg_run.h"
 
 #include <gmock/gmock.h>
 
@@ -41,12 +41,12 @@ TEST_F(FreiburgRuns, gives_the_figures_of_the_whole_log) {
   const MeanAndStd& absolute = figures.errors.translation_abs_m;
   EXPECT_NEAR(figures.errors.translation_sq_m2.mean,
               absolute.mean * absolute.mean + absolute.std * absolute.std, 1e-12)
-      << "the mean of squares is the square of the mean and the variance";
+      << "the mean of squares is the squared mean plus the variance";
 }
 
 TEST_F(FreiburgRuns, judges_the_loops_by_the_relations) {
   const FreiburgFigures no_passes = map_and_evaluate(run("csm"));
-  EXPECT_FALSE(no_passes.loop_recall) << "its relations join no two passes";
+  EXPECT_FALSE(no_passes.loop_recall) << "no relation connects two passes";
   write_room_passes(folder_.path());
   const FreiburgFigures figures = map_and_evaluate(run("csm"));
   EXPECT_GT(figures.loops_judged, 10U);
@@ -55,7 +55,7 @@ TEST_F(FreiburgRuns, judges_the_loops_by_the_relations) {
   write_room_passes(folder_.path(), 1);
   const FreiburgFigures moved = map_and_evaluate(run("csm"));
   EXPECT_EQ(moved.loops_judged, figures.loops_judged);
-  EXPECT_EQ(moved.loops_false, figures.loops_judged) << "the map is the same, the relations are a metre off";
+  EXPECT_EQ(moved.loops_false, figures.loops_judged) << "the same map with relations 1 m off";
   EXPECT_EQ(moved.loop_recall, figures.loop_recall);
 }
 
@@ -77,7 +77,7 @@ TEST_F(FreiburgRuns, each_matcher_and_seed_has_its_own_settings) {
   EXPECT_THAT(settings_text(settings_of(run("adaptive"))), HasSubstr("genetic.variant = memetic\n"));
 }
 
-TEST_F(FreiburgRuns, figures_are_read_back_to_the_last_bit) {
+TEST_F(FreiburgRuns, figures_are_read_back_exactly) {
   FreiburgFigures figures = map_and_evaluate(run("csm"));
   figures.wall_s = 1.0 / 3;
   figures.cpu_s = 2.0 / 3;
@@ -98,7 +98,7 @@ TEST_F(FreiburgRuns, figures_are_read_back_to_the_last_bit) {
   EXPECT_FALSE(read_figures("no JSON"));
 }
 
-TEST_F(FreiburgRuns, a_log_that_breaks_off_has_no_figures) {
+TEST_F(FreiburgRuns, a_log_that_ends_early_has_no_figures) {
   std::vector<std::string> lines = room_log_lines(190);
   std::string bytes;
   for (const std::string& line : lines) bytes += line + '\n';

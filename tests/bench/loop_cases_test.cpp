@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop_cases.h"
+#include "match/loop_cases.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ double nearest_node_m(const LoopCase& one) {
   return nearest;
 }
 
-TEST(LoopCases, are_of_both_kinds_and_no_pair_comes_twice) {
+TEST(LoopCases, have_both_kinds_and_no_pair_twice) {
   const std::vector<LoopCase> cases = draw_cases(office_log(), office_cases());
   ASSERT_EQ(cases.size(), 24U);
   EXPECT_EQ(pairs_of(cases).size(), 24U);
@@ -42,7 +42,7 @@ TEST(LoopCases, are_of_both_kinds_and_no_pair_comes_twice) {
   }
 }
 
-TEST(LoopCases, positive_ones_share_space_that_was_seen_at_another_time) {
+TEST(LoopCases, positive_cases_share_space_seen_at_another_time) {
   const CaseOptions options = office_cases();
   for (const LoopCase& one : draw_cases(office_log(), options)) {
     if (!one.positive) continue;
@@ -59,7 +59,7 @@ TEST(LoopCases, positive_ones_share_space_that_was_seen_at_another_time) {
   }
 }
 
-TEST(LoopCases, positive_starts_keep_the_truth_well_inside_the_window_and_use_its_room) {
+TEST(LoopCases, positive_starts_keep_the_truth_inside_the_window) {
   CaseOptions options = office_cases();
   options.count = 200;
   double farthest_m = 0;
@@ -77,7 +77,7 @@ TEST(LoopCases, positive_starts_keep_the_truth_well_inside_the_window_and_use_it
   EXPECT_GT(most_turned, 0.22);
 }
 
-TEST(LoopCases, negative_ones_were_taken_clear_of_the_window) {
+TEST(LoopCases, negative_cases_are_outside_the_window) {
   const CaseOptions options = office_cases();
   for (const LoopCase& one : draw_cases(office_log(), options)) {
     if (one.positive) continue;
@@ -85,7 +85,7 @@ TEST(LoopCases, negative_ones_were_taken_clear_of_the_window) {
   }
 }
 
-TEST(LoopCases, are_the_same_for_the_same_seed_and_others_for_another) {
+TEST(LoopCases, depend_on_the_seed_alone) {
   CaseOptions options = office_cases();
   const auto first = draw_cases(office_log(), options);
   const auto again = draw_cases(office_log(), options);
@@ -100,7 +100,7 @@ TEST(LoopCases, are_the_same_for_the_same_seed_and_others_for_another) {
   EXPECT_NE(pairs_of(draw_cases(office_log(), options)), pairs_of(first));
 }
 
-TEST(LoopCases, are_the_same_pairs_in_windows_of_all_sizes_as_long_as_negative_ones_lie_as_far_away) {
+TEST(LoopCases, have_the_same_pairs_in_windows_of_all_sizes) {
   CaseOptions options = office_cases();
   const auto narrow = draw_cases(office_log(), options);
   options.window_m += 1;
@@ -113,7 +113,7 @@ TEST(LoopCases, are_the_same_pairs_in_windows_of_all_sizes_as_long_as_negative_o
   }
 }
 
-TEST(LoopCases, are_fewer_where_the_log_has_no_more) {
+TEST(LoopCases, are_fewer_if_the_log_has_no_more) {
   CaseOptions options = office_cases();
   options.clear_m = 100;
   const auto cases = draw_cases(office_log(), options);
@@ -121,7 +121,7 @@ TEST(LoopCases, are_fewer_where_the_log_has_no_more) {
   EXPECT_TRUE(cases.back().positive);
 }
 
-TEST(LoopCases, a_context_holds_what_was_seen_on_the_way) {
+TEST(LoopCases, a_context_contains_earlier_scans) {
   CaseOptions options = office_cases();
   options.context = true;
   const auto cases = draw_cases(office_log(), options);

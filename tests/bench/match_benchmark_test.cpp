@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "match_benchmark.h"
+#include "match/match_benchmark.h"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 namespace psi_slam {
 namespace {
 
-/// Remembers the order of its calls with the others.
+/// A matcher that records the order of calls.
 class NotedMatcher : public Matcher {
  public:
   NotedMatcher(std::string name, std::vector<std::string>& calls) : name_(std::move(name)), calls_(calls) {}
@@ -29,7 +29,7 @@ class NotedMatcher : public Matcher {
   std::vector<std::string>& calls_;
 };
 
-TEST(MatchBenchmark, takes_turns_case_by_case) {
+TEST(MatchBenchmark, alternates_between_candidates_case_by_case) {
   CaseOptions options = office_cases();
   options.count = 1;
   std::vector<LoopCase> cases = draw_cases(office_log(), options);
@@ -39,7 +39,7 @@ TEST(MatchBenchmark, takes_turns_case_by_case) {
   std::vector<std::string> calls;
   const auto a = std::make_shared<NotedMatcher>("a", calls);
   const auto b = std::make_shared<NotedMatcher>("b", calls);
-  const Contestant adaptive("adaptive", std::vector<std::shared_ptr<const Matcher>>{a, b});
+  const MatchCandidate adaptive("adaptive", std::vector<std::shared_ptr<const Matcher>>{a, b});
   MatchSeries series;
   series.cases = options;
   int told = 0;
@@ -53,10 +53,11 @@ TEST(MatchBenchmark, takes_turns_case_by_case) {
 
 TEST(MatchBenchmark, exact_matching_finds_the_loops_of_the_office) {
   const CaseOptions options = office_cases();
-  const std::vector<Contestant> field = contestants(Field::kMatchers, office_log().options);
+  const std::vector<MatchCandidate> all_candidates =
+      match_candidates(CandidateSet::kMatchers, office_log().options);
   MatchSeries series;
   series.cases = options;
-  run_cases(draw_cases(office_log(), options), field, 0.5, series, [] {});
+  run_cases(draw_cases(office_log(), options), all_candidates, 0.5, series, [] {});
   const MatchFigures csm = series.rows.front().tally.figures();
   EXPECT_EQ(series.rows.front().matcher, "csm");
   EXPECT_EQ(csm.cases, 24U);
@@ -68,8 +69,8 @@ TEST(MatchBenchmark, exact_matching_finds_the_loops_of_the_office) {
 
 TEST(MatchBenchmark, every_row_has_its_own_name) {
   std::vector<std::string> names;
-  for (const Contestant& contestant : contestants(Field::kAll, MapperOptions()))
-    names.push_back(contestant.name());
+  for (const MatchCandidate& candidate : match_candidates(CandidateSet::kAll, MapperOptions()))
+    names.push_back(candidate.name());
   const std::vector<std::string> first(names.begin(), names.begin() + 5);
   EXPECT_THAT(first, testing::ElementsAre("csm", "csm_ga", "ga", "adaptive", "ga_paper"));
   EXPECT_GT(names.size(), 10U);

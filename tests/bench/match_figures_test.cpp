@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "match_figures.h"
+#include "match/match_figures.h"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ TEST(MatchFigures, success_ends_at_thirty_centimetres_and_three_and_a_half_degre
   EXPECT_FALSE(success(nothing));
 }
 
-TEST(MatchFigures, the_angle_to_the_truth_is_the_short_way_round) {
+TEST(MatchFigures, the_angle_to_the_truth_is_wrapped) {
   LoopCase one = positive_case();
   one.anchor_T_node = {5, -2, 3.13};
   MatchResult match = match_at(5, -3.13);
@@ -43,7 +43,7 @@ TEST(MatchFigures, the_angle_to_the_truth_is_the_short_way_round) {
   EXPECT_TRUE(judge(one, match, match, 0.5).success);
 }
 
-TEST(MatchFigures, the_same_optimum_is_as_good_a_pose_or_as_little) {
+TEST(MatchFigures, the_same_optimum_is_as_good_a_match_or_none_by_either) {
   const LoopCase one = positive_case();
   const MatchResult exact = match_at(0, 0, 0.7);
   MatchResult nothing;
@@ -54,7 +54,7 @@ TEST(MatchFigures, the_same_optimum_is_as_good_a_pose_or_as_little) {
   EXPECT_TRUE(judge(one, nothing, nothing, 0.5).same_optimum);
 }
 
-TEST(MatchFigures, a_false_accept_is_a_negative_case_that_scores_the_threshold) {
+TEST(MatchFigures, a_false_accept_is_a_negative_case_at_the_threshold) {
   const LoopCase negative;
   EXPECT_TRUE(judge(negative, match_at(0, 0, 0.5), {}, 0.5).false_accept);
   EXPECT_FALSE(judge(negative, match_at(0, 0, 0.4999), {}, 0.5).false_accept);
@@ -62,7 +62,7 @@ TEST(MatchFigures, a_false_accept_is_a_negative_case_that_scores_the_threshold) 
   EXPECT_FALSE(judge(negative, match_at(0, 0, 0.9), {}, 0.5).success);
 }
 
-TEST(MatchFigures, are_those_computed_by_hand) {
+TEST(MatchFigures, agree_with_hand_computed_ones) {
   MatchTally tally;
   MatchResult match;
   match.evaluations = 10;
@@ -97,7 +97,7 @@ TEST(MatchFigures, percentiles_are_values_at_their_ranks) {
   EXPECT_DOUBLE_EQ(times.p99, 199);
 }
 
-TEST(MatchFigures, there_is_no_rate_of_no_cases) {
+TEST(MatchFigures, rates_without_cases_are_empty) {
   MatchTally tally;
   EXPECT_FALSE(tally.figures().success_rate);
   EXPECT_FALSE(tally.figures().false_accept_rate);

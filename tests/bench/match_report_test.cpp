@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "match_report.h"
+#include "match/match_benchmark.h"
 
 #include <gmock/gmock.h>
 
@@ -47,11 +47,12 @@ std::vector<std::string> keys_of(const Json& object) {
 }
 
 TEST(MatchReport, json_has_a_row_for_each_matcher) {
-  const Json json = Json::parse(match_json(benchmark(), {}, "a machine"));
+  const Json json = Json::parse(match_report(benchmark(), {}, "a machine").json);
   ASSERT_EQ(json["matchers"].size(), 2U);
   const Json& row = json["matchers"][1];
-  EXPECT_THAT(keys_of(row), testing::ElementsAre("matcher", "cases", "success_rate", "same_optimum_rate",
-                                                 "false_accept_rate", "evaluations", "time_ms"));
+  EXPECT_THAT(keys_of(row),
+              testing::ElementsAre("series", "matcher", "cases", "success_rate", "same_optimum_rate",
+                                   "false_accept_rate", "evaluations", "time_ms", "repaired_share"));
   EXPECT_THAT(keys_of(row["time_ms"]), testing::ElementsAre("mean", "p50", "p95", "p99"));
   EXPECT_EQ(row["matcher"], "ga");
   EXPECT_EQ(row["cases"], 1);
@@ -62,10 +63,10 @@ TEST(MatchReport, json_has_a_row_for_each_matcher) {
   EXPECT_EQ(row["time_ms"]["p95"], 1.0);
 }
 
-TEST(MatchReport, json_tells_where_it_comes_from) {
+TEST(MatchReport, json_names_machine_options_and_logs) {
   MatchBenchmarkOptions options;
   options.seed = 77;
-  const Json json = Json::parse(match_json(benchmark(), options, "a machine"));
+  const Json json = Json::parse(match_report(benchmark(), options, "a machine").json);
   EXPECT_EQ(json["machine"], "a machine");
   EXPECT_EQ(json["seed"], 77);
   EXPECT_EQ(json["window_m"], 8.0);
@@ -79,7 +80,7 @@ TEST(MatchReport, json_tells_where_it_comes_from) {
 }
 
 TEST(MatchReport, markdown_has_the_rows_and_the_ratios) {
-  const std::string page = match_markdown(benchmark(), {}, "a machine");
+  const std::string page = match_report(benchmark(), {}, "a machine").markdown;
   EXPECT_THAT(page,
               AllOf(HasSubstr("a machine"), HasSubstr("| intel | `0123` | 0.019 | 250 | 250 |  |\n"),
                     HasSubstr("| odd | `4567` | – | 0 | 0 | left out: why |\n"),
@@ -95,15 +96,18 @@ TEST(MatchReport, sizes_have_tables_and_plots) {
   result.windows[1].title = "±4 m";
   result.windows[1].cases.window_m = 4;
   result.local_maps = {series_of(1, 1)};
-  EXPECT_THAT(match_markdown(result, {}, "a machine"), HasSubstr("| ±4 m | csm | 1 | 100.0 |"));
-  const Json json = Json::parse(match_json(result, {}, "a machine"));
+  const BenchReport report = match_report(result, {}, "a machine");
+  EXPECT_THAT(report.markdown, HasSubstr("| ±4 m | csm | 1 | 100.0 |"));
+  EXPECT_THAT(report.csv, HasSubstr("±4 m,csm,1,1.0,1.0,1000.0,40.0,"));
+  EXPECT_EQ(report.plots.size(), 2U);
+  const Json json = Json::parse(report.json);
   EXPECT_EQ(json["windows"][1]["window_m"], 4.0);
   EXPECT_EQ(json["windows"][1]["matchers"][0]["time_ms"]["mean"], 40.0);
   EXPECT_EQ(json["local_maps"][0]["nodes_per_local_map"], FrontEndOptions().nodes_per_local_map);
   const std::string svg = window_plot(result);
   EXPECT_THAT(svg, AllOf(HasSubstr("±2 m</text>"), HasSubstr(">csm</text>"), HasSubstr(">ga</text>"),
                          HasSubstr("0.1 ms"), HasSubstr("100 ms"), Not(HasSubstr("nan"))));
-  EXPECT_THAT(local_map_plot(result), Not(HasSubstr("nan"))) << "one place alone";
+  EXPECT_THAT(local_map_plot(result), Not(HasSubstr("nan"))) << "a single place";
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mapped log of a simulated drive, once round the office and on along its first corridor: its nodes stand
-// where the robot truly was.
+// A mapped log of a simulated run, once around the office and again along its first corridor. Its nodes have
+// the true poses of the robot.
 #pragma once
 
 #include <cmath>
 #include <utility>
 
 #include "../local_maps/simulated_drive.h"
-#include "benchmark_logs.h"
+#include "match/loop_cases.h"
 
 namespace psi_slam {
 
@@ -39,13 +39,13 @@ inline MappedLog map_office() {
   return log;
 }
 
-/// Mapped once for all tests.
+/// Computed once for all tests.
 inline const MappedLog& office_log() {
   static const MappedLog kLog = map_office();
   return kLog;
 }
 
-/// Cases that the small office can give, negative ones included.
+/// Options for cases, also negative ones, in the small office.
 inline CaseOptions office_cases() {
   CaseOptions options;
   options.window_m = 1;

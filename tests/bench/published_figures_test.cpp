@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "published_figures.h"
+#include "freiburg/published_figures.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ const PublishedSystem& system_of(const std::string& name) {
   throw std::invalid_argument("no system " + name);
 }
 
-TEST(PublishedFigures, each_row_is_of_a_known_log_and_has_a_mean_and_a_source) {
+TEST(PublishedFigures, each_row_has_a_known_log_a_mean_and_a_source) {
   for (const PublishedSystem& system : published_systems()) {
     EXPECT_NE(system.source, "");
     EXPECT_FALSE(system.logs.empty()) << system.name;
@@ -29,26 +29,26 @@ TEST(PublishedFigures, each_row_is_of_a_known_log_and_has_a_mean_and_a_source) {
   }
 }
 
-TEST(PublishedFigures, the_paper_has_all_four_of_each_log) {
+TEST(PublishedFigures, the_paper_has_all_four_errors_of_each_log) {
   EXPECT_EQ(system_of("GA-based (paper)").logs.size(), benchmark_log_titles().size());
-  std::size_t rivals = 0;
+  std::size_t baselines = 0;
   for (const char* name : {"GA-based (paper)", "Karto (paper)", "GMapping (paper)"}) {
     for (const PublishedLog& log : system_of(name).logs) {
       SCOPED_TRACE(std::string(name) + ", " + log.log);
-      rivals += std::string(name) == "GA-based (paper)" ? 0 : 1;
+      baselines += std::string(name) == "GA-based (paper)" ? 0 : 1;
       for (const auto& figure : log.errors) {
         ASSERT_TRUE(figure);
         EXPECT_TRUE(figure->std);
       }
-      // A mean of squares is no less than the square of the mean, but for the last printed digit.
+      // A mean of squares is at least the squared mean, except for rounding.
       EXPECT_GT(log.errors[1]->mean, log.errors[0]->mean * log.errors[0]->mean);
       EXPECT_GT(log.errors[3]->mean, log.errors[2]->mean * log.errors[2]->mean - 0.001);
     }
   }
-  EXPECT_EQ(rivals, benchmark_log_titles().size()) << "each log has one of the paper's two rivals";
+  EXPECT_EQ(baselines, benchmark_log_titles().size()) << "each log has one of the paper's two baselines";
 }
 
-TEST(PublishedFigures, what_is_quoted_from_memory_is_said_to_be) {
+TEST(PublishedFigures, figures_quoted_from_memory_are_marked) {
   for (const PublishedLog& log : system_of("Cartographer").logs) {
     EXPECT_FALSE(log.errors[0]->unchecked);
     EXPECT_TRUE(log.errors[2].value().unchecked) << log.log;
@@ -58,7 +58,7 @@ TEST(PublishedFigures, what_is_quoted_from_memory_is_said_to_be) {
       for (const auto& figure : log.errors) EXPECT_FALSE(figure && figure->unchecked) << name;
 }
 
-TEST(PublishedFigures, the_hospital_goes_by_two_names) {
+TEST(PublishedFigures, the_hospital_has_two_names) {
   EXPECT_EQ(benchmark_log_name("hospital"), "fr-hospital");
   EXPECT_EQ(benchmark_log_title("hospital"), "Freiburg hospital");
   EXPECT_EQ(benchmark_log_title("intel"), "Intel");

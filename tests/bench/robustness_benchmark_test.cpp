@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robustness_benchmark.h"
+#include "robustness/robustness_benchmark.h"
 
 #include <gmock/gmock.h>
 
@@ -34,11 +34,11 @@ class RobustnessBenchmarks : public testing::Test {
                                           });
   }
 
-  static inline RobustnessBenchmark benchmark_;  // made once for all tests
+  static inline RobustnessBenchmark benchmark_;  // computed once for all tests
   static inline double last_done_ = 0;
 };
 
-TEST(RobustnessCases, begin_each_series_with_the_log_as_it_is) {
+TEST(RobustnessCases, start_each_series_with_the_unchanged_log) {
   std::vector<std::string> names;
   for (const RobustnessCase& degraded : robustness_cases(7)) {
     names.push_back(degraded.series + ": " + degraded.name);
@@ -69,7 +69,7 @@ TEST_F(RobustnessBenchmarks, has_a_row_for_each_case) {
   EXPECT_EQ(next, cases.size() + 2) << "two cases of noise";
 }
 
-TEST_F(RobustnessBenchmarks, another_seed_is_another_noise) {
+TEST_F(RobustnessBenchmarks, another_seed_gives_other_noise) {
   for (std::size_t i = 1; i < benchmark_.rows.size(); ++i)
     if (benchmark_.rows[i].seed == 5) {
       EXPECT_NE(benchmark_.rows[i].translation_error_m, benchmark_.rows[i - 1].translation_error_m);
@@ -77,7 +77,7 @@ TEST_F(RobustnessBenchmarks, another_seed_is_another_noise) {
   EXPECT_EQ(benchmark_.identities.at(0).sha256.size(), 64U);
 }
 
-TEST_F(RobustnessBenchmarks, the_log_as_it_is_has_the_same_figures_in_each_series) {
+TEST_F(RobustnessBenchmarks, the_unchanged_log_has_the_same_figures_in_each_series) {
   const RobustnessRow& first = benchmark_.rows.front();
   for (const char* series : {"scans kept", "field of view"}) {
     const RobustnessRow& same = *rows_of(benchmark_, series).front();
@@ -101,7 +101,7 @@ TEST_F(RobustnessBenchmarks, fewer_scans_are_worse) {
   }
 }
 
-TEST_F(RobustnessBenchmarks, a_narrow_laser_and_noisy_odometry_are_worse) {
+TEST_F(RobustnessBenchmarks, a_narrow_field_of_view_and_noisy_odometry_are_worse) {
   const std::vector<const RobustnessRow*> views = rows_of(benchmark_, "field of view");
   EXPECT_GT(views.at(1)->translation_error_m, views.at(0)->translation_error_m);
   EXPECT_EQ(views.at(1)->scans, views.at(0)->scans);
@@ -110,11 +110,12 @@ TEST_F(RobustnessBenchmarks, a_narrow_laser_and_noisy_odometry_are_worse) {
     EXPECT_GE(noises[i]->translation_error_m, noises.front()->translation_error_m);
 }
 
-TEST_F(RobustnessBenchmarks, the_natural_noise_is_that_of_the_log) {
+TEST_F(RobustnessBenchmarks, measures_the_natural_noise_of_the_log) {
   ASSERT_EQ(benchmark_.logs.size(), 1U);
   const OdometryNoise& natural = benchmark_.logs.front().natural;
-  EXPECT_LT(natural.sigma_m_per_root_m, 0.02) << "its ways are right";
-  EXPECT_NEAR(natural.sigma_rad_per_root_rad, 0.0136, 0.005) << "it turns 2 % too far, 0.68 rad a stretch";
+  EXPECT_LT(natural.sigma_m_per_root_m, 0.02) << "its distances are right";
+  EXPECT_NEAR(natural.sigma_rad_per_root_rad, 0.0136, 0.005)
+      << "its rotations are 2 % too large, at 0.68 rad per stretch";
 }
 
 }  // namespace

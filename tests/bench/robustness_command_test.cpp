@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nlohmann/json.hpp>
 
-#include "well_formed.h"
 #include "command_fixture.h"
-#include "robustness_benchmark.h"
+#include "robustness/robustness_benchmark.h"
+#include "well_formed.h"
 
 namespace psi_slam {
 namespace {
@@ -39,7 +39,8 @@ TEST_F(RobustnessCommand, maps_the_log_in_every_case_and_writes_page_figures_and
 
   const Json json = Json::parse(read_file(json_file));
   EXPECT_EQ(json["schema"], "psi-slam-robustness");
-  EXPECT_GT(json["logs"][0]["natural_odometry_noise"]["deg_per_root_rad"], 0) << "it turns too far";
+  EXPECT_GT(json["logs"][0]["natural_odometry_noise"]["deg_per_root_rad"], 0)
+      << "its rotations are too large";
   EXPECT_EQ(json["files"][0]["sha256"].get<std::string>().size(), 64U);
   EXPECT_THAT(out_.str(), HasSubstr(json["files"][0]["sha256"].get<std::string>()));
   const std::vector<RobustnessCase> cases = robustness_cases(1);
@@ -54,15 +55,15 @@ TEST_F(RobustnessCommand, maps_the_log_in_every_case_and_writes_page_figures_and
   }
 }
 
-TEST_F(RobustnessCommand, no_output_is_written_unless_asked_for) {
+TEST_F(RobustnessCommand, writes_files_only_on_request) {
   write_passed_room();
   ASSERT_EQ(run({"--logs", "room"}), 0);
   EXPECT_EQ(err_.str(), "") << "no terminal, no progress";
-  EXPECT_THAT(out_.str(), HasSubstr("# Logs made worse"));
+  EXPECT_THAT(out_.str(), HasSubstr("# Degraded logs"));
   EXPECT_FALSE(fs::exists(output_));
 }
 
-TEST_F(RobustnessCommand, gives_the_same_figures_again_and_others_for_other_noise) {
+TEST_F(RobustnessCommand, repeats_its_figures_for_a_seed_and_changes_them_for_another) {
   write_passed_room();
   std::vector<Json> runs;
   for (const char* seed : {"5-5", "5-5", "6-6"}) {
@@ -81,7 +82,7 @@ TEST_F(RobustnessCommand, gives_the_same_figures_again_and_others_for_other_nois
   }
 }
 
-TEST_F(RobustnessCommand, wrong_usage_and_wrong_input_are_one_sentence_and_2) {
+TEST_F(RobustnessCommand, wrong_usage_and_input_give_one_sentence_and_exit_code_2) {
   EXPECT_THAT(refusal({}), HasSubstr("there is no log in " + data_.string()));
   write_passed_room();
   EXPECT_THAT(refusal({"--bogus"}), HasSubstr("--bogus"));

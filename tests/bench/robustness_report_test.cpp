@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robustness_report.h"
+#include "robustness/robustness_benchmark.h"
 
 #include <gmock/gmock.h>
 
@@ -45,7 +45,7 @@ RobustnessBenchmark two_logs() {
 }
 
 TEST(RobustnessReport, markdown_has_the_figures) {
-  const std::string page = robustness_markdown(two_logs(), {7, 8}, "a machine");
+  const std::string page = robustness_report(two_logs(), {7, 8}, "a machine").markdown;
   EXPECT_THAT(page, HasSubstr("a machine; seeds 7 to 8"));
   EXPECT_THAT(page, HasSubstr("| aces | 0.0500 | 1.000 | 2.000 |\n"));
   EXPECT_THAT(
@@ -56,7 +56,7 @@ TEST(RobustnessReport, markdown_has_the_figures) {
 TEST(RobustnessReport, markdown_has_mean_deviation_and_worst_of_the_seeds_and_the_files) {
   RobustnessBenchmark benchmark = two_logs();
   benchmark.without_relations = {"hall"};
-  const std::string page = robustness_markdown(benchmark, {7, 8}, "a machine");
+  const std::string page = robustness_report(benchmark, {7, 8}, "a machine").markdown;
   EXPECT_THAT(page, HasSubstr("| aces | scans kept | 1 of 2 | 2 | 0.3000 ± 0.1414 [0.4000] | 0.500 ± 0.000 "
                               "[0.500] | 100.0 | 1000.0 | 99.5 | – | 2.0 of 3600.0 |\n"));
   EXPECT_THAT(page, HasSubstr("| aces | `a0a0` | `b0b0` |"));
@@ -64,8 +64,8 @@ TEST(RobustnessReport, markdown_has_mean_deviation_and_worst_of_the_seeds_and_th
   EXPECT_THAT(page, HasSubstr(", commit "));
 }
 
-TEST(RobustnessReport, json_tells_where_it_comes_from_and_what_is_not_known) {
-  const Json json = Json::parse(robustness_json(two_logs(), {7, 8}, "a machine"));
+TEST(RobustnessReport, json_names_its_origin_and_unknown_shares) {
+  const Json json = Json::parse(robustness_report(two_logs(), {7, 8}, "a machine").json);
   EXPECT_EQ(json["schema"], "psi-slam-robustness");
   EXPECT_EQ(json["machine"], "a machine");
   EXPECT_EQ(json["seeds"], Json({7, 8}));
@@ -82,12 +82,18 @@ TEST(RobustnessReport, json_tells_where_it_comes_from_and_what_is_not_known) {
   EXPECT_TRUE(json["rows"][1]["loop_recall"].is_null());
 }
 
+TEST(RobustnessReport, csv_has_a_line_for_each_case) {
+  const std::string csv = robustness_report(two_logs(), {7, 8}, "a machine").csv;
+  EXPECT_THAT(csv, HasSubstr("log,series,case,seeds,translation_error_m.mean,"));
+  EXPECT_THAT(csv, HasSubstr("\naces,scans kept,1 of 2,1 8,0.3"));
+}
+
 TEST(RobustnessReport, draws_a_plot_for_each_series_with_a_line_for_each_log) {
-  const std::vector<RobustnessPlot> plots = robustness_plots(two_logs());
+  const std::vector<BenchReport::Plot> plots = robustness_report(two_logs(), {7, 8}, "a machine").plots;
   ASSERT_EQ(plots.size(), 2U);
   EXPECT_EQ(plots[0].file, "robustness-scans-kept.svg");
-  EXPECT_EQ(plots[1].series, "field of view");
-  for (const RobustnessPlot& plot : plots) {
+  EXPECT_EQ(plots[1].file, "robustness-field-of-view.svg");
+  for (const BenchReport::Plot& plot : plots) {
     EXPECT_EQ(complaint_about(plot.svg), "");
     EXPECT_THAT(plot.svg,
                 testing::AllOf(HasSubstr(">aces<"), HasSubstr(">&lt;intel&gt;<"), HasSubstr(" m<")));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A benchmark of one small log: the simulated room, its settings, and its true relations.
+// A benchmark with one small log: a simulated room, its settings and its true relations.
 #pragma once
 
 #include <cmath>
@@ -12,14 +12,14 @@
 
 namespace psi_slam {
 
-/// A relation from pose to pose of the drive, by the numbers of its scans.
+/// A relation between two poses of the run, given by their scan numbers.
 inline std::string room_relation(int from, int to, const mrpt::math::TPose2D& motion) {
   return format_seconds(1'000'000'000 + 200'000 * from) + ' ' + format_seconds(1'000'000'000 + 200'000 * to) +
          ' ' + std::to_string(motion.x) + ' ' + std::to_string(motion.y) + " 0 0 0 " +
          std::to_string(motion.phi) + '\n';
 }
 
-/// A drive of almost two rounds, and where the robot truly was; `stretch` 1 is the truth.
+/// A run of almost two rounds with its relations; `stretch` 1 gives true relations.
 inline void write_room_benchmark(const std::filesystem::path& data, const std::filesystem::path& ini,
                                  double stretch = 1) {
   constexpr int kScans = 190;
@@ -33,8 +33,8 @@ inline void write_room_benchmark(const std::filesystem::path& data, const std::f
   write_file(data / "room.relations", relations);
 }
 
-/// Other true relations for it: of the second round with the first, a round earlier or a little less; those
-/// of a lie are `lie_m` off.
+/// Relations between the second round and the first, one round earlier or a little less. False ones are
+/// `lie_m` off.
 inline void write_room_passes(const std::filesystem::path& data, double lie_m = 0) {
   std::string relations;
   for (int i = 100; i < 190; i += 3) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulate_benchmark.h"
+#include "simulate/simulate_benchmark.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ SimulateRow map(double path_m, std::size_t people, double glass_share, std::uint
   options.seed = seed;
   options.people = people;
   options.glass_share = glass_share;
-  return map_simulated_drive(simulated_drive_options(options, path_m), 1, [](double) {});
+  return map_simulated_run(simulated_run_options(options, path_m), 1, [](double) {});
 }
 
 TEST(SimulateBenchmark, maps_a_small_building_close_to_the_truth) {
@@ -26,7 +26,7 @@ TEST(SimulateBenchmark, maps_a_small_building_close_to_the_truth) {
   EXPECT_EQ(row.false_loops, 0U);
 }
 
-TEST(SimulateBenchmark, glass_and_people_do_not_break_it) {
+TEST(SimulateBenchmark, maps_with_glass_and_people) {
   const SimulateRow row = map(150, 30, 0.3);
   EXPECT_LT(row.error_mean_m, 0.25);
   EXPECT_EQ(row.false_loops, 0U);
@@ -58,13 +58,13 @@ TEST(SimulateBenchmark, p99_is_the_least_value_that_99_of_100_do_not_exceed) {
   EXPECT_EQ(add_up_to(200), 198);
 }
 
-TEST(SimulateBenchmark, errors_are_distances_after_laying_the_starts_on_each_other) {
+TEST(SimulateBenchmark, errors_are_distances_after_alignment_at_the_start) {
   const Trajectory truth = {{0, {5, 5, M_PI / 2}}, {1, {5, 7, M_PI / 2}}};
   EXPECT_NEAR(trajectory_error_m({{0, 0, 0}, {2, 0, 0}}, truth).max, 0, 1e-12);
   EXPECT_NEAR(trajectory_error_m({{0, 0, 0}, {2, 0.5, 0}}, truth).max, 0.5, 1e-12);
 }
 
-TEST(SimulateBenchmark, false_loops_are_those_that_the_map_keeps_and_the_truth_contradicts) {
+TEST(SimulateBenchmark, false_loops_contradict_the_truth) {
   const Trajectory truth = {{0, {0, 0, 0}}, {1, {1, 0, 0}}, {2, {2, 0, 3}}};
   MappingResult result;
   result.node_frames = {0, 2};

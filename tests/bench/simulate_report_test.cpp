@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulate_report.h"
+#include "simulate/simulate_benchmark.h"
 
 #include <gmock/gmock.h>
 
@@ -35,24 +35,25 @@ SimulateRow row() {
   return row;
 }
 
-TEST(SimulateReport, rows_survive_json) {
-  EXPECT_EQ(row_json_text(row_of_json(row_json_text(row()))), row_json_text(row()));
-  EXPECT_EQ(row_of_json(row_json_text(row())).error_mean_m, 1.0 / 3);
-  EXPECT_EQ(row_of_json(row_json_text(row())).stages_s, row().stages_s);
+TEST(SimulateReport, rows_survive_as_text) {
+  EXPECT_EQ(row_text(row_of_text(row_text(row()))), row_text(row()));
+  EXPECT_EQ(row_of_text(row_text(row())).error_mean_m, 1.0 / 3);
+  EXPECT_EQ(row_of_text(row_text(row())).stages_s, row().stages_s);
 }
 
-TEST(SimulateReport, json_tells_where_it_comes_from) {
+TEST(SimulateReport, json_has_machine_seed_and_figures) {
   SimulateOptions options;
   options.seed = 77;
-  const Json json = Json::parse(simulate_json({row()}, options, "a machine"));
+  const Json json = Json::parse(simulate_report({row()}, options, "a machine").json);
   EXPECT_EQ(json["machine"], "a machine");
   EXPECT_EQ(json["seed"], 77);
   EXPECT_EQ(json["drives"][0]["scan_ms"]["p99"], 8.42);
   EXPECT_EQ(json["drives"][0]["stages_s"]["close loops"], 1.25);
+  EXPECT_EQ(json["drives"][0]["covariances"][0]["of"], "loops");
 }
 
 TEST(SimulateReport, markdown_has_the_figures) {
-  const std::string page = simulate_markdown({row()}, {}, "a machine");
+  const std::string page = simulate_report({row()}, {}, "a machine").markdown;
   EXPECT_THAT(
       page,
       HasSubstr("| 1000 m | 10001 | 334 | 36 | 2464 | 83 | 0.333 | 0.700 | 0.120 | 0.50 | 12.3 | 700 | 2 |"));
@@ -60,10 +61,11 @@ TEST(SimulateReport, markdown_has_the_figures) {
   EXPECT_THAT(page, HasSubstr("| 1000 m | 0.99 | 8.42 | 9.9 | 5.5 | 210 | 2.5 | 1.2 |"));
 }
 
-TEST(SimulateReport, plots_say_their_unit) {
-  EXPECT_THAT(error_plot({row()}), HasSubstr("0.1 m<"));
-  EXPECT_THAT(time_plot({row()}), HasSubstr("1 ms<"));
-  EXPECT_THAT(memory_plot({row()}), HasSubstr("100 MiB<"));
+TEST(SimulateReport, plots_have_their_unit) {
+  const std::vector<BenchReport::Plot> plots = simulate_report({row()}, {}, "a machine").plots;
+  EXPECT_THAT(plots.at(0).svg, HasSubstr("0.1 m<"));
+  EXPECT_THAT(plots.at(1).svg, HasSubstr("1 ms<"));
+  EXPECT_THAT(plots.at(2).svg, HasSubstr("100 MiB<"));
 }
 
 TEST(SimulateReport, lengths_are_text) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulated_log_file.h"
+#include "simulate/simulated_log_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files of this process cannot grow beyond a size, as if the disk were full.
+/// Limits the size of files of this process, as if the disk were full.
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) {
@@ -45,31 +45,30 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-TEST(SimulatedLogFile, leaves_the_log_and_its_truth_and_nothing_else) {
+TEST(SimulatedLogFile, writes_only_the_log_and_its_truth) {
   const TemporaryFolder folder;
-  write_simulated_log(folder.path() / "drive.clf.gz", simulated_log_options(20, 1));
-  EXPECT_EQ(names_in(folder.path()),
-            (std::vector<std::string>{"drive.clf.gz", "drive.relations", "drive.tum"}));
+  write_simulated_log(folder.path() / "run.clf.gz", simulated_log_options(20, 1));
+  EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"run.clf.gz", "run.relations", "run.tum"}));
 }
 
 TEST(SimulatedLogFile, leaves_nothing_when_the_disk_is_full) {
   const TemporaryFolder folder;
-  const SimulatedLogOptions drive = simulated_log_options(20, 1);
-  write_simulated_log(folder.path() / "drive.clf.gz", drive);
-  const std::uintmax_t compressed = fs::file_size(folder.path() / "drive.clf.gz");
+  const SimulatedLogOptions run = simulated_log_options(20, 1);
+  write_simulated_log(folder.path() / "run.clf.gz", run);
+  const std::uintmax_t compressed = fs::file_size(folder.path() / "run.clf.gz");
   const fs::path full = folder.path() / "full";
   fs::create_directory(full);
   const SmallDisk disk(compressed / 2);  // the plain log is larger still
-  EXPECT_THROW(write_simulated_log(full / "drive.clf.gz", drive), SystemFailure);
+  EXPECT_THROW(write_simulated_log(full / "run.clf.gz", run), SystemFailure);
   EXPECT_TRUE(fs::is_empty(full)) << names_in(full).front();
 }
 
-TEST(SimulatedLogFile, leaves_nothing_when_the_name_is_taken_by_a_folder) {
+TEST(SimulatedLogFile, leaves_nothing_when_the_name_belongs_to_a_folder) {
   const TemporaryFolder folder;
-  const fs::path no_file = folder.path() / "drive.clf.gz";
+  const fs::path no_file = folder.path() / "run.clf.gz";
   fs::create_directories(no_file / "in the way");
   EXPECT_THROW(write_simulated_log(no_file, simulated_log_options(20, 1)), SystemFailure);
-  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"drive.clf.gz"});
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"run.clf.gz"});
 }
 
 }  // namespace

@@ -41,11 +41,11 @@ class CarmenReaderTest : public testing::Test {
  protected:
   std::vector<Frame> read(const std::string& log, const LogOptions& options = {}) {
     write_file(path_, log);
-    CarmenReader reader(path_, options);
-    std::vector<Frame> frames = all_frames(reader);
-    EXPECT_EQ(reader.progress(), 1.0);
-    EXPECT_FALSE(reader.next()) << "the end stays the end";
-    statistics_ = reader.statistics();
+    const auto reader = open_carmen_log(path_, options);
+    std::vector<Frame> frames = all_frames(*reader);
+    EXPECT_EQ(reader->progress(), 1.0);
+    EXPECT_FALSE(reader->next()) << "no frame after the end";
+    contents_ = reader->contents();
     return frames;
   }
 
@@ -55,10 +55,10 @@ class CarmenReaderTest : public testing::Test {
 
   TemporaryFolder folder_;
   std::filesystem::path path_ = folder_.path() / "log.clf";
-  CarmenStatistics statistics_;
+  LogContents contents_;
 };
 
-TEST_F(CarmenReaderTest, reads_flaser_with_the_odometry_of_its_line) {
+TEST_F(CarmenReaderTest, flaser_has_the_odometry_of_its_line) {
   const auto frames =
       read("# comment\n\n" + flaser("FLASER", "9 9 1", "1 2 -3", "976052905.167303") +
            odom("7 7 0", "976052905.2") + flaser("FLASER", "9 9 1", "1.5 2 3.1", "976052905.4"));
@@ -69,13 +69,13 @@ TEST_F(CarmenReaderTest, reads_flaser_with_the_odometry_of_its_line) {
   EXPECT_EQ(frames[0].scan.ranges_m.size(), 181U);
   EXPECT_EQ(frames[0].scan.ranges_m[3], 4.5F);
   EXPECT_NEAR(frames[0].scan.bearings_rad->front(), -M_PI / 2, 1e-6);
-  EXPECT_EQ(frames[0].scan.robot_T_laser, (TPose2D{0, 0, 0})) << "never by the difference of the poses";
+  EXPECT_EQ(frames[0].scan.robot_T_laser, (TPose2D{0, 0, 0})) << "never derived from the poses";
   EXPECT_EQ(frames[1].index, 1U);
   EXPECT_EQ(frames[1].time_us, 976052905400000);
-  EXPECT_EQ(statistics_.scans_with_two_poses, 2U);
+  EXPECT_EQ(contents_.scans_with_two_poses, 2U);
 }
 
-TEST_F(CarmenReaderTest, reads_rlaser_when_asked_or_when_it_is_alone) {
+TEST_F(CarmenReaderTest, reads_rlaser_if_selected_or_alone) {
   const std::string rear = flaser("RLASER", "0 0 0", "5 0 0", "2");
   const std::string log = flaser("FLASER", "0 0 0", "1 0 0", "1") + rear;
   EXPECT_EQ(read(log).at(0).odom_T_robot.x, 1);
@@ -125,14 +125,14 @@ TEST_F(CarmenReaderTest, takes_no_mount_from_corrected_robotlaser_lines) {
   EXPECT_EQ(frames.at(1).odom_T_robot, (TPose2D{2, 0, 0}));
 }
 
-TEST_F(CarmenReaderTest, prefers_robotlaser_over_the_same_laser_raw) {
+TEST_F(CarmenReaderTest, prefers_robotlaser_to_rawlaser) {
   const auto frames =
       read(rawlaser("RAWLASER1", "1") + odom("0 0 0", "1") + robotlaser("1 0 0", "1 0 0", "1.5"));
   ASSERT_EQ(frames.size(), 1U);
   EXPECT_EQ(frames[0].time_us, 1'500'000);
 }
 
-TEST_F(CarmenReaderTest, takes_parameters_before_and_between_scans) {
+TEST_F(CarmenReaderTest, uses_parameters_before_and_between_scans) {
   const auto frames =
       read("PARAM robot_frontlaser_offset 0.25 host 1\nPARAM robot_front_laser_max 5 host 1\n" +
            flaser("FLASER", "0 0 0", "0 0 0", "1") + "PARAM robot_frontlaser_offset 0.5 host 1\n" +
@@ -144,7 +144,7 @@ TEST_F(CarmenReaderTest, takes_parameters_before_and_between_scans) {
   EXPECT_EQ(frames.at(1).scan.robot_T_laser.x, 0.5);
 }
 
-TEST_F(CarmenReaderTest, knows_a_laser_that_comes_late) {
+TEST_F(CarmenReaderTest, finds_a_laser_that_starts_late) {
   std::string log = "PARAM robot_frontlaser_offset 0.25 host 1\n";
   for (int i = 0; i < 600; ++i) log += odom("0 0 0", std::to_string(i));
   const auto frames = read(log + flaser("FLASER", "0 0 0", "0 0 0", "1"));
@@ -152,89 +152,88 @@ TEST_F(CarmenReaderTest, knows_a_laser_that_comes_late) {
   EXPECT_EQ(frames[0].scan.robot_T_laser.x, 0.25);
 }
 
-TEST_F(CarmenReaderTest, counts_what_it_ignores) {
+TEST_F(CarmenReaderTest, counts_ignored_messages) {
   read("SYNC start\nNMEA-GGA 1 2 3\n" + flaser("FLASER", "1 0 0", "1 0 0", "1") + "NMEA-GGA 4\n" +
        odom("0 0 0", "1") + flaser("FLASER", "1 0 0", "1 0 0", "2"));
-  EXPECT_EQ(statistics_.laser_message, "FLASER");
-  EXPECT_EQ(statistics_.messages.at("NMEA-GGA"), 2U);
-  EXPECT_EQ(statistics_.messages.at("SYNC"), 1U);
-  EXPECT_EQ(statistics_.messages.at("ODOM"), 1U);
-  EXPECT_EQ(statistics_.messages.at("FLASER"), 2U);
-  EXPECT_EQ(statistics_.scans_with_two_poses, 0U);
+  EXPECT_EQ(contents_.laser, "FLASER");
+  EXPECT_EQ(contents_.messages.at("NMEA-GGA"), 2U);
+  EXPECT_EQ(contents_.messages.at("SYNC"), 1U);
+  EXPECT_EQ(contents_.messages.at("ODOM"), 1U);
+  EXPECT_EQ(contents_.messages.at("FLASER"), 2U);
+  EXPECT_EQ(contents_.scans_with_two_poses, 0U);
 }
 
-TEST_F(CarmenReaderTest, says_when_odometry_is_missing) {
-  EXPECT_EQ(
-      sentence_about(rawlaser("RAWLASER1", "1")),
-      path_.string() + " has no odometry: expected ODOM lines beside its RAWLASER1 lines, and there is none");
+TEST_F(CarmenReaderTest, reports_missing_odometry) {
+  EXPECT_EQ(sentence_about(rawlaser("RAWLASER1", "1")),
+            path_.string() + " has no odometry for its RAWLASER1 lines, expected ODOM lines: there is none");
   std::string many;
   for (int i = 0; i < 1500; ++i) many += rawlaser("RAWLASER1", "1");
   EXPECT_EQ(sentence_about(many),
             path_.string() +
-                " has no odometry: expected ODOM lines beside its RAWLASER1 lines, and none "
-                "came with the first 1001 scans");
+                " has no odometry for its RAWLASER1 lines, expected ODOM lines: none is among the first 1001 "
+                "scans");
 }
 
-TEST_F(CarmenReaderTest, says_when_scans_are_missing) {
+TEST_F(CarmenReaderTest, reports_missing_scans) {
   EXPECT_THAT(
       sentence_about(odom("0 0 0", "1") + "SYNC\n"),
-      testing::AllOf(testing::StartsWith(path_.string() + " has no laser scans: expected lines of one of "),
-                     testing::EndsWith("found 1 ODOM, 1 SYNC")));
+      testing::AllOf(testing::StartsWith(path_.string() + " has no laser scans, expected lines of one of "),
+                     testing::EndsWith("found 1 ODOM, 1 SYNC. Select a laser with log.laser")));
   LogOptions options;
   options.laser = "rear";
-  EXPECT_EQ(
-      sentence_about(flaser("FLASER", "0 0 0", "0 0 0", "1"), options),
-      path_.string() +
-          " has no laser scans: expected lines of one of ROBOTLASER2, RLASER, RAWLASER2; found 1 FLASER");
-  EXPECT_THAT(sentence_about("# nothing\n"), testing::EndsWith("found no message at all"));
+  EXPECT_EQ(sentence_about(flaser("FLASER", "0 0 0", "0 0 0", "1"), options),
+            path_.string() +
+                " has no laser scans, expected lines of one of ROBOTLASER2, RLASER, RAWLASER2; found 1 "
+                "FLASER. Select a laser with log.laser");
+  EXPECT_THAT(sentence_about("# nothing\n"), testing::EndsWith("found no messages"));
 }
 
-TEST_F(CarmenReaderTest, leaves_out_a_line_that_does_not_parse_and_keeps_its_place) {
+TEST_F(CarmenReaderTest, skips_and_reports_a_malformed_line) {
   const std::string good = flaser("FLASER", "0 0 0", "1 0 0", "1");
   const auto frames = read(good + "\nFLASER 181 1.0 abc\n" + flaser("FLASER", "0 0 0", "2 0 0", "2"));
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[1].index, 1U);
   EXPECT_EQ(frames[1].odom_T_robot.x, 2);
-  EXPECT_EQ(statistics_.skipped.count, 1U);
-  EXPECT_EQ(statistics_.skipped.first,
+  EXPECT_EQ(contents_.skipped.count, 1U);
+  EXPECT_EQ(contents_.skipped.first,
             path_.string() + ":3: FLASER: found \"abc\", expected reading 2 of 181 in metres");
-  EXPECT_EQ(read("FLASER x\n" + good).size(), 1U) << "the first line may be it, too";
+  EXPECT_EQ(read("FLASER x\n" + good).size(), 1U) << "the first line may be malformed too";
 }
 
-TEST_F(CarmenReaderTest, leaves_out_odometry_and_parameters_that_do_not_parse) {
+TEST_F(CarmenReaderTest, skips_malformed_odometry_and_parameters) {
   std::string log = "PARAM robot_front_laser_max 0 host 1\n" + odom("1 0 0", "1") + "ODOM 1.5 2 3\n";
   for (int i = 0; i < 200; ++i) log += rawlaser("RAWLASER1", "1.5");
   const auto frames = read(log + odom("2 0 0", "2"));
   ASSERT_EQ(frames.size(), 200U);
   EXPECT_EQ(frames[0].odom_T_robot.x, 1.5);
   EXPECT_EQ(frames[0].scan.max_range_m, 30);
-  EXPECT_EQ(statistics_.skipped.count, 2U);
-  EXPECT_THAT(statistics_.skipped.first, testing::StartsWith(path_.string() + ":1: PARAM: "));
+  EXPECT_EQ(contents_.skipped.count, 2U);
+  EXPECT_THAT(contents_.skipped.first, testing::StartsWith(path_.string() + ":1: PARAM: "));
 }
 
-TEST_F(CarmenReaderTest, does_not_read_odometry_that_scans_bring_along) {
+TEST_F(CarmenReaderTest, ignores_odom_lines_if_scans_have_odometry) {
   EXPECT_EQ(read(flaser("FLASER", "0 0 0", "0 0 0", "1") + "ODOM 1 2 3\nODOM\n").size(), 1U);
-  EXPECT_EQ(statistics_.skipped.count, 0U);
+  EXPECT_EQ(contents_.skipped.count, 0U);
 }
 
-TEST_F(CarmenReaderTest, a_scan_survives_an_early_parameter_that_does_not_parse) {
+TEST_F(CarmenReaderTest, a_malformed_early_parameter_fails_no_scan) {
   std::string log =
       "PARAM robot_frontlaser_offset here host 1\nPARAM robot_frontlaser_side_offset 0.2 host 1\n";
   for (int i = 0; i < 600; ++i) log += "SYNC\n";
   const auto frames = read(log + flaser("FLASER", "0 0 0", "0 0 0", "1"));
   ASSERT_EQ(frames.size(), 1U);
-  EXPECT_EQ(frames[0].scan.robot_T_laser.y, 0.2) << "the parameter behind the bad one counts";
-  EXPECT_EQ(statistics_.skipped.count, 1U);
+  EXPECT_EQ(frames[0].scan.robot_T_laser.y, 0.2) << "the parameter after the malformed one applies";
+  EXPECT_EQ(contents_.skipped.count, 1U);
 }
 
-TEST_F(CarmenReaderTest, tells_the_mount_in_spite_of_a_line_that_does_not_parse) {
+TEST_F(CarmenReaderTest, finds_the_mount_despite_a_malformed_line) {
   const auto frames =
       read(robotlaser("1.2 0 0", "1 0 0", "1") + "ROBOTLASER1 x\n" + robotlaser("2.2 0 0", "2 0 0", "2"));
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_NEAR(frames[0].scan.robot_T_laser.x, 0.2, 1e-12);
 }
 
-TEST_F(CarmenReaderTest, gives_up_when_more_than_one_line_in_a_hundred_does_not_parse) {
+TEST_F(CarmenReaderTest, rejects_a_log_with_more_than_one_percent_malformed_lines) {
   const std::string good = flaser("FLASER", "0 0 0", "0 0 0", "1");
   const auto log_of = [&](int good_lines, int bad_lines) {
     std::string log;
@@ -243,22 +242,23 @@ TEST_F(CarmenReaderTest, gives_up_when_more_than_one_line_in_a_hundred_does_not_
     return log;
   };
   EXPECT_EQ(read(log_of(297, 3)).size(), 297U);
-  EXPECT_EQ(sentence_about(log_of(296, 3)),
-            path_.string() +
-                " is damaged: 3 of its first 299 messages do not parse, expected at most 1 %; the first is " +
-                path_.string() + ":2: FLASER: the line ends, expected reading 2 of 181 in metres");
+  EXPECT_EQ(
+      sentence_about(log_of(296, 3)),
+      path_.string() +
+          " is damaged: 3 of its first 299 messages do not parse, expected at most 1 %; the first one: " +
+          path_.string() + ":2: FLASER: the line ends, expected reading 2 of 181 in metres");
   write_file(path_, log_of(150, 150));
-  CarmenReader reader(path_, {});
+  const auto reader = open_carmen_log(path_, {});
   int frames = 0;
   EXPECT_THAT(sentence_of([&] {
-                while (reader.next()) ++frames;
+                while (reader->next()) ++frames;
               }),
               testing::HasSubstr("101 of its first 202 messages"))
       << "a hopeless log is not read to its end";
   EXPECT_EQ(frames, 101);
 }
 
-TEST_F(CarmenReaderTest, names_file_and_line_of_what_is_malformed) {
+TEST_F(CarmenReaderTest, reports_file_and_line_of_a_malformed_message) {
   const std::string good = flaser("FLASER", "0 0 0", "0 0 0", "1");
   EXPECT_EQ(sentence_about("\nFLASER 181 1.0 abc\n"),
             path_.string() + ":2: FLASER: found \"abc\", expected reading 2 of 181 in metres");
@@ -270,11 +270,11 @@ TEST_F(CarmenReaderTest, names_file_and_line_of_what_is_malformed) {
                                   ":2: FLASER: the file is cut off in this line, expected reading "));
 }
 
-TEST_F(CarmenReaderTest, gives_the_frames_before_the_line_that_is_cut_off) {
+TEST_F(CarmenReaderTest, yields_the_frames_before_a_truncated_line) {
   write_file(path_, flaser("FLASER", "0 0 0", "1 0 0", "1") + "FLASER 181");
-  CarmenReader reader(path_, {});
-  EXPECT_TRUE(reader.next());
-  EXPECT_THROW(reader.next(), UserError);
+  const auto reader = open_carmen_log(path_, {});
+  EXPECT_TRUE(reader->next());
+  EXPECT_THROW(reader->next(), UserError);
 }
 
 struct KnownLog {
@@ -286,17 +286,17 @@ struct KnownLog {
 
 class CarmenReaderOnKnownLogs : public testing::TestWithParam<KnownLog> {};
 
-TEST_P(CarmenReaderOnKnownLogs, reads_them_whole) {
+TEST_P(CarmenReaderOnKnownLogs, reads_every_frame) {
   const KnownLog known = GetParam();
   const auto path = shared_file(std::string(known.name) + ".clf.gz");
   if (!path) GTEST_SKIP() << kNeedsData;
-  CarmenReader reader(*path, {});
+  const auto reader = open_carmen_log(*path, {});
   std::size_t scans = 0;
   TimeUs first_us = 0;
   TimeUs last_us = 0;
   double path_m = 0;
   std::optional<TPose2D> before;
-  while (const auto frame = reader.next()) {
+  while (const auto frame = reader->next()) {
     if (scans == 0) first_us = frame->time_us;
     last_us = frame->time_us;
     EXPECT_EQ(frame->index, scans++);

@@ -25,7 +25,7 @@ std::string content_of(const std::filesystem::path& path) {
   return content;
 }
 
-TEST(CompressedFile, reads_plain_and_gzipped_alike_whatever_the_name) {
+TEST(CompressedFile, reads_plain_and_gzipped_files_of_any_name) {
   const TemporaryFolder folder;
   const std::string bytes = noise(1'000'003);
   write_file(folder.path() / "plain.gz", bytes);
@@ -34,7 +34,7 @@ TEST(CompressedFile, reads_plain_and_gzipped_alike_whatever_the_name) {
   EXPECT_TRUE(content_of(folder.path() / "zipped.txt") == bytes);
 }
 
-TEST(CompressedFile, tells_how_far_it_is) {
+TEST(CompressedFile, reports_its_progress) {
   const TemporaryFolder folder;
   write_gzipped(folder.path() / "log", noise(4'000'000));
   CompressedFile file(folder.path() / "log");
@@ -44,16 +44,16 @@ TEST(CompressedFile, tells_how_far_it_is) {
   EXPECT_NEAR(file.progress(), 0.5, 0.15);
 }
 
-TEST(CompressedFile, says_that_compressed_data_are_cut_off) {
+TEST(CompressedFile, reports_truncated_data) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "log.gz";
   write_gzipped(path, noise(100'000));
   std::filesystem::resize_file(path, 50'000);
   EXPECT_EQ(sentence_of([&] { content_of(path); }),
-            path.string() + " is cut off: its compressed data end too early");
+            path.string() + " is cut off: its compressed data are incomplete. Fetch it again");
 }
 
-TEST(CompressedFile, gives_what_stands_before_the_cut) {
+TEST(CompressedFile, yields_the_data_before_the_truncation) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "log.gz";
   const std::string bytes = noise(100'000);
@@ -66,10 +66,10 @@ TEST(CompressedFile, gives_what_stands_before_the_cut) {
   EXPECT_TRUE(part.substr(0, got) == bytes.substr(0, got));
   for (int again = 0; again < 2; ++again)
     EXPECT_EQ(sentence_of([&] { file.read(part.data(), part.size()); }),
-              path.string() + " is cut off: its compressed data end too early");
+              path.string() + " is cut off: its compressed data are incomplete. Fetch it again");
 }
 
-TEST(CompressedFile, says_that_compressed_data_are_damaged) {
+TEST(CompressedFile, reports_damaged_data) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "log.gz";
   write_gzipped(path, noise(100'000));
@@ -77,10 +77,10 @@ TEST(CompressedFile, says_that_compressed_data_are_damaged) {
   bytes[60'000] = static_cast<char>(bytes[60'000] ^ 0x55);
   write_file(path, bytes);
   EXPECT_EQ(sentence_of([&] { content_of(path); }),
-            path.string() + " is damaged: its compressed data do not decompress");
+            path.string() + " is damaged: its data cannot be decompressed. Fetch it again");
 }
 
-TEST(CompressedFile, says_what_stands_in_the_way) {
+TEST(CompressedFile, reports_missing_files_and_folders) {
   const TemporaryFolder folder;
   EXPECT_EQ(sentence_of([&] { CompressedFile{folder.path()}; }),
             folder.path().string() + " is a folder, expected a log file");

@@ -32,7 +32,7 @@ TEST_F(ApplySettingsTest, loads_a_file) {
   EXPECT_EQ(settings_.matcher, SampleMatcher::kGa);
   EXPECT_EQ(settings_.label, "a;b");
   EXPECT_EQ(settings_.max_range_m, 30);
-  EXPECT_EQ(settings_.passes, 2) << "what the file does not name keeps its value";
+  EXPECT_EQ(settings_.passes, 2) << "options that the file does not set keep their values";
 }
 
 TEST_F(ApplySettingsTest, names_file_and_line_of_a_mistake) {

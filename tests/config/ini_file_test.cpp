@@ -41,7 +41,7 @@ TEST(IniFile, reads_what_windows_editors_write) {
   EXPECT_EQ(file.values[0].text, "v");
 }
 
-TEST(IniFile, leaves_comments_out) {
+TEST(IniFile, ignores_comments) {
   EXPECT_EQ(value_of("k = 5 ; five"), "5");
   EXPECT_EQ(value_of("k = 5; five"), "5");
   EXPECT_EQ(value_of("k = 5 # five"), "5");
@@ -51,7 +51,7 @@ TEST(IniFile, leaves_comments_out) {
   EXPECT_EQ(value_of("// c = 1\n # d = 2\n\t; e = 3\nk = http://host/a#b"), "http://host/a#b");
 }
 
-TEST(IniFile, quotes_keep_everything) {
+TEST(IniFile, quotes_keep_all_characters) {
   EXPECT_EQ(value_of(R"(k = " a ; b # c // d " ; comment)"), " a ; b # c // d ");
   EXPECT_EQ(value_of(R"(k = "say \"hi\" \\ there")"), R"(say "hi" \ there)");
   EXPECT_EQ(value_of(R"(k = "")"), "");
@@ -60,10 +60,10 @@ TEST(IniFile, quotes_keep_everything) {
   EXPECT_THAT(refusal(R"([a]
 k = "C:\maps")"),
               HasSubstr("a backslash in quotes"));
-  EXPECT_EQ(refusal("[a]\nk = \"x\" y"), "my.ini:2: there is text behind the closing quote");
+  EXPECT_EQ(refusal("[a]\nk = \"x\" y"), "my.ini:2: expected the end of the line after the closing quote");
 }
 
-TEST(IniFile, every_line_of_text_survives_being_written_as_a_value) {
+TEST(IniFile, every_text_of_one_line_can_be_written_as_a_value) {
   for (const std::string text : {"", "x", "a b", " a ", "a;b", "a # b", "a#b", "#a", "//a", "a //b", "\"",
                                  "\\", "\"a\"", "C:\\maps\\", "a\\\"b", "\t", "ä"}) {
     EXPECT_EQ(value_of("k = " + ini_value_text(text) + " ; comment"), text) << ini_value_text(text);
@@ -71,18 +71,18 @@ TEST(IniFile, every_line_of_text_survives_being_written_as_a_value) {
   EXPECT_EQ(ini_value_text("0.5"), "0.5");
 }
 
-TEST(IniFile, refuses_lines_that_mean_nothing) {
+TEST(IniFile, rejects_malformed_lines) {
   EXPECT_EQ(refusal("[a]\n\nwindow 5\n"), "my.ini:3: expected key = value or [section], not window 5");
   EXPECT_EQ(refusal("[a]\n = 5"), "my.ini:2: expected key = value or [section], not = 5");
   EXPECT_EQ(refusal("[a\n"), "my.ini:1: expected [section], not [a");
   EXPECT_EQ(refusal("[]\n"), "my.ini:1: expected [section], not []");
   EXPECT_EQ(refusal("[a] b\n"), "my.ini:1: expected [section], not [a] b");
-  EXPECT_EQ(refusal("k = 5\n"), "my.ini:1: \"k\" stands before the first [section]");
+  EXPECT_EQ(refusal("k = 5\n"), "my.ini:1: \"k\" precedes the first [section]");
 }
 
-TEST(IniFile, refuses_a_key_given_twice) {
+TEST(IniFile, rejects_a_key_given_twice) {
   EXPECT_EQ(refusal("[a]\nk = 1\n[b]\nk = 2\n[a]\nk = 3\n"),
-            "my.ini:6: \"k\" in [a] was given before, in line 2");
+            "my.ini:6: \"k\" in [a] is given twice, first in line 2; keep one");
   EXPECT_EQ(parse_ini("[a]\nk = 1\nK = 2\n", "my.ini").values.size(), 2u) << "names are case-sensitive";
 }
 
@@ -124,14 +124,14 @@ TEST_F(IncludeTest, may_include_one_file_twice_but_not_itself) {
             self.string() + ":1: a file cannot include itself: " + self.string() + " -> " + self.string());
 }
 
-TEST_F(IncludeTest, knows_a_file_again_under_another_name) {
+TEST_F(IncludeTest, recognises_a_file_under_another_name) {
   std::filesystem::create_directory_symlink(".", folder_.path() / "again");
   const auto path = write("my.ini", "include = again/my.ini\n");
   EXPECT_EQ(sentence([&] { read_ini(path); }), path.string() + ":1: a file cannot include itself: " +
                                                    path.string() + " -> " + in_folder("again/my.ini"));
 }
 
-TEST_F(IncludeTest, names_the_file_that_cannot_be_read) {
+TEST_F(IncludeTest, names_an_unreadable_file) {
   const auto path = write("my.ini", "; settings\ninclude = absent.ini\n");
   EXPECT_EQ(sentence([&] { read_ini(path); }), path.string() + ":2: cannot read the included file " +
                                                    in_folder("absent.ini") + ": No such file or directory");
@@ -140,7 +140,7 @@ TEST_F(IncludeTest, names_the_file_that_cannot_be_read) {
   EXPECT_EQ(sentence([&] { read_ini(folder_.path()); }),
             "cannot read " + folder_.path().string() + ": it is a folder");
   EXPECT_EQ(refusal("include =\n"), "my.ini:1: include needs the name of a file");
-  EXPECT_EQ(refusal("[a]\ninclude = usual.ini\n"), "my.ini:2: include must stand before the first section");
+  EXPECT_EQ(refusal("[a]\ninclude = usual.ini\n"), "my.ini:2: include must precede the first section");
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace psi_slam {
 namespace {
 
-TEST(NearestName, counts_the_mistakes_of_a_typist) {
+TEST(NearestName, counts_typing_errors) {
   EXPECT_EQ(edit_distance("", ""), 0u);
   EXPECT_EQ(edit_distance("", "abc"), 3u);
   EXPECT_EQ(edit_distance("abc", ""), 3u);
@@ -15,14 +15,14 @@ TEST(NearestName, counts_the_mistakes_of_a_typist) {
   EXPECT_EQ(edit_distance("Window_M", "window_m"), 0u);
 }
 
-TEST(NearestName, finds_what_was_meant) {
+TEST(NearestName, finds_the_nearest_name) {
   const std::vector<std::string> names{"window_x_m", "window_y_m", "window_theta_deg"};
   EXPECT_EQ(nearest_name("windw_x_m", names), "window_x_m");
-  EXPECT_EQ(nearest_name("window_z_m", names), "window_x_m") << "the first of equals";
+  EXPECT_EQ(nearest_name("window_z_m", names), "window_x_m") << "the first of equal distance";
   EXPECT_EQ(nearest_name("windowthetadeg", names), "window_theta_deg");
 }
 
-TEST(NearestName, proposes_nothing_far_fetched) {
+TEST(NearestName, proposes_nothing_distant) {
   EXPECT_EQ(nearest_name("resolution", {"window_x_m"}), std::nullopt);
   EXPECT_EQ(nearest_name("psi", {"ga", "csm"}), std::nullopt);
   EXPECT_EQ(nearest_name("x", {}), std::nullopt);

@@ -73,7 +73,7 @@ TEST(OptionListing, a_dump_that_is_loaded_restores_every_bit) {
   }
 }
 
-TEST(OptionListing, a_dump_explains_each_value) {
+TEST(OptionListing, a_dump_describes_each_value) {
   SampleSettings settings;
   const OptionTable table = describe(settings);
   settings.window_x_m = 2;
@@ -89,7 +89,7 @@ TEST(OptionListing, a_dump_explains_each_value) {
   EXPECT_THAT(text, HasSubstr("; m, above 0; or auto; default auto\nmax_range_m = auto\n"));
 }
 
-TEST(OptionListing, does_not_dump_what_could_not_be_loaded) {
+TEST(OptionListing, does_not_dump_invalid_values) {
   SampleSettings settings;
   const OptionTable table = describe(settings);
   settings.window_x_m = std::nan("");

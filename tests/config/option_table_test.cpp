@@ -42,7 +42,7 @@ TEST_F(OptionTableTest, sets_the_members_it_is_bound_to) {
   EXPECT_EQ(settings_.label, "");
 }
 
-TEST_F(OptionTableTest, shows_the_members_as_they_are_now) {
+TEST_F(OptionTableTest, shows_the_current_values_of_the_members) {
   settings_.window_x_m = 1;
   EXPECT_EQ(table_.option("front_end.window_x_m", "test").text(), "1");
   EXPECT_EQ(table_.option("front_end.window_x_m", "test").default_text, "0.15");
@@ -51,7 +51,7 @@ TEST_F(OptionTableTest, shows_the_members_as_they_are_now) {
   EXPECT_EQ(table_.option("log.max_range_m", "test").text(), "30");
 }
 
-TEST_F(OptionTableTest, knows_the_spellings_of_yes_and_no) {
+TEST_F(OptionTableTest, accepts_the_spellings_of_true_and_false) {
   for (const char* text : {"true", "yes", "on", "1", "True", "YES"}) {
     settings_.close_loops = false;
     table_.set("front_end.close_loops", text, "test");
@@ -67,7 +67,7 @@ TEST_F(OptionTableTest, knows_the_spellings_of_yes_and_no) {
               std::string("my.ini:12: front_end.close_loops = ") + text + ": expected true or false");
 }
 
-TEST_F(OptionTableTest, refuses_what_is_no_number_of_the_range) {
+TEST_F(OptionTableTest, rejects_texts_that_are_not_numbers_of_the_range) {
   for (const char* text :
        {"abc", "12abc", "nan", "inf", "-inf", "1e999", "", "0.009", "20.0001", "-1", "auto"})
     EXPECT_EQ(refusal("front_end.window_x_m", text), std::string("my.ini:12: front_end.window_x_m = ") +
@@ -84,7 +84,7 @@ TEST_F(OptionTableTest, the_range_of_an_angle_is_in_degrees) {
   EXPECT_EQ(settings_.window_theta_rad, 0.07);
 }
 
-TEST_F(OptionTableTest, refuses_what_is_no_whole_number_of_the_range) {
+TEST_F(OptionTableTest, rejects_texts_that_are_not_integers_of_the_range) {
   for (const char* text : {"1.5", "1e3", "6", "-6", "2 ", "0x1", "99999999999999999999", "nan"})
     EXPECT_EQ(refusal("front_end.passes", text), std::string("my.ini:12: front_end.passes = ") + text +
                                                      ": expected a whole number between -5 and 5");
@@ -94,7 +94,7 @@ TEST_F(OptionTableTest, refuses_what_is_no_whole_number_of_the_range) {
   EXPECT_EQ(settings_.passes, 2);
 }
 
-TEST_F(OptionTableTest, refuses_other_choices_and_texts_of_two_lines) {
+TEST_F(OptionTableTest, rejects_other_choices_and_texts_of_two_lines) {
   EXPECT_EQ(refusal("front_end.matcher", "CSM"),
             "my.ini:12: front_end.matcher = CSM: expected one of csm, ga");
   EXPECT_EQ(refusal("log.max_range_m", "far"),
@@ -102,7 +102,7 @@ TEST_F(OptionTableTest, refuses_other_choices_and_texts_of_two_lines) {
   EXPECT_THAT(refusal("log.label", "two\nlines"), HasSubstr("expected a text of one line"));
 }
 
-TEST_F(OptionTableTest, proposes_the_name_that_was_meant) {
+TEST_F(OptionTableTest, proposes_the_nearest_name) {
   EXPECT_EQ(refusal("front_end.windw_x_m", "1"),
             R"(my.ini:12: unknown key "windw_x_m" in [front_end]; did you mean "window_x_m"?)");
   EXPECT_EQ(refusal("front_end.psi_1", "1"),
@@ -117,7 +117,7 @@ TEST_F(OptionTableTest, proposes_the_name_that_was_meant) {
   EXPECT_EQ(refusal("window_x_m", "1"), R"(my.ini:12: expected section.key, not "window_x_m")");
 }
 
-TEST(OptionTable, refuses_descriptions_that_contradict_themselves) {
+TEST(OptionTable, rejects_contradictory_descriptions) {
   double number = 30;
   int integer = 3;
   OptionTable table;
@@ -129,7 +129,7 @@ TEST(OptionTable, refuses_descriptions_that_contradict_themselves) {
   EXPECT_THROW(table.angle_deg("x_deg", number, between(0, 360), ""), std::logic_error) << "30 radians";
   EXPECT_THROW(table.integer("n", integer, any_number().below(3), "", ""), std::logic_error);
   EXPECT_THROW(table.number("x_deg", number, any_number(), "", ""), std::logic_error)
-      << "an angle in disguise";
+      << "an angle described as a number";
   EXPECT_THROW(table.number("x_deg", number, any_number(), "deg", ""), std::logic_error);
   EXPECT_THROW(table.angle_deg("x", number, any_number(), ""), std::logic_error);
   number = std::nan("");
@@ -150,7 +150,7 @@ TEST_F(OptionTableTest, finds_options_by_their_old_names) {
   EXPECT_FALSE(table_.knows("passes"));
 }
 
-TEST_F(OptionTableTest, refuses_aliases_that_contradict_the_description) {
+TEST_F(OptionTableTest, rejects_contradictory_aliases) {
   EXPECT_THROW(table_.alias("front_end.rounds", "front_end.unknown"), std::logic_error);
   EXPECT_THROW(table_.alias("old", "unknown"), std::logic_error);
   EXPECT_THROW(table_.alias("front_end.nodes", "front_end.passes"), std::logic_error);

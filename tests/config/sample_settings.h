@@ -51,7 +51,7 @@ inline OptionTable describe(SampleSettings& settings) {
   return table;
 }
 
-/// The sentence of the UserError that `action` throws, or "(nothing was thrown)".
+/// Text of the UserError that `action` throws, or "(nothing was thrown)".
 template <class Action>
 std::string sentence(Action action) {
   try {

@@ -13,8 +13,8 @@ using mrpt::math::TPose2D;
 
 class BeamAngleStudyTest : public testing::Test {
  protected:
-  /// A log whose laser has its beams as `truth` says, read as `used` says. The laser looks straight ahead, so
-  /// that with the bearings in use it seems to look aside by the difference of their means.
+  /// Studies a log whose beams follow `truth` but which is read with `used`. The laser looks straight ahead.
+  /// Under the bearings in use, its heading is off by the difference of the mean bearings.
   BeamAngleStudy study(const std::vector<float>& truth_rad, const std::vector<float>& used_rad,
                        bool with_heading = true) {
     SimulatedRun run = round_trips(2);
@@ -44,7 +44,7 @@ class BeamAngleStudyTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(BeamAngleStudyTest, finds_the_convention_that_the_laser_has) {
+TEST_F(BeamAngleStudyTest, finds_the_convention_of_the_laser) {
   for (const BeamAngles truth :
        {BeamAngles::kLeftOpen, BeamAngles::kCentredHalfStep, BeamAngles::kSkipZero}) {
     const BeamAngleStudy result =
@@ -73,27 +73,27 @@ TEST_F(BeamAngleStudyTest, measures_the_step_by_full_turns) {
   EXPECT_TRUE(fit_of(wide, BeamAngles::kLeftOpen).ruled_out_by_turns);
 }
 
-TEST_F(BeamAngleStudyTest, takes_the_usual_convention_where_nothing_tells_it_from_others) {
+TEST_F(BeamAngleStudyTest, prefers_the_usual_convention_if_others_fit_equally) {
   const auto truth = make_bearings_rad(BeamAngles::kCentredHalfStep, 180, M_PI);
   const BeamAngleStudy result = study(truth, truth, false);
   EXPECT_FALSE(result.knows_heading);
   EXPECT_EQ(result.best, BeamAngles::kLeftOpen);
 }
 
-TEST_F(BeamAngleStudyTest, has_no_gap_in_an_odd_count) {
+TEST_F(BeamAngleStudyTest, excludes_skip_zero_for_odd_numbers) {
   const auto truth = make_bearings_rad(BeamAngles::kCentredStepInclusive, 181, M_PI);
   const BeamAngleStudy result = study(truth, truth);
   EXPECT_EQ(result.fits.size(), 3U);
   EXPECT_EQ(result.best, BeamAngles::kCentredStepInclusive);
 }
 
-TEST_F(BeamAngleStudyTest, works_on_readings_that_run_clockwise) {
+TEST_F(BeamAngleStudyTest, accepts_clockwise_readings) {
   auto truth = make_bearings_rad(BeamAngles::kSkipZero, 180, M_PI);
   for (float& bearing : truth) bearing = -bearing;
   EXPECT_EQ(study(truth, truth).best, BeamAngles::kSkipZero);
 }
 
-TEST_F(BeamAngleStudyTest, says_nothing_without_turns) {
+TEST_F(BeamAngleStudyTest, is_empty_without_turns) {
   const std::vector<FrameMark> marks(100);
   const BeamAngleStudy result =
       study_beam_angles(marks, choose_beam_angle_evidence(marks), {}, {0.F, 1.F}, 1, {});

@@ -33,7 +33,7 @@ class DiagnosisReportTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(DiagnosisReportTest, says_what_the_log_holds) {
+TEST_F(DiagnosisReportTest, describes_the_log) {
   const auto lines = describe_facts(sound_log());
   EXPECT_THAT(lines,
               Contains("log.clf: CARMEN, 537 scans by FLASER of 180 beams from -90.00 to 89.00 degrees"));
@@ -42,7 +42,7 @@ TEST_F(DiagnosisReportTest, says_what_the_log_holds) {
   EXPECT_THAT(lines, Contains(StartsWith("ranges: maximum 50.00 m, median ")));
 }
 
-TEST_F(DiagnosisReportTest, gives_each_warning_its_remedy) {
+TEST_F(DiagnosisReportTest, prints_the_remedy_of_each_warning) {
   const auto lines = describe(mirrored_log());
   const auto warning =
       std::find(lines.begin(), lines.end(),
@@ -60,7 +60,7 @@ TEST_F(DiagnosisReportTest, marks_the_best_beam_angles) {
   EXPECT_TRUE(describe_beam_angles(mirrored_log().beam_angles).empty());
 }
 
-TEST_F(DiagnosisReportTest, gives_programs_the_same) {
+TEST_F(DiagnosisReportTest, writes_json) {
   const auto json = to_json(mirrored_log());
   EXPECT_EQ(json["facts"]["scans"], 537);
   EXPECT_EQ(json["facts"]["time"]["first_s"], "1000.000000");

@@ -7,11 +7,13 @@
 #include <functional>
 #include <sstream>
 
+#include "bag_files.h"
 #include "log_files.h"
 #include "rawlog_files.h"
 #include "shared_logs.h"
 #include "simulated_run.h"
 #include "temporary_folder.h"
+#include "two_lasers.h"
 
 namespace psi_slam {
 namespace {
@@ -25,14 +27,14 @@ std::vector<std::string> warnings_of(const LogDiagnosis& diagnosis) {
   return codes;
 }
 
-/// The finding of that code; one without sentence if there is none.
+/// Returns the finding with this code, or an empty finding.
 Finding finding_of(const LogDiagnosis& diagnosis, const std::string& code) {
   for (const Finding& finding : diagnosis.findings)
     if (finding.code == code) return finding;
   return {};
 }
 
-// ---- A simulated log, spoilt in one way at a time ----
+// ---- A simulated log with one fault at a time ----
 
 class InputDoctorTest : public testing::Test {
  protected:
@@ -48,31 +50,54 @@ class InputDoctorTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(InputDoctorTest, judges_the_first_of_several_lasers) {
+  const auto path = folder_.path() / "log";
+  write_rawlog_of(path, {});
+  LogOptions options;
+  options.laser = "REAR,FRONT";
+  const LogDiagnosis diagnosis = diagnose(path, options);
+  EXPECT_EQ(diagnosis.facts.contents.laser, "REAR");
+  EXPECT_EQ(diagnosis.facts.scans, 20U);
+  EXPECT_EQ(diagnosis.facts.contents.other_lasers.at("FRONT"), 20U);
+}
+
+TEST_F(InputDoctorTest, judges_a_truncated_bag_up_to_its_end) {
+  const auto path = folder_.path() / "run.mcap";
+  write_mcap(path, recorded_run(30));
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) * 2 / 3);
+  const LogDiagnosis diagnosis = diagnose(path);
+  EXPECT_THAT(diagnosis.facts.broken_off, testing::HasSubstr("run.mcap: byte"));
+  EXPECT_THAT(diagnosis.facts.broken_off, testing::HasSubstr("the file is cut off"));
+  EXPECT_GT(diagnosis.facts.scans, 8U);
+  EXPECT_EQ(diagnosis.facts.format, "ROS 2 bag (MCAP)");
+  EXPECT_EQ(diagnosis.facts.contents.laser, "/scan");
+}
+
 TEST_F(InputDoctorTest, finds_nothing_wrong_with_a_sound_log) {
   const SimulatedRun run = round_trips(2);
   const LogDiagnosis diagnosis = diagnose_run(run);
   EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
   EXPECT_TRUE(diagnosis.odometry_is_sound);
   EXPECT_EQ(diagnosis.facts.format, "CARMEN");
-  EXPECT_EQ(diagnosis.facts.laser, "FLASER");
+  EXPECT_EQ(diagnosis.facts.contents.laser, "FLASER");
   EXPECT_EQ(diagnosis.facts.scans, run.truth.size());
-  EXPECT_EQ(diagnosis.facts.messages.at("FLASER"), run.truth.size());
+  EXPECT_EQ(diagnosis.facts.contents.messages.at("FLASER"), run.truth.size());
   EXPECT_EQ(diagnosis.used_beam_angles, BeamAngles::kLeftOpen);
   EXPECT_EQ(diagnosis.beam_angles.best, BeamAngles::kLeftOpen);
   EXPECT_EQ(finding_of(diagnosis, "beam_angles").sentence, "beam angles: left_open fits best, as used");
   EXPECT_EQ(diagnosis.findings.size(), 1U);
 }
 
-TEST_F(InputDoctorTest, topics_mean_nothing_to_a_log_that_is_no_bag) {
+TEST_F(InputDoctorTest, ignores_topics_for_other_formats) {
   LogOptions options;
   options.scan_topic = "/a,/b";
   const SimulatedRun run = round_trips(1);
   EXPECT_EQ(diagnose_run(run, options).facts.scans, run.truth.size());
   options.laser = "FLASER";
-  EXPECT_EQ(diagnose_run(run, options).facts.laser, "FLASER");
+  EXPECT_EQ(diagnose_run(run, options).facts.contents.laser, "FLASER");
 }
 
-TEST_F(InputDoctorTest, knows_a_mirrored_scan_and_the_key_that_mends_it) {
+TEST_F(InputDoctorTest, detects_a_mirrored_scan_and_names_the_option) {
   SimulatedRun run = round_trips(1);
   for (float& bearing : run.bearings_rad) bearing = -bearing;
   const LogDiagnosis diagnosis = diagnose_run(run);
@@ -84,7 +109,7 @@ TEST_F(InputDoctorTest, knows_a_mirrored_scan_and_the_key_that_mends_it) {
   EXPECT_THAT(warnings_of(diagnose_run(run, mended)), testing::IsEmpty());
 }
 
-TEST_F(InputDoctorTest, knows_odometry_in_other_units) {
+TEST_F(InputDoctorTest, detects_odometry_in_other_units) {
   for (const auto& [factor, name] : std::vector<std::pair<double, std::string>>{
            {1000, "millimetres"}, {100, "centimetres"}, {3.281, "feet"}, {0.001, "kilometres"}}) {
     SimulatedRun run = round_trips(1);
@@ -98,7 +123,7 @@ TEST_F(InputDoctorTest, knows_odometry_in_other_units) {
   }
 }
 
-TEST_F(InputDoctorTest, knows_headings_in_degrees_and_clockwise_ones) {
+TEST_F(InputDoctorTest, detects_headings_in_degrees_and_clockwise_headings) {
   SimulatedRun run = round_trips(1);
   for (TPose2D& pose : run.odometry) pose.phi *= 180 / M_PI;
   EXPECT_THAT(warnings_of(diagnose_run(run)), testing::ElementsAre("odometry_degrees"));
@@ -110,16 +135,16 @@ TEST_F(InputDoctorTest, knows_headings_in_degrees_and_clockwise_ones) {
   EXPECT_THAT(warnings_of(diagnose_run(run)), testing::ElementsAre("odometry_clockwise"));
 }
 
-TEST_F(InputDoctorTest, knows_odometry_that_stands_still) {
+TEST_F(InputDoctorTest, detects_constant_odometry) {
   SimulatedRun run = round_trips(1);
   for (TPose2D& pose : run.odometry) pose = {1, 2, 3};
   EXPECT_THAT(warnings_of(diagnose_run(run)), testing::ElementsAre("odometry_still"));
-  const LogDiagnosis still = diagnose_run(drive({{0, 0, 100}}));
+  const LogDiagnosis still = diagnose_run(simulated_run({{0, 0, 100}}));
   EXPECT_THAT(warnings_of(still), testing::IsEmpty());
   EXPECT_EQ(finding_of(still, "robot_still").sentence, "the robot stands still in the whole log");
 }
 
-TEST_F(InputDoctorTest, knows_a_laser_that_looks_elsewhere) {
+TEST_F(InputDoctorTest, detects_a_wrong_laser_heading) {
   SimulatedRun run = round_trips(1);
   run.robot_T_laser = {0.1, 0, M_PI / 2};
   const LogDiagnosis diagnosis = diagnose_run(run);
@@ -141,7 +166,7 @@ TEST_F(InputDoctorTest, measures_the_mount_of_the_laser) {
   EXPECT_TRUE(finding_of(diagnose_run(run, stated), "laser_mount").sentence.empty());
 }
 
-TEST_F(InputDoctorTest, knows_beam_angles_that_bend_the_walls) {
+TEST_F(InputDoctorTest, detects_wrong_beam_angles) {
   SimulatedRun run = round_trips(2);
   run.bearings_rad = make_bearings_rad(BeamAngles::kSkipZero, 180, M_PI);
   const LogDiagnosis diagnosis = diagnose_run(run);
@@ -153,13 +178,13 @@ TEST_F(InputDoctorTest, knows_beam_angles_that_bend_the_walls) {
             "beam angles: skip_zero fits best, as used");
 }
 
-TEST_F(InputDoctorTest, knows_a_log_that_a_mapper_has_corrected) {
+TEST_F(InputDoctorTest, detects_corrected_odometry) {
   SimulatedRun run = round_trips(3);
   run.odometry = run.truth;
   EXPECT_THAT(warnings_of(diagnose_run(run)), testing::ElementsAre("corrected_odometry"));
 }
 
-TEST_F(InputDoctorTest, says_which_of_two_poses_is_used) {
+TEST_F(InputDoctorTest, reports_a_second_pose) {
   std::string log = carmen_log(round_trips(1));
   const std::string pose = " 0.000000 0.000000 0.000000";
   const std::size_t first_pose = log.find(pose + pose);
@@ -169,7 +194,7 @@ TEST_F(InputDoctorTest, says_which_of_two_poses_is_used) {
               testing::StartsWith("1 scan carry a second pose"));
 }
 
-TEST_F(InputDoctorTest, knows_the_value_that_stands_for_no_return) {
+TEST_F(InputDoctorTest, detects_the_code_for_no_return) {
   SimulatedRun run = round_trips(1);
   std::string log;
   std::istringstream lines(carmen_log(run));
@@ -197,7 +222,7 @@ TEST_F(InputDoctorTest, knows_the_value_that_stands_for_no_return) {
   EXPECT_THAT(warnings_of(diagnose_text(log, mended)), testing::IsEmpty());
 }
 
-TEST_F(InputDoctorTest, knows_ranges_in_millimetres) {
+TEST_F(InputDoctorTest, detects_ranges_in_millimetres) {
   const SimulatedRun run = round_trips(1);
   std::string log = "PARAM robot_front_laser_max 80 host 0\n";
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
@@ -210,14 +235,14 @@ TEST_F(InputDoctorTest, knows_ranges_in_millimetres) {
   EXPECT_THAT(warnings_of(diagnose_text(log)), testing::Contains("range_unit"));
 }
 
-TEST_F(InputDoctorTest, knows_a_maximum_range_that_blinds_the_laser) {
+TEST_F(InputDoctorTest, detects_a_maximum_range_that_is_too_small) {
   LogOptions options;
   options.max_range_m = 0.9;
   EXPECT_THAT(warnings_of(diagnose_run(round_trips(1), options)),
               testing::AllOf(testing::Contains("few_returns"), testing::Contains("empty_scans")));
 }
 
-TEST_F(InputDoctorTest, knows_repeated_scans) {
+TEST_F(InputDoctorTest, detects_repeated_scans) {
   std::string log = carmen_log(round_trips(1));
   const std::size_t start = log.find("FLASER", log.size() / 2);
   const std::size_t end = log.find('\n', start) + 1;
@@ -227,11 +252,11 @@ TEST_F(InputDoctorTest, knows_repeated_scans) {
   EXPECT_THAT(finding_of(diagnosis, "repeated_scans").sentence, testing::StartsWith("1 scan repeat"));
 }
 
-TEST_F(InputDoctorTest, tells_of_lines_that_do_not_parse) {
+TEST_F(InputDoctorTest, reports_malformed_lines) {
   const std::string log = carmen_log(round_trips(1));
   const LogDiagnosis diagnosis = diagnose_text("FLASER 3 1.0\n" + log);
-  EXPECT_EQ(diagnosis.facts.skipped.count, 1U);
-  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty()) << "one line is no harm";
+  EXPECT_EQ(diagnosis.facts.contents.skipped.count, 1U);
+  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty()) << "one line is harmless";
   EXPECT_THAT(finding_of(diagnosis, "skipped_lines").sentence,
               testing::AllOf(testing::StartsWith("1 message of the log"), testing::HasSubstr(":1: FLASER")));
 }
@@ -250,8 +275,8 @@ TEST_F(InputDoctorTest, reads_rawlogs_too) {
   write_rawlog(folder_.path() / "log.rawlog", objects);
   const LogDiagnosis diagnosis = diagnose(folder_.path() / "log.rawlog");
   EXPECT_EQ(diagnosis.facts.format, "MRPT rawlog");
-  EXPECT_EQ(diagnosis.facts.laser, "LASER");
-  EXPECT_EQ(diagnosis.facts.other_lasers.at("OTHER"), run.truth.size());
+  EXPECT_EQ(diagnosis.facts.contents.laser, "LASER");
+  EXPECT_EQ(diagnosis.facts.contents.other_lasers.at("OTHER"), run.truth.size());
   EXPECT_EQ(diagnosis.used_beam_angles, BeamAngles::kAuto) << "the log states its angles";
   EXPECT_TRUE(diagnosis.beam_angles.fits.empty());
   EXPECT_TRUE(diagnosis.odometry_is_sound);
@@ -260,13 +285,13 @@ TEST_F(InputDoctorTest, reads_rawlogs_too) {
 
 TEST_F(InputDoctorTest, diagnoses_logs_of_one_scan_or_two) {
   for (const std::size_t steps : {0, 1}) {
-    const LogDiagnosis diagnosis = diagnose_run(drive({{0.1, 0, steps}}));
+    const LogDiagnosis diagnosis = diagnose_run(simulated_run({{0.1, 0, steps}}));
     EXPECT_EQ(diagnosis.facts.scans, steps + 1);
     EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
   }
 }
 
-TEST_F(InputDoctorTest, judges_a_log_that_breaks_off_up_to_there) {
+TEST_F(InputDoctorTest, judges_a_truncated_log_up_to_its_end) {
   std::string log = carmen_log(round_trips(1));
   const LogDiagnosis whole = diagnose_text(log);
   EXPECT_EQ(whole.facts.broken_off, "");
@@ -282,14 +307,14 @@ TEST_F(InputDoctorTest, judges_a_log_that_breaks_off_up_to_there) {
                      testing::EndsWith(std::to_string(whole.facts.scans) + " scans that could be read")));
 }
 
-TEST_F(InputDoctorTest, passes_the_sentence_of_a_log_that_cannot_be_read) {
+TEST_F(InputDoctorTest, passes_on_the_error_of_an_unreadable_log) {
   EXPECT_THROW(diagnose(folder_.path() / "none"), UserError);
   EXPECT_THROW(diagnose_text("FLASER 3 1 2\n"), UserError);
 }
 
-// ---- The benchmark's logs, right and spoilt ----
+// ---- The benchmark logs, unchanged and with faults ----
 
-/// Writes a log anew, with every scan's ranges and odometry pose (x, y, heading) changed.
+/// Copies a log and changes the ranges and the odometry pose (x, y, heading) of every scan.
 void rewrite(const std::filesystem::path& from, const std::filesystem::path& to, std::size_t scans,
              const std::function<void(std::vector<std::string>& ranges, TPose2D& odometry)>& change) {
   gzFile file = gzopen(from.c_str(), "rb");
@@ -354,19 +379,19 @@ TEST_P(InputDoctorOnKnownLogs, raises_no_false_alarm) {
   }
 }
 
-TEST_P(InputDoctorOnKnownLogs, rules_out_a_gap_between_the_halves_of_the_scan) {
+TEST_P(InputDoctorOnKnownLogs, rules_out_skip_zero) {
   const LogDiagnosis diagnosis = diagnose(log_);
   ASSERT_FALSE(diagnosis.beam_angles.fits.empty());
   for (const BeamAngleFit& fit : diagnosis.beam_angles.fits)
     EXPECT_EQ(fit.ruled_out_by_walls, fit.angles == BeamAngles::kSkipZero) << name_of(fit.angles);
 }
 
-TEST_P(InputDoctorOnKnownLogs, knows_a_mirrored_scan) {
+TEST_P(InputDoctorOnKnownLogs, detects_a_mirrored_scan) {
   EXPECT_THAT(warnings_when([](auto& ranges, TPose2D&) { std::reverse(ranges.begin(), ranges.end()); }),
               testing::ElementsAre("mirrored_scan"));
 }
 
-TEST_P(InputDoctorOnKnownLogs, knows_millimetres_and_centimetres) {
+TEST_P(InputDoctorOnKnownLogs, detects_millimetres_and_centimetres) {
   for (const double factor : {1000.0, 100.0})
     EXPECT_THAT(warnings_when([&](auto&, TPose2D& pose) {
                   pose.x *= factor;
@@ -375,17 +400,17 @@ TEST_P(InputDoctorOnKnownLogs, knows_millimetres_and_centimetres) {
                 testing::ElementsAre("odometry_unit"));
 }
 
-TEST_P(InputDoctorOnKnownLogs, knows_degrees) {
+TEST_P(InputDoctorOnKnownLogs, detects_degrees) {
   EXPECT_THAT(warnings_when([](auto&, TPose2D& pose) { pose.phi *= 180 / M_PI; }),
               testing::ElementsAre("odometry_degrees"));
 }
 
-TEST_P(InputDoctorOnKnownLogs, knows_headings_that_run_clockwise) {
+TEST_P(InputDoctorOnKnownLogs, detects_clockwise_headings) {
   EXPECT_THAT(warnings_when([](auto&, TPose2D& pose) { pose.phi = -pose.phi; }),
               testing::ElementsAre("odometry_clockwise"));
 }
 
-TEST_P(InputDoctorOnKnownLogs, knows_odometry_that_stands_still) {
+TEST_P(InputDoctorOnKnownLogs, detects_constant_odometry) {
   EXPECT_THAT(warnings_when([](auto&, TPose2D& pose) {
                 pose = {0, 0, 0};
               }),
@@ -401,15 +426,14 @@ INSTANTIATE_TEST_SUITE_P(all, InputDoctorOnKnownLogs,
                            return name;
                          });
 
-TEST(InputDoctorOnIntel, sees_time_run_backwards_and_does_not_mind) {
+TEST(InputDoctorOnIntel, notes_time_that_runs_backwards) {
   const auto log = shared_file("intel.clf.gz");
   if (!log) GTEST_SKIP() << kNeedsData;
   const LogDiagnosis diagnosis = diagnose(*log);
   const Finding finding = finding_of(diagnosis, "time_backwards");
   EXPECT_EQ(finding.severity, Severity::kNote);
-  EXPECT_EQ(
-      finding.sentence,
-      "time runs backwards at 858 scans, by up to 0.897 s; the order of the file is taken as the truth");
+  EXPECT_EQ(finding.sentence,
+            "time runs backwards at 858 scans, by up to 0.897 s; scans keep the order of the file");
   EXPECT_GE(diagnosis.beam_angles.full_turns, 2U);
   for (const BeamAngleFit& fit : diagnosis.beam_angles.fits)
     if (fit.angles == BeamAngles::kCentredStepInclusive) {

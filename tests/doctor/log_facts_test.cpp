@@ -32,9 +32,9 @@ LogFacts facts_of(const std::vector<Frame>& frames, float max_range_m = 50) {
 TEST(LogFacts, measure_time_in_the_order_of_the_file) {
   std::vector<Frame> frames;
   for (int i = 0; i < 20; ++i) frames.push_back(frame_at(10 + 0.2 * i));
-  frames.push_back(frame_at(17));     // a gap of 3.2 s
-  frames.push_back(frame_at(16.25));  // back
-  frames.push_back(frame_at(16.25));  // the same again, ranges too
+  frames.push_back(frame_at(17));     // gap of 3.2 s
+  frames.push_back(frame_at(16.25));  // backwards
+  frames.push_back(frame_at(16.25));  // repeats the previous scan
   frames.push_back(frame_at(16.25, {0, 0, 0}, {1, 2, 4}));
   const TimeFacts time = facts_of(frames).time;
   EXPECT_EQ(time.first_us, 10'000'000);
@@ -49,7 +49,7 @@ TEST(LogFacts, measure_time_in_the_order_of_the_file) {
   EXPECT_EQ(time.repeated_scans, 1U);
 }
 
-TEST(LogFacts, sum_the_way_and_the_turns) {
+TEST(LogFacts, sum_path_and_turns) {
   const OdometryFacts odometry =
       facts_of({frame_at(0), frame_at(1, {3, 4, 3}), frame_at(2, {3, 3, -3}), frame_at(3, {3, 3, -3})})
           .odometry;
@@ -59,7 +59,7 @@ TEST(LogFacts, sum_the_way_and_the_turns) {
   EXPECT_NEAR(odometry.largest_turn_rad, 3, 1e-12);
 }
 
-TEST(LogFacts, count_returns_and_scans_without) {
+TEST(LogFacts, count_returns_and_empty_scans) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const RangeFacts ranges =
       facts_of({frame_at(0, {}, {1, 2, 60}), frame_at(1, {}, {nan, 50, 51}), frame_at(2, {}, {3, nan, 1})})
@@ -71,7 +71,7 @@ TEST(LogFacts, count_returns_and_scans_without) {
   EXPECT_FLOAT_EQ(ranges.median_return_m, 1);
 }
 
-TEST(LogFacts, find_the_value_that_stands_for_no_return) {
+TEST(LogFacts, find_the_code_for_no_return) {
   std::vector<Frame> frames;
   for (int i = 0; i < 100; ++i) {
     std::vector<float> ranges_m;
@@ -79,7 +79,7 @@ TEST(LogFacts, find_the_value_that_stands_for_no_return) {
       ranges_m.push_back(0.5F + 0.1F * static_cast<float>(k) + 0.001F * static_cast<float>(i));
     frames.push_back(frame_at(i, {}, ranges_m));
   }
-  EXPECT_EQ(facts_of(frames).ranges.readings_at_ceiling, 0U) << "readings thin out, but do not pile up";
+  EXPECT_EQ(facts_of(frames).ranges.readings_at_ceiling, 0U) << "fewer readings at long range do not pile up";
   for (Frame& frame : frames) frame.scan.ranges_m[7] = 8.0F;
   frames[3].scan.ranges_m[9] = 8.05F;
   const RangeFacts ranges = facts_of(frames).ranges;
@@ -88,7 +88,7 @@ TEST(LogFacts, find_the_value_that_stands_for_no_return) {
   EXPECT_FLOAT_EQ(ranges.largest_reading_m, 8.05F);
 }
 
-TEST(LogFacts, note_the_shape_of_the_scans) {
+TEST(LogFacts, count_scans_of_another_shape) {
   const LogFacts facts = facts_of({frame_at(0), frame_at(1), frame_at(2, {}, {1, 2})});
   EXPECT_EQ(facts.scans, 3U);
   EXPECT_EQ(facts.beams, 3U);
@@ -97,7 +97,7 @@ TEST(LogFacts, note_the_shape_of_the_scans) {
   EXPECT_NEAR(facts.last_bearing_rad, 1, 1e-6);
 }
 
-TEST(LogFacts, of_nothing_are_nothing) {
+TEST(LogFacts, are_zero_for_an_empty_log) {
   const LogFacts facts = facts_of({});
   EXPECT_EQ(facts.scans, 0U);
   EXPECT_EQ(facts.time.duration_s, 0);

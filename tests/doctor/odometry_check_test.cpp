@@ -12,8 +12,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// The check of a run whose odometry `change` has spoilt, with the scans mirrored or the laser turned if
-/// wanted.
+/// Checks a run whose odometry `change` modifies; optionally mirrors the scans or turns the laser.
 class OdometryCheckTest : public testing::Test {
  protected:
   OdometryAgreement check(const std::function<void(TPose2D&)>& change, const LogOptions& options = {}) {
@@ -58,32 +57,32 @@ TEST_F(OdometryCheckTest, measures_the_unit_of_length) {
   }
 }
 
-TEST_F(OdometryCheckTest, knows_degrees) {
+TEST_F(OdometryCheckTest, detects_degrees) {
   EXPECT_EQ(check([](TPose2D& pose) { pose.phi *= 180 / M_PI; }).heading, HeadingRelation::kDegrees);
   EXPECT_EQ(check([](TPose2D& pose) { pose.phi *= -180 / M_PI; }).heading, HeadingRelation::kOppositeDegrees);
 }
 
-TEST_F(OdometryCheckTest, tells_a_mirrored_scan_from_headings_that_run_clockwise) {
+TEST_F(OdometryCheckTest, distinguishes_a_mirrored_scan_from_clockwise_headings) {
   LogOptions mirrored;
   mirrored.mirrored = true;
   const OdometryAgreement scan = check([](TPose2D&) {}, mirrored);
   EXPECT_EQ(scan.heading, HeadingRelation::kOpposite);
   EXPECT_LT(scan.odometry_slip_rad, 0.1);
   const OdometryAgreement heading = check([](TPose2D& pose) {
-    pose = TPose2D{0, 0, 0.7} + pose;  // along the walls, a negated right angle would look like reversing
+    pose = TPose2D{0, 0, 0.7} + pose;  // parallel to walls, a negated right angle looks like reversing
     pose.phi = -pose.phi;
   });
   EXPECT_EQ(heading.heading, HeadingRelation::kOpposite);
   EXPECT_GT(heading.odometry_slip_rad, 0.4);
 }
 
-TEST_F(OdometryCheckTest, sees_headings_that_never_change_or_mean_nothing) {
+TEST_F(OdometryCheckTest, detects_constant_and_unrelated_headings) {
   EXPECT_EQ(check([](TPose2D& pose) { pose.phi = 1; }).heading, HeadingRelation::kNone);
   EXPECT_EQ(check([](TPose2D& pose) { pose.phi = 1e3 * std::sin(1e4 * pose.x + 77 * pose.phi); }).heading,
             HeadingRelation::kUnrelated);
 }
 
-TEST_F(OdometryCheckTest, measures_where_the_laser_looks) {
+TEST_F(OdometryCheckTest, measures_the_heading_of_the_laser) {
   for (const double yaw_rad : {M_PI / 2, M_PI - 0.01, -1.0}) {
     LogOptions options;
     options.robot_T_laser = TPose2D{0, 0, yaw_rad};
@@ -93,13 +92,13 @@ TEST_F(OdometryCheckTest, measures_where_the_laser_looks) {
   }
 }
 
-TEST_F(OdometryCheckTest, follows_the_scans_when_odometry_stands) {
+TEST_F(OdometryCheckTest, follows_the_scans_if_odometry_is_constant) {
   const OdometryAgreement agreement = check([](TPose2D& pose) { pose = {0, 0, 0}; });
   EXPECT_GT(agreement.scan_path_m, 5);
   EXPECT_EQ(agreement.odometry_path_m, 0);
 }
 
-TEST(OdometryCheck, says_nothing_about_nothing) {
+TEST(OdometryCheck, is_unknown_for_an_empty_log) {
   const OdometryAgreement agreement = check_odometry({}, {}, {});
   EXPECT_EQ(agreement.heading, HeadingRelation::kUnknown);
   EXPECT_EQ(agreement.length_ratio, 0);

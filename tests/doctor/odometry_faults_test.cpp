@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor/odometry_faults.h"
+#include "doctor/pair_alignment.h"
 
 #include "log_files.h"
 #include "simulated_run.h"
@@ -33,15 +33,15 @@ class OdometryFaultsTest : public testing::Test {
   std::vector<FrameMark> marks_;
 };
 
-/// Moves all odometry from frame `from` on, as seen by the robot.
+/// Moves all odometry since frame `from`, relative to the robot.
 void jump(SimulatedRun& run, std::size_t from, const TPose2D& by) {
   const TPose2D old = run.odometry[from];
   const TPose2D moved = old + by;
   for (std::size_t i = from; i < run.odometry.size(); ++i) run.odometry[i] = moved + (run.odometry[i] - old);
 }
 
-TEST_F(OdometryFaultsTest, find_jumps_that_the_scans_do_not_show) {
-  SimulatedRun run = drive({{0.08, 0, 60}, {0, 3, 30}, {0.08, 0, 60}});
+TEST_F(OdometryFaultsTest, include_jumps_that_the_scans_do_not_confirm) {
+  SimulatedRun run = simulated_run({{0.08, 0, 60}, {0, 3, 30}, {0.08, 0, 60}});
   take(run);
   EXPECT_TRUE(suspected_jumps(marks_, 0.2, 10).empty());
   jump(run, 20, {0.9, 0.3, 0});
@@ -56,9 +56,9 @@ TEST_F(OdometryFaultsTest, find_jumps_that_the_scans_do_not_show) {
   EXPECT_EQ(suspected_jumps(marks_, 0.2, 1).size(), 1U);
 }
 
-TEST_F(OdometryFaultsTest, are_no_jumps_when_the_robot_did_move) {
-  SimulatedRun run = drive({{0.08, 0, 30}});
-  run.truth.push_back(run.truth.back() + TPose2D{0.6, 0, 0.1});  // messages were lost here
+TEST_F(OdometryFaultsTest, exclude_real_motion) {
+  SimulatedRun run = simulated_run({{0.08, 0, 30}});
+  run.truth.push_back(run.truth.back() + TPose2D{0.6, 0, 0.1});  // lost messages
   run.odometry.push_back(run.odometry.back() + TPose2D{0.62, 0, 0.1});
   take(run);
   const auto suspects = suspected_jumps(marks_, 0.2, 10);
@@ -66,12 +66,12 @@ TEST_F(OdometryFaultsTest, are_no_jumps_when_the_robot_did_move) {
   EXPECT_TRUE(confirm_jumps(marks_, suspects, library_of(suspects)).pairs.empty());
 }
 
-TEST_F(OdometryFaultsTest, show_odometry_that_is_a_mappers_result) {
+TEST_F(OdometryFaultsTest, include_odometry_that_a_mapper_has_corrected) {
   SimulatedRun run = round_trips(2);
   take(run);
   auto pairs = revisiting_pairs(marks_, 0.5, 0.5, 20, 100);
   const RevisitAgreement raw = check_revisits(marks_, pairs, library_of(pairs));
-  EXPECT_LT(raw.agreeing * 4, raw.revisits + 4) << "wheels drift";
+  EXPECT_LT(raw.agreeing * 4, raw.revisits + 4) << "raw odometry drifts";
   run.odometry = run.truth;
   take(run);
   pairs = revisiting_pairs(marks_, 0.5, 0.5, 20, 100);

@@ -28,7 +28,7 @@ class PairAlignmentTest : public testing::Test {
   ScanLibrary library_;
 };
 
-/// What a robot says whose wheels count without sign: reversing is added as driving ahead.
+/// Simulates wheels that count without a sign: reversing is added as driving forwards.
 void lose_the_sign_of_reversing(SimulatedRun& run) {
   std::vector<TPose2D> odometry{run.odometry.front()};
   for (std::size_t i = 1; i < run.odometry.size(); ++i) {
@@ -39,7 +39,7 @@ void lose_the_sign_of_reversing(SimulatedRun& run) {
   run.odometry = odometry;
 }
 
-TEST_F(PairAlignmentTest, aligns_what_odometry_puts_near) {
+TEST_F(PairAlignmentTest, aligns_pairs_that_odometry_puts_near) {
   const auto pairs = aligned(round_trips(1));
   ASSERT_GT(pairs.size(), 100U);
   std::size_t reliable = 0;
@@ -52,11 +52,11 @@ TEST_F(PairAlignmentTest, aligns_what_odometry_puts_near) {
   EXPECT_GT(reliable, pairs.size() * 9 / 10);
 }
 
-TEST_F(PairAlignmentTest, finds_reversing_that_odometry_counts_ahead) {
-  const std::vector<Drive> runs{{0.08, 0, 60}, {-0.08, 0, 40}, {0.08, 0, 20}, {0, 3, 30}, {-0.05, 0, 24}};
-  SimulatedRun run = drive(runs);
+TEST_F(PairAlignmentTest, finds_reversing_that_odometry_counts_forwards) {
+  const std::vector<RunPart> parts{{0.08, 0, 60}, {-0.08, 0, 40}, {0.08, 0, 20}, {0, 3, 30}, {-0.05, 0, 24}};
+  SimulatedRun run = simulated_run(parts);
   EXPECT_TRUE(find_lost_reversals(aligned(run), library_).pairs.empty())
-      << "reversing with its sign is right";
+      << "reversing with the right sign is sound";
   lose_the_sign_of_reversing(run);
   library_ = ScanLibrary();
   const LostReversals reversals = find_lost_reversals(aligned(run), library_);
@@ -90,8 +90,8 @@ TEST_F(PairAlignmentTest, measures_the_scale_of_odometry) {
   EXPECT_NEAR(mount->odometry_scale, 1.05, 0.01);
 }
 
-TEST_F(PairAlignmentTest, does_not_guess_a_mount_without_turns) {
-  EXPECT_FALSE(estimate_laser_mount(aligned(drive({{0.05, 0, 140}})), {0, 0, 0}));
+TEST_F(PairAlignmentTest, finds_no_mount_without_turns) {
+  EXPECT_FALSE(estimate_laser_mount(aligned(simulated_run({{0.05, 0, 140}})), {0, 0, 0}));
 }
 
 }  // namespace

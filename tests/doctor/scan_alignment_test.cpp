@@ -13,7 +13,7 @@ namespace {
 using mrpt::DEG2RAD;
 using mrpt::math::TPose2D;
 
-/// Two scans of the room, and the true motion between them.
+/// Two scans of the room and the true motion between them.
 struct TwoScans {
   AlignableScan reference;
   AlignableScan scan;
@@ -35,7 +35,7 @@ void expect_motion(const ScanAlignment& alignment, const TPose2D& motion) {
   EXPECT_GT(alignment.matched_share, 0.8);
 }
 
-TEST(ScanAlignment, finds_the_motion_from_standing_still) {
+TEST(ScanAlignment, finds_the_motion_from_a_zero_guess) {
   for (const TPose2D motion :
        {TPose2D{0, 0, 0}, TPose2D{0.2, 0, 0}, TPose2D{-0.15, 0.05, 0.1}, TPose2D{0, 0, -0.15}}) {
     const TwoScans scans = two_scans(motion);
@@ -43,13 +43,13 @@ TEST(ScanAlignment, finds_the_motion_from_standing_still) {
   }
 }
 
-TEST(ScanAlignment, speaks_of_the_robot_wherever_its_laser_is) {
+TEST(ScanAlignment, returns_the_motion_of_the_robot_for_any_mount) {
   const TPose2D motion{0.1, 0.05, 0.2};
   const TwoScans scans = two_scans(motion, {0.4, -0.2, 0.5});
   expect_motion(align_scans(scans.reference, scans.scan, motion + TPose2D{0.05, -0.05, 0.03}), motion);
 }
 
-TEST(ScanAlignment, takes_the_best_of_several_guesses) {
+TEST(ScanAlignment, uses_the_best_of_several_guesses) {
   const TPose2D motion{0.1, 0, DEG2RAD(60.0)};
   const TwoScans scans = two_scans(motion);
   EXPECT_GT(align_scans(scans.reference, scans.scan, TPose2D{0, 0, 0}).cost_m, 0.05)
@@ -60,7 +60,7 @@ TEST(ScanAlignment, takes_the_best_of_several_guesses) {
   EXPECT_NEAR(best.reference_T_scan.x, motion.x, 0.01);
 }
 
-TEST(ScanAlignment, knows_what_a_corridor_hides) {
+TEST(ScanAlignment, has_a_large_deviation_along_a_corridor) {
   SimulatedRun run;
   LaserScan corridor = [&] {
     LaserScan scan;
@@ -76,7 +76,7 @@ TEST(ScanAlignment, knows_what_a_corridor_hides) {
   const ScanAlignment alignment = align_scans(scan, scan, TPose2D{0.1, 0, 0});
   EXPECT_GT(alignment.deviation_along_m(0), 0.1) << "along the corridor";
   EXPECT_LT(alignment.deviation_along_m(M_PI / 2), 0.005) << "across";
-  EXPECT_NEAR(alignment.reference_T_scan.x, 0.1, 0.02) << "nothing pulls away from the guess";
+  EXPECT_NEAR(alignment.reference_T_scan.x, 0.1, 0.02) << "the guess is kept";
 
   const TwoScans room = two_scans({0.1, 0, 0});
   const ScanAlignment in_room = align_scans(room.reference, room.scan, TPose2D{0, 0, 0});
@@ -84,7 +84,7 @@ TEST(ScanAlignment, knows_what_a_corridor_hides) {
   EXPECT_LT(in_room.heading_deviation_rad(), DEG2RAD(0.2));
 }
 
-TEST(ScanAlignment, costs_much_when_scans_have_nothing_in_common) {
+TEST(ScanAlignment, has_a_high_cost_for_unrelated_scans) {
   SimulatedRun run;
   run.truth = {{2.5, 2, 0.3}, {10, 7, 1.5}};
   const ScanAlignment alignment =
@@ -92,13 +92,13 @@ TEST(ScanAlignment, costs_much_when_scans_have_nothing_in_common) {
   EXPECT_GT(alignment.cost_m, 0.06);
 }
 
-TEST(ScanAlignment, survives_scans_without_returns) {
+TEST(ScanAlignment, accepts_scans_without_returns) {
   SimulatedRun run;
   run.truth = {{2.5, 2, 0.3}};
   LaserScan blind = run.scan(0);
   for (float& range : blind.ranges_m) range = std::numeric_limits<float>::quiet_NaN();
   const AlignableScan empty(blind);
-  EXPECT_TRUE(empty.points().empty());
+  EXPECT_TRUE(empty.surface().points.empty());
   const AlignableScan full(run.scan(0));
   for (const auto& alignment :
        {align_scans(empty, full, TPose2D{0, 0, 0}), align_scans(full, empty, TPose2D{0, 0, 0})}) {
@@ -107,14 +107,14 @@ TEST(ScanAlignment, survives_scans_without_returns) {
   }
 }
 
-TEST(ScanAlignment, thins_scans_of_many_beams_and_sorts_mirrored_ones) {
+TEST(ScanAlignment, thins_scans_of_many_beams_and_accepts_mirrored_ones) {
   SimulatedRun run;
-  run.truth = {{2.5, 2, 0.3}};
+  run.truth = {{2.5, 2, 0.3}, {2.6, 2, 0.35}};
   run.bearings_rad = make_bearings_rad(BeamAngles::kCentredStepInclusive, 1081, DEG2RAD(270.0));
-  EXPECT_LE(AlignableScan(run.scan(0), 30, 200).points().size(), 200U);
+  EXPECT_LE(AlignableScan(run.scan(0), 30, 200).surface().points.size(), 200U);
   for (float& bearing : run.bearings_rad) bearing = -bearing;
-  const auto points = AlignableScan(run.scan(0)).points();
-  for (std::size_t i = 1; i < points.size(); ++i) EXPECT_LT(points[i - 1].bearing_rad, points[i].bearing_rad);
+  expect_motion(align_scans(AlignableScan(run.scan(0)), AlignableScan(run.scan(1)), TPose2D{0, 0, 0}),
+                run.truth[1] - run.truth[0]);
 }
 
 }  // namespace

@@ -19,12 +19,12 @@ std::vector<FrameMark> marks_of(const std::vector<TPose2D>& poses) {
   return marks;
 }
 
-std::vector<FrameMark> driven(const std::vector<Drive>& runs) {
-  return marks_of(drive(runs).truth);
+std::vector<FrameMark> marks_of_run(const std::vector<RunPart>& parts) {
+  return marks_of(simulated_run(parts).truth);
 }
 
 TEST(ScanSampling, spreads_starts_over_motion_in_any_unit) {
-  const auto metres = driven({{0, 0, 500}, {0.1, 0, 100}, {0, 0, 500}, {0.1, 0, 100}, {0, 0, 500}});
+  const auto metres = marks_of_run({{0, 0, 500}, {0.1, 0, 100}, {0, 0, 500}, {0.1, 0, 100}, {0, 0, 500}});
   auto millimetres = metres;
   for (FrameMark& mark : millimetres) mark.odom_T_robot.x *= 1000;
   const auto starts = frames_in_motion(metres, 20);
@@ -38,24 +38,25 @@ TEST(ScanSampling, spreads_starts_over_motion_in_any_unit) {
   }
 }
 
-TEST(ScanSampling, spreads_starts_over_time_when_odometry_stands) {
-  EXPECT_THAT(frames_in_motion(driven({{0, 0, 99}}), 4), ElementsAre(12, 37, 61, 86));
-  EXPECT_TRUE(frames_in_motion(driven({}), 4).empty());
+TEST(ScanSampling, spreads_starts_over_time_if_odometry_is_constant) {
+  EXPECT_THAT(frames_in_motion(marks_of_run({{0, 0, 99}}), 4), ElementsAre(12, 37, 61, 86));
+  EXPECT_TRUE(frames_in_motion(marks_of_run({}), 4).empty());
 }
 
 TEST(ScanSampling, pairs_frames_by_distance_or_turn) {
-  const auto pairs = pairs_by_motion(driven({{0.1, 0, 10}, {0, 3, 10}}), 0.25, mrpt::DEG2RAD(10.0), 100);
+  const auto pairs =
+      pairs_by_motion(marks_of_run({{0.1, 0, 10}, {0, 3, 10}}), 0.25, mrpt::DEG2RAD(10.0), 100);
   ASSERT_GE(pairs.size(), 5U);
   EXPECT_EQ(pairs[0].first, 0U);
   EXPECT_EQ(pairs[0].second, 3U);
   EXPECT_EQ(pairs[1].first, 3U);
   EXPECT_EQ(pairs.back().second - pairs.back().first, 4U) << "12 degrees";
-  EXPECT_EQ(pairs_by_motion(driven({{0.1, 0, 1000}}), 0.25, 1, 7).size(), 7U);
+  EXPECT_EQ(pairs_by_motion(marks_of_run({{0.1, 0, 1000}}), 0.25, 1, 7).size(), 7U);
 }
 
 TEST(ScanSampling, pairs_frames_by_turns_on_the_spot) {
-  const auto pairs = pairs_by_turn(driven({{0.1, 0, 50}, {0, 2, 30}, {0.1, 0, 50}}), mrpt::DEG2RAD(10.0),
-                                   mrpt::DEG2RAD(45.0), 0.5, 100);
+  const auto pairs = pairs_by_turn(marks_of_run({{0.1, 0, 50}, {0, 2, 30}, {0.1, 0, 50}}),
+                                   mrpt::DEG2RAD(10.0), mrpt::DEG2RAD(45.0), 0.5, 100);
   ASSERT_FALSE(pairs.empty());
   for (const FramePair& pair : pairs) {
     EXPECT_GE(pair.second, 50U);
@@ -63,8 +64,8 @@ TEST(ScanSampling, pairs_frames_by_turns_on_the_spot) {
   }
 }
 
-TEST(ScanSampling, finds_places_that_odometry_visits_again) {
-  const auto there_and_back = driven({{0.1, 0, 200}, {-0.1, 0, 200}});
+TEST(ScanSampling, finds_places_that_odometry_revisits) {
+  const auto there_and_back = marks_of_run({{0.1, 0, 200}, {-0.1, 0, 200}});
   const auto pairs = revisiting_pairs(there_and_back, 0.5, 0.5, 10, 100);
   ASSERT_GE(pairs.size(), 15U);
   for (const FramePair& pair : pairs) {
@@ -72,13 +73,14 @@ TEST(ScanSampling, finds_places_that_odometry_visits_again) {
     EXPECT_GE(pair.second - pair.first, 100U);
   }
   EXPECT_TRUE(revisiting_pairs(there_and_back, 0.5, 0.5, 50, 100).empty());
-  EXPECT_TRUE(revisiting_pairs(driven({{0.1, 0, 200}, {0, 3, 60}, {0.1, 0, 200}}), 0.5, 0.5, 10, 100).empty())
-      << "the other way round";
+  EXPECT_TRUE(
+      revisiting_pairs(marks_of_run({{0.1, 0, 200}, {0, 3, 60}, {0.1, 0, 200}}), 0.5, 0.5, 10, 100).empty())
+      << "opposite heading";
 }
 
-TEST(ScanSampling, finds_full_turns_whichever_way) {
+TEST(ScanSampling, finds_full_turns_in_both_directions) {
   for (const double turn_deg : {5.0, -5.0}) {
-    const auto marks = driven({{0.1, 0, 30}, {0, turn_deg, 75}, {0.1, 0, 30}});
+    const auto marks = marks_of_run({{0.1, 0, 30}, {0, turn_deg, 75}, {0.1, 0, 30}});
     const auto turns = full_turns(marks, 0.4, 1.5, 10);
     ASSERT_EQ(turns.size(), 1U);
     EXPECT_GE(turns[0].size(), 12U);
@@ -86,13 +88,13 @@ TEST(ScanSampling, finds_full_turns_whichever_way) {
     const double turned_rad = headings_rad[turns[0].back()] - headings_rad[turns[0].front()];
     EXPECT_NEAR(std::abs(turned_rad), 2 * M_PI, 0.05);
   }
-  EXPECT_TRUE(full_turns(driven({{0, 5, 60}}), 0.4, 1.5, 10).empty()) << "300 degrees";
-  EXPECT_TRUE(full_turns(driven({{0.1, 5, 80}}), 0.4, 1.0, 10).empty()) << "too wide";
+  EXPECT_TRUE(full_turns(marks_of_run({{0, 5, 60}}), 0.4, 1.5, 10).empty()) << "300 degrees";
+  EXPECT_TRUE(full_turns(marks_of_run({{0.1, 5, 80}}), 0.4, 1.0, 10).empty()) << "too wide";
 }
 
-TEST(ScanSampling, fetches_the_scans_it_is_asked_for) {
+TEST(ScanSampling, fetches_the_wanted_scans) {
   const TemporaryFolder folder;
-  const SimulatedRun run = drive({{0.1, 0, 20}});
+  const SimulatedRun run = simulated_run({{0.1, 0, 20}});
   write_file(folder.path() / "log", carmen_log(run));
   ScanLibrary library;
   library.want(std::vector<std::size_t>{3, 17});

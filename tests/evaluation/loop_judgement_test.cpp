@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "psi_slam/open_log.h"
 #include "psi_slam/mapper.h"
+#include "psi_slam/open_log.h"
 #include "shared_logs.h"
 
 namespace psi_slam {
@@ -22,14 +22,15 @@ TimeUs time_of(std::size_t frame) {
   return kStart_us + static_cast<TimeUs>(frame) * 1'000'000;
 }
 
-/// Where the robot truly is: 20 m ahead by half metres, and the same way back beside it.
+/// True pose of the robot: 20 m ahead in steps of half a metre, then back on a parallel path.
 TPose2D truth(std::size_t frame) {
   const double along_m = 0.5 * static_cast<double>(frame);
   return frame <= 40 ? TPose2D(along_m, 0, 0) : TPose2D(40.5 - along_m, 0.4, M_PI);
 }
 
-/// That drive, every scan a node, one local map of nodes 4 to 12. The front end turns a little too far.
-MappingResult drive() {
+/// A run along the true path: each scan is a node, one local map has nodes 4 to 12. The front end turns too
+/// far.
+MappingResult run() {
   MappingResult result;
   TPose2D front_end_T_robot;
   for (std::size_t i = 0; i <= 80; ++i) {
@@ -62,8 +63,8 @@ Relation relation(std::size_t frame1, std::size_t frame2) {
   return {time_of(frame1), time_of(frame2), truth(frame2) - truth(frame1)};
 }
 
-TEST(LoopJudgement, a_true_loop_is_true_and_joins_the_passes) {
-  MappingResult result = drive();
+TEST(LoopJudgement, judges_a_true_loop_true) {
+  MappingResult result = run();
   add_loop(result, 71);
   for (const auto& [first, second] : {std::pair(10, 72), std::pair(72, 10)}) {
     const LoopJudgement judgement =
@@ -71,8 +72,7 @@ TEST(LoopJudgement, a_true_loop_is_true_and_joins_the_passes) {
     ASSERT_EQ(judgement.judged.size(), 1U);
     EXPECT_FALSE(judgement.judged.front().is_false);
     EXPECT_LT(judgement.judged.front().error_m, 0.05);
-    EXPECT_GT(judgement.judged.front().error_rad, 0.001)
-        << "the front end's ways in between are not the truth";
+    EXPECT_GT(judgement.judged.front().error_rad, 0.001) << "the front end's motion in between has errors";
     EXPECT_NEAR(judgement.judged.front().way_m, 0.5 + 3, 1e-6);
     EXPECT_EQ(judgement.precision(), 1);
     EXPECT_EQ(judgement.recall(), 1);
@@ -81,9 +81,9 @@ TEST(LoopJudgement, a_true_loop_is_true_and_joins_the_passes) {
 }
 
 TEST(LoopJudgement, a_loop_is_false_beyond_the_limits_and_the_drift) {
-  const std::vector<Relation> relations{relation(4, 71)};  // no way in between, so no drift
+  const std::vector<Relation> relations{relation(4, 71)};  // no distance in between, so no drift
   const auto is_false = [&](const TPose2D& moved) {
-    MappingResult result = drive();
+    MappingResult result = run();
     add_loop(result, 71, moved);
     const LoopJudgement judgement = judge_loops(result, relations);
     EXPECT_EQ(judgement.judged.size(), 1U);
@@ -96,8 +96,8 @@ TEST(LoopJudgement, a_loop_is_false_beyond_the_limits_and_the_drift) {
   EXPECT_TRUE(is_false({0, 0, -radians_from_degrees(5.1L)}));
 }
 
-TEST(LoopJudgement, drift_is_allowed_for_along_the_way_in_between) {
-  MappingResult result = drive();
+TEST(LoopJudgement, allows_for_drift_along_the_path_in_between) {
+  MappingResult result = run();
   add_loop(result, 71, {0.53, 0, 0});
   EXPECT_TRUE(judge_loops(result, {relation(4, 71)}).judged.front().is_false);
   LoopJudgementOptions generous;
@@ -107,8 +107,8 @@ TEST(LoopJudgement, drift_is_allowed_for_along_the_way_in_between) {
   EXPECT_TRUE(judge_loops(result, {relation(12, 71)}, generous).judged.front().is_false);
 }
 
-TEST(LoopJudgement, the_relation_with_the_shortest_way_judges) {
-  MappingResult result = drive();
+TEST(LoopJudgement, uses_the_nearest_relation) {
+  MappingResult result = run();
   add_loop(result, 71);
   Relation wrong = relation(12, 71);
   wrong.pose1_T_pose2.x += 3;
@@ -118,10 +118,10 @@ TEST(LoopJudgement, the_relation_with_the_shortest_way_judges) {
   EXPECT_FALSE(judgement.judged.front().is_false);
 }
 
-TEST(LoopJudgement, relations_elsewhere_on_the_path_say_nothing) {
-  MappingResult result = drive();
+TEST(LoopJudgement, ignores_relations_elsewhere_on_the_path) {
+  MappingResult result = run();
   add_loop(result, 71);
-  // Three nodes off the local map, off the node, and within the local map alone.
+  // Three nodes off the local map, off the node, within the local map only, and off the local map again.
   const LoopJudgement judgement =
       judge_loops(result, {relation(15, 71), relation(8, 74), relation(4, 12), relation(1, 71)});
   EXPECT_TRUE(judgement.judged.empty());
@@ -129,8 +129,8 @@ TEST(LoopJudgement, relations_elsewhere_on_the_path_say_nothing) {
   EXPECT_FALSE(judgement.precision());
 }
 
-TEST(LoopJudgement, only_accepted_loops_count) {
-  MappingResult result = drive();
+TEST(LoopJudgement, judges_accepted_loops_only) {
+  MappingResult result = run();
   add_loop(result, 71, {5, 0, 0});
   for (const LoopVerdict verdict :
        {LoopVerdict::kRefused, LoopVerdict::kSwitchedOff, LoopVerdict::kPending}) {
@@ -141,10 +141,10 @@ TEST(LoopJudgement, only_accepted_loops_count) {
   }
 }
 
-TEST(LoopJudgement, recall_is_of_relations_between_two_passes_of_a_place) {
-  MappingResult result = drive();
+TEST(LoopJudgement, recall_counts_relations_between_two_passes) {
+  MappingResult result = run();
   add_loop(result, 71);
-  // Joined; too near along the path; too far from each other; not joined.
+  // Joined, too near along the path, too far apart, not joined.
   const LoopJudgement judgement =
       judge_loops(result, {relation(10, 71), relation(10, 20), relation(0, 40), relation(30, 51)});
   EXPECT_EQ(judgement.passes, 2U);
@@ -153,8 +153,8 @@ TEST(LoopJudgement, recall_is_of_relations_between_two_passes_of_a_place) {
   EXPECT_FALSE(judge_loops(result, {relation(10, 20)}).recall());
 }
 
-TEST(LoopJudgement, times_between_scans_are_interpolated_and_unknown_ones_left_out) {
-  MappingResult result = drive();
+TEST(LoopJudgement, interpolates_between_scans_and_ignores_unknown_times) {
+  MappingResult result = run();
   add_loop(result, 71);
   Relation between = relation(10, 71);
   between.time1_us += 500'000;
@@ -177,7 +177,7 @@ TEST(LoopJudgement, finds_a_moved_loop_of_a_real_log) {
   options.beam_angles = BeamAngles::kCentredStepInclusive;
   options.max_range_m = 50;
   const auto source = open_log(*log, options);
-  Mapper mapper{MapperOptions()};
+  Mapper mapper;
   while (auto frame = source->next()) mapper.add(std::move(*frame));
   MappingResult result = mapper.finish();
   const LoopJudgement before = judge_loops(result, relations);

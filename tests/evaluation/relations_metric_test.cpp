@@ -31,8 +31,8 @@ TEST(RelationsMetric, a_perfect_trajectory_has_no_error) {
   EXPECT_NEAR(metric.cartographer_translation_abs_m.mean, 0, kTolerance);
 }
 
-TEST(RelationsMetric, a_wrong_turn_counts_in_cartographers_lengths_only) {
-  // The trajectory goes 10 m ahead as it should, but ends turned by a right angle.
+TEST(RelationsMetric, a_wrong_heading_counts_in_cartographers_lengths_only) {
+  // The trajectory goes 10 m ahead correctly, but its heading is wrong by a right angle.
   const RelationsMetric metric =
       evaluate_relations({{0, {0, 0, 0}}, {1'000'000, {10, 0, M_PI_2}}}, {{0, 1'000'000, {10, 0, 0}}});
   EXPECT_NEAR(metric.translation_abs_m.mean, 0, kTolerance);
@@ -41,14 +41,14 @@ TEST(RelationsMetric, a_wrong_turn_counts_in_cartographers_lengths_only) {
   EXPECT_NEAR(metric.cartographer_translation_abs_m.mean, std::hypot(10, 10), kTolerance);
 }
 
-TEST(RelationsMetric, the_order_of_times_in_a_relation_is_free) {
+TEST(RelationsMetric, accepts_relations_in_either_order_of_time) {
   const RelationsMetric metric =
       evaluate_relations({{0, {0, 0, 0}}, {1'000'000, {3, 0, M_PI_2}}}, {{1'000'000, 0, {0, 3, -M_PI_2}}});
   EXPECT_NEAR(metric.translation_abs_m.mean, 0, kTolerance);
   EXPECT_NEAR(metric.rotation_abs_deg.mean, 0, kTolerance);
 }
 
-TEST(RelationsMetric, summaries_are_those_of_the_population) {
+TEST(RelationsMetric, summarises_the_population) {
   const ErrorSummary summary = summarize({4, 1, 2, 3});
   EXPECT_DOUBLE_EQ(summary.mean, 2.5);
   EXPECT_DOUBLE_EQ(summary.std, std::sqrt(1.25));
@@ -92,7 +92,7 @@ TEST(RelationsMetric, a_pose_within_a_tenth_of_a_millisecond_is_exact) {
   EXPECT_NEAR(metric.translation_abs_m.mean, 1e-4, 1e-12);
 }
 
-TEST(RelationsMetric, skips_and_counts_what_lies_outside_or_in_a_long_gap) {
+TEST(RelationsMetric, skips_and_counts_relations_outside_or_in_a_long_gap) {
   const Trajectory trajectory = {{0, {}}, {1'000'000, {}}, {4'000'000, {}}};
   const std::vector<Relation> relations = {{0, 1'000'000, {}},           // used
                                            {-1'000'000, 1'000'000, {}},  // before the beginning
@@ -107,16 +107,16 @@ TEST(RelationsMetric, skips_and_counts_what_lies_outside_or_in_a_long_gap) {
   EXPECT_THROW(evaluate_relations(trajectory, relations, {-1}), std::invalid_argument);
 }
 
-TEST(RelationsMetric, time_order_is_made_and_poses_of_one_time_keep_their_order) {
+TEST(RelationsMetric, sorts_by_time_and_keeps_the_order_of_equal_times) {
   const Trajectory trajectory = {
       {2'000'000, {2, 0, 0}}, {0, {0, 0, 0}}, {1'000'000, {1, 0, 0}}, {1'000'000, {7, 0, 0}}};
   const RelationsMetric metric =
       evaluate_relations(trajectory, {{0, 1'000'000, {1, 0, 0}}, {0, 1'500'000, {4.5, 0, 0}}});
   EXPECT_NEAR(metric.errors[0].translation_m, 0, kTolerance) << "the first of that time";
-  EXPECT_NEAR(metric.errors[1].translation_m, 0, kTolerance) << "from the last of that time on";
+  EXPECT_NEAR(metric.errors[1].translation_m, 0, kTolerance) << "interpolated from the last of that time";
 }
 
-TEST(RelationsMetric, no_match_at_all_is_told_with_both_spans_of_time) {
+TEST(RelationsMetric, names_both_spans_of_time_if_nothing_matches) {
   try {
     evaluate_relations({{10'000'000, {}}, {20'000'000, {}}}, {{976052905167303, 976052896784509, {}}});
     FAIL() << "no exception";
@@ -126,7 +126,7 @@ TEST(RelationsMetric, no_match_at_all_is_told_with_both_spans_of_time) {
   }
 }
 
-TEST(RelationsMetric, reads_relations_and_tells_mistakes_with_file_and_line) {
+TEST(RelationsMetric, reads_relations_and_names_file_and_line_of_errors) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "log.relations";
   std::ofstream(path) << "# true relations\n976052905.167303 976052911.885496 -0.05 -0.13 0 0 0 -1.68221\n";
@@ -146,10 +146,10 @@ TEST(RelationsMetric, reads_relations_and_tells_mistakes_with_file_and_line) {
   EXPECT_THAT(complaint("\n1 2 3\n"),
               HasSubstr("log.relations:2: expected 'time1 time2 x y z roll pitch yaw'"));
   EXPECT_THAT(complaint("1 2 3 4 5 6 7 east\n"), HasSubstr("yaw in radians"));
-  EXPECT_THAT(complaint("#\n"), HasSubstr("no relation in it"));
+  EXPECT_THAT(complaint("#\n"), HasSubstr("no relation found"));
 }
 
-// The same rules once more, slowly and by other means: homogeneous matrices, linear searches.
+// The metric again, computed slowly by other means: homogeneous matrices, linear searches.
 struct SlowErrors {
   double translation_m;
   double rotation_deg;

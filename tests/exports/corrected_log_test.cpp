@@ -11,8 +11,8 @@
 
 #include "carmen/carmen_reader.h"
 #include "psi_slam/open_log.h"
-#include "trajectory/trajectory_file.h"
 #include "temporary_folder.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -38,7 +38,7 @@ std::vector<std::string> lines(const std::filesystem::path& path, const std::str
   return found;
 }
 
-TEST(CorrectedLog, every_scan_stands_in_the_logs_order_with_both_poses_and_its_own_time) {
+TEST(CorrectedLog, writes_scans_in_order_with_both_poses_and_their_time) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "trajectory.carmen";
   write_corrected_log(
@@ -55,7 +55,7 @@ TEST(CorrectedLog, every_scan_stands_in_the_logs_order_with_both_poses_and_its_o
   EXPECT_EQ(lines(path, "# beams: 3, from -28.6479 to 28.6479 degrees").size(), 1u);
 }
 
-TEST(CorrectedLog, is_read_back_as_the_trajectory_it_was_written_from) {
+TEST(CorrectedLog, reads_back_as_the_same_trajectory) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "trajectory.carmen";
   write_corrected_log(path, {frame(976052905167303, {7, 8, 0.5}, {1, 2, 3})}, {{-1.123456789, 2, -0.25}});
@@ -66,7 +66,7 @@ TEST(CorrectedLog, is_read_back_as_the_trajectory_it_was_written_from) {
   EXPECT_NEAR(read[0].pose.phi, -0.25, 1e-12);
 }
 
-/// Where the beams end, on the robot, from the right of the laser to its left.
+/// Ends of the beams in the robot's frame, from the right of the laser to its left.
 std::vector<mrpt::math::TPoint2D> beam_ends(const LaserScan& scan) {
   std::vector<mrpt::math::TPoint2D> ends;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
@@ -79,7 +79,7 @@ std::vector<mrpt::math::TPoint2D> beam_ends(const LaserScan& scan) {
   return ends;
 }
 
-TEST(CorrectedLog, lasers_of_any_mount_are_read_back_with_their_beams_where_they_were) {
+TEST(CorrectedLog, keeps_the_beams_of_lasers_with_any_mount) {
   constexpr int kBeams = 181;
   const mrpt::math::TPose2D rear(-0.31, 0.07, M_PI);
   const mrpt::math::TPose2D askew(0.2, -0.15, 0.75);
@@ -98,7 +98,7 @@ TEST(CorrectedLog, lasers_of_any_mount_are_read_back_with_their_beams_where_they
       const TemporaryFolder folder;
       const auto path = folder.path() / "trajectory.carmen";
       write_corrected_log(path, {written}, {{1, 2, -0.25}});
-      const auto read = CarmenReader(path, LogOptions()).next();
+      const auto read = open_carmen_log(path, LogOptions())->next();
       ASSERT_TRUE(read.has_value());
       const auto expected = beam_ends(written.scan);
       const auto ends = beam_ends(read->scan);
@@ -112,14 +112,14 @@ TEST(CorrectedLog, lasers_of_any_mount_are_read_back_with_their_beams_where_they
   }
 }
 
-TEST(CorrectedLog, wants_a_pose_for_each_scan) {
+TEST(CorrectedLog, needs_one_pose_per_scan) {
   const TemporaryFolder folder;
   EXPECT_THROW(write_corrected_log(folder.path() / "x", {frame(1, {}, {1, 2, 3})}, {}),
                std::invalid_argument);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "x"));
 }
 
-TEST(CorrectedLog, two_lasers_have_lines_of_their_own_and_are_read_back_as_one_frame) {
+TEST(CorrectedLog, writes_a_line_per_laser_that_reads_back_as_one_frame) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "trajectory.carmen";
   Frame both = frame(2'000'000, {7, 8, 0.5}, {1, 2, 3});

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every form of the map is opened by a program that is not ours and a room of 6 m x 4 m measured in it.
+// Opens each file of the map with a foreign program, which measures a room of 6 m x 4 m in it.
 #include "exports/map_files.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
+#include "exports/mapped_trajectory.h"
 #include "foreign_program.h"
-#include "psi_slam/user_error.h"
 #include "psi_slam/grid_map.h"
-#include "report/output_folder.h"
+#include "psi_slam/user_error.h"
 #include "simulated_room.h"
 #include "temporary_folder.h"
 #include "test_files.h"
@@ -22,7 +22,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 constexpr double kCell_m = 0.05;
-/// The walls stand on the borders of cells, and may be in either; a hair for rounding.
+/// The walls lie on borders of cells and may fall into either cell; 1 % allows for rounding.
 constexpr double kClose_m = 1.01 * kCell_m;
 
 class MapFiles : public testing::Test {
@@ -36,7 +36,7 @@ class MapFiles : public testing::Test {
     return folder_.path() / name;
   }
 
-  /// What another program measures in the file; "" where that program is not installed.
+  /// Output of a Python script that measures the file.
   static ForeignRun measured(const std::filesystem::path& file) {
     return run_foreign("/usr/bin/python3 '" PSI_SLAM_MEASURE_MAP "' '" + file.string() + "'");
   }
@@ -61,7 +61,7 @@ class MapFiles : public testing::Test {
   if (run.code == ForeignRun::kNotInstalled) GTEST_SKIP(); \
   ASSERT_EQ(run.code, 0) << run.out
 
-TEST_F(MapFiles, cad_programs_find_the_walls_where_they_are) {
+TEST_F(MapFiles, cad_reader_finds_the_walls_in_place) {
   options_.dxf = true;
   MEASURE_OR_SKIP(run, write("map.dxf"));
   const std::vector<double> numbers = run.numbers();
@@ -69,10 +69,10 @@ TEST_F(MapFiles, cad_programs_find_the_walls_where_they_are) {
   expect_room(numbers, kClose_m);
   EXPECT_GE(numbers[4], 1) << "outlines on the layer WALLS";
   EXPECT_EQ(numbers[5], 1) << "one line on the layer TRAJECTORY";
-  EXPECT_EQ(numbers[6], 0) << "faults that the reader found";
+  EXPECT_EQ(numbers[6], 0) << "errors found by the reader";
 }
 
-TEST_F(MapFiles, gdal_reads_the_drawing_too) {
+TEST_F(MapFiles, gdal_reads_the_drawing) {
   options_.dxf = true;
   const ForeignRun run = run_foreign("ogrinfo -al -so '" + write("map.dxf").string() + "' 2>&1");
   if (run.code == 127) GTEST_SKIP() << "gdal-bin is not installed";
@@ -87,17 +87,17 @@ TEST_F(MapFiles, gdal_reads_the_drawing_too) {
   EXPECT_NEAR(y_max - y_min, 4, kClose_m);
 }
 
-TEST_F(MapFiles, the_svg_is_drawn_true_to_scale) {
+TEST_F(MapFiles, svg_is_true_to_scale) {
   options_.svg = true;
   MEASURE_OR_SKIP(run, write("map.svg"));
   const std::vector<double> numbers = run.numbers();
   ASSERT_EQ(numbers.size(), 7U) << run.out;
   expect_room(numbers, 1.5 * kCell_m);  // half a line's width more
-  EXPECT_NEAR(numbers[4], 60 + 2 * 5, 2) << "millimetres of paper, margins of 5 mm with them";
+  EXPECT_NEAR(numbers[4], 60 + 2 * 5, 2) << "millimetres of paper including margins of 5 mm";
   EXPECT_NEAR(numbers[5], numbers[4] * 10, 1) << "pixels at 254 dpi";
 }
 
-TEST_F(MapFiles, at_another_scale_the_drawing_needs_less_paper) {
+TEST_F(MapFiles, svg_follows_the_scale) {
   options_.svg = true;
   options_.print_scale = 50;
   EXPECT_THAT(read_file(write("map.svg")), HasSubstr("1:50"));
@@ -105,7 +105,7 @@ TEST_F(MapFiles, at_another_scale_the_drawing_needs_less_paper) {
   EXPECT_NEAR(run.numbers().at(4), 120 + 2 * 5, 4);
 }
 
-TEST_F(MapFiles, the_printed_picture_says_its_dpi_and_the_room_is_6_cm_wide) {
+TEST_F(MapFiles, printed_picture_has_its_dpi_and_scale) {
   options_.print = true;
   MEASURE_OR_SKIP(run, write("map_print.png"));
   const std::vector<double> numbers = run.numbers();
@@ -116,7 +116,7 @@ TEST_F(MapFiles, the_printed_picture_says_its_dpi_and_the_room_is_6_cm_wide) {
   EXPECT_NEAR(numbers[5], 300, 0.05);
 }
 
-TEST_F(MapFiles, the_geotiff_is_in_the_maps_own_metres_where_no_other_system_is_named) {
+TEST_F(MapFiles, geotiff_is_in_local_metres_by_default) {
   options_.geotiff = true;
   MEASURE_OR_SKIP(run, write("map.tif"));
   const std::vector<double> numbers = run.numbers();
@@ -125,7 +125,7 @@ TEST_F(MapFiles, the_geotiff_is_in_the_maps_own_metres_where_no_other_system_is_
   EXPECT_THAT(run.out, EndsWith(" local metre 255.0\n"));
 }
 
-TEST_F(MapFiles, the_geotiff_lies_and_turns_as_its_reference_says) {
+TEST_F(MapFiles, geotiff_follows_its_reference) {
   options_.geotiff = true;
   options_.earth = {25832, 500'000, 5'400'000, M_PI / 2};  // the map's x axis points north, its y axis west
   MEASURE_OR_SKIP(run, write("map.tif"));
@@ -138,7 +138,7 @@ TEST_F(MapFiles, the_geotiff_lies_and_turns_as_its_reference_says) {
   EXPECT_THAT(run.out, HasSubstr(" 25832 metre "));
 }
 
-TEST_F(MapFiles, only_what_was_asked_for_is_there) {
+TEST_F(MapFiles, writes_only_the_files_asked_for) {
   options_.ros = true;
   write("map.yaml");
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "map.pgm"));
@@ -148,10 +148,10 @@ TEST_F(MapFiles, only_what_was_asked_for_is_there) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
     names.push_back(entry.path().filename().string());
-  EXPECT_THAT(names, ElementsAre("map.dxf")) << "a map.pgm of another map would mislead";
+  EXPECT_THAT(names, ElementsAre("map.dxf")) << "map.pgm of the older map is deleted";
 }
 
-TEST_F(MapFiles, a_folder_that_is_gone_is_told_with_the_files_name) {
+TEST_F(MapFiles, reports_a_missing_folder) {
   for (bool MapFileOptions::*wanted :
        {&MapFileOptions::svg, &MapFileOptions::dxf, &MapFileOptions::print, &MapFileOptions::geotiff}) {
     MapFileOptions options = options_;

@@ -20,8 +20,7 @@ std::string contents(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// 3 m x 2 m from (-1.5, 4), free below, unknown above, one obstacle in the cell whose corner is
-/// (-0.5, 4.25).
+/// A map of 3 m x 2 m with corner (-1.5, 4): free below, unknown above, one obstacle at (-0.5, 4.25).
 COccupancyGridMap2D lopsided_map() {
   COccupancyGridMap2D grid(-1.5F, 1.5F, 4, 6, 0.25F);
   for (int x = 0; x < 12; ++x)
@@ -30,7 +29,7 @@ COccupancyGridMap2D lopsided_map() {
   return grid;
 }
 
-TEST(MapServerPair, the_image_has_row_0_on_top_and_the_three_values) {
+TEST(MapServerPair, image_has_row_0_on_top_and_three_values) {
   const TemporaryFolder folder;
   write_map_server_pair(folder.path() / "map.yaml", lopsided_map());
   const std::string header = "P5\n12 8\n255\n";
@@ -43,11 +42,11 @@ TEST(MapServerPair, the_image_has_row_0_on_top_and_the_three_values) {
   };
   EXPECT_EQ(pixel(0, 0), 205) << "unknown on top";
   EXPECT_EQ(pixel(0, 7), 254) << "free at the bottom";
-  EXPECT_EQ(pixel(4, 6), 0) << "the obstacle in the last row but one";
+  EXPECT_EQ(pixel(4, 6), 0) << "the obstacle in the second row from below";
   EXPECT_EQ(std::count(pgm.begin() + static_cast<std::ptrdiff_t>(header.size()), pgm.end(), '\0'), 1);
 }
 
-TEST(MapServerPair, the_yaml_names_the_image_and_the_lower_left_corner) {
+TEST(MapServerPair, yaml_names_the_image_and_the_lower_left_corner) {
   const TemporaryFolder folder;
   write_map_server_pair(folder.path() / "map.yaml", lopsided_map());
   EXPECT_EQ(contents(folder.path() / "map.yaml"),
@@ -60,20 +59,20 @@ TEST(MapServerPair, the_yaml_names_the_image_and_the_lower_left_corner) {
             "mode: trinary\n");
 }
 
-TEST(MapServerPair, lengths_are_written_as_a_person_would) {
+TEST(MapServerPair, writes_lengths_without_trailing_zeros) {
   const TemporaryFolder folder;
   write_map_server_pair(folder.path() / "map.yaml", COccupancyGridMap2D(-37.3F, 10, -1234.55F, 0, 0.05F));
   EXPECT_THAT(contents(folder.path() / "map.yaml"),
               HasSubstr("resolution: 0.05\norigin: [-37.3, -1234.55, 0.0]\n"));
 }
 
-TEST(MapServerPair, a_name_that_could_be_taken_for_yaml_is_quoted) {
+TEST(MapServerPair, quotes_names_with_yaml_characters) {
   const TemporaryFolder folder;
   write_map_server_pair(folder.path() / "it's: a #1.yaml", lopsided_map());
   EXPECT_THAT(contents(folder.path() / "it's: a #1.yaml"), HasSubstr("image: 'it''s: a #1.pgm'\n"));
 }
 
-TEST(MapServerPair, mrpt_loads_it_back_in_place) {
+TEST(MapServerPair, mrpt_loads_it_at_the_same_place) {
   const TemporaryFolder folder;
   const COccupancyGridMap2D written = lopsided_map();
   write_map_server_pair(folder.path() / "map.yaml", written);
@@ -89,7 +88,7 @@ TEST(MapServerPair, mrpt_loads_it_back_in_place) {
   EXPECT_GT(read.getPos(-0.4F, 4.6F), 0.8F);
 }
 
-TEST(MapServerPair, a_folder_that_is_not_there_is_told) {
+TEST(MapServerPair, reports_a_missing_folder) {
   const TemporaryFolder folder;
   EXPECT_THROW(write_map_server_pair(folder.path() / "missing" / "map.yaml", lopsided_map()), SystemFailure);
 }

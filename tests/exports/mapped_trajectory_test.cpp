@@ -6,9 +6,9 @@
 namespace psi_slam {
 namespace {
 
-TEST(MappedTrajectory, has_the_pose_in_the_map_of_every_frame_in_their_order) {
+TEST(MappedTrajectory, has_the_mapped_pose_of_each_frame_in_order) {
   std::vector<FrameRecord> frames(2);
-  frames[0].time_us = 2'000'000;  // stamps may go back
+  frames[0].time_us = 2'000'000;  // times may decrease
   frames[0].map_T_robot = {1, 2, 0.3};
   frames[0].front_end_T_robot = {9, 9, 0.9};
   frames[1].time_us = 1'000'000;

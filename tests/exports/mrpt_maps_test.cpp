@@ -27,7 +27,7 @@ TEST(MrptMaps, mrpt_loads_the_simple_map_with_poses_scans_and_times) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "map.simplemap.gz";
   const MappingResult result = walk_around_the_room();
-  write_simple_map(path, simple_map(result));
+  write_mrpt_map(path, simple_map(result));
   mrpt::maps::CSimpleMap read;
   ASSERT_TRUE(read.loadFromFile(path.string()));
   ASSERT_EQ(read.size(), result.node_frames.size());
@@ -53,7 +53,7 @@ TEST(MrptMaps, mrpt_loads_the_grid_cell_by_cell) {
   for (unsigned y = 0; y < grid.getSizeY(); ++y)
     for (unsigned x = 0; x < grid.getSizeX(); ++x)
       grid.setCell(static_cast<int>(x), static_cast<int>(y), static_cast<float>(random() % 100) / 100);
-  write_grid_map(path, grid);
+  write_mrpt_map(path, grid);
   mrpt::io::CFileGZInputStream file(path.string());
   mrpt::maps::COccupancyGridMap2D read;
   mrpt::serialization::archiveFrom(file) >> read;
@@ -61,11 +61,11 @@ TEST(MrptMaps, mrpt_loads_the_grid_cell_by_cell) {
   EXPECT_EQ(read.getXMin(), grid.getXMin());
 }
 
-TEST(MrptMaps, the_same_map_gives_the_same_bytes_without_a_time_in_the_header) {
+TEST(MrptMaps, equal_maps_give_equal_bytes_without_a_time_in_the_header) {
   const TemporaryFolder folder;
   const MappingResult result = walk_around_the_room();
-  write_simple_map(folder.path() / "a.gz", simple_map(result));
-  write_simple_map(folder.path() / "b.gz", simple_map(result));
+  write_mrpt_map(folder.path() / "a.gz", simple_map(result));
+  write_mrpt_map(folder.path() / "b.gz", simple_map(result));
   const std::string bytes = contents(folder.path() / "a.gz");
   EXPECT_EQ(bytes, contents(folder.path() / "b.gz"));
   EXPECT_EQ(bytes.substr(0, 8), std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00", 8));

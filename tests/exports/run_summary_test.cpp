@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
+#include "exports/mapped_trajectory.h"
 #include "psi_slam/grid_map.h"
-#include "report/output_folder.h"
 #include "simulated_room.h"
 
 namespace psi_slam {
@@ -16,7 +17,7 @@ RunSummary summary_of(const MappingResult& result) {
   return summarize_run(result, *draw_grid_map(result.log, mapped_poses(result)));
 }
 
-TEST(RunSummary, tells_what_was_read) {
+TEST(RunSummary, describes_the_log) {
   MappingResult result = walk_around_the_room();
   std::swap(result.log[10].time_us, result.log[11].time_us);
   const MappedLogFacts log = summary_of(result).log;
@@ -44,12 +45,12 @@ TEST(RunSummary, counts_the_returns_of_all_lasers) {
   EXPECT_NEAR(log.returns, 50.0 / 75, 1e-12);
 }
 
-TEST(RunSummary, counts_loops_and_like_reasons_together) {
+TEST(RunSummary, counts_loops_and_their_reasons) {
   MappingResult result = walk_around_the_room();
   LoopRecord refused = result.loops[0];
-  refused.reason = "response 0.5 is below 0.55";
+  refused.refusal->value = 0.5;
   result.loops.push_back(refused);
-  refused.reason = "the walls disagree";
+  refused.refusal->reason = LoopRefusal::Reason::kContradicted;
   refused.verdict = LoopVerdict::kSwitchedOff;
   result.loops.push_back(refused);
   const LoopCounts loops = summary_of(result).loops;
@@ -57,7 +58,7 @@ TEST(RunSummary, counts_loops_and_like_reasons_together) {
   EXPECT_EQ(loops.refused, 2U);
   EXPECT_EQ(loops.switched_off, 1U);
   ASSERT_EQ(loops.reasons.size(), 2U);
-  EXPECT_EQ(loops.reasons[0].reason, "response … is below …");
+  EXPECT_EQ(loops.reasons[0].reason, LoopRefusal::Reason::kLowResponse);
   EXPECT_EQ(loops.reasons[0].count, 2U);
 }
 
@@ -68,10 +69,10 @@ TEST(RunSummary, counts_attempts_that_found_nothing) {
   EXPECT_EQ(summary.loops.found, 2U);
   std::int64_t of_frames = 0;
   for (const FrameRecord& frame : result.frames) of_frames += frame.evaluations;
-  EXPECT_EQ(summary.evaluations, of_frames + 200) << "and those of the last pass";
+  EXPECT_EQ(summary.evaluations, of_frames + 200) << "plus those of the final search";
 }
 
-TEST(RunSummary, a_loop_still_pending_when_the_run_was_stopped_counts_as_refused) {
+TEST(RunSummary, counts_pending_loops_of_a_stopped_run_as_refused) {
   MappingResult result = walk_around_the_room();
   result.loops[1].verdict = LoopVerdict::kPending;
   const LoopCounts loops = summary_of(result).loops;
@@ -79,7 +80,7 @@ TEST(RunSummary, a_loop_still_pending_when_the_run_was_stopped_counts_as_refused
   EXPECT_EQ(loops.accepted + loops.switched_off, 0U);
 }
 
-TEST(RunSummary, tells_speed_memory_and_map) {
+TEST(RunSummary, has_speed_memory_and_map) {
   const RunSummary summary = summary_of(walk_around_the_room());
   EXPECT_NEAR(summary.real_time_factor, 9.8 / 0.5, 1e-9);
   EXPECT_GT(summary.peak_memory_mib, 1);
@@ -88,10 +89,10 @@ TEST(RunSummary, tells_speed_memory_and_map) {
   EXPECT_NEAR(summary.map.x_min_m, -2, 0.11);
   EXPECT_NEAR(summary.map.y_max_m, 3, 0.11);
   EXPECT_NEAR(summary.map.free_m2, 6 * 4, 1.5);
-  EXPECT_NEAR(summary.path_length_m, 9.69, 0.4) << "around an ellipse of 2 m by 1 m, but for its last step";
+  EXPECT_NEAR(summary.path_length_m, 9.69, 0.4) << "an ellipse of 2 m by 1 m without its last step";
 }
 
-TEST(RunSummary, tells_when_the_map_is_coarser_than_asked_for) {
+TEST(RunSummary, reports_a_map_that_is_coarser_than_asked_for) {
   const MappingResult result = walk_around_the_room();
   const auto text_of = [&](const GridMapOptions& asked) {
     const auto grid = draw_grid_map(result.log, mapped_poses(result), asked);
@@ -102,10 +103,10 @@ TEST(RunSummary, tells_when_the_map_is_coarser_than_asked_for) {
   asked.resolution_m = 0.1;
   EXPECT_EQ(text_of(asked), "");
   asked.max_cells = 1000;
-  EXPECT_EQ(text_of(asked), "map.max_cells leaves no room for cells of 0.1 m: those of the map are 0.2 m");
+  EXPECT_EQ(text_of(asked), "map.max_cells limits the map to cells of 0.2 m instead of 0.1 m");
 }
 
-TEST(RunSummary, a_robot_that_trembles_goes_nowhere) {
+TEST(RunSummary, ignores_the_jitter_of_a_robot_at_rest) {
   std::vector<mrpt::math::TPose2D> poses;
   for (int i = 0; i < 1000; ++i) poses.emplace_back(i % 2 == 0 ? 0.03 : 0, 0, 0);
   EXPECT_NEAR(path_length_m(poses), 0.03, 1e-9);
@@ -120,6 +121,64 @@ TEST(RunSummary, an_empty_run_has_zeros) {
   EXPECT_EQ(summary.log.scans, 0U);
   EXPECT_EQ(summary.real_time_factor, 0);
   EXPECT_EQ(summary.mean_response, 0);
+}
+
+RunSummary some_figures() {
+  RunSummary summary;
+  summary.log.scans = 50;
+  summary.log.first_time_us = 976052905167303;
+  summary.log.duration_s = 9.8;
+  summary.loops.accepted = 1;
+  summary.loops.reasons = {{LoopRefusal::Reason::kLowResponse, 7}};
+  summary.real_time_factor = 19.6;
+  summary.peak_memory_mib = 123.4;
+  summary.final_search_cut_short = true;
+  summary.broken_off = "room.clf:41: expected a number";
+  summary.log.companion_scans = 48;
+  summary.log.spare_scans = 2;
+  return summary;
+}
+
+TEST(SummaryJson, has_schema_and_figures) {
+  const MappingResult result = walk_around_the_room();
+  const RunInfo info{
+      "0.1.0", "room \"1\".clf", {{"front_end.window_x_m", "0.3"}}, {"line 7 is not a message"}};
+  const auto json = nlohmann::json::parse(summary_json(result, info, some_figures()));
+  EXPECT_EQ(json["schema"], "psi-slam-summary");
+  EXPECT_EQ(json["schema_version"], kSummarySchemaVersion);
+  EXPECT_EQ(json["warnings"], nlohmann::json::array({"line 7 is not a message"}));
+  EXPECT_EQ(json["program_version"], "0.1.0");
+  EXPECT_EQ(json["log"]["name"], "room \"1\".clf");
+  EXPECT_EQ(json["log"]["scans"], 50);
+  EXPECT_EQ(json["log"]["first_time_s"], "976052905.167303");
+  EXPECT_EQ(json["log"]["companion_scans"], 48);
+  EXPECT_EQ(json["log"]["spare_scans"], 2);
+  EXPECT_EQ(json["real_time_factor"], 19.6);
+  EXPECT_EQ(json["last_pass_cut_short"], true);
+  EXPECT_EQ(json["broken_off"], "room.clf:41: expected a number");
+  EXPECT_EQ(json["settings"]["front_end.window_x_m"], "0.3");
+  EXPECT_EQ(json["loop_counts"]["reasons"][0]["count"], 7);
+  EXPECT_EQ(json["loop_counts"]["reasons"][0]["reason"], "the response is too low");
+  ASSERT_EQ(json["loop_matchers"].size(), 1U);
+  const auto& matcher = json["loop_matchers"][0];
+  EXPECT_EQ(matcher["matcher"], "csm");
+  EXPECT_EQ(matcher["attempts"], 12);
+  EXPECT_EQ(matcher["found"], 2);
+  EXPECT_EQ(matcher["accepted"], 1);
+  EXPECT_EQ(matcher["evaluations"], 600);
+  EXPECT_EQ(matcher["milliseconds"], 45.25);
+  EXPECT_EQ(matcher["last_pass"]["attempts"], 2);
+  EXPECT_EQ(matcher["last_pass"]["accepted"], 0);
+  EXPECT_EQ(json["stages"][0]["calls"], 50);
+}
+
+TEST(SummaryJson, replaces_values_that_are_not_finite_or_not_utf8) {
+  RunSummary summary = some_figures();
+  summary.mean_response = std::numeric_limits<double>::quiet_NaN();
+  const auto json = nlohmann::json::parse(summary_json({}, {"0.1.0", "caf\xe9.clf", {}}, summary));
+  EXPECT_TRUE(json["mean_response"].is_null());
+  EXPECT_TRUE(json["settings"].is_object());
+  EXPECT_TRUE(nlohmann::json::parse(summary_json({}, {}, {}))["broken_off"].is_null());
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ void expect_bearings(const std::vector<double>& found, double first, double befo
   EXPECT_NEAR(found.back(), last, tolerance_deg);
 }
 
-TEST(BeamAngles, place_180_beams_as_each_convention_says) {
+TEST(BeamAngles, convention_determines_the_bearings_of_180_beams) {
   const double step = 180.0 / 179.0;
   expect_bearings(degrees(BeamAngles::kCentredStepInclusive, 180, 180), -90, -step / 2, step / 2, 90);
   expect_bearings(degrees(BeamAngles::kCentredHalfStep, 180, 180), -89.5, -0.5, 0.5, 89.5);
@@ -38,12 +38,12 @@ TEST(BeamAngles, place_180_beams_as_each_convention_says) {
   expect_bearings(degrees(BeamAngles::kSkipZero, 180, 180), -90, -1, 1, 90);
 }
 
-TEST(BeamAngles, place_an_odd_count_with_a_beam_in_the_middle) {
+TEST(BeamAngles, odd_numbers_have_a_beam_straight_ahead) {
   expect_bearings(degrees(BeamAngles::kCentredStepInclusive, 361, 180), -90, -0.5, 0, 90);
   expect_bearings(degrees(BeamAngles::kCentredStepInclusive, 541, 270), -135, -0.5, 0, 135);
 }
 
-TEST(BeamAngles, know_the_usual_fields_of_view) {
+TEST(BeamAngles, usual_numbers_of_beams_have_usual_fields_of_view) {
   EXPECT_NEAR(*usual_field_of_view_rad(180), DEG2RAD(180.0), 1e-12);
   EXPECT_NEAR(*usual_field_of_view_rad(181), DEG2RAD(180.0), 1e-12);
   EXPECT_NEAR(*usual_field_of_view_rad(360), DEG2RAD(180.0), 1e-12);
@@ -58,7 +58,7 @@ TEST(BeamAngles, know_the_usual_fields_of_view) {
   EXPECT_EQ(usual_field_of_view_rad(97), std::nullopt);
 }
 
-TEST(BeamAngles, keep_whole_steps_for_each_usual_count) {
+TEST(BeamAngles, usual_numbers_of_beams_have_whole_steps) {
   for (const auto& [beams, step_deg] : std::vector<std::pair<std::size_t, double>>{
            {180, 1.0}, {181, 1.0}, {360, 0.5}, {361, 0.5}, {540, 0.5}, {541, 0.5}}) {
     const auto bearings = degrees(BeamAngles::kAuto, beams, RAD2DEG(*usual_field_of_view_rad(beams)));
@@ -66,18 +66,19 @@ TEST(BeamAngles, keep_whole_steps_for_each_usual_count) {
   }
 }
 
-TEST(BeamAngles, refuse_to_skip_the_middle_of_an_odd_count) {
+TEST(BeamAngles, skip_zero_rejects_odd_numbers) {
   EXPECT_EQ(sentence_of([] { make_bearings_rad(BeamAngles::kSkipZero, 181, 3.0); }),
-            "beam angles skip_zero need an even number of beams, and the scans have 181");
+            "log.beam_angles is skip_zero, which needs an even number of beams, but the scans have 181. "
+            "Choose another convention");
 }
 
-TEST(BeamAngles, put_a_single_beam_straight_ahead) {
+TEST(BeamAngles, single_beam_points_straight_ahead) {
   for (const BeamAngles angles :
        {BeamAngles::kCentredStepInclusive, BeamAngles::kCentredHalfStep, BeamAngles::kLeftOpen})
     EXPECT_THAT(make_bearings_rad(angles, 1, 3.0), testing::ElementsAre(0.0F));
 }
 
-TEST(BeamAngles, have_names_that_read_back) {
+TEST(BeamAngles, names_can_be_read_back) {
   for (const BeamAngles angles : stated_beam_angles()) EXPECT_EQ(beam_angles_named(name_of(angles)), angles);
   EXPECT_EQ(beam_angles_named("auto"), BeamAngles::kAuto);
   EXPECT_EQ(stated_beam_angles().size(), 4U);

@@ -12,7 +12,7 @@ namespace {
 using mrpt::math::TPose2D;
 using testing::ElementsAre;
 
-TEST(LaserChoice, is_the_usual_one_or_one_or_several_or_all) {
+TEST(LaserChoice, selects_the_usual_one_or_one_by_name_or_several_or_all) {
   EXPECT_FALSE(laser_choice("log.laser", "").several());
   EXPECT_TRUE(laser_choice("log.laser", "").names.empty());
   EXPECT_THAT(laser_choice("log.laser", "Hokuyo UTM").names, ElementsAre("Hokuyo UTM"));
@@ -22,18 +22,16 @@ TEST(LaserChoice, is_the_usual_one_or_one_or_several_or_all) {
   EXPECT_TRUE(laser_choice("log.laser", "all").several());
 }
 
-TEST(LaserChoice, refuses_names_that_are_missing_or_come_twice) {
-  EXPECT_EQ(
-      sentence_of([] { laser_choice("log.scan_topic", "/a,"); }),
-      "log.scan_topic = \"/a,\" has a name missing, expected one laser, \"all\", or several with a comma "
-      "between any two");
-  EXPECT_EQ(
-      sentence_of([] { laser_choice("log.laser", "a,b,a"); }),
-      "log.laser = \"a,b,a\" has a name twice, expected one laser, \"all\", or several with a comma between "
-      "any two");
+TEST(LaserChoice, rejects_empty_and_repeated_names) {
+  EXPECT_EQ(sentence_of([] { laser_choice("log.scan_topic", "/a,"); }),
+            "log.scan_topic is \"/a,\" with an empty name, expected one laser, \"all\", or several lasers "
+            "separated by commas");
+  EXPECT_EQ(sentence_of([] { laser_choice("log.laser", "a,b,a"); }),
+            "log.laser is \"a,b,a\" with a repeated name, expected one laser, \"all\", or several lasers "
+            "separated by commas");
 }
 
-TEST(ChosenLasers, number_by_the_users_order_or_by_the_logs) {
+TEST(ChosenLasers, have_the_order_of_the_users_list_or_of_the_log) {
   ChosenLasers listed(laser_choice("", "b,a"));
   EXPECT_EQ(listed.number_of("a"), 1U);
   EXPECT_EQ(listed.number_of("c"), std::nullopt);
@@ -48,7 +46,7 @@ TEST(ChosenLasers, number_by_the_users_order_or_by_the_logs) {
   EXPECT_EQ(first.number_of("a"), std::nullopt);
 }
 
-TEST(StatedMounts, hold_a_pose_in_metres_and_degrees_and_whether_it_is_upside_down) {
+TEST(StatedMounts, are_parsed_with_name_pose_and_mirroring) {
   LogOptions options;
   EXPECT_TRUE(stated_mounts(options).empty());
   options.laser_mounts = "FLASER 0.2 0 0,  Hokuyo UTM -0.3 0.1 270 mirrored ";
@@ -61,17 +59,18 @@ TEST(StatedMounts, hold_a_pose_in_metres_and_degrees_and_whether_it_is_upside_do
   EXPECT_TRUE(mounts[1].mirrored);
 }
 
-TEST(StatedMounts, refuse_what_is_no_mount) {
+TEST(StatedMounts, reject_malformed_mounts) {
   for (const std::string mount :
        {"FLASER", "FLASER 0.2 0", "0.2 0 0", "FLASER 0.2 0 east", "FLASER 0 0 inf", ","}) {
     LogOptions options;
     options.laser_mounts = mount;
-    EXPECT_THAT(sentence_of([&] { stated_mounts(options); }), testing::StartsWith("log.laser_mounts has \""))
+    EXPECT_THAT(sentence_of([&] { stated_mounts(options); }),
+                testing::StartsWith("log.laser_mounts contains \""))
         << mount;
   }
 }
 
-TEST(StatedMounts, hold_for_the_laser_of_any_of_its_names) {
+TEST(StatedMounts, apply_to_any_name_of_the_laser) {
   LogOptions options;
   options.laser_mounts = "rear -0.3 0 180 mirrored";
   EXPECT_EQ(options_of_laser(options, {"RLASER", "rear"}).robot_T_laser->x, -0.3);
@@ -81,7 +80,7 @@ TEST(StatedMounts, hold_for_the_laser_of_any_of_its_names) {
   EXPECT_EQ(options_of_laser(options, {"RLASER", "rear"}).robot_T_laser, TPose2D(1, 2, 3));
 }
 
-TEST(LasersOfAFormat, topics_count_for_bags_alone_and_stand_over_the_lasers) {
+TEST(LasersOfAFormat, topics_override_lasers_in_bags_only) {
   LogOptions options;
   for (const LogFormat format : {LogFormat::kCarmen, LogFormat::kMrptRawlog, LogFormat::kRos1Bag}) {
     SCOPED_TRACE(name_of(format));
@@ -97,13 +96,13 @@ TEST(LasersOfAFormat, topics_count_for_bags_alone_and_stand_over_the_lasers) {
   }
 }
 
-TEST(LasersOfAFormat, several_have_no_pose_for_one) {
+TEST(LasersOfAFormat, several_lasers_reject_the_pose_of_a_single_laser) {
   LogOptions options;
   options.scan_topic = "all";
   options.robot_T_laser = TPose2D(1, 2, 3);
   EXPECT_THAT(sentence_of([&] { reads_several_lasers(options, LogFormat::kRos2Mcap); }),
-              testing::HasSubstr("expected log.laser_mounts"));
-  EXPECT_FALSE(reads_several_lasers(options, LogFormat::kCarmen)) << "it has one laser, the topic is a bag's";
+              testing::HasSubstr("with log.laser_mounts"));
+  EXPECT_FALSE(reads_several_lasers(options, LogFormat::kCarmen)) << "the topic applies to bags only";
 }
 
 }  // namespace

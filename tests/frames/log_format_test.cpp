@@ -29,7 +29,7 @@ class LogFormatTest : public testing::Test {
       "folder of a ROS 2 bag)";
 };
 
-TEST_F(LogFormatTest, knows_carmen_by_its_messages) {
+TEST_F(LogFormatTest, detects_carmen_by_its_messages) {
   EXPECT_EQ(format_of("# a comment\n\nFLASER 1 1.0 0 0 0 0 0 0 1 host 1\n"), LogFormat::kCarmen);
   EXPECT_EQ(format_of("PARAM robot_length 1\n"), LogFormat::kCarmen);
   EXPECT_EQ(format_of("GPS 1 2 3\nRAWLASER1 0\n"), LogFormat::kCarmen);
@@ -37,7 +37,7 @@ TEST_F(LogFormatTest, knows_carmen_by_its_messages) {
   EXPECT_EQ(detect_log_format(path_), LogFormat::kCarmen);
 }
 
-TEST_F(LogFormatTest, knows_rawlogs_by_their_first_object) {
+TEST_F(LogFormatTest, detects_rawlogs_by_their_first_object) {
   EXPECT_EQ(format_of("\x91"
                       "CActionCollection"
                       "\x01"),
@@ -45,27 +45,26 @@ TEST_F(LogFormatTest, knows_rawlogs_by_their_first_object) {
   EXPECT_EQ(format_of(std::string("\x98") + "mrpt::obs::CSensoryFrame" + "\x01"), LogFormat::kMrptRawlog);
 }
 
-TEST_F(LogFormatTest, knows_bags_by_their_first_bytes_and_folders_by_their_files) {
+TEST_F(LogFormatTest, detects_bags_by_their_first_bytes_and_folders_by_their_files) {
   EXPECT_EQ(format_of("#ROSBAG V2.0\n"), LogFormat::kRos1Bag);
   EXPECT_EQ(format_of(std::string("SQLite format 3\0", 16)), LogFormat::kRos2Sqlite);
   EXPECT_EQ(format_of("\x89MCAP0\r\n"), LogFormat::kRos2Mcap);
   write_file(folder_.path() / "run_0.mcap", "");
   EXPECT_EQ(detect_log_format(folder_.path()), LogFormat::kRos2Folder);
-  EXPECT_THAT(sentence_about("\x28\xB5\x2F\xFD"), testing::HasSubstr("zstd -d unpacks it"));
+  EXPECT_THAT(sentence_about("\x28\xB5\x2F\xFD"), testing::HasSubstr("Unpack it with zstd -d"));
 }
 
-TEST_F(LogFormatTest, says_what_else_it_found) {
+TEST_F(LogFormatTest, reports_empty_files_and_unknown_formats) {
   const std::string file = path_.string();
   EXPECT_EQ(sentence_about(""), file + " is empty" + expected_);
-  EXPECT_EQ(sentence_about("hello\nworld\n"), file + " is none of the formats that are read" + expected_);
-  EXPECT_EQ(sentence_about(std::string("FLASER 1\0", 9)),
-            file + " is none of the formats that are read" + expected_);
-  EXPECT_EQ(sentence_about("\x89PNG\r\n"), file + " is none of the formats that are read" + expected_);
+  EXPECT_EQ(sentence_about("hello\nworld\n"), file + " has an unknown format" + expected_);
+  EXPECT_EQ(sentence_about(std::string("FLASER 1\0", 9)), file + " has an unknown format" + expected_);
+  EXPECT_EQ(sentence_about("\x89PNG\r\n"), file + " has an unknown format" + expected_);
   write_gzipped(path_, "");
   EXPECT_EQ(sentence_of([&] { detect_log_format(path_); }), file + " is empty" + expected_);
 }
 
-TEST_F(LogFormatTest, says_when_there_is_no_such_file) {
+TEST_F(LogFormatTest, reports_missing_files_and_folders_without_a_bag) {
   EXPECT_EQ(sentence_of([&] { detect_log_format(path_); }), path_.string() + " does not exist" + expected_);
   EXPECT_EQ(sentence_of([&] { detect_log_format(folder_.path()); }),
             folder_.path().string() + " is a folder" + expected_);

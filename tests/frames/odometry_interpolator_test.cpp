@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
 namespace psi_slam {
@@ -15,14 +14,7 @@ Frame scan_at(TimeUs time_us) {
   return frame;
 }
 
-TEST(OdometryInterpolator, turns_the_shorter_way_round) {
-  const auto middle = interpolate({0, 0, M_PI - 0.1}, {2, 4, -M_PI + 0.3}, 0.5);
-  EXPECT_DOUBLE_EQ(middle.x, 1);
-  EXPECT_DOUBLE_EQ(middle.y, 2);
-  EXPECT_NEAR(middle.phi, -M_PI + 0.1, 1e-12);
-}
-
-TEST(OdometryInterpolator, waits_for_odometry_as_late_as_the_scan) {
+TEST(OdometryInterpolator, waits_for_odometry_of_the_scans_time_or_later) {
   OdometryInterpolator interpolator;
   interpolator.add_odometry(1'000'000, {1, 0, 0});
   interpolator.add_scan(scan_at(1'250'000));
@@ -37,7 +29,7 @@ TEST(OdometryInterpolator, waits_for_odometry_as_late_as_the_scan) {
   EXPECT_FALSE(interpolator.take());
 }
 
-TEST(OdometryInterpolator, gives_the_message_itself_at_its_own_time) {
+TEST(OdometryInterpolator, returns_the_message_at_its_own_time) {
   OdometryInterpolator interpolator;
   interpolator.add_odometry(10, {1, 2, 3});
   interpolator.add_odometry(20, {4, 5, -3});
@@ -45,7 +37,7 @@ TEST(OdometryInterpolator, gives_the_message_itself_at_its_own_time) {
   EXPECT_EQ(interpolator.take()->odom_T_robot, (mrpt::math::TPose2D{4, 5, -3}));
 }
 
-TEST(OdometryInterpolator, clamps_at_both_ends) {
+TEST(OdometryInterpolator, holds_the_pose_constant_beyond_both_ends) {
   OdometryInterpolator interpolator;
   interpolator.add_scan(scan_at(1));
   EXPECT_FALSE(interpolator.take()) << "no odometry yet";
@@ -58,7 +50,7 @@ TEST(OdometryInterpolator, clamps_at_both_ends) {
   EXPECT_EQ(interpolator.take()->odom_T_robot.x, 2);
 }
 
-TEST(OdometryInterpolator, keeps_the_order_of_scans_whose_time_runs_backwards) {
+TEST(OdometryInterpolator, keeps_the_order_of_scans_if_time_runs_backwards) {
   OdometryInterpolator interpolator;
   interpolator.add_odometry(0, {0, 0, 0});
   interpolator.add_scan(scan_at(150));
@@ -83,10 +75,10 @@ TEST(OdometryInterpolator, follows_a_clock_that_is_set_back) {
     SCOPED_TRACE(step);
     OdometryInterpolator interpolator;
     for (int i = 0; i <= 100; ++i) interpolator.add_odometry(i * kSecond, {1.0 * i, 0, 0});
-    interpolator.add_scan(scan_at(100 * kSecond + kSecond / 4));         // of the old clock, the last
-    interpolator.add_scan(scan_at(100 * kSecond + kSecond / 2 + step));  // of the new clock, the first
+    interpolator.add_scan(scan_at(100 * kSecond + kSecond / 4));         // last of the old clock
+    interpolator.add_scan(scan_at(100 * kSecond + kSecond / 2 + step));  // first of the new clock
     interpolator.add_scan(scan_at(100 * kSecond + 3 * kSecond / 4 + step));
-    EXPECT_FALSE(interpolator.take()) << "odometry has not told of the new clock yet";
+    EXPECT_FALSE(interpolator.take()) << "the first odometry of the new clock has not arrived yet";
     interpolator.add_odometry(101 * kSecond + step, {101, 0, 0});
     EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{100, 101, 101}));
     interpolator.add_scan(scan_at(101 * kSecond + kSecond / 2 + step));
@@ -96,7 +88,7 @@ TEST(OdometryInterpolator, follows_a_clock_that_is_set_back) {
   }
 }
 
-TEST(OdometryInterpolator, a_scan_between_old_and_new_time_waits_even_as_the_first) {
+TEST(OdometryInterpolator, a_first_scan_between_old_and_new_time_waits) {
   OdometryInterpolator interpolator;
   for (int i = 3600; i <= 3700; ++i) interpolator.add_odometry(i * kSecond, {1.0 * i, 0, 0});
   interpolator.add_scan(scan_at(100 * kSecond));
@@ -105,7 +97,7 @@ TEST(OdometryInterpolator, a_scan_between_old_and_new_time_waits_even_as_the_fir
   EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{3701}));
 }
 
-TEST(OdometryInterpolator, what_waits_for_the_old_clock_does_not_wait_for_the_new) {
+TEST(OdometryInterpolator, scans_of_the_old_clock_do_not_wait_for_the_new) {
   OdometryInterpolator interpolator;
   interpolator.add_odometry(3600 * kSecond, {1, 0, 0});
   interpolator.add_scan(scan_at(3605 * kSecond));
@@ -115,7 +107,7 @@ TEST(OdometryInterpolator, what_waits_for_the_old_clock_does_not_wait_for_the_ne
   EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{2}));
 }
 
-TEST(OdometryInterpolator, a_scan_of_no_known_time_gets_a_neighbour_in_the_log) {
+TEST(OdometryInterpolator, a_scan_outside_all_times_gets_a_neighbour_in_the_log) {
   OdometryInterpolator interpolator;
   for (int i = 1000; i <= 1100; ++i) {
     interpolator.add_odometry(i * kSecond, {1.0 * i, 0, 0});
@@ -124,7 +116,7 @@ TEST(OdometryInterpolator, a_scan_of_no_known_time_gets_a_neighbour_in_the_log) 
   EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{1050})) << "not the oldest message of all";
 }
 
-TEST(OdometryInterpolator, does_not_wait_forever_when_odometry_has_stopped) {
+TEST(OdometryInterpolator, stops_waiting_if_odometry_has_stopped) {
   OdometryInterpolator interpolator;
   interpolator.add_odometry(0, {7, 0, 0});
   for (std::size_t i = 0; i <= OdometryInterpolator::kMaxWaiting; ++i) interpolator.add_scan(scan_at(100));

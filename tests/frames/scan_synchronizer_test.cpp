@@ -36,8 +36,9 @@ std::string text(const Frame& frame) {
   return all;
 }
 
-/// The frames, "laser@ms" for each scan; `left_out` becomes the number of scans in none.
-std::vector<std::string> united(const std::vector<Stamp>& stamps, std::size_t* left_out = nullptr) {
+/// Combines scans and returns the frames as text, "laser@ms" for each scan. Sets `spare` to the number of
+/// scans that joined no frame.
+std::vector<std::string> synchronized(const std::vector<Stamp>& stamps, std::size_t* spare = nullptr) {
   ScanSynchronizer synchronizer;
   std::vector<std::string> frames;
   const auto take = [&] {
@@ -49,20 +50,20 @@ std::vector<std::string> united(const std::vector<Stamp>& stamps, std::size_t* l
   }
   synchronizer.end_of_log();
   take();
-  if (left_out != nullptr) *left_out = synchronizer.left_out();
+  if (spare != nullptr) *spare = synchronizer.spare_scans();
   return frames;
 }
 
 using testing::ElementsAre;
 
 TEST(ScanSynchronizer, the_nearest_scan_of_each_other_laser_joins) {
-  EXPECT_THAT(united({{0, 0}, {1, 30}, {2, 40}, {0, 100}, {1, 130}, {2, 140}}),
+  EXPECT_THAT(synchronized({{0, 0}, {1, 30}, {2, 40}, {0, 100}, {1, 130}, {2, 140}}),
               ElementsAre("0@0 1@30 2@40", "0@100 1@130 2@140"));
-  EXPECT_THAT(united({{0, 0}, {1, 70}, {0, 100}, {1, 170}, {0, 200}}),
+  EXPECT_THAT(synchronized({{0, 0}, {1, 70}, {0, 100}, {1, 170}, {0, 200}}),
               ElementsAre("0@0", "0@100 1@70", "0@200 1@170"));
 }
 
-TEST(ScanSynchronizer, tells_where_the_robot_was_when_the_other_laser_scanned) {
+TEST(ScanSynchronizer, companion_holds_the_motion_between_the_scans) {
   ScanSynchronizer synchronizer;
   Frame first = scan_of({0, 0});
   first.odom_T_robot = {1, 2, M_PI / 2};
@@ -86,12 +87,12 @@ TEST(ScanSynchronizer, a_scan_beyond_a_jump_of_odometry_does_not_join) {
     synchronizer.add(other);
     synchronizer.end_of_log();
     EXPECT_TRUE(synchronizer.take()->companions.empty());
-    EXPECT_EQ(synchronizer.left_out(), 1U);
+    EXPECT_EQ(synchronizer.spare_scans(), 1U);
     EXPECT_FALSE(synchronizer.take());
   }
 }
 
-TEST(ScanSynchronizer, without_odometry_nothing_is_moved) {
+TEST(ScanSynchronizer, without_odometry_the_motion_is_zero) {
   ScanSynchronizer synchronizer;
   synchronizer.add(scan_of({0, 0}));
   Frame other = scan_of({1, 50});
@@ -102,13 +103,13 @@ TEST(ScanSynchronizer, without_odometry_nothing_is_moved) {
 }
 
 TEST(ScanSynchronizer, a_faster_laser_has_scans_to_spare) {
-  std::size_t left_out = 0;
-  EXPECT_THAT(united({{0, 0}, {1, 5}, {1, 30}, {1, 55}, {1, 80}, {0, 100}, {1, 105}}, &left_out),
+  std::size_t spare = 0;
+  EXPECT_THAT(synchronized({{0, 0}, {1, 5}, {1, 30}, {1, 55}, {1, 80}, {0, 100}, {1, 105}}, &spare),
               ElementsAre("0@0 1@5", "0@100 1@105"));
-  EXPECT_EQ(left_out, 3U);
+  EXPECT_EQ(spare, 3U);
 }
 
-/// Ten a second each, the second laser half a period later, both with stamps up to 8 ms off.
+/// Ten scans a second of each laser, the second laser half a period later. Stamps are off by up to 8 ms.
 std::vector<Stamp> half_a_period_apart(unsigned seed) {
   std::vector<Stamp> stamps;
   std::mt19937 random(seed);
@@ -119,55 +120,55 @@ std::vector<Stamp> half_a_period_apart(unsigned seed) {
   return stamps;
 }
 
-TEST(ScanSynchronizer, of_lasers_half_a_period_apart_no_scan_is_lost_but_at_an_end) {
+TEST(ScanSynchronizer, lasers_half_a_period_apart_lose_at_most_one_scan) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
-    std::size_t left_out = 0;
-    const auto frames = united(half_a_period_apart(seed), &left_out);
-    EXPECT_LE(left_out, 1U);
-    EXPECT_EQ(frames.size(), 400U) << "one of each scan of the first laser";
+    std::size_t spare = 0;
+    const auto frames = synchronized(half_a_period_apart(seed), &spare);
+    EXPECT_LE(spare, 1U);
+    EXPECT_EQ(frames.size(), 400U) << "one for each scan of the first laser";
     std::size_t alone = 0;
     for (const std::string& frame : frames) alone += frame.find(" 1@") == std::string::npos ? 1 : 0;
     EXPECT_LE(alone, 1U);
   }
 }
 
-TEST(ScanSynchronizer, a_detour_ends_though_no_frame_without_a_scan_comes) {
-  std::vector<Stamp> stamps{{1, -50}};  // belongs to the first frame, which has a nearer one
+TEST(ScanSynchronizer, detours_end_without_a_frame_that_lacks_a_scan) {
+  std::vector<Stamp> stamps{{1, -50}};  // the first frame has a nearer scan
   for (int i = 0; i < 30; ++i) stamps.insert(stamps.end(), {{0, 100 * i}, {1, 100 * i + 40}});
-  std::size_t left_out = 0;
-  const auto frames = united(stamps, &left_out);
-  EXPECT_EQ(left_out, 1U);
+  std::size_t spare = 0;
+  const auto frames = synchronized(stamps, &spare);
+  EXPECT_EQ(spare, 1U);
   EXPECT_EQ(frames[0], "0@0 1@-50");
   EXPECT_EQ(frames[3], "0@300 1@240") << "20 ms farther than the nearest";
   EXPECT_EQ(frames[20], "0@2000 1@2040");
 }
 
-TEST(ScanSynchronizer, what_lies_far_from_all_scans_of_lasers_before_is_a_frame_of_its_own) {
-  std::size_t left_out = 0;
+TEST(ScanSynchronizer, a_scan_far_from_all_scans_of_earlier_lasers_opens_a_frame) {
+  std::size_t spare = 0;
   EXPECT_THAT(
-      united({{0, 0}, {1, 10}, {1, 210}, {2, 230}, {1, 410}, {2, 430}, {0, 600}, {1, 610}}, &left_out),
+      synchronized({{0, 0}, {1, 10}, {1, 210}, {2, 230}, {1, 410}, {2, 430}, {0, 600}, {1, 610}}, &spare),
       ElementsAre("0@0 1@10", "1@210 2@230", "1@410 2@430", "0@600 1@610"));
-  EXPECT_EQ(left_out, 0U);
+  EXPECT_EQ(spare, 0U);
 }
 
-TEST(ScanSynchronizer, messages_may_come_in_another_order_than_they_were_stamped) {
-  EXPECT_THAT(united({{1, 20}, {0, 0}, {0, 100}, {0, 200}, {1, 120}, {1, 220}, {0, 300}}),
+TEST(ScanSynchronizer, messages_may_arrive_out_of_order) {
+  EXPECT_THAT(synchronized({{1, 20}, {0, 0}, {0, 100}, {0, 200}, {1, 120}, {1, 220}, {0, 300}}),
               ElementsAre("0@0 1@20", "0@100 1@120", "0@200 1@220", "0@300"));
 }
 
-TEST(ScanSynchronizer, scans_before_and_after_the_clock_was_set_are_strangers) {
-  EXPECT_THAT(united({{0, 5000}, {1, 5010}, {0, 5100}, {1, 100}, {0, 110}, {0, 210}, {1, 200}}),
+TEST(ScanSynchronizer, scans_before_and_after_a_clock_change_share_no_frame) {
+  EXPECT_THAT(synchronized({{0, 5000}, {1, 5010}, {0, 5100}, {1, 100}, {0, 110}, {0, 210}, {1, 200}}),
               ElementsAre("0@5000 1@5010", "0@5100", "0@110 1@100", "0@210 1@200"));
 }
 
-TEST(ScanSynchronizer, where_stamps_say_nothing_the_order_of_the_log_decides) {
-  EXPECT_THAT(united({{0, 7}, {1, 7}, {0, 7}, {1, 7}}), ElementsAre("0@7 1@7", "0@7 1@7"));
+TEST(ScanSynchronizer, the_order_of_the_log_decides_between_equal_stamps) {
+  EXPECT_THAT(synchronized({{0, 7}, {1, 7}, {0, 7}, {1, 7}}), ElementsAre("0@7 1@7", "0@7 1@7"));
 }
 
-TEST(ScanSynchronizer, does_not_wait_for_ever_for_time_to_pass) {
+TEST(ScanSynchronizer, stops_waiting_if_time_stands_still) {
   ScanSynchronizer synchronizer;
-  for (std::size_t i = 0; i <= ScanSynchronizer::kMostWaiting; ++i) {
+  for (std::size_t i = 0; i <= ScanSynchronizer::kMaxWaiting; ++i) {
     EXPECT_FALSE(synchronizer.take());
     synchronizer.add(scan_of({0, 0}));
   }
@@ -175,9 +176,9 @@ TEST(ScanSynchronizer, does_not_wait_for_ever_for_time_to_pass) {
   EXPECT_FALSE(synchronizer.take());
 }
 
-TEST(ScanSynchronizer, one_laser_alone_passes) {
-  EXPECT_THAT(united({{0, 0}, {0, 10}, {0, 5}, {0, 900}}), ElementsAre("0@0", "0@10", "0@5", "0@900"));
-  EXPECT_THAT(united({{1, 0}, {1, 10}}), ElementsAre("1@0", "1@10"));
+TEST(ScanSynchronizer, passes_a_single_laser_through) {
+  EXPECT_THAT(synchronized({{0, 0}, {0, 10}, {0, 5}, {0, 900}}), ElementsAre("0@0", "0@10", "0@5", "0@900"));
+  EXPECT_THAT(synchronized({{1, 0}, {1, 10}}), ElementsAre("1@0", "1@10"));
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the commands of the File menu do with the user's answers.
-#include "file_questions.h"
-
+// Commands of the File menu, with answers to their file dialogs.
 #include <gmock/gmock.h>
 
 #include <deque>
@@ -10,8 +8,8 @@
 #include "gui_run.h"
 #include "message_bar.h"
 #include "psi_slam/mapping_session.h"
-#include "session/settings.h"
 #include "report/output_folder.h"
+#include "session/settings.h"
 #include "settings_panel.h"
 #include "test_files.h"
 
@@ -24,7 +22,7 @@ using Answer = std::optional<std::filesystem::path>;
 class FileQuestionsTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run, of Debian's package xvfb";
+    if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run from Debian's package xvfb";
     gui_.then([this](MainFrame& frame) {
       frame.set_ask_for_file([this](const FileQuestion& question) -> Answer {
         asked_.push_back(question);
@@ -36,7 +34,7 @@ class FileQuestionsTest : public testing::Test {
     });
   }
   std::filesystem::path path(const std::string& name) const { return gui_.folder() / name; }
-  /// The command's question gets this answer.
+  /// Chooses a command and answers its file dialog.
   GuiRun& command(int id, const Answer& answer) {
     gui_.then([this, answer](MainFrame& frame) {
       frame.messages().dismiss();
@@ -49,7 +47,7 @@ class FileQuestionsTest : public testing::Test {
       return frame.messages().sentence().find(words) != std::string::npos;
     });
   }
-  /// A run that is finished.
+  /// Maps a short log to its end.
   void map_room() {
     const auto log = write_lines(path("room.log"), room_log_lines(20));
     command(kOpenLog, log)
@@ -63,13 +61,13 @@ class FileQuestionsTest : public testing::Test {
   std::vector<FileQuestion> asked_;
 };
 
-TEST_F(FileQuestionsTest, a_log_is_opened_its_results_and_the_view_are_written) {
+TEST_F(FileQuestionsTest, open_export_and_save_picture_use_the_chosen_files) {
   map_room();
   command(kExport, path("results"));
   until_it_says("All results are in");
-  write_file(path("view.png"), "something else, to be replaced");
+  write_file(path("view.png"), "an older file");
   command(kSavePicture, path("view.png"));
-  until_it_says("The picture is");
+  until_it_says("Picture saved in");
   EXPECT_EQ(gui_.run({}), 0);
   EXPECT_TRUE(std::filesystem::exists(path("results") / "report.html"));
   EXPECT_THAT(read_file(path("view.png")), HasSubstr("PNG"));
@@ -80,7 +78,7 @@ TEST_F(FileQuestionsTest, a_log_is_opened_its_results_and_the_view_are_written) 
   EXPECT_EQ(asked_[2].proposed_name, "view.png");
 }
 
-TEST_F(FileQuestionsTest, a_session_is_saved_half_way_and_opened_again) {
+TEST_F(FileQuestionsTest, a_session_saved_half_way_can_be_opened_and_resumed) {
   const auto log = write_lines(path("room.log"), room_log_lines(40));
   command(kOpenLog, log).when_phase(ReplayPhase::kPaused);
   for (int i = 0; i < 25; ++i) gui_.command(kStep);
@@ -89,7 +87,7 @@ TEST_F(FileQuestionsTest, a_session_is_saved_half_way_and_opened_again) {
            frame.replay()->snapshot()->phase == ReplayPhase::kPaused;
   });
   command(kSaveSession, path("half.session"));
-  until_it_says("The session is");
+  until_it_says("Session saved in");
   gui_.then([](MainFrame& frame) { frame.settings_panel().enter("front_end.window_m", "0.7"); });
   command(kOpenLog, path("half.session"))
       .when("25 scans again",
@@ -97,12 +95,13 @@ TEST_F(FileQuestionsTest, a_session_is_saved_half_way_and_opened_again) {
               return frame.replay()->stamps_us() && frame.replay()->stamps_us()->size() == 25;
             })
       .then([](MainFrame& frame) {
-        EXPECT_NE(frame.settings_panel().shown("front_end.window_m"), "0.7") << "the session has its own";
+        EXPECT_NE(frame.settings_panel().shown("front_end.window_m"), "0.7")
+            << "the session has its own settings";
         EXPECT_THAT(std::string(frame.GetTitle().utf8_string()), HasSubstr("half.session"));
       });
-  command(kGoOnWithLog, path("none.log"));
+  command(kResumeWithLog, path("none.log"));
   until_it_says("none.log does not exist");
-  command(kGoOnWithLog, log)
+  command(kResumeWithLog, log)
       .when("40 scans again",
             [](MainFrame& frame) {
               return frame.replay()->stamps_us() && frame.replay()->stamps_us()->size() == 40;
@@ -121,7 +120,7 @@ TEST_F(FileQuestionsTest, a_session_is_saved_half_way_and_opened_again) {
   EXPECT_EQ(gui_.run({}), 0);
 }
 
-TEST_F(FileQuestionsTest, loops_edited_while_a_session_is_read_are_not_lost) {
+TEST_F(FileQuestionsTest, edits_made_while_a_session_is_read_are_not_lost) {
   const auto log = write_lines(path("room.log"), room_log_lines(40));
   {
     MappingSession session(log, {});
@@ -133,13 +132,13 @@ TEST_F(FileQuestionsTest, loops_edited_while_a_session_is_read_are_not_lost) {
       .when("it is open", [](MainFrame& frame) { return frame.replay() && frame.replay()->stamps_us(); })
       .when_phase(ReplayPhase::kPaused)
       .then([=](MainFrame& frame) {
-        frame.go_on_with(log);
-        frame.replay()->edit(edit);  // before the log is compared with the session, or after
+        frame.resume_with(log);
+        frame.replay()->edit(edit);  // before or after the log is compared with the session
       })
-      .when("the run goes on with the log",
+      .when("the session is resumed with the log",
             [=](MainFrame& frame) {
-              if (frame.messages().sentence().find("still being made") != std::string::npos)
-                frame.go_on_with(log);
+              if (frame.messages().sentence().find("still in progress") != std::string::npos)
+                frame.resume_with(log);
               return frame.replay()->log() == log;
             })
       .then([](MainFrame& frame) { EXPECT_EQ(frame.replay()->snapshot()->edits->size(), 1U); })
@@ -153,7 +152,7 @@ TEST_F(FileQuestionsTest, loops_edited_while_a_session_is_read_are_not_lost) {
   EXPECT_EQ(gui_.run({}), 0);
 }
 
-TEST_F(FileQuestionsTest, a_damaged_session_is_told_and_the_map_on_show_stays) {
+TEST_F(FileQuestionsTest, a_damaged_session_is_reported_and_the_map_stays) {
   map_room();
   write_file(path("broken.session"), "psi-slam session and then nothing");
   command(kOpenLog, path("broken.session"));
@@ -162,14 +161,14 @@ TEST_F(FileQuestionsTest, a_damaged_session_is_told_and_the_map_on_show_stays) {
   EXPECT_EQ(gui_.run({}), 0);
 }
 
-TEST_F(FileQuestionsTest, settings_are_saved_over_others_and_opened) {
+TEST_F(FileQuestionsTest, settings_are_opened_and_saved_over_a_file) {
   write_file(path("my.ini"), "[front_end]\nwindow_m = 0.7\n");
   command(kOpenSettings, path("my.ini")).then([](MainFrame& frame) {
     EXPECT_EQ(frame.settings_panel().shown("front_end.window_m"), "0.7");
     EXPECT_TRUE(frame.settings_panel().enter("front_end.window_m", "0.4"));
   });
   command(kSaveSettings, path("my.ini"));
-  until_it_says("The settings are in");
+  until_it_says("Settings saved in");
   write_file(path("wrong.ini"), "[front_end]\nwindow_metres = 1\n");
   command(kOpenSettings, path("wrong.ini"));
   until_it_says("window_metres");
@@ -186,19 +185,19 @@ TEST_F(FileQuestionsTest, the_folder_of_a_bag_is_opened_as_a_log) {
   EXPECT_EQ(asked_[0].kind, FileQuestion::Kind::kFolder);
 }
 
-TEST_F(FileQuestionsTest, nothing_happens_when_the_user_thinks_better_of_it) {
-  const auto nothing_happened = [](MainFrame& frame) { EXPECT_EQ(frame.messages().sentence(), ""); };
+TEST_F(FileQuestionsTest, a_cancelled_dialog_changes_nothing) {
+  const auto expect_no_message = [](MainFrame& frame) { EXPECT_EQ(frame.messages().sentence(), ""); };
   command(kOpenLog, std::nullopt).then([](MainFrame& frame) { EXPECT_FALSE(frame.replay()); });
   for (const int id : {kOpenFolder, kOpenSettings, kSaveSettings})
-    command(id, std::nullopt).then(nothing_happened);
+    command(id, std::nullopt).then(expect_no_message);
   map_room();
-  for (const int id : {kExport, kSavePicture}) command(id, std::nullopt).pause(200).then(nothing_happened);
+  for (const int id : {kExport, kSavePicture}) command(id, std::nullopt).pause(200).then(expect_no_message);
   EXPECT_EQ(gui_.run({}), 0);
   EXPECT_EQ(asked_.size(), 7U);
 }
 
-TEST_F(FileQuestionsTest, a_place_that_cannot_be_written_to_is_told) {
-  write_file(path("plain"), "no folder");
+TEST_F(FileQuestionsTest, failures_to_write_are_reported) {
+  write_file(path("plain"), "not a folder");
   command(kSaveSettings, path("plain") / "my.ini");
   until_it_says("plain");
   map_room();
@@ -209,7 +208,7 @@ TEST_F(FileQuestionsTest, a_place_that_cannot_be_written_to_is_told) {
   command(kSavePicture, path("plain") / "view.png");
   until_it_says("plain");
   EXPECT_EQ(gui_.run({}), 0);
-  EXPECT_EQ(read_file(path("plain")), "no folder");
+  EXPECT_EQ(read_file(path("plain")), "not a folder");
 }
 
 }  // namespace

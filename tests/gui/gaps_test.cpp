@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long the window lets the user wait, measured while it is used with a benchmark log. The figures are
-// printed and recorded; machines differ too much to expect any.
+// Measures how long the window does not react while it shows a benchmark log. The figures are printed and
+// recorded but not checked, because machines differ too much.
 #include <gmock/gmock.h>
 
 #include "gui_run.h"
@@ -11,7 +11,7 @@ namespace psi_slam {
 namespace {
 
 TEST(Gaps, between_events_of_a_benchmark_log) {
-  if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run, of Debian's package xvfb";
+  if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run from Debian's package xvfb";
   const auto log = shared_file("fr079.clf.gz");
   if (!log) GTEST_SKIP() << kNeedsData;
   GuiRun gui;
@@ -25,7 +25,7 @@ TEST(Gaps, between_events_of_a_benchmark_log) {
       .gauge("playing")
       .command(kPlayOrPause)
       .when_phase(ReplayPhase::kFinalSearch)
-      .gauge("last_pass")
+      .gauge("final_search")
       .when_phase(ReplayPhase::kFinished)
       .pause(1500)
       .gauge("selecting");
@@ -44,7 +44,7 @@ TEST(Gaps, between_events_of_a_benchmark_log) {
     gui.command(kLayer + static_cast<int>(layer)).pause(300);
   gui.gauge("exporting")
       .then([&](MainFrame& frame) { frame.export_to(gui.folder() / "out", false); })
-      .when("all is written",
+      .when("the export is complete",
             [](MainFrame& frame) { return frame.replay()->snapshot()->exported.has_value(); })
       .gauge("idle_with_map")
       .pause(2000);

@@ -11,26 +11,26 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-struct Said {
+struct Output {
   int code = -1;
   std::string out;
   std::string err;
 };
 
-Said run(const std::vector<std::string>& arguments) {
+Output run(const std::vector<std::string>& arguments) {
   std::ostringstream out;
   std::ostringstream err;
   const int code = run_gui(arguments, out, err);
   return {code, out.str(), err.str()};
 }
 
-TEST(GuiCommandLine, tells_version_and_help_without_a_window) {
+TEST(GuiCommandLine, prints_version_and_help_without_a_window) {
   EXPECT_EQ(run({"--version"}).code, 0);
   EXPECT_THAT(run({"--version"}).out, StartsWith("psi-slam-gui "));
   EXPECT_THAT(run({"--help"}).out, HasSubstr("--config"));
 }
 
-TEST(GuiCommandLine, refuses_wrong_arguments_with_the_sentences_of_the_headless_program) {
+TEST(GuiCommandLine, rejects_wrong_arguments_with_the_messages_of_psi_slam) {
   EXPECT_EQ(run({"--set", "front_end.window_m=abc"}).code, 2);
   EXPECT_THAT(run({"--set", "front_end.window_m=abc"}).err,
               HasSubstr("--set: front_end.window_m = abc: expected a number of metres"));

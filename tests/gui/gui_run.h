@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives the real program through its event loop: a test is a list of steps, each done once the one before
-// has come true.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,6 +27,8 @@
 
 namespace psi_slam {
 
+/// Runs the real program and controls it from its event loop. A test is a list of steps; each starts when the
+/// previous one has succeeded.
 class GuiRun {
  public:
   GuiRun() {
@@ -42,7 +42,7 @@ class GuiRun {
   std::ostringstream out;
   std::ostringstream err;
 
-  /// Waits until this is true.
+  /// Waits until `condition` is true.
   GuiRun& when(std::string what, std::function<bool(MainFrame&)> condition) {
     steps_.push_back({std::move(what), std::move(condition)});
     return *this;
@@ -50,13 +50,13 @@ class GuiRun {
   GuiRun& then(std::function<void(MainFrame&)> action) {
     return when("", [action](MainFrame& frame) { return action(frame), true; });
   }
-  /// Chooses a menu's command, once it can be chosen.
+  /// Chooses a command of a menu once it is enabled.
   GuiRun& command(int id) {
     when("command " + std::to_string(id) + " is enabled",
          [id](MainFrame& frame) { return frame.GetMenuBar()->IsEnabled(id); });
     return then([id](MainFrame& frame) { choose(frame, id); });
   }
-  /// As a click on the menu's item does.
+  /// Chooses a command as a click on its menu item does.
   static void choose(MainFrame& frame, int id) {
     wxMenuItem* const item = frame.GetMenuBar()->FindItem(id);
     if (item->IsCheckable()) item->Check(item->IsRadio() || !item->IsChecked());
@@ -69,7 +69,7 @@ class GuiRun {
       return frame.replay() && frame.replay()->snapshot()->phase == phase;
     });
   }
-  /// Lets the window draw itself, and takes a picture of the screen there.
+  /// Waits until the window is drawn, and saves a picture of it.
   GuiRun& screenshot(const std::string& name) {
     pause(700);
     return then([name](MainFrame& frame) {
@@ -80,7 +80,7 @@ class GuiRun {
       EXPECT_TRUE(image.SaveFile((pictures() / (name + ".png")).string(), wxBITMAP_TYPE_PNG));
     });
   }
-  /// With a real mouse: to a window's point, in shares of its size.
+  /// Moves the real mouse pointer to a point of a window, given as shares of its size.
   GuiRun& mouse_to(const std::string& window, double x_share, double y_share) {
     then([=](MainFrame& frame) {
       const wxWindow* const target = wxWindow::FindWindowByName(window, &frame);
@@ -98,8 +98,7 @@ class GuiRun {
     then([](MainFrame&) { wxUIActionSimulator().MouseUp(); });
     return pause(100);
   }
-  /// A key that the window gets before whoever has the focus; without a window manager there is no focus to
-  /// type to.
+  /// Sends a key to the window. Without a window manager no control has the focus.
   GuiRun& key(int code) {
     then([code](MainFrame& frame) {
       wxKeyEvent event(wxEVT_CHAR_HOOK);
@@ -116,14 +115,14 @@ class GuiRun {
     });
     return when("a pause", [until](MainFrame&) { return std::chrono::steady_clock::now() >= *until; });
   }
-  /// From here on gaps between events are counted under this name; what the steps themselves do counts, too.
+  /// Records the gaps between events under this name from now on, including the time of the steps.
   GuiRun& gauge(const std::string& name) {
     return then([this, name](MainFrame&) {
       gauges_.push_back({name, {}});
       ticked_ = std::chrono::steady_clock::now();
     });
   }
-  /// A step may take that long to come true.
+  /// Sets how long a step may take.
   GuiRun& patience(std::chrono::minutes limit) {
     limit_ = limit;
     return *this;
@@ -132,7 +131,8 @@ class GuiRun {
     return then([](MainFrame& frame) { frame.Close(); });
   }
 
-  /// The program's exit code, once its window is closed; a failed expectation when a step does not come true.
+  /// Runs the program until its window is closed and returns its exit code. Fails the test if a step does not
+  /// succeed in time.
   int run(const std::vector<std::string>& arguments) {
     const int code = run_gui(arguments, out, err, [this](MainFrame& frame) {
       frame_ = &frame;
@@ -160,7 +160,7 @@ class GuiRun {
     return code;
   }
 
-  /// Where the screenshots are.
+  /// Folder of the screenshots.
   static std::filesystem::path pictures() { return std::filesystem::path(PSI_SLAM_GUI_PICTURES); }
 
  private:
@@ -191,10 +191,10 @@ class GuiRun {
       ++next_;
       began_ = now;
     } else if (next_ < steps_.size() && now - began_ > limit_) {
-      ADD_FAILURE() << "step " << next_ << " does not come true: " << steps_[next_].what;
+      ADD_FAILURE() << "step " << next_ << " does not succeed: " << steps_[next_].what;
       next_ = steps_.size();
     }
-    // What the step itself took is not the window's, unless it is gauged.
+    // The time of a step does not count unless it is gauged.
     if (gauges_.empty())
       ticked_ = std::chrono::steady_clock::now();
     else
@@ -206,7 +206,7 @@ class GuiRun {
     }
   }
 
-  /// What the window's thread has worked so far.
+  /// Processor time of the window's thread so far.
   static double cpu_ms() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

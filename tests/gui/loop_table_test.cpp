@@ -12,10 +12,11 @@ LoopRecord loop(std::size_t frame, double response, LoopVerdict verdict) {
   LoopRecord record;
   record.frame = frame;
   record.node = 1;
-  record.matcher = "ga";
+  record.matcher = MatcherKind::kGa;
   record.response = response;
   record.verdict = verdict;
-  if (verdict != LoopVerdict::kAccepted) record.reason = "the response is too low";
+  if (verdict != LoopVerdict::kAccepted)
+    record.refusal = LoopRefusal{LoopRefusal::Reason::kLowResponse, 0.31, 0.45};
   return record;
 }
 
@@ -40,7 +41,7 @@ class LoopTableTest : public testing::Test {
   LoopTable table_;
 };
 
-TEST_F(LoopTableTest, lists_loops_by_frame_at_first_and_by_any_column_if_asked) {
+TEST_F(LoopTableTest, sorts_by_frame_by_default_and_by_any_column) {
   EXPECT_THAT(order(), ElementsAre(1, 2, 0));
   table_.sort_by(LoopTable::kResponse, false);
   EXPECT_THAT(order(), ElementsAre(2, 0, 1));
@@ -50,7 +51,7 @@ TEST_F(LoopTableTest, lists_loops_by_frame_at_first_and_by_any_column_if_asked) 
   }
 }
 
-TEST_F(LoopTableTest, those_that_are_no_constraint_have_no_residual_and_come_last) {
+TEST_F(LoopTableTest, lists_loops_without_a_residual_last) {
   auto snapshot = std::make_shared<ReplaySnapshot>(*snapshot_);
   auto loops = *snapshot_->loops;
   loops[0].anchor_T_node = {0.1, 0, 0};  // both nodes are at the origin
@@ -66,30 +67,30 @@ TEST_F(LoopTableTest, those_that_are_no_constraint_have_no_residual_and_come_las
   EXPECT_THAT(order(), ElementsAre(2, 0, 1));
 }
 
-TEST_F(LoopTableTest, lists_those_of_one_verdict_alone) {
+TEST_F(LoopTableTest, filters_by_verdict) {
   table_.set_filter(LoopVerdict::kAccepted);
   EXPECT_THAT(order(), ElementsAre(2, 0));
   EXPECT_EQ(table_.row_of(0), 1U);
   EXPECT_FALSE(table_.row_of(1).has_value());
 }
 
-TEST_F(LoopTableTest, says_what_is_known_of_a_loop) {
+TEST_F(LoopTableTest, has_the_texts_of_all_cells) {
   EXPECT_EQ(table_.text(0, LoopTable::kFrame), "3");
   EXPECT_EQ(table_.text(0, LoopTable::kMatcher), "ga");
   EXPECT_EQ(table_.text(0, LoopTable::kResponse), "0.300");
   EXPECT_EQ(table_.text(0, LoopTable::kVerdict), "refused");
   EXPECT_EQ(table_.text(0, LoopTable::kReason), "the response is too low");
-  EXPECT_EQ(table_.text(0, LoopTable::kResidual), "") << "of a constraint only";
+  EXPECT_EQ(table_.text(0, LoopTable::kResidual), "") << "only constraints have a residual";
   EXPECT_EQ(table_.text(1, LoopTable::kResidual), "0.000");
   EXPECT_EQ(table_.summary(), "3 searches: 2 accepted, 1 refused");
 }
 
-TEST_F(LoopTableTest, says_in_words_what_became_of_a_loop) {
-  EXPECT_EQ(loop_words(table_.loop(0)), "Node 1 on local map 0, refused: the response is too low");
-  EXPECT_EQ(loop_words(table_.loop(1)), "Node 1 on local map 0, accepted");
+TEST_F(LoopTableTest, describes_a_loop_in_words) {
+  EXPECT_EQ(describe_loop(table_.loop(0)), "Node 1 on local map 0, refused: the response is too low");
+  EXPECT_EQ(describe_loop(table_.loop(1)), "Node 1 on local map 0, accepted");
 }
 
-TEST_F(LoopTableTest, knows_whether_anything_has_changed) {
+TEST_F(LoopTableTest, reports_whether_loops_have_changed) {
   EXPECT_FALSE(table_.show(snapshot_));
   EXPECT_TRUE(table_.show(std::make_shared<ReplaySnapshot>()));
   EXPECT_EQ(table_.rows(), 0U);

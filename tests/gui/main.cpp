@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The window's tests start themselves anew on a display of their own, with OpenGL in software, so that they
-// run on machines without any. Each needs a process of its own: run them by ctest.
+// main() of the window's tests. It starts the program again under xvfb-run with software OpenGL, so that the
+// tests need no display. Each test needs a process of its own: run them with ctest.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -32,7 +32,7 @@ void start_on_own_display(int argc, char** argv) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  execvp(pointers[0], pointers.data());  // comes back where there is no xvfb-run: the tests skip then
+  execvp(pointers[0], pointers.data());  // returns if xvfb-run is missing; then the tests are skipped
   unsetenv(kOnDisplay);
 }
 

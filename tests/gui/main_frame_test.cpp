@@ -9,21 +9,20 @@
 #include <fstream>
 
 #include "../session/room_log.h"
-#include "about_box.h"
 #include "gui_run.h"
 #include "loop_canvas.h"
 #include "loop_inspector.h"
 #include "map_canvas.h"
 #include "message_bar.h"
-#include "exports/verdict_text.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/mapping_session.h"
-#include "session/settings.h"
 #include "report/output_folder.h"
-#include "session/edit_journal.h"
-#include "view/palette.h"
 #include "same_results.h"
+#include "session/edit_journal.h"
+#include "session/settings.h"
 #include "settings_panel.h"
 #include "shared_logs.h"
+#include "view/palette.h"
 
 namespace psi_slam {
 namespace {
@@ -33,7 +32,7 @@ using testing::HasSubstr;
 class MainFrameTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run, of Debian's package xvfb";
+    if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run from Debian's package xvfb";
   }
   std::string room_log(int scans = 150) {
     return write_lines(gui_.folder() / "room.log", room_log_lines(scans)).string();
@@ -50,18 +49,18 @@ class MainFrameTest : public testing::Test {
   GuiRun gui_;
 };
 
-TEST_F(MainFrameTest, without_a_log_it_says_what_to_do) {
+TEST_F(MainFrameTest, without_a_log_shows_what_to_do) {
   gui_.screenshot("empty").then([](MainFrame& frame) {
-    const wxWindow* const page = wxWindow::FindWindowByLabel("See a map being made", &frame);
+    const wxWindow* const page = wxWindow::FindWindowByLabel("Open a log to build a map", &frame);
     ASSERT_NE(page, nullptr);
     EXPECT_TRUE(page->IsShownOnScreen());
-    EXPECT_NE(wxWindow::FindWindowByLabel(wxString::FromUTF8("Open a log…"), page->GetParent()), nullptr);
+    EXPECT_NE(wxWindow::FindWindowByLabel(wxString::FromUTF8("Open log…"), page->GetParent()), nullptr);
     EXPECT_FALSE(frame.map().IsShownOnScreen());
   });
   EXPECT_EQ(gui_.run({}), 0);
 }
 
-TEST_F(MainFrameTest, a_log_is_opened_played_paused_stepped_and_exported_as_the_headless_program_does) {
+TEST_F(MainFrameTest, playing_pausing_and_stepping_gives_the_results_of_psi_slam) {
   const std::string log = room_log();
   MappingSession session(log, {});
   session.run(std::atomic<bool>(false));
@@ -70,7 +69,7 @@ TEST_F(MainFrameTest, a_log_is_opened_played_paused_stepped_and_exported_as_the_
   std::size_t paused_at = 0;
   gui_.when_phase(ReplayPhase::kPaused)
       .screenshot("opened")
-      .command(kSpeed + 2)  // 20 times
+      .command(kSpeed + 2)  // 20 times as fast
       .command(kPlayOrPause)
       .when("40 scans", [](MainFrame& frame) { return scans(frame) >= 40; })
       .command(kPlayOrPause)
@@ -85,14 +84,14 @@ TEST_F(MainFrameTest, a_log_is_opened_played_paused_stepped_and_exported_as_the_
       .command(kPlayOrPause)
       .when_phase(ReplayPhase::kFinished)
       .then([&](MainFrame& frame) { frame.export_to(gui_.folder() / "gui", false); })
-      .close();  // is put off until all is written
+      .close();  // waits until all results are written
   EXPECT_EQ(gui_.run({log}), 0);
   EXPECT_GE(paused_at, 40U);
-  EXPECT_LT(paused_at, 110U) << "it was paused on its way";
+  EXPECT_LT(paused_at, 110U) << "it was paused before scan 110";
   expect_same_results(gui_.folder() / "headless", gui_.folder() / "gui");
 }
 
-TEST_F(MainFrameTest, loops_are_inspected) {
+TEST_F(MainFrameTest, shows_details_and_a_picture_of_the_selected_loop) {
   gui_.when_phase(ReplayPhase::kPaused)
       .command(kPlayOrPause)
       .when_phase(ReplayPhase::kFinished)
@@ -117,7 +116,7 @@ TEST_F(MainFrameTest, loops_are_inspected) {
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
-TEST_F(MainFrameTest, all_columns_of_the_loops_are_legible_in_a_small_window) {
+TEST_F(MainFrameTest, all_columns_of_the_loop_table_fit_into_a_small_window) {
   std::size_t refused = 0;
   gui_.then([](MainFrame& frame) { frame.SetSize(frame.FromDIP(wxSize(1280, 800))); })
       .when_phase(ReplayPhase::kPaused)
@@ -135,7 +134,7 @@ TEST_F(MainFrameTest, all_columns_of_the_loops_are_legible_in_a_small_window) {
           for (std::size_t row = 0; row < list.table.rows(); ++row)
             EXPECT_GE(width, list.GetTextExtent(list.table.text(row, column)).GetWidth() + 8) << column;
         }
-        EXPECT_LE(all, list.GetSize().GetWidth()) << "nothing to be scrolled to";
+        EXPECT_LE(all, list.GetSize().GetWidth()) << "no horizontal scrolling is needed";
         const auto& loops = *frame.replay()->snapshot()->loops;
         while (refused < loops.size() && loops[refused].verdict != LoopVerdict::kRefused) ++refused;
         ASSERT_LT(refused, loops.size());
@@ -145,13 +144,13 @@ TEST_F(MainFrameTest, all_columns_of_the_loops_are_legible_in_a_small_window) {
       .then([&](MainFrame& frame) {
         frame.loops().select(refused);
         const LoopRecord& loop = (*frame.replay()->snapshot()->loops)[refused];
-        EXPECT_THAT(frame.loops().details(), HasSubstr("refused: " + loop.reason));
+        EXPECT_THAT(frame.loops().details(), HasSubstr("refused: " + text_of(loop.refusal)));
       })
       .screenshot("refused_loop");
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
-TEST_F(MainFrameTest, the_colours_of_loops_are_explained_while_loops_are_shown) {
+TEST_F(MainFrameTest, a_legend_explains_the_colours_of_loops) {
   wxImage with;
   wxImage without;
   const auto take = [this](wxImage& into) {
@@ -163,7 +162,7 @@ TEST_F(MainFrameTest, the_colours_of_loops_are_explained_while_loops_are_shown) 
   };
   gui_.when_phase(ReplayPhase::kPaused)
       .then([](MainFrame& frame) {
-        EXPECT_TRUE(frame.map().legend().entries.empty()) << "no loops, no legend";
+        EXPECT_TRUE(frame.map().legend().entries.empty()) << "without loops there is no legend";
       })
       .command(kPlayOrPause)
       .when_phase(ReplayPhase::kFinished)
@@ -186,7 +185,7 @@ TEST_F(MainFrameTest, the_colours_of_loops_are_explained_while_loops_are_shown) 
     return histogram[wxImageHistogram::MakeKey(colour.R, colour.G, colour.B)].value;
   };
   const mrpt::img::TColor worst = heat_colour(1);
-  EXPECT_GT(count(with, worst), 20UL) << "no loop is as bad as that, but the legend says what would be";
+  EXPECT_GT(count(with, worst), 20UL) << "no loop has this colour, but the legend does";
   EXPECT_EQ(count(without, worst), 0UL);
 }
 
@@ -201,7 +200,7 @@ void select_first_accepted(MainFrame& frame) {
   FAIL() << "no loop was closed";
 }
 
-TEST_F(MainFrameTest, loops_are_deleted_matched_again_forced_and_undone) {
+TEST_F(MainFrameTest, loops_can_be_deleted_matched_again_and_forced) {
   const std::string log = room_log();
   const std::filesystem::path edits = gui_.folder() / "my.edits";
   const auto selected_is = [](LoopVerdict verdict) {
@@ -216,7 +215,7 @@ TEST_F(MainFrameTest, loops_are_deleted_matched_again_forced_and_undone) {
       .when("a loop is listed", [](MainFrame& frame) { return frame.loops().table().rows() > 0; })
       .then([](MainFrame& frame) {
         EXPECT_FALSE(frame.GetMenuBar()->IsEnabled(kUndo));
-        EXPECT_FALSE(frame.GetMenuBar()->IsEnabled(kDeleteLoop)) << "none is selected";
+        EXPECT_FALSE(frame.GetMenuBar()->IsEnabled(kDeleteLoop)) << "no loop is selected";
         select_first_accepted(frame);
       })
       .command(kDeleteLoop);
@@ -234,7 +233,7 @@ TEST_F(MainFrameTest, loops_are_deleted_matched_again_forced_and_undone) {
       .command(kMatchLoopBy + 2)
       .when("it is matched again", selected_is(LoopVerdict::kAccepted))
       .then([](MainFrame& frame) {
-        EXPECT_EQ(selected_loop(frame).matcher, "ga");
+        EXPECT_EQ(selected_loop(frame).matcher, MatcherKind::kGa);
         EXPECT_TRUE(selected_loop(frame).by_hand);
       })
       .screenshot("loop_matched_again")
@@ -257,7 +256,7 @@ TEST_F(MainFrameTest, loops_are_deleted_matched_again_forced_and_undone) {
   EXPECT_EQ(read_file(edits), read_file(gui_.folder() / "gui" / "loops.edits"));
 }
 
-TEST_F(MainFrameTest, a_loop_is_added_by_two_clicks) {
+TEST_F(MainFrameTest, two_clicks_add_a_loop) {
   gui_.when_phase(ReplayPhase::kPaused)
       .command(kSpeed + 3)
       .command(kPlayOrPause)
@@ -272,7 +271,7 @@ TEST_F(MainFrameTest, a_loop_is_added_by_two_clicks) {
       .screenshot("adding_loop")
       .then([](MainFrame& frame) {
         EXPECT_TRUE(frame.map().pointing());
-        EXPECT_THAT(frame.GetStatusBar()->GetStatusText().utf8_string(), HasSubstr("earlier pass"));
+        EXPECT_THAT(frame.GetStatusBar()->GetStatusText().utf8_string(), HasSubstr("seen earlier"));
       })
       .mouse_down()
       .mouse_up()
@@ -283,13 +282,14 @@ TEST_F(MainFrameTest, a_loop_is_added_by_two_clicks) {
         EXPECT_FALSE(frame.map().pointing());
         ASSERT_TRUE(frame.loops().selected().has_value());
         EXPECT_TRUE(selected_loop(frame).by_hand);
-        EXPECT_EQ(selected_loop(frame).verdict, LoopVerdict::kAccepted) << selected_loop(frame).reason;
+        EXPECT_EQ(selected_loop(frame).verdict, LoopVerdict::kAccepted)
+            << text_of(selected_loop(frame).refusal);
       })
       .screenshot("loop_added");
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
-TEST_F(MainFrameTest, edits_are_opened_from_a_file_and_kept_when_the_log_is_mapped_again) {
+TEST_F(MainFrameTest, edits_of_a_file_are_kept_after_a_restart) {
   const std::filesystem::path edits = gui_.folder() / "my.edits";
   std::ofstream(edits) << "delete scan=120 local_map=0\n";
   const std::filesystem::path wrong = gui_.folder() / "wrong.edits";
@@ -307,7 +307,7 @@ TEST_F(MainFrameTest, edits_are_opened_from_a_file_and_kept_when_the_log_is_mapp
   EXPECT_EQ(gui_.run({room_log(40)}), 0);
 }
 
-TEST_F(MainFrameTest, what_goes_wrong_is_a_sentence_in_the_bar) {
+TEST_F(MainFrameTest, failures_are_shown_in_the_message_bar) {
   const std::string corrupt = write_lines(gui_.folder() / "corrupt.log", {"FLASER 181 1.0 2.0"}).string();
   auto lines = room_log_lines(40);
   const std::string broken = write_lines(gui_.folder() / "broken.log", lines).string();
@@ -326,14 +326,14 @@ TEST_F(MainFrameTest, what_goes_wrong_is_a_sentence_in_the_bar) {
   gui_.then([&](MainFrame& frame) { frame.export_to(gui_.folder(), false); });
   when_says(gui_.folder().string());
   gui_.screenshot("not_empty").then([](MainFrame& frame) {
-    EXPECT_TRUE(frame.messages().answer("Replace the results there"));
+    EXPECT_TRUE(frame.messages().answer("Replace results"));
   });
   when_says("All results are in");
   EXPECT_EQ(gui_.run({(gui_.folder() / "missing.log").string()}), 0);
   EXPECT_TRUE(std::filesystem::exists(gui_.folder() / "report.html"));
 }
 
-TEST_F(MainFrameTest, a_log_deleted_while_it_is_open_does_no_harm) {
+TEST_F(MainFrameTest, a_log_deleted_while_it_is_open_is_mapped_to_its_end) {
   const std::string log = room_log();
   gui_.when_phase(ReplayPhase::kPaused)
       .then([=](MainFrame&) { std::filesystem::remove(log); })
@@ -344,18 +344,18 @@ TEST_F(MainFrameTest, a_log_deleted_while_it_is_open_does_no_harm) {
   EXPECT_EQ(gui_.run({log}), 0);
 }
 
-TEST_F(MainFrameTest, closed_in_the_middle_it_asks_once_and_ends) {
+TEST_F(MainFrameTest, closing_with_unsaved_work_asks_once) {
   gui_.when_phase(ReplayPhase::kPaused)
       .command(kSpeed)
       .command(kPlayOrPause)
       .when("some scans", [](MainFrame& frame) { return scans(frame) >= 2; })
       .close();
-  when_says("has not been exported");
+  when_says("have not been exported");
   gui_.close();
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
-TEST_F(MainFrameTest, edits_are_not_lost_without_a_question) {
+TEST_F(MainFrameTest, asks_before_edits_are_lost) {
   const std::filesystem::path saved = gui_.folder() / "saved.edits";
   const std::filesystem::path others = gui_.folder() / "others.edits";
   std::ofstream(others) << "delete scan=120 local_map=0\n";
@@ -372,7 +372,7 @@ TEST_F(MainFrameTest, edits_are_not_lost_without_a_question) {
       .when_phase(ReplayPhase::kPaused)
       .then([](MainFrame& frame) { EXPECT_EQ(scans(frame), 0U); })
       .command(kQuit);
-  when_says("has not been exported");
+  when_says("have not been exported");
   gui_.then([=](MainFrame& frame) {
     frame.messages().dismiss();
     frame.open_edits(others);
@@ -383,28 +383,28 @@ TEST_F(MainFrameTest, edits_are_not_lost_without_a_question) {
         frame.set_ask_for_file([=](const FileQuestion&) { return saved; });
       })
       .command(kSaveEdits)
-      .command(kQuit);  // nothing is left to be asked
+      .command(kQuit);  // closes without a question
   EXPECT_EQ(gui_.run({room_log()}), 0);
   EXPECT_EQ(EditJournal::read(saved).edits().size(), 1U);
 }
 
-TEST_F(MainFrameTest, a_session_saved_half_way_is_not_all_that_is_mapped_later) {
+TEST_F(MainFrameTest, scans_mapped_after_saving_a_session_count_as_unsaved) {
   gui_.when_phase(ReplayPhase::kPaused)
       .then([](MainFrame& frame) { frame.go_to(19); })
       .when("20 scans", [](MainFrame& frame) { return scans(frame) == 20; })
       .then([&](MainFrame& frame) { frame.save_session(gui_.folder() / "my.session"); });
-  when_says("The session is");
+  when_says("Session saved in");
   gui_.command(kStep)
       .when("one more scan", [](MainFrame& frame) { return scans(frame) == 21; })
       .command(kQuit);
-  when_says("has not been exported");
+  when_says("have not been exported");
   gui_.then([&](MainFrame& frame) { frame.save_session(gui_.folder() / "my.session"); });
-  when_says("The session is");
+  when_says("Session saved in");
   gui_.command(kQuit);
   EXPECT_EQ(gui_.run({room_log(40)}), 0);
 }
 
-TEST_F(MainFrameTest, a_run_is_finished_before_its_log_and_an_edit_is_taken_back) {
+TEST_F(MainFrameTest, after_finishing_early_an_edit_can_be_restored) {
   gui_.when_phase(ReplayPhase::kPaused)
       .then([](MainFrame& frame) { frame.go_to(139); })
       .when("140 scans", [](MainFrame& frame) { return scans(frame) == 140; })
@@ -431,7 +431,7 @@ TEST_F(MainFrameTest, a_run_is_finished_before_its_log_and_an_edit_is_taken_back
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
-TEST_F(MainFrameTest, another_log_replaces_one_under_way) {
+TEST_F(MainFrameTest, another_log_can_be_opened_while_one_is_mapped) {
   const std::string log = room_log();
   gui_.when_phase(ReplayPhase::kPaused);
   for (int i = 0; i < 3; ++i)
@@ -441,11 +441,11 @@ TEST_F(MainFrameTest, another_log_replaces_one_under_way) {
   EXPECT_EQ(gui_.run({log}), 0);
 }
 
-TEST_F(MainFrameTest, settings_are_edited_refused_saved_and_used) {
+TEST_F(MainFrameTest, settings_are_checked_saved_and_used) {
   const std::filesystem::path ini = gui_.folder() / "my.ini";
   gui_.when_phase(ReplayPhase::kPaused).then([](MainFrame& frame) {
     SettingsPanel& panel = frame.settings_panel();
-    EXPECT_EQ(panel.shown("front_end.window_m"), "0.2") << "of the command line";
+    EXPECT_EQ(panel.shown("front_end.window_m"), "0.2") << "given on the command line";
     EXPECT_TRUE(panel.enter("front_end.window_m", "0.3"));
     EXPECT_FALSE(panel.enter("front_end.window_m", "abc"));
     EXPECT_EQ(frame.settings().settings.mapper.front_end.window_m, 0.3);
@@ -469,30 +469,30 @@ TEST_F(MainFrameTest, settings_are_edited_refused_saved_and_used) {
   EXPECT_THAT(read_file(ini), HasSubstr("window_theta_deg = 12"));
 }
 
-TEST_F(MainFrameTest, the_map_is_looked_at_from_all_sides_and_saved_as_a_picture) {
+TEST_F(MainFrameTest, the_view_can_be_changed_and_saved_as_a_picture) {
   const std::filesystem::path picture = gui_.folder() / "view.png";
   gui_.when_phase(ReplayPhase::kPaused)
       .command(kPlayOrPause)
       .when_phase(ReplayPhase::kFinished)
       .command(kFollow)
       .then([](MainFrame& frame) { EXPECT_TRUE(frame.map().follows()); })
-      .command(kShowAll)
+      .command(kFitMap)
       .then([](MainFrame& frame) {
         EXPECT_FALSE(frame.map().follows());
         frame.map().setElevationDegrees(40);
       })
-      .command(kFromAbove)
+      .command(kTopView)
       .then([](MainFrame& frame) { EXPECT_GT(frame.map().camera().elevation_deg, 89); })
       .pause(500)
       .then([&](MainFrame& frame) { frame.save_picture(picture); });
-  when_says("The picture is");
+  when_says("Picture saved in");
   gui_.then([](MainFrame& frame) { frame.save_picture("/missing/view.png"); });
   when_says("/missing/view.png");
   EXPECT_EQ(gui_.run({room_log()}), 0);
   wxImage::AddHandler(new wxPNGHandler);
   const wxImage image(picture.string());
   ASSERT_TRUE(image.IsOk());
-  EXPECT_GT(image.CountColours(), 10UL) << "something is drawn";
+  EXPECT_GT(image.CountColours(), 10UL) << "the picture is not empty";
 }
 
 TEST_F(MainFrameTest, mouse_and_keys_play_measure_move_and_zoom) {
@@ -535,7 +535,7 @@ TEST_F(MainFrameTest, mouse_and_keys_play_measure_move_and_zoom) {
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
-TEST_F(MainFrameTest, a_log_is_dropped_and_found_again_among_the_recent_ones) {
+TEST_F(MainFrameTest, a_dropped_log_is_listed_among_recent_logs) {
   const std::string log = room_log(20);
   gui_.then([=](MainFrame& frame) {
         auto* const target = dynamic_cast<wxFileDropTarget*>(frame.GetDropTarget());
@@ -548,12 +548,12 @@ TEST_F(MainFrameTest, a_log_is_dropped_and_found_again_among_the_recent_ones) {
       .command(kStep)
       .when("one scan", [](MainFrame& frame) { return scans(frame) == 1; })
       .command(wxID_FILE1)
-      .when("the log anew", [](MainFrame& frame) { return scans(frame) == 0; })
+      .when("the log is opened again", [](MainFrame& frame) { return scans(frame) == 0; })
       .when_phase(ReplayPhase::kPaused);
   EXPECT_EQ(gui_.run({}), 0);
 }
 
-/// The tip of the arrow.
+/// Tip of the arrow that shows the robot.
 mrpt::math::TPoint2D drawn_robot(MainFrame& frame) {
   const auto& layer = frame.map().map_scene().layer(MapLayer::kRobot);
   const auto arrow = std::dynamic_pointer_cast<mrpt::opengl::CSetOfTriangles>(*layer.begin());
@@ -567,7 +567,7 @@ mrpt::math::TPoint2D map_T_robot(MainFrame& frame, std::size_t scan) {
   return {pose.x, pose.y};
 }
 
-TEST_F(MainFrameTest, an_earlier_scan_is_looked_at) {
+TEST_F(MainFrameTest, an_earlier_scan_can_be_shown) {
   gui_.when_phase(ReplayPhase::kPaused)
       .command(kPlayOrPause)
       .when_phase(ReplayPhase::kFinished)
@@ -581,12 +581,13 @@ TEST_F(MainFrameTest, an_earlier_scan_is_looked_at) {
       })
       .then([](MainFrame& frame) { frame.go_to(149); })
       .then([](MainFrame& frame) {
-        EXPECT_LT((drawn_robot(frame) - map_T_robot(frame, 149)).norm(), 0.6) << "the newest again";
+        EXPECT_LT((drawn_robot(frame) - map_T_robot(frame, 149)).norm(), 0.6)
+            << "the newest scan is shown again";
       });
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
-TEST_F(MainFrameTest, at_twice_the_scaling_all_of_it_is_twice_as_large) {
+TEST_F(MainFrameTest, at_200_percent_scaling_everything_is_twice_as_large) {
   setenv("GDK_SCALE", "2", 1);
   wxImage picture;
   gui_.when_phase(ReplayPhase::kPaused)
@@ -601,12 +602,12 @@ TEST_F(MainFrameTest, at_twice_the_scaling_all_of_it_is_twice_as_large) {
       })
       .when("a picture of the map", [&](MainFrame&) { return picture.IsOk(); })
       .then([&](MainFrame& frame) {
-        EXPECT_EQ(picture.GetSize(), 2 * frame.map().GetClientSize()) << "drawn in pixels of the screen";
+        EXPECT_EQ(picture.GetSize(), 2 * frame.map().GetClientSize()) << "in pixels of the screen";
       });
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
-TEST_F(MainFrameTest, options_are_explained_and_the_program_says_who_it_is) {
+TEST_F(MainFrameTest, shows_the_help_of_an_option_and_the_about_box) {
   gui_.mouse_to("settings", 0.3, 0.25)
       .mouse_down()
       .mouse_up()
@@ -617,7 +618,7 @@ TEST_F(MainFrameTest, options_are_explained_and_the_program_says_who_it_is) {
   EXPECT_EQ(gui_.run({}), 0);
 }
 
-TEST_F(MainFrameTest, a_benchmark_log_is_watched) {
+TEST_F(MainFrameTest, shows_a_benchmark_log) {
   const auto log = shared_file("fr079.clf.gz");
   if (!log) GTEST_SKIP() << kNeedsData;
   gui_.when_phase(ReplayPhase::kPaused)
@@ -630,7 +631,7 @@ TEST_F(MainFrameTest, a_benchmark_log_is_watched) {
       .then([](MainFrame& frame) { EXPECT_GT(frame.replay()->snapshot()->loops->size(), 10U); })
       .then([](MainFrame& frame) {
         const std::vector<LoopRecord>& loops = *frame.replay()->snapshot()->loops;
-        std::size_t far = 0;  // the accepted one that corrected most
+        std::size_t far = 0;  // the accepted loop that corrected most
         double farthest_m = 0;
         for (std::size_t i = 0; i < loops.size(); ++i) {
           const mrpt::math::TPose2D moved = loops[i].anchor_T_node - loops[i].anchor_T_predicted;
@@ -642,7 +643,7 @@ TEST_F(MainFrameTest, a_benchmark_log_is_watched) {
         frame.loops().select(far);
       })
       .screenshot("benchmark_loop")
-      .command(kShowAll)
+      .command(kFitMap)
       .screenshot("benchmark_log")
       .command(kFollow)
       .screenshot("benchmark_follow");

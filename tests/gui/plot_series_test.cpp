@@ -15,38 +15,38 @@ HistoryView<FrameRecord> frames(std::size_t count) {
     frame.loops_tried = 2;
     frame.loops_accepted = 1;
     frame.front_end_ms = 3;
-    if (i == 4) frame.matcher = "ga";
+    if (i == 4) frame.matcher = MatcherKind::kGa;
     history.push_back(frame);
   }
   return history.view();
 }
 
-TEST(PlotColumns, there_is_one_for_each_scan_as_long_as_there_is_room) {
+TEST(PlotColumns, has_one_column_for_each_scan_if_there_is_room) {
   const std::vector<PlotColumn> columns = plot_columns(frames(10), 100);
   ASSERT_EQ(columns.size(), 10U);
   EXPECT_EQ(columns[3].first_frame, 3U);
   EXPECT_EQ(columns[3].psi, 3);
-  EXPECT_EQ(columns[3].matcher, "");
-  EXPECT_EQ(columns[9].matcher, "ga") << "as of the last node before";
-  EXPECT_EQ(columns[9].loops_accepted, 10U);
+  EXPECT_EQ(columns[3].matcher, std::nullopt);
+  EXPECT_EQ(columns[9].matcher, MatcherKind::kGa) << "the matcher of the last node";
+  EXPECT_EQ(columns[9].loops_accepted, 10);
 }
 
-TEST(PlotColumns, then_each_stands_for_several) {
+TEST(PlotColumns, combines_scans_if_there_is_no_room) {
   const std::vector<PlotColumn> columns = plot_columns(frames(1000), 100);
   ASSERT_EQ(columns.size(), 100U);
   EXPECT_EQ(columns[1].first_frame, 10U);
-  EXPECT_EQ(columns[1].psi, 19) << "no peak is lost";
+  EXPECT_EQ(columns[1].psi, 19) << "the largest value";
   EXPECT_EQ(columns[1].response_min, 0.4);
   EXPECT_EQ(columns[1].response_max, 0.8);
-  EXPECT_EQ(columns[1].front_end_ms, 3) << "a mean";
-  EXPECT_EQ(columns[99].loops_tried, 2000U);
+  EXPECT_EQ(columns[1].front_end_ms, 3) << "the mean";
+  EXPECT_EQ(columns[99].loops_tried, 2000);
 }
 
-TEST(PlotColumns, of_nothing_there_are_none) {
+TEST(PlotColumns, is_empty_without_scans) {
   EXPECT_TRUE(plot_columns({}, 100).empty());
 }
 
-TEST(RoundUp, ends_axes_at_round_numbers) {
+TEST(RoundUp, returns_the_next_1_2_or_5_times_a_power_of_ten) {
   EXPECT_EQ(round_up(0.03), 0.05);
   EXPECT_EQ(round_up(1), 1);
   EXPECT_EQ(round_up(1.2), 2);

@@ -10,7 +10,7 @@ namespace psi_slam {
 
 wxImage screen_image(const wxPoint& corner, const wxSize& size) {
   Display* const display = XOpenDisplay(nullptr);
-  if (display == nullptr) throw std::runtime_error("there is no display");
+  if (display == nullptr) throw std::runtime_error("no display");
   XImage* const shot =
       XGetImage(display, DefaultRootWindow(display), corner.x, corner.y, static_cast<unsigned>(size.x),
                 static_cast<unsigned>(size.y), AllPlanes, ZPixmap);

@@ -6,7 +6,7 @@
 
 namespace psi_slam {
 
-/// What is on the screen now, in pixels. (wxScreenDC shows for ever what was there when it was first asked.)
+/// Picture of a part of the screen, in pixels. (wxScreenDC never updates its first picture.)
 wxImage screen_image(const wxPoint& corner, const wxSize& size);
 
 }  // namespace psi_slam

@@ -27,7 +27,7 @@ class SessionReaderTest : public testing::Test {
   SessionReader reader_;
 };
 
-TEST_F(SessionReaderTest, hands_over_what_was_read_once_and_in_the_thread_that_serves) {
+TEST_F(SessionReaderTest, hands_over_a_session_once_in_the_serving_thread) {
   std::thread::id read_in;
   std::promise<void> may_read;
   reader_.begin(
@@ -38,7 +38,7 @@ TEST_F(SessionReaderTest, hands_over_what_was_read_once_and_in_the_thread_that_s
       },
       take());
   reader_.serve();
-  EXPECT_TRUE(taken_.empty()) << "it does not wait";
+  EXPECT_TRUE(taken_.empty()) << "serve() does not wait";
   may_read.set_value();
   serve_until_taken(1);
   reader_.serve();
@@ -46,10 +46,10 @@ TEST_F(SessionReaderTest, hands_over_what_was_read_once_and_in_the_thread_that_s
   EXPECT_NE(read_in, std::this_thread::get_id());
 }
 
-TEST_F(SessionReaderTest, gives_up_what_was_begun_before) {
+TEST_F(SessionReaderTest, gives_up_the_previous_read) {
   std::promise<void> may_read;
-  std::shared_future<void> told = may_read.get_future().share();
-  reader_.begin([told] { return told.wait(), SessionInput("first.log"); }, take());
+  std::shared_future<void> allowed = may_read.get_future().share();
+  reader_.begin([allowed] { return allowed.wait(), SessionInput("first.log"); }, take());
   reader_.begin([] { return SessionInput("second.log"); }, take());
   serve_until_taken(1);
   may_read.set_value();
@@ -57,7 +57,7 @@ TEST_F(SessionReaderTest, gives_up_what_was_begun_before) {
   EXPECT_EQ(taken_, std::vector<std::string>{"second.log"});
 }
 
-TEST_F(SessionReaderTest, throws_what_reading_threw_and_goes_on) {
+TEST_F(SessionReaderTest, rethrows_what_reading_threw_and_reads_again) {
   reader_.begin([]() -> SessionInput { throw UserError("my.session is damaged"); }, take());
   bool threw = false;
   while (!threw) {

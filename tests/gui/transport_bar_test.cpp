@@ -11,20 +11,20 @@ using testing::Not;
 
 const std::vector<TimeUs> kStamps_us{5'000'000, 6'000'000, 8'000'000, 125'000'000};
 
-TEST(TransportBar, the_time_of_a_scan_is_counted_from_the_logs_beginning) {
+TEST(TransportBar, shows_times_since_the_start_of_the_log) {
   EXPECT_EQ(log_time_text(kStamps_us, 2), "0:03 of 2:00");
   EXPECT_EQ(log_time_text({}, 0), "");
 }
 
-TEST(TransportBar, what_is_left_of_the_log_takes_its_time_at_the_speed_chosen) {
+TEST(TransportBar, computes_the_remaining_time_from_the_speed) {
   EXPECT_EQ(replay_time_left_s(kStamps_us, 2, 1), 119);
   EXPECT_EQ(replay_time_left_s(kStamps_us, 2, 5), 119.0 / 5);
-  EXPECT_EQ(replay_time_left_s(kStamps_us, 2, 0), 0) << "as fast as possible: only the work counts";
+  EXPECT_EQ(replay_time_left_s(kStamps_us, 2, 0), 0) << "as fast as possible";
   EXPECT_EQ(replay_time_left_s(kStamps_us, 0, 1), 0);
   EXPECT_EQ(replay_time_left_s(kStamps_us, 4, 1), 0);
 }
 
-TEST(TransportBar, the_time_left_is_that_of_work_or_of_waiting_whichever_is_longer) {
+TEST(TransportBar, shows_the_longer_time_of_work_and_waiting) {
   ReplaySnapshot snapshot;
   snapshot.phase = ReplayPhase::kPlaying;
   snapshot.progress.share = 0.1;
@@ -33,7 +33,7 @@ TEST(TransportBar, the_time_left_is_that_of_work_or_of_waiting_whichever_is_long
   EXPECT_THAT(progress_words(snapshot, 119), HasSubstr("1:59 left"));
   EXPECT_THAT(progress_words(snapshot, 7), HasSubstr("0:20 left"));
   snapshot.phase = ReplayPhase::kFinalSearch;
-  EXPECT_THAT(progress_words(snapshot, 119), Not(HasSubstr("1:59"))) << "nothing is waited for there";
+  EXPECT_THAT(progress_words(snapshot, 119), Not(HasSubstr("1:59"))) << "the final search does not wait";
 }
 
 }  // namespace

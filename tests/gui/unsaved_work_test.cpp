@@ -34,11 +34,11 @@ class UnsavedWorkTest : public testing::Test {
   UnsavedWork work_;
 };
 
-TEST_F(UnsavedWorkTest, a_log_that_was_only_opened_is_none) {
-  EXPECT_FALSE(work_.any(snapshot(0, 1))) << "the edit is the file's";
+TEST_F(UnsavedWorkTest, opening_a_log_leaves_no_unsaved_work) {
+  EXPECT_FALSE(work_.any(snapshot(0, 1))) << "the edit comes from the file";
 }
 
-TEST_F(UnsavedWorkTest, scans_are_until_results_or_a_session_hold_them) {
+TEST_F(UnsavedWorkTest, scans_are_unsaved_until_they_are_written) {
   EXPECT_TRUE(work_.any(snapshot(1, 1)));
   EXPECT_FALSE(work_.any_edits(snapshot(1, 1)));
   work_.note_written({100, edits(1)});
@@ -46,23 +46,23 @@ TEST_F(UnsavedWorkTest, scans_are_until_results_or_a_session_hold_them) {
   EXPECT_TRUE(work_.any(snapshot(101, 1))) << "the session was saved half-way";
 }
 
-TEST_F(UnsavedWorkTest, edits_are_until_they_are_written_be_it_by_themselves) {
+TEST_F(UnsavedWorkTest, edits_are_unsaved_until_they_are_written) {
   EXPECT_TRUE(work_.any_edits(snapshot(0, 2)));
-  EXPECT_TRUE(work_.any_edits(snapshot(0, 0))) << "the file's was taken back";
+  EXPECT_TRUE(work_.any_edits(snapshot(0, 0))) << "the edit of the file was undone";
   work_.note_written_edits(journal_of(*edits(2)));
   EXPECT_FALSE(work_.any_edits(snapshot(150, 2)));
   EXPECT_TRUE(work_.any(snapshot(150, 2))) << "the map was not written";
   EXPECT_TRUE(work_.any_edits(snapshot(150, 3)));
 }
 
-TEST_F(UnsavedWorkTest, edits_carried_to_another_run_of_the_log_are_as_unsaved_as_before) {
+TEST_F(UnsavedWorkTest, edits_stay_unsaved_after_a_restart) {
   work_.note_written({150, edits(1)});
-  work_.begin_again(SessionInput("my.log").with_edits(journal_of(*edits(2))));
+  work_.restart(SessionInput("my.log").with_edits(journal_of(*edits(2))));
   EXPECT_TRUE(work_.any(snapshot(0, 2)));
-  EXPECT_TRUE(work_.any(snapshot(20, 1))) << "these scans were mapped anew";
+  EXPECT_TRUE(work_.any(snapshot(20, 1))) << "these scans were mapped again";
 }
 
-TEST_F(UnsavedWorkTest, what_a_session_holds_is_written) {
+TEST_F(UnsavedWorkTest, scans_of_a_session_are_saved) {
   const auto recording = std::make_shared<SessionRecording>();
   recording->frames.resize(40);
   recording->facts.logs.push_back({});

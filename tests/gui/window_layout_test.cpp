@@ -19,9 +19,9 @@ bool shown(MainFrame& frame, const char* pane) {
 class WindowLayoutTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run, of Debian's package xvfb";
+    if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run from Debian's package xvfb";
   }
-  /// What a run before has left behind.
+  /// Writes the preferences of an earlier run.
   void write_choices(const std::string& lines) {
     std::filesystem::create_directories(gui_.folder() / "config");
     write_file(gui_.folder() / "config" / "psi-slam-gui.conf", lines);
@@ -35,7 +35,7 @@ class WindowLayoutTest : public testing::Test {
   GuiRun gui_;
 };
 
-TEST_F(WindowLayoutTest, is_the_same_in_the_next_window) {
+TEST_F(WindowLayoutTest, is_kept_for_the_next_window) {
   MainFrame* window = nullptr;
   const int nodes = kLayer + static_cast<int>(MapLayer::kNodes);
   gui_.then([&](MainFrame&) {
@@ -74,7 +74,7 @@ TEST_F(WindowLayoutTest, is_the_same_in_the_next_window) {
   EXPECT_EQ(gui_.run({}), 0);
 }
 
-TEST_F(WindowLayoutTest, of_another_screen_does_not_put_the_window_out_of_sight) {
+TEST_F(WindowLayoutTest, of_another_screen_keeps_the_window_visible) {
   write_choices(
       "[window]\nversion=1\nx=99999\ny=-5000\nwidth=20000\nheight=9000\n"
       "panes=layout2|name=map;state=768|dock_size(5,0,0)=1|\n");
@@ -82,7 +82,7 @@ TEST_F(WindowLayoutTest, of_another_screen_does_not_put_the_window_out_of_sight)
   EXPECT_EQ(gui_.run({}), 0);
 }
 
-TEST_F(WindowLayoutTest, of_another_version_is_not_used) {
+TEST_F(WindowLayoutTest, of_another_version_is_ignored) {
   write_choices("[window]\nversion=77\nx=50\ny=50\nwidth=800\nheight=600\npanes=nonsense\n");
   gui_.pause(300).then([](MainFrame& frame) {
     expect_whole(frame);

@@ -12,12 +12,12 @@ using mrpt::math::TPose2D;
 
 constexpr TimeUs kSecond = 1'000'000;
 
-/// On a circle of 2 m, at so many radians a second.
+/// Pose on a circle of 2 m at the given angular velocity.
 TPose2D on_circle(double turn_rad) {
   return {2 * std::sin(turn_rad), 2 * (1 - std::cos(turn_rad)), turn_rad};
 }
 
-TEST(ConstantVelocityModel, goes_on_along_its_arc) {
+TEST(ConstantVelocityModel, continues_along_its_arc) {
   ConstantVelocityModel robot;
   robot.moved(0, on_circle(0), false);
   robot.moved(kSecond / 4, on_circle(0.1), true);
@@ -28,9 +28,9 @@ TEST(ConstantVelocityModel, goes_on_along_its_arc) {
   EXPECT_NEAR(motion.phi, truth.phi, 1e-9);
 }
 
-TEST(ConstantVelocityModel, stands_before_anything_is_known) {
+TEST(ConstantVelocityModel, predicts_no_motion_before_the_first_pose) {
   ConstantVelocityModel robot;
-  EXPECT_EQ(robot.predict(kSecond).sigma_m, 0) << "no pose to move from";
+  EXPECT_EQ(robot.predict(kSecond).sigma_m, 0) << "there is no pose yet";
   robot.moved(0, {3, 4, 1}, false);
   const PredictedMotion predicted = robot.predict(2 * kSecond);
   EXPECT_EQ(predicted.motion, TPose2D(0, 0, 0));
@@ -38,16 +38,16 @@ TEST(ConstantVelocityModel, stands_before_anything_is_known) {
   EXPECT_NEAR(predicted.sigma_rad, M_PI / 3, 1e-9);
 }
 
-TEST(ConstantVelocityModel, is_the_less_certain_the_longer) {
+TEST(ConstantVelocityModel, uncertainty_grows_with_time) {
   ConstantVelocityModel robot;
   robot.moved(0, {0, 0, 0}, true);
   robot.moved(kSecond, {1, 0, 0}, true);
   EXPECT_NEAR(robot.predict(kSecond + kSecond / 10).sigma_m, 0.01, 1e-9);
   EXPECT_NEAR(robot.predict(2 * kSecond).sigma_m, 1, 1e-9);
-  EXPECT_EQ(robot.predict(kSecond / 2).sigma_m, 0) << "time that runs backwards is none";
+  EXPECT_EQ(robot.predict(kSecond / 2).sigma_m, 0) << "time that runs backwards counts as zero";
 }
 
-TEST(ConstantVelocityModel, predicted_poses_leave_the_speed_alone) {
+TEST(ConstantVelocityModel, predicted_poses_do_not_change_the_speed) {
   ConstantVelocityModel robot;
   robot.moved(0, {0, 0, 0}, true);
   robot.moved(kSecond, {1, 0, 0}, true);
@@ -56,7 +56,7 @@ TEST(ConstantVelocityModel, predicted_poses_leave_the_speed_alone) {
   EXPECT_EQ(robot.predict(4 * kSecond).motion.x, 0) << "too long without a match";
 }
 
-TEST(ConstantVelocityModel, scans_of_one_time_tell_no_speed) {
+TEST(ConstantVelocityModel, scans_at_one_time_give_no_speed) {
   ConstantVelocityModel robot;
   robot.moved(0, {0, 0, 0}, true);
   robot.moved(0, {0.1, 0, 0}, true);

@@ -11,8 +11,8 @@ namespace {
 using mrpt::math::TPoint2Df;
 using mrpt::math::TPose2D;
 
-// A scan of what a person at (2, 0) and some other things left, and a grid with all of it where it was seen
-// from one pose; what stands in `both` is there for the other pose, half a metre on, as well.
+// A scan of a person at (2, 0) and other objects, and a grid with all of them as seen from one pose. Objects
+// with `both` are also in the grid as seen from the other pose, half a metre further on.
 const TPose2D kMatched(0, 0, 0);
 const TPose2D kHeld(0.5, 0, 0);
 const std::vector<TPoint2Df> kPerson = {{2, 0}, {2, 0.1F}, {2, 0.2F}, {2, -0.1F}, {2, -0.2F}};
@@ -24,12 +24,12 @@ class CorrectionSupport : public testing::Test {
     mark(at.x, at.y);
     if (both) mark(at.x + 0.5F, at.y);
   }
-  PullScores scores(const TPose2D& held = kHeld) const {
+  CorrectionScores scores(const TPose2D& held = kHeld) const {
     return scores_without_best_spot(grid_, scan_, kMatched, held);
   }
 
  private:
-  // A patch, since interpolation looks at several cells around.
+  // A patch, because interpolation uses neighbouring cells.
   void mark(float x, float y) {
     const int column = static_cast<int>((static_cast<double>(x) + 5) / 0.05);
     const int row = static_cast<int>((static_cast<double>(y) + 5) / 0.05);
@@ -41,14 +41,14 @@ class CorrectionSupport : public testing::Test {
   ScanPoints scan_;
 };
 
-TEST_F(CorrectionSupport, of_one_spot_alone_is_none) {
+TEST_F(CorrectionSupport, one_spot_alone_is_no_support) {
   for (const TPoint2Df& point : kPerson) stand(point, false);
   for (const float y : {-3.0F, -2.0F, 2.0F, 3.0F}) stand({-1, y}, true);
   EXPECT_NEAR(scores().matched, 1, 1e-6);
-  EXPECT_NEAR(scores().held, 1, 1e-6) << "without the person both poses are as good";
+  EXPECT_NEAR(scores().held, 1, 1e-6) << "without the person, both poses are equal";
 }
 
-TEST_F(CorrectionSupport, of_two_spots_stays_when_the_better_one_is_left_out) {
+TEST_F(CorrectionSupport, two_spots_support_without_the_better_one) {
   for (const TPoint2Df& point : kPerson) stand(point, false);
   stand({-2, 1}, false);  // a door post
   stand({-2, -1}, true);
@@ -56,7 +56,7 @@ TEST_F(CorrectionSupport, of_two_spots_stays_when_the_better_one_is_left_out) {
   EXPECT_NEAR(scores().held, 0.5, 1e-6);
 }
 
-TEST_F(CorrectionSupport, counts_every_point_where_nothing_is_gained) {
+TEST_F(CorrectionSupport, counts_every_point_without_a_gain) {
   for (const TPoint2Df& point : kPerson) stand(point, true);
   stand({-2, 1}, true);
   EXPECT_NEAR(scores().matched, 1, 1e-6);
@@ -64,7 +64,7 @@ TEST_F(CorrectionSupport, counts_every_point_where_nothing_is_gained) {
   EXPECT_NEAR(scores(kMatched).held, scores(kMatched).matched, 1e-12);
 }
 
-TEST_F(CorrectionSupport, of_a_scan_that_is_all_one_spot_is_nothing) {
+TEST_F(CorrectionSupport, a_scan_of_one_spot_has_no_support) {
   for (const TPoint2Df& point : kPerson) stand(point, false);
   EXPECT_EQ(scores().matched, 0);
   EXPECT_EQ(scores().held, 0);

@@ -71,7 +71,7 @@ TEST(FrontEnd, follows_a_robot_round_a_building_with_noisy_odometry) {
   errors.turn_share = 0.3;
   errors.drift_rad_per_m = 0.02;
   const SimulatedDrive drive = drive_along(office_floor(), round_the_office(), errors, 1);
-  EXPECT_GT(errors_of_odometry(drive).largest_m, 5) << "odometry alone is hopeless";
+  EXPECT_GT(errors_of_odometry(drive).largest_m, 5) << "odometry alone fails";
   const Outcome outcome = follow(drive);
   const PoseErrors off = errors_of(outcome, drive);
   EXPECT_LT(off.largest_m, 0.25);
@@ -92,8 +92,8 @@ TEST(FrontEnd, follows_a_robot_whose_scans_are_far_apart) {
   EXPECT_LT(off.largest_rad, 0.04);
 }
 
-// An encoder that hangs for a while, then catches up.
-TEST(FrontEnd, stands_odometry_that_stalls_and_jumps) {
+// An encoder that stalls, then catches up.
+TEST(FrontEnd, tolerates_odometry_that_stalls_and_jumps) {
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 3);
   for (std::size_t i = 0; i < drive.frames.size(); ++i)
     if (i % 25 >= 20) drive.frames[i].odom_T_robot = drive.frames[i - i % 25 + 19].odom_T_robot;
@@ -102,8 +102,8 @@ TEST(FrontEnd, stands_odometry_that_stalls_and_jumps) {
   EXPECT_LT(off.largest_rad, 0.03);
 }
 
-// The wheels' counters were reset, or the robot's base restarted: one increment means nothing.
-TEST(FrontEnd, stands_a_leap_of_odometry) {
+// A reset of the wheel encoders makes one increment meaningless.
+TEST(FrontEnd, tolerates_a_jump_of_odometry) {
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 4);
   const std::size_t leap = drive.frames.size() / 3;
   for (std::size_t i = leap; i < drive.frames.size(); ++i)
@@ -122,11 +122,11 @@ TEST(FrontEnd, follows_a_slow_robot_without_any_odometry) {
   EXPECT_LT(off.largest_rad, 0.02);
 }
 
-TEST(FrontEnd, what_stands_in_frames_without_odometry_does_not_matter) {
+TEST(FrontEnd, ignores_poses_of_frames_without_odometry) {
   const auto path = path_along({{2, 1.5}, {6, 1.6}, {2, 1.4}}, 0.03, 0.03);
   SimulatedDrive drive = drive_along(office_floor(), path, {}, 5);
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
-    if (i / 10 % 2 == 0) continue;  // now it is there, now it is not
+    if (i / 10 % 2 == 0) continue;  // odometry is available only some of the time
     drive.frames[i].has_odometry = false;
     drive.frames[i].odom_T_robot = {7, -3, 0.5};
   }
@@ -135,7 +135,7 @@ TEST(FrontEnd, what_stands_in_frames_without_odometry_does_not_matter) {
   EXPECT_LT(off.largest_rad, 0.02);
 }
 
-TEST(FrontEnd, a_robot_that_stands_still_stays_and_makes_no_more_nodes) {
+TEST(FrontEnd, a_robot_at_rest_stays_and_adds_no_nodes) {
   const std::vector<TPose2D> path(100, TPose2D(5, 1.5, 0.3));
   const Outcome outcome = follow(drive_along(office_floor(), path, {}, 6));
   EXPECT_EQ(outcome.steps.front().node, 0U);
@@ -146,9 +146,8 @@ TEST(FrontEnd, a_robot_that_stands_still_stays_and_makes_no_more_nodes) {
   EXPECT_EQ(outcome.maps.size(), 1U);
 }
 
-// Nothing is seen of the way along a corridor: odometry decides there, the walls across it and of the
-// heading.
-TEST(FrontEnd, in_a_bare_corridor_odometry_tells_the_way_along_it) {
+// Along a bare corridor, odometry determines the position; the walls determine the rest.
+TEST(FrontEnd, in_a_bare_corridor_odometry_determines_the_way_along_it) {
   SimulatedWalls corridor;
   corridor.add_wall(-100, 0, 140, 0);
   corridor.add_wall(-100, 2.4, 140, 2.4);
@@ -160,8 +159,8 @@ TEST(FrontEnd, in_a_bare_corridor_odometry_tells_the_way_along_it) {
   const SimulatedDrive drive = drive_along(corridor, path_along({{0, 1.1}, {25, 1.3}}), errors, 7);
   FrontEndOptions options;
   options.prediction_share = 0.8;
-  // Beams that graze the walls far away meet them at points apart, which look like objects of their own.
-  // These stay where they are as seen from the robot, and hold it back.
+  // Far beams at grazing angles hit the walls at separate points, which look like objects that move with the
+  // robot. They would hold it back.
   options.scan.max_range_m = 8;
   const Outcome outcome = follow(drive, options);
   double across_m = 0;
@@ -176,16 +175,16 @@ TEST(FrontEnd, in_a_bare_corridor_odometry_tells_the_way_along_it) {
   EXPECT_LT(across_m, 0.3) << "odometry alone is 6 m off";
   EXPECT_LT(heading_rad, 0.02);
   const TPose2D& last = outcome.steps.back().local_T_robot;
-  EXPECT_NEAR(last.x, 0.98 * 25, 0.6) << "what odometry says of the length";
+  EXPECT_NEAR(last.x, 0.98 * 25, 0.6) << "the length by odometry";
 }
 
-// A person stays so far ahead: eight or so of each scan's beams end there at three metres, twice as many at
-// half of that, more than a tenth of the scan.
+// A person walks ahead at a constant distance. About eight beams of each scan hit the person at three metres,
+// twice as many at half of that: more than a tenth of the scan.
 SimulatedDrive behind_a_person(double ahead_m) {
   SimulatedWalls corridor;
   corridor.add_wall(-100, 0, 140, 0);
   corridor.add_wall(-100, 2.4, 140, 2.4);
-  std::vector<TPose2D> path;  // weaves, so that beams do not meet the walls at the same places again
+  std::vector<TPose2D> path;  // weaves, so that beams hit the walls at varying places
   for (double x = 0; x < 25; x += 0.11)
     path.emplace_back(x, 1.2 + 0.2 * std::sin(x), std::atan(0.2 * std::cos(x)));
   SimulatedDrive drive = drive_along(corridor, path, {}, 11);
@@ -214,7 +213,8 @@ TEST(FrontEnd, a_person_who_walks_ahead_along_a_bare_corridor_does_not_hold_the_
     EXPECT_LT(errors_of(follow(drive, options), drive).largest_m, let_pass_m) << "of 25 m";
     options.held_share = 1;
     options.max_doubtful_correction_m = 100;
-    EXPECT_GT(errors_of(follow(drive, options), drive).largest_m, 4) << "what it guards against";
+    EXPECT_GT(errors_of(follow(drive, options), drive).largest_m, 4)
+        << "without the limit, the robot is held back";
   }
 }
 
@@ -233,12 +233,12 @@ TEST(FrontEnd, scans_without_returns_are_placed_by_odometry) {
   EXPECT_LT(errors_of(outcome, drive).largest_m, 0.1);
 }
 
-TEST(FrontEnd, a_log_of_nothing_but_empty_scans_is_dead_reckoning) {
+TEST(FrontEnd, a_log_of_empty_scans_is_dead_reckoning) {
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 9);
   for (Frame& frame : drive.frames) frame.scan.ranges_m.assign(181, kNan);
   const Outcome outcome = follow(drive);
   const PoseErrors off = errors_of(outcome, drive);
-  EXPECT_LT(off.largest_m, 1e-6) << "this odometry is without error";
+  EXPECT_LT(off.largest_m, 1e-6) << "this odometry is exact";
   EXPECT_LT(off.largest_rad, 1e-6);
   EXPECT_GT(outcome.maps.size(), 1U);
 }
@@ -251,17 +251,17 @@ TEST(FrontEnd, starts_with_a_scan_that_sees_nothing) {
   EXPECT_LT(errors_of(follow(drive), drive).largest_m, 0.1);
 }
 
-TEST(FrontEnd, of_no_frames_there_are_no_local_maps) {
+TEST(FrontEnd, no_frames_give_no_local_maps) {
   FrontEnd front_end{FrontEndOptions{}};
   EXPECT_TRUE(front_end.finish().empty());
 }
 
-TEST(FrontEnd, every_step_tells_what_it_did) {
+TEST(FrontEnd, every_step_reports_its_result) {
   FrontEndOptions options;
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 11);
   drive.frames.resize(100);
   const Outcome outcome = follow(drive, options);
-  EXPECT_FALSE(outcome.steps[0].matched) << "there was nothing to match with";
+  EXPECT_FALSE(outcome.steps[0].matched) << "there is no local map yet";
   EXPECT_EQ(outcome.steps[0].local_T_robot, TPose2D(0, 0, 0)) << "its frame begins with the first scan";
   std::size_t nodes = 0;
   TPose2D last_node;
@@ -307,7 +307,7 @@ TEST(FrontEnd, local_maps_overlap_by_half_and_two_at_most_are_active) {
   ASSERT_GT(outcome.maps.size(), 6U);
   for (std::size_t i = 0; i < outcome.maps.size(); ++i) {
     const PlacedLocalMap& map = outcome.maps[i];
-    EXPECT_EQ(map.id, i) << "they are finished in the order of their beginning";
+    EXPECT_EQ(map.id, i) << "maps end in the order of creation";
     EXPECT_EQ(map.anchor, map.first_node);
     EXPECT_EQ(map.local_T_map, node_poses.at(map.anchor)) << "the anchor's pose is the map's frame";
     EXPECT_TRUE(map.map->finished());
@@ -332,7 +332,7 @@ TEST(FrontEnd, local_maps_overlap_by_half_and_two_at_most_are_active) {
       const FrontEndStep::Membership& membership = step.memberships[k];
       const PlacedLocalMap& map = outcome.maps.at(membership.local_map);
       EXPECT_EQ(membership.anchor, map.anchor);
-      EXPECT_GT(*step.node, map.first_node) << "the anchor is no member";
+      EXPECT_GT(*step.node, map.first_node) << "the anchor is not a member";
       EXPECT_LE(*step.node, map.last_node);
       const TPose2D expected = step.local_T_robot - map.local_T_map;
       EXPECT_EQ(membership.anchor_T_node, expected);
@@ -340,7 +340,7 @@ TEST(FrontEnd, local_maps_overlap_by_half_and_two_at_most_are_active) {
         EXPECT_LT(step.memberships[k - 1].local_map, membership.local_map) << "older first";
       }
     }
-    // Each node but the first is a member of every map that holds it.
+    // Each node except the first is a member of every map that holds it.
     if (step.node) {
       const auto holding =
           std::count_if(outcome.maps.begin(), outcome.maps.end(), [&](const PlacedLocalMap& map) {
@@ -363,7 +363,7 @@ TEST(FrontEnd, local_maps_end_when_the_robot_has_travelled_far) {
   }
 }
 
-// What is drawn after a blind stretch is out of place by odometry's error.
+// After a stretch without matches, odometry's error would distort the map.
 TEST(FrontEnd, no_local_map_spans_a_stretch_without_matches) {
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 17);
   const std::size_t first_blind = 100;
@@ -390,7 +390,7 @@ TEST(FrontEnd, no_local_map_spans_a_stretch_without_matches) {
   for (const PlacedLocalMap& map : outcome.maps)
     EXPECT_FALSE(map.first_node <= node_before && map.last_node >= node_after)
         << "local map " << map.id << " holds nodes from before and after";
-  // Yet no node hangs loose: each but the first is a member of some older map.
+  // Every node except the first is linked: it is a member of an older map.
   for (const FrontEndStep& step : outcome.steps)
     EXPECT_TRUE(!step.node || *step.node == 0 || !step.memberships.empty()) << "node " << *step.node;
 }

@@ -20,21 +20,21 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-// Without any spread, the score of a cell is the evidence for it alone.
+// Without smoothing, the score of a cell is its evidence.
 LocalMapOptions without_smoothing() {
   LocalMapOptions options;
   options.smoothing_sigma_m = 1e-4;
   return options;
 }
 
-// One hit is no full evidence yet.
+// One hit is not full evidence.
 LocalMapOptions with_weak_hits() {
   LocalMapOptions options = without_smoothing();
   options.hit_probability = 0.56;
   return options;
 }
 
-// The middle of a cell, whose side is 5 cm.
+// Middle of a cell of 5 cm.
 TPoint2D middle(int x, int y) {
   return {0.05 * x + 0.025, 0.05 * y + 0.025};
 }
@@ -76,14 +76,14 @@ Beams square_room_scan(double half_side_m, const TPose2D& map_T_robot, int beams
   return drawing_beams(scan, map_T_robot, 0.1, 40);
 }
 
-TEST(LocalMap, a_hit_is_occupied_its_way_is_free_the_rest_is_unknown) {
+TEST(LocalMap, hits_are_occupied_beams_are_free_the_rest_is_unknown) {
   LocalMap map(without_smoothing());
   map.insert(beam(middle(0, 0), middle(40, 0)));
   const ScoreGrid& scores = map.scores();
   EXPECT_GT(score_at(scores, middle(40, 0)), 0);
   for (int x = 0; x < 40; ++x) {
     EXPECT_EQ(score_at(scores, middle(x, 0)), 0);
-    EXPECT_EQ(observed(map, middle(x, 0)), 1U) << "free, hence observed";
+    EXPECT_EQ(observed(map, middle(x, 0)), 1U) << "free cells are observed";
   }
   EXPECT_EQ(observed(map, middle(40, 0)), 1U);
   for (const TPoint2D& place : {middle(41, 0), middle(-1, 0), middle(20, 1), middle(20, -1), middle(40, 1)}) {
@@ -111,7 +111,7 @@ TEST(LocalMap, every_beam_is_a_line_without_holes_to_beside_its_end) {
     LocalMap map(without_smoothing());
     map.insert(beam(middle(x0, y0), middle(x1, y1)));
     map.scores();
-    // Every cell that the beam's middle line runs well through is observed, none farther than a cell from it.
+    // Cells well inside the path of the beam are observed, cells farther than one cell from it are not.
     const double length = std::hypot(x1 - x0, y1 - y0);
     for (int y = std::min(y0, y1) - 2; y <= std::max(y0, y1) + 2; ++y) {
       for (int x = std::min(x0, x1) - 2; x <= std::max(x0, x1) + 2; ++x) {
@@ -139,10 +139,10 @@ TEST(LocalMap, more_hits_are_more_evidence_and_passes_take_it_away) {
   const int passed = score_at(map.scores(), middle(40, 0));
   EXPECT_LE(passed, twice);
   for (int i = 0; i < 8; ++i) map.insert(beam(middle(0, 0), middle(50, 0)));
-  EXPECT_EQ(score_at(map.scores(), middle(40, 0)), 0) << "a door that was closed twice, then open";
+  EXPECT_EQ(score_at(map.scores(), middle(40, 0)), 0) << "a door: closed twice, then open";
 }
 
-TEST(LocalMap, in_a_scan_ends_go_before_ways_in_whatever_order) {
+TEST(LocalMap, in_a_scan_ends_take_precedence_over_beams) {
   const Beams hits = beam(middle(0, 0), middle(40, 0));
   const Beams passes = beam(middle(0, 0), middle(50, 0));
   LocalMap hit_only(with_weak_hits());
@@ -172,8 +172,8 @@ TEST(LocalMap, in_a_scan_a_cell_counts_once) {
   EXPECT_EQ(score_at(often.scores(), middle(40, 0)), score_at(once.scores(), middle(40, 0)));
 }
 
-// Cells remember the scan that last touched them in 16 bits.
-TEST(LocalMap, a_cell_counts_anew_after_65535_scans) {
+// Cells store the number of the last scan in 16 bits.
+TEST(LocalMap, cells_change_again_after_65535_scans) {
   LocalMap map(with_weak_hits());
   map.insert(beam(middle(0, 0), middle(40, 0)));
   const int once = score_at(map.scores(), middle(40, 0));
@@ -191,7 +191,7 @@ TEST(LocalMap, growing_keeps_what_was_drawn) {
   for (int y = -80; y < 80; ++y)
     for (int x = -80; x < 80; ++x) before[{x, y}] = score_at(small, middle(x, y));
 
-  // Beams far away, none of which touches the room.
+  // Beams far away, outside the room.
   map.insert(beam({30, 0}, {47, 3}) + beam({30, 0}, {30, -28}));
   map.insert(beam({-25, 30}, {-38, 31}));
   const ScoreGrid& large = map.scores();
@@ -233,7 +233,8 @@ TEST(LocalMap, finishing_freezes_the_scores_and_frees_memory) {
   for (int again = 0; again < 2; ++again) {
     const ScoreGrid& after = map.scores();
     EXPECT_TRUE(after.has_pyramid());
-    EXPECT_LT(after.finest().memory_bytes(), before.finest().memory_bytes()) << "cropped to what was seen";
+    EXPECT_LT(after.finest().memory_bytes(), before.finest().memory_bytes())
+        << "cropped to the observed region";
     const long left = std::lround((after.origin_x_m() - before.origin_x_m()) / 0.05);
     const long below = std::lround((after.origin_y_m() - before.origin_y_m()) / 0.05);
     for (int y = -1; y <= before.finest().height(); ++y)
@@ -244,12 +245,12 @@ TEST(LocalMap, finishing_freezes_the_scores_and_frees_memory) {
   }
 }
 
-TEST(LocalMap, packed_and_unpacked_it_is_what_it_was) {
+TEST(LocalMap, packing_and_unpacking_restores_it) {
   const auto filled = [] {
     LocalMap map({});
     for (int i = 0; i < 5; ++i) map.insert(square_room_scan(4, {0.1 * i, 0, 0.1 * i}));
     map.pack();
-    EXPECT_FALSE(map.packed()) << "it is not finished";
+    EXPECT_FALSE(map.packed()) << "the map is not finished";
     map.finish();
     return map;
   };
@@ -277,7 +278,7 @@ TEST(LocalMap, packed_and_unpacked_it_is_what_it_was) {
   }
 }
 
-TEST(LocalMap, a_map_of_nothing_can_be_finished) {
+TEST(LocalMap, an_empty_map_can_be_finished) {
   LocalMap map({});
   map.finish();
   EXPECT_TRUE(map.scores().has_pyramid());
@@ -299,8 +300,8 @@ TEST(LocalMap, agreement_counts_points_in_observed_space_and_those_on_walls) {
   const ScanPoints scan = points_at({{2.99, 0},    // on the wall
                                      {0.5, 2.96},  // on another
                                      {1, 1},       // in free space
-                                     {-2, 0.5},    // as well
-                                     {4.5, 0},     // behind the wall: never seen
+                                     {-2, 0.5},    // also in free space
+                                     {4.5, 0},     // beyond the wall: not observed
                                      {400, 0}});   // off the grid
   for (const bool finished : {false, true}) {
     if (finished) map.finish();
@@ -323,7 +324,7 @@ TEST(LocalMap, agreement_looks_from_the_pose) {
   const ScanPoints scan =
       matching_points(simulated_scan(room, pose, even_bearings(-3, 3, 200), {0.1, 0, 0}, 0.01, random), {});
   EXPECT_GT(map.agreement(scan, pose).share(), 0.98);
-  // Between the beams that drew the map, and beyond walls by the ranges' noise, there are cells it never saw.
+  // Some cells between the beams, and beyond walls because of range noise, are not observed.
   EXPECT_GT(map.agreement(scan, pose).observed, 0.7 * static_cast<double>(scan.points.size()));
   EXPECT_LT(map.agreement(scan, {0.2, -0.1, 0.3}).share(), 0.5);
   EXPECT_EQ(map.agreement(scan, {100, 0, 0}).observed, 0U);
@@ -339,7 +340,7 @@ TEST(LocalMap, an_empty_map_is_all_unknown) {
   EXPECT_EQ(map.agreement(points_at({{1, 1}}), {0, 0, 0}).observed, 0U);
 }
 
-// The same square room drawn by MRPT: walls where it has walls, free where it is free.
+// Compares with the square room as drawn by MRPT: same walls, same free space.
 TEST(LocalMap, agrees_with_MRPTs_own_drawing_of_a_square_room) {
   constexpr double kHalfSide_m = 2.5;
   LocalMap ours(without_smoothing());
@@ -371,7 +372,7 @@ TEST(LocalMap, agrees_with_MRPTs_own_drawing_of_a_square_room) {
           static_cast<double>(theirs.getPos(static_cast<float>(place.x), static_cast<float>(place.y)));
       if (their_free < 0.3) {
         ++walls;
-        int best = 0;  // beam ends are rounded to cells, and MRPT's beams are half a beam off at the sides
+        int best = 0;  // beam ends are rounded, and MRPT's beams are half a beam off
         for (int dy = -1; dy <= 1; ++dy)
           for (int dx = -1; dx <= 1; ++dx) best = std::max(best, score_at(scores, middle(x + dx, y + dy)));
         walls_shared += best > 100;
@@ -387,8 +388,8 @@ TEST(LocalMap, agrees_with_MRPTs_own_drawing_of_a_square_room) {
   EXPECT_GT(free_shared, 0.98 * free);
 }
 
-TEST(LocalMap, every_laser_carves_free_space_from_where_it_is_itself) {
-  // Front and rear laser half a metre off the robot's centre; the wall behind is the rear one's alone.
+TEST(LocalMap, every_laser_clears_space_from_its_own_origin) {
+  // Front and rear laser, half a metre from the robot's centre; only the rear laser sees the rear wall.
   const Beams front = beam(middle(10, 0), middle(60, 0));
   const Beams rear = beam(middle(-10, 0), middle(-60, 0));
   LocalMap map(without_smoothing());
@@ -401,12 +402,12 @@ TEST(LocalMap, every_laser_carves_free_space_from_where_it_is_itself) {
     EXPECT_EQ(observed(map, middle(-x, 0)), 1U) << -x;
     EXPECT_LT(score_at(map.scores(), middle(-x, 0)), 64) << -x;
   }
-  for (int x = -8; x <= 8; ++x) EXPECT_EQ(observed(map, middle(x, 0)), 0U) << "nobody looked there: " << x;
+  for (int x = -8; x <= 8; ++x) EXPECT_EQ(observed(map, middle(x, 0)), 0U) << "not observed: " << x;
 }
 
-TEST(LocalMap, no_laser_wipes_out_what_another_saw_at_that_very_time) {
+TEST(LocalMap, no_laser_erases_simultaneous_hits_of_another) {
   const Beams hit = beam(middle(0, 0), middle(40, 0));
-  const Beams through = beam(middle(0, 1), middle(80, -1));  // by the hit's cell, half way
+  const Beams through = beam(middle(0, 1), middle(80, -1));  // passes the cell of the hit
   LocalMap together(with_weak_hits());
   together.insert(std::vector<Beams>{hit, through});
   LocalMap alone(with_weak_hits());

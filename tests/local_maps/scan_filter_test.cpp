@@ -41,14 +41,14 @@ double distance(const TPoint2Df& a, const TPoint2Df& b) {
   return length({a.x - b.x, a.y - b.y});
 }
 
-// How far a normal is from a direction, whichever side it looks to; 1 where there is none.
+// Difference of a normal from a direction, regardless of its sign; 1 without a normal.
 double off_direction(const TPoint2Df& normal, double direction_rad) {
   return 1 - std::abs(static_cast<double>(normal.x) * std::cos(direction_rad) +
                       static_cast<double>(normal.y) * std::sin(direction_rad));
 }
 
 TEST(MatchingPoints, lie_where_the_beams_ended_in_the_robots_frame) {
-  // A laser in front of the robot that looks to its left.
+  // A laser at the front of the robot, turned to the left.
   const ScanPoints scan = matching_points(scan_of({2, 3, 4}, {0.5, -0.25, M_PI / 2}), without_thinning());
   ASSERT_EQ(scan.points.size(), 3U);
   EXPECT_NEAR(distance(scan.points[0], {2.5F, -0.25F}), 0, 1e-6);
@@ -77,7 +77,7 @@ TEST(MatchingPoints, only_returns_between_the_least_and_the_largest_range) {
   EXPECT_NEAR(length(scan.points[2]), 10, 1e-6);
 }
 
-TEST(MatchingPoints, of_a_scan_without_returns_there_are_none) {
+TEST(MatchingPoints, a_scan_without_returns_gives_none) {
   for (const LaserScan& scan : {scan_of({kNan, kNan, kNan}), LaserScan{{}, even_bearings(0, 1, 2), 80, {}}}) {
     const ScanPoints points = matching_points(scan, {});
     EXPECT_TRUE(points.points.empty());
@@ -127,7 +127,7 @@ TEST(MatchingPointNormals, of_a_wall_are_square_to_it) {
   }
 }
 
-TEST(MatchingPointNormals, stand_a_noisy_range) {
+TEST(MatchingPointNormals, tolerate_a_noisy_range) {
   SimulatedWalls wall;
   wall.add_wall(-6, 2, 6, 2);
   std::mt19937_64 random(3);
@@ -138,7 +138,7 @@ TEST(MatchingPointNormals, stand_a_noisy_range) {
     EXPECT_LT(off_direction(normal, M_PI / 2), 1 - std::cos(0.35)) << "within 20 degrees";
 }
 
-TEST(MatchingPointNormals, a_corner_has_none_and_its_walls_have_theirs) {
+TEST(MatchingPointNormals, a_corner_has_none_but_its_walls_do) {
   SimulatedWalls corner;
   corner.add_wall(3, -3, 3, 3);
   corner.add_wall(-3, 3, 3, 3);
@@ -163,7 +163,7 @@ TEST(MatchingPointNormals, a_corner_has_none_and_its_walls_have_theirs) {
   EXPECT_GT(on_walls, 40);
 }
 
-TEST(MatchingPointNormals, points_alone_have_none) {
+TEST(MatchingPointNormals, isolated_points_have_none) {
   std::vector<float> ranges(181, kNan);
   for (const std::size_t i : {20U, 60U, 61U, 62U, 120U})
     ranges[i] = 5;  // a post, three beams wide, among them
@@ -173,7 +173,7 @@ TEST(MatchingPointNormals, points_alone_have_none) {
 }
 
 TEST(MatchingPointNormals, a_line_is_not_drawn_across_a_gap) {
-  // Two walls one behind the other: at the edge a point has neighbours on one side only.
+  // Two parallel walls: at the edge, a point has neighbours on one side only.
   SimulatedWalls steps;
   steps.add_wall(-4, 2, 0, 2);
   steps.add_wall(0, 4, 4, 4);
@@ -198,15 +198,15 @@ TEST(DrawingBeams, start_at_the_laser_and_end_at_the_returns) {
   EXPECT_EQ(beams.hits, std::vector<bool>(3, true));
 }
 
-TEST(DrawingBeams, are_cut_at_the_largest_range_and_left_out_below_the_least) {
+TEST(DrawingBeams, are_cut_at_the_largest_range_and_dropped_below_the_smallest) {
   const Beams beams = drawing_beams(scan_of({0.2F, 5, 6, 7, kNan}), {0, 0, 0}, 0.3, 6);
   ASSERT_EQ(beams.ends.size(), 3U);
   EXPECT_EQ(beams.hits, (std::vector<bool>{true, true, false}));
   EXPECT_NEAR(beams.ends[2].norm(), 6, 1e-6);
 }
 
-/// The front laser sees a wall 2 m ahead of it; the rear one, looking back, one 3 m behind it. The robot
-/// turned left by 0.1 between the two.
+/// The front laser sees a wall 2 m ahead; the rear laser sees one at 3 m in its backward direction. Between
+/// the two scans, the robot turned left by 0.1.
 Frame two_laser_frame() {
   Frame frame;
   frame.scan = scan_of({2, 2, 2}, {0.5, 0, 0});

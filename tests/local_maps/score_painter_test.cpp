@@ -21,10 +21,10 @@ Grid grid_of_cells(int width, int height) {
 }
 
 void occupy(Grid& grid, int x, int y, double probability) {
-  grid.setCell(x, y, static_cast<float>(1 - probability));  // MRPT counts how free a cell is
+  grid.setCell(x, y, static_cast<float>(1 - probability));  // MRPT stores the probability of being free
 }
 
-// A share of the cells is occupied, free or in between at random, the rest unknown.
+// Random occupancy in a share of the cells, the rest unknown.
 Grid random_grid(std::mt19937_64& random, int width, int height, double share) {
   Grid grid = grid_of_cells(width, height);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -34,7 +34,7 @@ Grid random_grid(std::mt19937_64& random, int width, int height, double share) {
   return grid;
 }
 
-// The evidence of every cell, as a painter without any spread shows it.
+// Evidence of every cell, from a painter without smoothing.
 std::vector<int> evidence_of(const Grid& grid) {
   const int width = static_cast<int>(grid.getSizeX());
   const int height = static_cast<int>(grid.getSizeY());
@@ -70,7 +70,7 @@ TEST(ScorePainter, equals_a_slow_dense_gaussian) {
 
     const int reach = painter.reach_cells();
     const double sigma_cells = sigma_m / 0.05;
-    EXPECT_GE(reach, 2 * sigma_cells) << "what lies farther out is less than a seventh";
+    EXPECT_GE(reach, 2 * sigma_cells) << "the kernel is below a seventh beyond";
     const auto gauss = [&](int d) { return std::exp(-0.5 * d * d / (sigma_cells * sigma_cells)); };
     double line = 0;
     for (int d = -reach; d <= reach; ++d) line += gauss(d);
@@ -85,7 +85,7 @@ TEST(ScorePainter, equals_a_slow_dense_gaussian) {
             if (here > 0) ++contributions;
           }
         }
-        // The painter counts in whole numbers: each contribution may lose one, and half by its weight.
+        // The painter uses integers: each contribution can lose one, and a half by its weight.
         ASSERT_NEAR(scores.at(x, y), std::min(expected, 255.0), 0.5 + 1.5 * contributions)
             << "sigma " << sigma_m << " at " << x << ", " << y;
         ASSERT_TRUE(contributions > 0 || scores.at(x, y) == 0);
@@ -101,7 +101,7 @@ TEST(ScorePainter, a_straight_wall_one_cell_thick_scores_one_in_its_middle) {
     ScorePainter painter(sigma_m, 0.05);
     ScoreLevel scores(60, 41, 1);
     painter.paint(grid, 0, 0, 60, 41, scores);
-    const double rounding = 1.5 * (2 * painter.reach_cells() + 1);  // as above: so many cells contribute
+    const double rounding = 1.5 * (2 * painter.reach_cells() + 1);  // as above, for the contributing cells
     EXPECT_GE(scores.at(30, 20), 255 - rounding);
     const double sigma_cells = sigma_m / 0.05;
     for (int d = 1; d <= painter.reach_cells(); ++d) {
@@ -113,7 +113,7 @@ TEST(ScorePainter, a_straight_wall_one_cell_thick_scores_one_in_its_middle) {
   }
 }
 
-TEST(ScorePainter, a_repainted_part_equals_the_whole_painted_anew_and_leaves_the_rest) {
+TEST(ScorePainter, repainting_a_part_equals_painting_the_whole) {
   std::mt19937_64 random(12);
   const int width = 50;
   const int height = 40;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simulated robot: where it truly is, what its laser sees of a building, and what its odometry says.
+// A simulated robot: its true poses, its laser scans of a building and its odometry.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -18,10 +18,10 @@ namespace psi_slam {
 
 struct SimulatedDrive {
   std::vector<Frame> frames;
-  std::vector<mrpt::math::TPose2D> map_T_robot;  ///< the truth, by frame; starts at the origin
+  std::vector<mrpt::math::TPose2D> map_T_robot;  ///< true poses by frame; the first is the origin
 };
 
-/// Beams from first to last, evenly.
+/// Evenly spaced bearings.
 inline BeamBearings even_bearings(double first_rad, double last_rad, int count) {
   std::vector<float> bearings;
   for (int i = 0; i < count; ++i)
@@ -47,8 +47,8 @@ inline LaserScan simulated_scan(const SimulatedWalls& walls, const mrpt::math::T
   return scan;
 }
 
-/// What odometry makes of a motion: each share is the standard deviation of a factor drawn anew at each step,
-/// on top of one that lasts for the whole drive.
+/// Errors of odometry. Each share is the standard deviation of a factor on the motion, one per step and one
+/// for the whole run.
 struct OdometryErrors {
   double length_factor = 1;
   double turn_factor = 1;
@@ -57,7 +57,7 @@ struct OdometryErrors {
   double drift_rad_per_m = 0;
 };
 
-/// Drives from one true pose to the next, ten scans a second.
+/// Moves the robot from one true pose to the next, at ten scans per second.
 inline SimulatedDrive drive_along(const SimulatedWalls& walls,
                                   const std::vector<mrpt::math::TPose2D>& world_T_robot,
                                   const OdometryErrors& errors, std::uint64_t seed) {
@@ -110,7 +110,7 @@ inline std::vector<mrpt::math::TPose2D> path_along(const std::vector<mrpt::math:
   return path;
 }
 
-/// A floor of 20 m x 14 m: a corridor round a block of rooms, with doorways, pillars and cupboards.
+/// A floor of 20 m x 14 m: a corridor around a block of rooms, with doorways, pillars and cupboards.
 inline SimulatedWalls office_floor() {
   SimulatedWalls floor;
   floor.add_box(0, 0, 20, 14);
@@ -132,7 +132,7 @@ inline SimulatedWalls office_floor() {
   return floor;
 }
 
-/// Once round the corridor of the office floor.
+/// One lap around the corridor of the office floor.
 inline std::vector<mrpt::math::TPose2D> round_the_office() {
   return path_along({{1.6, 1.6}, {18.3, 1.6}, {18.3, 12.4}, {1.6, 12.4}, {1.6, 1.6}});
 }

@@ -27,7 +27,7 @@ TEST(MapFile, reads_both_formats_with_all_cells_in_place) {
   const TemporaryFolder folder;
   const COccupancyGridMap2D map = small_map();
   write_map_server_pair(folder.path() / "map.yaml", map);
-  write_grid_map(folder.path() / "map.gridmap.gz", map);
+  write_mrpt_map(folder.path() / "map.gridmap.gz", map);
   for (const char* name : {"map.yaml", "map.gridmap.gz"}) {
     const COccupancyGridMap2D read = read_map_file(folder.path() / name);
     ASSERT_EQ(read.getSizeX(), map.getSizeX()) << name;
@@ -77,7 +77,7 @@ TEST(MapFile, rejects_cells_without_size) {
 TEST(MapFile, checks_the_cell_counts_of_a_gridmap) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "map.gridmap.gz";
-  write_grid_map(path, small_map());
+  write_mrpt_map(path, small_map());
   std::string whole;
   CompressedFile file(path);
   for (char byte = 0; file.read(&byte, 1) == 1;) whole += byte;

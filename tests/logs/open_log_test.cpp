@@ -41,7 +41,7 @@ TEST(OpenLog, reads_carmen_plain_and_gzipped_alike) {
   expect_same_frames(plain, frames_of(folder.path() / "b.txt"));
 }
 
-TEST(OpenLog, thins_a_log_and_keeps_each_scan_with_its_own_odometry) {
+TEST(OpenLog, every_nth_scan_keeps_its_own_odometry) {
   const TemporaryFolder folder;
   write_file(folder.path() / "log", small_carmen_log(10));
   LogOptions options;
@@ -55,7 +55,7 @@ TEST(OpenLog, thins_a_log_and_keeps_each_scan_with_its_own_odometry) {
   }
 }
 
-TEST(OpenLog, refuses_options_that_make_no_sense) {
+TEST(OpenLog, rejects_invalid_options) {
   const TemporaryFolder folder;
   write_file(folder.path() / "log", small_carmen_log(1));
   LogOptions options;
@@ -64,7 +64,7 @@ TEST(OpenLog, refuses_options_that_make_no_sense) {
             "log.every_nth_scan is 0, expected 1 or more");
 }
 
-TEST(OpenLog, says_what_stands_in_the_way) {
+TEST(OpenLog, reports_missing_and_empty_files) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "log";
   const std::string expected =
@@ -75,17 +75,17 @@ TEST(OpenLog, says_what_stands_in_the_way) {
   EXPECT_EQ(sentence_of([&] { open_log(path); }), path.string() + " is empty" + expected);
 }
 
-TEST(OpenLog, says_when_a_gzipped_log_is_cut_off) {
+TEST(OpenLog, reports_a_truncated_gzip_file) {
   const auto whole = shared_file("mit-csail.clf.gz");
   if (!whole) GTEST_SKIP() << kNeedsData;
   const TemporaryFolder folder;
   const auto path = folder.path() / "cut.clf.gz";
   write_file(path, read_file(*whole).substr(0, 400'000));
   EXPECT_EQ(sentence_of([&] { frames_of(path); }),
-            path.string() + " is cut off: its compressed data end too early");
+            path.string() + " is cut off: its compressed data are incomplete. Fetch it again");
 }
 
-TEST(OpenLog, gives_the_scans_of_a_short_gzipped_log_that_is_cut_off) {
+TEST(OpenLog, yields_the_scans_before_the_end_of_a_truncated_gzip_file) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "cut.clf.gz";
   write_gzipped(path, small_carmen_log(300));
@@ -96,7 +96,7 @@ TEST(OpenLog, gives_the_scans_of_a_short_gzipped_log_that_is_cut_off) {
   EXPECT_EQ(sentence_of([&] {
               while (log->next()) ++scans;
             }),
-            path.string() + " is cut off: its compressed data end too early");
+            path.string() + " is cut off: its compressed data are incomplete. Fetch it again");
   EXPECT_GT(scans, 50U);
 }
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "matching/correlative_matcher.h"
+#include "matching/make_matcher.h"
 #include "two_rounds.h"
 
 namespace psi_slam {
@@ -14,31 +14,24 @@ namespace {
 
 using Known = std::function<bool(std::size_t, std::size_t)>;
 
-// The exact matcher under another name.
-class NamedMatcher : public Matcher {
- public:
-  explicit NamedMatcher(std::string name) : name_(std::move(name)), exact_(MatcherOptions()) {}
-  MatchResult match(const MatchProblem& problem) const override { return exact_.match(problem); }
-  std::string name() const override { return name_; }
-
- private:
-  std::string name_;
-  CorrelativeMatcher exact_;
-};
-
-const NamedMatcher kEarly("early");
-const NamedMatcher kLate("late");
+const CorrelativeMatcher kExact({});
 
 bool is_late(std::size_t node) {
   return node >= two_rounds().node;
+}
+
+// The exact matcher searches everywhere, under two names.
+MatcherKind kind_of(std::size_t node) {
+  return is_late(node) ? MatcherKind::kGa : MatcherKind::kCsm;
 }
 
 FinalSearchOutcome pass(
     int threads, const Known& known = [](std::size_t, std::size_t) { return false; },
     const std::function<bool(double)>& progress = [](double) { return true; }) {
   WorkerPool pool(threads);
-  const auto matcher_of = [](std::size_t node) -> const Matcher& { return is_late(node) ? kLate : kEarly; };
-  return final_search(two_rounds().memory, two_rounds().graph(), matcher_of, {}, {}, known, 1, pool, progress);
+  const auto matcher_of = [](std::size_t node) { return ChosenMatcher{kind_of(node), kExact}; };
+  return final_search(two_rounds().keyframes, two_rounds().graph(), matcher_of, {}, {}, known, 1, pool,
+                      progress);
 }
 
 TEST(FinalSearch, finds_true_loops_and_nothing_else) {
@@ -54,15 +47,15 @@ TEST(FinalSearch, finds_true_loops_and_nothing_else) {
   EXPECT_GT(accepted, 10U);
 }
 
-// Every pair, with nothing left out early.
+// Compares with a test of every pair.
 TEST(FinalSearch, matches_all_pairs_near_each_other) {
   const TwoRounds& rounds = two_rounds();
   const PoseGraph graph = rounds.graph();
   std::size_t near_pairs = 0;
   FinalSearchOptions options;
   options.reach_m = 1.5;
-  for (const PlacedLocalMap& local_map : rounds.memory.local_maps) {
-    for (std::size_t node = 0; node < rounds.memory.nodes.size(); ++node) {
+  for (const PlacedLocalMap& local_map : rounds.keyframes.local_maps) {
+    for (std::size_t node = 0; node < rounds.keyframes.nodes.size(); ++node) {
       if (node >= local_map.first_node && node <= local_map.last_node) continue;
       bool near = false;
       for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other)
@@ -73,10 +66,13 @@ TEST(FinalSearch, matches_all_pairs_near_each_other) {
   }
   WorkerPool pool(1);
   const FinalSearchOutcome outcome = final_search(
-      rounds.memory, graph, [](std::size_t) -> const Matcher& { return kEarly; }, {}, options,
-      [](std::size_t, std::size_t) { return false; }, 1, pool, [](double) { return true; });
-  EXPECT_EQ(outcome.effort.at("early").attempts, near_pairs);
-  EXPECT_LT(near_pairs, rounds.memory.nodes.size() * rounds.memory.local_maps.size() / 2);
+      rounds.keyframes, graph,
+      [](std::size_t) {
+        return ChosenMatcher{MatcherKind::kCsm, kExact};
+      },
+      {}, options, [](std::size_t, std::size_t) { return false; }, 1, pool, [](double) { return true; });
+  EXPECT_EQ(outcome.effort.at(MatcherKind::kCsm).attempts, near_pairs);
+  EXPECT_LT(near_pairs, rounds.keyframes.nodes.size() * rounds.keyframes.local_maps.size() / 2);
 }
 
 TEST(FinalSearch, each_node_is_matched_by_its_own_matcher_and_counted_there) {
@@ -84,15 +80,15 @@ TEST(FinalSearch, each_node_is_matched_by_its_own_matcher_and_counted_there) {
   ASSERT_EQ(outcome.effort.size(), 2U);
   std::size_t late = 0;
   for (const LoopRecord& loop : outcome.loops) {
-    EXPECT_EQ(loop.matcher, is_late(loop.node) ? "late" : "early");
+    EXPECT_EQ(loop.matcher, kind_of(loop.node));
     late += is_late(loop.node) ? 1 : 0;
   }
   EXPECT_GT(late, 0U);
-  EXPECT_EQ(outcome.effort.at("late").found, late);
-  EXPECT_EQ(outcome.effort.at("early").found, outcome.loops.size() - late);
+  EXPECT_EQ(outcome.effort.at(MatcherKind::kGa).found, late);
+  EXPECT_EQ(outcome.effort.at(MatcherKind::kCsm).found, outcome.loops.size() - late);
 }
 
-TEST(FinalSearch, known_pairs_are_left_out) {
+TEST(FinalSearch, leaves_out_known_pairs) {
   const FinalSearchOutcome all = pass(1);
   const FinalSearchOutcome some =
       pass(1, [](std::size_t node, std::size_t local_map) { return local_map == 0 || node < 20; });
@@ -117,11 +113,12 @@ TEST(FinalSearch, finds_the_same_in_the_same_order_with_any_number_of_threads) {
       EXPECT_EQ(together.loops[i].anchor_T_node, alone.loops[i].anchor_T_node);
       EXPECT_EQ(together.loops[i].verdict, alone.loops[i].verdict);
     }
-    EXPECT_EQ(together.effort.at("late").evaluations, alone.effort.at("late").evaluations);
+    EXPECT_EQ(together.effort.at(MatcherKind::kGa).evaluations,
+              alone.effort.at(MatcherKind::kGa).evaluations);
   }
 }
 
-TEST(FinalSearch, progress_grows_up_to_the_end_and_reaches_it_where_nothing_is_near_too) {
+TEST(FinalSearch, progress_reaches_the_end_even_without_pairs) {
   for (const bool nothing : {false, true}) {
     std::vector<double> shares;
     const auto known = [&](std::size_t, std::size_t) { return nothing; };
@@ -137,7 +134,7 @@ TEST(FinalSearch, progress_grows_up_to_the_end_and_reaches_it_where_nothing_is_n
   }
 }
 
-TEST(FinalSearch, ends_where_it_is_told_to_stop) {
+TEST(FinalSearch, ends_when_stopped) {
   const auto nothing_known = [](std::size_t, std::size_t) { return false; };
   int calls = 0;
   const FinalSearchOutcome cut = pass(2, nothing_known, [&](double) {

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop_closure/inlier_loops.h"
+#include "loop_closure/outlier_loops.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "psi_slam/user_error.h"
-#include "loop_closure/outlier_loops.h"
 
 namespace psi_slam {
 namespace {
 
 constexpr double kMaxChi = 5;
 
-// Ten nodes a metre apart, each link good to 0.1 m and 0.01 rad, all in the wrong place.
+// Ten nodes one metre apart at wrong poses. Each constraint has standard deviations of 0.1 m and 0.01 rad.
 PoseGraph chain() {
   PoseGraph graph;
   for (std::size_t i = 0; i < 10; ++i) {
@@ -39,7 +38,7 @@ std::size_t add_loop(PoseGraph& graph, std::size_t to, double off_x_m, double of
   return graph.add_constraint(loop);
 }
 
-TEST(InlierLoops, path_chi_adds_the_ways_uncertainty_to_the_loops_own) {
+TEST(InlierLoops, path_chi_adds_the_uncertainty_of_path_and_loop) {
   PoseGraph graph = chain();
   for (std::size_t i = 0; i < 10; ++i) graph.set_pose(i, {static_cast<double>(i), 0, 0});
   const std::vector<std::size_t> loops{add_loop(graph, 4, 0.5), add_loop(graph, 4, 0)};
@@ -49,14 +48,14 @@ TEST(InlierLoops, path_chi_adds_the_ways_uncertainty_to_the_loops_own) {
   EXPECT_NEAR(chi[1], 0, 1e-9);
 }
 
-TEST(InlierLoops, the_few_true_ones_among_many_false_ones_are_found) {
+TEST(InlierLoops, finds_few_true_loops_among_many_false_ones) {
   PoseGraph graph = chain();
   std::vector<std::size_t> loops;
   for (const std::size_t to : {7U, 8U, 9U}) loops.push_back(add_loop(graph, to, 0.01));
   for (std::size_t i = 0; i < 15; ++i)
     loops.push_back(add_loop(graph, 3 + i % 7, 4 + 3 * static_cast<double>(i), -5));
   SparsePoseAdjustment solver;
-  trust_loops(graph, solver, loops, kMaxChi);
+  select_inlier_loops(graph, solver, loops, kMaxChi);
   for (std::size_t i = 0; i < loops.size(); ++i) EXPECT_EQ(graph.enabled(loops[i]), i < 3) << i;
   const mrpt::math::TPose2D far = graph.pose(9) - graph.pose(0);
   EXPECT_NEAR(far.x, 9.01, 0.01);
@@ -69,11 +68,11 @@ TEST(InlierLoops, within_the_gate_the_majority_decides) {
   for (int i = 0; i < 5; ++i) loops.push_back(add_loop(graph, 9, 0.2, 0.1));
   for (int i = 0; i < 2; ++i) loops.push_back(add_loop(graph, 9, -0.8, 0.3 * i));
   SparsePoseAdjustment solver;
-  trust_loops(graph, solver, loops, kMaxChi);
+  select_inlier_loops(graph, solver, loops, kMaxChi);
   for (std::size_t i = 0; i < loops.size(); ++i) EXPECT_EQ(graph.enabled(loops[i]), i < 5) << i;
 }
 
-TEST(InlierLoops, neither_poses_nor_switches_of_before_matter) {
+TEST(InlierLoops, ignores_previous_poses_and_enabled_loops) {
   PoseGraph graph = chain();
   std::vector<std::size_t> loops{add_loop(graph, 9, 0.02), add_loop(graph, 8, 30), add_loop(graph, 7, 0)};
   PoseGraph other = graph;
@@ -82,25 +81,25 @@ TEST(InlierLoops, neither_poses_nor_switches_of_before_matter) {
   other.set_pose(0, graph.pose(0));
   SparsePoseAdjustment solver;
   SparsePoseAdjustment other_solver;
-  trust_loops(graph, solver, loops, kMaxChi);
-  trust_loops(other, other_solver, loops, kMaxChi);
+  select_inlier_loops(graph, solver, loops, kMaxChi);
+  select_inlier_loops(other, other_solver, loops, kMaxChi);
   for (const std::size_t loop : loops) EXPECT_EQ(graph.enabled(loop), other.enabled(loop));
   for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(graph.pose(i), other.pose(i));
 }
 
-TEST(InlierLoops, a_node_held_by_loops_alone_is_refused) {
+TEST(InlierLoops, refuses_a_node_connected_by_loops_only) {
   PoseGraph graph = chain();
   graph.add_node({5, 5, 0});
   const std::vector<std::size_t> loops{add_loop(graph, 10, 0)};
   SparsePoseAdjustment solver;
-  EXPECT_THROW(trust_loops(graph, solver, loops, kMaxChi), UserError);
+  EXPECT_THROW(select_inlier_loops(graph, solver, loops, kMaxChi), UserError);
 }
 
-TEST(InlierLoops, contradictions_by_the_dozen_lead_to_them) {
+TEST(InlierLoops, many_contradictions_lead_to_the_selection_of_inliers) {
   PoseGraph graph = chain();
   std::vector<std::size_t> loops;
   for (const std::size_t to : {7U, 8U, 9U}) loops.push_back(add_loop(graph, to, 0.01));
-  for (std::size_t i = 0; i < 30; ++i)  // five groups that agree with themselves
+  for (std::size_t i = 0; i < 30; ++i)  // five groups, each consistent in itself
     loops.push_back(add_loop(graph, 3 + i % 6, 6 + 4 * static_cast<double>(i / 6), -8));
   SparsePoseAdjustment solver;
   const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kMaxChi);

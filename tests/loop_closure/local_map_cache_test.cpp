@@ -32,7 +32,7 @@ struct Shelf {
 
 using Numbers = std::vector<std::size_t>;
 
-TEST(LocalMapCache, leaves_those_unpacked_that_were_used_last) {
+TEST(LocalMapCache, keeps_the_local_maps_used_last_unpacked) {
   Shelf cache(5, 3);
   EXPECT_EQ(cache.unpacked(), Numbers({2, 3, 4}));
   cache.cache.use({0, 3}, cache.pool);
@@ -41,7 +41,7 @@ TEST(LocalMapCache, leaves_those_unpacked_that_were_used_last) {
   EXPECT_EQ(cache.unpacked(), Numbers({0, 1, 3}));
 }
 
-TEST(LocalMapCache, what_is_in_use_is_unpacked_however_much_that_is) {
+TEST(LocalMapCache, keeps_all_local_maps_in_use_unpacked) {
   Shelf cache(6, 2);
   cache.cache.use({0, 1, 2, 3, 1}, cache.pool);
   EXPECT_EQ(cache.unpacked(), Numbers({0, 1, 2, 3}));

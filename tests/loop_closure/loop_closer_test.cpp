@@ -8,13 +8,13 @@
 #include <set>
 #include <vector>
 
-#include "matching/correlative_matcher.h"
+#include "matching/make_matcher.h"
 #include "two_rounds.h"
 
 namespace psi_slam {
 namespace {
 
-// Finds nothing, and keeps what it was asked.
+// Finds nothing, and records the questions.
 class AskedMatcher : public Matcher {
  public:
   struct Question {
@@ -45,10 +45,10 @@ LoopClosureOptions near_maps_too() {
 }
 
 LoopCloser::Outcome close(const PoseGraph& graph, const Matcher& matcher, int threads = 1,
-                          const KeyframeStore& memory = two_rounds().memory) {
+                          const KeyframeStore& keyframes = two_rounds().keyframes) {
   WorkerPool pool(threads);
   LoopCloser closer(near_maps_too(), 5);
-  return closer.close(two_rounds().node, memory, graph, matcher, pool);
+  return closer.close(two_rounds().node, keyframes, graph, {MatcherKind::kCsm, matcher}, pool);
 }
 
 TEST(LoopCloser, attempts_that_find_nothing_are_listed_and_counted) {
@@ -59,7 +59,7 @@ TEST(LoopCloser, attempts_that_find_nothing_are_listed_and_counted) {
   for (const LoopRecord& loop : outcome.loops) {
     EXPECT_EQ(loop.verdict, LoopVerdict::kNotFound);
     EXPECT_EQ(loop.anchor_T_node, loop.anchor_T_predicted);
-    EXPECT_FALSE(loop.reason.empty());
+    EXPECT_EQ(loop.refusal.value().reason, LoopRefusal::Reason::kNothingFound);
   }
   EXPECT_EQ(outcome.effort.attempts, matcher.questions().size());
   EXPECT_EQ(outcome.effort.found, 0U);
@@ -70,7 +70,7 @@ TEST(LoopCloser, attempts_that_find_nothing_are_listed_and_counted) {
 TEST(LoopCloser, every_match_has_a_seed_of_its_own) {
   const AskedMatcher matcher;
   close(two_rounds().graph(), matcher);
-  const std::size_t scan = two_rounds().memory.nodes[two_rounds().node].frame;
+  const std::size_t scan = two_rounds().keyframes.nodes[two_rounds().node].frame;
   std::vector<std::uint64_t> local_maps;
   for (const auto& question : matcher.questions()) {
     EXPECT_EQ(question.seed.run, 5U);
@@ -81,29 +81,31 @@ TEST(LoopCloser, every_match_has_a_seed_of_its_own) {
   EXPECT_EQ(std::set<std::uint64_t>(local_maps.begin(), local_maps.end()).size(), local_maps.size());
 }
 
-TEST(LoopCloser, a_blind_scan_is_not_searched_for) {
-  KeyframeStore memory = two_rounds().memory;
-  memory.nodes[two_rounds().node].points = std::make_shared<const ScanPoints>();
+TEST(LoopCloser, does_not_search_for_a_scan_without_points) {
+  KeyframeStore keyframes = two_rounds().keyframes;
+  keyframes.nodes[two_rounds().node].points = std::make_shared<const ScanPoints>();
   const AskedMatcher matcher;
-  const LoopCloser::Outcome outcome = close(two_rounds().graph(), matcher, 1, memory);
+  const LoopCloser::Outcome outcome = close(two_rounds().graph(), matcher, 1, keyframes);
   EXPECT_EQ(outcome.effort.attempts, 0U);
   EXPECT_TRUE(matcher.questions().empty());
 }
 
-TEST(LoopCloser, only_the_first_node_of_a_stretch_is_searched_for) {
+TEST(LoopCloser, searches_once_in_each_stretch) {
   const AskedMatcher matcher;
   WorkerPool pool(1);
   LoopCloser closer(near_maps_too(), 5);
   const TwoRounds& rounds = two_rounds();
   const auto attempts = [&](std::size_t node) {
-    return closer.close(node, rounds.memory, rounds.graph(), matcher, pool).effort.attempts;
+    return closer.close(node, rounds.keyframes, rounds.graph(), {MatcherKind::kCsm, matcher}, pool)
+        .effort.attempts;
   };
-  ASSERT_FALSE(begins_stretch(rounds.node + 1, rounds.memory.nodes, LoopClosureOptions().attempt_distance_m));
+  ASSERT_FALSE(
+      begins_stretch(rounds.node + 1, rounds.keyframes.nodes, LoopClosureOptions().attempt_distance_m));
   EXPECT_GT(attempts(rounds.node), 0U);
   EXPECT_EQ(attempts(rounds.node + 1), 0U);
 }
 
-TEST(LoopCloser, a_node_that_nothing_links_to_a_local_map_is_searched_for_in_the_largest_window) {
+TEST(LoopCloser, searches_an_unconnected_node_in_the_largest_window) {
   const SearchExtent largest = LoopCandidateOptions().max_window;
   const AskedMatcher linked;
   close(two_rounds().graph(), linked);
@@ -123,8 +125,8 @@ TEST(LoopCloser, a_node_that_nothing_links_to_a_local_map_is_searched_for_in_the
     EXPECT_EQ(question.extent.x_m, largest.x_m);
     EXPECT_EQ(question.extent.y_m, largest.y_m);
     EXPECT_EQ(question.extent.theta_rad, largest.theta_rad);
-    EXPECT_GT(question.points, two_rounds().memory.nodes[two_rounds().node].points->points.size())
-        << "wide windows are searched with the context";
+    EXPECT_GT(question.points, two_rounds().keyframes.nodes[two_rounds().node].points->points.size())
+        << "wide windows use the context";
   }
 }
 
@@ -142,7 +144,7 @@ TEST(LoopCloser, finds_the_same_loops_with_any_number_of_threads) {
     for (std::size_t i = 0; i < alone.loops.size(); ++i) {
       EXPECT_EQ(together.loops[i].local_map, alone.loops[i].local_map);
       EXPECT_EQ(together.loops[i].anchor_T_node, alone.loops[i].anchor_T_node);
-      EXPECT_EQ(together.loops[i].reason, alone.loops[i].reason);
+      EXPECT_EQ(text_of(together.loops[i].refusal), text_of(alone.loops[i].refusal));
     }
   }
 }

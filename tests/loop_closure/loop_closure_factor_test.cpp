@@ -22,7 +22,7 @@ TEST(LoopClosureFactor, without_history_no_loop_is_expected) {
   EXPECT_EQ(factor.value().psi, 0);
 }
 
-TEST(LoopClosureFactor, fewer_frames_than_the_window_are_averaged_over_those_there_are) {
+TEST(LoopClosureFactor, averages_over_the_frames_available) {
   LoopClosureFactor factor(options_of(4, 20));
   factor.move(0, {1, 1});
   factor.move(6, {1, 4});  // eta = 6 / 3
@@ -47,7 +47,7 @@ TEST(LoopClosureFactor, only_the_last_frames_count) {
   EXPECT_EQ(factor.value().psi, 0);
 }
 
-TEST(LoopClosureFactor, the_path_of_every_scan_counts_though_few_become_frames) {
+TEST(LoopClosureFactor, counts_the_path_of_every_scan) {
   LoopClosureFactor factor(options_of(2, 20));
   factor.move(0, {0, 0});
   factor.add_frame(1);

@@ -12,7 +12,7 @@ namespace {
 using Loops = std::vector<std::size_t>;
 using mrpt::math::TPose2D;
 
-// The front end's frame lies in the map as the first of these says; anchors 0 and 1 are far apart and turned.
+// Pose of the front end's frame in the map. Anchors 0 and 1 are far apart and have different headings.
 const TPose2D kMapTLocal(2, -1, 0.8);
 
 PoseGraph two_anchors() {
@@ -22,8 +22,7 @@ PoseGraph two_anchors() {
   return graph;
 }
 
-// The robot drives straight on through the front end's frame. The match is off from where the map truly has
-// the robot by `error`, in the map's axes.
+// The robot moves straight through the front end's frame. The match has an `error` along the map's axes.
 LoopConsensus::Vote vote(std::size_t loop, double travelled_m, double ambiguity = 0, std::size_t anchor = 0,
                          const TPose2D& error = {0, 0, 0}) {
   LoopConsensus::Vote result;
@@ -53,7 +52,7 @@ TEST(LoopConsensus, two_unambiguous_matches_a_metre_apart_are_confirmed) {
   EXPECT_EQ(consensus.add(vote(9, 6.1), graph), Loops({7, 9}));
 }
 
-TEST(LoopConsensus, matches_that_no_longer_wait_do_not_count_until_they_do_again) {
+TEST(LoopConsensus, only_matches_that_still_wait_count) {
   const PoseGraph graph = two_anchors();
   LoopConsensus consensus({});
   consensus.add(vote(7, 5), graph);
@@ -109,19 +108,19 @@ TEST(LoopConsensus, matches_of_different_places_do_not_add_up) {
   }
 }
 
-TEST(LoopConsensus, a_rival_place_blocks_until_it_is_outweighed) {
+TEST(LoopConsensus, another_place_blocks_until_it_is_outweighed) {
   const PoseGraph graph = two_anchors();
   LoopConsensus consensus({});
-  EXPECT_EQ(consensus.add(vote(0, 5.0, 0.4, 0, {3, 0, 0}), graph), Loops());  // the rival weighs 0.6
+  EXPECT_EQ(consensus.add(vote(0, 5.0, 0.4, 0, {3, 0, 0}), graph), Loops());  // the other place weighs 0.6
   EXPECT_EQ(consensus.add(vote(1, 5.2, 0.5), graph), Loops());
   EXPECT_EQ(consensus.add(vote(2, 6.5, 0.5), graph), Loops()) << "0.6 against 1.0";
   EXPECT_EQ(consensus.add(vote(3, 7.5, 0.5), graph), Loops({1, 2, 3})) << "0.6 against 1.5";
 }
 
-TEST(LoopConsensus, scattered_rivals_do_not_block_together) {
+TEST(LoopConsensus, scattered_other_places_do_not_block_together) {
   const PoseGraph graph = two_anchors();
   LoopConsensus consensus({});
-  for (std::size_t i = 0; i < 4; ++i)  // each of another place
+  for (std::size_t i = 0; i < 4; ++i)  // each at another place
     consensus.add(vote(i, 5.0, 0.6, 0, {3.0 + 2.0 * static_cast<double>(i), 0, 0}), graph);
   consensus.add(vote(4, 5.2, 0.5), graph);
   EXPECT_EQ(consensus.add(vote(5, 6.5, 0.5), graph), Loops({4, 5}));
@@ -139,16 +138,16 @@ TEST(LoopConsensus, old_matches_are_forgotten) {
   EXPECT_EQ(in_time.add(vote(1, 19.5), graph), Loops({0, 1}));
 }
 
-TEST(LoopConsensus, old_rivals_no_longer_block) {
+TEST(LoopConsensus, old_matches_of_another_place_do_not_block) {
   const PoseGraph graph = two_anchors();
   LoopConsensus consensus({});
   consensus.add(vote(0, 5, 0, 0, {3, 0, 0}), graph);
   consensus.add(vote(1, 18, 0.5), graph);
-  EXPECT_EQ(consensus.add(vote(2, 19.5, 0.5), graph), Loops()) << "the rival is 14.5 m back";
-  EXPECT_EQ(consensus.add(vote(3, 20.5, 0.9), graph), Loops({1, 2, 3})) << "the rival is 15.5 m back";
+  EXPECT_EQ(consensus.add(vote(2, 19.5, 0.5), graph), Loops()) << "the other place is 14.5 m back";
+  EXPECT_EQ(consensus.add(vote(3, 20.5, 0.9), graph), Loops({1, 2, 3})) << "the other place is 15.5 m back";
 }
 
-TEST(LoopConsensus, matches_with_different_anchors_agree_when_they_put_the_robot_in_one_place) {
+TEST(LoopConsensus, matches_with_different_anchors_agree_about_one_place) {
   const PoseGraph graph = two_anchors();
   LoopConsensus same({});
   same.add(vote(0, 5, 0, 0), graph);
@@ -158,19 +157,19 @@ TEST(LoopConsensus, matches_with_different_anchors_agree_when_they_put_the_robot
   EXPECT_EQ(other.add(vote(1, 6.5, 0, 1, {0, 1, 0}), graph), Loops());
 }
 
-TEST(LoopConsensus, sees_earlier_matches_from_where_their_anchors_are_now) {
+TEST(LoopConsensus, uses_the_present_poses_of_anchors) {
   PoseGraph moved = two_anchors();
   LoopConsensus consensus({});
   consensus.add(vote(0, 5, 0.2, 0), moved);
   consensus.add(vote(1, 5, 0, 1), moved);
-  moved.set_pose(0, {2, 0, 0});  // all that anchor 0 sees moves along
+  moved.set_pose(0, {2, 0, 0});  // moves all matches of anchor 0
   EXPECT_EQ(consensus.add(vote(2, 6.5, 0, 0), moved), Loops()) << "anchor 1 says otherwise now";
   EXPECT_EQ(consensus.add(vote(3, 7.5, 0, 0), moved), Loops({0, 2, 3}));
 
   PoseGraph joined = two_anchors();
   LoopConsensus apart({});
   apart.add(vote(0, 5, 0, 0, {2, 0, 0}), joined);
-  joined.set_pose(0, {-2, 0, 0});  // which takes the error back
+  joined.set_pose(0, {-2, 0, 0});  // which compensates the error
   EXPECT_EQ(apart.add(vote(1, 6.5, 0, 1), joined), Loops({0, 1}));
 }
 

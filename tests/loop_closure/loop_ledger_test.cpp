@@ -10,7 +10,8 @@ using Verdict = LoopVerdict;
 
 constexpr LoopNoise kNoise{0.02, 0.01};
 
-/// Two nodes a metre apart; loops that fit say that the third stands on the first.
+/// Three nodes: the second one metre from the first, the third at the first. True loops connect first and
+/// third.
 class LoopLedgerTest : public ::testing::Test {
  protected:
   LoopLedgerTest() {
@@ -51,7 +52,7 @@ class LoopLedgerTest : public ::testing::Test {
   LoopLedger ledger_{kNoise};
 };
 
-TEST_F(LoopLedgerTest, an_accepted_loop_becomes_a_constraint_once_and_says_how_far_it_moves_the_graph) {
+TEST_F(LoopLedgerTest, an_accepted_loop_becomes_a_constraint_once_and_returns_its_residual) {
   const std::size_t number = ledger_.add(loop(Verdict::kAccepted, 0.06));
   EXPECT_NEAR(ledger_.accept(number, graph_).value(), 0.06 / kNoise.sigma_m, 1e-9);
   EXPECT_FALSE(ledger_.accept(number, graph_).has_value());
@@ -60,12 +61,12 @@ TEST_F(LoopLedgerTest, an_accepted_loop_becomes_a_constraint_once_and_says_how_f
   EXPECT_NEAR(graph_.constraint(2).information(0, 0), 1 / (1e-4 + 4e-4), 1e-6);
 }
 
-TEST_F(LoopLedgerTest, a_refused_loop_becomes_none) {
+TEST_F(LoopLedgerTest, a_refused_loop_becomes_no_constraint) {
   EXPECT_FALSE(ledger_.accept(ledger_.add(loop(Verdict::kRefused)), graph_).has_value());
   EXPECT_EQ(graph_.num_constraints(), 2U);
 }
 
-TEST_F(LoopLedgerTest, loops_that_still_wait_at_the_end_are_refused) {
+TEST_F(LoopLedgerTest, pending_loops_are_refused_at_the_end) {
   const std::size_t waits = ledger_.add(loop(Verdict::kPending));
   const std::size_t accepted = ledger_.add(loop(Verdict::kAccepted, 0, 1));
   ledger_.refuse_pending();
@@ -73,7 +74,7 @@ TEST_F(LoopLedgerTest, loops_that_still_wait_at_the_end_are_refused) {
   EXPECT_EQ(verdict(accepted), Verdict::kAccepted);
 }
 
-TEST_F(LoopLedgerTest, a_contradicted_loop_is_switched_off_unless_a_person_has_forced_it) {
+TEST_F(LoopLedgerTest, an_outlier_loop_is_switched_off_unless_forced) {
   const std::size_t wrong = ledger_.add(loop(Verdict::kAccepted, 3));
   ledger_.accept(wrong, graph_);
   ledger_.settle(graph_, solver_, 5);
@@ -85,7 +86,7 @@ TEST_F(LoopLedgerTest, a_contradicted_loop_is_switched_off_unless_a_person_has_f
   EXPECT_EQ(loops_in_force(), 1U);
 }
 
-TEST_F(LoopLedgerTest, a_deleted_loop_is_out_of_force_until_it_is_restored) {
+TEST_F(LoopLedgerTest, a_deleted_loop_is_disabled_until_restored) {
   const std::size_t number = ledger_.add(loop(Verdict::kAccepted));
   ledger_.accept(number, graph_);
   ledger_.remove(pair(), graph_);
@@ -99,9 +100,9 @@ TEST_F(LoopLedgerTest, a_deleted_loop_is_out_of_force_until_it_is_restored) {
   EXPECT_FALSE(ledger_.restore(pair(), graph_));
 }
 
-TEST_F(LoopLedgerTest, what_a_person_wants_holds_for_matches_that_come_later) {
+TEST_F(LoopLedgerTest, edits_hold_for_later_matches) {
   ledger_.remove(pair(0), graph_);
-  EXPECT_FALSE(ledger_.force(pair(1), false, graph_)) << "there is none yet";
+  EXPECT_FALSE(ledger_.force(pair(1), false, graph_)) << "no match exists yet";
   EXPECT_EQ(ledger_.forced_in_vain(), std::vector<LoopPair>{pair(1)});
   EXPECT_EQ(verdict(ledger_.add(loop(Verdict::kAccepted, 0, 0))), Verdict::kDeleted);
   EXPECT_EQ(verdict(ledger_.add(loop(Verdict::kRefused, 0, 1))), Verdict::kAccepted);
@@ -110,7 +111,7 @@ TEST_F(LoopLedgerTest, what_a_person_wants_holds_for_matches_that_come_later) {
   EXPECT_EQ(ledger_.find(pair(1))->verdict, Verdict::kRefused) << "as it came";
 }
 
-TEST_F(LoopLedgerTest, a_match_by_hand_stands_instead_of_what_was_found) {
+TEST_F(LoopLedgerTest, a_match_by_hand_replaces_earlier_attempts) {
   const std::size_t number = ledger_.add(loop(Verdict::kAccepted, 0.5));
   ledger_.accept(number, graph_);
   ledger_.replace(loop(Verdict::kAccepted, 0.1), graph_);
@@ -122,7 +123,7 @@ TEST_F(LoopLedgerTest, a_match_by_hand_stands_instead_of_what_was_found) {
   EXPECT_EQ(loops_in_force(), 1U);
 }
 
-TEST_F(LoopLedgerTest, a_last_search_leaves_out_what_is_settled) {
+TEST_F(LoopLedgerTest, the_final_search_leaves_out_decided_pairs) {
   ledger_.add(loop(Verdict::kRefused, 0, 0));
   ledger_.add(loop(Verdict::kAccepted, 0, 1));
   ledger_.add(loop(Verdict::kNotFound, 0, 2));

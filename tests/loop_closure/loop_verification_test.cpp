@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "two_rounds.h"
@@ -14,24 +13,26 @@ namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
+using Reason = LoopRefusal::Reason;
 
 void judge(LoopRecord& loop, const LoopVerificationOptions& options = {}) {
-  verify(loop, *two_rounds().memory.nodes[loop.node].points, two_rounds().memory, options);
+  verify(loop, *two_rounds().keyframes.nodes[loop.node].points, two_rounds().keyframes, options);
 }
 
 constexpr double kNarrow_m = 0.5;
 constexpr double kWide_m = 3.0;
 
-void expect_refused(const LoopRecord& loop, const std::string& part_of_reason) {
+void expect_refused(const LoopRecord& loop, LoopRefusal::Reason reason) {
   EXPECT_EQ(loop.verdict, LoopVerdict::kRefused);
-  EXPECT_NE(loop.reason.find(part_of_reason), std::string::npos) << loop.reason;
+  ASSERT_TRUE(loop.refusal.has_value());
+  EXPECT_EQ(loop.refusal->reason, reason) << text_of(loop.refusal);
 }
 
 TEST(LoopVerification, a_right_match_in_a_narrow_window_is_accepted) {
   LoopRecord loop = two_rounds().loop(kNarrow_m);
   judge(loop);
-  EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << loop.reason;
-  EXPECT_TRUE(loop.reason.empty());
+  EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << text_of(loop.refusal);
+  EXPECT_FALSE(loop.refusal.has_value());
   EXPECT_GT(loop.observed_share, 0.9);
   EXPECT_GT(loop.neighbours_agree, 0.9);
   EXPECT_GT(loop.reverse_agree, 0.9);
@@ -41,29 +42,29 @@ TEST(LoopVerification, a_right_match_in_a_wide_window_waits_for_others) {
   LoopRecord loop = two_rounds().loop(kWide_m);
   judge(loop);
   EXPECT_EQ(loop.verdict, LoopVerdict::kPending);
-  EXPECT_TRUE(loop.reason.empty()) << loop.reason;
+  EXPECT_FALSE(loop.refusal.has_value()) << text_of(loop.refusal);
 }
 
-TEST(LoopVerification, a_match_a_metre_off_is_refused_and_says_why) {
+TEST(LoopVerification, a_match_one_metre_off_is_refused_with_a_reason) {
   for (const double half_width_m : {kNarrow_m, kWide_m})
     for (const TPose2D& off : {TPose2D(1, 0, 0), TPose2D(-1, 0, 0), TPose2D(0, 1, 0), TPose2D(0, -1, 0),
                                TPose2D(0, 0, M_PI / 4), TPose2D(0, 0, M_PI)}) {
       LoopRecord loop = two_rounds().loop(half_width_m, off);
       judge(loop);
       EXPECT_EQ(loop.verdict, LoopVerdict::kRefused) << off.asString();
-      EXPECT_FALSE(loop.reason.empty()) << off.asString();
+      EXPECT_TRUE(loop.refusal.has_value()) << off.asString();
       EXPECT_LT(loop.neighbours_agree, 0.75) << off.asString();
     }
 }
 
-TEST(LoopVerification, seen_from_the_other_side_a_wrong_match_is_refused_too) {
+TEST(LoopVerification, a_wrong_match_is_refused_by_the_reverse_test_too) {
   LoopVerificationOptions options;
   options.min_observed_share = 0;
   options.min_neighbours_agree = 0;
   for (const TPose2D& off : {TPose2D(1, 0, 0), TPose2D(0, 0, M_PI / 4)}) {
     LoopRecord loop = two_rounds().loop(kNarrow_m, off);
     judge(loop, options);
-    expect_refused(loop, "from the other side");
+    expect_refused(loop, Reason::kReverseDisagrees);
     EXPECT_LT(loop.reverse_agree, 0.75) << off.asString();
   }
 }
@@ -72,11 +73,11 @@ TEST(LoopVerification, an_ambiguous_match_is_refused_in_narrow_windows_only) {
   LoopRecord narrow = two_rounds().loop(kNarrow_m);
   narrow.ambiguity = 0.95;
   judge(narrow);
-  expect_refused(narrow, "another place fits as well");
+  expect_refused(narrow, Reason::kAmbiguous);
   LoopRecord wide = two_rounds().loop(kWide_m);
   wide.ambiguity = 0.95;
   judge(wide);
-  EXPECT_EQ(wide.verdict, LoopVerdict::kPending) << wide.reason;
+  EXPECT_EQ(wide.verdict, LoopVerdict::kPending) << text_of(wide.refusal);
 }
 
 TEST(LoopVerification, the_response_needed_depends_on_the_window) {
@@ -92,51 +93,52 @@ TEST(LoopVerification, the_response_needed_depends_on_the_window) {
     const double needed = min_response(loop.window, options);
     loop.response = needed - 0.01;
     judge(loop);
-    expect_refused(loop, "the response");
+    expect_refused(loop, Reason::kLowResponse);
     loop.response = needed;
     judge(loop);
-    EXPECT_NE(loop.verdict, LoopVerdict::kRefused) << loop.reason;
+    EXPECT_NE(loop.verdict, LoopVerdict::kRefused) << text_of(loop.refusal);
   }
 }
 
 TEST(LoopVerification, a_position_known_in_one_direction_only_is_refused) {
   LoopRecord loop = two_rounds().loop(kNarrow_m);
-  // A standard deviation of 0.4 m along a corridor at 45 degrees, of 0.01 m across: 0.28 m along x and y.
+  // Standard deviations of 0.4 m along a corridor at 45 degrees and 0.01 m across give 0.28 m along x and y.
   loop.covariance(0, 0) = loop.covariance(1, 1) = 0.5 * (0.16 + 0.0001);
   loop.covariance(0, 1) = loop.covariance(1, 0) = 0.5 * (0.16 - 0.0001);
   judge(loop);
-  expect_refused(loop, "does not determine the position");
-  EXPECT_NE(loop.reason.find("0.40 m"), std::string::npos) << loop.reason;
+  expect_refused(loop, Reason::kUncertainPosition);
+  EXPECT_NEAR(loop.refusal->value, 0.4, 1e-3);
   LoopVerificationOptions options;
   options.max_sigma_m = 0.41;
   judge(loop, options);
-  EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << loop.reason;
+  EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << text_of(loop.refusal);
 }
 
 TEST(LoopVerification, a_scan_outside_the_space_the_local_map_has_seen_is_refused) {
   LoopRecord loop = two_rounds().loop(kNarrow_m, {40, 0, 0});
   judge(loop);
-  expect_refused(loop, "in space the local map has observed");
+  expect_refused(loop, Reason::kUnobserved);
   EXPECT_EQ(loop.observed_share, 0);
 }
 
 TEST(LoopVerification, every_threshold_decides) {
   LoopRecord found = two_rounds().loop(kNarrow_m);
   judge(found);
-  ASSERT_EQ(found.verdict, LoopVerdict::kAccepted) << found.reason;
+  ASSERT_EQ(found.verdict, LoopVerdict::kAccepted) << text_of(found.refusal);
   struct Threshold {
     double LoopVerificationOptions::*limit;
     double measured;
-    double above;  // +1: a limit above what was measured refuses; -1: one below does
-    std::string reason;
+    double above;  // +1: a limit above the measured value refuses; -1: a limit below it
+    LoopRefusal::Reason reason;
   };
   const std::vector<Threshold> thresholds = {
-      {&LoopVerificationOptions::min_response, found.response, 1, "the response"},
-      {&LoopVerificationOptions::max_ambiguity, found.ambiguity, -1, "another place"},
-      {&LoopVerificationOptions::max_sigma_m, 0.01, -1, "does not determine"},
-      {&LoopVerificationOptions::min_observed_share, found.observed_share, 1, "has observed"},
-      {&LoopVerificationOptions::min_neighbours_agree, found.neighbours_agree, 1, "neighbouring scans"},
-      {&LoopVerificationOptions::min_reverse_agree, found.reverse_agree, 1, "from the other side"}};
+      {&LoopVerificationOptions::min_response, found.response, 1, Reason::kLowResponse},
+      {&LoopVerificationOptions::max_ambiguity, found.ambiguity, -1, Reason::kAmbiguous},
+      {&LoopVerificationOptions::max_sigma_m, 0.01, -1, Reason::kUncertainPosition},
+      {&LoopVerificationOptions::min_observed_share, found.observed_share, 1, Reason::kUnobserved},
+      {&LoopVerificationOptions::min_neighbours_agree, found.neighbours_agree, 1,
+       Reason::kNeighboursDisagree},
+      {&LoopVerificationOptions::min_reverse_agree, found.reverse_agree, 1, Reason::kReverseDisagrees}};
   for (const Threshold& threshold : thresholds) {
     LoopVerificationOptions options;
     LoopRecord loop = two_rounds().loop(kNarrow_m);
@@ -145,8 +147,8 @@ TEST(LoopVerification, every_threshold_decides) {
     expect_refused(loop, threshold.reason);
     options.*threshold.limit = threshold.measured - threshold.above * 1e-6;
     judge(loop, options);
-    EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << loop.reason;
-    EXPECT_TRUE(loop.reason.empty()) << "an earlier verdict's reason does not stay";
+    EXPECT_EQ(loop.verdict, LoopVerdict::kAccepted) << text_of(loop.refusal);
+    EXPECT_FALSE(loop.refusal.has_value()) << "an earlier refusal is cleared";
   }
 }
 

@@ -17,20 +17,18 @@ PsiOptions thresholds(double psi_1, double psi_2) {
   return options;
 }
 
-constexpr MatcherKind kKinds[] = {MatcherKind::kCsm, MatcherKind::kCsmGa, MatcherKind::kGa};
-
-TEST(MatcherPolicy, the_more_loops_the_less_exhaustive) {
+TEST(MatcherPolicy, searches_less_exhaustively_with_more_loops) {
   const PsiOptions options = thresholds(1.5, 4);
-  const auto kind = [&](double psi) { return matcher_kind(LoopMatcher::kAdaptive, options, psi); };
+  const auto kind = [&](double psi) { return matcher_kind(std::nullopt, options, psi); };
   EXPECT_EQ(kind(0), MatcherKind::kCsm);
   EXPECT_EQ(kind(1.4), MatcherKind::kCsm);
   EXPECT_EQ(kind(2), MatcherKind::kCsmGa);
   EXPECT_EQ(kind(5), MatcherKind::kGa);
 }
 
-TEST(MatcherPolicy, thresholds_equalled_exactly_belong_to_the_outer_modes) {
+TEST(MatcherPolicy, thresholds_belong_to_the_outer_modes) {
   const PsiOptions options = thresholds(1.5, 4);
-  const auto kind = [&](double psi) { return matcher_kind(LoopMatcher::kAdaptive, options, psi); };
+  const auto kind = [&](double psi) { return matcher_kind(std::nullopt, options, psi); };
   const double inf = std::numeric_limits<double>::infinity();
   EXPECT_EQ(kind(1.5), MatcherKind::kCsm);
   EXPECT_EQ(kind(std::nextafter(1.5, inf)), MatcherKind::kCsmGa);
@@ -38,21 +36,18 @@ TEST(MatcherPolicy, thresholds_equalled_exactly_belong_to_the_outer_modes) {
   EXPECT_EQ(kind(4), MatcherKind::kGa);
 }
 
-TEST(MatcherPolicy, a_fixed_choice_stands_whatever_psi_is) {
-  for (const double psi : {0.0, 1.0, 2.0, 4.0, 1000.0}) {
-    EXPECT_EQ(matcher_kind(LoopMatcher::kCsm, {}, psi), MatcherKind::kCsm);
-    EXPECT_EQ(matcher_kind(LoopMatcher::kCsmGa, {}, psi), MatcherKind::kCsmGa);
-    EXPECT_EQ(matcher_kind(LoopMatcher::kGa, {}, psi), MatcherKind::kGa);
-  }
+TEST(MatcherPolicy, a_fixed_choice_does_not_depend_on_psi) {
+  for (const double psi : {0.0, 1.0, 2.0, 4.0, 1000.0})
+    for (const MatcherKind kind : kMatcherKinds) EXPECT_EQ(matcher_kind(kind, {}, psi), kind);
 }
 
-TEST(MatcherPolicy, holds_the_matchers_it_may_come_to) {
-  const MatcherPolicy adaptive(LoopMatcher::kAdaptive, thresholds(1, 4), {}, {});
-  for (const MatcherKind kind : kKinds) EXPECT_EQ(adaptive.matcher(kind).name(), name(kind));
+TEST(MatcherPolicy, owns_the_matchers_it_may_choose) {
+  const MatcherPolicy adaptive(std::nullopt, thresholds(1, 4), {}, {});
+  for (const MatcherKind kind : kMatcherKinds) EXPECT_EQ(adaptive.matcher(kind).matcher.name(), name(kind));
   EXPECT_EQ(adaptive.kind(2), MatcherKind::kCsmGa);
 
-  const MatcherPolicy fixed(LoopMatcher::kGa, {}, {}, {});
-  EXPECT_EQ(fixed.matcher(fixed.kind(0)).name(), "ga");
+  const MatcherPolicy fixed(MatcherKind::kGa, {}, {}, {});
+  EXPECT_EQ(fixed.matcher(fixed.kind(0)).matcher.name(), "ga");
   EXPECT_THROW(fixed.matcher(MatcherKind::kCsm), std::invalid_argument);
   EXPECT_THROW(fixed.matcher(MatcherKind::kCsmGa), std::invalid_argument);
 }

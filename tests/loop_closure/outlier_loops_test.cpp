@@ -12,7 +12,7 @@ using mrpt::math::TPose2D;
 
 constexpr double kMaxChi = 5;
 
-// Twenty nodes a metre apart by odometry that is good to 0.1 m a metre.
+// Twenty nodes one metre apart. Odometry has a standard deviation of 0.1 m per metre.
 PoseGraph chain() {
   PoseGraph graph;
   for (std::size_t i = 0; i < 20; ++i) {
@@ -28,7 +28,7 @@ PoseGraph chain() {
   return graph;
 }
 
-// A loop from the first node, good to 0.02 m, that sees the other `off_m` beside its place.
+// A loop from the first node with a standard deviation of 0.02 m and an error of `off_m` across the path.
 std::size_t add_loop(PoseGraph& graph, std::size_t to, double off_m) {
   Constraint loop;
   loop.to = to;
@@ -44,7 +44,7 @@ SparsePoseAdjustment plain_solver() {
   return SparsePoseAdjustment(options);
 }
 
-TEST(OutlierLoops, loops_that_agree_stay) {
+TEST(OutlierLoops, keeps_consistent_loops) {
   PoseGraph graph = chain();
   const std::vector<std::size_t> loops = {add_loop(graph, 12, 0.01), add_loop(graph, 19, -0.01)};
   SparsePoseAdjustment solver = plain_solver();
@@ -56,7 +56,7 @@ TEST(OutlierLoops, loops_that_agree_stay) {
   }
 }
 
-TEST(OutlierLoops, a_false_loop_does_not_take_the_true_ones_along_that_it_bent) {
+TEST(OutlierLoops, keeps_true_loops_near_a_false_one) {
   PoseGraph graph = chain();
   std::vector<std::size_t> loops;
   for (const std::size_t to : {17U, 17U, 17U, 18U, 19U}) loops.push_back(add_loop(graph, to, 0));
@@ -65,7 +65,7 @@ TEST(OutlierLoops, a_false_loop_does_not_take_the_true_ones_along_that_it_bent) 
   PoseGraph bent = graph;
   SparsePoseAdjustment solver = plain_solver();
   const std::vector<ConstraintFit> fits = solver.optimize(bent).fits;
-  EXPECT_GT(fits[loops[0]].chi2, kMaxChi * kMaxChi) << "after one fit true ones seem wrong too";
+  EXPECT_GT(fits[loops[0]].chi2, kMaxChi * kMaxChi) << "after one optimisation true loops look wrong too";
 
   const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kMaxChi);
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -78,7 +78,7 @@ TEST(OutlierLoops, a_false_loop_does_not_take_the_true_ones_along_that_it_bent) 
   EXPECT_NEAR(graph.pose(17).y, 0, 1e-3);
 }
 
-TEST(OutlierLoops, false_loops_of_all_sizes_go) {
+TEST(OutlierLoops, disables_false_loops_of_all_sizes) {
   PoseGraph graph = chain();
   std::vector<std::size_t> loops;
   for (std::size_t to = 10; to < 20; ++to) loops.push_back(add_loop(graph, to, 0));
@@ -90,7 +90,7 @@ TEST(OutlierLoops, false_loops_of_all_sizes_go) {
   for (std::size_t i = 0; i < loops.size(); ++i) EXPECT_EQ(graph.enabled(loops[i]), i < 10) << i;
 }
 
-TEST(OutlierLoops, what_fits_after_all_is_switched_on_again) {
+TEST(OutlierLoops, enables_loops_that_fit_in_the_end) {
   PoseGraph graph = chain();
   const std::vector<std::size_t> loops = {add_loop(graph, 15, 0.01), add_loop(graph, 19, 0.0),
                                           add_loop(graph, 17, 5)};
@@ -102,7 +102,7 @@ TEST(OutlierLoops, what_fits_after_all_is_switched_on_again) {
   EXPECT_FALSE(graph.enabled(loops[2]));
 }
 
-TEST(OutlierLoops, a_loop_of_just_the_limit_stays) {
+TEST(OutlierLoops, keeps_a_loop_at_the_limit) {
   PoseGraph graph = chain();
   const std::vector<std::size_t> loops = {add_loop(graph, 19, 3)};
   SparsePoseAdjustment solver = plain_solver();

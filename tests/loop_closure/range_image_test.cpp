@@ -32,7 +32,7 @@ void expect_agreement(const RangeImage::Agreement& found, std::size_t agree, std
   EXPECT_EQ(found.contradict, contradict);
 }
 
-TEST(RangeImage, points_on_what_was_measured_agree) {
+TEST(RangeImage, points_at_the_measured_range_agree) {
   const RangeImage image(scan_of(wall_ahead()));
   expect_agreement(image.compare(scan_of({{5, 0.3F}, {5.2F, 1}, {4.8F, -1}}), {0, 0, 0}, kTolerance_m), 3, 0);
 }
@@ -43,33 +43,33 @@ TEST(RangeImage, points_seen_through_contradict) {
                    0, 3);
 }
 
-TEST(RangeImage, hidden_points_say_nothing) {
+TEST(RangeImage, hidden_points_do_not_count) {
   const RangeImage image(scan_of(wall_ahead()));
   expect_agreement(image.compare(scan_of({{5.4F, 0.3F}, {9, 1}, {20, -2}}), {0, 0, 0}, kTolerance_m), 0, 0);
 }
 
-TEST(RangeImage, points_where_no_beam_went_say_nothing) {
+TEST(RangeImage, points_without_a_beam_do_not_count) {
   const RangeImage image(scan_of(wall_ahead()));
   expect_agreement(image.compare(scan_of({{-5, 0}, {0, 5}, {0, -1}, {1, 3}}), {0, 0, 0}, kTolerance_m), 0, 0);
 }
 
-TEST(RangeImage, the_tolerance_is_the_callers) {
+TEST(RangeImage, uses_the_given_tolerance) {
   const RangeImage image(scan_of(wall_ahead()));
   const ScanPoints off = scan_of({{4.6F, 0.1F}, {5.4F, 0.1F}});
   expect_agreement(image.compare(off, {0, 0, 0}, 0.3), 0, 1);
   expect_agreement(image.compare(off, {0, 0, 0}, 0.5), 2, 0);
 }
 
-TEST(RangeImage, the_other_scan_is_seen_from_where_its_robot_stood) {
+TEST(RangeImage, places_the_other_scan_by_its_pose) {
   const RangeImage image(scan_of(wall_ahead()));
   const TPose2D this_T_other(4, -1, M_PI / 2);
-  // Its (y, x) plane: a point at (1, -1) lies at (5, 0), one at (1, 1) at (3, 0), one at (1, -3) at (7, 0).
+  // In its (y, x) plane a point at (1, -1) lies at (5, 0), one at (1, 1) at (3, 0), one at (1, -3) at (7, 0).
   expect_agreement(image.compare(scan_of({{1, -1}}), this_T_other, kTolerance_m), 1, 0);
   expect_agreement(image.compare(scan_of({{1, 1}}), this_T_other, kTolerance_m), 0, 1);
   expect_agreement(image.compare(scan_of({{1, -3}}), this_T_other, kTolerance_m), 0, 0);
 }
 
-TEST(RangeImage, between_an_edge_and_what_lies_behind_it_nothing_is_contradicted) {
+TEST(RangeImage, points_between_an_edge_and_its_background_are_not_contradicted) {
   // One degree of bearings holds the edge of a pillar at 2 m and the wall at 5 m.
   const RangeImage image(scan_of({{2, 0.01F}, {5, 0.07F}}));
   expect_agreement(image.compare(scan_of({{3.5F, 0.03F}}), {0, 0, 0}, kTolerance_m), 1, 0);
@@ -77,7 +77,7 @@ TEST(RangeImage, between_an_edge_and_what_lies_behind_it_nothing_is_contradicted
   expect_agreement(image.compare(scan_of({{5.5F, 0.05F}}), {0, 0, 0}, kTolerance_m), 0, 0);
 }
 
-TEST(RangeImage, beams_begin_at_the_laser_not_at_the_robot) {
+TEST(RangeImage, beams_start_at_the_laser_not_at_the_robot) {
   // The laser, at (0, 2), sees a pillar at (2, 2) and, past it, a wall across x = 6.
   ScanPoints scan;
   scan.origin = {0, 2};
@@ -87,9 +87,9 @@ TEST(RangeImage, beams_begin_at_the_laser_not_at_the_robot) {
     if (std::abs(y - 2) > 0.6F) scan.points.emplace_back(6.0F, y);
   }
   const RangeImage image(scan);
-  // On the line from the robot through the pillar, and yet the laser looked through it:
+  // Behind the pillar seen from the robot, but in free space seen from the laser:
   expect_agreement(image.compare(scan_of({{4, 4}}), {0, 0, 0}, kTolerance_m), 0, 1);
-  // Before the wall as the robot would see it, but behind the pillar:
+  // In front of the wall seen from the robot, but hidden by the pillar seen from the laser:
   expect_agreement(image.compare(scan_of({{4, 2}}), {0, 0, 0}, kTolerance_m), 0, 0);
 }
 
@@ -108,7 +108,7 @@ TEST(RangeImage, a_full_circle_is_seen_at_every_bearing) {
   expect_agreement(image.compare(circle(5), {0, 0, 1.234}, kTolerance_m), 0, 0);
 }
 
-TEST(RangeImage, the_share_is_of_the_points_that_say_something) {
+TEST(RangeImage, the_share_is_of_the_points_that_count) {
   const RangeImage image(scan_of(wall_ahead()));
   const ScanPoints mixed = scan_of({{5, 0.3F}, {5, 0.6F}, {5, 0.9F}, {2, 0}, {9, 0}, {-5, 0}});
   const RangeImage::Agreement found = image.compare(mixed, {0, 0, 0}, kTolerance_m);
@@ -117,12 +117,12 @@ TEST(RangeImage, the_share_is_of_the_points_that_say_something) {
   EXPECT_EQ(RangeImage::Agreement().share(), 0);
 }
 
-TEST(RangeImage, scans_without_points_say_nothing) {
+TEST(RangeImage, scans_without_points_do_not_count) {
   expect_agreement(RangeImage(ScanPoints()).compare(scan_of(wall_ahead()), {0, 0, 0}, kTolerance_m), 0, 0);
   expect_agreement(RangeImage(scan_of(wall_ahead())).compare(ScanPoints(), {0, 0, 0}, kTolerance_m), 0, 0);
 }
 
-TEST(RangeImage, every_laser_looks_from_its_own_place) {
+TEST(RangeImage, every_laser_has_its_own_position) {
   // The front laser, at (1, 0), sees a wall across x = 5; the rear one, at (-1, 0), one across x = -6.
   ScanPoints scan = scan_of(wall_ahead());
   scan.origin = {1, 0};
@@ -136,7 +136,7 @@ TEST(RangeImage, every_laser_looks_from_its_own_place) {
   expect_agreement(judge(-6, 0), 1, 0);
   expect_agreement(judge(-4, 0), 0, 1);
   expect_agreement(judge(-7, 0), 0, 0);
-  // The front laser sees nothing behind it, though its bearings would be those of the rear one's points.
+  // The front laser sees no points at its back, although the rear laser sees points at those bearings.
   expect_agreement(judge(0, 0), 0, 0);
 }
 

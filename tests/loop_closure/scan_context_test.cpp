@@ -30,13 +30,13 @@ NodeScan node_with(const TPose2D& local_T_robot, double travelled_m, const std::
   return node;
 }
 
-// A straight drive through a frame that is turned; every node sees one point of its own, at (2, 1).
+// A straight path in a turned frame. Every node sees one point of its own, at (2, 1).
 KeyframeStore straight_drive(int nodes, double step_m) {
-  KeyframeStore memory;
+  KeyframeStore keyframes;
   for (int i = 0; i < nodes; ++i)
-    memory.nodes.push_back(
+    keyframes.nodes.push_back(
         node_with(TPose2D(3, 4, 0.7) + TPose2D(i * step_m, 0, 0), i * step_m, {{2, 1}}, {{0, -1}}));
-  return memory;
+  return keyframes;
 }
 
 std::vector<double> sorted_x(const ScanPoints& scan) {
@@ -53,7 +53,7 @@ void expect_x(const ScanPoints& context, const std::vector<double>& expected) {
   for (const auto& point : context.points) EXPECT_NEAR(point.y, 1, 1e-5);
 }
 
-TEST(ScanContext, holds_what_earlier_nodes_saw_as_seen_from_the_node) {
+TEST(ScanContext, holds_points_of_earlier_nodes_in_the_frame_of_the_node) {
   ScanContextOptions options;
   options.travel_m = 4.25;
   options.node_spacing_m = 0.75;
@@ -71,7 +71,7 @@ TEST(ScanContext, nodes_are_as_far_apart_as_the_spacing) {
   expect_x(scan_context(20, straight_drive(30, 0.5), options), {-1, 0.5, 2});
 }
 
-TEST(ScanContext, ends_where_the_travel_does) {
+TEST(ScanContext, ends_after_the_travel) {
   ScanContextOptions options;
   options.node_spacing_m = 0.75;
   options.travel_m = 2.25;
@@ -80,30 +80,30 @@ TEST(ScanContext, ends_where_the_travel_does) {
   expect_x(scan_context(20, straight_drive(30, 0.5), options), {2});
 }
 
-TEST(ScanContext, of_an_early_node_is_what_there_is) {
+TEST(ScanContext, of_an_early_node_is_shorter) {
   expect_x(scan_context(0, straight_drive(30, 0.5), {}), {2});
   expect_x(scan_context(2, straight_drive(30, 0.5), {}), {1, 2});
 }
 
-TEST(ScanContext, a_point_seen_again_counts_once) {
-  KeyframeStore memory;
+TEST(ScanContext, a_point_seen_several_times_counts_once) {
+  KeyframeStore keyframes;
   for (int i = 0; i < 5; ++i) {  // all see (5.53, 1.53) and (5.53, 1.75)
     const float x = 5.53F - static_cast<float>(i);
-    memory.nodes.push_back(node_with({1.0 * i, 0, 0}, i, {{x, 1.53F}, {x, 1.75F}}, {{0, -1}, {0, -1}}));
+    keyframes.nodes.push_back(node_with({1.0 * i, 0, 0}, i, {{x, 1.53F}, {x, 1.75F}}, {{0, -1}, {0, -1}}));
   }
   ScanContextOptions options;
   options.node_spacing_m = 0.75;
   options.point_spacing_m = 0.1;
-  EXPECT_EQ(scan_context(4, memory, options).points.size(), 2U);
+  EXPECT_EQ(scan_context(4, keyframes, options).points.size(), 2U);
   options.point_spacing_m = 1;  // from x = 4: both in the square from (1, 1) to (2, 2)
-  EXPECT_EQ(scan_context(4, memory, options).points.size(), 1U);
+  EXPECT_EQ(scan_context(4, keyframes, options).points.size(), 1U);
 }
 
 TEST(ScanContext, points_and_normals_turn_with_the_robot) {
-  KeyframeStore memory;
-  memory.nodes.push_back(node_with({0, 0, 0}, 0, {{2, 1}}, {{0, -1}}));
-  memory.nodes.push_back(node_with({1, 0, M_PI / 2}, 1, {{3, 3}}, {{0.6F, 0.8F}}));
-  const ScanPoints context = scan_context(1, memory, {});
+  KeyframeStore keyframes;
+  keyframes.nodes.push_back(node_with({0, 0, 0}, 0, {{2, 1}}, {{0, -1}}));
+  keyframes.nodes.push_back(node_with({1, 0, M_PI / 2}, 1, {{3, 3}}, {{0.6F, 0.8F}}));
+  const ScanPoints context = scan_context(1, keyframes, {});
   ASSERT_EQ(context.points.size(), 2U);
   ASSERT_EQ(context.normals.size(), 2U);
   EXPECT_EQ(context.points[0].x, 3);
@@ -117,11 +117,11 @@ TEST(ScanContext, points_and_normals_turn_with_the_robot) {
   EXPECT_NEAR(context.farthest_m, std::sqrt(18), 1e-5);
 }
 
-TEST(ScanContext, of_a_building_lies_on_its_walls_and_reaches_behind_the_robot) {
+TEST(ScanContext, lies_on_the_walls_and_extends_along_the_past_path) {
   const SimulatedWalls floor = office_floor();
   const BeamBearings bearings = even_bearings(-M_PI / 2, M_PI / 2, 181);
   std::mt19937_64 random(3);
-  KeyframeStore memory;
+  KeyframeStore keyframes;
   double travelled_m = 0;
   TPose2D before(0, 0, 0);
   std::vector<TPose2D> truth;
@@ -135,13 +135,13 @@ TEST(ScanContext, of_a_building_lies_on_its_walls_and_reaches_behind_the_robot) 
     node.travelled_m = travelled_m;
     node.points = std::make_shared<const ScanPoints>(
         matching_points(simulated_scan(floor, pose, bearings, {0.2, 0.1, 0}, 0.005, random), {}));
-    memory.nodes.push_back(node);
+    keyframes.nodes.push_back(node);
   }
-  const std::size_t last = memory.nodes.size() - 1;
-  const ScanPoints context = scan_context(last, memory, {});
-  EXPECT_EQ(context.origin, memory.nodes[last].points->origin);
+  const std::size_t last = keyframes.nodes.size() - 1;
+  const ScanPoints context = scan_context(last, keyframes, {});
+  EXPECT_EQ(context.origin, keyframes.nodes[last].points->origin);
   EXPECT_EQ(context.normals.size(), context.points.size());
-  EXPECT_GT(context.points.size(), memory.nodes[last].points->points.size());
+  EXPECT_GT(context.points.size(), keyframes.nodes[last].points->points.size());
   int behind = 0;
   for (const auto& point : context.points) {
     const TPose2D at = truth[last] + TPose2D(static_cast<double>(point.x), static_cast<double>(point.y), 0);

@@ -17,7 +17,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// A drive through an office, and poses of a graph that are each a little off.
+// A run through an office, with a small error on every pose.
 struct NoisyPoses {
   SimulatedDrive drive =
       drive_along(office_floor(), path_along({{1.6, 1.6}, {8, 1.6}, {1.6, 1.6}}, 0.05, 0.08), {}, 3);
@@ -41,7 +41,7 @@ struct Errors {
   double rad = 0;
 };
 
-// Of the motion from each frame to the one five behind it, on average.
+// Mean error of the motion from each frame to the fifth frame after it.
 Errors errors_of(const std::vector<TPose2D>& poses, const std::vector<TPose2D>& truth) {
   Errors errors;
   const std::size_t count = poses.size() - 5;
@@ -56,7 +56,7 @@ Errors errors_of(const std::vector<TPose2D>& poses, const std::vector<TPose2D>& 
 
 const auto kGoOn = [](double) { return true; };
 
-TEST(JointRefinement, takes_the_noise_out_of_poses) {
+TEST(JointRefinement, removes_the_noise_of_poses) {
   NoisyPoses noisy;
   const Errors before = errors_of(noisy.scans.map_T_frame, noisy.drive.map_T_robot);
   WorkerPool pool(1);
@@ -67,7 +67,7 @@ TEST(JointRefinement, takes_the_noise_out_of_poses) {
   EXPECT_LT(after.rad, 0.5 * before.rad);
 }
 
-TEST(JointRefinement, does_not_spoil_poses_that_are_right) {
+TEST(JointRefinement, keeps_correct_poses) {
   NoisyPoses exact(0, 0);
   WorkerPool pool(1);
   refine_jointly(exact.scans, {}, pool, kGoOn);
@@ -98,7 +98,7 @@ TEST(JointRefinement, refines_the_frames_before_the_first_node_too) {
     EXPECT_NE(noisy.scans.map_T_frame[i], before[i]) << "frame " << i;
 }
 
-TEST(JointRefinement, leaves_everything_when_it_is_stopped_or_asked_for_no_round) {
+TEST(JointRefinement, changes_nothing_when_stopped_at_once_or_without_rounds) {
   NoisyPoses noisy;
   const std::vector<TPose2D> before = noisy.scans.map_T_frame;
   WorkerPool pool(1);
@@ -110,7 +110,7 @@ TEST(JointRefinement, leaves_everything_when_it_is_stopped_or_asked_for_no_round
   EXPECT_EQ(noisy.scans.map_T_frame, before);
 }
 
-TEST(JointRefinement, keeps_the_rounds_that_were_finished_when_it_is_stopped) {
+TEST(JointRefinement, keeps_finished_rounds_when_stopped) {
   NoisyPoses once;
   NoisyPoses stopped;
   WorkerPool pool(1);
@@ -121,7 +121,7 @@ TEST(JointRefinement, keeps_the_rounds_that_were_finished_when_it_is_stopped) {
   EXPECT_EQ(stopped.scans.map_T_frame, once.scans.map_T_frame);
 }
 
-TEST(JointRefinement, tells_how_far_it_is) {
+TEST(JointRefinement, reports_its_progress) {
   NoisyPoses noisy;
   JointRefinementOptions options;
   options.rounds = 2;
@@ -136,7 +136,7 @@ TEST(JointRefinement, tells_how_far_it_is) {
   EXPECT_DOUBLE_EQ(told.back(), 1);
 }
 
-TEST(JointRefinement, of_nothing_is_nothing) {
+TEST(JointRefinement, accepts_an_empty_log) {
   RefinedScans scans;
   WorkerPool pool(1);
   refine_jointly(scans, {}, pool, kGoOn);

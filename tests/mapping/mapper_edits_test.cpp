@@ -6,7 +6,8 @@
 #include <functional>
 
 #include "../local_maps/simulated_drive.h"
-#include "loop_closure/loop_edit.h"
+#include "mapping/mapper_options.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/mapper.h"
 
 namespace psi_slam {
@@ -19,7 +20,7 @@ using testing::IsEmpty;
 using State = LoopEditOutcome::State;
 using Kind = LoopEdit::Kind;
 
-// Once round a room and half a round more: the second time all is seen again.
+// One and a half rounds of a room: the last half round sees everything a second time.
 const SimulatedDrive& round_drive() {
   static const SimulatedDrive drive = [] {
     OdometryErrors errors;
@@ -40,7 +41,7 @@ std::string bytes_of(const MappingResult& result) {
       bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   for (const LoopRecord& loop : result.loops)
     bytes += std::to_string(loop.frame) + ',' + std::to_string(loop.local_map) + ',' +
-             std::to_string(static_cast<int>(loop.verdict)) + loop.reason + '\n';
+             std::to_string(static_cast<int>(loop.verdict)) + text_of(loop.refusal) + '\n';
   return bytes;
 }
 
@@ -89,10 +90,10 @@ class MapperEditsTest : public testing::Test {
     return false;
   }
 
-  Mapper mapper_{MapperOptions{}};
+  Mapper mapper_;
 };
 
-TEST_F(MapperEditsTest, a_deleted_loop_is_no_constraint_and_the_last_pass_does_not_bring_it_back) {
+TEST_F(MapperEditsTest, a_deleted_loop_stays_deleted_in_the_final_search) {
   map_all();
   const LoopRecord loop = first(LoopVerdict::kAccepted);
   ASSERT_TRUE(is_constraint(loop));
@@ -124,10 +125,10 @@ TEST_F(MapperEditsTest, the_graph_is_optimised_at_once) {
   EXPECT_LT(for_accepted(Kind::kRestore), 0.01) << "with them it is closed again";
 }
 
-TEST_F(MapperEditsTest, what_was_deleted_before_it_was_found_is_never_a_constraint) {
+TEST_F(MapperEditsTest, a_loop_deleted_before_it_is_found_never_becomes_a_constraint) {
   map_all();
   const LoopRecord loop = first(LoopVerdict::kAccepted);
-  Mapper early{MapperOptions{}};
+  Mapper early;
   EXPECT_EQ(early.edit(edit_of(Kind::kDelete, loop)).state, State::kWaits);
   for (const Frame& frame : round_drive().frames) early.add(frame);
   const MappingResult result = early.finish();
@@ -165,15 +166,15 @@ TEST_F(MapperEditsTest, a_loop_is_matched_again_by_any_matcher) {
     edit.matcher = matcher;
     EXPECT_EQ(mapper_.edit(edit).state, State::kDone);
     const LoopRecord& again = attempt(edit);
-    EXPECT_EQ(again.matcher, name(matcher));
-    EXPECT_EQ(again.verdict, LoopVerdict::kAccepted) << again.reason;
+    EXPECT_EQ(again.matcher, matcher);
+    EXPECT_EQ(again.verdict, LoopVerdict::kAccepted) << text_of(again.refusal);
     EXPECT_TRUE(is_constraint(again));
     EXPECT_NEAR(again.anchor_T_node.x, loop.anchor_T_node.x, 0.05);
     EXPECT_NEAR(again.anchor_T_node.y, loop.anchor_T_node.y, 0.05);
   }
 }
 
-TEST_F(MapperEditsTest, a_match_is_looked_for_where_it_is_asked_for) {
+TEST_F(MapperEditsTest, a_match_by_hand_searches_the_given_place) {
   map_all();
   const LoopRecord loop = first(LoopVerdict::kAccepted);
   LoopEdit edit = edit_of(Kind::kMatch, loop);
@@ -187,7 +188,7 @@ TEST_F(MapperEditsTest, a_match_is_looked_for_where_it_is_asked_for) {
   EXPECT_FALSE(is_constraint(loop)) << "the match that it had no longer counts";
 }
 
-TEST_F(MapperEditsTest, restored_it_is_what_the_mapper_made_of_it) {
+TEST_F(MapperEditsTest, a_restored_loop_is_as_the_mapper_found_it) {
   map_all();
   for (const LoopVerdict verdict : {LoopVerdict::kAccepted, LoopVerdict::kRefused}) {
     const LoopRecord loop = first(verdict);
@@ -205,7 +206,7 @@ TEST_F(MapperEditsTest, restored_it_is_what_the_mapper_made_of_it) {
   }
 }
 
-TEST_F(MapperEditsTest, says_what_cannot_be_edited) {
+TEST_F(MapperEditsTest, explains_impossible_edits) {
   map_all();
   mapper_.end_log();
   std::size_t between = 1;
@@ -221,14 +222,14 @@ TEST_F(MapperEditsTest, says_what_cannot_be_edited) {
               ElementsAre("delete the loop of scan 0 with local map 999: local map 999 is not finished"));
 }
 
-TEST_F(MapperEditsTest, a_mapper_that_closes_no_loops_takes_no_edits) {
+TEST_F(MapperEditsTest, without_loop_closing_every_edit_is_impossible) {
   MapperOptions options;
   options.close_loops = false;
   Mapper mapper(options);
   EXPECT_EQ(mapper.edit({Kind::kDelete, 0, 1}).state, State::kImpossible);
 }
 
-TEST_F(MapperEditsTest, opened_again_and_finished_it_is_what_it_was) {
+TEST_F(MapperEditsTest, reopening_and_finishing_gives_the_same_map) {
   map_all();
   MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
   const std::string first_time = bytes_of(result);
@@ -237,9 +238,9 @@ TEST_F(MapperEditsTest, opened_again_and_finished_it_is_what_it_was) {
   EXPECT_EQ(bytes_of(mapper_.finish({}, Mapper::AfterFinish::kReopen)), first_time);
 }
 
-TEST_F(MapperEditsTest, edited_after_the_end_it_is_what_it_would_have_been_without_the_finish_before) {
+TEST_F(MapperEditsTest, an_edit_after_reopening_gives_the_same_map_as_before_finishing) {
   map_all();
-  Mapper straight{MapperOptions{}};
+  Mapper straight;
   for (const Frame& frame : round_drive().frames) straight.add(frame);
   MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
   const auto in_final_search = std::find_if(
@@ -260,10 +261,10 @@ TEST_F(MapperEditsTest, edited_after_the_end_it_is_what_it_would_have_been_witho
   EXPECT_EQ(deleted->verdict, LoopVerdict::kDeleted);
 }
 
-TEST_F(MapperEditsTest, a_loop_that_only_the_last_pass_finds_is_forced_as_it_finds_it) {
+TEST_F(MapperEditsTest, forcing_a_loop_of_the_final_search_takes_its_match) {
   map_all();
   MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
-  // Refused on the way and found by the last pass: the match that was refused is not meant.
+  // A pair refused while mapping and matched by the final search: the edit means the second match.
   std::optional<LoopRecord> chosen;
   for (const LoopRecord& loop : result.loops) {
     if (!loop.in_final_search || loop.verdict != LoopVerdict::kAccepted) continue;
@@ -292,7 +293,7 @@ TEST_F(MapperEditsTest, a_loop_that_only_the_last_pass_finds_is_forced_as_it_fin
   EXPECT_NEAR(found->anchor_T_node.y, chosen->anchor_T_node.y, 0.05);
 }
 
-TEST_F(MapperEditsTest, a_loop_that_was_added_and_taken_back_leaves_the_last_pass_free_to_find_it) {
+TEST_F(MapperEditsTest, the_final_search_may_find_a_loop_that_was_added_and_restored) {
   map_all();
   MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
   const auto only_final_search = [&](const LoopRecord& loop) {

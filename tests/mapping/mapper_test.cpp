@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/mapper.h"
 
+#include "mapping/mapper_options.h"
+
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
 
@@ -22,7 +24,7 @@ double distance_m(const TPose2D& a, const TPose2D& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-// Once round the corridor and the first leg again, with odometry that is biased and noisy.
+// One round of the corridor and its first part a second time, with biased and noisy odometry.
 const SimulatedDrive& office_drive() {
   static const SimulatedDrive drive = [] {
     OdometryErrors errors;
@@ -81,7 +83,7 @@ void expect_consistent(const MappingResult& result, std::size_t frames) {
     ASSERT_LT(loop.local_map, result.local_maps.size());
     EXPECT_EQ(loop.anchor, result.local_maps[loop.local_map].anchor);
     EXPECT_EQ(loop.frame, result.node_frames[loop.node]);
-    EXPECT_EQ(loop.verdict == LoopVerdict::kAccepted, loop.reason.empty()) << loop.reason;
+    EXPECT_EQ(loop.verdict == LoopVerdict::kAccepted, !loop.refusal.has_value()) << text_of(loop.refusal);
     EXPECT_NE(loop.verdict, LoopVerdict::kPending) << "nothing is pending at the end";
   }
 }
@@ -112,7 +114,7 @@ TEST(Mapper, brings_the_robot_home_after_a_loop) {
     odometry_m = std::max(odometry_m, distance_m(drive.frames[i].odom_T_robot, drive.map_T_robot[i]));
     map_m = std::max(map_m, distance_m(result.frames[i].map_T_robot, drive.map_T_robot[i]));
   }
-  EXPECT_GT(odometry_m, 3) << "odometry alone is hopeless";
+  EXPECT_GT(odometry_m, 3) << "odometry alone has a large error";
   EXPECT_LT(map_m, 0.15);
   const TPose2D& last = result.frames.back().map_T_robot;
   EXPECT_LT(distance_m(last, drive.map_T_robot.back()), 0.15);
@@ -124,7 +126,7 @@ TEST(Mapper, accepts_true_loops_and_no_false_one) {
   expect_no_false_loop(office_map(), office_drive().map_T_robot);
 }
 
-TEST(Mapper, closes_loops_while_it_maps_and_in_the_last_pass) {
+TEST(Mapper, closes_loops_while_mapping_and_in_the_final_search) {
   const auto& loops = office_map().loops;
   for (const bool in_final_search : {false, true})
     EXPECT_TRUE(std::any_of(loops.begin(), loops.end(), [&](const LoopRecord& loop) {
@@ -138,10 +140,10 @@ TEST(Mapper, every_scan_has_a_pose_and_the_graph_fits_them) {
   EXPECT_GT(office_map().local_maps.size(), 3U);
 }
 
-TEST(Mapper, says_where_the_robot_is_while_it_maps) {
+TEST(Mapper, gives_the_pose_of_the_robot_while_mapping) {
   const SimulatedDrive& drive = office_drive();
   MapperOptions options;
-  options.final_search.passes = 0;
+  options.back_end.final_search.passes = 0;
   Mapper mapper(options);
   EXPECT_EQ(mapper.map_T_robot(), TPose2D(0, 0, 0));
   double largest_m = 0;
@@ -193,14 +195,15 @@ TEST(Mapper, any_number_of_threads_makes_the_same_map) {
   for (const int threads : {2, 4}) {
     SCOPED_TRACE(threads);
     MapperOptions options;
-    options.threads = threads;
+    options.back_end.threads = threads;
     expect_same_map(office_map(), map_of(office_drive().frames, options));
   }
 }
 
 TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
   MapperOptions options;
-  options.loop_closure.verification.wide_window_m = options.final_search.window_m;  // many wait for others
+  options.back_end.loop_closure.verification.wide_window_m =
+      options.back_end.final_search.window_m;  // many loops wait for others
   const MappingResult result = map_of(office_drive().frames, options);
   std::size_t counted = 0;
   bool several_at_once = false;
@@ -219,7 +222,7 @@ TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
   EXPECT_TRUE(several_at_once) << "loops found at earlier frames were confirmed";
 }
 
-TEST(Mapper, counts_attempts_that_found_nothing_too) {
+TEST(Mapper, counts_attempts_without_a_match) {
   const MappingResult& result = office_map();
   LoopEffort sum;
   LoopEffort final_search;
@@ -253,7 +256,7 @@ TEST(Mapper, counts_attempts_that_found_nothing_too) {
   EXPECT_GT(sum.evaluations, of_loops);
 }
 
-// Slowly again: the mean over the nodes before, and eta as long as no loop has moved the map.
+// Computes the factor directly: the mean over earlier nodes, and eta until a loop moves the map.
 TEST(Mapper, records_the_factor_of_loop_closing) {
   const MappingResult& result = office_map();
   const auto window = static_cast<std::size_t>(PsiOptions().window_frames);
@@ -282,56 +285,56 @@ TEST(Mapper, records_the_factor_of_loop_closing) {
   EXPECT_GT(largest_psi, 1);
 }
 
-TEST(Mapper, searches_loops_by_the_matcher_that_psi_chooses_in_the_last_pass_too) {
+TEST(Mapper, uses_the_matcher_chosen_by_psi_in_the_final_search_too) {
   const MappingResult& result = office_map();
   std::size_t genetic_in_final_search = 0;
   for (const FrameRecord& frame : result.frames) {
-    const MatcherKind kind = matcher_kind(LoopMatcher::kAdaptive, {}, frame.psi);
-    EXPECT_EQ(frame.matcher, frame.node ? name(kind) : "");
+    const MatcherKind kind = matcher_kind(std::nullopt, {}, frame.psi);
+    EXPECT_EQ(frame.matcher, frame.node ? std::optional(kind) : std::nullopt);
   }
   for (const LoopRecord& loop : result.loops) {
     EXPECT_EQ(loop.matcher, result.frames[loop.frame].matcher);
-    genetic_in_final_search += loop.in_final_search && loop.matcher != "csm" ? 1 : 0;
+    genetic_in_final_search += loop.in_final_search && loop.matcher != MatcherKind::kCsm ? 1 : 0;
   }
   EXPECT_GT(genetic_in_final_search, 0U);
   EXPECT_GT(result.loop_matchers.size(), 1U);
 
   MapperOptions options;
-  options.psi.psi_1 = 0.5;
-  options.psi.psi_2 = 3;
+  options.back_end.psi.psi_1 = 0.5;
+  options.back_end.psi.psi_2 = 3;
   const MappingResult by_thresholds = map_of(office_drive().frames, options);
-  std::set<std::string> used;
+  std::set<MatcherKind> used;
   for (const FrameRecord& frame : by_thresholds.frames) {
-    const MatcherKind kind = matcher_kind(LoopMatcher::kAdaptive, options.psi, frame.psi);
-    EXPECT_EQ(frame.matcher, frame.node ? name(kind) : "");
-    if (frame.node) used.insert(frame.matcher);
+    const MatcherKind kind = matcher_kind(std::nullopt, options.back_end.psi, frame.psi);
+    EXPECT_EQ(frame.matcher, frame.node ? std::optional(kind) : std::nullopt);
+    if (frame.node) used.insert(*frame.matcher);
   }
-  EXPECT_EQ(used, (std::set<std::string>{"csm", "csm_ga", "ga"}));
+  EXPECT_EQ(used, (std::set<MatcherKind>{kMatcherKinds.begin(), kMatcherKinds.end()}));
   expect_no_false_loop(by_thresholds, office_drive().map_T_robot);
 
-  options.matcher = LoopMatcher::kCsmGa;
+  options.back_end.matcher = MatcherKind::kCsmGa;
   const MappingResult fixed = map_of(office_drive().frames, options);
   ASSERT_EQ(fixed.loop_matchers.size(), 1U);
-  EXPECT_EQ(fixed.loop_matchers.begin()->first, "csm_ga");
+  EXPECT_EQ(fixed.loop_matchers.begin()->first, MatcherKind::kCsmGa);
 }
 
-TEST(Mapper, contradicted_loops_are_switched_off_without_a_last_pass_too) {
+TEST(Mapper, outlier_loops_are_switched_off_without_a_final_search_too) {
   MapperOptions options;
-  options.final_search.passes = 0;
-  options.max_loop_chi = 1.0;
+  options.back_end.final_search.passes = 0;
+  options.back_end.max_loop_chi = 1.0;
   const MappingResult result = map_of(office_drive().frames, options);
   expect_consistent(result, office_drive().frames.size());
   std::size_t off = 0;
   for (const LoopRecord& loop : result.loops) {
     if (loop.verdict != LoopVerdict::kSwitchedOff) continue;
     ++off;
-    EXPECT_NE(loop.reason.find("contradict"), std::string::npos) << loop.reason;
+    EXPECT_EQ(loop.refusal.value().reason, LoopRefusal::Reason::kContradicted);
   }
   EXPECT_GT(off, 0U);
   EXPECT_GT(accepted_loops(result), 0U);
 }
 
-TEST(Mapper, without_loop_closing_the_front_ends_poses_stand) {
+TEST(Mapper, without_loop_closing_poses_are_those_of_the_front_end) {
   MapperOptions options;
   options.close_loops = false;
   const std::vector<Frame>& frames = office_drive().frames;
@@ -344,8 +347,8 @@ TEST(Mapper, without_loop_closing_the_front_ends_poses_stand) {
   }
 }
 
-// The laser is covered for some metres of the far corridor, and odometry alone carries the robot through.
-TEST(Mapper, mends_by_loops_what_it_lost_while_blind) {
+// The laser is covered for some metres of the far corridor, so only odometry is available there.
+TEST(Mapper, loops_correct_the_error_of_a_blind_stretch) {
   SimulatedDrive drive = office_drive();
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (std::size_t i = 190; i < 250; ++i) {
@@ -360,7 +363,7 @@ TEST(Mapper, mends_by_loops_what_it_lost_while_blind) {
   const double lost_m = error_m(map_of(drive.frames, open));
   const MappingResult result = map_of(drive.frames);
   expect_consistent(result, drive.frames.size());
-  EXPECT_GT(lost_m, 0.5) << "the front end alone cannot know";
+  EXPECT_GT(lost_m, 0.5) << "the front end alone has this error";
   EXPECT_LT(error_m(result), 0.15);
   EXPECT_GT(accepted_loops(result), 0U);
   expect_no_false_loop(result, drive.map_T_robot);
@@ -378,7 +381,7 @@ TEST(Mapper, finishing_reports_its_progress_up_to_the_end) {
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_GT(shares.front(), 0);
   EXPECT_EQ(shares.back(), 1);
-  EXPECT_FALSE(result.interrupted) << "a stop when all is done stops nothing";
+  EXPECT_FALSE(result.interrupted) << "a stop at the end has no effect";
   for (std::size_t i = 0; i < result.frames.size(); ++i)
     EXPECT_EQ(result.frames[i].map_T_robot, office_map().frames[i].map_T_robot) << "frame " << i;
 }
@@ -386,7 +389,7 @@ TEST(Mapper, finishing_reports_its_progress_up_to_the_end) {
 TEST(Mapper, refines_all_scans_at_the_end_and_keeps_the_frame_of_the_first) {
   const SimulatedDrive& drive = office_drive();
   MapperOptions unrefined;
-  unrefined.joint_refinement.rounds = 0;
+  unrefined.back_end.joint_refinement.rounds = 0;
   const MappingResult before = map_of(drive.frames, unrefined);
   const MappingResult& after = office_map();
   expect_consistent(before, drive.frames.size());
@@ -405,7 +408,7 @@ TEST(Mapper, refines_all_scans_at_the_end_and_keeps_the_frame_of_the_first) {
 
 TEST(Mapper, refinement_can_be_cut_short) {
   MapperOptions options;
-  options.final_search.passes = 0;
+  options.back_end.final_search.passes = 0;
   Mapper mapper(options);
   for (const Frame& frame : office_drive().frames) mapper.add(frame);
   const MappingResult result = mapper.finish([](double) { return false; });
@@ -414,7 +417,7 @@ TEST(Mapper, refinement_can_be_cut_short) {
   expect_consistent(result, office_drive().frames.size());
 }
 
-TEST(Mapper, the_last_pass_can_be_cut_short) {
+TEST(Mapper, the_final_search_can_be_cut_short) {
   Mapper mapper({});
   for (const Frame& frame : office_drive().frames) mapper.add(frame);
   int calls = 0;
@@ -425,10 +428,10 @@ TEST(Mapper, the_last_pass_can_be_cut_short) {
   expect_consistent(result, office_drive().frames.size());
   EXPECT_LT(result.loops.size(), office_map().loops.size());
   EXPECT_LT(distance_m(result.frames.back().map_T_robot, office_drive().map_T_robot.back()), 0.2)
-      << "the loops found until then hold";
+      << "keeps the loops found before";
 }
 
-TEST(Mapper, nothing_to_map_is_an_empty_map) {
+TEST(Mapper, an_empty_log_gives_an_empty_map) {
   const MappingResult result = map_of({});
   expect_consistent(result, 0);
   EXPECT_TRUE(result.node_frames.empty());

@@ -6,7 +6,8 @@
 namespace psi_slam {
 namespace {
 
-/// Three drives of four, three and two frames, a node each second frame of the first, else each.
+/// Three runs of four, three and two frames. Nodes are every second frame of the first run and every other
+/// frame.
 MappingResult three_drives() {
   MappingResult result;
   result.frames.resize(9);
@@ -23,7 +24,7 @@ LoopRecord loop(std::size_t anchor, std::size_t node, LoopVerdict verdict = Loop
   return record;
 }
 
-TEST(MappingResult, tells_the_frames_of_each_drive) {
+TEST(MappingResult, gives_the_frames_of_each_run) {
   const std::vector<FrameSpan> runs = runs_of(three_drives());
   ASSERT_EQ(runs.size(), 3U);
   EXPECT_EQ(runs[0].begin, 0U);
@@ -34,19 +35,19 @@ TEST(MappingResult, tells_the_frames_of_each_drive) {
   EXPECT_EQ(runs_of({}).size(), 1U);
 }
 
-TEST(MappingResult, a_drive_is_joined_by_accepted_loops_with_others_alone) {
+TEST(MappingResult, only_accepted_loops_with_other_runs_join_a_run) {
   MappingResult result = three_drives();
   EXPECT_EQ(unjoined_run(result), 1U) << "the others are joined to the first";
   result.loops = {loop(0, 2), loop(5, 6)};
-  EXPECT_EQ(unjoined_run(result), 2U) << "a loop within the third joins it to nothing";
+  EXPECT_EQ(unjoined_run(result), 2U) << "a loop within the third run joins it to no other";
   result.loops.push_back(loop(3, 5, LoopVerdict::kSwitchedOff));
   EXPECT_EQ(unjoined_run(result), 2U);
   result.loops.push_back(loop(6, 3));
   EXPECT_EQ(unjoined_run(result), std::nullopt);
-  EXPECT_EQ(unjoined_run({}), std::nullopt) << "one drive needs no loop";
+  EXPECT_EQ(unjoined_run({}), std::nullopt) << "one run needs no loop";
 }
 
-TEST(MappingResult, drives_that_are_joined_in_two_groups_are_not_one_map) {
+TEST(MappingResult, runs_joined_in_two_groups_are_not_one_map) {
   MappingResult result = three_drives();
   result.later_run_frames = {2, 4, 7};
   result.loops = {loop(0, 1), loop(6, 3)};

@@ -55,7 +55,7 @@ TEST(StageClock, one_call_is_its_own_mean_and_extremes) {
   expect_timing_of({7.25});
 }
 
-TEST(StageClock, what_is_left_out_does_not_count) {
+TEST(StageClock, left_out_time_does_not_count) {
   StageClock clock("stage");
   double left_out_ms = 0;
   const auto start = std::chrono::steady_clock::now();
@@ -72,7 +72,7 @@ TEST(StageClock, what_is_left_out_does_not_count) {
   EXPECT_GE(clock.timing().total_s, 0);
 }
 
-TEST(StageClock, without_a_call_all_is_zero) {
+TEST(StageClock, without_calls_all_values_are_zero) {
   const StageTiming timing = StageClock("close loops").timing();
   EXPECT_EQ(timing.name, "close loops");
   EXPECT_EQ(timing.calls, 0U);

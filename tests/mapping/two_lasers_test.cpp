@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot with a laser in front and one behind, of half a circle each, that do not scan at the same time.
+// A robot with a front and a rear laser of 180 degrees each, which scan at different times.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,9 +49,9 @@ struct Errors {
   double mean_rad = 0;
 };
 
-/// Of the path over 20 scans each, which does not depend on where the map begins.
+/// Mean error of the motion over 20 scans, which does not depend on the origin of the map.
 Errors errors_of(const std::vector<Frame>& frames) {
-  Mapper mapper((MapperOptions()));
+  Mapper mapper;
   for (const Frame& frame : frames) mapper.add(frame);
   const MappingResult result = mapper.finish();
   Errors errors;
@@ -85,13 +85,13 @@ TEST(TwoLasers, map_at_least_as_well_as_one) {
   EXPECT_LT(both.mean_m, wrong.mean_m) << "the second laser's scans are moved by odometry";
 }
 
-TEST(TwoLasers, map_on_while_one_is_silent) {
+TEST(TwoLasers, mapping_continues_while_one_is_silent) {
   std::vector<Frame> frames = drive().frames;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i % 90 < 30) continue;
     if (i % 90 < 60) {
       frames[i].companions.clear();
-    } else {  // the rear laser alone, as ScanSynchronizer hands it on
+    } else {  // the rear laser alone, as ScanSynchronizer passes it on
       CompanionScan rear = frames[i].companions[0];
       frames[i].companions.clear();
       frames[i].scan = rear.scan;
@@ -99,12 +99,12 @@ TEST(TwoLasers, map_on_while_one_is_silent) {
       frames[i].odom_T_robot = frames[i].odom_T_robot + rear.frame_T_robot;
     }
   }
-  Mapper mapper((MapperOptions()));
+  Mapper mapper;
   for (const Frame& frame : frames) mapper.add(frame);
   const MappingResult result = mapper.finish();
   double worst_m = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (i % 90 >= 60) continue;  // the truth is that of the first laser's time
+    if (i % 90 >= 60) continue;  // the true pose belongs to the time of the first laser
     const TPose2D off = result.frames[i].map_T_robot - drive().start_T_robot[i];
     worst_m = std::max(worst_m, std::hypot(off.x, off.y));
   }

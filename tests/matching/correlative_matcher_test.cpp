@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/correlative_matcher.h"
+#include "matching/make_matcher.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
@@ -46,7 +46,7 @@ TEST(CorrelativeMatcher, finds_fifty_random_poses) {
   for (int trial = 0; trial < 50; ++trial) {
     const TPose2D truth(x(random), y(random), heading(random));
     const ScanPoints scan = scan_of(room.walls, truth, 360, 0.01, random);
-    const double half_m = trial % 2 == 0 ? 0.4 : 2.0;  // on either side of the limit for exhaustive search
+    const double half_m = trial % 2 == 0 ? 0.4 : 2.0;  // below and above the limit for exhaustive search
     const TPose2D predicted(truth.x + share(random) * half_m, truth.y + share(random) * half_m,
                             truth.phi + share(random) * 0.4);
     const MatchResult match = matcher.match({room.grid, scan, predicted, {half_m, half_m, 0.4}});
@@ -85,7 +85,7 @@ TEST(CorrelativeMatcher, fills_in_every_field) {
   EXPECT_EQ(match.information, refined.information);
   EXPECT_EQ(match.covariance, bounded_covariance(refined.information, options.min_sigma_m,
                                                  options.max_sigma_m, scan.farthest_m));
-  EXPECT_FALSE(match.ambiguity) << "was not asked for";
+  EXPECT_FALSE(match.ambiguity) << "not requested";
 }
 
 TEST(CorrelativeMatcher, passes_the_prior_on_to_the_refinement) {
@@ -131,7 +131,7 @@ TEST(CorrelativeMatcher, below_the_least_response_nothing_is_found) {
     const MatchResult match = CorrelativeMatcher({}).match(problem);
     EXPECT_FALSE(match.found);
     EXPECT_GT(match.evaluations, 0);
-    EXPECT_GT(match.window.n_x, 0) << "what was searched is told all the same";
+    EXPECT_GT(match.window.n_x, 0) << "the searched window is reported without a match too";
   }
 }
 
@@ -152,14 +152,14 @@ TEST(CorrelativeMatcher, one_room_is_not_ambiguous) {
   EXPECT_LT(*with_low_floor.ambiguity, 0.6);
 }
 
-TEST(CorrelativeMatcher, two_rooms_alike_are_ambiguous) {
+TEST(CorrelativeMatcher, two_equal_rooms_are_ambiguous) {
   SimulatedWalls rooms = furnished_room();
   const SimulatedWalls one = rooms;
   for (const auto& wall : one.walls) rooms.add_wall(wall.x0 + 12, wall.y0, wall.x1 + 12, wall.y1);
   const ScoreGrid grid = grid_of(rooms);
   std::mt19937_64 random(77);
   const ScanPoints scan = scan_of(one, {4, 3, 0.3}, 180, 0.01, random);
-  // Between the rooms, so that both lie within the window.
+  // Between the rooms, so that the window contains both.
   MatchProblem problem{grid, scan, {10.3, 2.8, 0.2}, {8, 8, 0.5}};
   problem.measure_ambiguity = true;
   const MatchResult match = CorrelativeMatcher({}).match(problem);
@@ -167,7 +167,7 @@ TEST(CorrelativeMatcher, two_rooms_alike_are_ambiguous) {
   EXPECT_GT(*match.ambiguity, 0.98);
   EXPECT_LE(*match.ambiguity, 1.0);
 
-  // One room only lies within this window.
+  // This window contains only one room.
   problem.map_T_robot = {4.3, 2.8, 0.2};
   problem.extent = {3, 3, 0.5};
   EXPECT_EQ(CorrelativeMatcher({}).match(problem).ambiguity, 0.0);
@@ -192,16 +192,16 @@ TEST(CorrelativeMatcher, the_next_best_peak_is_distinct) {
   EXPECT_EQ(*match.ambiguity, static_cast<double>(next->sum) / best->sum);
 }
 
-TEST(CorrelativeMatcher, where_nothing_is_seen_every_pose_is_as_good) {
+TEST(CorrelativeMatcher, without_observations_every_pose_is_equal) {
   const Room room;
   std::mt19937_64 random(79);
   const ScanPoints scan = scan_of(room.walls, {4, 3, 0.3}, 60, 0.01, random);
   MatchProblem problem{room.grid, scan, {400, 3, 0.3}, {1, 1, 0.3}};
   problem.measure_ambiguity = true;
   const MatchResult match = CorrelativeMatcher({}).match(problem);
-  EXPECT_TRUE(match.found) << "a least response of 0 is reached";
+  EXPECT_TRUE(match.found) << "every pose reaches a smallest response of 0";
   EXPECT_EQ(match.response, 0);
-  EXPECT_EQ(match.map_T_robot.x, 400) << "the centre is the best of equals";
+  EXPECT_EQ(match.map_T_robot.x, 400) << "the centre is the best of equal poses";
   EXPECT_EQ(match.map_T_robot.y, 3);
   EXPECT_NEAR(match.map_T_robot.phi, 0.3, 1e-12);
   EXPECT_EQ(match.ambiguity, 1.0);

@@ -11,9 +11,8 @@
 namespace psi_slam {
 namespace {
 
-// How far counts stray from what is expected, and how far they may by chance in one of a million tries
-// (Wilson and Hilferty's approximation of the chi-square distribution). Draws are seeded: no test is a
-// gamble.
+// Chi-square of counts against expected counts, and the limit that chance exceeds once in a million trials
+// (approximation of Wilson and Hilferty). Draws are seeded, so that the tests are deterministic.
 double chi_square(const std::vector<double>& counts, const std::vector<double>& expected) {
   double sum = 0;
   for (std::size_t i = 0; i < counts.size(); ++i)
@@ -27,11 +26,11 @@ double chi_square_limit(std::size_t categories, double z = 4.75) {
   return degrees * std::pow(1 - a + z * std::sqrt(a), 3);
 }
 
-TEST(GeneticOperators, the_limit_of_chi_square_is_that_of_tables) {
+TEST(GeneticOperators, the_limit_of_chi_square_equals_that_of_tables) {
   EXPECT_NEAR(chi_square_limit(11, 3.0902), 29.588, 0.3) << "10 degrees of freedom, p = 0.001";
 }
 
-TEST(GeneticOperators, a_seed_gives_its_generator_and_no_other) {
+TEST(GeneticOperators, each_seed_gives_one_generator) {
   const MatchSeed seed = {1, 2, 3};
   Random a = random_for(seed);
   Random b = random_for(seed);
@@ -44,7 +43,7 @@ TEST(GeneticOperators, a_seed_gives_its_generator_and_no_other) {
   }
 }
 
-TEST(GeneticOperators, whole_numbers_are_drawn_evenly) {
+TEST(GeneticOperators, integers_are_drawn_uniformly) {
   Random random(1);
   for (const std::uint64_t count : {1U, 2U, 7U, 64U}) {
     const int draws = 100'000;
@@ -56,8 +55,8 @@ TEST(GeneticOperators, whole_numbers_are_drawn_evenly) {
   }
 }
 
-// Near 2^64, where a plain remainder would favour small numbers by half.
-TEST(GeneticOperators, large_ranges_are_drawn_evenly_too) {
+// Near 2^64, where a plain modulus would prefer small numbers.
+TEST(GeneticOperators, large_ranges_are_drawn_uniformly_too) {
   Random random(2);
   const std::uint64_t count = 3ULL << 62;
   int low = 0;
@@ -84,7 +83,7 @@ TEST(GeneticOperators, the_roulette_wheel_draws_in_proportion_to_fitness) {
   const int spins = 100'000;
   std::vector<double> counts(fitness.size(), 0);
   for (int i = 0; i < spins; ++i) ++counts.at(wheel.spin(random));
-  EXPECT_EQ(counts[2], 0) << "without fitness, never";
+  EXPECT_EQ(counts[2], 0) << "individuals without fitness are never drawn";
   std::vector<double> seen;
   std::vector<double> expected;
   for (const std::size_t i : {0U, 1U, 3U, 4U}) {
@@ -94,7 +93,7 @@ TEST(GeneticOperators, the_roulette_wheel_draws_in_proportion_to_fitness) {
   EXPECT_LT(chi_square(seen, expected), chi_square_limit(seen.size()));
 }
 
-TEST(GeneticOperators, the_roulette_wheel_draws_evenly_when_nobody_has_any_fitness) {
+TEST(GeneticOperators, the_roulette_wheel_draws_uniformly_without_fitness) {
   const RouletteWheel wheel({0, 0, 0, 0});
   Random random(5);
   std::vector<double> counts(4, 0);
@@ -102,7 +101,7 @@ TEST(GeneticOperators, the_roulette_wheel_draws_evenly_when_nobody_has_any_fitne
   EXPECT_LT(chi_square(counts, std::vector<double>(4, 10'000)), chi_square_limit(4));
 }
 
-TEST(GeneticOperators, crossover_exchanges_one_run_of_bits_and_all_runs_alike) {
+TEST(GeneticOperators, crossover_exchanges_one_run_of_bits_uniformly) {
   constexpr int kBits = 6;
   const Chromosome ones = (Chromosome{1} << kBits) - 1;
   Random random(6);
@@ -110,8 +109,8 @@ TEST(GeneticOperators, crossover_exchanges_one_run_of_bits_and_all_runs_alike) {
   const int draws = 60'000;
   for (int i = 0; i < draws; ++i) {
     const auto [a, b] = two_point_crossover(0, ones, kBits, random);
-    ASSERT_EQ(a ^ b, ones) << "what one gets, the other gives";
-    const Chromosome filled = a | (a - 1);  // the zeros below the run
+    ASSERT_EQ(a ^ b, ones) << "the parents exchange bits";
+    const Chromosome filled = a | (a - 1);  // fills the zeros below the run
     ASSERT_NE(a, 0U);
     ASSERT_EQ(filled & (filled + 1), 0U) << "one run";
     ++runs[a];
@@ -122,7 +121,7 @@ TEST(GeneticOperators, crossover_exchanges_one_run_of_bits_and_all_runs_alike) {
   EXPECT_LT(chi_square(counts, std::vector<double>(21, draws / 21.0)), chi_square_limit(21));
 }
 
-TEST(GeneticOperators, crossover_keeps_the_length_and_each_places_bits) {
+TEST(GeneticOperators, crossover_keeps_the_length_and_the_bits_of_each_position) {
   Random random(7);
   for (const int bits : {1, 2, 26, 63, 64}) {
     const Chromosome all = bits == 64 ? ~Chromosome{0} : (Chromosome{1} << bits) - 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must hold of every matcher behind the one interface.
+// Tests of every matcher through the common interface.
 #include "matching/make_matcher.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@
 #include <thread>
 #include <vector>
 
-#include "matching/correlative_matcher.h"
 #include "score_grids.h"
 
 namespace psi_slam {
@@ -74,7 +73,7 @@ TEST_P(EveryMatcher, finds_random_poses) {
   EXPECT_GE(found, GetParam().variant == GeneticVariant::kPaper ? trials / 2 : trials);
 }
 
-TEST_P(EveryMatcher, states_a_response_that_its_pose_has_and_a_covariance) {
+TEST_P(EveryMatcher, returns_the_response_of_its_pose_and_a_covariance) {
   std::mt19937_64 random(122);
   const ScanPoints scan = scan_of(walls, {4, 3, 0.3}, 120, 0.01, random);
   MatchProblem problem{grid, scan, {4.5, 2.6, 0.2}, {2, 2, 0.4}};
@@ -86,7 +85,7 @@ TEST_P(EveryMatcher, states_a_response_that_its_pose_has_and_a_covariance) {
     as_it_is.max_iterations = 0;
     return refine(grid, scan, match.lattice_pose, as_it_is);
   }();
-  EXPECT_NEAR(match.response, at_lattice.mean_score, 0.1) << "of cells, and interpolated";
+  EXPECT_NEAR(match.response, at_lattice.mean_score, 0.1) << "one is of cells, the other interpolated";
   EXPECT_GE(match.refined_response, at_lattice.mean_score);
   EXPECT_GT(match.covariance(0, 0), 0);
   EXPECT_GT(match.information(2, 2), 0);
@@ -97,9 +96,9 @@ TEST_P(EveryMatcher, states_a_response_that_its_pose_has_and_a_covariance) {
   EXPECT_EQ(match.genetic.decoded > 0, GetParam().kind != MatcherKind::kCsm);
 }
 
-// A corridor with doors 1.2 m apart: a scan of it fits a door further on nearly as well. Verification refuses
-// such matches by their ambiguity, whoever found them.
-TEST_P(EveryMatcher, sees_the_second_peak_of_a_narrow_window_as_well_as_the_exact_one) {
+// In a corridor with doors 1.2 m apart, a scan also matches one door further on. Verification rejects such
+// matches by their ambiguity, which must not depend on the matcher.
+TEST_P(EveryMatcher, finds_the_second_peak_of_a_narrow_window_exactly) {
   SimulatedWalls corridor;
   corridor.add_wall(-8, -1, 8, -1);
   for (int door = -6; door <= 6; ++door) {
@@ -128,10 +127,10 @@ TEST_P(EveryMatcher, sees_the_second_peak_of_a_narrow_window_as_well_as_the_exac
       EXPECT_GE(*match.ambiguity, *expected.ambiguity - 0.02);
     }
   }
-  EXPECT_GT(ambiguous, 2) << "else this tests nothing";
+  EXPECT_GT(ambiguous, 2) << "the test needs ambiguous matches";
 }
 
-TEST_P(EveryMatcher, finds_nothing_where_nothing_fits) {
+TEST_P(EveryMatcher, finds_nothing_if_no_pose_matches) {
   std::mt19937_64 random(123);
   const ScanPoints scan = scan_of(walls, {4, 3, 0.3}, 120, 0.01, random);
   MatchProblem problem{grid, scan, {400, 3, 0.3}, {2, 2, 0.4}};
@@ -141,7 +140,7 @@ TEST_P(EveryMatcher, finds_nothing_where_nothing_fits) {
   EXPECT_EQ(match.response, 0);
 }
 
-TEST_P(EveryMatcher, gives_the_same_on_any_thread) {
+TEST_P(EveryMatcher, gives_the_same_result_on_any_thread) {
   std::mt19937_64 random(124);
   const ScanPoints scan = scan_of(walls, {4, 3, 0.3}, 120, 0.01, random);
   MatchProblem problem{grid, scan, {4.5, 2.6, 0.2}, {2, 2, 0.4}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/memetic_search.h"
+#include "matching/genetic_search.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "matching/branch_and_bound.h"
+#include "matching/exact_search.h"
 #include "real_scans.h"
 #include "score_grids.h"
 #include "slow_search.h"
@@ -34,7 +34,7 @@ PeakRequest request_of(std::uint64_t seed, std::uint32_t min_sum = 0) {
   return request;
 }
 
-TEST(MemeticSearch, its_answer_has_the_sum_it_states) {
+TEST(MemeticSearch, its_best_pose_has_the_returned_sum) {
   const Room room;
   const FoundPeaks peaks = memetic_search(room.lattice, request_of(1), {});
   ASSERT_TRUE(peaks.best);
@@ -44,8 +44,8 @@ TEST(MemeticSearch, its_answer_has_the_sum_it_states) {
   EXPECT_GT(peaks.genetic.decoded, 0);
 }
 
-// Every switch is used, and none makes a wrong answer of a right one.
-TEST(MemeticSearch, every_switch_changes_the_search_and_no_answer_beats_the_best) {
+// Every switch has an effect, and none leads to a wrong result.
+TEST(MemeticSearch, every_switch_changes_the_search_and_no_result_exceeds_the_best) {
   const Room room;
   const std::optional<Candidate> best = branch_and_bound_search(room.lattice, 0).best;
   const std::pair<const char*, std::function<void(MemeticGeneticOptions&)>> switches[] = {
@@ -79,7 +79,7 @@ TEST(MemeticSearch, every_switch_changes_the_search_and_no_answer_beats_the_best
       EXPECT_FALSE(peaks.best->better_than(*best));
       changed = changed || peaks.evaluations != usual.evaluations;
     }
-    EXPECT_TRUE(changed) << "the switch does nothing";
+    EXPECT_TRUE(changed) << "the switch has no effect";
   }
 }
 
@@ -117,7 +117,7 @@ TEST(MemeticSearch, nearly_always_finds_the_best_pose_of_real_scans) {
   EXPECT_LT(evaluations, poses / 5);
 }
 
-TEST(MemeticSearch, the_same_seed_gives_the_same_on_any_thread) {
+TEST(MemeticSearch, equal_seeds_give_equal_results_on_any_thread) {
   const Room room;
   const FoundPeaks expected = memetic_search(room.lattice, request_of(3), {});
   std::vector<FoundPeaks> peaks(4);
@@ -148,8 +148,8 @@ TEST(MemeticSearch, the_second_peak_is_distinct_from_the_first) {
   EXPECT_LE(peaks.next->sum, peaks.best->sum);
 }
 
-// Two equal rooms: niches keep both.
-TEST(MemeticSearch, sees_that_two_places_fit_alike) {
+// In two equal rooms, niches keep both peaks.
+TEST(MemeticSearch, finds_two_places_that_match_equally) {
   SimulatedWalls walls = furnished_room();
   const std::vector<SimulatedWalls::Wall> one_room = walls.walls;
   const auto box = walls.bounding_box();
@@ -168,8 +168,7 @@ TEST(MemeticSearch, sees_that_two_places_fit_alike) {
   EXPECT_GT(peaks.next->sum, 0.9 * peaks.best->sum);
 }
 
-// Niches are what keeps the second one: a population of two is otherwise crowded with neighbours of the
-// first.
+// Without niches, a population of two contains only neighbours of the first peak.
 TEST(MemeticSearch, niches_keep_a_small_population_from_crowding_in_one_place) {
   SimulatedWalls walls = furnished_room();
   const std::vector<SimulatedWalls::Wall> one_room = walls.walls;

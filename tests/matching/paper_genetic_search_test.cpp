@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "matching/paper_genetic_search.h"
+#include "matching/genetic_search.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(PaperGeneticSearch, scores_each_individual_of_each_generation_once) {
   EXPECT_LT(peaks.genetic.repaired, 31 * 7);
 }
 
-TEST(PaperGeneticSearch, its_answer_has_the_sum_it_states_and_is_no_better_than_the_best) {
+TEST(PaperGeneticSearch, its_best_pose_has_the_returned_sum_and_does_not_exceed_the_best) {
   const Room room;
   const std::optional<Candidate> best = slow_search(room.lattice, 0);
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
@@ -53,7 +53,7 @@ TEST(PaperGeneticSearch, its_answer_has_the_sum_it_states_and_is_no_better_than_
   }
 }
 
-// Selection must do something: with it, the search does better than as many random draws.
+// With selection, the search finds better poses than the same number of random draws.
 TEST(PaperGeneticSearch, does_better_than_chance) {
   const Room room;
   PaperGeneticOptions options;
@@ -81,7 +81,7 @@ TEST(PaperGeneticSearch, finds_the_robot_in_a_small_window) {
   EXPECT_GE(found, 8);
 }
 
-TEST(PaperGeneticSearch, the_same_seed_gives_the_same_and_another_one_another) {
+TEST(PaperGeneticSearch, equal_seeds_give_equal_results_and_others_do_not) {
   const Room room;
   PaperGeneticOptions options;
   options.population = 20;

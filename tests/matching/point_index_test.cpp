@@ -44,7 +44,7 @@ std::vector<std::size_t> slow_nearest(const std::vector<Point>& points, const Po
   return found;
 }
 
-TEST(PointIndex, finds_what_looking_at_every_point_finds) {
+TEST(PointIndex, equals_a_search_through_all_points) {
   const std::vector<Point> points = drawn_points(700);
   const PointIndex index(points);
   std::vector<std::size_t> near;
@@ -60,7 +60,7 @@ TEST(PointIndex, finds_what_looking_at_every_point_finds) {
   }
 }
 
-TEST(PointIndex, finds_nothing_where_there_is_none) {
+TEST(PointIndex, finds_nothing_without_points) {
   const PointIndex index(std::vector<Point>{});
   std::vector<std::size_t> near = {1, 2};
   index.nearest({0, 0}, 3, 10, near);
@@ -68,12 +68,12 @@ TEST(PointIndex, finds_nothing_where_there_is_none) {
   EXPECT_TRUE(index.within({0, 0}, 10).empty());
 }
 
-TEST(PointIndex, finds_what_is_just_at_the_radius) {
+TEST(PointIndex, includes_points_at_the_radius) {
   const PointIndex index({{0, 0}, {0.5F, 0}, {0, -0.5F}, {0.5625F, 0}});
   EXPECT_EQ(index.within({0, 0}, 0.5F), (std::vector<std::size_t>{0, 1, 2}));
 }
 
-TEST(PointIndex, still_finds_after_it_was_moved) {
+TEST(PointIndex, works_after_a_move) {
   PointIndex first(drawn_points(50));
   const PointIndex second(std::move(first));
   EXPECT_EQ(second.within({0, 0}, 2), slow_within(drawn_points(50), {0, 0}, 2));

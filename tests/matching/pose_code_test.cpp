@@ -21,7 +21,7 @@ const std::vector<SearchWindow>& windows() {
   return all;
 }
 
-TEST(PoseCode, every_pose_of_the_window_has_a_code_of_its_own_that_gives_it_back) {
+TEST(PoseCode, every_pose_of_the_window_has_a_unique_code_that_decodes_to_it) {
   for (const SearchWindow& window : windows()) {
     const PoseCode code(window);
     std::set<Chromosome> codes;
@@ -40,7 +40,7 @@ TEST(PoseCode, every_pose_of_the_window_has_a_code_of_its_own_that_gives_it_back
   }
 }
 
-// Every string of bits, those outside of the window too.
+// All strings of bits, including those outside the window.
 TEST(PoseCode, every_code_is_a_pose_of_the_window) {
   for (const SearchWindow& window : windows()) {
     const PoseCode code(window);
@@ -71,8 +71,8 @@ TEST(PoseCode, lengths_are_the_smallest_of_equation_10) {
   }
 }
 
-// The paper's own window, by hand: r_t = 5 cm, W = 8 m gives n = 160; L_max = 320^2 = 102,400 < 2^17.
-TEST(PoseCode, the_papers_window_takes_17_bits_and_those_of_its_angles) {
+// The window of the paper, by hand: r_t = 5 cm, W = 8 m gives n = 160; L_max = 320^2 = 102,400 < 2^17.
+TEST(PoseCode, the_window_of_the_paper_takes_17_bits_for_positions) {
   const PoseCode code(window_of_steps(160, 160, 184, 0.003));
   EXPECT_EQ(code.position_bits(), 17);
   EXPECT_EQ(code.angle_bits(), 9);
@@ -83,9 +83,9 @@ TEST(PoseCode, the_papers_window_takes_17_bits_and_those_of_its_angles) {
 TEST(PoseCode, bits_are_least_significant_first_position_before_angle) {
   const PoseCode code(window_of_steps(4, 4, 2, 0.05));  // 8 x 8 cells: 7 bits; 4 angles: 3 bits
   EXPECT_EQ(code.encode({-4, -4, -2}), 0U);
-  EXPECT_EQ(code.encode({-3, -4, -2}), 1U) << "one column on";
-  EXPECT_EQ(code.encode({-4, -3, -2}), 8U) << "one row on";
-  EXPECT_EQ(code.encode({-4, -4, -1}), 1U << 7) << "one angle on";
+  EXPECT_EQ(code.encode({-3, -4, -2}), 1U) << "next column";
+  EXPECT_EQ(code.encode({-4, -3, -2}), 8U) << "next row";
+  EXPECT_EQ(code.encode({-4, -4, -1}), 1U << 7) << "next angle";
   EXPECT_EQ(code.encode({3, 3, 1}), 63U + (3U << 7));
 }
 
@@ -95,7 +95,7 @@ TEST(PoseCode, codes_outside_are_repaired_by_the_modulus) {
   const LatticePose position = code.decode(64 + 5);
   EXPECT_EQ(code.encode(position), 5U);
   EXPECT_FALSE(code.inside(6U << 7));
-  EXPECT_EQ(code.decode(6U << 7).theta, 0) << "6 of 4 angles is the third";
+  EXPECT_EQ(code.decode(6U << 7).theta, 0) << "6 modulo 4 angles is the third";
 }
 
 TEST(PoseCode, refuses_windows_without_cells_and_codes_of_more_than_64_bits) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real scans and the local maps made of them: from a benchmark log where there is one, else from the rawlog
-// that comes with MRPT.
+// Real scans and local maps of them, from a benchmark log if available, otherwise from MRPT's sample rawlog.
 #pragma once
 
 #include <filesystem>

@@ -39,7 +39,7 @@ TPose2D moved(const TPose2D& pose, double dx, double dy, double dphi) {
   return {pose.x + dx, pose.y + dy, pose.phi + dphi};
 }
 
-// J^T J / s^2 with every derivative by central differences.
+// J^T J / s^2 with derivatives by central differences.
 Eigen::Matrix3d numeric_information(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D& pose,
                                     double score_sigma) {
   constexpr double kStep = 1e-4;
@@ -54,10 +54,10 @@ Eigen::Matrix3d numeric_information(const ScoreGrid& grid, const ScanPoints& sca
   return jacobian.transpose() * jacobian / (score_sigma * score_sigma);
 }
 
-// A corridor along x, 2 m wide, whose walls were seen more often here than there.
+// A corridor along x, 2 m wide, whose walls were observed with varying frequency.
 struct Corridor {
   ScoreGrid grid{-12, -2, 0.05, 480, 80};
-  ScanPoints scan;  // with the robot in the middle of it, at the origin
+  ScanPoints scan;  // with the robot in the middle, at the origin
 
   explicit Corridor(std::mt19937_64& random) {
     std::uniform_int_distribution<int> seen(200, 255);
@@ -146,8 +146,8 @@ TEST(Refinement, information_equals_that_of_numeric_derivatives) {
   }
 }
 
-// Where the scores are linear in the position, Gauss-Newton leaves nothing out: twice the information is the
-// second derivative of the cost.
+// If the scores are linear in the position, Gauss-Newton is exact: twice the information is the second
+// derivative of the cost.
 TEST(Refinement, information_is_half_the_numeric_second_derivative_of_the_cost_on_a_ramp) {
   ScoreGrid grid(-1, -1, 0.05, 60, 60);
   for (int y = 0; y < 60; ++y)
@@ -177,15 +177,15 @@ TEST(Refinement, with_normals_a_corridor_gives_no_information_along_it) {
   Corridor corridor(random);
   const RefinedPose with = refine(corridor.grid, corridor.scan, {0, 0.01, 0.002}, {});
   EXPECT_LT(with.information(0, 0), 1e-3 * with.information(1, 1));
-  EXPECT_GT(with.information(2, 2), with.information(1, 1)) << "its walls fix the heading";
+  EXPECT_GT(with.information(2, 2), with.information(1, 1)) << "the walls determine the heading";
 
   corridor.scan.normals.clear();
   const RefinedPose without = refine(corridor.grid, corridor.scan, {0, 0.01, 0.002}, {});
-  EXPECT_GT(without.information(0, 0), 10 * with.information(0, 0)) << "the walls' noise, taken for a slope";
+  EXPECT_GT(without.information(0, 0), 10 * with.information(0, 0))
+      << "noise of the walls, mistaken for a slope";
 }
 
-// Nothing but noise speaks along it; the search for the least cost shall not follow that, nor be stopped by
-// it.
+// Along the corridor there is only noise, which must neither move the minimisation nor stop it.
 TEST(Refinement, without_a_prior_a_corridor_is_refined_across_it) {
   std::mt19937_64 random(65);
   for (int trial = 0; trial < 20; ++trial) {
@@ -200,7 +200,7 @@ TEST(Refinement, without_a_prior_a_corridor_is_refined_across_it) {
 TEST(Refinement, normals_turn_with_the_robot) {
   std::mt19937_64 random(57);
   Corridor corridor(random);
-  // The same scan by a robot that is turned by 0.7: points and normals turn back in its frame.
+  // The scan of a robot turned by 0.7: in its frame, points and normals are turned back.
   const double c = std::cos(-0.7);
   const double s = std::sin(-0.7);
   for (auto* vectors : {&corridor.scan.points, &corridor.scan.normals})
@@ -238,7 +238,7 @@ TEST(Refinement, the_prior_holds_the_pose_along_a_corridor) {
   EXPECT_NEAR(refined.map_T_robot.x, 0.07, 0.002) << "from the prior";
   EXPECT_NEAR(refined.map_T_robot.y, 0, 0.004) << "from the scan";
   EXPECT_LT(refined.information(0, 0), 1e-3 * refined.information(1, 1))
-      << "the prior is no information of the scan";
+      << "the information of the scan excludes the prior";
 }
 
 TEST(Refinement, a_certain_prior_decides_across_the_turn_of_the_heading) {
@@ -271,7 +271,7 @@ TEST(Refinement, farther_than_the_largest_shift_is_another_peak) {
   EXPECT_EQ(refused.mean_score, unmoved.mean_score);
   EXPECT_EQ(refused.information, unmoved.information);
   options = {};
-  EXPECT_LT(refine(grid, scan, start, options).map_T_robot.x, 4.01) << "it would have moved";
+  EXPECT_LT(refine(grid, scan, start, options).map_T_robot.x, 4.01) << "without the limit it would move";
 }
 
 TEST(Refinement, without_points_or_off_the_grid_the_start_is_returned) {
@@ -322,7 +322,7 @@ TEST(BoundedCovariance, of_endless_information_has_the_smallest_deviations) {
 }
 
 TEST(BoundedCovariance, a_direction_without_information_stays_apart_from_the_others) {
-  // Nothing is known along the diagonal.
+  // There is no information along the diagonal.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   const Eigen::Vector3d across = Eigen::Vector3d(1, -1, 0).normalized();
   information += 400 * across * across.transpose();

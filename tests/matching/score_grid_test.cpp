@@ -13,7 +13,7 @@
 namespace psi_slam {
 namespace {
 
-// What a level of the pyramid is defined to hold.
+// Cell of a pyramid level by its definition.
 std::uint8_t brute_force_maximum(const ScoreLevel& finest, int x, int y, int stride) {
   std::uint8_t largest = 0;
   for (int fine_y = y * stride; fine_y < (y + 2) * stride; ++fine_y)
@@ -22,8 +22,7 @@ std::uint8_t brute_force_maximum(const ScoreLevel& finest, int x, int y, int str
   return largest;
 }
 
-// Catmull-Rom's spline through four values as textbooks have it: Hermite's cubic with central differences as
-// tangents.
+// Catmull-Rom spline through four values: Hermite's cubic with central differences as tangents.
 double hermite(const std::array<double, 4>& p, double u) {
   const double m1 = (p[2] - p[0]) / 2;
   const double m2 = (p[3] - p[1]) / 2;
@@ -83,7 +82,7 @@ TEST(ScoreGrid, a_level_bounds_every_block_of_shifts) {
   }
 }
 
-TEST(ScoreGrid, the_pyramid_follows_the_finest_grid_when_built_anew) {
+TEST(ScoreGrid, the_pyramid_follows_the_finest_grid_when_rebuilt) {
   ScoreGrid grid(0, 0, 0.05, 20, 20);
   EXPECT_FALSE(grid.has_pyramid());
   grid.build_pyramid();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Equation 1 as obviously as it can be written: three loops over the window, one over the points.
+// Equation 1 in its simplest form: three loops over the window, one over the points.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ inline std::uint32_t slow_sum(const SearchLattice& lattice, const LatticePose& p
   return sum;
 }
 
-/// Among the highest sums of at least `min_sum`, the one nearest to the centre in steps; among those the one
-/// of the lowest theta, then y, then x.
+/// Of the poses with the highest sum, which must reach `min_sum`, the one nearest to the centre in steps; of
+/// those, the one with the lowest theta, then y, then x.
 inline std::optional<Candidate> slow_search(const SearchLattice& lattice, std::uint32_t min_sum,
                                             const std::optional<ExcludedRegion>& excluded = {}) {
   const SearchWindow& window = lattice.window();

@@ -25,7 +25,7 @@ ScanPoints scan_at(const SimulatedWalls& walls, const TPose2D& map_T_robot, doub
   return matching_points(simulated_scan(walls, map_T_robot, bearings, {0.1, 0, 0}, noise_m, random), {});
 }
 
-// What robots at several poses of the room saw, put together where they truly were.
+// Surfaces seen from several poses of the room, placed at the true poses.
 class SeenRoom {
  public:
   SeenRoom(const SimulatedWalls& walls, const std::vector<TPose2D>& poses, double noise_m) {
@@ -44,7 +44,7 @@ class SeenRoom {
 
 const std::vector<TPose2D> kViews = {{3, 2, 0.5}, {3.2, 2.1, 0.7}, {3.5, 2.4, 0.3}, {2.8, 1.9, 0.4}};
 
-// The sum of rho over all points, found by looking at every pair; the prior left out.
+// Sum of rho over all points without the prior, by comparing all pairs.
 double slow_cost(const SurfaceMap& map, const SurfacePoints& scan, const TPose2D& pose,
                  const SurfaceAlignmentOptions& options) {
   const auto& surface = map.index().points();
@@ -88,13 +88,13 @@ TEST(SurfacePoints, face_the_laser) {
   }
 }
 
-TEST(SurfaceAlignment, brings_a_scan_to_where_it_was_taken) {
+TEST(SurfaceAlignment, moves_a_scan_to_its_true_pose) {
   const SimulatedWalls walls = furnished_room();
   const SeenRoom room(walls, kViews, 0.005);
   const TPose2D truth(3.1, 2.2, 0.55);
   const SurfacePoints scan = surface_points(scan_at(walls, truth, 0.005, 7));
   SurfaceAlignmentOptions options;
-  options.prior_sigma_m = 1;  // nothing known before
+  options.prior_sigma_m = 1;  // hardly any prior knowledge
   options.prior_sigma_rad = 1;
   options.iterations = 10;
   for (const TPose2D& off : {TPose2D(0.04, 0, 0), TPose2D(-0.02, 0.03, 0.01), TPose2D(0, -0.04, -0.015)}) {
@@ -107,7 +107,7 @@ TEST(SurfaceAlignment, brings_a_scan_to_where_it_was_taken) {
   }
 }
 
-TEST(SurfaceAlignment, ends_where_no_step_in_any_direction_makes_the_cost_less) {
+TEST(SurfaceAlignment, ends_at_a_minimum_of_the_cost) {
   const SimulatedWalls walls = furnished_room();
   const SeenRoom room(walls, kViews, 0.01);
   const SurfacePoints scan = surface_points(scan_at(walls, {3.1, 2.2, 0.55}, 0.01, 7));
@@ -127,7 +127,7 @@ TEST(SurfaceAlignment, ends_where_no_step_in_any_direction_makes_the_cost_less) 
     }
 }
 
-TEST(SurfaceAlignment, along_a_corridor_stays_where_it_is_held) {
+TEST(SurfaceAlignment, along_a_corridor_stays_at_the_prior) {
   SimulatedWalls corridor;
   corridor.add_wall(-60, -1, 60, -1);
   corridor.add_wall(-60, 1, 60, 1);
@@ -135,12 +135,12 @@ TEST(SurfaceAlignment, along_a_corridor_stays_where_it_is_held) {
   const SurfacePoints scan = surface_points(scan_at(corridor, {0, 0, 0}, 0.005, 9));
   const TPose2D start(0.03, 0.03, 0.01);
   const TPose2D pose = align_to_surfaces(seen.map(), scan, start, start, {}).map_T_robot;
-  EXPECT_NEAR(pose.x, start.x, 0.003);  // nothing tells better
+  EXPECT_NEAR(pose.x, start.x, 0.003);  // only the prior determines x
   EXPECT_NEAR(pose.y, 0, 0.004);
   EXPECT_NEAR(pose.phi, 0, 0.002);
 }
 
-TEST(SurfaceAlignment, leaves_a_scan_alone_that_sees_too_little_of_the_surfaces) {
+TEST(SurfaceAlignment, keeps_the_start_with_too_few_points_near_surfaces) {
   const SimulatedWalls walls = furnished_room();
   const SeenRoom room(walls, kViews, 0);
   SimulatedWalls elsewhere;
@@ -155,7 +155,7 @@ TEST(SurfaceAlignment, leaves_a_scan_alone_that_sees_too_little_of_the_surfaces)
   EXPECT_EQ(align_to_surfaces(room.map(), {}, start, start, {}).map_T_robot, start);
 }
 
-TEST(SurfaceAlignment, does_not_lay_one_side_of_a_wall_on_the_other) {
+TEST(SurfaceAlignment, does_not_match_opposite_sides_of_a_wall) {
   SimulatedWalls thin;  // a wall of 6 cm between two rooms
   thin.add_box(-4, 0.06, 4, 5);
   thin.add_box(-4, -5, 4, 0);

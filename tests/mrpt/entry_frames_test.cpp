@@ -30,7 +30,7 @@ TEST(EntryFrames, sum_up_actions) {
   EXPECT_THAT(ways_m(entries), ElementsAre(1, 1.5));
 }
 
-TEST(EntryFrames, wait_for_the_odometry_behind_them) {
+TEST(EntryFrames, wait_for_the_next_odometry) {
   EntryFrames entries{LogOptions()};
   entries.take(nullptr, nullptr, odometry(1'000'000, {1, 0, 0}));
   entries.take(nullptr, nullptr, range_scan(1'500'000));
@@ -40,7 +40,7 @@ TEST(EntryFrames, wait_for_the_odometry_behind_them) {
   EXPECT_THAT(ways_m(entries), ElementsAre(1.5));
 }
 
-TEST(EntryFrames, before_the_first_action_stand_at_the_start) {
+TEST(EntryFrames, before_the_first_action_are_at_the_start) {
   EntryFrames entries{LogOptions()};
   entries.take(nullptr, nullptr, range_scan(1'000'000));
   entries.take(movement({1, 0, 0}), sensory_frame({range_scan(2'000'000)}), nullptr);
@@ -55,7 +55,7 @@ TEST(EntryFrames, are_of_one_laser) {
 }
 
 TEST(EntryFrames, a_log_without_odometry_is_refused) {
-  EntryFrames entries{LogOptions(), "entries: "};
+  EntryFrames entries{LogOptions()};
   entries.take(nullptr, nullptr, range_scan(1'000'000));
   EXPECT_FALSE(entries.next());
   EXPECT_EQ(sentence_of([&] { entries.end_of_log(); }),
@@ -63,7 +63,7 @@ TEST(EntryFrames, a_log_without_odometry_is_refused) {
             "observations of class CObservationOdometry");
 }
 
-TEST(EntryFrames, odometry_that_never_comes_is_missed_before_the_log_ends) {
+TEST(EntryFrames, missing_odometry_is_an_error_before_the_log_ends) {
   EntryFrames entries{LogOptions()};
   const auto endless = [&] {
     for (TimeUs i = 1; i <= 2000; ++i) entries.take(nullptr, nullptr, range_scan(i * 100'000));
@@ -76,7 +76,7 @@ TEST(EntryFrames, a_scan_without_time_is_refused) {
   const auto scan = range_scan(1'000'000);
   scan->timestamp = {};
   EXPECT_EQ(sentence_of([&] { entries.take(nullptr, nullptr, scan); }),
-            "scan 1 has no time stamp, expected one on every observation");
+            "entries: observation 1: the scan has no time stamp, expected one on every observation");
 }
 
 TEST(EntryFrames, of_two_lasers_hold_the_scans_of_both) {

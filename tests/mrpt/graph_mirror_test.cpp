@@ -27,7 +27,7 @@ MrptGraph::edge_t edge(double x, double information = 1) {
   return {CPose2D(x, 0, 0), matrix};
 }
 
-/// Two nodes, one edge of ours between them, in both.
+/// Two nodes and one edge of psi-slam, published to MRPT.
 struct Shared {
   GraphMirror mirror;
   MrptGraph network;
@@ -39,7 +39,7 @@ struct Shared {
   }
 };
 
-TEST(GraphMirror, what_we_add_is_published_once) {
+TEST(GraphMirror, publishes_additions_once) {
   Shared shared;
   shared.mirror.publish(shared.network);
   shared.mirror.read(shared.network);
@@ -49,7 +49,7 @@ TEST(GraphMirror, what_we_add_is_published_once) {
   EXPECT_EQ(shared.mirror.graph().num_constraints(), 1U);
 }
 
-TEST(GraphMirror, edges_of_others_are_read_once_even_between_nodes_that_have_one) {
+TEST(GraphMirror, reads_edges_of_others_once_even_parallel_ones) {
   Shared shared;
   shared.network.insertEdgeAtEnd(0, 1, edge(1.5));
   shared.mirror.read(shared.network);
@@ -58,10 +58,10 @@ TEST(GraphMirror, edges_of_others_are_read_once_even_between_nodes_that_have_one
   EXPECT_EQ(shared.mirror.graph().constraint(1).from_T_to.x, 1.5);
 }
 
-TEST(GraphMirror, a_new_node_of_others_stands_where_its_edge_says_from_our_pose) {
+TEST(GraphMirror, a_new_node_of_others_follows_from_its_edge) {
   Shared shared;
   shared.mirror.graph().set_pose(1, {1, 5, 0});  // optimised
-  shared.network.nodes[2] = CPose2D(7, 7, 7);    // as the engine has set it anew
+  shared.network.nodes[2] = CPose2D(7, 7, 7);    // reset by the engine
   shared.network.insertEdgeAtEnd(1, 2, edge(2));
   shared.mirror.read(shared.network);
   ASSERT_EQ(shared.mirror.graph().num_nodes(), 3U);
@@ -69,7 +69,7 @@ TEST(GraphMirror, a_new_node_of_others_stands_where_its_edge_says_from_our_pose)
   EXPECT_EQ(shared.mirror.graph().pose(2).y, 5);
 }
 
-TEST(GraphMirror, the_root_stands_at_the_origin) {
+TEST(GraphMirror, the_root_is_at_the_origin) {
   GraphMirror mirror;
   MrptGraph network;
   network.root = 0;
@@ -81,7 +81,7 @@ TEST(GraphMirror, the_root_stands_at_the_origin) {
   EXPECT_EQ(mirror.graph().pose(1).x, 0.5);
 }
 
-TEST(GraphMirror, poses_go_either_way) {
+TEST(GraphMirror, copies_poses_both_ways) {
   Shared shared;
   shared.network.nodes[1] = CPose2D(3, 2, 1);
   shared.mirror.read_poses(shared.network);
@@ -91,7 +91,7 @@ TEST(GraphMirror, poses_go_either_way) {
   EXPECT_EQ(shared.network.nodes.at(1).x(), 4);
 }
 
-TEST(GraphMirror, only_the_edge_that_is_switched_off_goes) {
+TEST(GraphMirror, removes_only_disabled_edges) {
   Shared shared;
   const std::size_t off = shared.mirror.graph().add_constraint(link(0, 1, 9));
   shared.mirror.graph().add_constraint(link(0, 1, 1.1));
@@ -102,7 +102,7 @@ TEST(GraphMirror, only_the_edge_that_is_switched_off_goes) {
   for (const auto& one : shared.network.edges) EXPECT_LT(one.second.getPoseMean().x(), 2);
 }
 
-TEST(GraphMirror, an_edge_that_knows_nothing_sensible_counts_as_a_vague_one) {
+TEST(GraphMirror, an_edge_with_invalid_information_gets_a_large_uncertainty) {
   Shared shared;
   shared.network.insertEdgeAtEnd(0, 1, edge(1, std::numeric_limits<double>::quiet_NaN()));
   shared.mirror.read(shared.network);

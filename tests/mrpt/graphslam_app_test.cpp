@@ -10,10 +10,10 @@
 #include <sstream>
 
 #include "../session/room_log.h"
-#include "trajectory/trajectory_file.h"
 #include "simulated_rawlog.h"
 #include "temporary_folder.h"
 #include "test_files.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 namespace {
@@ -55,10 +55,10 @@ TEST(GraphSlamApp, deciders_that_do_not_go_together_are_wrong_usage) {
   const AppRun run = run_app({"-i", kIni, "-r", log, "-n", "CICPCriteriaNRD", "--disable-visuals",
                               "--output-dir", (folder.path() / "results").string()});
   EXPECT_EQ(run.code, 2);
-  EXPECT_EQ(
-      run.err,
-      "psi-graphslam: the edge decider CPsiLoopCloserERD matches with the local maps of CPsiFrontEndNRD "
-      "and works with no other node decider\n");
+  EXPECT_EQ(run.err,
+            "psi-graphslam: the edge decider CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD. "
+            "Choose that "
+            "as the node decider, or another edge decider.\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));
 }
 
@@ -78,7 +78,7 @@ const std::set<std::string>& result_names() {
   return kNames;
 }
 
-TEST(GraphSlamApp, a_damaged_log_is_mapped_up_to_there_and_the_exit_code_is_2) {
+TEST(GraphSlamApp, a_damaged_log_is_mapped_up_to_the_damage_with_exit_code_2) {
   const TemporaryFolder folder;
   const auto log = write_rawlog(folder.path() / "drive.rawlog", simulated_drive().frames, 1);
   std::string bytes = read_file(log);
@@ -98,7 +98,7 @@ TEST(GraphSlamApp, a_damaged_log_is_mapped_up_to_there_and_the_exit_code_is_2) {
   EXPECT_THAT(read_file(results / "summary.json"), HasSubstr("\"broken_off\": \""));
 }
 
-TEST(GraphSlamApp, a_damaged_line_that_is_no_utf8_is_told_all_the_same) {
+TEST(GraphSlamApp, a_damaged_line_without_utf8_is_reported) {
   const TemporaryFolder folder;
   const auto log = write_lines(folder.path() / "room.log", room_log_lines(20));
   std::ofstream(log, std::ios::app) << "FLASER \xff\xfe 181 1.0";
@@ -117,7 +117,7 @@ TEST(GraphSlamApp, an_interrupted_run_writes_what_it_has) {
   for (const std::string signal : {"INT", "TERM"}) {
     const auto results = folder.path() / signal;
     const auto words = folder.path() / (signal + ".words");
-    // The folder of the results is made when the mapping begins.
+    // The program creates the folder of the results when mapping begins.
     const std::string command = "bash -c '" PSI_GRAPHSLAM_PROGRAM " -i " + kIni + " -r " + log.string() +
                                 " --disable-visuals --output-dir " + results.string() + " > /dev/null 2> " +
                                 words.string() + " & while [ ! -d " + results.string() +
@@ -129,7 +129,7 @@ TEST(GraphSlamApp, an_interrupted_run_writes_what_it_has) {
   }
 }
 
-TEST(GraphSlamApp, a_full_disk_leaves_no_half_a_map) {
+TEST(GraphSlamApp, a_full_disk_leaves_no_partial_map) {
   const TemporaryFolder folder;
   std::vector<Frame> frames = simulated_drive().frames;
   frames.resize(9);
@@ -146,7 +146,7 @@ TEST(GraphSlamApp, a_full_disk_leaves_no_half_a_map) {
               ::testing::IsSubsetOf(std::set<std::string>{"output_graph.graph", "trajectory.tum"}));
 }
 
-TEST(GraphSlamApp, scans_that_cannot_be_matched_are_told) {
+TEST(GraphSlamApp, reports_scans_that_cannot_be_matched) {
   const TemporaryFolder folder;
   std::vector<Frame> frames = simulated_drive().frames;
   frames.resize(40);
@@ -161,7 +161,7 @@ TEST(GraphSlamApp, scans_that_cannot_be_matched_are_told) {
   EXPECT_THAT(run.err, HasSubstr("40 of 40 scans could not be matched"));
 }
 
-TEST(GraphSlamApp, wrong_words_are_told) {
+TEST(GraphSlamApp, reports_wrong_arguments) {
   EXPECT_THAT(run_app({"-r", "x"}).err, HasSubstr("-i INI"));
   EXPECT_THAT(run_app({"-i", kIni}).err, HasSubstr("-r LOG"));
   EXPECT_THAT(run_app({"-i", kIni, "-r", "/no/such.rawlog"}).err, HasSubstr("/no/such.rawlog"));
@@ -172,7 +172,7 @@ TEST(GraphSlamApp, wrong_words_are_told) {
     EXPECT_EQ(run_app(words).code, 2);
 }
 
-TEST(GraphSlamApp, lists_what_there_is_to_choose_from) {
+TEST(GraphSlamApp, lists_deciders_and_optimizers) {
   const AppRun run = run_app({"--list-deciders"});
   EXPECT_EQ(run.code, 0);
   for (const char* name : {"CPsiFrontEndNRD (psi-slam)", "CFixedIntervalsNRD (MRPT)", "CLoopCloserERD (MRPT)",
@@ -181,13 +181,13 @@ TEST(GraphSlamApp, lists_what_there_is_to_choose_from) {
   EXPECT_EQ(run_app({"--list-node-regs"}).out.find("ERD (MRPT)"), std::string::npos);
 }
 
-TEST(GraphSlamApp, the_options_that_it_prints_are_a_settings_file) {
+TEST(GraphSlamApp, prints_options_as_a_settings_file) {
   const TemporaryFolder folder;
   const AppRun run = run_app({"--dump-options"});
   EXPECT_THAT(run.out, HasSubstr("front_end.node_distance_m = 0.15"));
 }
 
-TEST(GraphSlamApp, true_poses_that_are_too_few_are_told) {
+TEST(GraphSlamApp, reports_ground_truth_with_too_few_poses) {
   const TemporaryFolder folder;
   std::vector<Frame> frames = simulated_drive().frames;
   frames.resize(9);

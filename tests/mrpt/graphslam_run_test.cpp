@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole runs of MRPT's engine: our deciders among each other, and with MRPT's.
+// Complete runs of MRPT's engine with deciders of psi-slam and MRPT.
 #include "mrpt/graphslam_run.h"
 
 #include <gmock/gmock.h>
@@ -33,13 +33,13 @@ struct Outcome {
   std::string map;
 };
 
-/// The settings that we ship, with one line in the place of another.
+/// The shipped settings with one line replaced.
 std::string settings_with(const std::string& line, const std::string& as_shipped) {
   std::string settings = read_file(PSI_SLAM_INI_FOLDER "/graphslam.ini");
   return settings.replace(settings.find(as_shipped), as_shipped.size(), line);
 }
 
-/// `write_log` makes the log in the file that it is given.
+/// `write_log` writes the log to the given file.
 Outcome run_team(const Team& team, const std::string& settings,
                  const std::function<void(const std::filesystem::path&)>& write_log) {
   const TemporaryFolder folder;
@@ -51,17 +51,17 @@ Outcome run_team(const Team& team, const std::string& settings,
   setup.node_decider = team.node;
   setup.edge_decider = team.edge;
   setup.optimizer = team.optimizer;
-  GraphSlamRun run(setup, DeciderCatalogue());
-  while (run.step()) {
+  const auto run = make_graphslam_run(setup, DeciderCatalogue());
+  while (run->step()) {
   }
-  run.finish();
+  run->finish();
   const OutputFolder output = OutputFolder::prepare(folder.path() / "out", false);
-  run.write(output);
+  run->write(output);
   Outcome outcome;
-  outcome.error_m = simulated_drive().error_m(run.trajectory());
-  outcome.poses = run.trajectory().size();
-  outcome.nodes = run.graph().nodes.size();
-  const auto counts = run.edge_counts();
+  outcome.error_m = simulated_drive().error_m(run->trajectory());
+  outcome.poses = run->trajectory().size();
+  outcome.nodes = run->graph().nodes.size();
+  const auto counts = run->edge_counts();
   if (counts.count("LC") != 0) outcome.loops = counts.at("LC");
   outcome.graph = read_file(output.path() / "output_graph.graph");
   outcome.path = read_file(output.path() / "trajectory.tum");
@@ -79,7 +79,7 @@ std::vector<Frame> first_third() {
   return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 3)};
 }
 
-/// The first third of the drive, of a robot with the lasers "right", "left" or both.
+/// The first third of the run, with the lasers "right", "left" or both.
 Outcome run_with_lasers(const Team& team, int form, const std::string& log_laser, bool right, bool left) {
   const std::vector<Frame> frames = first_third();
   const std::string node_distance = "front_end.node_distance_m = 0.15";
@@ -91,7 +91,7 @@ bool same_results(const Outcome& a, const Outcome& b) {
   return a.poses == b.poses && a.graph == b.graph && a.path == b.path && a.map == b.map;
 }
 
-TEST(GraphSlamRun, ours_find_loops_and_the_truth) {
+TEST(GraphSlamRun, deciders_of_psi_slam_find_loops_and_true_poses) {
   const Outcome outcome = run_team({});
   EXPECT_EQ(outcome.poses, simulated_drive().frames.size());
   EXPECT_GT(outcome.loops, 10);
@@ -117,36 +117,36 @@ TEST(GraphSlamRun, the_same_seed_gives_the_same_bytes_on_any_number_of_threads) 
   EXPECT_FALSE(one.graph.empty());
 }
 
-TEST(GraphSlamRun, our_optimizer_serves_the_deciders_of_others) {
+TEST(GraphSlamRun, the_optimizer_works_with_deciders_of_mrpt) {
   const Outcome outcome = run_team({"CFixedIntervalsNRD", "CEmptyERD", "CPsiSpaGSO"});
   EXPECT_EQ(outcome.poses, simulated_drive().frames.size());
   EXPECT_NEAR(outcome.error_m, simulated_drive().odometry_error_m(), 1e-4);
 }
 
-TEST(GraphSlamRun, our_node_decider_serves_others_edge_deciders_and_optimizers) {
+TEST(GraphSlamRun, the_node_decider_works_with_edge_deciders_and_optimizers_of_mrpt) {
   const Outcome front_end = run_team({"CPsiFrontEndNRD", "CEmptyERD", "CLevMarqGSO"});
   EXPECT_EQ(front_end.loops, 0);
   EXPECT_LT(front_end.error_m, 0.5 * simulated_drive().odometry_error_m());
 }
 
-TEST(GraphSlamRun, our_edge_decider_closes_loops_with_their_optimizer_too) {
+TEST(GraphSlamRun, the_edge_decider_works_with_an_optimizer_of_mrpt) {
   const Outcome outcome = run_team({"CPsiFrontEndNRD", "CPsiLoopCloserERD", "CLevMarqGSO"});
   EXPECT_GT(outcome.loops, 0);
   EXPECT_LT(outcome.error_m, 0.5 * simulated_drive().odometry_error_m());
 }
 
-TEST(GraphSlamRun, deciders_that_do_not_go_together_are_refused_in_one_sentence) {
+TEST(GraphSlamRun, refuses_deciders_that_do_not_work_together) {
   EXPECT_THAT(sentence_of([] {
                 run_team({"CFixedIntervalsNRD", "CPsiLoopCloserERD", "CPsiSpaGSO"});
               }),
-              HasSubstr("works with no other node decider"));
+              HasSubstr("needs the local maps of CPsiFrontEndNRD"));
   EXPECT_THAT(sentence_of([] {
                 run_team({"CPsiFrontEndNDR", "CEmptyERD", "CPsiSpaGSO"});
               }),
               HasSubstr("did you mean \"CPsiFrontEndNRD\"?"));
 }
 
-TEST(GraphSlamRun, a_mistake_within_the_engine_keeps_its_sentence) {
+TEST(GraphSlamRun, a_user_error_passes_through_the_engine) {
   const TemporaryFolder folder;
   std::vector<Frame> frames = simulated_drive().frames;
   frames.resize(3);
@@ -160,15 +160,15 @@ TEST(GraphSlamRun, a_mistake_within_the_engine_keeps_its_sentence) {
     scan->sensorPose.setYawPitchRoll(0, 1, 0);
     archive << odometry_observation(frames.front()) << *scan;
   }
-  GraphSlamRun run(setup, DeciderCatalogue());
+  const auto run = make_graphslam_run(setup, DeciderCatalogue());
   EXPECT_THAT(sentence_of([&] {
-                while (run.step()) {
+                while (run->step()) {
                 }
               }),
               HasSubstr("tilted"));
 }
 
-TEST(GraphSlamRun, of_two_lasers_all_deciders_use_the_first_or_the_one_that_is_named) {
+TEST(GraphSlamRun, all_deciders_use_the_first_of_two_lasers_or_the_named_one) {
   for (const Team& team : {Team(), Team{"CFixedIntervalsNRD", "CEmptyERD", "CPsiSpaGSO"}}) {
     for (const int form : {1, 2}) {
       const Outcome right = run_with_lasers(team, form, "\"\"", true, false);
@@ -180,7 +180,7 @@ TEST(GraphSlamRun, of_two_lasers_all_deciders_use_the_first_or_the_one_that_is_n
   }
 }
 
-TEST(GraphSlamRun, two_lasers_at_once_are_one_scan_for_ours_and_the_first_one_for_others) {
+TEST(GraphSlamRun, two_lasers_are_one_frame_here_and_the_first_scan_for_mrpt) {
   for (const int form : {1, 2}) {
     const Outcome both = run_with_lasers({}, form, "all", true, true);
     EXPECT_EQ(both.poses, first_third().size());
@@ -192,7 +192,7 @@ TEST(GraphSlamRun, two_lasers_at_once_are_one_scan_for_ours_and_the_first_one_fo
               run_with_lasers(mrpts, 1, "right", true, true).map);
 }
 
-TEST(GraphSlamRun, a_log_that_breaks_off_gives_a_map_of_what_was_read) {
+TEST(GraphSlamRun, a_damaged_log_gives_a_map_of_the_part_read) {
   for (const Team& team : {Team(), Team{"CFixedIntervalsNRD", "CICPCriteriaERD", "CLevMarqGSO"}}) {
     const TemporaryFolder folder;
     GraphSlamSetup setup;
@@ -202,45 +202,45 @@ TEST(GraphSlamRun, a_log_that_breaks_off_gives_a_map_of_what_was_read) {
     setup.node_decider = team.node;
     setup.edge_decider = team.edge;
     setup.optimizer = team.optimizer;
-    GraphSlamRun run(setup, DeciderCatalogue());
-    while (run.step()) {
+    const auto run = make_graphslam_run(setup, DeciderCatalogue());
+    while (run->step()) {
     }
-    EXPECT_FALSE(run.step());
-    run.finish();
-    ASSERT_TRUE(run.broken_off());
-    EXPECT_THAT(*run.broken_off(), HasSubstr("cut off"));
-    EXPECT_FALSE(run.interrupted());
-    EXPECT_NEAR(static_cast<double>(run.scans()), static_cast<double>(simulated_drive().frames.size()) / 2,
+    EXPECT_FALSE(run->step());
+    run->finish();
+    ASSERT_TRUE(run->broken_off());
+    EXPECT_THAT(*run->broken_off(), HasSubstr("cut off"));
+    EXPECT_FALSE(run->interrupted());
+    EXPECT_NEAR(static_cast<double>(run->scans()), static_cast<double>(simulated_drive().frames.size()) / 2,
                 2);
-    EXPECT_EQ(run.trajectory().size(), run.scans());
+    EXPECT_EQ(run->trajectory().size(), run->scans());
   }
 }
 
-TEST(GraphSlamRun, a_run_that_ends_early_and_one_that_is_told_to_are_interrupted) {
+TEST(GraphSlamRun, a_run_stopped_early_or_cut_short_is_interrupted) {
   const TemporaryFolder folder;
   GraphSlamSetup setup;
   setup.ini = PSI_SLAM_INI_FOLDER "/graphslam.ini";
   setup.log = write_rawlog(folder.path() / "drive.rawlog", simulated_drive().frames, 1);
   constexpr std::size_t kSteps = 200;
   const auto interrupted = [&](std::size_t steps, bool go_on_at_the_end) {
-    GraphSlamRun run(setup, DeciderCatalogue());
-    for (std::size_t i = 0; i < steps && run.step(); ++i) continue;
-    run.finish([&](double) { return go_on_at_the_end; });
-    EXPECT_EQ(run.trajectory().size(), std::min(steps, simulated_drive().frames.size()));
-    return run.interrupted();
+    const auto run = make_graphslam_run(setup, DeciderCatalogue());
+    for (std::size_t i = 0; i < steps && run->step(); ++i) continue;
+    run->finish([&](double) { return go_on_at_the_end; });
+    EXPECT_EQ(run->trajectory().size(), std::min(steps, simulated_drive().frames.size()));
+    return run->interrupted();
   };
   EXPECT_TRUE(interrupted(kSteps, true));
   EXPECT_TRUE(interrupted(std::numeric_limits<std::size_t>::max(), false));
   EXPECT_FALSE(interrupted(std::numeric_limits<std::size_t>::max(), true));
 }
 
-TEST(GraphSlamRun, nothing_is_mapped_where_no_scan_was_read) {
+TEST(GraphSlamRun, a_log_without_scans_is_an_error) {
   const TemporaryFolder folder;
   GraphSlamSetup setup;
   setup.ini = PSI_SLAM_INI_FOLDER "/graphslam.ini";
   setup.log = write_rawlog(folder.path() / "drive.rawlog", simulated_drive().frames, 1);
-  GraphSlamRun run(setup, DeciderCatalogue());
-  EXPECT_THAT(sentence_of([&] { run.finish(); }), HasSubstr("no scan was read, there is nothing to map"));
+  const auto run = make_graphslam_run(setup, DeciderCatalogue());
+  EXPECT_THAT(sentence_of([&] { run->finish(); }), HasSubstr("no scan was read, there is nothing to map"));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ Settings read(const std::string& text) {
   return read_graphslam_settings(folder.path() / "my.ini");
 }
 
-TEST(GraphSlamSettings, keys_with_a_dot_are_ours_and_the_others_are_left_alone) {
+TEST(GraphSlamSettings, reads_keys_with_a_dot_and_ignores_others) {
   const Settings settings = read(
       "[GeneralConfiguration]\nsave_graph = true\n"
       "[NodeRegistrationDeciderParameters]\nregistration_max_distance = 0.3 // meters\n"
@@ -26,12 +26,12 @@ TEST(GraphSlamSettings, keys_with_a_dot_are_ours_and_the_others_are_left_alone) 
       "[EdgeRegistrationDeciderParameters]\nloop_closure.matcher = csm\nrun.seed = 7\n"
       "[OptimizerParameters]\npose_graph.max_iterations = 9\n");
   EXPECT_EQ(settings.mapper.front_end.node_distance_m, 0.4);
-  EXPECT_EQ(settings.mapper.matcher, LoopMatcher::kCsm);
+  EXPECT_EQ(settings.mapper.back_end.matcher, MatcherKind::kCsm);
   EXPECT_EQ(settings.run.seed, 7U);
   EXPECT_EQ(settings.mapper.pose_graph.max_iterations, 9);
 }
 
-TEST(GraphSlamSettings, mistakes_are_told_with_file_and_line) {
+TEST(GraphSlamSettings, errors_name_file_and_line) {
   const std::string node = "[NodeRegistrationDeciderParameters]\n";
   EXPECT_THAT(sentence_of([&] { read(node + "front_end.node_distanc_m = 1\n"); }),
               AllOf(HasSubstr("my.ini:2"), HasSubstr("node_distance_m")));
@@ -43,7 +43,7 @@ TEST(GraphSlamSettings, mistakes_are_told_with_file_and_line) {
               HasSubstr("must not be more than"));
 }
 
-TEST(GraphSlamSettings, every_option_is_listed_in_one_section_at_most_and_its_listing_can_be_read) {
+TEST(GraphSlamSettings, lists_every_option_in_at_most_one_section_as_readable_settings) {
   const BoundSettings bound;
   std::string all;
   std::size_t listed = 0;

@@ -21,11 +21,11 @@
 #include <thread>
 
 #include "../local_maps/simulated_drive.h"
-#include "rawlog_files.h"
-#include "psi_slam/user_error.h"
-#include "psi_slam/open_log.h"
+#include "observations/mrpt_objects.h"
 #include "psi_slam/mapper.h"
-#include "observations/range_observation.h"
+#include "psi_slam/open_log.h"
+#include "psi_slam/user_error.h"
+#include "rawlog_files.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {
@@ -43,7 +43,7 @@ using testing::HasSubstr;
 constexpr const char* kRawlog =
     "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
 
-// What another program writes, from a rawlog of either form to a map and a picture of it.
+// Example program: maps a rawlog of either form and draws the map.
 void map_rawlog(const std::string& rawlog, CMetricMapBuilderPsi& builder, const std::string& folder) {
   mrpt::io::CFileGZInputStream file(rawlog);
   auto archive = mrpt::serialization::archiveFrom(file);
@@ -60,7 +60,7 @@ void map_rawlog(const std::string& rawlog, CMetricMapBuilderPsi& builder, const 
 }
 
 MappingResult map_by_the_reader(const std::string& rawlog, std::size_t first_scan = 0) {
-  Mapper mapper{MapperOptions{}};
+  Mapper mapper;
   const auto source = open_log(rawlog);
   while (auto frame = source->next())
     if (frame->index >= first_scan) mapper.add(*std::move(frame));
@@ -93,7 +93,7 @@ std::vector<TPose2D> node_poses(const CMetricMapBuilderPsi& builder) {
   return poses;
 }
 
-// A simulated drive in both forms of rawlogs.
+// A simulated run in both forms of rawlogs.
 SimulatedDrive short_drive(std::size_t scans = 150) {
   OdometryErrors errors;
   errors.length_share = 0.05;
@@ -133,7 +133,7 @@ TEST(MetricMapBuilderPsi, maps_a_rawlog_in_ten_lines) {
   CMetricMapBuilderPsi builder;
   map_rawlog(kRawlog, builder, folder.path().string());
 
-  // This log begins with a sensory frame; MRPT reads pairs of an action and the frame behind it.
+  // This log begins with a sensory frame; MRPT reads pairs of an action and the next frame.
   const MappingResult expected = map_by_the_reader(kRawlog, 1);
   EXPECT_TRUE(std::any_of(expected.loops.begin(), expected.loops.end(),
                           [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
@@ -212,7 +212,7 @@ TEST(MetricMapBuilderPsi, both_forms_give_the_same_map) {
   CMetricMapBuilderPsi by_actions;
   process_as_actions(by_actions, drive);
   by_actions.finish();
-  RawlogObjects objects;  // with odometry at the very time of each scan
+  RawlogObjects objects;  // with odometry at the exact time of each scan
   for (const Frame& frame : drive.frames) {
     objects.push_back(odometry(frame.time_us, CPose2D(frame.odom_T_robot)));
     objects.push_back(range_observation(frame));
@@ -235,7 +235,7 @@ TEST(MetricMapBuilderPsi, before_the_first_scan_the_map_is_empty) {
   EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), 0U);
 }
 
-TEST(MetricMapBuilderPsi, starts_where_it_is_told) {
+TEST(MetricMapBuilderPsi, starts_at_the_given_pose) {
   const SimulatedDrive drive = short_drive(60);
   CMetricMapBuilderPsi at_origin;
   process_as_actions(at_origin, drive);
@@ -259,12 +259,12 @@ TEST(MetricMapBuilderPsi, starts_where_it_is_told) {
   expect_pose(estimate.mean.asTPose(), start + estimate_of(at_origin).mean.asTPose());
   EXPECT_GT(estimate.cov(0, 0), 0.04) << "what is not known of the start, is not known of the robot";
 
-  // The grid lies there, too: free where the robot stood.
+  // The grid lies there too: it is free at the robot.
   const TPose2D stood = poses.back();
   EXPECT_GT(elsewhere.grid()->getPos(static_cast<float>(stood.x), static_cast<float>(stood.y)), 0.6F);
 }
 
-TEST(MetricMapBuilderPsi, begins_anew_when_initialised) {
+TEST(MetricMapBuilderPsi, initialize_begins_another_map) {
   const SimulatedDrive drive = short_drive(60);
   CMetricMapBuilderPsi builder;
   process_as_actions(builder, drive);
@@ -280,10 +280,10 @@ TEST(MetricMapBuilderPsi, begins_anew_when_initialised) {
   expect_pose(estimate_of(builder).mean.asTPose(), first);
 
   builder.initialize();
-  expect_pose(estimate_of(builder).mean.asTPose(), first);  // no start given: it stands where it stood
+  expect_pose(estimate_of(builder).mean.asTPose(), first);  // no start given: the estimate stays
 }
 
-TEST(MetricMapBuilderPsi, a_map_made_before_is_an_error) {
+TEST(MetricMapBuilderPsi, an_initial_map_is_an_error) {
   CMetricMapBuilderPsi builder;
   process_as_actions(builder, short_drive(30));
   mrpt::maps::CSimpleMap map;
@@ -316,10 +316,10 @@ TEST(MetricMapBuilderPsi, its_metric_map_is_one_grid_drawn_when_asked_for) {
   builder.finish();
   EXPECT_NE(builder.grid(), grid);
 
-  // The south wall of the corridor, 1.6 m to the right of the robot's start, and the way it drove.
+  // The south wall of the corridor, 1.6 m to the right of the start, and the path of the robot.
   const auto last = builder.grid();
   EXPECT_LT(last->getPos(1.5F, -1.62F), 0.4F);
-  for (std::size_t i = 10; i < drive.frames.size(); i += 10) {  // it saw nothing behind its start
+  for (std::size_t i = 10; i < drive.frames.size(); i += 10) {  // no scan saw the space before the start
     const TPose2D& pose = drive.map_T_robot[i];
     EXPECT_GT(last->getPos(static_cast<float>(pose.x), static_cast<float>(pose.y)), 0.6F);
   }
@@ -360,7 +360,7 @@ TEST(MetricMapBuilderPsi, other_observations_are_kept_beside_their_scan) {
     const auto actions = movement(CPose2D(frame.odom_T_robot - last));
     const auto observations = sensory_frame({range_observation(frame), other});
     with_another.processActionObservation(*actions, *observations);
-    observations->clear();  // the builder has a list of its own
+    observations->clear();  // the builder keeps its own list
     last = frame.odom_T_robot;
   }
   EXPECT_EQ(node_poses(with_another), node_poses(alone));
@@ -372,7 +372,7 @@ TEST(MetricMapBuilderPsi, other_observations_are_kept_beside_their_scan) {
   EXPECT_EQ(observations->size(), 2U);
 }
 
-TEST(MetricMapBuilderPsi, takes_the_laser_and_the_mount_that_the_options_say) {
+TEST(MetricMapBuilderPsi, uses_laser_and_mount_of_the_options) {
   CMetricMapBuilderPsi::Options options;
   options.log.laser = "REAR";
   CMetricMapBuilderPsi builder(options);
@@ -398,7 +398,7 @@ TEST(MetricMapBuilderPsi, the_kind_of_odometry_that_comes_first_decides) {
   EXPECT_EQ(node_poses(both), node_poses(actions_alone));
 }
 
-TEST(MetricMapBuilderPsi, scans_before_the_first_action_stand_at_the_start) {
+TEST(MetricMapBuilderPsi, scans_before_the_first_action_are_at_the_start) {
   const SimulatedDrive drive = short_drive(40);
   CMetricMapBuilderPsi builder;
   builder.processObservation(range_observation(drive.frames[0]));
@@ -427,7 +427,7 @@ TEST(MetricMapBuilderPsi, without_odometry_there_is_no_map) {
       UserError);
 }
 
-TEST(MetricMapBuilderPsi, what_cannot_be_used_is_an_error_that_says_so) {
+TEST(MetricMapBuilderPsi, unusable_input_is_an_error) {
   CMetricMapBuilderPsi builder;
   EXPECT_THROW(builder.processObservation(nullptr), std::invalid_argument);
   const auto frame = short_drive(1).frames[0];
@@ -461,7 +461,7 @@ TEST(MetricMapBuilderPsi, pictures_have_the_format_of_their_extension) {
         << name;
 }
 
-TEST(MetricMapBuilderPsi, may_be_asked_by_another_thread_while_it_maps) {
+TEST(MetricMapBuilderPsi, answers_another_thread_while_mapping) {
   const SimulatedDrive drive = short_drive();
   CMetricMapBuilderPsi alone;
   process_as_actions(alone, drive);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simulated drive as rawlogs of either form, with the truth of each scan.
+// A simulated run as rawlogs of both forms, with the true pose of each scan.
 #pragma once
 
 #include <mrpt/io/CFileOutputStream.h>
@@ -13,17 +13,15 @@
 #include <memory>
 #include <vector>
 
-#include "observations/rawlog_objects.h"
-#include "observations/range_observation.h"
-#include "observations/robot_action.h"
-#include "trajectory/trajectory_file.h"
+#include "observations/mrpt_objects.h"
 #include "simulation/simulated_log.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 
 struct SimulatedDriveWithTruth {
   std::vector<Frame> frames;
-  std::map<TimeUs, mrpt::math::TPose2D> truth;  ///< from the first scan's place
+  std::map<TimeUs, mrpt::math::TPose2D> truth;  ///< relative to the first scan
 
   explicit SimulatedDriveWithTruth(double path_m) {
     SimulatedLog log(simulated_log_options(path_m, 3));
@@ -35,7 +33,7 @@ struct SimulatedDriveWithTruth {
     }
   }
 
-  /// Mean distance from the truth, metres.
+  /// Mean distance from the true positions, metres.
   double error_m(const Trajectory& path) const {
     double sum = 0;
     for (const StampedPose& pose : path) {
@@ -45,7 +43,7 @@ struct SimulatedDriveWithTruth {
     return sum / static_cast<double>(path.size());
   }
 
-  /// Of odometry alone.
+  /// Mean error of odometry alone, metres.
   double odometry_error_m() const {
     Trajectory path;
     for (const Frame& frame : frames)
@@ -67,7 +65,7 @@ inline mrpt::obs::CObservationOdometry odometry_observation(const Frame& frame) 
   return odometry;
 }
 
-/// Form 1: actions and sensory frames. Form 2: a scan and then odometry of its time, one by one.
+/// Form 1: actions and sensory frames. Form 2: single observations, each scan followed by its odometry.
 inline std::filesystem::path write_rawlog(const std::filesystem::path& path, const std::vector<Frame>& frames,
                                           int form) {
   mrpt::io::CFileOutputStream file(path.string());
@@ -86,7 +84,7 @@ inline std::filesystem::path write_rawlog(const std::filesystem::path& path, con
   return path;
 }
 
-/// The part of the frame that a laser sees which has only the beams from `begin` to `end`.
+/// The frame of a laser with only the beams from `begin` to `end`.
 inline Frame seen_by_part(const Frame& frame, std::size_t begin, std::size_t end) {
   Frame part = frame;
   const std::vector<float>& bearings = *frame.scan.bearings_rad;
@@ -106,7 +104,7 @@ inline Frame seen_on_the_left(const Frame& frame) {
   return seen_by_part(frame, frame.scan.ranges_m.size() / 2, frame.scan.ranges_m.size());
 }
 
-/// As write_rawlog(), of a robot with two lasers, "right" and "left", or with one of them.
+/// Writes a rawlog as write_rawlog() does, of a robot with the lasers "right" and "left" or one of them.
 inline std::filesystem::path write_rawlog_of_lasers(const std::filesystem::path& path,
                                                     const std::vector<Frame>& frames, int form, bool right,
                                                     bool left) {

@@ -20,7 +20,7 @@ TPose2D moved(TPose2D pose, int coordinate, double by) {
   return pose;
 }
 
-TEST(ConstraintError, is_zero_where_the_measurement_is_met) {
+TEST(ConstraintError, is_zero_if_the_poses_agree_with_the_measurement) {
   Measurer measurer(1);
   for (int i = 0; i < 100; ++i) {
     const TPose2D a = random_pose(measurer, 50);
@@ -83,6 +83,27 @@ TEST(ConstraintError, its_normal_equations_are_the_products_of_the_jacobians) {
     EXPECT_TRUE(near(normals.i, jacobians.wrt_i.transpose() * information * error));
     EXPECT_TRUE(near(normals.j, jacobians.wrt_j.transpose() * information * error));
   }
+}
+
+TEST(WrapToPi, gives_the_same_angle_in_the_half_open_interval) {
+  for (int i = -4000; i <= 4000; ++i) {
+    const double angle = 0.01 * i;
+    const double wrapped = wrap_to_pi(angle);
+    EXPECT_GT(wrapped, -kPi);
+    EXPECT_LE(wrapped, kPi);
+    EXPECT_NEAR(std::cos(wrapped), std::cos(angle), 1e-13);
+    EXPECT_NEAR(std::sin(wrapped), std::sin(angle), 1e-13);
+  }
+}
+
+TEST(WrapToPi, takes_half_a_turn_as_positive) {
+  EXPECT_EQ(wrap_to_pi(kPi), kPi);
+  EXPECT_EQ(wrap_to_pi(-kPi), kPi);
+  EXPECT_EQ(wrap_to_pi(3 * kPi), kPi);
+}
+
+TEST(WrapToPi, leaves_an_angle_of_the_interval_as_it_is) {
+  for (const double angle : {0.0, 1.0, -3.14159, 3.14159, -1e-300}) EXPECT_EQ(wrap_to_pi(angle), angle);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slow and plain counterparts of the library for its tests: they share nothing with it but the graph.
+// Slow and simple counterparts of the library for its tests. They share only the graph with it.
 #pragma once
 
 #include <Eigen/Dense>
@@ -10,14 +10,14 @@
 
 namespace psi_slam {
 
-/// Equation 6, from the definition.
+/// Equation 6 by its definition.
 inline Eigen::Vector3d reference_error(const Constraint& constraint, const TPose2D& from, const TPose2D& to) {
   const TPose2D predicted = relative_pose(from, to);
   return {constraint.from_T_to.x - predicted.x, constraint.from_T_to.y - predicted.y,
           wrap_to_pi(constraint.from_T_to.phi - predicted.phi)};
 }
 
-/// By central differences: 3x6, with respect to the pose of `from`, then of `to`.
+/// 3x6 Jacobian by central differences, with respect to the pose of `from`, then of `to`.
 inline Eigen::Matrix<double, 3, 6> numeric_jacobian(const Constraint& constraint, const TPose2D& from,
                                                     const TPose2D& to) {
   constexpr double kStep = 1e-6;
@@ -33,7 +33,8 @@ inline Eigen::Matrix<double, 3, 6> numeric_jacobian(const Constraint& constraint
   return jacobian;
 }
 
-/// H = J^T Omega J and g = J^T Omega e of all nodes, the root included, 3 rows a node; by numeric Jacobians.
+/// H = J^T Omega J and g = J^T Omega e of all nodes including the root, 3 rows per node, by numeric
+/// Jacobians.
 struct DenseSystem {
   Eigen::MatrixXd h;
   Eigen::VectorXd g;
@@ -61,7 +62,7 @@ inline DenseSystem dense_system(const PoseGraph& graph) {
   return system;
 }
 
-/// The same without the root's rows and columns; the root must be node 0.
+/// The dense system without the rows and columns of the root, which must be node 0.
 inline DenseSystem held_at_root(const DenseSystem& system) {
   const Eigen::Index size = system.g.size() - 3;
   return {system.h.bottomRightCorner(size, size), system.g.tail(size)};
@@ -83,9 +84,8 @@ inline void dense_gauss_newton(PoseGraph& graph, int iterations) {
   }
 }
 
-/// Undamped Gauss-Newton for large graphs, by triplets and Eigen's own sparse factorisation and order.
-/// Returns the Newton decrement g^T H^-1 g of the last step: by how much the linearised error sum could still
-/// fall.
+/// Undamped Gauss-Newton for large graphs, with Eigen's sparse factorisation. Returns the Newton decrement
+/// g^T H^-1 g of the last step: the remaining decrease of the linearised error sum.
 inline double sparse_gauss_newton(PoseGraph& graph, int iterations) {
   double decrement = 0;
   for (int i = 0; i < iterations; ++i) {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "dense_reference.h"
 #include "base/atomic_file.h"
+#include "dense_reference.h"
 #include "psi_slam/user_error.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
@@ -70,7 +70,7 @@ TEST(G2oFile, reads_vertices_edges_and_the_fixed_one) {
 }
 
 TEST(G2oFile, orders_the_information_of_each_format_as_that_does) {
-  // Both lines hold the numbers 100, 2, 90, 80, 4, 5 of one matrix, in their own order.
+  // Both lines hold one matrix with the entries 100, 2, 90, 80, 4, 5, each in the order of its format.
   const std::string g2o = "EDGE_SE2 0 1 0 0 0 100 2 4 90 5 80\n";
   const std::string toro = "EDGE2 0 1 0 0 0 100 2 90 80 4 5\n";
   Eigen::Matrix3d expected;
@@ -80,7 +80,7 @@ TEST(G2oFile, orders_the_information_of_each_format_as_that_does) {
 }
 
 TEST(G2oFile, weighs_errors_in_the_axes_that_each_format_means) {
-  // A quarter turn to the left on the way: x of the end points along y of the beginning.
+  // After a quarter turn to the left, x of the end points along y of the beginning.
   const std::string numbers = " 0 1 2 0 1.5707963267948966 ";
   const Eigen::Matrix3d g2o =
       read_text(kTwoVertices + ("EDGE_SE2" + numbers + "4 0 0 100 0 1\n")).graph.constraint(0).information;
@@ -162,21 +162,22 @@ TEST(G2oFile, says_what_is_wrong_and_where) {
   const std::string two(kTwoVertices);
   EXPECT_THAT(
       error_of(two + "EDGE_SE2 0 1 0 0 zero 1 0 0 1 0 1\n"),
-      testing::AllOf(HasSubstr("graph.g2o:3: "), HasSubstr("'zero' is no finite number"),
+      testing::AllOf(HasSubstr("graph.g2o:3: "), HasSubstr("'zero' is not a finite number"),
                      HasSubstr("expected \"EDGE_SE2 from to dx dy dtheta Ixx Ixy Ixt Iyy Iyt Itt\"")));
-  EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 0 0 0 1 0 0 1 0\n"), HasSubstr(":3: '' is no finite number"));
+  EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 0 0 0 1 0 0 1 0\n"), HasSubstr(":3: '' is not a finite number"));
   EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 0 0 0 1 0 0 1 0 1 7\n"), HasSubstr("'7' is one field too many"));
-  EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 nan 0 0 1 0 0 1 0 1\n"), HasSubstr("'nan' is no finite number"));
-  EXPECT_THAT(error_of(two + "EDGE_SE2 0 1.5 0 0 0 1 0 0 1 0 1\n"), HasSubstr("'1.5' is no vertex id"));
+  EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 nan 0 0 1 0 0 1 0 1\n"),
+              HasSubstr("'nan' is not a finite number"));
+  EXPECT_THAT(error_of(two + "EDGE_SE2 0 1.5 0 0 0 1 0 0 1 0 1\n"), HasSubstr("'1.5' is not a vertex id"));
   EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 0 0 0 1 5 0 1 0 1\n"), HasSubstr("not positive semi-definite"));
   EXPECT_THAT(error_of(two + "EDGE_SE2 1 1 0 0 0 1 0 0 1 0 1\n"), HasSubstr("to itself"));
-  EXPECT_THAT(error_of(two + "\nEDGE_SE2 0 9 0 0 0 1 0 0 1 0 1\n"), HasSubstr(":4: there is no vertex 9"));
-  EXPECT_THAT(error_of(two + "VERTEX_SE2 1 5 5 0\n"), HasSubstr(":3: vertex 1 comes a second time"));
+  EXPECT_THAT(error_of(two + "\nEDGE_SE2 0 9 0 0 0 1 0 0 1 0 1\n"), HasSubstr(":4: vertex 9 is missing"));
+  EXPECT_THAT(error_of(two + "VERTEX_SE2 1 5 5 0\n"), HasSubstr(":3: vertex 1 is defined twice"));
   EXPECT_THAT(error_of(two + "FIX 0\nFIX 1\n"), HasSubstr(":4: a second vertex is fixed after line 3"));
-  EXPECT_THAT(error_of(two + "FIX 7\n"), HasSubstr(":3: there is no vertex 7"));
+  EXPECT_THAT(error_of(two + "FIX 7\n"), HasSubstr(":3: vertex 7 is missing"));
   EXPECT_THAT(error_of(two + "VERTEX_SE3:QUAT 2 0 0 0 0 0 0 1\n"),
-              HasSubstr(":3: 'VERTEX_SE3:QUAT' is no entry of a 2D pose graph"));
-  EXPECT_THAT(error_of(""), HasSubstr("holds no pose graph"));
+              HasSubstr(":3: 'VERTEX_SE3:QUAT' is not an entry of a 2D pose graph"));
+  EXPECT_THAT(error_of(""), HasSubstr("contains no pose graph"));
   EXPECT_THAT(error_of("EDGE_SE2 0 1 0 0 0 1 0 0 1 0 1\nEDGE_SE2 5 6 0 0 0 1 0 0 1 0 1\n"),
               HasSubstr("is not linked to"));
   EXPECT_THROW(read_pose_graph("/nowhere/graph.g2o"), UserError);

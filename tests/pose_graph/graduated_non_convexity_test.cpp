@@ -14,8 +14,8 @@ namespace {
 
 enum class Falsehood { kAnywhere, kNearby };
 
-// The graph with as many false loops as make up this share of all loops: between any two places, or between
-// the right places but metres off, as a match in a corridor is.
+// Adds false loops up to this share of all loops: between arbitrary places, or between the right places but
+// off by metres, as a match in a corridor can be.
 PoseGraph with_false_loops(const PoseGraph& graph, double share, Falsehood falsehood) {
   PoseGraph result = graph;
   Measurer measurer(7);
@@ -95,7 +95,7 @@ TEST(GraduatedNonConvexity, survives_false_loops_in_public_graphs) {
   }
 }
 
-TEST(GraduatedNonConvexity, leaves_a_graph_without_false_loops_nearly_alone) {
+TEST(GraduatedNonConvexity, hardly_changes_a_graph_without_false_loops) {
   const KnownGraph known = building(1000, 2, 2);
   const PoseGraph clean = solved(known.graph);
   PoseGraph graph = known.graph;
@@ -111,7 +111,7 @@ TEST(GraduatedNonConvexity, leaves_a_graph_without_false_loops_nearly_alone) {
       << "the width is the 99 % quantile";
 }
 
-TEST(GraduatedNonConvexity, gives_the_solver_its_options_back) {
+TEST(GraduatedNonConvexity, restores_the_options_of_the_solver) {
   PoseAdjustmentOptions options;
   options.loop_kernel = {RobustKernel::Type::kCauchy, 2.5};
   options.max_iterations = 33;
@@ -127,7 +127,7 @@ TEST(GraduatedNonConvexity, gives_the_solver_its_options_back) {
   EXPECT_EQ(solver.options().max_iterations, 33);
 }
 
-TEST(GraduatedNonConvexity, takes_graphs_without_loops) {
+TEST(GraduatedNonConvexity, accepts_graphs_without_loops) {
   KnownGraph known = ring(30, 0, 1);
   SparsePoseAdjustment solver;
   const GraduatedReport report = optimize_graduated(known.graph, solver);

@@ -27,7 +27,7 @@ TEST(InformationMatrix, agrees_with_the_eigenvalues) {
   EXPECT_GT(accepted, 100);
 }
 
-TEST(InformationMatrix, may_know_nothing_of_a_coordinate) {
+TEST(InformationMatrix, can_lack_information_of_a_coordinate) {
   EXPECT_TRUE(is_information_matrix(Eigen::Matrix3d::Zero()));
   EXPECT_TRUE(is_information_matrix(Eigen::Vector3d(100, 0, 4).asDiagonal()));
   Eigen::Matrix3d along_one_direction = Eigen::Matrix3d::Zero();
@@ -35,13 +35,13 @@ TEST(InformationMatrix, may_know_nothing_of_a_coordinate) {
   EXPECT_TRUE(is_information_matrix(along_one_direction));
 }
 
-TEST(InformationMatrix, does_not_mind_the_rounding_of_text_files) {
+TEST(InformationMatrix, tolerates_the_rounding_of_text_files) {
   Eigen::Matrix3d rounded;  // of rank 1 in x and y, to six digits
   rounded << 0.333333, 0.666667, 0, 0.666667, 1.33333, 0, 0, 0, 1;
   EXPECT_TRUE(is_information_matrix(rounded));
 }
 
-TEST(InformationMatrix, refuses_what_is_no_inverse_covariance) {
+TEST(InformationMatrix, rejects_other_matrices) {
   EXPECT_FALSE(is_information_matrix(Eigen::Vector3d(1, -1, 1).asDiagonal()));
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   matrix(0, 1) = 0.5;
@@ -52,7 +52,7 @@ TEST(InformationMatrix, refuses_what_is_no_inverse_covariance) {
   EXPECT_FALSE(is_information_matrix(matrix)) << "indefinite";
   matrix = Eigen::Vector3d(1, 0, 1).asDiagonal();
   matrix(0, 1) = matrix(1, 0) = 0.1;
-  EXPECT_FALSE(is_information_matrix(matrix)) << "correlated with what is unknown";
+  EXPECT_FALSE(is_information_matrix(matrix)) << "correlated with an unknown coordinate";
   matrix = Eigen::Matrix3d::Identity();
   matrix(2, 2) = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(is_information_matrix(matrix));

@@ -15,7 +15,7 @@ bool near(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).cwiseAbs().maxCoeff() <= 1e-6 * b.cwiseAbs().maxCoeff();
 }
 
-// The joint covariance of two nodes from the inverse of the dense system; the root must be node 0.
+// Joint covariance of two nodes from the inverse of the dense system; the root must be node 0.
 Matrix6d dense_joint(const Eigen::MatrixXd& inverse, std::size_t a, std::size_t b) {
   Matrix6d joint = Matrix6d::Zero();
   const std::size_t nodes[2] = {a, b};
@@ -90,7 +90,7 @@ TEST(MarginalCovariance, counts_constraints_by_their_weights) {
   EXPECT_GT(weighted.marginal(49).trace(), 10 * full.marginal(49).trace());
 }
 
-TEST(MarginalCovariance, says_when_a_pose_is_undetermined) {
+TEST(MarginalCovariance, reports_an_undetermined_pose) {
   PoseGraph graph;
   graph.add_node({0, 0, 0});
   graph.add_node({1, 0, 0});
@@ -101,7 +101,7 @@ TEST(MarginalCovariance, says_when_a_pose_is_undetermined) {
   graph.add_constraint(constraint);
   MarginalCovariance covariance;
   EXPECT_THROW(covariance.update(graph), UserError);
-  EXPECT_THROW(covariance.marginal(1), std::out_of_range) << "nothing to ask";
+  EXPECT_THROW(covariance.marginal(1), std::out_of_range) << "the update failed";
 }
 
 }  // namespace

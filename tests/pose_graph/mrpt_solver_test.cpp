@@ -1,16 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solver beside MRPT's optimize_graph_spa_levmarq, where that converges: exact measurements, disturbed
-// poses. Its error is the logarithm of P1 D P2^-1, in the axes of the map, so that with noise its minimum is
-// another one.
+// Compares the solver with MRPT's optimize_graph_spa_levmarq where that converges: exact measurements,
+// disturbed poses. MRPT's error is the logarithm of P1 D P2^-1 in the axes of the map, so that with noise its
+// minimum differs.
 #include <gtest/gtest.h>
+#include <mrpt/graphs/CNetworkOfPoses.h>
 #include <mrpt/graphslam/levmarq.h>
 
-#include "pose_graph/mrpt_network.h"
 #include "pose_graph/sparse_pose_adjustment.h"
 #include "test_graphs.h"
 
 namespace psi_slam {
 namespace {
+
+mrpt::graphs::CNetworkOfPoses2DInf mrpt_network(const PoseGraph& graph) {
+  mrpt::graphs::CNetworkOfPoses2DInf network;
+  network.root = graph.root();
+  for (std::size_t i = 0; i < graph.num_nodes(); ++i) network.nodes[i] = mrpt::poses::CPose2D(graph.pose(i));
+  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
+    if (!graph.enabled(i)) continue;
+    const Constraint& constraint = graph.constraint(i);
+    const mrpt::math::CMatrixDouble33 information(constraint.information);
+    network.insertEdgeAtEnd(constraint.from, constraint.to,
+                            {mrpt::poses::CPose2D(constraint.from_T_to), information});
+  }
+  return network;
+}
 
 PoseGraph solved_by_mrpt(const PoseGraph& graph) {
   mrpt::graphs::CNetworkOfPoses2DInf network = mrpt_network(graph);
@@ -24,7 +38,7 @@ PoseGraph solved_by_mrpt(const PoseGraph& graph) {
   return result;
 }
 
-// Steps of 1 m, every loop as loose as the odometry.
+// Steps of 1 m; loops have the same information as odometry.
 KnownGraph disturbed_ring(double noise) {
   KnownGraph known = ring(100, 5, noise, 0.05, 0.01);
   Measurer measurer(3);

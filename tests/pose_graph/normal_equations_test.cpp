@@ -26,7 +26,7 @@ Linearization at_current_poses(const PoseGraph& graph) {
   return result;
 }
 
-// The step of the equations, in the order of the nodes without the root, which must be node 0.
+// Step of the equations in the order of the nodes, without the root, which must be node 0.
 Eigen::VectorXd step_by_node(NormalEquations& equations, const PoseGraph& graph, double lambda = 0) {
   equations.prepare(graph);
   const Linearization at = at_current_poses(graph);
@@ -55,7 +55,7 @@ TEST(NormalEquations, give_the_step_of_the_dense_system) {
   }
 }
 
-TEST(NormalEquations, predict_how_far_the_error_falls) {
+TEST(NormalEquations, predict_the_decrease_of_the_error) {
   const KnownGraph known = building(100, 2, 2);
   NormalEquations equations;
   for (const double lambda : {0.0, 0.3}) {
@@ -67,7 +67,7 @@ TEST(NormalEquations, predict_how_far_the_error_falls) {
   }
 }
 
-TEST(NormalEquations, know_the_gradient) {
+TEST(NormalEquations, compute_the_gradient) {
   const KnownGraph known = building(100, 2, 2);
   NormalEquations equations;
   step_by_node(equations, known.graph);
@@ -91,7 +91,7 @@ TEST(NormalEquations, hold_headings_or_positions) {
     moved += std::abs(step[k]);
   }
   EXPECT_GT(moved, 0);
-  // The problem is linear: another step from its end leads nowhere.
+  // The problem is linear: a second step is zero.
   PoseGraph graph = known.graph;
   for (std::size_t node = 1; node < graph.num_nodes(); ++node) {
     const auto delta = step.segment<3>(3 * static_cast<Eigen::Index>(equations.variable_of(node)));
@@ -132,12 +132,12 @@ TEST(NormalEquations, follow_a_graph_that_grows) {
     kept.prepare(graph);
     reused += kept.restructured() ? 0 : 1;
   }
-  EXPECT_EQ(reused, 42) << "nothing new, nothing to lay out";
+  EXPECT_EQ(reused, 42) << "an unchanged graph keeps its layout";
   EXPECT_GT(reordered, 0);
-  EXPECT_LT(reordered, 30) << "the order of elimination is extended most of the time";
+  EXPECT_LT(reordered, 30) << "the order of elimination is usually extended";
 }
 
-TEST(NormalEquations, take_constraints_that_are_switched_off_and_on) {
+TEST(NormalEquations, accept_constraints_that_are_switched_off_and_on) {
   KnownGraph known = building(400, 2, 3);
   PoseGraph& graph = known.graph;
   std::vector<std::size_t> loops;
@@ -149,14 +149,14 @@ TEST(NormalEquations, take_constraints_that_are_switched_off_and_on) {
   EXPECT_LT((step_by_node(equations, graph) - reference_step(graph)).norm(), 1e-5);
   for (const std::size_t loop : loops) graph.set_enabled(loop, true);
   EXPECT_LT((step_by_node(equations, graph) - reference_step(graph)).norm(), 1e-5);
-  EXPECT_TRUE(equations.restructured()) << "their blocks were not there before";
+  EXPECT_TRUE(equations.restructured()) << "their blocks are new";
   graph.set_enabled(loops.front(), false);
   EXPECT_LT((step_by_node(equations, graph) - reference_step(graph)).norm(), 1e-5);
-  EXPECT_FALSE(equations.restructured()) << "a block of zeros does no harm";
+  EXPECT_FALSE(equations.restructured()) << "blocks of zeros can stay";
 }
 
-// As after the last pass: no node more, but loops all over the graph, of which some are switched off then.
-TEST(NormalEquations, an_order_that_does_not_suit_many_new_loops_is_not_used_once) {
+// As after the final loop search: no new nodes, but many new loops, some of which are switched off later.
+TEST(NormalEquations, many_new_loops_cause_a_new_order_at_once) {
   PoseGraph graph = building(1500, 2, 3).graph;
   const std::size_t nodes = graph.num_nodes();
   NormalEquations kept;
@@ -176,7 +176,7 @@ TEST(NormalEquations, an_order_that_does_not_suit_many_new_loops_is_not_used_onc
   EXPECT_LT((step_by_node(kept, graph) - step_by_node(fresh, graph)).norm(), 1e-9);
 }
 
-TEST(NormalEquations, take_in_another_graph_as_new) {
+TEST(NormalEquations, accept_another_graph) {
   const KnownGraph first = building(120, 2, 2, 1);
   const KnownGraph second = ring(60, 2, 1);
   NormalEquations equations;
@@ -201,7 +201,7 @@ TEST(NormalEquations, name_a_node_that_only_a_disabled_constraint_links) {
     EXPECT_THAT(error.what(), testing::HasSubstr("node 6 of the pose graph is not linked to node 0"));
   }
   known.graph.set_enabled(5, true);
-  EXPECT_NO_THROW(equations.prepare(known.graph)) << "and goes on when it is mended";
+  EXPECT_NO_THROW(equations.prepare(known.graph)) << "works again once linked";
 }
 
 }  // namespace

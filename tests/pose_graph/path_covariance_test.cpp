@@ -13,8 +13,18 @@
 namespace psi_slam {
 namespace {
 
-// The covariance of the end of a chain, by first-order propagation through the composition of its measured
-// poses with numeric derivatives, where each link is the pose that the graph's nodes have to each other.
+std::vector<RelativeUncertainty> path_covariances(const PoseGraph& graph, std::size_t source,
+                                                  const PathCovarianceOptions& options = {}) {
+  PathCovarianceSearch search;
+  search.run(graph, source, options);
+  std::vector<RelativeUncertainty> all;
+  all.reserve(graph.num_nodes());
+  for (std::size_t node = 0; node < graph.num_nodes(); ++node) all.push_back(search.of(node));
+  return all;
+}
+
+// Covariance of the end of a chain, by first-order propagation through the composition of its links with
+// numeric derivatives. Each link is the relative pose of two nodes of the graph.
 Eigen::Matrix3d propagated(const PoseGraph& graph, const std::vector<std::size_t>& nodes,
                            const std::vector<std::size_t>& constraints) {
   const auto end_of_chain = [&](std::size_t disturbed, const Eigen::Vector3d& by) {
@@ -69,7 +79,7 @@ PoseGraph with_skewed_information(const PoseGraph& graph) {
   return result;
 }
 
-// A greedy search without a queue, by the definition of the cost.
+// Greedy search without a queue, by the definition of the cost.
 std::vector<double> slow_costs(const PoseGraph& graph, std::size_t source, double lever) {
   struct State {
     std::vector<std::size_t> nodes, constraints;
@@ -139,7 +149,7 @@ TEST(PathCovariance, settles_the_cheapest_end_first) {
   }
 }
 
-TEST(PathCovariance, is_never_below_what_all_constraints_together_know) {
+TEST(PathCovariance, is_never_below_the_covariance_of_all_constraints) {
   KnownGraph known = building(500, 2, 3);
   SparsePoseAdjustment solver;
   solver.optimize(known.graph);
@@ -155,7 +165,7 @@ TEST(PathCovariance, is_never_below_what_all_constraints_together_know) {
   }
 }
 
-TEST(PathCovariance, takes_the_tight_way_round) {
+TEST(PathCovariance, prefers_the_more_certain_way) {
   KnownGraph known = ring(100, 1, 0, 0.001, 0.0001);
   const std::vector<RelativeUncertainty> all = path_covariances(known.graph, 0);
   EXPECT_EQ(all[99].previous, 0U) << "over the loop";
@@ -165,7 +175,7 @@ TEST(PathCovariance, takes_the_tight_way_round) {
   EXPECT_EQ(path_covariances(known.graph, 0)[99].previous, 98U);
 }
 
-TEST(PathCovariance, says_how_uncertain_the_worst_direction_is) {
+TEST(PathCovariance, gives_the_deviation_of_the_worst_direction) {
   RelativeUncertainty uncertainty;
   const double c = std::cos(0.3);
   const double s = std::sin(0.3);
@@ -200,9 +210,9 @@ TEST(PathCovariance, stops_at_a_bound_or_when_all_targets_are_reached) {
   EXPECT_LT(num_some, 400U);
 }
 
-TEST(PathCovariance, a_search_with_targets_finds_what_one_of_the_whole_graph_finds) {
+TEST(PathCovariance, a_search_with_targets_equals_one_of_the_whole_graph) {
   KnownGraph known = building(500, 2, 3);
-  PathCovarianceSearch search;  // the same for all, so that what it keeps is used
+  PathCovarianceSearch search;  // shared by all searches, to test the memory it keeps
   for (std::size_t source = 0; source < 500; source += 7) {
     const std::vector<RelativeUncertainty> all = path_covariances(known.graph, source);
     PathCovarianceOptions options;
@@ -217,12 +227,12 @@ TEST(PathCovariance, a_search_with_targets_finds_what_one_of_the_whole_graph_fin
       EXPECT_EQ(found.previous, all[node].previous);
       EXPECT_EQ(found.constraint, all[node].constraint);
     }
-    // Nothing is kept of the poses.
+    // The search keeps no poses.
     known.graph.set_pose(source, {0.1 * static_cast<double>(source), 1, 0.5});
   }
 }
 
-TEST(PathCovariance, what_is_near_costs_the_same_in_a_graph_of_any_size) {
+TEST(PathCovariance, the_cost_of_near_targets_does_not_depend_on_the_size) {
   std::vector<std::size_t> seen;
   for (const int nodes : {100, 1000, 10000}) {
     PoseGraph graph;
@@ -247,7 +257,7 @@ TEST(PathCovariance, what_is_near_costs_the_same_in_a_graph_of_any_size) {
   EXPECT_EQ(seen[0], seen[2]);
 }
 
-TEST(PathCovariance, leaves_nodes_out_that_nothing_tight_leads_to) {
+TEST(PathCovariance, skips_nodes_without_information) {
   PoseGraph graph;
   for (int i = 0; i < 4; ++i) graph.add_node({1.0 * i, 0, 0});
   Constraint constraint;
@@ -267,7 +277,7 @@ TEST(PathCovariance, leaves_nodes_out_that_nothing_tight_leads_to) {
 }
 
 TEST(PathCovariance, breaks_ties_the_same_way_every_time) {
-  const KnownGraph known = building(300, 3, 3);  // its sigmas are all alike
+  const KnownGraph known = building(300, 3, 3);  // all sigmas are equal
   const std::vector<RelativeUncertainty> a = path_covariances(known.graph, 150);
   const std::vector<RelativeUncertainty> b = path_covariances(known.graph, 150);
   for (std::size_t node = 0; node < 300; ++node) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solver on pose graphs that the field publishes its figures for.
+// Solves public benchmark pose graphs.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -53,7 +53,7 @@ TEST_P(PublicGraphs, are_solved_to_the_minimum_that_a_second_solver_finds) {
   RecordProperty("iterations", report.iterations);
   RecordProperty("chi2", std::to_string(report.final_chi2));
 
-  // The second solver from the same poses: undamped, MITb needs the most steps.
+  // The second solver starts from the same poses. Undamped, MITb needs the most steps.
   PoseGraph second = graph_;
   sparse_gauss_newton(second, std::string(GetParam().name) == "MITb" ? 30 : 12);
   EXPECT_LE(report.final_chi2, second.chi2() * (1 + 1e-6));

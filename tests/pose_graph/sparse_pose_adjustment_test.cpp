@@ -15,7 +15,7 @@ namespace {
 
 using Type = RobustKernel::Type;
 
-// To the end, on the plain error.
+// Options for full convergence without robust kernels.
 PoseAdjustmentOptions thorough() {
   PoseAdjustmentOptions options;
   options.max_iterations = 200;
@@ -53,7 +53,7 @@ TEST(SparsePoseAdjustment, finds_the_truth_when_there_is_no_noise) {
   EXPECT_LT(max_position_error(known), 1e-6);
 }
 
-TEST(SparsePoseAdjustment, ends_where_a_dense_Gauss_Newton_does) {
+TEST(SparsePoseAdjustment, agrees_with_a_dense_Gauss_Newton) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     KnownGraph known = building(150, 2, 2, seed);
     PoseGraph reference = known.graph;
@@ -166,7 +166,7 @@ TEST(SparsePoseAdjustment, holds_the_root_wherever_it_is) {
 }
 
 TEST(SparsePoseAdjustment, closes_a_ring_whose_loops_are_much_tighter_than_its_odometry) {
-  // 1000 nodes; a solver that judges steps by the unweighted error stays at its start here.
+  // 1000 nodes. A solver that judges steps by the unweighted error does not move here.
   KnownGraph known = ring(1000, 30, 1, 0.001, 0.0002);
   PoseGraph reference = known.graph;
   sparse_gauss_newton(reference, 10);
@@ -186,7 +186,7 @@ TEST(SparsePoseAdjustment, closes_a_single_loop_after_more_drift_than_the_odomet
     for (const TPose2D& pose : known.graph.poses()) graph.add_node(pose);
     for (Constraint constraint : known.graph.constraints()) {
       if (constraint.kind == Constraint::Kind::kOdometry)
-        constraint.information *= 36;  // says a sixth of its sigma
+        constraint.information *= 36;  // claims a sixth of its sigma
       graph.add_constraint(constraint);
     }
     const Constraint& loop = graph.constraints().back();
@@ -201,7 +201,7 @@ TEST(SparsePoseAdjustment, closes_a_single_loop_after_more_drift_than_the_odomet
 }
 
 TEST(SparsePoseAdjustment, recovers_from_rejected_steps) {
-  // From poses that are nonsense no first step is any good.
+  // From random poses, the first steps fail.
   int rejected = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     KnownGraph known = ring(60, 20, 0.2, 0.05, 0.01, seed);
@@ -220,7 +220,7 @@ TEST(SparsePoseAdjustment, recovers_from_rejected_steps) {
   EXPECT_GT(rejected, 0);
 }
 
-TEST(SparsePoseAdjustment, damps_what_the_constraints_leave_undetermined) {
+TEST(SparsePoseAdjustment, damps_undetermined_directions) {
   PoseGraph graph;
   for (int i = 0; i < 4; ++i) graph.add_node({1.2 * i, 0.1 * i, 0.1});
   for (std::size_t i = 1; i < 4; ++i) {
@@ -248,7 +248,7 @@ TEST(SparsePoseAdjustment, gives_the_same_bytes_every_time) {
   EXPECT_EQ(report_a.final_robust_chi2, report_b.final_robust_chi2);
   PoseGraph third = known.graph;
   a.optimize(third);
-  EXPECT_TRUE(same_bytes(first, third)) << "what the solver keeps changes nothing on the same graph";
+  EXPECT_TRUE(same_bytes(first, third)) << "kept structure does not change the result";
 }
 
 TEST(SparsePoseAdjustment, keeps_its_structure_for_a_graph_that_did_not_grow) {
@@ -293,7 +293,7 @@ TEST(SparsePoseAdjustment, stops_at_the_given_number_of_iterations_without_harm)
   EXPECT_LE(report.final_robust_chi2, report.initial_robust_chi2);
 }
 
-TEST(SparsePoseAdjustment, names_a_node_that_nothing_links_to_the_root) {
+TEST(SparsePoseAdjustment, names_a_node_without_a_link_to_the_root) {
   KnownGraph known = ring(10, 1, 1);
   const std::size_t lost = known.graph.add_node({1, 1, 0});
   known.graph.add_node({2, 1, 0});
@@ -308,7 +308,7 @@ TEST(SparsePoseAdjustment, names_a_node_that_nothing_links_to_the_root) {
   EXPECT_EQ(known.graph.poses(), before);
 }
 
-TEST(SparsePoseAdjustment, takes_empty_and_single_node_graphs) {
+TEST(SparsePoseAdjustment, accepts_empty_and_single_node_graphs) {
   PoseGraph graph;
   SparsePoseAdjustment solver;
   EXPECT_TRUE(solver.optimize(graph).converged);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pose graphs with known truth for the tests of this folder.
+// Pose graphs with known true poses, for tests.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -8,14 +8,14 @@
 #include <random>
 #include <vector>
 
-#include "pose_graph/angle.h"
+#include "pose_graph/constraint_error.h"
 #include "psi_slam/pose_graph.h"
 
 namespace psi_slam {
 
 using mrpt::math::TPose2D;
 
-/// The pose of b in the axes of a.
+/// Pose of b in the axes of a.
 inline TPose2D relative_pose(const TPose2D& a, const TPose2D& b) {
   const double c = std::cos(a.phi);
   const double s = std::sin(a.phi);
@@ -36,8 +36,7 @@ struct KnownGraph {
   std::vector<TPose2D> truth;
 };
 
-/// Draws measurements of true poses with Gaussian noise; normal deviates by Box-Muller, the same on every
-/// platform.
+/// Draws measurements of true poses with Gaussian noise, by Box-Muller, the same on every platform.
 class Measurer {
  public:
   explicit Measurer(std::uint64_t seed) : random_(seed) {}
@@ -46,7 +45,7 @@ class Measurer {
   double normal() { return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * kPi * uniform()); }
   std::size_t index(std::size_t count) { return static_cast<std::size_t>(random_() % count); }
 
-  /// `noise` scales the drawn errors; the information always says sigma.
+  /// `noise` scales the drawn errors, not the information.
   Constraint measure(const std::vector<TPose2D>& truth, std::size_t from, std::size_t to,
                      Constraint::Kind kind, double sigma_m, double sigma_rad, double noise = 1) {
     Constraint constraint;
@@ -93,9 +92,9 @@ inline KnownGraph ring(std::size_t nodes, std::size_t loops, double noise, doubl
   return result;
 }
 
-/// A robot that wanders over a grid of corridors (every 4 m; steps of 0.5 m), with odometry, `local_maps`
-/// constraints a node to the anchors of the last local maps of 40 nodes, and loops to the anchors of older
-/// maps within 6 m.
+/// A random walk over a grid of corridors (every 4 m, steps of 0.5 m). Each node has odometry, `local_maps`
+/// constraints to the anchors of the last local maps of 40 nodes, and loops to the anchors of older maps
+/// within 6 m.
 inline KnownGraph building(std::size_t nodes, std::size_t local_maps, std::size_t max_loops_per_node,
                            std::uint64_t seed = 1, double noise = 1) {
   constexpr std::size_t kMapNodes = 40;
@@ -144,7 +143,7 @@ inline KnownGraph building(std::size_t nodes, std::size_t local_maps, std::size_
   return result;
 }
 
-/// The largest distance of a node from its true place, metres.
+/// Largest distance of a node from its true position, metres.
 inline double max_position_error(const KnownGraph& known) {
   double largest = 0;
   for (std::size_t i = 0; i < known.truth.size(); ++i)

@@ -27,17 +27,17 @@ class RawlogArchiveTest : public testing::Test {
                          odometry(3, {0, 0, 0})};
 };
 
-TEST_F(RawlogArchiveTest, gives_every_object_plain_and_gzipped) {
+TEST_F(RawlogArchiveTest, reads_every_object_plain_and_gzipped) {
   write_rawlog(path_, objects_, false);
   EXPECT_EQ(read_all(), 4U);
   write_rawlog(path_, objects_, true);
   EXPECT_EQ(read_all(), 4U);
 }
 
-TEST_F(RawlogArchiveTest, says_wherever_a_plain_file_is_cut_off) {
+TEST_F(RawlogArchiveTest, reports_a_plain_file_truncated_anywhere) {
   write_rawlog(path_, objects_, false);
   const std::string whole = read_file(path_);
-  const std::size_t step = 29;  // MRPT takes its time over exceptions
+  const std::size_t step = 29;  // MRPT's exceptions are slow
   for (std::size_t size = 1; size < whole.size(); size += step) {
     write_file(path_, whole.substr(0, size));
     RawlogArchive archive(path_);
@@ -47,23 +47,23 @@ TEST_F(RawlogArchiveTest, says_wherever_a_plain_file_is_cut_off) {
     });
     EXPECT_LT(objects, 4U);
     EXPECT_EQ(sentence, path_.string() + ": object " + std::to_string(objects + 1) +
-                            ": the file is cut off within this object")
+                            ": the file ends within this object. Fetch the log again")
         << "cut after " << size << " bytes";
   }
 }
 
-TEST_F(RawlogArchiveTest, says_when_a_gzipped_file_is_cut_off) {
+TEST_F(RawlogArchiveTest, reports_a_truncated_gzip_file) {
   write_rawlog(path_, objects_, true);
   std::filesystem::resize_file(path_, std::filesystem::file_size(path_) - 20);
   EXPECT_EQ(sentence_of([&] { read_all(); }),
-            path_.string() + " is cut off: its compressed data end too early");
+            path_.string() + " is cut off: its compressed data are incomplete. Fetch it again");
 }
 
-TEST_F(RawlogArchiveTest, says_when_an_object_is_unknown_or_damaged) {
+TEST_F(RawlogArchiveTest, reports_an_unknown_or_damaged_object) {
   write_rawlog(path_, {range_scan(1)}, false);
   write_file(path_, read_file(path_) + "\x8A" + "CObservati" + std::string(40, '\0'));
   EXPECT_EQ(sentence_of([&] { read_all(); }), path_.string() +
-                                                  ": object 2 is damaged or of a class that this version of "
+                                                  ": object 2 is damaged or has a class that this version of "
                                                   "MRPT does not know, expected an action, a "
                                                   "sensory frame or an observation");
 }

@@ -16,16 +16,16 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr TimeUs kStart = 1'464'602'099'833'205;  // a time of today, to the microsecond
+constexpr TimeUs kStart = 1'464'602'099'833'205;  // needs microseconds of a recent time
 
 class RawlogReaderTest : public testing::Test {
  protected:
   std::vector<Frame> read(const RawlogObjects& objects, const LogOptions& options = {}) {
     write_rawlog(path_, objects);
-    RawlogReader reader(path_, options);
-    auto frames = all_frames(reader);
-    EXPECT_EQ(reader.progress(), 1.0);
-    statistics_ = reader.statistics();
+    const auto reader = open_rawlog(path_, options);
+    auto frames = all_frames(*reader);
+    EXPECT_EQ(reader->progress(), 1.0);
+    contents_ = reader->contents();
     return frames;
   }
 
@@ -35,7 +35,7 @@ class RawlogReaderTest : public testing::Test {
 
   TemporaryFolder folder_;
   std::filesystem::path path_ = folder_.path() / "log.rawlog";
-  RawlogStatistics statistics_;
+  LogContents contents_;
 };
 
 void expect_pose(const TPose2D& found, const TPose2D& expected) {
@@ -57,8 +57,7 @@ TEST_F(RawlogReaderTest, sums_the_increments_of_actions) {
   EXPECT_EQ(frames[2].time_us, kStart + 200'002);
   EXPECT_EQ(frames[2].index, 2U);
   EXPECT_EQ(frames[2].scan.ranges_m, (std::vector<float>{1, 2, 3, 4, 5}));
-  EXPECT_TRUE(statistics_.has_actions);
-  EXPECT_EQ(statistics_.sensor_label, "LASER");
+  EXPECT_EQ(contents_.laser, "LASER");
 }
 
 TEST_F(RawlogReaderTest, interpolates_absolute_odometry) {
@@ -69,7 +68,6 @@ TEST_F(RawlogReaderTest, interpolates_absolute_odometry) {
   expect_pose(frames[1].odom_T_robot, {1.25, 1, 0.1});
   expect_pose(frames[2].odom_T_robot, {2, 4, 0.4});
   EXPECT_EQ(frames[2].index, 2U);
-  EXPECT_FALSE(statistics_.has_actions);
 }
 
 TEST_F(RawlogReaderTest, finds_absolute_odometry_in_sensory_frames) {
@@ -79,14 +77,14 @@ TEST_F(RawlogReaderTest, finds_absolute_odometry_in_sensory_frames) {
   expect_pose(frames[1].odom_T_robot, {2, 0, 0});
 }
 
-TEST_F(RawlogReaderTest, takes_one_kind_of_odometry_only) {
+TEST_F(RawlogReaderTest, uses_one_kind_of_odometry_only) {
   const auto frames =
       read({movement({1, 0, 0}), sensory_frame({range_scan(kStart), odometry(kStart, {9, 9, 0})}),
             movement({1, 0, 0}), sensory_frame({range_scan(kStart), odometry(kStart, {9, 9, 0})})});
   expect_pose(frames.at(1).odom_T_robot, {2, 0, 0});
 }
 
-TEST_F(RawlogReaderTest, takes_the_mean_of_a_movement_that_is_no_odometry) {
+TEST_F(RawlogReaderTest, uses_the_mean_of_other_movements) {
   mrpt::obs::CActionRobotMovement2D action;
   action.estimationMethod = mrpt::obs::CActionRobotMovement2D::emScan2DMatching;
   action.poseChange = mrpt::poses::CPosePDF::Ptr(
@@ -96,12 +94,12 @@ TEST_F(RawlogReaderTest, takes_the_mean_of_a_movement_that_is_no_odometry) {
   expect_pose(frames.at(0).odom_T_robot, {0.5, 0, 0});
 }
 
-TEST_F(RawlogReaderTest, takes_one_laser_of_several) {
+TEST_F(RawlogReaderTest, reads_one_laser_of_several) {
   const RawlogObjects objects{
       movement({1, 0, 0}), sensory_frame({range_scan(kStart, "FRONT"), range_scan(kStart + 1, "REAR")}),
       movement({1, 0, 0}), sensory_frame({range_scan(kStart + 2, "FRONT"), range_scan(kStart + 3, "REAR")})};
   EXPECT_EQ(read(objects).at(1).time_us, kStart + 2);
-  EXPECT_EQ(statistics_.scans_of_other_lasers.at("REAR"), 2U);
+  EXPECT_EQ(contents_.other_lasers.at("REAR"), 2U);
   LogOptions options;
   options.laser = "REAR";
   const auto frames = read(objects, options);
@@ -113,12 +111,12 @@ TEST_F(RawlogReaderTest, takes_one_laser_of_several) {
                                                   path_.string() + ": \"FRONT\", \"REAR\"");
 }
 
-TEST_F(RawlogReaderTest, gives_several_scans_of_one_laser_in_one_frame) {
+TEST_F(RawlogReaderTest, reads_several_scans_of_one_laser_in_one_sensory_frame) {
   EXPECT_EQ(read({movement({1, 0, 0}), sensory_frame({range_scan(kStart), range_scan(kStart + 7)})}).size(),
             2U);
 }
 
-TEST_F(RawlogReaderTest, passes_over_other_observations) {
+TEST_F(RawlogReaderTest, ignores_other_observations) {
   EXPECT_EQ(read({mrpt::obs::CObservationComment::Create(), movement({1, 0, 0}),
                   sensory_frame({mrpt::obs::CObservationComment::Create(), range_scan(kStart)})})
                 .size(),
@@ -131,7 +129,7 @@ TEST_F(RawlogReaderTest, rounds_time_to_the_nearest_microsecond) {
   EXPECT_EQ(read({movement({1, 0, 0}), sensory_frame({scan})}).at(0).time_us, kStart + 1);
 }
 
-TEST_F(RawlogReaderTest, says_what_is_missing) {
+TEST_F(RawlogReaderTest, reports_missing_scans_odometry_and_time_stamps) {
   EXPECT_EQ(sentence_about({movement({1, 0, 0}), sensory_frame({})}),
             path_.string() + " has no laser scans, expected observations of class CObservation2DRangeScan");
   EXPECT_EQ(sentence_about({range_scan(kStart), range_scan(kStart)}),
@@ -144,22 +142,22 @@ TEST_F(RawlogReaderTest, says_what_is_missing) {
             path_.string() + ": object 2: the scan has no time stamp, expected one on every observation");
 }
 
-TEST_F(RawlogReaderTest, gives_the_frames_before_the_file_is_cut_off) {
+TEST_F(RawlogReaderTest, yields_the_frames_before_the_end_of_a_truncated_file) {
   write_rawlog(
       path_, {movement({1, 0, 0}), sensory_frame({range_scan(kStart)}), sensory_frame({range_scan(kStart)})},
       false);
   std::filesystem::resize_file(path_, std::filesystem::file_size(path_) - 1);
-  RawlogReader reader(path_, {});
-  EXPECT_TRUE(reader.next());
-  EXPECT_EQ(sentence_of([&] { reader.next(); }),
-            path_.string() + ": object 3: the file is cut off within this object");
+  const auto reader = open_rawlog(path_, {});
+  EXPECT_TRUE(reader->next());
+  EXPECT_EQ(sentence_of([&] { reader->next(); }),
+            path_.string() + ": object 3: the file ends within this object. Fetch the log again");
 }
 
-TEST(RawlogOfTelecomFaculty, is_read_whole) {
+TEST(RawlogOfTelecomFaculty, yields_every_frame) {
   const std::filesystem::path path =
       "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "needs " << path << " of Debian's mrpt-common";
-  const auto frames = frames_of(path);
+  const auto frames = all_frames(*open_rawlog(path, {}));
   ASSERT_EQ(frames.size(), 225U) << "224 steps and the start";
   EXPECT_EQ(frames[0].scan.ranges_m.size(), 361U);
   EXPECT_NEAR(frames[0].scan.bearings_rad->front(), -M_PI / 2, 1e-6);

@@ -25,7 +25,7 @@ bool is_unknown(const COccupancyGridMap2D& grid, double x, double y) {
   return std::abs(grid.getPos(static_cast<float>(x), static_cast<float>(y)) - 0.5F) < 0.01F;
 }
 
-TEST(GridMap, a_room_has_four_walls_is_free_within_and_unknown_without) {
+TEST(GridMap, a_room_is_free_inside_its_walls_and_unknown_outside) {
   const SimulatedRoom room{-2.02, 4.03, -1.02, 3.03};
   const BeamBearings all_around = even_bearings(-M_PI, M_PI, 1441);
   const std::vector<TPose2D> poses = {{0.5, 0.5, 0}, {2.5, 1.5, 1}, {-1, 2, -2}};
@@ -46,7 +46,7 @@ TEST(GridMap, a_room_has_four_walls_is_free_within_and_unknown_without) {
   EXPECT_NEAR(static_cast<double>(grid->getYMax()), 3.55, 0.051);
 }
 
-TEST(GridMap, beams_go_along_their_own_bearings_even_or_not) {
+TEST(GridMap, beams_follow_their_own_bearings) {
   const auto bearings =
       std::make_shared<const std::vector<float>>(std::vector<float>{-1.2F, 0.1F, 0.2F, 1.5F});
   Frame frame;
@@ -93,7 +93,7 @@ TEST(GridMap, rays_follow_the_true_line) {
   }
 }
 
-TEST(GridMap, beams_without_return_draw_nothing_and_long_ones_free_space_only) {
+TEST(GridMap, ignores_beams_without_return_and_draws_long_beams_as_free_space) {
   Frame frame;
   frame.scan.bearings_rad = even_bearings(0, M_PI / 2, 2);
   frame.scan.ranges_m = std::vector<float>{std::numeric_limits<float>::quiet_NaN(), 20};
@@ -104,7 +104,7 @@ TEST(GridMap, beams_without_return_draw_nothing_and_long_ones_free_space_only) {
   for (double y = 0.1; y < 10.5; y += 0.05) EXPECT_FALSE(is_wall(*grid, 0.01, y));
 }
 
-TEST(GridMap, a_wall_stays_a_wall_when_some_scans_see_through_it) {
+TEST(GridMap, a_wall_remains_if_few_scans_pass_through_it) {
   Frame hit;
   hit.scan.bearings_rad = even_bearings(0, 0.5, 2);
   hit.scan.ranges_m = std::vector<float>{1, 1};
@@ -130,7 +130,7 @@ TEST(GridMap, the_order_of_the_scans_does_not_matter) {
   EXPECT_EQ(draw_grid_map(log, poses)->getRawMap(), grid->getRawMap());
 }
 
-TEST(GridMap, more_scans_than_the_stamp_can_count_are_no_matter) {
+TEST(GridMap, more_scans_than_the_counter_holds_do_not_matter) {
   Frame frame;
   frame.scan.bearings_rad = even_bearings(0, 0.5, 2);
   frame.scan.ranges_m = std::vector<float>{0.2F, 0.2F};
@@ -149,14 +149,14 @@ TEST(GridMap, a_huge_site_gets_a_coarser_map) {
   EXPECT_LE(grid->getSizeX() * grid->getSizeY(), 1'000'000U);
 }
 
-TEST(GridMap, no_scans_make_an_empty_map_and_wrong_counts_none) {
+TEST(GridMap, draws_an_empty_log_and_rejects_wrong_input) {
   EXPECT_GT(draw_grid_map({}, {})->getSizeX(), 0U);
   EXPECT_THROW(draw_grid_map({Frame()}, {}), std::invalid_argument);
   EXPECT_THROW(draw_grid_map({}, {}, {0, 30, 0.5, 1000}), std::invalid_argument);
   EXPECT_THROW(draw_grid_map({Frame()}, {{std::nan(""), 0, 0}}), std::invalid_argument);
 }
 
-TEST(GridMap, every_laser_of_a_frame_draws_from_its_own_place) {
+TEST(GridMap, each_laser_of_a_frame_draws_from_its_own_pose) {
   const auto straight_on = std::make_shared<const std::vector<float>>(std::vector<float>{0.0F});
   Frame frame;
   frame.scan.bearings_rad = straight_on;
@@ -168,7 +168,7 @@ TEST(GridMap, every_laser_of_a_frame_draws_from_its_own_place) {
   rear.scan.laser = 1;
   rear.scan.ranges_m = {4};
   rear.scan.robot_T_laser = {-0.5, 0, M_PI};
-  rear.frame_T_robot = {0, 1, 0};  // the robot went to its left meanwhile
+  rear.frame_T_robot = {0, 1, 0};  // the robot moved to its left in between
   frame.companions = {rear};
   const TPose2D pose(10.02, -20.02, 0);
   const auto grid = draw_grid_map({frame}, {pose});
@@ -180,7 +180,7 @@ TEST(GridMap, every_laser_of_a_frame_draws_from_its_own_place) {
     EXPECT_TRUE(is_unknown(*grid, pose.x + x, pose.y)) << x;
     EXPECT_TRUE(is_unknown(*grid, pose.x + x, pose.y + 1)) << x;
   }
-  EXPECT_LT(static_cast<double>(grid->getXMin()), pose.x - 4.5) << "the map holds what both see";
+  EXPECT_LT(static_cast<double>(grid->getXMin()), pose.x - 4.5) << "the map includes what both see";
 }
 
 }  // namespace

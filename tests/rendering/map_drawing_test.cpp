@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "exports/map_dxf.h"
-#include "exports/map_svg.h"
+#include "exports/map_drawing_files.h"
 
 namespace psi_slam {
 namespace {
@@ -14,7 +13,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// 10 m x 10 m around the origin, cells of 0.1 m, with obstacles in these cells.
+/// A free map of 10 m x 10 m around the origin with cells of 0.1 m and these obstacles.
 COccupancyGridMap2D map_with(const std::vector<std::pair<int, int>>& obstacles) {
   COccupancyGridMap2D grid(-5, 5, -5, 5, 0.1F);
   for (int x = 0; x < 100; ++x)
@@ -40,7 +39,7 @@ TEST(MapDrawing, an_outline_runs_through_the_centres_of_the_outermost_cells) {
   }
 }
 
-TEST(MapDrawing, a_wall_one_cell_thin_is_one_line_and_a_speck_none) {
+TEST(MapDrawing, a_wall_of_one_cell_is_one_line_and_specks_are_left_out) {
   auto cells = block(20, 40, 60, 61);
   cells.emplace_back(80, 80);
   MapDrawingOptions options;
@@ -50,7 +49,7 @@ TEST(MapDrawing, a_wall_one_cell_thin_is_one_line_and_a_speck_none) {
   EXPECT_EQ(drawing.walls[0].size(), 2U);
 }
 
-TEST(MapDrawing, the_tolerance_takes_the_steps_out_of_a_slanted_wall) {
+TEST(MapDrawing, tolerance_smooths_the_steps_of_a_slanted_wall) {
   std::vector<std::pair<int, int>> cells;
   for (int i = 0; i < 60; ++i) cells.emplace_back(20 + i, 20 + i / 3);
   MapDrawingOptions options;
@@ -65,7 +64,7 @@ TEST(MapDrawing, the_path_keeps_its_corners_and_widens_the_extent) {
   for (int i = 0; i <= 70; ++i) path.emplace_back(0.1 * i, 0, 0);
   for (int i = 0; i <= 20; ++i) path.emplace_back(7, 0.1 * i, 0);
   const MapDrawing drawing = draw_map_lines(map_with({}), {path, {{3, 7.5, 0}, {4, 7.5, 0}}});
-  ASSERT_EQ(drawing.trajectories.size(), 2U) << "nothing is drawn from one drive to the next";
+  ASSERT_EQ(drawing.trajectories.size(), 2U) << "runs are not connected";
   ASSERT_EQ(drawing.trajectories[0].size(), 3U);
   EXPECT_NEAR(drawing.trajectories[0][1].x, 7, 1e-5);
   EXPECT_EQ(drawing.trajectories[1].size(), 2U);
@@ -74,7 +73,7 @@ TEST(MapDrawing, the_path_keeps_its_corners_and_widens_the_extent) {
   EXPECT_NEAR(drawing.extent.x_min_m, -5, 1e-5);
 }
 
-TEST(MapDrawing, an_empty_map_makes_files_too_and_the_same_map_the_same_text) {
+TEST(MapDrawing, empty_maps_give_files_and_equal_maps_equal_text) {
   const MapDrawing empty = draw_map_lines(COccupancyGridMap2D(-1, 1, -1, 1, 0.25F), {});
   EXPECT_TRUE(empty.walls.empty());
   EXPECT_THAT(map_svg(empty, 100), AllOf(HasSubstr("</svg>"), Not(HasSubstr("nan"))));

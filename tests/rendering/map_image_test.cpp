@@ -12,7 +12,8 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 
-/// 3 m x 2 m from (-1.5, 4), cells of 0.25 m: 2 m x 1 m of it free, one obstacle in the cell at (-0.5, 4.25).
+/// A map of 3 m x 2 m with corner (-1.5, 4) and cells of 0.25 m: 2 m x 1 m free, one obstacle at
+/// (-0.5, 4.25).
 COccupancyGridMap2D lopsided_map() {
   COccupancyGridMap2D grid(-1.5F, 1.5F, 4, 6, 0.25F);
   for (int x = 0; x < 8; ++x)
@@ -21,7 +22,7 @@ COccupancyGridMap2D lopsided_map() {
   return grid;
 }
 
-/// Width, height and colour type as they stand in the header of a PNG file.
+/// Fields of the header of a PNG file.
 struct PngHeader {
   std::uint32_t width;
   std::uint32_t height;
@@ -56,7 +57,7 @@ TEST(MapImage, counts_what_was_seen_and_where) {
   EXPECT_EQ(seen.occupied, 1U);
 }
 
-TEST(MapImage, is_cropped_to_what_was_seen_with_its_margin) {
+TEST(MapImage, is_cropped_to_the_seen_part_and_its_margin) {
   const MapPicture bare = map_picture(lopsided_map(), plain());
   EXPECT_EQ(bare.width_px, 8);
   EXPECT_EQ(bare.height_px, 4);
@@ -89,20 +90,20 @@ TEST(MapImage, small_maps_are_enlarged_and_large_ones_reduced_by_whole_numbers) 
   EXPECT_NEAR(smaller.resolution_m, 0.75, 1e-6);
 }
 
-TEST(MapImage, a_scale_bar_gets_a_strip_of_its_own) {
+TEST(MapImage, scale_bar_has_its_own_strip) {
   MapPictureOptions options;
   const MapPicture with_bar = map_picture(lopsided_map(), options);
   options.scale_bar = false;
   EXPECT_GT(with_bar.height_px, map_picture(lopsided_map(), options).height_px);
 }
 
-TEST(MapImage, the_unknown_can_be_transparent) {
+TEST(MapImage, unknown_space_can_be_transparent) {
   MapPictureOptions options = plain();
   options.transparent_unknown = true;
   EXPECT_EQ(header_of(map_picture(lopsided_map(), options).png).colour_type, 6) << "colour with opacity";
 }
 
-TEST(MapImage, an_empty_map_is_a_picture_too_and_the_same_map_the_same_bytes) {
+TEST(MapImage, empty_maps_give_pictures_and_equal_maps_equal_bytes) {
   const COccupancyGridMap2D nothing(-1, 1, -1, 1, 0.25F);
   EXPECT_EQ(map_picture(nothing, plain()).width_px, 8);
   EXPECT_EQ(map_picture(lopsided_map()).png, map_picture(lopsided_map()).png);

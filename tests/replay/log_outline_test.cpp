@@ -17,25 +17,25 @@ std::vector<TimeUs> stamps_of(const std::filesystem::path& log) {
   return *outline.stamps_us();
 }
 
-TEST(LogOutline, knows_when_each_scan_was_taken) {
+TEST(LogOutline, reads_the_time_stamps_of_all_scans) {
   const TemporaryFolder folder;
   const auto stamps = stamps_of(write_lines(folder.path() / "room.log", room_log_lines(10)));
   ASSERT_EQ(stamps.size(), 10U);
   for (std::size_t i = 1; i < stamps.size(); ++i) EXPECT_EQ(stamps[i] - stamps[i - 1], 200'000);
 }
 
-TEST(LogOutline, of_a_log_that_breaks_off_it_knows_what_can_be_read) {
+TEST(LogOutline, reads_a_truncated_log_up_to_its_last_whole_line) {
   const TemporaryFolder folder;
   auto lines = room_log_lines(10);
   lines.push_back("FLASER 181 1.0");
   EXPECT_EQ(stamps_of(write_lines(folder.path() / "room.log", lines)).size(), 10U);
 }
 
-TEST(LogOutline, of_a_log_that_cannot_be_read_there_is_nothing) {
+TEST(LogOutline, is_empty_for_an_unreadable_log) {
   EXPECT_TRUE(stamps_of("/missing/room.log").empty());
 }
 
-TEST(LogOutline, is_left_in_the_middle) {
+TEST(LogOutline, stops_in_the_middle_when_destroyed) {
   const TemporaryFolder folder;
   const auto log = write_lines(folder.path() / "room.log", room_log_lines(2000));
   const LogOutline outline(SessionInput(log), {});

@@ -16,44 +16,44 @@ class LogPaceTest : public testing::Test {
   LogPace pace_;
 };
 
-TEST_F(LogPaceTest, scans_come_as_they_were_recorded) {
+TEST_F(LogPaceTest, at_speed_1_scans_are_due_at_their_recorded_times) {
   EXPECT_EQ(pace_.due_after(kStart_us, start_), start_);
   EXPECT_EQ(pace_.due_after(kStart_us + 200'000, start_ + 1ms), start_ + 200ms);
   EXPECT_EQ(pace_.due_after(kStart_us + 300'000, start_ + 201ms), start_ + 300ms)
-      << "what mapping takes does not add up";
+      << "the time of mapping does not accumulate";
 }
 
-TEST_F(LogPaceTest, or_so_many_times_faster) {
+TEST_F(LogPaceTest, at_speed_5_scans_are_due_five_times_faster) {
   pace_.set_speed(5);
   pace_.due_after(kStart_us, start_);
   EXPECT_EQ(pace_.due_after(kStart_us + 200'000, start_), start_ + 40ms);
 }
 
-TEST_F(LogPaceTest, or_at_once) {
+TEST_F(LogPaceTest, at_speed_0_scans_are_due_at_once) {
   pace_.set_speed(0);
   pace_.due_after(kStart_us, start_);
   EXPECT_EQ(pace_.due_after(kStart_us + 200'000, start_ + 3ms), start_ + 3ms);
 }
 
-TEST_F(LogPaceTest, gaps_and_stamps_that_run_backwards_are_not_waited_for) {
+TEST_F(LogPaceTest, waits_at_most_one_second_for_gaps_and_for_stamps_that_run_backwards) {
   pace_.due_after(kStart_us, start_);
   EXPECT_EQ(pace_.due_after(kStart_us + 3'600'000'000, start_), start_ + 1s);
   EXPECT_EQ(pace_.due_after(kStart_us, start_ + 1s), start_ + 1s);
 }
 
-TEST_F(LogPaceTest, a_mapper_that_fell_behind_is_not_hurried_for_long) {
+TEST_F(LogPaceTest, a_slow_mapper_catches_up_at_most_one_second) {
   pace_.due_after(kStart_us, start_);
   EXPECT_EQ(pace_.due_after(kStart_us + 100'000, start_ + 10s), start_ + 9s);
 }
 
-TEST_F(LogPaceTest, what_was_hurried_through_is_not_waited_for_afterwards) {
+TEST_F(LogPaceTest, after_many_early_scans_waits_at_most_one_second) {
   pace_.due_after(kStart_us, start_);
   LogPace::Clock::time_point due;
   for (int i = 1; i < 100; ++i) due = pace_.due_after(kStart_us + i * 1'000'000, start_);
   EXPECT_EQ(due, start_ + 1s);
 }
 
-TEST_F(LogPaceTest, after_a_pause_time_begins_anew) {
+TEST_F(LogPaceTest, starts_a_new_schedule_after_a_pause) {
   pace_.due_after(kStart_us, start_);
   pace_.restart();
   EXPECT_EQ(pace_.due_after(kStart_us + 200'000, start_ + 1h), start_ + 1h);

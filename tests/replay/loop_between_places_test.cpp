@@ -10,7 +10,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Two legs along x, ten nodes each, the second two metres above the first; three local maps.
+// Two legs along x, ten nodes each, the second 20 m above the first; three local maps.
 class LoopBetweenPlacesTest : public testing::Test {
  protected:
   LoopBetweenPlacesTest() {
@@ -43,14 +43,14 @@ TEST_F(LoopBetweenPlacesTest, takes_the_scan_near_the_first_place_and_the_local_
   EXPECT_EQ(edit->local_map, 1U);
   EXPECT_EQ(edit->matcher, MatcherKind::kGa);
   ASSERT_TRUE(edit->place.has_value());
-  // The node lies at (80, 20); moved by (-2, -20) it is at (78, 0), 48 m before the anchor at (30, 0).
+  // The node lies at (80, 20); moved by (-2, -20) it is at (78, 0), 48 m ahead of the anchor at (30, 0).
   EXPECT_NEAR(edit->place->anchor_T_node.x, 48, 1e-9);
   EXPECT_NEAR(edit->place->anchor_T_node.y, 0, 1e-9);
   EXPECT_NEAR(edit->place->anchor_T_node.phi, 0.1, 1e-9);
-  EXPECT_EQ(edit->place->window.x_m, kPointedAtWindow_m);
+  EXPECT_EQ(edit->place->window.x_m, kClickedWindow_m);
 }
 
-TEST_F(LoopBetweenPlacesTest, where_passes_lie_on_each_other_it_joins_the_newest_with_the_oldest) {
+TEST_F(LoopBetweenPlacesTest, where_two_passes_overlap_takes_the_newest_scan_and_the_oldest_local_map) {
   auto poses = std::make_shared<std::vector<TPose2D>>(*snapshot_.map_T_node);
   for (std::size_t i = 10; i < 20; ++i) (*poses)[i] = {(*poses)[i - 10].x + 0.5, 0.3, 0};
   snapshot_.map_T_node = poses;
@@ -58,24 +58,24 @@ TEST_F(LoopBetweenPlacesTest, where_passes_lie_on_each_other_it_joins_the_newest
   ASSERT_TRUE(edit.has_value());
   EXPECT_EQ(edit->frame, 5U * 14);
   EXPECT_EQ(edit->local_map, 0U);
-  EXPECT_NEAR(edit->place->anchor_T_node.x, 40.5, 1e-9) << "nothing is moved";
+  EXPECT_NEAR(edit->place->anchor_T_node.x, 40.5, 1e-9) << "the scan is not moved";
 }
 
-TEST_F(LoopBetweenPlacesTest, far_from_all_scans_the_nearest_are_taken) {
+TEST_F(LoopBetweenPlacesTest, far_from_all_scans_takes_the_nearest) {
   const auto edit = loop_between_places(snapshot_, {200, 40}, {-50, -9}, MatcherKind::kCsm);
   ASSERT_TRUE(edit.has_value());
   EXPECT_EQ(edit->frame, 5U * 19);
   EXPECT_EQ(edit->local_map, 0U);
 }
 
-TEST_F(LoopBetweenPlacesTest, a_scan_is_not_matched_with_its_own_local_map) {
+TEST_F(LoopBetweenPlacesTest, does_not_match_a_scan_with_its_own_local_map) {
   const auto edit = loop_between_places(snapshot_, {0, 0}, {0, 0}, MatcherKind::kCsm);
   ASSERT_TRUE(edit.has_value());
   EXPECT_EQ(edit->frame, 0U);
   EXPECT_NE(edit->local_map, 0U);
 }
 
-TEST_F(LoopBetweenPlacesTest, there_is_none_without_another_local_map) {
+TEST_F(LoopBetweenPlacesTest, returns_nothing_without_another_local_map) {
   EXPECT_FALSE(loop_between_places(ReplaySnapshot(), {0, 0}, {1, 1}, MatcherKind::kCsm).has_value());
   SharedHistory<LocalMapRecord> one;
   one.push_back({0, 0, 19});

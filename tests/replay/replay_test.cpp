@@ -10,11 +10,11 @@
 
 #include "../session/room_log.h"
 #include "psi_slam/mapping_session.h"
-#include "session/settings.h"
 #include "report/output_folder.h"
+#include "same_results.h"
 #include "session/edit_journal.h"
 #include "session/session_file.h"
-#include "same_results.h"
+#include "session/settings.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {
@@ -24,7 +24,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using SnapshotPtr = std::shared_ptr<const ReplaySnapshot>;
 
-/// The first snapshot that is as expected; a failed expectation when none is for long.
+/// The first snapshot that fulfils `expected`. Fails the test after four minutes.
 SnapshotPtr wait_for(const Replay& replay, const std::function<bool(const ReplaySnapshot&)>& expected) {
   const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(4);  // sanitizers are slow
   SnapshotPtr snapshot = replay.snapshot();
@@ -66,7 +66,7 @@ class ReplayTest : public testing::Test {
   }
   std::filesystem::path out(const std::string& name) const { return folder_.path() / name; }
 
-  /// The results of the headless program.
+  /// Writes the results of psi-slam.
   void map_headless(const std::filesystem::path& log, const std::string& name) {
     MappingSession session(log, settings_);
     session.run(std::atomic<bool>(false));
@@ -77,7 +77,7 @@ class ReplayTest : public testing::Test {
   Settings settings_;
 };
 
-TEST_F(ReplayTest, opens_and_waits) {
+TEST_F(ReplayTest, opens_the_log_and_waits) {
   const Replay replay(log(room_log_lines(20)), settings_);
   const SnapshotPtr snapshot = wait_for(replay, ReplayPhase::kPaused);
   EXPECT_EQ(snapshot->frames.size(), 0U);
@@ -98,11 +98,11 @@ TEST_F(ReplayTest, steps_one_scan_at_a_time) {
   }
 }
 
-TEST_F(ReplayTest, played_it_writes_what_the_headless_program_writes) {
+TEST_F(ReplayTest, playing_and_pausing_gives_the_results_of_psi_slam) {
   const auto path = log(room_log_lines());
   map_headless(path, "headless");
   Replay replay(path, settings_);
-  replay.set_speed(10);  // fast enough to wait for, slow enough to be paused on its way
+  replay.set_speed(10);  // slow enough to pause on the way
   replay.play();
   wait_for(replay, [](const ReplaySnapshot& now) { return now.frames.size() > 20; });
   replay.pause();
@@ -113,7 +113,7 @@ TEST_F(ReplayTest, played_it_writes_what_the_headless_program_writes) {
   const SnapshotPtr hurried = wait_for(replay, [](const ReplaySnapshot& now) {
     return now.phase == ReplayPhase::kPaused && now.frames.size() >= 90;
   });
-  EXPECT_EQ(hurried->frames.size(), 90U) << "no farther than asked for";
+  EXPECT_EQ(hurried->frames.size(), 90U) << "stops at the requested scan";
   while (replay.stamps_us() == nullptr) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_EQ(replay.stamps_us()->size(), 150U);
   replay.set_speed(0);
@@ -130,7 +130,7 @@ TEST_F(ReplayTest, played_it_writes_what_the_headless_program_writes) {
   expect_same_results(out("headless"), out("again"));
 }
 
-TEST_F(ReplayTest, saved_and_opened_again_it_goes_on_to_what_the_headless_program_writes) {
+TEST_F(ReplayTest, a_saved_and_resumed_session_gives_the_results_of_psi_slam) {
   const auto path = log(room_log_lines());
   map_headless(path, "headless");
   {
@@ -140,7 +140,7 @@ TEST_F(ReplayTest, saved_and_opened_again_it_goes_on_to_what_the_headless_progra
       return now.phase == ReplayPhase::kPaused && now.frames.size() >= 70;
     });
     replay.save_session(out("my.session"));
-    EXPECT_EQ(wait_for_save(replay, 1)->saved->file, out("my.session"));
+    EXPECT_EQ(wait_for_save(replay, 1)->saved->path, out("my.session"));
     replay.save_session(out("missing") / "my.session");
     const SnapshotPtr failed =
         wait_for(replay, [](const ReplaySnapshot& now) { return now.saved && now.saved->number == 2; });
@@ -169,7 +169,7 @@ TEST_F(ReplayTest, saved_and_opened_again_it_goes_on_to_what_the_headless_progra
   EXPECT_EQ(edited.facts.edits.edits().size(), 1U);
 }
 
-TEST_F(ReplayTest, plays_at_the_speed_of_the_log) {
+TEST_F(ReplayTest, plays_at_a_multiple_of_the_recorded_speed) {
   Replay replay(log(room_log_lines(6)), settings_);  // five scans a second
   replay.set_speed(20);
   const auto start = std::chrono::steady_clock::now();
@@ -178,7 +178,7 @@ TEST_F(ReplayTest, plays_at_the_speed_of_the_log) {
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(4 * 200 / 20));
 }
 
-TEST_F(ReplayTest, snapshots_hold_together) {
+TEST_F(ReplayTest, snapshots_are_consistent) {
   Replay replay(log(room_log_lines()), settings_);
   replay.set_speed(0);
   replay.play();
@@ -194,7 +194,7 @@ TEST_F(ReplayTest, snapshots_hold_together) {
       EXPECT_LT(now->local_maps[i].last_node, now->nodes.size());
     for (const LoopRecord& loop : *now->loops) EXPECT_LT(loop.local_map, now->local_maps.size());
     for (const ActiveLocalMap& active : now->active_local_maps)
-      EXPECT_GT(active.occupancy->getSizeX(), 1U) << "it is not finished";
+      EXPECT_GT(active.occupancy->getSizeX(), 1U) << "it is not packed";
     if (now->phase == ReplayPhase::kFinished) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -219,7 +219,7 @@ TEST_F(ReplayTest, draws_the_map_as_it_goes) {
             4U * static_cast<std::size_t>(map->raster.width_px * map->raster.height_px));
 }
 
-TEST_F(ReplayTest, finished_early_the_map_is_of_the_scans_until_then) {
+TEST_F(ReplayTest, finishing_early_keeps_the_scans_mapped_so_far) {
   Replay replay(log(room_log_lines()), settings_);
   for (int i = 0; i < 30; ++i) replay.step();
   wait_for(replay, [](const ReplaySnapshot& now) { return now.frames.size() == 30; });
@@ -229,7 +229,7 @@ TEST_F(ReplayTest, finished_early_the_map_is_of_the_scans_until_then) {
   EXPECT_TRUE(finished->interrupted);
 }
 
-TEST_F(ReplayTest, a_log_that_breaks_off_is_mapped_up_to_there_and_told_of) {
+TEST_F(ReplayTest, a_truncated_log_is_mapped_up_to_its_end_with_a_warning) {
   const auto path = log(room_log_lines(40));
   std::ofstream(path, std::ios::app) << "FLASER 181 1.0 2.0";
   Replay replay(path, settings_);
@@ -240,18 +240,18 @@ TEST_F(ReplayTest, a_log_that_breaks_off_is_mapped_up_to_there_and_told_of) {
   EXPECT_THAT(finished->warnings, ElementsAre(HasSubstr("room.log:41")));
 }
 
-TEST_F(ReplayTest, what_cannot_be_mapped_is_a_sentence) {
+TEST_F(ReplayTest, reports_why_a_log_cannot_be_mapped) {
   Replay missing(folder_.path() / "missing.log", settings_);
   EXPECT_THAT(wait_for(missing, ReplayPhase::kFailed)->failure, HasSubstr("missing.log does not exist"));
   Replay corrupt(log({"FLASER 181 1.0 2.0", "FLASER 181 1.0"}), settings_);
   corrupt.play();
   EXPECT_THAT(wait_for(corrupt, ReplayPhase::kFailed)->failure, HasSubstr("room.log:1:"));
-  settings_.mapper.loop_closure.candidates.min_window_m = 50;
+  settings_.mapper.back_end.loop_closure.candidates.min_window_m = 50;
   const Replay contradicting(log(room_log_lines(5)), settings_);
   EXPECT_THAT(wait_for(contradicting, ReplayPhase::kFailed)->failure, HasSubstr("loop_closure.min_window_m"));
 }
 
-TEST_F(ReplayTest, a_folder_that_holds_something_is_not_written_to_unless_asked) {
+TEST_F(ReplayTest, writes_to_a_folder_that_is_not_empty_only_on_request) {
   write_file(folder_.path() / "notes.txt", "mine");
   Replay replay(log(room_log_lines(20)), settings_);
   replay.export_to(folder_.path(), false);  // waits for the map
@@ -264,7 +264,7 @@ TEST_F(ReplayTest, a_folder_that_holds_something_is_not_written_to_unless_asked)
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "map.png"));
 }
 
-TEST_F(ReplayTest, a_log_deleted_while_it_is_open_is_mapped_or_told_of) {
+TEST_F(ReplayTest, a_log_deleted_while_it_is_open_is_mapped_with_a_remark) {
   const auto path = log(room_log_lines());
   Replay replay(path, settings_);
   replay.step();
@@ -280,10 +280,10 @@ TEST_F(ReplayTest, a_log_deleted_while_it_is_open_is_mapped_or_told_of) {
   EXPECT_EQ(rescued.facts.logs[0].sha256, "");
 }
 
-TEST_F(ReplayTest, what_was_asked_for_when_it_is_closed_is_refused_in_words) {
+TEST_F(ReplayTest, closing_refuses_pending_requests_with_a_reason) {
   Replay replay(log(room_log_lines(60)), settings_);
   wait_for(replay, ReplayPhase::kPaused);
-  replay.export_to(out("never"), false);  // waits for the map to be finished
+  replay.export_to(out("never"), false);  // waits until the map is finished
   replay.close();
   while (!replay.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   ASSERT_TRUE(replay.snapshot()->exported.has_value());
@@ -291,7 +291,7 @@ TEST_F(ReplayTest, what_was_asked_for_when_it_is_closed_is_refused_in_words) {
   EXPECT_FALSE(std::filesystem::exists(out("never")));
 }
 
-TEST_F(ReplayTest, a_session_that_is_mapped_again_and_saved_half_way_has_all_its_scans) {
+TEST_F(ReplayTest, a_session_saved_half_way_through_mapping_it_again_keeps_all_scans) {
   {
     MappingSession session(log(room_log_lines(40)), settings_);
     session.run(std::atomic<bool>(false));
@@ -307,7 +307,7 @@ TEST_F(ReplayTest, a_session_that_is_mapped_again_and_saved_half_way_has_all_its
   EXPECT_EQ(read_session_file(out("again.session")).frames.size(), 40U);
 }
 
-TEST_F(ReplayTest, is_closed_at_any_moment) {
+TEST_F(ReplayTest, can_be_closed_at_any_moment) {
   const auto path = log(room_log_lines());
   for (const std::size_t scans : {0U, 1U, 70U, 149U}) {
     Replay replay(path, settings_);
@@ -325,7 +325,7 @@ TEST_F(ReplayTest, is_closed_at_any_moment) {
 
 class HeldFinalSearch : public ReplayTest {
  protected:
-  /// A run whose last pass is on and waits.
+  /// A run that is paused in its final loop search.
   std::unique_ptr<Replay> held() {
     auto replay = std::make_unique<Replay>(log(room_log_lines()), settings_);
     replay->set_speed(0);
@@ -337,12 +337,12 @@ class HeldFinalSearch : public ReplayTest {
   }
 };
 
-TEST_F(HeldFinalSearch, waits_and_goes_on_to_the_same_results) {
+TEST_F(HeldFinalSearch, waits_and_then_gives_the_same_results) {
   const auto replay = held();
   const SnapshotPtr held = replay->snapshot();
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   EXPECT_EQ(replay->snapshot()->phase, ReplayPhase::kFinalSearch);
-  EXPECT_EQ(replay->snapshot()->progress.share, held->progress.share) << "nothing has gone on";
+  EXPECT_EQ(replay->snapshot()->progress.share, held->progress.share) << "the search waits";
   replay->play();
   EXPECT_FALSE(wait_for(*replay, ReplayPhase::kFinished)->final_search_held);
   EXPECT_FALSE(replay->snapshot()->interrupted);
@@ -352,19 +352,19 @@ TEST_F(HeldFinalSearch, waits_and_goes_on_to_the_same_results) {
   expect_same_results(out("headless"), out("held"));
 }
 
-TEST_F(HeldFinalSearch, is_cut_at_once) {
+TEST_F(HeldFinalSearch, can_be_cut_at_once) {
   const auto replay = held();
   replay->cut_final_search();
   EXPECT_TRUE(wait_for(*replay, ReplayPhase::kFinished)->interrupted);
 }
 
-TEST_F(HeldFinalSearch, is_closed_at_once) {
+TEST_F(HeldFinalSearch, can_be_closed_at_once) {
   const auto replay = held();
   replay->close();
   while (!replay->ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-TEST_F(ReplayTest, a_paused_run_that_is_told_to_finish_does_not_wait_in_the_last_pass) {
+TEST_F(ReplayTest, finish_after_a_pause_does_not_wait_in_the_final_search) {
   Replay replay(log(room_log_lines()), settings_);
   for (int i = 0; i < 30; ++i) replay.step();
   wait_for(replay, [](const ReplaySnapshot& now) { return now.frames.size() == 30; });
@@ -373,7 +373,7 @@ TEST_F(ReplayTest, a_paused_run_that_is_told_to_finish_does_not_wait_in_the_last
   EXPECT_EQ(wait_for(replay, ReplayPhase::kFinished)->frames.size(), 30U);
 }
 
-TEST_F(ReplayTest, an_export_under_way_is_written_to_its_end_before_it_closes) {
+TEST_F(ReplayTest, an_export_in_progress_is_completed_before_closing) {
   {
     Replay replay(log(room_log_lines(30)), settings_);
     replay.set_speed(0);
@@ -383,7 +383,7 @@ TEST_F(ReplayTest, an_export_under_way_is_written_to_its_end_before_it_closes) {
       return now.phase == ReplayPhase::kExporting || now.exported.has_value();
     });
   }
-  EXPECT_TRUE(std::filesystem::exists(out("whole") / "report.html")) << "which is written last";
+  EXPECT_TRUE(std::filesystem::exists(out("whole") / "report.html")) << "the last file of an export";
 }
 
 class ReplayEditsTest : public ReplayTest {
@@ -412,7 +412,7 @@ class ReplayEditsTest : public ReplayTest {
   }
 };
 
-TEST_F(ReplayEditsTest, are_shown_at_once_undone_and_made_again) {
+TEST_F(ReplayEditsTest, are_shown_at_once_and_can_be_undone_and_redone) {
   Replay replay(log(room_log_lines(150)), settings_);
   replay.hurry_to(140);
   const SnapshotPtr mapped = wait_for(replay, [](const ReplaySnapshot& now) {
@@ -431,16 +431,16 @@ TEST_F(ReplayEditsTest, are_shown_at_once_undone_and_made_again) {
   EXPECT_EQ(verdict_of(*undone, edit), LoopVerdict::kAccepted);
   EXPECT_EQ(undone->undo_text, "");
   EXPECT_THAT(undone->redo_text, HasSubstr("delete the loop of scan"));
-  replay.undo();  // nothing is left
+  replay.undo();  // nothing is left to undo
   replay.redo();
   EXPECT_EQ(verdict_of(*wait_for_edit(replay, 3), edit), LoopVerdict::kDeleted);
   replay.set_speed(0);
   replay.play();
   EXPECT_EQ(verdict_of(*wait_for(replay, ReplayPhase::kFinished), edit), LoopVerdict::kDeleted)
-      << "it survives what is mapped later";
+      << "the edit survives later scans";
 }
 
-TEST_F(ReplayEditsTest, made_anywhere_they_give_what_the_headless_program_makes_of_their_file) {
+TEST_F(ReplayEditsTest, give_the_same_results_as_psi_slam_with_their_file) {
   const auto path = log(room_log_lines(200));
   Replay replay(path, settings_);
   replay.hurry_to(150);
@@ -455,7 +455,7 @@ TEST_F(ReplayEditsTest, made_anywhere_they_give_what_the_headless_program_makes_
   const LoopEdit during = delete_first_accepted(*replay.snapshot());
   replay.edit(during);
   const SnapshotPtr finished = wait_until_finished_after_edit(replay, 2);
-  EXPECT_FALSE(finished->interrupted) << "the last pass was begun anew, not cut";
+  EXPECT_FALSE(finished->interrupted) << "the final loop search was repeated, not cut";
   LoopEdit again = delete_first_accepted(*finished);
   again.kind = LoopEdit::Kind::kMatch;
   again.matcher = MatcherKind::kCsm;
@@ -473,7 +473,7 @@ TEST_F(ReplayEditsTest, made_anywhere_they_give_what_the_headless_program_makes_
   expect_same_results(out("window"), out("headless"));
 }
 
-TEST_F(ReplayEditsTest, of_a_run_are_made_again_in_the_next) {
+TEST_F(ReplayEditsTest, of_one_run_are_repeated_in_the_next) {
   const auto path = log(room_log_lines(150));
   EditJournal journal;
   {
@@ -486,7 +486,7 @@ TEST_F(ReplayEditsTest, of_a_run_are_made_again_in_the_next) {
   }
   ASSERT_EQ(journal.edits().size(), 1U);
   Replay replay(path, settings_, journal);
-  EXPECT_EQ(replay.snapshot()->edits->size(), 1U) << "from the first moment, should the log not open";
+  EXPECT_EQ(replay.snapshot()->edits->size(), 1U) << "known before the log opens";
   replay.set_speed(0);
   replay.play();
   const SnapshotPtr finished = wait_for(replay, ReplayPhase::kFinished);
@@ -497,10 +497,10 @@ TEST_F(ReplayEditsTest, of_a_run_are_made_again_in_the_next) {
   EXPECT_EQ(verdict_of(*wait_until_finished_after_edit(replay, 1), edit), LoopVerdict::kAccepted);
   replay.undo();
   EXPECT_EQ(verdict_of(*wait_until_finished_after_edit(replay, 2), edit), LoopVerdict::kDeleted)
-      << "as the journal had it";
+      << "the journal's edit is in force again";
 }
 
-TEST_F(ReplayEditsTest, undone_they_bring_back_what_was_to_be_done_to_the_loop_later) {
+TEST_F(ReplayEditsTest, undoing_restores_edits_planned_for_later) {
   const auto path = log(room_log_lines(150));
   LoopEdit edit;
   {
@@ -520,7 +520,7 @@ TEST_F(ReplayEditsTest, undone_they_bring_back_what_was_to_be_done_to_the_loop_l
   LoopEdit other = edit;
   other.kind = LoopEdit::Kind::kForce;
   replay.edit(other);
-  EXPECT_EQ(wait_for_edit(replay, 1)->edits->size(), 1U) << "the later one is forgotten";
+  EXPECT_EQ(wait_for_edit(replay, 1)->edits->size(), 1U) << "the planned edit is dropped";
   replay.undo();
   wait_for_edit(replay, 2);
   EXPECT_EQ(replay.edits_asked(), replay.snapshot()->edits_served);
@@ -529,7 +529,7 @@ TEST_F(ReplayEditsTest, undone_they_bring_back_what_was_to_be_done_to_the_loop_l
   EXPECT_EQ(verdict_of(*wait_for(replay, ReplayPhase::kFinished), edit), LoopVerdict::kDeleted);
 }
 
-TEST_F(ReplayEditsTest, that_were_not_made_are_told_of) {
+TEST_F(ReplayEditsTest, that_were_not_made_are_reported) {
   EditJournal journal;
   journal.add({{LoopEdit::Kind::kDelete, 5000, 0}, {}});
   Replay replay(log(room_log_lines(60)), settings_, journal);
@@ -539,7 +539,7 @@ TEST_F(ReplayEditsTest, that_were_not_made_are_told_of) {
               testing::ElementsAre(HasSubstr("an edit was not made: delete the loop of scan 5000")));
 }
 
-TEST_F(ReplayTest, the_threads_of_a_closed_run_come_to_their_ends) {
+TEST_F(ReplayTest, the_threads_of_a_closed_run_end) {
   Replay replay(log(room_log_lines(60)), settings_);
   replay.set_speed(0);
   replay.play();
@@ -551,7 +551,7 @@ TEST_F(ReplayTest, the_threads_of_a_closed_run_come_to_their_ends) {
   EXPECT_TRUE(replay.ended());
 }
 
-TEST_F(ReplayEditsTest, says_what_cannot_be_done) {
+TEST_F(ReplayEditsTest, report_why_they_are_impossible) {
   Replay replay(log(room_log_lines(60)), settings_);
   replay.set_speed(0);
   replay.play();

@@ -11,7 +11,7 @@
 namespace psi_slam {
 namespace {
 
-TEST(SharedHistory, a_view_shows_what_was_there_when_it_was_made) {
+TEST(SharedHistory, a_view_shows_the_entries_at_the_time_it_was_made) {
   SharedHistory<std::string> history;
   EXPECT_TRUE(history.view().empty());
   history.push_back("one");
@@ -36,7 +36,7 @@ TEST(SharedHistory, views_outlive_the_history) {
   EXPECT_EQ(view[0], 7);
 }
 
-TEST(SharedHistory, is_read_while_it_grows) {
+TEST(SharedHistory, can_be_read_while_it_grows) {
   constexpr int kCount = 20'000;
   SharedHistory<int> history;
   std::mutex mutex;

@@ -10,8 +10,8 @@
 #include <iterator>
 #include <set>
 
-#include "psi_slam/user_error.h"
 #include "psi_slam/grid_map.h"
+#include "psi_slam/user_error.h"
 #include "simulated_room.h"
 #include "temporary_folder.h"
 
@@ -51,44 +51,44 @@ void export_room(const OutputFolder& folder) {
   export_account(result, kInfo, summarize_run(result, *grid), *grid, folder);
 }
 
-TEST(OutputFolder, is_made_with_those_above_it) {
+TEST(OutputFolder, creates_the_folder_and_its_parents) {
   const TemporaryFolder temporary;
   const fs::path path = temporary.path() / "runs" / "first";
   EXPECT_EQ(OutputFolder::prepare(path, false).path(), path);
   EXPECT_TRUE(fs::is_directory(path));
-  EXPECT_EQ(complaint(path), "no complaint") << "an empty one is as good as new";
+  EXPECT_EQ(complaint(path), "no complaint") << "an empty folder needs no force";
 }
 
-TEST(OutputFolder, with_something_in_it_needs_force) {
+TEST(OutputFolder, needs_force_unless_empty) {
   const TemporaryFolder temporary;
-  std::ofstream(temporary.path() / "thesis.tex") << "years";
+  std::ofstream(temporary.path() / "notes.txt") << "x";
   EXPECT_THAT(complaint(temporary.path()), AllOf(HasSubstr("is not empty"), HasSubstr("--force")));
   EXPECT_EQ(complaint(temporary.path(), true), "no complaint");
 }
 
-TEST(OutputFolder, what_cannot_be_a_folder_is_told) {
+TEST(OutputFolder, reports_paths_that_cannot_be_a_folder) {
   const TemporaryFolder temporary;
   std::ofstream(temporary.path() / "file") << "x";
   EXPECT_THAT(complaint(temporary.path() / "file"), HasSubstr("is a file, not a folder"));
   EXPECT_THAT(complaint(temporary.path() / "file" / "below"),
               HasSubstr((temporary.path() / "file").string() + " is a file"));
   EXPECT_THAT(complaint(temporary.path() / "file", true), HasSubstr("is a file, not a folder"));
-  EXPECT_THAT(complaint(""), HasSubstr("has no name"));
+  EXPECT_THAT(complaint(""), HasSubstr("name of the output folder is empty"));
   if (fs::exists("/proc/self")) {
-    EXPECT_THAT(complaint("/proc/psi-slam"), HasSubstr("cannot make the output folder /proc/psi-slam"));
+    EXPECT_THAT(complaint("/proc/psi-slam"), HasSubstr("cannot create the output folder /proc/psi-slam"));
   }
 }
 
-TEST(OutputFolder, holds_all_files_under_their_fixed_names_and_nothing_else) {
+TEST(OutputFolder, has_all_files_under_fixed_names) {
   const TemporaryFolder temporary;
   export_room(OutputFolder::prepare(temporary.path() / "run", false));
   EXPECT_EQ(names_in(temporary.path() / "run"),
             (std::set<std::string>{"frames.csv", "loops.csv", "map.dxf", "map.gridmap.gz", "map.pgm",
-                                   "map.png", "map.simplemap.gz", "map.svg", "map.yaml", "report.html", "summary.json",
-                                   "trajectory.carmen", "trajectory.tum"}));
+                                   "map.png", "map.simplemap.gz", "map.svg", "map.yaml", "report.html",
+                                   "summary.json", "trajectory.carmen", "trajectory.tum"}));
 }
 
-TEST(OutputFolder, force_replaces_results_and_leaves_other_files_alone) {
+TEST(OutputFolder, force_replaces_results_and_keeps_other_files) {
   const TemporaryFolder temporary;
   std::ofstream(temporary.path() / "notes.txt") << "mine";
   std::ofstream(temporary.path() / "map.yaml") << "old";
@@ -97,18 +97,18 @@ TEST(OutputFolder, force_replaces_results_and_leaves_other_files_alone) {
   EXPECT_THAT(contents(temporary.path() / "map.yaml"), HasSubstr("image: map.pgm"));
 }
 
-TEST(OutputFolder, the_same_result_gives_the_same_bytes) {
+TEST(OutputFolder, equal_results_give_equal_bytes) {
   const TemporaryFolder temporary;
   export_room(OutputFolder::prepare(temporary.path() / "a", false));
   export_room(OutputFolder::prepare(temporary.path() / "b", false));
   for (const std::string& name : names_in(temporary.path() / "a")) {
-    if (name == "summary.json" || name == "report.html") continue;  // they tell the memory used
+    if (name == "summary.json" || name == "report.html") continue;  // they contain the memory used
     EXPECT_EQ(contents(temporary.path() / "a" / name), contents(temporary.path() / "b" / name)) << name;
   }
 }
 
-/// Runs in a child process, for which files can grow to `limit` bytes only, as on a full disk (its standard
-/// error is a file too).
+/// Runs in a child process whose files cannot exceed `limit` bytes, as on a full disk. Its standard error is
+/// a file, too.
 [[noreturn]] void export_to_a_full_disk(const fs::path& path, rlim_t limit) {
   std::signal(SIGXFSZ, SIG_IGN);
   const rlimit bytes{limit, limit};
@@ -122,7 +122,7 @@ TEST(OutputFolder, the_same_result_gives_the_same_bytes) {
   std::exit(0);
 }
 
-TEST(OutputFolderDeathTest, a_full_disk_is_told_with_the_files_name_and_leaves_no_half_file) {
+TEST(OutputFolderDeathTest, reports_a_full_disk_and_leaves_no_partial_file) {
   const TemporaryFolder temporary;
   for (const rlim_t limit : {1000, 4096, 10000, 30000}) {
     const fs::path path = temporary.path() / std::to_string(limit);

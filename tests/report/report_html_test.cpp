@@ -32,7 +32,7 @@ std::string without_style_and_script(const std::string& html) {
   return without(without(html, "<style>", "</style>"), "<script>", "</script>");
 }
 
-/// What the attribute's values are, each up to 40 characters.
+/// Values of an attribute, each cut after 40 characters.
 std::vector<std::string> values_of(const std::string& attribute, const std::string& html) {
   std::vector<std::string> values;
   const std::string begin = ' ' + attribute + "=\"";
@@ -43,21 +43,21 @@ std::vector<std::string> values_of(const std::string& attribute, const std::stri
   return values;
 }
 
-TEST(WellFormed, sees_what_is_wrong) {
+TEST(WellFormed, finds_each_kind_of_error) {
   EXPECT_EQ(complaint_about("<!DOCTYPE html><p class=\"a b\">x &amp; y<br/></p>"), "");
   for (const char* wrong :
        {"<p>", "</p>", "<p></b>", "<p class=a></p>", "<p class=\"<\"></p>", "<p>&x</p>", "<p>></p>", "<p"})
     EXPECT_NE(complaint_about(wrong), "") << wrong;
 }
 
-TEST(ReportHtml, its_tags_and_drawings_are_well_formed) {
+TEST(ReportHtml, has_well_formed_tags_and_drawings) {
   const std::string html = without_style_and_script(report_of_the_room());
   EXPECT_EQ(complaint_about(html), "");
   EXPECT_THAT(html, HasSubstr("<svg id=\"map\""));
   EXPECT_THAT(html, HasSubstr("class=\"plot\""));
 }
 
-TEST(ReportHtml, tells_the_scans_of_further_lasers_and_those_left_out) {
+TEST(ReportHtml, counts_the_scans_of_further_lasers) {
   const MappingResult result = walk_around_the_room();
   const auto grid = draw_grid_map(result.log, mapped_poses(result));
   RunSummary summary = summarize_run(result, *grid);
@@ -66,8 +66,9 @@ TEST(ReportHtml, tells_the_scans_of_further_lasers_and_those_left_out) {
   summary.log.spare_scans = 1200;
   EXPECT_THAT(
       report_html(result, {}, summary, *grid),
-      HasSubstr("<th>Further lasers</th><td>48 scans taken together with those of the first; 1,200 scans "
-                "left out for want of one near enough</td>"));
+      HasSubstr(
+          "<th>Further lasers</th><td>48 scans synchronised with the first laser, 1,200 left out because "
+          "no scan of the first laser is near in time</td>"));
 }
 
 TEST(ReportHtml, needs_no_network) {
@@ -86,7 +87,7 @@ TEST(ReportHtml, needs_no_network) {
 TEST(ReportHtml, shows_the_figures) {
   const std::string html = report_of_the_room();
   for (const char* shown :
-       {"room.clf", "20×", "10 <small>nodes</small>", "match scan to local map", "response … is below …",
+       {"room.clf", "20×", "10 <small>nodes</small>", "match scan to local map", "the response is too low",
         "1 setting", "of 12 tried", "2 matches found", "Mapped by psi-slam 0.1.0 in 0.50 s"})
     EXPECT_THAT(html, HasSubstr(shown));
 }
@@ -99,27 +100,24 @@ TEST(ReportHtml, shows_the_factor_and_the_matchers) {
     EXPECT_THAT(html, HasSubstr(shown));
   MappingResult one = walk_around_the_room();
   for (FrameRecord& frame : one.frames)
-    if (frame.node) frame.matcher = "ga";
+    if (frame.node) frame.matcher = MatcherKind::kGa;
   const std::string of_one = report_of(one, {});
   EXPECT_THAT(of_one, HasSubstr("<path class=\"matcher ga\""));
   EXPECT_THAT(of_one, Not(HasSubstr("<path class=\"matcher csm\"")));
   EXPECT_THAT(of_one, Not(HasSubstr("key matcher csm\"")));
 }
 
-TEST(ReportHtml, the_users_texts_cannot_break_it) {
+TEST(ReportHtml, escapes_texts_of_the_user) {
   const std::string nasty = "<script>alert('&\"')</script>\x01";
   MappingResult result = walk_around_the_room();
-  result.loops[0].reason = nasty;
   result.stages[0].name = nasty;
-  result.frames[0].matcher = nasty;
-  result.loops[0].matcher = nasty;
   const std::string html = report_of(result, {nasty, nasty, {{nasty, nasty}, {"a." + nasty, nasty}}});
   EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
   EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(&#39;&amp;&quot;&#39;)&lt;/script&gt;?"));
   EXPECT_EQ(complaint_about(without_style_and_script(html)), "");
 }
 
-TEST(ReportHtml, an_empty_and_an_interrupted_run_are_shown_too) {
+TEST(ReportHtml, shows_empty_and_interrupted_runs) {
   MappingResult result;
   result.interrupted = true;
   const std::string html = report_of(result, {});
@@ -144,34 +142,35 @@ TEST(ReportHtml, shows_psi_for_any_thresholds) {
   }
 }
 
-TEST(ReportHtml, tells_when_the_map_is_coarser_than_asked_for) {
+TEST(ReportHtml, reports_a_map_that_is_coarser_than_asked_for) {
   const MappingResult result = walk_around_the_room();
   const auto grid = draw_grid_map(result.log, mapped_poses(result));
   RunSummary summary = summarize_run(result, *grid);
   EXPECT_THAT(report_html(result, {}, summary, *grid), Not(HasSubstr("map.max_cells")));
   summary.map.asked_resolution_m = 0.0125;
   EXPECT_THAT(report_html(result, {}, summary, *grid),
-              HasSubstr("map.max_cells leaves no room for cells of 0.0125 m: those of the map are 0.05 m."));
+              HasSubstr("map.max_cells limits the map to cells of 0.05 m instead of 0.0125 m."));
 }
 
-TEST(ReportHtml, tells_why_the_log_breaks_off) {
+TEST(ReportHtml, reports_why_the_log_breaks_off) {
   MappingResult result = walk_around_the_room();
   result.broken_off = "a<b.log:41: expected 181 ranges";
   const std::string html = report_of(result, {});
   EXPECT_THAT(html,
-              HasSubstr("The log breaks off: a&lt;b.log:41: expected 181 ranges. All below is of the 50 "
-                        "scans before that."));
+              HasSubstr("The log breaks off: a&lt;b.log:41: expected 181 ranges. This report covers the "
+                        "50 scans before the break."));
   EXPECT_THAT(html, Not(HasSubstr("stopped")));
 }
 
-TEST(ReportHtml, tells_that_the_last_pass_was_cut_short) {
+TEST(ReportHtml, reports_that_the_final_search_was_cut_short) {
   MappingResult result = walk_around_the_room();
   EXPECT_THAT(report_of(result, {}), Not(HasSubstr("cut short")));
   result.interrupted = result.final_search_cut_short = true;
   EXPECT_THAT(
       report_of(result, {}),
-      HasSubstr("of the 50 scans read until then, and what comes after the last of them, the last search "
-                "for loops and the refinement of all scans, was cut short."));
+      HasSubstr(
+          "The run was stopped after 50 scans. The final loop search and the refinement of all scans were "
+          "cut short."));
 }
 
 }  // namespace

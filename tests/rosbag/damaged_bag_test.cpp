@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bags that are cut off or damaged anywhere end in a sentence, never in a crash or in gigabytes of memory,
-// and give what stands before the damage.
+// A bag that is truncated or damaged anywhere ends with a message, never with a crash or gigabytes of memory.
+// It yields the frames before the damage.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -11,7 +11,6 @@
 
 #include "bag_files.h"
 #include "log_files.h"
-#include "doctor/input_doctor.h"
 #include "ros1_files.h"
 #include "temporary_folder.h"
 
@@ -28,7 +27,7 @@ struct Kind {
 
 struct Reading {
   std::size_t frames = 0;
-  std::string sentence;  ///< with which it ended, if with one
+  std::string sentence;  ///< error at the end; empty if there was none
 };
 
 Reading read_to_the_end(const Path& path) {
@@ -36,7 +35,7 @@ Reading read_to_the_end(const Path& path) {
   try {
     const auto log = open_log(path);
     while (log->next()) ++reading.frames;
-    EXPECT_FALSE(log->next()) << "the end stays the end";
+    EXPECT_FALSE(log->next()) << "no frame after the end";
   } catch (const UserError& error) {
     reading.sentence = error.what();
   }
@@ -46,11 +45,11 @@ Reading read_to_the_end(const Path& path) {
 class DamagedBag : public testing::TestWithParam<Kind> {
  protected:
   void SetUp() override {
-    GetParam().write(path_, drive_recorded(8));
+    GetParam().write(path_, recorded_run(8));
     whole_ = read_file(path_);
   }
 
-  /// Of as many bytes as the whole: they are written over it, which is faster than a new file.
+  /// Reads `bytes`, which must have the size of the whole. Overwriting the file is faster than creating one.
   Reading read(const std::string& bytes) const {
     std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -63,27 +62,28 @@ class DamagedBag : public testing::TestWithParam<Kind> {
   std::string whole_;
 };
 
-TEST_P(DamagedBag, cut_off_anywhere_it_gives_what_is_left) {
+TEST_P(DamagedBag, truncated_anywhere_yields_the_frames_before) {
   const Reading all = read(whole_);
   EXPECT_EQ(all.frames, 8U);
   EXPECT_EQ(all.sentence, "");
   std::size_t least = 8;
-  // Every length, which all ends of records are among; of SQLite's pages some.
+  // Tests every length and thus every end of a record; for SQLite only some lengths.
   const std::size_t step = GetParam().name == "db3" ? 97 : 1;
   for (std::size_t size = whole_.size() - 1; size > step; size -= step) {
     std::filesystem::resize_file(path_, size);
     const Reading reading = read_to_the_end(path_);
     ASSERT_TRUE(!reading.sentence.empty() || reading.frames == 8) << size;
-    ASSERT_LE(reading.frames, least + 3) << "less of it gives less, but for scans that wait for odometry";
+    ASSERT_LE(reading.frames, least + 3)
+        << "a shorter bag has fewer frames, except scans that wait for odometry";
     if (size + 400 > whole_.size()) {
-      ASSERT_GE(reading.frames, 4U) << "most of it gives most of the frames";
+      ASSERT_GE(reading.frames, 4U) << "most of the bag has most of the frames";
     }
     least = std::min(least, reading.frames);
   }
   EXPECT_EQ(least, 0U);
 }
 
-TEST_P(DamagedBag, with_bytes_flipped_it_ends_in_a_sentence_or_in_frames) {
+TEST_P(DamagedBag, with_flipped_bits_yields_a_message_or_frames) {
   std::mt19937 random(1);
   const std::size_t first = GetParam().name == "db3" ? 0 : 13;
   for (int i = 0; i < 600; ++i) {
@@ -94,7 +94,7 @@ TEST_P(DamagedBag, with_bytes_flipped_it_ends_in_a_sentence_or_in_frames) {
   }
 }
 
-TEST_P(DamagedBag, lengths_of_gigabytes_are_not_believed) {
+TEST_P(DamagedBag, lengths_of_gigabytes_allocate_no_memory) {
   for (std::size_t at = 13; at + 4 <= std::min<std::size_t>(whole_.size(), 6000); at += 7) {
     std::string bytes = whole_;
     bytes.replace(at, 4, "\xF0\xFF\xFF\x7F");
@@ -127,19 +127,6 @@ INSTANTIATE_TEST_SUITE_P(
                            write_mcap(p, r, {"zstd", 4, true, true});
                          }}),
     [](const auto& tested) { return tested.param.name; });
-
-TEST(DamagedBagInTheDoctor, is_judged_up_to_where_it_breaks_off) {
-  const TemporaryFolder folder;
-  const Path path = folder.path() / "run.mcap";
-  write_mcap(path, drive_recorded(30));
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) * 2 / 3);
-  const LogDiagnosis diagnosis = diagnose(path);
-  EXPECT_THAT(diagnosis.facts.broken_off, testing::HasSubstr("run.mcap: byte"));
-  EXPECT_THAT(diagnosis.facts.broken_off, testing::HasSubstr("the file is cut off"));
-  EXPECT_GT(diagnosis.facts.scans, 8U);
-  EXPECT_EQ(diagnosis.facts.format, "ROS 2 bag (MCAP)");
-  EXPECT_EQ(diagnosis.facts.laser, "/scan");
-}
 
 }  // namespace
 }  // namespace psi_slam

@@ -24,7 +24,7 @@ using mrpt::math::TPose3D;
 using testing::HasSubstr;
 using Path = std::filesystem::path;
 
-/// The frames of the same recording as a CARMEN log.
+/// Frames of the same recording, written as a CARMEN log.
 std::vector<Frame> carmen_frames(const Recording& recording, const TPose2D& mount = {0.2, 0, 0.3}) {
   TemporaryFolder folder;
   write_carmen(folder.path() / "log.clf", recording);
@@ -71,7 +71,7 @@ Kind mcap(const std::string& name, const McapLayout& layout) {
   return {name, [=](const Path& path, const Recording& r) { write_mcap(path, r, layout); }};
 }
 
-/// A folder with the recording in eleven files of one kind.
+/// Writes the recording as a folder of eleven files.
 Kind folder(const std::string& name, const std::string& suffix, bool with_metadata) {
   return {name, [=](const Path& path, const Recording& recording) {
             std::filesystem::create_directory(path);
@@ -116,7 +116,7 @@ class EveryKindOfBag : public testing::TestWithParam<Kind> {};
 
 TEST_P(EveryKindOfBag, holds_the_frames_of_the_same_carmen_log) {
   const TemporaryFolder folder;
-  const Recording recording = drive_recorded(40);
+  const Recording recording = recorded_run(40);
   GetParam().write(folder.path() / "bag", recording);
   expect_same_frames(frames_of(folder.path() / "bag"), carmen_frames(recording));
 }
@@ -128,7 +128,7 @@ class BagOfRosItself : public testing::TestWithParam<const char*> {};
 
 TEST_P(BagOfRosItself, holds_the_frames_of_the_same_carmen_log) {
   const TemporaryFolder folder;
-  const Recording recording = drive_recorded(200);
+  const Recording recording = recorded_run(200);
   write_carmen(folder.path() / "log.clf", recording);
   const std::string command = std::string("/usr/bin/python3 " PSI_SLAM_ROSBAG_TESTS "/write_ros1_bag.py '") +
                               (folder.path() / "log.clf").string() + "' '" +
@@ -155,7 +155,7 @@ class RosbagReaderTest : public testing::Test {
     return sentence_of([&] { read(recording, options); });
   }
 
-  /// A robot that stands at (1, 2, 0.5), and one scan.
+  /// A robot that stands at (1, 2, 0.5) with one scan.
   static Recording one_scan(const RecordedScan& scan, const RecordedPose& mount = static_mount()) {
     return {mount, RecordedPose{"/odom", 1'000'000, "odom", "base_link", {1, 2, 0, 0.5, 0, 0}}, scan};
   }
@@ -170,15 +170,15 @@ class RosbagReaderTest : public testing::Test {
   Path path_ = folder_.path() / "run.mcap";
 };
 
-TEST_F(RosbagReaderTest, one_of_several_topics_must_be_named) {
-  Recording recording = drive_recorded();
+TEST_F(RosbagReaderTest, requires_a_topic_if_there_are_several) {
+  Recording recording = recorded_run();
   RecordedScan rear = scan_at(1'600'000'000'100'000);
   rear.topic = "/rear_scan";
   rear.ranges_m = {9, 9};
   recording.insert(recording.begin() + 5, rear);
   EXPECT_EQ(sentence_about(recording), path_.string() +
                                            " has several topics of type sensor_msgs/LaserScan: /scan, "
-                                           "/rear_scan; expected log.scan_topic to name one of them");
+                                           "/rear_scan. Select one with log.scan_topic");
   LogOptions options;
   for (const char* name : {"/rear_scan", "rear_scan"}) {
     options.scan_topic = name;
@@ -193,7 +193,7 @@ TEST_F(RosbagReaderTest, one_of_several_topics_must_be_named) {
 }
 
 TEST_F(RosbagReaderTest, odometry_may_be_a_transform) {
-  Recording recording = drive_recorded();
+  Recording recording = recorded_run();
   for (Recorded& message : recording) {
     auto* pose = std::get_if<RecordedPose>(&message);
     if (pose == nullptr || pose->topic != "/odom") continue;
@@ -203,7 +203,7 @@ TEST_F(RosbagReaderTest, odometry_may_be_a_transform) {
   recording.insert(recording.begin(),
                    RecordedPose{"/tf_static", 1, "base_footprint", "base_link", {0.1, 0, 0.2, 0, 0, 0}});
   recording.insert(recording.begin() + 3, RecordedPose{"/tf", 2, "map", "odom", {7, 7, 0, 1, 0, 0}});
-  expect_same_frames(read(recording), carmen_frames(drive_recorded(), {0.3, 0, 0.3}));
+  expect_same_frames(read(recording), carmen_frames(recorded_run(), {0.3, 0, 0.3}));
   LogOptions options;
   options.odom_frame = "wheels";
   EXPECT_THAT(sentence_about(recording, options), HasSubstr("base_footprint < odom"));
@@ -211,37 +211,37 @@ TEST_F(RosbagReaderTest, odometry_may_be_a_transform) {
   EXPECT_EQ(read(recording, options).front().odom_T_robot, TPose2D(7, 7, 1)) << "odom moves in map";
 }
 
-TEST_F(RosbagReaderTest, a_topic_of_transforms_may_be_named_for_odometry) {
-  Recording recording = drive_recorded();
+TEST_F(RosbagReaderTest, the_odometry_topic_may_be_a_topic_of_transforms) {
+  Recording recording = recorded_run();
   recording.insert(recording.begin(),
                    RecordedPose{"/tf", 1'600'000'000'000'000, "odom", "base_link", {5, 6, 0, 0, 0, 0}});
-  EXPECT_EQ(read(recording).front().odom_T_robot.y, carmen_frames(drive_recorded()).front().odom_T_robot.y);
+  EXPECT_EQ(read(recording).front().odom_T_robot.y, carmen_frames(recorded_run()).front().odom_T_robot.y);
   LogOptions options;
   options.odometry_topic = "tf";
   EXPECT_EQ(read(recording, options).back().odom_T_robot, TPose2D(5, 6, 0));
 }
 
-TEST_F(RosbagReaderTest, frames_may_begin_with_a_slash_and_the_mount_may_come_by_tf_behind_the_first_scan) {
-  Recording recording = drive_recorded();
+TEST_F(RosbagReaderTest, accepts_leading_slashes_and_a_mount_on_tf_after_the_first_scan) {
+  Recording recording = recorded_run();
   recording.erase(recording.begin());
   RecordedPose mount = static_mount("/laser");
   mount.topic = "/tf";
   mount.frame = "/base_link";
   recording.insert(recording.begin() + 9, mount);
-  expect_same_frames(read(recording), carmen_frames(drive_recorded()));
+  expect_same_frames(read(recording), carmen_frames(recorded_run()));
 }
 
-TEST_F(RosbagReaderTest, the_laser_and_the_robot_may_meet_in_a_frame_above_both) {
-  Recording recording = drive_recorded();
+TEST_F(RosbagReaderTest, laser_and_robot_may_have_a_common_parent_frame) {
+  Recording recording = recorded_run();
   recording.erase(recording.begin());
   RecordedPose mount = static_mount();
   mount.frame = "body";
   recording.insert(recording.begin(),
                    {mount, RecordedPose{"/tf_static", 1, "body", "base_link", {-1, 0, 0, 0, 0, 0}}});
-  expect_same_frames(read(recording), carmen_frames(drive_recorded(), {1.2, 0, 0.3}));
+  expect_same_frames(read(recording), carmen_frames(recorded_run(), {1.2, 0, 0.3}));
 }
 
-TEST_F(RosbagReaderTest, a_laser_that_hangs_upside_down_has_its_bearings_mirrored) {
+TEST_F(RosbagReaderTest, mirrors_the_bearings_of_a_laser_mounted_upside_down) {
   const auto frame = read(one_scan(scan_at(), static_mount("laser", {0.2, 0.1, 0.4, 0.3, 0, M_PI}))).front();
   EXPECT_NEAR(frame.scan.robot_T_laser.phi, 0.3, 1e-9);
   EXPECT_THAT(*frame.scan.bearings_rad, testing::ElementsAre(1.0F, 0.5F, 0.0F, -0.5F, -1.0F));
@@ -256,24 +256,24 @@ TEST_F(RosbagReaderTest, a_laser_that_hangs_upside_down_has_its_bearings_mirrore
               HasSubstr("the laser is tilted by 57 degrees"));
 }
 
-TEST_F(RosbagReaderTest, a_mount_that_the_bag_lacks_must_be_stated) {
-  Recording recording = drive_recorded();
+TEST_F(RosbagReaderTest, requires_a_stated_mount_if_the_bag_has_none) {
+  Recording recording = recorded_run();
   recording.erase(recording.begin());
   EXPECT_EQ(
       sentence_about(recording),
       path_.string() +
-          " does not say where the laser of /scan is on the robot: no transform leads from \"base_link\" to "
-          "\"laser\", expected log.base_frame to name the robot's frame, or log.laser_x_m, log.laser_y_m and "
-          "log.laser_yaw_deg; its transforms: none");
+          " does not state where the laser of /scan is mounted: no transform leads from \"base_link\" to "
+          "\"laser\". Name the robot's frame with log.base_frame, or state the mount with log.laser_x_m, "
+          "log.laser_y_m and log.laser_yaw_deg. Transforms of the bag: none");
   LogOptions options;
   options.robot_T_laser = TPose2D(0.2, 0, 0.3);
-  expect_same_frames(read(recording, options), carmen_frames(drive_recorded()));
+  expect_same_frames(read(recording, options), carmen_frames(recorded_run()));
   options.robot_T_laser.reset();
   options.base_frame = "laser";
   EXPECT_EQ(read(recording, options).front().scan.robot_T_laser, TPose2D(0, 0, 0));
 }
 
-TEST_F(RosbagReaderTest, readings_that_are_none_are_nan_and_scans_may_change_their_shape) {
+TEST_F(RosbagReaderTest, readings_without_a_return_are_nan_and_scans_may_change_their_shape) {
   const float inf = std::numeric_limits<float>::infinity();
   RecordedScan first = scan_at();
   first.ranges_m = {inf, -inf, std::nanf(""), 0.05F, 0, -1, 30, 29.5F, 1000};
@@ -285,13 +285,13 @@ TEST_F(RosbagReaderTest, readings_that_are_none_are_nan_and_scans_may_change_the
   Recording recording = one_scan(first);
   recording.insert(recording.end(), {empty, second});
   const auto frames = read(recording);
-  ASSERT_EQ(frames.size(), 2U) << "a scan without readings is none";
+  ASSERT_EQ(frames.size(), 2U) << "an empty scan is skipped";
   ASSERT_EQ(frames[0].scan.ranges_m.size(), 9U);
   for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(std::isfinite(frames[0].scan.ranges_m[i]), i == 7) << i;
   EXPECT_THAT(*frames[1].scan.bearings_rad, testing::ElementsAre(-1.0F, -1.25F));
 }
 
-TEST_F(RosbagReaderTest, a_message_without_stamp_has_the_time_of_its_recording) {
+TEST_F(RosbagReaderTest, a_message_without_a_stamp_has_the_time_of_its_recording) {
   write_ros1_bag(path_, one_scan(scan_at(0)));
   std::string bytes = read_file(path_);
   const std::string recorded_at_0 = "time=" + ros1_time(0);
@@ -302,8 +302,8 @@ TEST_F(RosbagReaderTest, a_message_without_stamp_has_the_time_of_its_recording) 
   EXPECT_EQ(frames[0].time_us, 7'000'000);
 }
 
-TEST_F(RosbagReaderTest, says_what_is_missing) {
-  Recording recording = drive_recorded();
+TEST_F(RosbagReaderTest, reports_missing_scans_and_odometry) {
+  Recording recording = recorded_run();
   const auto without = [&](const char* topic) {
     Recording rest;
     for (const Recorded& message : recording)
@@ -317,28 +317,28 @@ TEST_F(RosbagReaderTest, says_what_is_missing) {
   EXPECT_THAT(
       sentence_about(without("/odom")),
       HasSubstr("has no odometry, expected a topic of type nav_msgs/Odometry or a transform from a frame "
-                "named like \"odom\" to the robot's"));
+                "named like \"odom\" to the robot's frame"));
 }
 
-TEST_F(RosbagReaderTest, odometry_without_a_pose_is_left_out_and_told) {
-  Recording recording = drive_recorded();
-  RecordedPose none{"/odom", 1'600'000'000'500'000, "odom", "base_link", {}};
-  none.pose.x = std::nan("");
-  recording.insert(recording.begin() + 1, none);
-  recording.insert(recording.begin() + 30, none);
+TEST_F(RosbagReaderTest, skips_and_reports_odometry_with_an_invalid_pose) {
+  Recording recording = recorded_run();
+  RecordedPose invalid{"/odom", 1'600'000'000'500'000, "odom", "base_link", {}};
+  invalid.pose.x = std::nan("");
+  recording.insert(recording.begin() + 1, invalid);
+  recording.insert(recording.begin() + 30, invalid);
   write_mcap(path_, recording);
   const auto log = open_log(path_);
-  expect_same_frames(all_frames(*log), carmen_frames(drive_recorded()));
+  expect_same_frames(all_frames(*log), carmen_frames(recorded_run()));
   EXPECT_EQ(log->skipped_lines().count, 2U);
   EXPECT_THAT(log->skipped_lines().sentence(),
               testing::AllOf(testing::StartsWith("2 messages of the log"), HasSubstr("run.mcap: byte"),
                              HasSubstr("the odometry on /odom is not finite")));
-  EXPECT_THAT(sentence_about({static_mount(), none, scan_at()}),
+  EXPECT_THAT(sentence_about({static_mount(), invalid, scan_at()}),
               HasSubstr("the odometry on /odom is not finite"));
 }
 
-TEST_F(RosbagReaderTest, a_damaged_message_where_a_stated_mount_is_enough_ends_the_log_behind_its_scans) {
-  Recording recording = drive_recorded();
+TEST_F(RosbagReaderTest, a_damaged_message_ends_the_log_after_the_scans_before_it) {
+  Recording recording = recorded_run();
   recording.erase(recording.begin());
   RecordedPose elsewhere = static_mount("camera");
   elsewhere.topic = "/tf";
@@ -358,18 +358,18 @@ TEST_F(RosbagReaderTest, a_damaged_message_where_a_stated_mount_is_enough_ends_t
   EXPECT_THAT(sentence_of([&] {
                 while (log->next()) ++frames;
               }),
-              HasSubstr("70000 numbers are announced"));
+              HasSubstr("it states 70000 numbers"));
   EXPECT_EQ(frames, 20U);
 }
 
-TEST_F(RosbagReaderTest, a_damaged_scan_is_told_with_its_place) {
+TEST_F(RosbagReaderTest, reports_the_place_of_a_scan_with_invalid_angles) {
   RecordedScan scan = scan_at();
   scan.angle_increment_rad = 0;
   EXPECT_EQ(
       sentence_about(one_scan(scan)),
       path_.string() +
           ": byte 33, byte 1148 of the chunk: the scan's angles start at -1.000000 in steps of 0.000000 "
-          "radians, expected finite ones and a step that is not 0");
+          "radians, expected finite angles and a step other than 0");
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include <functional>
 #include <thread>
 
-#include "exports/summary_json.h"
-#include "frames/skipped_lines.h"
+#include "exports/run_summary.h"
+#include "psi_slam/frame_source.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/grid_map.h"
 #include "report/output_folder.h"
@@ -114,7 +114,7 @@ TEST_F(MappingSessionTest, a_stop_cuts_the_final_search_short) {
 
 TEST_F(MappingSessionTest, a_stop_after_the_end_does_not_mark_the_result) {
   for (const Phase phase : {Phase::kMapping, Phase::kFinalSearch}) {
-    settings_.mapper.final_search.passes = phase == Phase::kMapping ? 0 : 2;
+    settings_.mapper.back_end.final_search.passes = phase == Phase::kMapping ? 0 : 2;
     std::atomic<bool> stop{false};
     MappingSession session(log(room_log_lines(60)), settings_);
     session.set_observer([&](const SessionProgress& progress) {
@@ -232,7 +232,7 @@ TEST_F(MappingSessionTest, accepts_single_scans_without_return) {
 TEST_F(MappingSessionTest, checks_settings_and_log_before_mapping) {
   EXPECT_THAT(sentence_of([&] { MappingSession("/missing/room.log", settings_); }),
               HasSubstr("/missing/room.log does not exist"));
-  settings_.mapper.loop_closure.candidates.min_window_m = 50;
+  settings_.mapper.back_end.loop_closure.candidates.min_window_m = 50;
   EXPECT_THAT(sentence_of([&] { MappingSession("/missing/room.log", settings_); }),
               HasSubstr("loop_closure.min_window_m = 50 must not be more than"));
 }

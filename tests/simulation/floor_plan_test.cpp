@@ -31,7 +31,7 @@ std::size_t count(const FloorPlan& plan, Material material) {
                     [&](const PlanSegment& segment) { return segment.material == material; }));
 }
 
-/// Places that can be walked to from the first one.
+/// Places that are reachable from the first one.
 std::size_t reachable(const FloorPlan& plan) {
   std::vector<bool> reached(plan.places.size(), false);
   reached[0] = true;
@@ -46,12 +46,12 @@ std::size_t reachable(const FloorPlan& plan) {
   return static_cast<std::size_t>(std::count(reached.begin(), reached.end(), true));
 }
 
-TEST(FloorPlan, is_the_same_for_the_same_seed_alone) {
+TEST(FloorPlan, depends_on_the_seed_alone) {
   EXPECT_TRUE(same(plan_of(3), plan_of(3)));
   EXPECT_FALSE(same(plan_of(3), plan_of(4)));
 }
 
-TEST(FloorPlan, is_as_large_as_wanted) {
+TEST(FloorPlan, has_the_requested_size) {
   for (const double wanted_m : {10.0, 300.0, 3000.0}) {
     const FloorPlan plan = plan_of(1, wanted_m);
     EXPECT_GE(plan.corridors_m(), wanted_m);
@@ -67,20 +67,20 @@ TEST(FloorPlan, has_rooms_rings_and_all_materials) {
     EXPECT_GT(count(plan, material), 0U);
 }
 
-TEST(FloorPlan, glass_is_as_much_as_wanted) {
+TEST(FloorPlan, has_the_requested_share_of_glass) {
   FloorPlanOptions options;
   options.glass_share = 0;
   EXPECT_EQ(count(draw_floor_plan(options), Material::kGlass), 0U);
 }
 
-TEST(FloorPlan, every_place_can_be_walked_to) {
+TEST(FloorPlan, every_place_is_reachable) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const FloorPlan plan = plan_of(seed);
     EXPECT_EQ(reachable(plan), plan.places.size()) << "seed " << seed;
   }
 }
 
-TEST(FloorPlan, passages_keep_clear_of_everything) {
+TEST(FloorPlan, passages_keep_their_distance_from_all_segments) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const FloorPlan plan = plan_of(seed);
     for (const Passage& passage : plan.passages) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slow and plain geometry of floor plans, to compare the simulation with.
+// Simple, slow geometry of floor plans as a reference for the simulation.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -33,14 +33,14 @@ inline double distance_m(const mrpt::math::TPoint2D& point, const PlanSegment& w
   return std::hypot(off.x - share * way.x, off.y - share * way.y);
 }
 
-/// To the nearest of all segments.
+/// Distance to the nearest segment.
 inline double clearance_m(const FloorPlan& plan, const mrpt::math::TPoint2D& point) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const PlanSegment& wall : plan.segments) nearest = std::min(nearest, distance_m(point, wall));
   return nearest;
 }
 
-/// Along a ray to the first segment, glass passed or not; infinite where there is none.
+/// Distance along a ray to the first segment, with or without glass; infinite if the ray hits nothing.
 inline double ray_m(const FloorPlan& plan, const mrpt::math::TPose2D& ray, bool pass_glass) {
   const mrpt::math::TPoint2D direction(std::cos(ray.phi), std::sin(ray.phi));
   double nearest = std::numeric_limits<double>::infinity();

@@ -23,14 +23,14 @@ ScanSimulatorOptions exact() {
   return options;
 }
 
-/// A wall of glass 3 m before the origin, a wall 5 m before it.
+/// A wall of glass 3 m ahead of the origin, and a solid wall 5 m ahead.
 FloorPlan glass_before_wall() {
   FloorPlan plan;
   plan.segments = {{{3, -20}, {3, 20}, Material::kGlass}, {{5, -20}, {5, 20}, Material::kWall}};
   return plan;
 }
 
-/// A beam is as exact as the grid: a surface a cell to either side of it gives a range between these.
+/// Bounds for an exact range: those to surfaces one cell nearer and one cell farther.
 bool within_a_cell(const FloorPlan& plan, const TPose2D& ray, double range_m, double cell_m) {
   if (std::abs(range_m - ray_m(plan, ray, true)) <= 2 * cell_m) return true;
   const mrpt::math::TPoint2D end(ray.x + range_m * std::cos(ray.phi), ray.y + range_m * std::sin(ray.phi));
@@ -114,7 +114,7 @@ TEST(ScanSimulator, glass_returns_some_beams_loses_some_and_lets_the_others_pass
   EXPECT_NEAR(lost / all, options.glass_loss_share, bound);
 }
 
-TEST(ScanSimulator, people_stand_in_the_way) {
+TEST(ScanSimulator, people_block_beams) {
   FloorPlan plan;
   plan.segments = {{{5, -20}, {5, 20}, Material::kWall}};
   ScanSimulatorOptions options = exact();
@@ -126,7 +126,7 @@ TEST(ScanSimulator, people_stand_in_the_way) {
   EXPECT_NEAR(static_cast<double>(simulator.scan({0, 0, 0}, {{-2, 0}}, 0).ranges_m[ahead]), 5, 0.03);
 }
 
-TEST(ScanSimulator, noise_and_dropouts_are_as_stated) {
+TEST(ScanSimulator, has_the_requested_noise_and_dropouts) {
   FloorPlan plan;
   plan.segments = {{{5, -20}, {5, 20}, Material::kWall}};
   ScanSimulatorOptions options;
@@ -154,7 +154,7 @@ TEST(ScanSimulator, noise_and_dropouts_are_as_stated) {
   EXPECT_NEAR(std::sqrt(sum2 / (all - lost)), options.noise_m, 0.05 * options.noise_m);
 }
 
-TEST(ScanSimulator, refuses_what_is_no_laser) {
+TEST(ScanSimulator, refuses_impossible_lasers) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const FloorPlan plan;
@@ -172,10 +172,10 @@ TEST(ScanSimulator, refuses_what_is_no_laser) {
   refuses(&Options::robot_T_laser, TPose2D(0, nan, 0));
   for (const auto share : {&Options::dropout_share, &Options::glass_return_share, &Options::glass_loss_share})
     for (const double value : {-0.1, 1.1, nan}) refuses(share, value);
-  refuses(&Options::glass_return_share, 0.9);  // with 0.2 lost
+  refuses(&Options::glass_return_share, 0.9);  // and 0.2 are lost
 }
 
-TEST(ScanSimulator, takes_options_at_their_bounds) {
+TEST(ScanSimulator, accepts_options_at_their_bounds) {
   const FloorPlan plan;
   ScanSimulatorOptions options;
   options.beams = 2;

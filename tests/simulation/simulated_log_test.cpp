@@ -9,7 +9,7 @@
 namespace psi_slam {
 namespace {
 
-TEST(SimulatedLog, is_the_same_twice) {
+TEST(SimulatedLog, is_reproducible) {
   SimulatedLogOptions options = simulated_log_options(60, 5);
   options.people = 4;
   SimulatedLog first(options);
@@ -48,7 +48,7 @@ TEST(SimulatedLog, odometry_starts_at_the_origin_and_follows_the_truth) {
   EXPECT_NEAR(odometry.y, truth.y, 0.3);
 }
 
-TEST(SimulatedLog, further_lasers_scan_a_little_later_and_change_nothing_else) {
+TEST(SimulatedLog, further_lasers_scan_with_their_delay_and_change_nothing_else) {
   SimulatedLogOptions options = simulated_log_options(30, 5);
   SimulatedLog alone(options);
   FurtherLaser rear;
@@ -83,7 +83,7 @@ TEST(SimulatedLog, further_lasers_scan_a_little_later_and_change_nothing_else) {
   EXPECT_GT(turning, 10U);
 }
 
-TEST(SimulatedLog, a_laser_scans_before_the_first_one_scans_again) {
+TEST(SimulatedLog, refuses_a_delay_beyond_the_next_scan) {
   SimulatedLogOptions options = simulated_log_options(30, 5);
   options.further_lasers.resize(1);
   options.further_lasers[0].delay_s = 0.125;

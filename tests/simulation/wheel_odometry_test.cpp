@@ -16,7 +16,7 @@ struct Moments {
   double variance = 0;
 };
 
-constexpr int kDrives = 4000;
+constexpr int kRuns = 4000;
 constexpr double kMeanBound = 5;         // standard deviations of a mean
 constexpr double kVarianceShare = 0.12;  // more than five standard deviations of a variance over 4000
 
@@ -28,11 +28,11 @@ Moments moments(const std::vector<double>& values) {
   return result;
 }
 
-/// What odometry says after `steps` equal steps, over many drives.
+/// Odometry after `steps` equal steps, over many runs.
 std::vector<TPose2D> ends(WheelOdometryOptions options, const TPose2D& step, int steps) {
   std::vector<TPose2D> poses;
-  for (int drive = 0; drive < kDrives; ++drive) {
-    options.seed = static_cast<std::uint64_t>(drive);
+  for (int run = 0; run < kRuns; ++run) {
+    options.seed = static_cast<std::uint64_t>(run);
     WheelOdometry odometry(options);
     TPose2D pose;
     for (int i = 0; i < steps; ++i) pose = odometry.move(step);
@@ -43,12 +43,12 @@ std::vector<TPose2D> ends(WheelOdometryOptions options, const TPose2D& step, int
 
 void expect_moments(const std::vector<double>& values, double mean, double sigma) {
   const Moments found = moments(values);
-  EXPECT_NEAR(found.mean, mean, kMeanBound * sigma / std::sqrt(kDrives));
+  EXPECT_NEAR(found.mean, mean, kMeanBound * sigma / std::sqrt(kRuns));
   EXPECT_NEAR(found.variance, sigma * sigma, kVarianceShare * sigma * sigma);
 }
 
-// The same way in coarse and in fine steps.
-TEST(WheelOdometry, lengths_are_off_by_scale_and_by_a_walk) {
+// The same distance in coarse and in fine steps.
+TEST(WheelOdometry, distances_have_a_scale_error_and_a_random_walk) {
   for (const int steps : {4, 80}) {
     WheelOdometryOptions options;
     options.sigma_rad_per_root_m = 0;
@@ -58,7 +58,7 @@ TEST(WheelOdometry, lengths_are_off_by_scale_and_by_a_walk) {
   }
 }
 
-TEST(WheelOdometry, headings_drift_with_the_way) {
+TEST(WheelOdometry, headings_drift_with_distance) {
   for (const int steps : {4, 80}) {
     const WheelOdometryOptions options;
     std::vector<double> headings;
@@ -67,7 +67,7 @@ TEST(WheelOdometry, headings_drift_with_the_way) {
   }
 }
 
-TEST(WheelOdometry, turns_are_off_by_scale_and_by_a_walk) {
+TEST(WheelOdometry, rotations_have_a_scale_error_and_a_random_walk) {
   for (const int steps : {2, 40}) {
     const WheelOdometryOptions options;
     std::vector<double> headings;
@@ -79,7 +79,7 @@ TEST(WheelOdometry, turns_are_off_by_scale_and_by_a_walk) {
   }
 }
 
-TEST(WheelOdometry, is_the_same_for_the_same_seed_alone) {
+TEST(WheelOdometry, depends_on_the_seed_alone) {
   WheelOdometryOptions options;
   const TPose2D first = WheelOdometry(options).move({1, 0, 0.1});
   EXPECT_EQ(first, WheelOdometry(options).move({1, 0, 0.1}));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of ROS bags share: the recording of a robot, and writing it as a ROS 2 bag in SQLite or MCAP
-// by the specifications, and as a CARMEN log. (ROS 1 bags: see ros1_files.h.)
+// Test helpers that write the recording of a robot as a ROS 2 bag in SQLite or MCAP, by the specifications,
+// or as a CARMEN log. For ROS 1 bags see ros1_files.h.
 #pragma once
 
 #include <lz4frame.h>
@@ -38,7 +38,7 @@ struct RecordedScan {
   float scan_time_s = 0.1F;
 };
 
-/// An odometry message; on a topic of transforms, a transform.
+/// An odometry message, or a transform on a topic of transforms.
 struct RecordedPose {
   std::string topic = "/odom";
   TimeUs time_us = 0;
@@ -66,14 +66,14 @@ inline std::string ros2_type_of(const Recorded& message) {
   return pose->is_transform() ? "tf2_msgs/msg/TFMessage" : "nav_msgs/msg/Odometry";
 }
 
-/// The laser 0.2 m ahead of the robot's centre and turned left by 0.3.
+/// Transform of a laser 0.2 m ahead of the robot's centre, turned left by 0.3 rad.
 inline RecordedPose static_mount(const std::string& frame = "laser",
                                  const mrpt::math::TPose3D& pose = {0.2, 0, 0.4, 0.3, 0, 0}) {
   return {"/tf_static", 1'000'000'000'000'000, "base_link", frame, pose};
 }
 
-/// A drive along a curve: odometry every 20 ms, a scan every 50 ms.
-inline Recording drive_recorded(int scans = 20) {
+/// Recording of a run along a curve: odometry every 20 ms, a scan every 50 ms.
+inline Recording recorded_run(int scans = 20) {
   Recording recording{static_mount()};
   constexpr TimeUs kStart = 1'600'000'000'000'000;
   for (TimeUs t = 0; t < scans * TimeUs{50'000} + 20'000; t += 10'000) {
@@ -93,7 +93,7 @@ inline Recording drive_recorded(int scans = 20) {
   return recording;
 }
 
-/// x, y, z, and the quaternion's x, y, z, w.
+/// Returns x, y, z and the quaternion's x, y, z, w.
 inline std::array<double, 7> place_and_quaternion(const mrpt::math::TPose3D& pose) {
   const double cy = std::cos(pose.yaw / 2), sy = std::sin(pose.yaw / 2);
   const double cp = std::cos(pose.pitch / 2), sp = std::sin(pose.pitch / 2);
@@ -115,7 +115,7 @@ inline std::string lz4_frame(const std::string& bytes) {
 
 // ---- CDR ----
 
-/// Numbers aligned to their size behind a head of four bytes, of either byte order.
+/// Writes numbers aligned to their size after a header of four bytes, in either byte order.
 class CdrWriter {
  public:
   explicit CdrWriter(bool little_endian = true) : little_endian_(little_endian) {}
@@ -222,8 +222,8 @@ inline void write_db3(const std::filesystem::path& path, const Recording& record
 // ---- MCAP ----
 
 struct McapLayout {
-  std::string compression;           ///< "", "lz4" or "zstd"
-  std::size_t messages_a_chunk = 7;  ///< 0: no chunks
+  std::string compression;             ///< "", "lz4" or "zstd"
+  std::size_t messages_per_chunk = 7;  ///< 0: no chunks
   bool with_summary = true;
   bool little_endian = true;
 };
@@ -252,7 +252,7 @@ class McapWriter {
     record(chunk_, 0x05,
            packed(id) + packed(std::uint32_t{0}) + packed(time_ns) + packed(time_ns) +
                cdr(message, layout_.little_endian));
-    if (++in_chunk_ >= layout_.messages_a_chunk) end_chunk();
+    if (++in_chunk_ >= layout_.messages_per_chunk) end_chunk();
   }
 
   std::string finish() {
@@ -291,7 +291,7 @@ class McapWriter {
   }
 
   void end_chunk() {
-    if (layout_.messages_a_chunk == 0) {
+    if (layout_.messages_per_chunk == 0) {
       file_ += chunk_;
     } else if (!chunk_.empty()) {
       const std::string bytes = compressed();
@@ -321,7 +321,7 @@ inline void write_mcap(const std::filesystem::path& path, const Recording& recor
 
 // ---- CARMEN ----
 
-/// Scans and odometry as RAWLASER1 and ODOM lines; the mount must be stated when the log is read.
+/// Writes scans and odometry as RAWLASER1 and ODOM lines. The reader of the log must state the mount.
 inline void write_carmen(const std::filesystem::path& path, const Recording& recording) {
   std::string log = "# the same recording\n";
   const auto add = [&log](double value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a program that is not ours, for tests of what it makes of our files.
+// Runs an external program, to test that it reads our files.
 #pragma once
 
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ struct ForeignRun {
   }
 };
 
-/// `command` is for the shell.
+/// Runs a shell command.
 inline ForeignRun run_foreign(const std::string& command) {
   FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of logs share: writing small logs, and reading them back.
+// Test helpers that write small logs and read them back.
 #pragma once
 
 #include <filesystem>

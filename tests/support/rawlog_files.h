@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of rawlogs share: the objects of a rawlog, and writing them with MRPT.
+// Test helpers that create the objects of a rawlog and write them with MRPT.
 #pragma once
 
 #include <mrpt/io/CFileGZOutputStream.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes recordings as ROS 1 bags by the specification. (Bags of ROS's own library: write_ros1_bag.py.)
+// Test helpers that write recordings as ROS 1 bags, by the specification. write_ros1_bag.py uses ROS's
+// library.
 #pragma once
 
 #include <bzlib.h>
@@ -59,8 +60,8 @@ inline std::string ros1_message(const Recorded& message) {
 
 struct Ros1Layout {
   std::string compression = "none";  ///< "none", "bz2" or "lz4"
-  std::size_t messages_a_chunk = 7;
-  bool is_closed = true;  ///< false: as a recorder that was killed leaves it
+  std::size_t messages_per_chunk = 7;
+  bool is_closed = true;  ///< false: the recorder was killed
 };
 
 class Ros1Writer {
@@ -79,7 +80,7 @@ class Ros1Writer {
     }
     chunk_ += record({{"op", "\x02"}, {"conn", number}, {"time", ros1_time(time_of(message))}},
                      ros1_message(message));
-    if (++in_chunk_ >= layout_.messages_a_chunk) end_chunk();
+    if (++in_chunk_ >= layout_.messages_per_chunk) end_chunk();
   }
 
   std::string finish() {

@@ -14,7 +14,7 @@
 
 namespace psi_slam {
 
-/// Rows without their last columns, which tell times.
+/// Rows without their last columns, which contain times.
 inline std::string without_last_columns(const std::string& csv, int columns) {
   std::istringstream rows(csv);
   std::string text;
@@ -23,8 +23,7 @@ inline std::string without_last_columns(const std::string& csv, int columns) {
   return text;
 }
 
-/// A summary without what two runs to the same results may differ in: times, memory, threads, and the names
-/// of the logs.
+/// A summary without the entries in which equal runs can differ: times, memory, threads, and names of logs.
 inline std::string summary_without_times(const std::string& text) {
   nlohmann::json summary = nlohmann::json::parse(text);
   for (const char* key : {"wall_s", "real_time_factor", "peak_memory_mib", "stages"}) summary.erase(key);
@@ -37,7 +36,7 @@ inline std::string summary_without_times(const std::string& text) {
   return summary.dump(1);
 }
 
-/// The cards of a report that tell neither times nor settings; of the log all but its name.
+/// The cards of a report without times, settings and the name of the log.
 inline std::string report_without_times(const std::string& html) {
   const std::string begin = "<section class=\"card\"><h2>";
   std::string text;
@@ -52,7 +51,7 @@ inline std::string report_without_times(const std::string& html) {
   return text;
 }
 
-/// What must be the same of a file of a run's results: all of it, but for what tells times.
+/// The contents of a result file that must be equal in equal runs: everything except times.
 inline std::string comparable(const std::filesystem::path& file) {
   constexpr int kTimesOfFrames = 4;
   constexpr int kTimesOfLoops = 1;
@@ -71,7 +70,7 @@ inline std::set<std::string> names_of_files(const std::filesystem::path& folder)
   return names;
 }
 
-/// The names of those that only one of two result folders has, or that differ in more than times.
+/// Names of the files that only one of two result folders has, or that differ in more than times.
 inline std::set<std::string> differing_files(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::set<std::string> names = names_of_files(a);
   names.merge(names_of_files(b));
@@ -83,7 +82,7 @@ inline std::set<std::string> differing_files(const std::filesystem::path& a, con
   return differing;
 }
 
-/// The result folders of two runs hold the same files, and these the same bytes; but for times.
+/// Expects that the result folders of two runs hold the same files with the same bytes, except times.
 inline void expect_same_results(const std::filesystem::path& a, const std::filesystem::path& b) {
   EXPECT_EQ(differing_files(a, b), std::set<std::string>()) << a << " and " << b;
   for (const char* name : {"trajectory.tum", "graph.g2o", "frames.csv", "summary.json", "report.html"})

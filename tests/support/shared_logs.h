@@ -8,11 +8,12 @@
 
 namespace psi_slam {
 
-/// A file of the benchmark's data folder, which the environment variable PSI_SLAM_DATA names; none when it is not set
-/// or the file is not there. Tests that need one skip: `GTEST_SKIP() << kNeedsData`.
+/// Path of a file in the folder of benchmark logs, which the environment variable PSI_SLAM_DATA names. Empty
+/// if the variable is not set or the file does not exist. Tests then call `GTEST_SKIP() << kNeedsData`.
 inline std::optional<std::filesystem::path> shared_file(const std::string& name) {
   const char* folder = std::getenv("PSI_SLAM_DATA");
-  if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / name)) return std::nullopt;
+  if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / name))
+    return std::nullopt;
   return std::filesystem::path(folder) / name;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A rectangular room without doors, and what a laser sees in it: what the tests of maps and exports draw.
+// A rectangular room without doors, and laser scans of it, for the tests of maps and exports.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -16,7 +16,7 @@
 
 namespace psi_slam {
 
-/// The room [x_min, x_max] x [y_min, y_max], in metres in the map.
+/// The room [x_min, x_max] x [y_min, y_max], in metres in the map frame.
 struct SimulatedRoom {
   double x_min = -2;
   double x_max = 4;
@@ -45,7 +45,7 @@ struct SimulatedRoom {
   }
 };
 
-/// `count` beams from first to last, evenly.
+/// `count` evenly spaced bearings from first to last.
 inline BeamBearings even_bearings(double first_rad, double last_rad, int count) {
   std::vector<float> bearings;
   for (int i = 0; i < count; ++i)
@@ -53,8 +53,8 @@ inline BeamBearings even_bearings(double first_rad, double last_rad, int count) 
   return std::make_shared<const std::vector<float>>(std::move(bearings));
 }
 
-/// A run of the mapper as it could have been: a walk around the room, every fifth scan a node, and two loops
-/// of which one was refused. All times measured are made up.
+/// A made-up result of the mapper: a walk around the room, every fifth scan a node, one accepted and one
+/// rejected loop, and invented times.
 inline MappingResult walk_around_the_room(int scans = 50) {
   const SimulatedRoom room;
   const BeamBearings bearings = even_bearings(-M_PI / 2, M_PI / 2, 181);
@@ -82,7 +82,9 @@ inline MappingResult walk_around_the_room(int scans = 50) {
     if (i % 5 == 0) {
       record.node = result.node_frames.size();
       record.loops_tried = 1;
-      record.matcher = record.psi < 2 ? "csm" : record.psi < 6 ? "csm_ga" : "ga";
+      record.matcher = record.psi < 2   ? MatcherKind::kCsm
+                       : record.psi < 6 ? MatcherKind::kCsmGa
+                                        : MatcherKind::kGa;
       record.loop_evaluations = 40;
       record.loop_matching_ms = 3.5;
       record.loop_closing_ms = 4;
@@ -96,7 +98,6 @@ inline MappingResult walk_around_the_room(int scans = 50) {
   LoopRecord accepted;
   accepted.node = result.node_frames.size() - 1;
   accepted.frame = result.node_frames.back();
-  accepted.matcher = "csm";
   accepted.anchor_T_node = result.frames[accepted.frame].map_T_robot - result.frames[0].map_T_robot;
   accepted.covariance = Eigen::Matrix3d::Identity() * 1e-4;
   accepted.response = 0.83;
@@ -107,11 +108,11 @@ inline MappingResult walk_around_the_room(int scans = 50) {
   refused.frame = result.node_frames[5];
   refused.response = 0.41;
   refused.verdict = LoopVerdict::kRefused;
-  refused.reason = "response 0.41 is below 0.55";
+  refused.refusal = LoopRefusal{LoopRefusal::Reason::kLowResponse, 0.41, 0.55};
   result.loops = {refused, accepted};
   result.frames[accepted.frame].loops_accepted = 1;
-  result.loop_matchers["csm"] = {{12, 2, 600, 45.25}, {2, 0, 200, 10.25}, 1, 0};
-  result.psi = {2, 6, 20, 20};
+  result.loop_matchers[MatcherKind::kCsm] = {{12, 2, 600, 45.25}, {2, 0, 200, 10.25}, 1, 0};
+  result.psi = {2, 6};
   result.stages = {{"match scan to local map", 50, 1.5, 0.2, 1.1, 2.4, 0.075},
                    {"close loops", 10, 4, 1, 2, 9, 0.04}};
   result.wall_s = 0.5;

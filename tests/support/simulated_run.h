@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot that drives through a furnished room with a laser on it: for tests that must know the truth.
+// Simulates a robot with a laser in a furnished room, for tests that need the true poses.
 #pragma once
 
 #include <mrpt/core/bits_math.h>
@@ -31,7 +31,7 @@ inline void add_box(std::vector<Wall>& walls, double x1, double y1, double x2, d
   walls.push_back({x1, y2, x1, y1});
 }
 
-/// A room of 12 m by 9 m with a block in its middle to drive around, and furniture along its walls.
+/// Walls of a room of 12 m by 9 m, with a block in its middle and furniture along its walls.
 inline std::vector<Wall> furnished_room() {
   std::vector<Wall> walls;
   add_box(walls, 0, 0, 12, 9);
@@ -46,7 +46,7 @@ inline std::vector<Wall> furnished_room() {
   return walls;
 }
 
-/// Distance along the ray to the nearest wall, metres; the room is closed.
+/// Distance along the ray to the nearest wall, metres. The room must be closed.
 inline double range_m(const std::vector<Wall>& walls, const mrpt::math::TPose2D& ray) {
   const double dx = std::cos(ray.phi);
   const double dy = std::sin(ray.phi);
@@ -65,11 +65,11 @@ inline double range_m(const std::vector<Wall>& walls, const mrpt::math::TPose2D&
   return nearest;
 }
 
-/// Where the robot was, what odometry said, and what the laser saw.
+/// True poses of a robot, its odometry and its scans.
 struct SimulatedRun {
   std::vector<mrpt::math::TPose2D> truth;
   std::vector<mrpt::math::TPose2D> odometry;
-  std::vector<float> bearings_rad = make_bearings_rad(BeamAngles::kLeftOpen, 180, M_PI);  ///< the true ones
+  std::vector<float> bearings_rad = make_bearings_rad(BeamAngles::kLeftOpen, 180, M_PI);  ///< true bearings
   mrpt::math::TPose2D robot_T_laser{0, 0, 0};
   double noise_m = 0.005;
   unsigned seed = 1;
@@ -96,20 +96,22 @@ struct SimulatedRun {
   }
 };
 
-struct Drive {
-  double ahead_m;   // a step; negative: reversing
-  double turn_deg;  // a step
+/// Consecutive equal steps of a run.
+struct RunPart {
+  double ahead_m;   // of each step; negative: reversing
+  double turn_deg;  // of each step
   std::size_t steps;
 };
 
-/// Odometry with errors of two per cent, and a drift of its heading.
-inline SimulatedRun drive(const std::vector<Drive>& drives, const mrpt::math::TPose2D& start = {2, 1.8, 0}) {
+/// Simulates odometry with errors of two percent and a drift of its heading.
+inline SimulatedRun simulated_run(const std::vector<RunPart>& parts,
+                                  const mrpt::math::TPose2D& start = {2, 1.8, 0}) {
   SimulatedRun run;
   std::mt19937 random(7);
   std::normal_distribution<double> error(0, 0.02);
   run.truth.push_back(start);
   run.odometry.push_back({0, 0, 0});
-  for (const Drive& part : drives) {
+  for (const RunPart& part : parts) {
     for (std::size_t i = 0; i < part.steps; ++i) {
       const double turn_rad = mrpt::DEG2RAD(part.turn_deg);
       run.truth.push_back(run.truth.back() + mrpt::math::TPose2D{part.ahead_m, 0, turn_rad});
@@ -121,22 +123,22 @@ inline SimulatedRun drive(const std::vector<Drive>& drives, const mrpt::math::TP
   return run;
 }
 
-/// Once around the block with a turn on the spot at each corner, one full turn, and some reversing.
-inline std::vector<Drive> round_trip() {
-  const Drive corner{0.0, 3.0, 30};
+/// Drives around the block with a turn on the spot at each corner, one full turn and some reversing.
+inline std::vector<RunPart> round_trip() {
+  const RunPart corner{0.0, 3.0, 30};
   return {{0.0, -4.0, 90},  {0.08, 0.0, 95}, corner,          {0.08, 0.2, 10},
           {0.08, -0.1, 20}, {0.08, 0.0, 30}, corner,          {-0.05, 0.0, 10},
           {0.08, 0.0, 101}, corner,          {0.08, 0.0, 60}, corner};
 }
 
 inline SimulatedRun round_trips(std::size_t count) {
-  std::vector<Drive> drives;
+  std::vector<RunPart> parts;
   for (std::size_t i = 0; i < count; ++i)
-    for (const Drive& part : round_trip()) drives.push_back(part);
-  return drive(drives);
+    for (const RunPart& part : round_trip()) parts.push_back(part);
+  return simulated_run(parts);
 }
 
-/// A FLASER log of the run, a scan every 0.2 s.
+/// FLASER log of the run with a scan every 0.2 s.
 inline std::string carmen_log(const SimulatedRun& run) {
   std::string log = "# simulated\n";
   char text[200];

@@ -9,7 +9,7 @@
 
 namespace psi_slam {
 
-/// A new empty folder that goes, with all in it, at the end of its scope.
+/// Creates an empty folder and deletes it with its contents at the end of the scope.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

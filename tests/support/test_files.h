@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writing and reading small files, and the sentences of refused ones.
+// Test helpers that write and read small files and return error messages.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ inline void write_gzipped(const std::filesystem::path& path, const std::string& 
   if (!done || gzclose(file) != Z_OK) throw std::runtime_error("cannot write " + path.string());
 }
 
-/// The sentence of the UserError that `action` throws; a failed expectation and "" when it throws none.
+/// Returns the message of the UserError that `action` throws. Without one, the test fails and "" is returned.
 inline std::string sentence_of(const std::function<void()>& action) {
   try {
     action();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot with a laser in front and one behind that hangs upside down, which turns while it drives through
-// the furnished room; and its recordings in every format.
+// Simulates a robot that drives along a curve through the furnished room. It has a front laser and a rear
+// laser that is mounted upside down. Writes its recordings in every format.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct TwoLasers {
   TimeUs period_us = 100'000;
   TimeUs rear_later_us = 40'000;
   int scans = 20;
-  TimeUs sweep_us = 0;                                      ///< from a scan's first beam to its last
+  TimeUs sweep_us = 0;                                      ///< time from a scan's first beam to its last
   TimeUs front_silent_from_us = 0, front_silent_to_us = 0;  ///< since the start
   TimeUs rear_silent_from_us = 0, rear_silent_to_us = 0;
 
@@ -30,7 +30,7 @@ struct TwoLasers {
   static constexpr double kHalfView_rad = M_PI / 2;
   static constexpr std::size_t kBeams = 181;
 
-  /// Half a metre and one radian in a second.
+  /// Moves 0.5 m and turns 1 rad per second.
   static mrpt::math::TPose2D world_T_robot(TimeUs time_us) {
     const double t = seconds(time_us - kStart_us);
     return {2 + 0.5 * std::sin(t), 6 + 0.5 * (1 - std::cos(t)), mrpt::math::wrapToPi(t)};
@@ -46,7 +46,8 @@ struct TwoLasers {
   struct Scan {
     bool rear = false;
     TimeUs time_us = 0;
-    std::vector<float> ranges_m;  ///< as the laser counts: the rear one, upside down, clockwise
+    std::vector<float>
+        ranges_m;  ///< in the order of the laser's beams; seen from above, the rear laser counts clockwise
   };
 
   Scan scan_at(TimeUs time_us, bool rear) const {
@@ -63,7 +64,7 @@ struct TwoLasers {
     return scan;
   }
 
-  /// Those of both, by their stamps.
+  /// Scans of both lasers, ordered by time.
   std::vector<Scan> all_scans() const {
     std::vector<Scan> all;
     for (int i = 0; i < scans; ++i) {
@@ -76,7 +77,7 @@ struct TwoLasers {
     return all;
   }
 
-  /// A message every 5 ms, from before the first scan to behind the last; `take(time, pose)`.
+  /// Calls `take(time, pose)` every 5 ms, from before the first scan to after the last.
   template <class Take>
   void for_each_odometry(Take take) const {
     for (TimeUs t = -5'000; t <= scans * period_us + 200'000; t += 5'000)
@@ -101,8 +102,8 @@ inline void write_rawlog_of(const std::filesystem::path& path, const TwoLasers& 
   write_rawlog(path, in_order);
 }
 
-/// FLASER and RLASER; the mounts are in it as PARAM lines if asked for, but never that the rear one is upside
-/// down, which CARMEN has no name for.
+/// Writes FLASER and RLASER lines and optionally the mounts as PARAM lines. CARMEN cannot state that the rear
+/// laser is upside down.
 inline void write_carmen_of(const std::filesystem::path& path, const TwoLasers& robot, bool with_mounts) {
   std::string log;
   const auto number = [](double value) { return ' ' + std::to_string(value); };

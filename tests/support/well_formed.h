@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the tags of a page or drawing fit together.
+// Checks that the tags of an HTML page or SVG drawing are well formed.
 #pragma once
 
 #include <cctype>
@@ -10,14 +10,14 @@
 
 namespace psi_slam {
 
-/// The text with all that stands from each `begin` to the next `end` cut out, both included.
+/// The text without all parts from `begin` to the next `end`, inclusive.
 inline std::string without(std::string text, const std::string& begin, const std::string& end) {
   for (std::size_t at = 0; (at = text.find(begin, at)) != std::string::npos;)
     text.erase(at, text.find(end, at + begin.size()) + end.size() - at);
   return text;
 }
 
-/// One tag from its '<' on.
+/// Parses one tag from its '<' on.
 class Tag {
  public:
   Tag(const std::string& html, std::size_t at) : html_(html), at_(at + 1) {
@@ -66,7 +66,7 @@ class Tag {
   bool well_formed_ = false;
 };
 
-/// True when `text`, which stands between two tags, has no bare sign of HTML in it.
+/// Whether `text`, found between two tags, contains no unescaped HTML character.
 inline bool is_escaped(const std::string& text) {
   if (text.find_first_of("<>") != std::string::npos) return false;
   for (std::size_t at = 0; (at = text.find('&', at)) != std::string::npos; ++at) {
@@ -78,8 +78,8 @@ inline bool is_escaped(const std::string& text) {
   return true;
 }
 
-/// What is wrong; empty when each tag is closed in its turn, attributes are quoted, and no bare '&', '<' or
-/// '>' is left.
+/// Description of the first error. Empty if all tags are closed in order, attributes are quoted, and no '&',
+/// '<' or '>' is unescaped.
 inline std::string complaint_about(const std::string& html) {
   const std::set<std::string> unpaired = {"meta", "input", "!DOCTYPE"};
   std::vector<std::string> open;

@@ -36,7 +36,7 @@ class TrajectoryFile : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(TrajectoryFile, tum_has_six_decimals_of_the_stamp_and_a_turn_about_z) {
+TEST_F(TrajectoryFile, tum_has_stamps_of_six_decimals_and_rotations_about_z) {
   EXPECT_EQ(tum_text({{976052905167303, {1.5, -2.25, M_PI}}, {-250000, {0, 0, 0}}}),
             "976052905.167303 1.500000000 -2.250000000 0 0 0 1.000000000000 0.000000000000\n"
             "-0.250000 0.000000000 0.000000000 0 0 0 0.000000000000 1.000000000000\n");
@@ -61,17 +61,17 @@ TEST_F(TrajectoryFile, tum_reads_back_what_was_written_in_the_same_order) {
   }
 }
 
-TEST_F(TrajectoryFile, reads_poses_of_the_plane_comments_and_foreign_line_ends) {
+TEST_F(TrajectoryFile, reads_plane_poses_comments_and_foreign_line_ends) {
   const Trajectory read =
       read_trajectory(file("# stamp x y theta\r\n\n 1.5 1 2 0.25 # here\r\n2 -1e0\t+2.5 7\r\n"));
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[0].time_us, 1'500'000);
   EXPECT_EQ(read[0].pose, mrpt::math::TPose2D(1, 2, 0.25));
   EXPECT_EQ(read[1].pose.y, 2.5);
-  EXPECT_NEAR(read[1].pose.phi, 7 - 2 * M_PI, 1e-12) << "angles are brought into (-pi, pi]";
+  EXPECT_NEAR(read[1].pose.phi, 7 - 2 * M_PI, 1e-12) << "angles are wrapped into (-pi, pi]";
 }
 
-TEST_F(TrajectoryFile, both_signs_of_a_quaternion_are_the_same_turn) {
+TEST_F(TrajectoryFile, both_signs_of_a_quaternion_are_the_same_rotation) {
   const Trajectory read = read_trajectory(file("1 0 0 0 0 0 0.6 0.8\n2 0 0 0 0 0 -0.6 -0.8\n"));
   EXPECT_NEAR(read[0].pose.phi, 2 * std::atan2(0.6, 0.8), 1e-12);
   EXPECT_NEAR(read[1].pose.phi, read[0].pose.phi, 1e-12);
@@ -88,7 +88,7 @@ TEST_F(TrajectoryFile, takes_the_first_pose_of_each_flaser_line_of_a_carmen_log)
   EXPECT_EQ(read[1].time_us, 976052904000000) << "the order is the log's";
 }
 
-TEST_F(TrajectoryFile, mistakes_are_told_with_file_line_and_what_was_expected) {
+TEST_F(TrajectoryFile, errors_name_file_line_and_what_was_expected) {
   EXPECT_THAT(complaint("1 2 3 4\n1 2 3\n"), HasSubstr("trajectory.txt:2: expected 'timestamp x y theta'"));
   EXPECT_THAT(complaint("1 2 3 4\n1 2 3\n"), HasSubstr("found 3 words"));
   EXPECT_THAT(complaint("1 2 abc 4\n"),
@@ -97,12 +97,12 @@ TEST_F(TrajectoryFile, mistakes_are_told_with_file_line_and_what_was_expected) {
   EXPECT_THAT(complaint("1 2 3,5 4\n"), HasSubstr("found '3,5'"));
   EXPECT_THAT(complaint("yesterday 2 3 4\n"), HasSubstr("expected a time stamp in seconds as word 1"));
   EXPECT_THAT(complaint("1 2 3 0 0 0 0 0\n"), HasSubstr("quaternion with qz = qw = 0"));
-  EXPECT_THAT(complaint("FLASER 3 1.0 2.0 1.5 -2.5 0.5 7 8 9 12.0 host 12.5\n"), HasSubstr("do not add up"));
-  EXPECT_THAT(complaint("FLASER\n"), HasSubstr("do not add up"));
-  EXPECT_THAT(complaint("# nothing\n"), HasSubstr("no pose in it"));
-  EXPECT_THAT(complaint("PARAM a b\n"), HasSubstr("no pose in it"));
-  EXPECT_THAT(complaint("\x1f\x8b\x08\x01\n"), HasSubstr("expected"))
-      << "binary files do not reach the terminal";
+  EXPECT_THAT(complaint("FLASER 3 1.0 2.0 1.5 -2.5 0.5 7 8 9 12.0 host 12.5\n"),
+              HasSubstr("does not match n"));
+  EXPECT_THAT(complaint("FLASER\n"), HasSubstr("does not match n"));
+  EXPECT_THAT(complaint("# nothing\n"), HasSubstr("no pose found"));
+  EXPECT_THAT(complaint("PARAM a b\n"), HasSubstr("no pose found"));
+  EXPECT_THAT(complaint("\x1f\x8b\x08\x01\n"), HasSubstr("expected")) << "binary words are not printed";
   EXPECT_THROW(read_trajectory(folder_.path() / "missing.tum"), UserError);
   EXPECT_THROW(read_trajectory(folder_.path()), UserError) << "a folder";
 }

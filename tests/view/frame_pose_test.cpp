@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view/frame_pose.h"
+#include "replay/replay_snapshot.h"
 
 #include <cmath>
 
@@ -10,10 +10,10 @@ namespace {
 
 class FramePoseTest : public ReplayedRoom {};
 
-TEST_F(FramePoseTest, nodes_are_where_the_graph_has_them_and_scans_between_near_where_the_map_has_them) {
+TEST_F(FramePoseTest, before_the_end_nodes_have_graph_poses_and_other_scans_are_within_5_cm_of_the_result) {
   ReplaySnapshot open = *finished_;
-  open.phase = ReplayPhase::kFinalSearch;  // its nodes alone are where they belong
-  SharedHistory<NodeScan> nodes;        // every scan of the room is one: some less
+  open.phase = ReplayPhase::kFinalSearch;
+  SharedHistory<NodeScan> nodes;  // every fourth node
   std::vector<mrpt::math::TPose2D> poses;
   for (std::size_t i = 0; i < finished_->nodes.size(); i += 4) {
     nodes.push_back(finished_->nodes[i]);
@@ -33,7 +33,7 @@ TEST_F(FramePoseTest, nodes_are_where_the_graph_has_them_and_scans_between_near_
   EXPECT_LT(open.nodes.size(), open.frames.size() / 3);
 }
 
-TEST_F(FramePoseTest, once_finished_every_scan_is_where_the_map_has_it) {
+TEST_F(FramePoseTest, after_the_end_all_scans_have_the_poses_of_the_result) {
   ReplaySnapshot moved = *finished_;
   auto nodes = *moved.map_T_node;
   for (mrpt::math::TPose2D& node : nodes) node.x += 5;

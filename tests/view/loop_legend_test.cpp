@@ -10,7 +10,7 @@ namespace {
 
 using testing::ElementsAre;
 
-LoopRecord loop(const char* matcher, LoopVerdict verdict, double residual_m = 0) {
+LoopRecord loop(MatcherKind matcher, LoopVerdict verdict, double residual_m = 0) {
   LoopRecord record;
   record.node = 1;
   record.matcher = matcher;
@@ -24,8 +24,9 @@ class LoopLegendTest : public testing::Test {
   LoopLegendTest() {
     snapshot_.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(2);
     snapshot_.loops = std::make_shared<std::vector<LoopRecord>>(std::vector<LoopRecord>{
-        loop("ga", LoopVerdict::kAccepted, 0.125), loop("csm", LoopVerdict::kAccepted, 9),
-        loop("csm_ga", LoopVerdict::kRefused), loop("ga", LoopVerdict::kSwitchedOff)});
+        loop(MatcherKind::kGa, LoopVerdict::kAccepted, 0.125),
+        loop(MatcherKind::kCsm, LoopVerdict::kAccepted, 9), loop(MatcherKind::kCsmGa, LoopVerdict::kRefused),
+        loop(MatcherKind::kGa, LoopVerdict::kSwitchedOff)});
   }
   std::vector<std::string> names(const LoopStyle& style) const {
     std::vector<std::string> result;
@@ -36,7 +37,7 @@ class LoopLegendTest : public testing::Test {
   ReplaySnapshot snapshot_;
 };
 
-TEST_F(LoopLegendTest, names_what_is_drawn_and_nothing_else) {
+TEST_F(LoopLegendTest, names_only_what_is_drawn) {
   EXPECT_THAT(names({LoopStyle::Colour::kMatcher, false}), ElementsAre("csm", "ga", "switched off"));
   EXPECT_THAT(names({LoopStyle::Colour::kMatcher, true}),
               ElementsAre("csm", "ga", "switched off", "refused"));
@@ -45,7 +46,7 @@ TEST_F(LoopLegendTest, names_what_is_drawn_and_nothing_else) {
   EXPECT_TRUE(loop_legend(ReplaySnapshot(), {}).entries.empty());
 }
 
-TEST_F(LoopLegendTest, every_loop_that_is_drawn_has_a_colour_of_the_legend) {
+TEST_F(LoopLegendTest, contains_the_colour_of_every_drawn_loop) {
   for (const auto colour : {LoopStyle::Colour::kMatcher, LoopStyle::Colour::kResidual}) {
     const LoopStyle style{colour, true};
     const LoopLegend legend = loop_legend(snapshot_, style);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "view/loop_residual.h"
 #include "replayed_room.h"
 
 namespace psi_slam {
@@ -11,7 +10,7 @@ namespace {
 
 class LoopPictureTest : public ReplayedRoom {
  protected:
-  /// The mean darkness of the local map, 0 white .. 1 black, where the points are.
+  /// Mean darkness of the local map at the points, from 0 (white) to 1 (black).
   static double mean_darkness(const MapRaster& map, const std::vector<mrpt::math::TPoint2D>& points) {
     double sum = 0;
     for (const mrpt::math::TPoint2D& point : points) {
@@ -24,7 +23,7 @@ class LoopPictureTest : public ReplayedRoom {
   }
 };
 
-TEST_F(LoopPictureTest, where_it_was_matched_the_scan_lies_on_the_walls_of_the_local_map) {
+TEST_F(LoopPictureTest, at_its_matched_pose_the_scan_lies_on_the_walls_of_the_local_map) {
   std::size_t accepted = 0;
   for (std::size_t i = 0; i < finished_->loops->size(); ++i) {
     const LoopRecord& loop = (*finished_->loops)[i];
@@ -34,7 +33,7 @@ TEST_F(LoopPictureTest, where_it_was_matched_the_scan_lies_on_the_walls_of_the_l
     ASSERT_TRUE(picture.has_value());
     EXPECT_EQ(picture->before.size(), picture->after.size());
     const double after = mean_darkness(picture->local_map, picture->after);
-    EXPECT_GT(after, 0.5 * loop.response) << "what responds is where the local map's scans hit something";
+    EXPECT_GT(after, 0.5 * loop.response) << "the response counts points on walls";
     EXPECT_GE(after, mean_darkness(picture->local_map, picture->before) - 0.05);
     const auto moved = picture->after.front() - picture->before.front();
     EXPECT_LT(moved.norm(), 2.0);
@@ -42,12 +41,12 @@ TEST_F(LoopPictureTest, where_it_was_matched_the_scan_lies_on_the_walls_of_the_l
   EXPECT_GT(accepted, 0U);
 }
 
-TEST_F(LoopPictureTest, there_is_none_of_a_loop_that_is_not_there) {
+TEST_F(LoopPictureTest, is_missing_for_a_missing_loop) {
   EXPECT_FALSE(loop_picture(*finished_, finished_->loops->size()).has_value());
   EXPECT_FALSE(loop_picture(ReplaySnapshot{}, 0).has_value());
 }
 
-TEST_F(LoopPictureTest, the_graph_leaves_little_of_a_true_loop_over) {
+TEST_F(LoopPictureTest, residuals_of_true_loops_are_small) {
   for (const LoopRecord& loop : *finished_->loops)
     if (loop.verdict == LoopVerdict::kAccepted) {
       EXPECT_LT(loop_residual(loop, *finished_->map_T_node).distance_m, 0.1);
@@ -55,7 +54,7 @@ TEST_F(LoopPictureTest, the_graph_leaves_little_of_a_true_loop_over) {
     }
 }
 
-TEST(LoopResidual, is_what_the_node_is_off_by) {
+TEST(LoopResidual, is_the_error_of_the_node) {
   LoopRecord loop;
   loop.anchor = 0;
   loop.node = 1;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr PictureSize kSize{800, 400};
 
-TEST(MapCamera, from_above_x_points_right_and_y_up) {
+TEST(MapCamera, looking_straight_down_x_points_right_and_y_up) {
   MapCamera camera;
   camera.target = {3, -2};
   const double half_height_m = camera.distance_m * std::tan(camera.field_of_view_deg * M_PI / 360);
@@ -24,7 +24,7 @@ TEST(MapCamera, from_above_x_points_right_and_y_up) {
   EXPECT_NEAR(corner->y, -2 + half_height_m, 1e-9);
 }
 
-TEST(MapCamera, tilted_the_upper_edge_is_farther_away_and_the_sky_shows_no_ground) {
+TEST(MapCamera, when_tilted_the_upper_edge_is_farther_away_and_the_sky_shows_no_ground) {
   MapCamera camera;
   camera.elevation_deg = 40;
   const auto above = ground_at(camera, kSize, 400, 0);
@@ -36,7 +36,7 @@ TEST(MapCamera, tilted_the_upper_edge_is_farther_away_and_the_sky_shows_no_groun
   EXPECT_FALSE(ground_at(camera, kSize, 400, 0).has_value());
 }
 
-TEST(MapCamera, sees_all_of_a_rectangle_from_above) {
+TEST(MapCamera, looking_straight_down_sees_the_whole_rectangle) {
   for (const GroundRectangle& rectangle :
        {GroundRectangle{{-10, 0}, {50, 5}}, GroundRectangle{{0, -30}, {4, 30}},
         GroundRectangle{{1, 1}, {1, 1}}}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What OpenGL makes of a scene, drawn without any window.
+// Renders scenes with OpenGL, without a window.
 #include <gmock/gmock.h>
 #include <mrpt/opengl/CFBORender.h>
 
@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <memory>
 
+#include "replayed_room.h"
 #include "view/map_camera.h"
 #include "view/map_scene.h"
 #include "view/palette.h"
-#include "replayed_room.h"
 
 namespace psi_slam {
 namespace {
@@ -38,7 +38,7 @@ class MapRenderingTest : public ReplayedRoom {
     camera_ = camera_above(all, kSize);
   }
 
-  /// The layers over the gridmap, from above.
+  /// Renders the layers over the grid map, seen from above.
   void draw(std::initializer_list<MapLayer> layers) {
     for (std::size_t i = 0; i < kMapLayers; ++i) scene_->set_visible(static_cast<MapLayer>(i), false);
     scene_->set_visible(MapLayer::kGrid, true);
@@ -55,7 +55,7 @@ class MapRenderingTest : public ReplayedRoom {
     renderer_->render_RGB(*scene_->scene(), picture_);
   }
 
-  /// Whether a pixel near where the camera sees a place is about of that colour.
+  /// True if a pixel within 2 px of the place has about this colour.
   bool seen(const mrpt::math::TPoint2D& place, const mrpt::img::TColor& colour) const {
     const auto middle = ground_at(camera_, kSize, kSize.width_px / 2.0, kSize.height_px / 2.0);
     const auto beside = ground_at(camera_, kSize, kSize.width_px / 2.0 + 100, kSize.height_px / 2.0);
@@ -73,7 +73,7 @@ class MapRenderingTest : public ReplayedRoom {
       }
     return false;
   }
-  /// Of the nodes' places.
+  /// Share of the nodes at which the colour is seen.
   double share_seen(const mrpt::img::TColor& colour) const {
     const auto& nodes = *finished_->map_T_node;
     const auto count = std::count_if(nodes.begin(), nodes.end(), [&](const auto& node) {
@@ -82,20 +82,21 @@ class MapRenderingTest : public ReplayedRoom {
     return static_cast<double>(count) / static_cast<double>(nodes.size());
   }
 
-  std::unique_ptr<mrpt::opengl::CFBORender> renderer_;  // outlives what the scene keeps in its context
+  std::unique_ptr<mrpt::opengl::CFBORender>
+      renderer_;  // must outlive the scene, which has objects in its context
   std::unique_ptr<MapScene> scene_;
   MapCamera camera_;
   mrpt::img::CImage picture_;
 };
 
-TEST_F(MapRenderingTest, the_gridmap_hides_nothing_that_lies_on_it) {
+TEST_F(MapRenderingTest, the_grid_map_hides_no_layer_above_it) {
   draw({MapLayer::kTrajectory});
-  EXPECT_GT(share_seen(palette::kCorrected), 0.95) << "all but where a thin line falls between pixels";
+  EXPECT_GT(share_seen(palette::kCorrected), 0.95) << "a thin line may fall between pixels";
   draw({MapLayer::kOdometry});
-  EXPECT_EQ(share_seen(palette::kCorrected), 0) << "what is not drawn is not seen";
+  EXPECT_EQ(share_seen(palette::kCorrected), 0) << "the path is not drawn";
 }
 
-TEST_F(MapRenderingTest, nodes_stand_out_from_the_lines) {
+TEST_F(MapRenderingTest, nodes_are_drawn_over_lines) {
   draw({MapLayer::kLoops, MapLayer::kConstraints, MapLayer::kNodes});
   EXPECT_EQ(share_seen(palette::kNode), 1);
 }

@@ -10,8 +10,8 @@
 #include <memory>
 #include <vector>
 
-#include "view/palette.h"
 #include "replayed_room.h"
+#include "view/palette.h"
 
 namespace psi_slam {
 namespace {
@@ -51,12 +51,12 @@ TEST_F(MapSceneTest, draws_a_finished_run) {
   EXPECT_GT(first<mrpt::opengl::CPointCloud>(MapLayer::kScan)->size(), 100U);
   EXPECT_GT(first<mrpt::opengl::CSetOfLines>(MapLayer::kTrajectory)->size(), 50U);
   EXPECT_GT(first<mrpt::opengl::CSetOfLines>(MapLayer::kOdometry)->size(), 50U);
-  EXPECT_EQ(objects(MapLayer::kLocalMaps), 0U) << "none is active any more";
+  EXPECT_EQ(objects(MapLayer::kLocalMaps), 0U) << "no local map is active after the end";
 }
 
-TEST_F(MapSceneTest, draws_the_active_local_maps_while_it_goes_on) {
+TEST_F(MapSceneTest, draws_the_active_local_maps_of_a_run_in_progress) {
   scene_.show(paused_, nullptr);
-  EXPECT_EQ(objects(MapLayer::kLocalMaps), 0U) << "nobody sees them";
+  EXPECT_EQ(objects(MapLayer::kLocalMaps), 0U) << "the layer is hidden";
   scene_.set_visible(MapLayer::kLocalMaps, true);
   scene_.show(paused_, nullptr);
   EXPECT_EQ(objects(MapLayer::kLocalMaps), paused_->active_local_maps.size());
@@ -64,17 +64,18 @@ TEST_F(MapSceneTest, draws_the_active_local_maps_while_it_goes_on) {
   EXPECT_EQ(objects(MapLayer::kGrid), 0U);
 }
 
-TEST_F(MapSceneTest, draws_the_loops_that_were_accepted_and_others_if_asked_for) {
+TEST_F(MapSceneTest, draws_accepted_loops_and_refused_ones_on_request) {
   scene_.show(finished_, map_);
   ASSERT_GT(loops(LoopVerdict::kAccepted), 0U);
   EXPECT_EQ(loop_lines(),
             finished_->loops->size() - loops(LoopVerdict::kRefused) - loops(LoopVerdict::kNotFound));
   scene_.set_loop_style({LoopStyle::Colour::kMatcher, true});
   EXPECT_TRUE(scene_.show(finished_, map_));
-  EXPECT_EQ(loop_lines(), finished_->loops->size() - loops(LoopVerdict::kNotFound)) << "no line to nowhere";
+  EXPECT_EQ(loop_lines(), finished_->loops->size() - loops(LoopVerdict::kNotFound))
+      << "loops without a match have no line";
 }
 
-TEST_F(MapSceneTest, colours_loops_by_their_matcher_or_their_residual) {
+TEST_F(MapSceneTest, colours_loops_by_matcher_or_residual) {
   scene_.show(finished_, map_);
   const auto colour = [&] { return first<mrpt::opengl::CSetOfLines>(MapLayer::kLoops)->getColor_u8(); };
   const auto first_accepted =
@@ -83,10 +84,10 @@ TEST_F(MapSceneTest, colours_loops_by_their_matcher_or_their_residual) {
   EXPECT_EQ(colour().G, matcher_colour(first_accepted->matcher).G);
   scene_.set_loop_style({LoopStyle::Colour::kResidual, false});
   scene_.show(finished_, map_);
-  EXPECT_EQ(colour().G, heat_colour(0).G) << "loops of a clean simulation fit";
+  EXPECT_EQ(colour().G, heat_colour(0).G) << "simulated loops have small residuals";
 }
 
-TEST_F(MapSceneTest, draws_the_window_of_the_scan_and_of_the_loops_tried_there) {
+TEST_F(MapSceneTest, draws_the_search_windows_of_a_scan_and_its_loops) {
   const auto first_loop = std::find_if(finished_->loops->begin(), finished_->loops->end(),
                                        [](const LoopRecord& loop) { return !loop.in_final_search; });
   ASSERT_NE(first_loop, finished_->loops->end());
@@ -94,20 +95,20 @@ TEST_F(MapSceneTest, draws_the_window_of_the_scan_and_of_the_loops_tried_there) 
     scene_.show(finished_, map_, frame);
     return first<mrpt::opengl::CSetOfLines>(MapLayer::kWindows)->size();
   };
-  EXPECT_EQ(lines(1), 6U) << "four sides, and how far the heading is searched";
+  EXPECT_EQ(lines(1), 6U) << "four sides and two limits of the heading";
   EXPECT_GE(lines(first_loop->frame), 12U);
 }
 
-TEST_F(MapSceneTest, redraws_nothing_when_nothing_has_changed) {
+TEST_F(MapSceneTest, redraws_nothing_without_a_change) {
   scene_.show(finished_, map_);
   const auto grid = *scene_.layer(MapLayer::kGrid).begin();
   EXPECT_FALSE(scene_.show(finished_, map_));
   EXPECT_EQ(*scene_.layer(MapLayer::kGrid).begin(), grid);
-  EXPECT_TRUE(scene_.show(finished_, map_, 10)) << "another scan is looked at";
+  EXPECT_TRUE(scene_.show(finished_, map_, 10)) << "another scan is shown";
   EXPECT_FALSE(scene_.show(finished_, map_, 10));
 }
 
-TEST_F(MapSceneTest, layers_go_on_and_off) {
+TEST_F(MapSceneTest, shows_and_hides_layers) {
   for (std::size_t i = 0; i < kMapLayers; ++i) {
     const auto layer = static_cast<MapLayer>(i);
     EXPECT_EQ(scene_.visible(layer), shown_at_first(layer)) << name_of(layer);
@@ -116,19 +117,20 @@ TEST_F(MapSceneTest, layers_go_on_and_off) {
   }
 }
 
-TEST_F(MapSceneTest, lines_and_points_grow_with_the_scaling_of_the_desktop) {
+TEST_F(MapSceneTest, scales_lines_and_points_with_the_desktop) {
   scene_.show(finished_, map_);
   const float width = first<mrpt::opengl::CSetOfLines>(MapLayer::kTrajectory)->getLineWidth();
   const float dot = first<mrpt::opengl::CPointCloud>(MapLayer::kScan)->getPointSize();
   scene_.set_pixel_scale(2);
-  EXPECT_TRUE(scene_.show(finished_, map_)) << "all is drawn anew";
+  EXPECT_TRUE(scene_.show(finished_, map_)) << "everything is drawn again";
   EXPECT_EQ(first<mrpt::opengl::CSetOfLines>(MapLayer::kTrajectory)->getLineWidth(), 2 * width);
   EXPECT_EQ(first<mrpt::opengl::CPointCloud>(MapLayer::kScan)->getPointSize(), 2 * dot);
   scene_.show(finished_, map_, 10);
-  EXPECT_EQ(first<mrpt::opengl::CPointCloud>(MapLayer::kScan)->getPointSize(), 2 * dot) << "and not twice";
+  EXPECT_EQ(first<mrpt::opengl::CPointCloud>(MapLayer::kScan)->getPointSize(), 2 * dot)
+      << "scaled once, not twice";
 }
 
-TEST_F(MapSceneTest, a_layer_that_is_switched_on_is_up_to_date) {
+TEST_F(MapSceneTest, updates_a_layer_when_it_becomes_visible) {
   scene_.show(finished_, map_);
   EXPECT_EQ(objects(MapLayer::kConstraints), 0U);
   scene_.set_visible(MapLayer::kConstraints, true);
@@ -136,7 +138,7 @@ TEST_F(MapSceneTest, a_layer_that_is_switched_on_is_up_to_date) {
   EXPECT_GT(first<mrpt::opengl::CSetOfLines>(MapLayer::kConstraints)->size(), 50U);
 }
 
-TEST(MapSceneOfTwoLasers, the_scan_has_the_points_of_both) {
+TEST(MapSceneOfTwoLasers, shows_the_points_of_both) {
   Frame frame;
   frame.scan.bearings_rad = std::make_shared<const std::vector<float>>(std::vector<float>{-0.5F, 0, 0.5F});
   frame.scan.ranges_m = {1, 2, 3};

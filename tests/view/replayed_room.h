@@ -13,7 +13,7 @@
 
 namespace psi_slam {
 
-/// A finished run in the room with the pillar.
+/// Snapshots of a run in the simulated room with a pillar.
 class ReplayedRoom : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -40,7 +40,7 @@ class ReplayedRoom : public testing::Test {
     map_.reset();
   }
 
-  static inline std::shared_ptr<const ReplaySnapshot> paused_;  // after the first scans
+  static inline std::shared_ptr<const ReplaySnapshot> paused_;  // paused after the first scans
   static inline std::shared_ptr<const ReplaySnapshot> finished_;
   static inline std::shared_ptr<const DrawnMap> map_;
 };

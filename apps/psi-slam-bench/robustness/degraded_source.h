@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log made worse, to see what a program makes of it: fewer scans, a narrower laser, noisier odometry or
-// none.
+// A frame source that degrades a log: fewer scans, a narrower field of view, noisier odometry or none.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -9,31 +8,48 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/random_draws.h"
 #include "psi_slam/frame_source.h"
-#include "robustness/odometry_noise.h"
 
 namespace psi_slam {
 
+/// Noise of odometry as a random walk: errors of successive stretches are independent, so that their
+/// variances grow with the distance and the rotation that odometry measures.
+struct OdometryNoise {
+  double sigma_m_per_root_m = 0;      ///< of the position along each axis, after 1 m
+  double sigma_rad_per_root_m = 0;    ///< of the heading, after 1 m straight ahead
+  double sigma_rad_per_root_rad = 0;  ///< of the heading, after 1 rad on the spot
+};
+
+/// Measures the noise of odometry against the true poses of the robot: root mean squares of the differences
+/// over successive stretches of at least 1 m or 1 rad by odometry. Compares positions along the true
+/// headings, so that a wrong heading does not add to the error of the position. Splits the error of the
+/// heading between distance and rotation by least squares; the split is ambiguous if both are always in the
+/// same proportion. Zero without a complete stretch. Throws std::invalid_argument for paths of different
+/// lengths.
+OdometryNoise measure_odometry_noise(const std::vector<mrpt::math::TPose2D>& odom_T_robot,
+                                     const std::vector<mrpt::math::TPose2D>& map_T_robot);
+
 struct DegradationOptions {
-  /// Odometry's error becomes about so many times its natural one, which is `natural_noise`: to each step
-  /// between scans of the log, normal noise of sqrt(scale^2 - 1) times that is added, whose variance grows
-  /// with the step's way and turn. 1 or less leaves odometry as it is.
+  /// Factor for the error of odometry. Adds normal noise of sqrt(scale^2 - 1) times `natural_noise` to each
+  /// step between scans of the log; its variance grows with the distance and rotation of the step. Odometry
+  /// stays unchanged for a scale of 1 or less.
   double odometry_noise_scale = 1;
   OdometryNoise natural_noise;
-  std::size_t keep_every_nth = 1;           ///< scans, from the first on; the others are not there at all
-  std::optional<double> field_of_view_rad;  ///< straight ahead of the laser; beams beside it are no returns
-  bool no_odometry = false;                 ///< frames say that they have none
+  std::size_t keep_every_nth = 1;           ///< keeps every nth scan, starting with the first
+  std::optional<double> field_of_view_rad;  ///< centred ahead of the laser; other beams have no return
+  bool no_odometry = false;                 ///< removes odometry from the frames
   std::uint64_t seed = 1;                   ///< of the noise
 };
 
 class DegradedSource : public FrameSource {
  public:
-  /// Throws std::invalid_argument when no scan would be kept, or the field of view is not positive.
+  /// Throws std::invalid_argument if keep_every_nth is 0 or the field of view is not positive.
   DegradedSource(std::unique_ptr<FrameSource> source, const DegradationOptions& options);
 
-  /// Numbered anew.
+  /// Frame indices count the kept scans.
   std::optional<Frame> next() override;
   double progress() const override { return source_->progress(); }
   SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
@@ -47,7 +63,7 @@ class DegradedSource : public FrameSource {
   RandomDraws draws_;
   std::size_t read_ = 0;
   std::size_t kept_ = 0;
-  std::optional<mrpt::math::TPose2D> last_odom_T_robot_;  ///< of the log
+  std::optional<mrpt::math::TPose2D> last_odom_T_robot_;  ///< of the previous frame in the log
   mrpt::math::TPose2D spoilt_odom_T_robot_;
 };
 

@@ -5,23 +5,89 @@
 #include <cmath>
 #include <utility>
 
-#include "simulation/plan_drawing.h"
 #include "simulation/simulation_random.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr double kDoor_m = 1.1;
-constexpr double kHallDoor_m = 1.8;
-constexpr double kDoorToWall_m = 1.0;  // from a door's middle to the room's side walls
-constexpr double kNarrowestRoom_m = 3.2;
-constexpr double kWidestRoom_m = 7.5;
-constexpr double kFurnitureClear_m = 0.6;  // from the way into a room
+constexpr double kWallThickness_m = 0.12;
+
+/// An opening in a wall, from .. to along the wall.
+struct Opening {
+  double from = 0;
+  double to = 0;
+};
+
+/// Drawing operations for a floor plan.
+class PlanDrawing {
+ public:
+  explicit PlanDrawing(FloorPlan& plan) : plan_(plan) {}
+
+  /// Outline of a box between two corners.
+  void box(double x0, double y0, double x1, double y1, Material material);
+
+  /// A wall along x at `y`, or along y at `x`, with openings sorted along the wall.
+  void wall_along_x(double x0, double x1, double y, const std::vector<Opening>& openings = {});
+  void wall_along_y(double y0, double y1, double x, const std::vector<Opening>& openings = {});
+
+  void line(double x0, double y0, double x1, double y1, Material material);
+
+  std::size_t place(double x, double y, Place::Kind kind);
+  void passage(std::size_t from, std::size_t to) { plan_.passages.push_back({from, to}); }
+
+ private:
+  FloorPlan& plan_;
+};
+
 constexpr double kHalfWall_m = kWallThickness_m / 2;
 
-/// The corridors across one axis, and the blocks between them.
+/// The parts of [from, to] outside the openings, which must be sorted.
+std::vector<Opening> solid_parts(double from, double to, const std::vector<Opening>& openings) {
+  std::vector<Opening> parts;
+  for (const Opening& opening : openings) {
+    parts.push_back({from, opening.from});
+    from = opening.to;
+  }
+  parts.push_back({from, to});
+  return parts;
+}
+
+void PlanDrawing::line(double x0, double y0, double x1, double y1, Material material) {
+  plan_.segments.push_back({{x0, y0}, {x1, y1}, material});
+}
+
+void PlanDrawing::box(double x0, double y0, double x1, double y1, Material material) {
+  line(x0, y0, x1, y0, material);
+  line(x1, y0, x1, y1, material);
+  line(x1, y1, x0, y1, material);
+  line(x0, y1, x0, y0, material);
+}
+
+void PlanDrawing::wall_along_x(double x0, double x1, double y, const std::vector<Opening>& openings) {
+  for (const Opening& part : solid_parts(x0, x1, openings))
+    box(part.from, y - kHalfWall_m, part.to, y + kHalfWall_m, Material::kWall);
+}
+
+void PlanDrawing::wall_along_y(double y0, double y1, double x, const std::vector<Opening>& openings) {
+  for (const Opening& part : solid_parts(y0, y1, openings))
+    box(x - kHalfWall_m, part.from, x + kHalfWall_m, part.to, Material::kWall);
+}
+
+std::size_t PlanDrawing::place(double x, double y, Place::Kind kind) {
+  plan_.places.push_back({{x, y}, kind});
+  return plan_.places.size() - 1;
+}
+
+constexpr double kDoor_m = 1.1;
+constexpr double kHallDoor_m = 1.8;
+constexpr double kDoorToWall_m = 1.0;  // least distance from the middle of a door to the side walls
+constexpr double kNarrowestRoom_m = 3.2;
+constexpr double kWidestRoom_m = 7.5;
+constexpr double kFurnitureClear_m = 0.6;  // from the straight path into a room
+
+/// Positions along one axis of the parallel corridors across it, and of the blocks between them.
 struct Axis {
-  std::vector<double> corridor;  ///< the low edges
+  std::vector<double> corridor;  ///< lower edges
   std::vector<double> width;
 
   double middle(std::size_t i) const { return corridor[i] + width[i] / 2; }
@@ -37,13 +103,13 @@ struct Axis {
   }
 };
 
-/// One row of rooms of a block: side by side along x, all with their fronts at one corridor.
+/// A row of rooms of a block, side by side along x, with their fronts at the same corridor.
 struct RoomRow {
   double x0;
   double x1;
   double y_front;
   double y_back;
-  double y_corridor;  ///< the middle of the corridor in front
+  double y_corridor;  ///< centre line of the corridor in front
 
   double inwards() const { return y_back > y_front ? 1 : -1; }
 };
@@ -63,10 +129,10 @@ class Draughtsman {
   }
 
  private:
-  /// A stretch of a corridor along x, between two crossings.
+  /// A part of a corridor along x between two crossings.
   struct Stretch {
     bool bare = false;
-    std::vector<std::pair<double, std::size_t>> doors;  ///< x and place
+    std::vector<std::pair<double, std::size_t>> doors;  ///< x and index of the place
   };
 
   Stretch& stretch(std::size_t i, std::size_t j) { return stretches_[j * x_.blocks() + i]; }
@@ -156,7 +222,7 @@ class Draughtsman {
     const double deep_y = room.y_front + (room.y_back - room.y_front) * random_.between(0.45, 0.7);
     draw_front(room, door);
     draw_.line(door.from, room.y_front, door.from - random_.between(0, 0.2), room.y_front + in * 0.9,
-               Material::kFurniture);  // the door itself stands open
+               Material::kFurniture);  // the open door leaf
     add_door(stretch, door_x, room.y_corridor, draw_.place(door_x, deep_y, Place::Kind::kRoom));
     furnish(room, door_x);
     draw_in_corridor(room, door);
@@ -174,7 +240,7 @@ class Draughtsman {
     draw_.line(door.to, room.y_front, room.x1, room.y_front, Material::kGlass);
   }
 
-  /// Boxes that keep clear of the straight way in.
+  /// Boxes outside the straight path into the room.
   void furnish(const RoomRow& room, double door_x) {
     const double y_low = std::min(room.y_front, room.y_back) + kHalfWall_m;
     const double y_high = std::max(room.y_front, room.y_back) - kHalfWall_m;
@@ -189,7 +255,7 @@ class Draughtsman {
     }
   }
 
-  /// Pilasters and cupboards along the room's front.
+  /// Pilasters and cupboards in the corridor, along the front of the room.
   void draw_in_corridor(const RoomRow& room, const Opening& door) {
     const double face = room.y_front - room.inwards() * kHalfWall_m;
     if (random_.happens(0.4))
@@ -234,9 +300,9 @@ class Draughtsman {
     }
   }
 
-  /// Panes of wall or glass with pilasters between them, from one end of a wall to the other; bare ones are
-  /// one plain wall. `stroke` takes how far across and along the wall each stroke begins and ends; `inwards`
-  /// is 1 where the building lies on the side of greater coordinates.
+  /// Panes of wall or glass with pilasters between them, from one end of a wall to the other; a bare wall has
+  /// one pane. `stroke` gets the coordinates of both ends of each stroke, across and along the wall.
+  /// `inwards` is 1 if the building lies on the side of larger coordinates, otherwise -1.
   template <class Stroke>
   void draw_panes(double begin, double end, bool bare, double inwards, const Stroke& stroke) {
     for (double at = begin; at < end;) {
@@ -285,7 +351,7 @@ class Draughtsman {
   PlanDrawing draw_;
   Axis x_;
   Axis y_;
-  std::vector<Stretch> stretches_;  ///< of the corridors along x, corridor by corridor
+  std::vector<Stretch> stretches_;  ///< of the corridors along x, by corridor
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A made-up floor of a building, drawn at random: corridors that cross and so form rings, some of them long
-// and bare; between them blocks of rooms with doors and furniture, and halls with pillars; some walls of
-// glass. Walls are lines in metres; where one can walk is a graph.
+// A random floor of a building. Crossing corridors form rings; some are long and bare. Between them lie
+// blocks of rooms with doors and furniture, and halls with pillars. Some walls are of glass. Walls are line
+// segments in metres; the walkable paths are a graph of places and passages.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -20,20 +20,20 @@ struct PlanSegment {
   Material material = Material::kWall;
 };
 
-/// Where a robot can stand.
+/// A point where a robot can stand.
 struct Place {
   enum class Kind { kCrossing, kCorridor, kRoom };
   mrpt::math::TPoint2D at;
   Kind kind = Kind::kCrossing;
 };
 
-/// A straight way between two places that nothing stands in, to be gone either way.
+/// A straight free path between two places, in both directions.
 struct Passage {
   std::size_t from = 0;
   std::size_t to = 0;
 };
 
-/// From one end of the building to the other.
+/// A corridor from one end of the building to the other.
 struct Corridor {
   mrpt::math::TPoint2D from;
   mrpt::math::TPoint2D to;
@@ -46,19 +46,20 @@ struct FloorPlan {
   std::vector<Passage> passages;
   std::vector<Corridor> corridors;
 
-  double corridors_m() const;  ///< the length of all corridors
-  std::size_t rooms() const;   ///< halls included
+  double corridors_m() const;  ///< total length of the corridors
+  std::size_t rooms() const;   ///< number of rooms and halls
 };
 
 struct FloorPlanOptions {
   std::uint64_t seed = 1;
-  double corridors_m = 150;  ///< the least length of all corridors; never less than once round one block
-  double glass_share = 0.1;  ///< of the rooms' fronts and of the outer wall that is glass, in [0, 1]
-  double bare_share = 0.25;  ///< of the corridors' stretches that have neither doors nor anything else
-  double hall_share = 0.15;  ///< of the blocks that are one hall
+  double corridors_m = 150;  ///< least total length of the corridors; at least those around one block
+  double glass_share = 0.1;  ///< share of glass in front walls and the outer wall, in [0, 1]
+  double bare_share = 0.25;  ///< share of corridor parts between crossings without doors and furniture
+  double hall_share = 0.15;  ///< share of blocks that are one hall
 };
 
-/// Draws the plan; the same options give the same plan. Passages keep `kPlanClearance_m` from all segments.
+/// Draws the plan; the same options give the same plan. Passages keep the distance kPlanClearance_m from all
+/// segments.
 FloorPlan draw_floor_plan(const FloorPlanOptions& options);
 
 inline constexpr double kPlanClearance_m = 0.45;

@@ -3,20 +3,88 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "simulation/simulation_random.h"
-#include "simulation/route.h"
 
 namespace psi_slam {
 namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kAhead_m = 0.5;  // of the carrot
+constexpr double kAhead_m = 0.5;  // distance of the carrot
 constexpr double kCarrotStep_m = 0.01;
-constexpr double kDriveStep_s = 0.0125;
-constexpr double kTurnPerError = 2.5;  // rad/s for each radian that the robot looks past the carrot
+constexpr double kStep_s = 0.0125;
+constexpr double kTurnPerError = 2.5;  // rad/s per radian between the heading and the direction of the carrot
 constexpr double kTurnOnTheSpot_rad = 1.0;
+
+constexpr double kTakenTheOtherWay = 0.4;  // weight of a passage taken in the opposite direction
+constexpr double kTurningBack = 3.0;
+constexpr double kPassedDoors = 0.6;  // share of the doors that the robot does not enter
+constexpr double kEnteringRoom = 2.0;
+
+/// An endless walk over the places of a floor plan. It prefers the passages that it has taken least, so that
+/// it visits all places, closes rings and takes corridors in both directions.
+class Route {
+ public:
+  /// Starts at a crossing. The plan must outlive the route.
+  Route(const FloorPlan& plan, std::uint64_t seed);
+
+  /// Returns the first place, then the next place at each call. A passage links successive places.
+  std::size_t next();
+
+ private:
+  struct Way {
+    std::size_t to = 0;
+    std::size_t back = 0;  ///< index of the opposite way in the ways from `to`
+    double taken = 0;      ///< how often
+  };
+
+  double reluctance(const Way& way);
+
+  const FloorPlan& plan_;
+  SimulationRandom random_;
+  std::vector<std::vector<Way>> ways_;  ///< by start place
+  std::size_t here_ = 0;
+  std::size_t before_ = 0;
+  bool started_ = false;
+};
+
+Route::Route(const FloorPlan& plan, std::uint64_t seed)
+    : plan_(plan), random_(seed, SimulationRandom::Stream::kRoute), ways_(plan.places.size()) {
+  for (const Passage& passage : plan.passages) {
+    std::vector<Way>& from = ways_[passage.from];
+    std::vector<Way>& to = ways_[passage.to];
+    from.push_back({passage.to, to.size(), 0});
+    to.push_back({passage.from, from.size() - 1, 0});
+  }
+  while (plan.places[here_].kind != Place::Kind::kCrossing) ++here_;
+  before_ = here_;
+}
+
+double Route::reluctance(const Way& way) {
+  double reluctance = way.taken + kTakenTheOtherWay * ways_[way.to][way.back].taken + 0.3 * random_.share();
+  const bool into_room = plan_.places[way.to].kind == Place::Kind::kRoom;
+  if (into_room && random_.happens(kPassedDoors)) reluctance += kEnteringRoom;
+  if (way.to == before_) reluctance += kTurningBack;
+  return reluctance;
+}
+
+std::size_t Route::next() {
+  if (!started_) {
+    started_ = true;
+    return here_;
+  }
+  std::vector<Way>& ways = ways_[here_];
+  std::vector<double> reluctances;
+  for (const Way& way : ways) reluctances.push_back(reluctance(way));
+  Way& way = ways[static_cast<std::size_t>(std::min_element(reluctances.begin(), reluctances.end()) -
+                                           reluctances.begin())];
+  ++way.taken;
+  before_ = here_;
+  here_ = way.to;
+  return here_;
+}
 
 double distance_m(const TPoint2D& a, const TPoint2D& b) {
   return std::hypot(b.x - a.x, b.y - a.y);
@@ -24,7 +92,7 @@ double distance_m(const TPoint2D& a, const TPoint2D& b) {
 
 }  // namespace
 
-/// Runs along the line from place to place, and weaves about it.
+/// The point that the robot follows: it moves along the line from place to place and weaves about it.
 class RobotPath::Carrot {
  public:
   Carrot(const FloorPlan& plan, const RobotPathOptions& options)
@@ -63,8 +131,8 @@ class RobotPath::Carrot {
   double phases_[2] = {0, 0};
   TPoint2D from_;
   TPoint2D to_;
-  double along_m_ = 0;  ///< from the one to the other
-  double run_m_ = 0;    ///< in all
+  double along_m_ = 0;  ///< from from_ to to_
+  double run_m_ = 0;    ///< in total
 };
 
 RobotPath::RobotPath(const FloorPlan& plan, const RobotPathOptions& options)
@@ -82,14 +150,14 @@ std::optional<PathPose> RobotPath::next() {
   if (started_) {
     if (now_.travelled_m >= options_.path_m) return std::nullopt;
     const double period_s = 1 / options_.scan_rate_hz;
-    const int steps = std::max(1, static_cast<int>(std::lround(period_s / kDriveStep_s)));
-    for (int step = 0; step < steps; ++step) drive_on(period_s / steps);
+    const int steps = std::max(1, static_cast<int>(std::lround(period_s / kStep_s)));
+    for (int step = 0; step < steps; ++step) advance(period_s / steps);
   }
   started_ = true;
   return now_;
 }
 
-void RobotPath::drive_on(double duration_s) {
+void RobotPath::advance(double duration_s) {
   mrpt::math::TPose2D& pose = now_.world_T_robot;
   carrot_->run_ahead_of({pose.x, pose.y});
   const TPoint2D ahead = carrot_->at();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drive through a floor plan: rings are closed, corridors driven both ways, rooms entered and left. The
-// robot follows a carrot on the line from place to place, slows down in curves, and turns on the spot where
-// it must go back; nothing of the drive is kept.
+// Path of a robot through a floor plan: it closes rings, takes corridors in both directions and enters rooms.
+// The robot follows a carrot on the line from place to place, slows down in curves and turns on the spot to
+// go back. Poses are computed one by one and not stored.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -21,10 +21,10 @@ struct RobotPathOptions {
   double max_speed_m_s = 0.9;
   double max_turn_rad_s = 1.0;
   double max_acceleration_m_s2 = 0.6;
-  double weave_m = 0.1;  ///< how far the robot strays from the middle of its way
+  double weave_m = 0.1;  ///< largest deviation from the line between places
 };
 
-/// Where the robot truly is when it scans.
+/// True pose of the robot at a scan.
 struct PathPose {
   double time_s = 0;
   double travelled_m = 0;
@@ -33,18 +33,18 @@ struct PathPose {
 
 class RobotPath {
  public:
-  /// The plan outlives the path.
+  /// The plan must outlive the path.
   RobotPath(const FloorPlan& plan, const RobotPathOptions& options);
   ~RobotPath();
   RobotPath(RobotPath&&) noexcept;
 
-  /// The pose of the next scan; none when the path is long enough.
+  /// Pose of the next scan; empty at the end of the path.
   std::optional<PathPose> next();
 
  private:
   class Carrot;
 
-  void drive_on(double duration_s);
+  void advance(double duration_s);
 
   RobotPathOptions options_;
   std::unique_ptr<Carrot> carrot_;

@@ -18,14 +18,15 @@ using mrpt::math::TPose2D;
 
 constexpr double kRepaintAfter_m = 8;
 
-// How free the cells are, and above what the beams pass them.
+// Freeness of the cells, and thresholds above which beams pass a cell.
 constexpr float kFree = 1.0F;
 constexpr float kGlass = 0.7F;
 constexpr float kSolid = 0.0F;
 constexpr float kStopAtGlass = 0.85F;
 constexpr float kPassGlass = 0.35F;
 
-/// Along the ray to a circle before it; infinite where it misses, or begins inside: people step aside.
+/// Distance along the ray to a circle. Infinite if the ray misses the circle or starts inside: people step
+/// aside.
 double range_to_circle_m(const TPose2D& ray, const TPoint2D& middle, double radius_m) {
   const double x = middle.x - ray.x;
   const double y = middle.y - ray.y;
@@ -59,14 +60,14 @@ void check(const ScanSimulatorOptions& options) {
           "the field of view is not in (0, 2 pi]");
   require(options.resolution_m > 0, "the resolution is not positive");
   require(options.max_range_m > options.resolution_m && std::isfinite(options.max_range_m),
-          "the range is not longer than a cell, or has no end");
+          "the range is not above the resolution, or is infinite");
   require(std::isfinite(mount.x) && std::isfinite(mount.y) && std::isfinite(mount.phi),
-          "the laser is nowhere on the robot");
-  require(options.noise_m >= 0 && std::isfinite(options.noise_m), "the noise is negative or has no end");
+          "the pose of the laser is not finite");
+  require(options.noise_m >= 0 && std::isfinite(options.noise_m), "the noise is negative or infinite");
   require(is_share(options.dropout_share), "the share of dropouts is not in [0, 1]");
   require(options.glass_return_share >= 0 && options.glass_loss_share >= 0 &&
               is_share(options.glass_return_share + options.glass_loss_share),
-          "the shares at glass are negative, or more than 1 in all");
+          "the shares at glass are negative, or above 1 in total");
 }
 
 }  // namespace
@@ -83,15 +84,14 @@ void ScanSimulator::paint_around(const TPoint2D& middle) {
   const auto y = static_cast<float>(middle.y);
   grid_.setSize(x - half, x + half, y - half, y + half, static_cast<float>(options_.resolution_m), kFree);
   any_glass_ = false;
-  for (const bool glass : {true, false})  // what is solid covers glass
+  for (const bool glass : {true, false})  // solid cells replace glass
     for (const PlanSegment& segment : plan_.segments)
       if ((segment.material == Material::kGlass) == glass) paint(segment);
   painted_ = middle;
   any_painted_ = true;
 }
 
-// Every cell that the segment crosses: a beam that steps from a cell to a neighbour, slantwise too, cannot
-// slip through.
+// Paints every cell that the segment crosses, so that no beam slips through between diagonal cells.
 void ScanSimulator::paint(const PlanSegment& segment) {
   const auto cell_m = static_cast<double>(grid_.getResolution());
   const double x0 = (segment.from.x - static_cast<double>(grid_.getXMin())) / cell_m;
@@ -110,7 +110,8 @@ void ScanSimulator::paint(const PlanSegment& segment) {
   const int x_end = static_cast<int>(std::floor(x0 + dx));
   const int y_end = static_cast<int>(std::floor(y0 + dy));
   const double infinity = std::numeric_limits<double>::infinity();
-  double next_x = dx == 0 ? infinity : ((dx > 0 ? x + 1 : x) - x0) / dx;  // where the next column begins
+  double next_x =
+      dx == 0 ? infinity : ((dx > 0 ? x + 1 : x) - x0) / dx;  // parameter of the segment at the next column
   double next_y = dy == 0 ? infinity : ((dy > 0 ? y + 1 : y) - y0) / dy;
   for (int steps = std::abs(x_end - x) + std::abs(y_end - y); steps >= 0; --steps) {
     grid_.setCell(x, y, glass ? kGlass : kSolid);
@@ -127,14 +128,14 @@ void ScanSimulator::paint(const PlanSegment& segment) {
 double ScanSimulator::range_m(const TPose2D& ray, float least_free) const {
   float range = 0;
   bool valid = false;
-  // MRPT counts its steps as if each were a whole cell long.
+  // MRPT counts steps as if each had the length of a cell.
   const double steps_m =
       options_.max_range_m / mrpt::maps::COccupancyGridMap2D::RAYTRACE_STEP_SIZE_IN_CELL_UNITS;
   grid_.simulateScanRay(ray.x, ray.y, ray.phi, range, valid, steps_m, least_free);
   return valid ? static_cast<double>(range) : std::numeric_limits<double>::infinity();
 }
 
-// Of the plan alone, with what glass makes of the beam.
+// Range in the plan without people; glass returns, loses or passes the beam.
 double ScanSimulator::plan_range_m(const TPose2D& ray, SimulationRandom& random) const {
   const double behind_m = range_m(ray, kPassGlass);
   if (!any_glass_) return behind_m;

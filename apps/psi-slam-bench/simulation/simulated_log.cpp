@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "frames/odometry_interpolator.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
 
-constexpr double kVisits = 3;  // to each place
+constexpr double kVisits = 3;  // of each place
 constexpr TimeUs kStart_us = 1'000'000'000;
 
 }  // namespace
@@ -40,7 +40,7 @@ SimulatedLog::SimulatedLog(const SimulatedLogOptions& options)
   }
 }
 
-std::optional<SimulatedLog::Stop> SimulatedLog::drive_on() {
+std::optional<SimulatedLog::Stop> SimulatedLog::next_stop() {
   const std::optional<PathPose> path = path_.next();
   if (!path) return std::nullopt;
   Stop stop{*path, {0, 0, 0}};
@@ -65,13 +65,13 @@ CompanionScan SimulatedLog::scan_between(std::size_t laser, const Stop& now, con
 }
 
 std::optional<Frame> SimulatedLog::next() {
-  const std::optional<Stop> now = ahead_ ? std::exchange(ahead_, std::nullopt) : drive_on();
+  const std::optional<Stop> now = ahead_ ? std::exchange(ahead_, std::nullopt) : next_stop();
   if (!now) return std::nullopt;
   Frame frame;
   frame.time_us = kStart_us + static_cast<TimeUs>(std::llround(now->path.time_s * 1e6));
   frame.odom_T_robot = now->odom_T_robot;
   frame.scan = scanner_.scan(now->path.world_T_robot, people_.at(now->path.time_s), frames_);
-  if (!further_scanners_.empty()) ahead_ = drive_on();
+  if (!further_scanners_.empty()) ahead_ = next_stop();
   for (std::size_t laser = 0; laser < further_scanners_.size(); ++laser)
     frame.companions.push_back(scan_between(laser, *now, ahead_.value_or(*now)));
   frame.index = frames_++;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log of a robot in a simulated building, made scan by scan as it is read, with the truth of each scan.
+// A log of a robot in a simulated building, computed scan by scan, with the true pose of each scan.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -18,52 +18,52 @@
 
 namespace psi_slam {
 
-/// A laser beside the first one: it scans at the same rate, that much later.
+/// A further laser, which scans at the same rate with a delay.
 struct FurtherLaser {
   ScanSimulatorOptions scan;
-  double delay_s = 0;  ///< not negative, and less than the time between scans
+  double delay_s = 0;  ///< in [0, time between scans)
 };
 
-/// Each part has a seed of its own; simulated_log_options() sets them all.
+/// Each part has its own seed; simulated_log_options() sets all of them.
 struct SimulatedLogOptions {
   FloorPlanOptions plan;
   RobotPathOptions path;
   ScanSimulatorOptions scan;
   WheelOdometryOptions odometry;
-  /// Further lasers of the robot, whose scans come as companions of the first laser's.
+  /// Their scans are companions of those of the first laser.
   std::vector<FurtherLaser> further_lasers;
   std::size_t people = 0;
   std::uint64_t people_seed = 1;
 };
 
-/// A drive of that length through a building in which it comes by every place about three times, with the one
-/// seed for all parts.
+/// A run with this length of path, through a building whose places it visits about three times each. All
+/// parts get the same seed.
 SimulatedLogOptions simulated_log_options(double path_m, std::uint64_t seed);
 
 class SimulatedLog : public FrameSource {
  public:
-  /// Throws std::invalid_argument when a laser's delay is out of bounds.
+  /// Throws std::invalid_argument if the delay of a laser is out of bounds.
   explicit SimulatedLog(const SimulatedLogOptions& options);
   SimulatedLog(const SimulatedLog&) = delete;
   SimulatedLog& operator=(const SimulatedLog&) = delete;
 
   std::optional<Frame> next() override;
-  /// By metres of the path.
+  /// Share of the path that is travelled.
   double progress() const override;
 
-  /// Where the robot truly was at the frame that next() gave last, in the plan.
+  /// True pose of the robot in the plan at the last frame of next().
   const mrpt::math::TPose2D& world_T_robot() const { return now_.world_T_robot; }
   double travelled_m() const { return now_.travelled_m; }
   const FloorPlan& plan() const { return plan_; }
 
  private:
-  /// Where the robot is when the first laser scans.
+  /// Poses of the robot at a scan of the first laser.
   struct Stop {
     PathPose path;
     mrpt::math::TPose2D odom_T_robot;
   };
 
-  std::optional<Stop> drive_on();
+  std::optional<Stop> next_stop();
   CompanionScan scan_between(std::size_t laser, const Stop& now, const Stop& next);
 
   SimulatedLogOptions options_;
@@ -74,8 +74,8 @@ class SimulatedLog : public FrameSource {
   WheelOdometry odometry_;
   WalkingPeople people_;
   PathPose now_;
-  std::optional<Stop> last_stop_;  ///< that the path has come to
-  std::optional<Stop> ahead_;      ///< read already, for lasers that scan a little later
+  std::optional<Stop> last_stop_;  ///< last stop taken from the path
+  std::optional<Stop> ahead_;      ///< next stop, needed for lasers with a delay
   std::size_t frames_ = 0;
 };
 

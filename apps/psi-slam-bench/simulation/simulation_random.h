@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers of a simulation.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +7,15 @@
 
 namespace psi_slam {
 
+/// Random numbers of a simulation. The streams of one seed are independent of each other.
 class SimulationRandom : public RandomDraws {
  public:
-  /// What draws its numbers: streams of one seed have nothing in common.
   enum class Stream : std::uint64_t { kFloorPlan, kRoute, kScan, kOdometry, kPeople, kRelations };
 
-  /// `index` tells apart parts of one stream: each scan has its own, so that no scan depends on another.
-  SimulationRandom(std::uint64_t seed, Stream stream, std::uint64_t index = 0);
+  /// `index` distinguishes parts of a stream: each scan has its own index, so that scans do not depend on
+  /// each other.
+  SimulationRandom(std::uint64_t seed, Stream stream, std::uint64_t index = 0)
+      : RandomDraws(mixed_bits(mixed_bits(mixed_bits(seed) ^ static_cast<std::uint64_t>(stream)) ^ index)) {}
 
   double between(double low, double high) { return low + (high - low) * share(); }
   bool happens(double probability) { return share() < probability; }

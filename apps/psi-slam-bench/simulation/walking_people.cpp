@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSlowest_m_s = 0.7;
 constexpr double kFastest_m_s = 1.5;
-constexpr double kFromWall_m = 0.3;  // from the wall to the person's side
+constexpr double kFromWall_m = 0.3;  // between the wall and a person
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// People who walk up and down the corridors. Where they are depends on the time alone.
+// People who walk up and down the corridors. Their positions depend only on the time.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -18,16 +18,16 @@ class WalkingPeople {
  public:
   WalkingPeople(const FloorPlan& plan, std::size_t count, std::uint64_t seed);
 
-  /// Their middles, in metres in the plan.
+  /// Centres of the people in the plan, in metres.
   std::vector<mrpt::math::TPoint2D> at(double time_s) const;
 
  private:
-  /// Goes from one end to the other and back, for ever.
+  /// Walks between two points, back and forth.
   struct Person {
     mrpt::math::TPoint2D from;
     mrpt::math::TPoint2D to;
     double speed_m_s = 1;
-    double start_m = 0;  ///< how far on the way at time 0
+    double start_m = 0;  ///< distance along the way at time 0
   };
   std::vector<Person> people_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What wheel odometry makes of a motion. Its random errors are walks: their variances grow in proportion to
-// the way driven and the angle turned, however fine the steps. On top of them come errors of scale that last.
+// Simulated wheel odometry. Random errors are random walks: their variances grow in proportion to distance
+// and rotation, independent of the step size. Scale errors are constant.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -14,12 +14,11 @@ namespace psi_slam {
 
 struct WheelOdometryOptions {
   std::uint64_t seed = 1;
-  double length_scale = 1.01;        ///< of every length: a wheel smaller than stated
-  double turn_scale = 1.01;          ///< of every turn: wheels farther apart than stated
-  double sigma_m_per_root_m = 0.01;  ///< of the length, after one metre; twice that after four
-  double sigma_rad_per_root_m = radians_from_degrees(0.4L);  ///< of the heading, after one metre
-  double sigma_rad_per_root_rad =
-      radians_from_degrees(1.0L);  ///< of the heading, after turning by one radian
+  double length_scale = 1.01;        ///< factor of distances; above 1 for wheels smaller than assumed
+  double turn_scale = 1.01;          ///< factor of rotations; above 1 for wheels farther apart than assumed
+  double sigma_m_per_root_m = 0.01;  ///< of the distance, after 1 m; twice that after 4 m
+  double sigma_rad_per_root_m = radians_from_degrees(0.4L);    ///< of the heading, after 1 m
+  double sigma_rad_per_root_rad = radians_from_degrees(1.0L);  ///< of the heading, after 1 rad
 };
 
 class WheelOdometry {
@@ -27,7 +26,7 @@ class WheelOdometry {
   explicit WheelOdometry(const WheelOdometryOptions& options)
       : options_(options), random_(options.seed, SimulationRandom::Stream::kOdometry) {}
 
-  /// The robot's odometry after it moved by `before_T_now` since the last call; it starts at the origin.
+  /// Odometry of the robot after a motion by `before_T_now` since the last call. Starts at the origin.
   mrpt::math::TPose2D move(const mrpt::math::TPose2D& before_T_now);
 
  private:

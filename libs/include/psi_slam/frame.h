@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every log, whatever its format, is read into: a stream of frames (method: one laser scan with the
-// odometry pose at its own time stamp and the pose of the laser on the robot; of a robot with several lasers
-// also what the others saw at nearly that time).
-//
-// Poses are SE(2), x forward, y left, yaw counter-clockwise in (-pi, pi]; `a_T_b` is the pose of b in a.
-// MRPT's TPose2D composes with `a_T_b + b_T_c` and inverts with `a_T_c - a_T_b` (c seen from b).
+/// @file
+/// A log of any format is read as a stream of frames. A frame is one laser scan with the odometry pose at the
+/// scan's time. If the robot has several lasers, the frame also holds the scans that the other lasers took at
+/// nearly the same time.
+///
+/// Poses are in SE(2): x forward, y left, yaw counter-clockwise in (-pi, pi]. `a_T_b` is the pose of b in a.
+/// MRPT's TPose2D composes poses with `a_T_b + b_T_c`; `a_T_c - a_T_b` is b_T_c.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -17,41 +18,43 @@
 
 namespace psi_slam {
 
-/// The bearing of each beam in the laser's own frame, radians, counter-clockwise positive, in the order of
-/// the ranges. Shared by all scans of one sensor.
+/// Bearings of the beams in the laser's frame, radians, counter-clockwise positive, one for each range and in
+/// the same order. All scans of one laser share them.
 using BeamBearings = std::shared_ptr<const std::vector<float>>;
 
-/// One planar range scan. `ranges_m[i]` was measured along `(*bearings_rad)[i]`; a range that is not a return
-/// (at or beyond the sensor's maximum, zero, negative, not finite, flagged invalid) is NaN.
+/// One planar range scan. `ranges_m[i]`, metres, was measured along `(*bearings_rad)[i]`. A reading without a
+/// return is NaN: at or beyond the maximum range, zero, negative, not finite or flagged as invalid.
 struct LaserScan {
-  std::vector<float> ranges_m;
-  BeamBearings bearings_rad;
-  float max_range_m = 0;  ///< of the sensor: what it reports beyond this is "no return"
-  mrpt::math::TPose2D robot_T_laser;
-  float sweep_time_s =
-      0;  ///< from the first beam, at the scan's time, to the last; 0: all at once, or not said
-  std::size_t laser = 0;  ///< which of the robot's lasers that are read, the first being 0
+  std::vector<float> ranges_m;  ///< one range for each beam, metres; NaN without return
+  BeamBearings bearings_rad;    ///< one bearing for each beam
+  float max_range_m = 0;        ///< maximum range of the sensor, metres: readings from here on are no returns
+  mrpt::math::TPose2D robot_T_laser;  ///< pose of the laser on the robot
+  /// Time from the first beam to the last, seconds; the time stamp is the first beam's. 0: all beams at once,
+  /// or unknown.
+  float sweep_time_s = 0;
+  std::size_t laser = 0;  ///< number of the laser among those that are read, from 0
 };
 
-/// What another laser of the same robot saw at nearly the time of a frame.
+/// Scan of another laser of the robot, taken at nearly the time of a frame.
 struct CompanionScan {
-  LaserScan scan;
-  TimeUs time_us = 0;                 ///< its own
-  mrpt::math::TPose2D frame_T_robot;  ///< the robot at that time, seen from where it was at the frame's
+  LaserScan scan;                     ///< the scan
+  TimeUs time_us = 0;                 ///< time of this scan, microseconds
+  mrpt::math::TPose2D frame_T_robot;  ///< robot pose at `time_us`, relative to its pose at the frame's time
 };
 
-/// One scan with the robot's odometry at the scan's own time.
+/// One scan with the robot's odometry at the scan's time.
 struct Frame {
-  std::size_t index = 0;  ///< in the order of the log, from 0
-  TimeUs time_us = 0;
-  mrpt::math::TPose2D odom_T_robot;
-  LaserScan scan;
-  bool has_odometry = true;  ///< false: nothing is known of the motion, and odom_T_robot says nothing
-  std::vector<CompanionScan> companions{};  ///< in the order of their lasers; each comes behind `scan.laser`
+  std::size_t index = 0;                    ///< position in the log, from 0
+  TimeUs time_us = 0;                       ///< time of the scan, microseconds
+  mrpt::math::TPose2D odom_T_robot;         ///< pose of the robot by odometry, at `time_us`
+  LaserScan scan;                           ///< scan of the first laser
+  bool has_odometry = true;                 ///< false: the motion is unknown and odom_T_robot is meaningless
+  std::vector<CompanionScan> companions{};  ///< scans of later lasers, ordered by LaserScan::laser
 };
 
-/// Calls `take(scan, map_T_robot)` for each scan of a frame with the robot's pose when the scan was taken,
-/// given that at the frame's time. Every scan has an origin of its own: map_T_robot + scan.robot_T_laser.
+/// Calls `take(scan, map_T_robot)` for each scan of a frame, with the robot's pose when that scan was taken.
+/// The argument `map_T_robot` is the pose at the frame's time. The beams of a scan start at the position of
+/// map_T_robot + scan.robot_T_laser.
 template <class Take>
 void for_each_scan(const Frame& frame, const mrpt::math::TPose2D& map_T_robot, Take take) {
   take(frame.scan, map_T_robot);

@@ -1,30 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one interface over every log format.
+/// @file
+/// Interface to logs of every format.
 #pragma once
 
-#include <filesystem>
-#include <memory>
+#include <cstddef>
 #include <optional>
+#include <string>
 
 #include "psi_slam/frame.h"
-#include "frames/skipped_lines.h"
 
 namespace psi_slam {
 
-/// A log being read from its beginning. Frames come in the order of the file, which is the truth even where
-/// the time stamps run backwards. A log is never held in memory as a whole.
+/// Parts of a log that the reader skipped: messages that do not parse and odometry without a valid pose.
+/// Long-running programs write a few such messages. Spare scans are counted separately; they are no fault.
+struct SkippedLines {
+  std::size_t count = 0;        ///< skipped messages
+  std::string first;            ///< "path:line: ...": place and fault of the first skipped message
+  std::size_t spare_scans = 0;  ///< scans of later lasers that joined no frame
+
+  /// One sentence without its full stop; empty if no message was skipped.
+  std::string sentence() const {
+    if (count == 0) return {};
+    if (count == 1) return "1 message of the log does not parse and is skipped: " + first;
+    return std::to_string(count) + " messages of the log do not parse and are skipped, the first: " + first;
+  }
+
+  /// Sum over two logs that are read one after the other.
+  friend SkippedLines operator+(SkippedLines first_log, const SkippedLines& second_log) {
+    if (first_log.count == 0) first_log.first = second_log.first;
+    first_log.count += second_log.count;
+    first_log.spare_scans += second_log.spare_scans;
+    return first_log;
+  }
+};
+
+/// Reads a log once, from its beginning. Frames have the order of the file, even where time stamps run
+/// backwards. The log is never held in memory as a whole.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// The next frame, or none at the end. Throws UserError (file, place, what was expected) on a malformed
-  /// log; some formats tolerate a few messages that are none, see skipped_lines().
+  /// Returns the next frame, or nothing at the end of the log. Throws UserError (file, place, what was
+  /// expected) if the log is malformed. CARMEN logs and bags may hold a few malformed messages, which are
+  /// skipped: see skipped_lines().
   virtual std::optional<Frame> next() = 0;
 
-  /// How much of the log has been read, in [0, 1], by bytes of the file on disk.
+  /// Fraction of the log that has been read, in [0, 1], by bytes of the file on disk.
   virtual double progress() const = 0;
 
-  /// What was left out of what has been read so far.
+  /// What the reader has skipped so far.
   virtual SkippedLines skipped_lines() const { return {}; }
 };
 

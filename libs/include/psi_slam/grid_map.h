@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The global occupancy grid: every scan of the log drawn at its mapped pose into MRPT's COccupancyGridMap2D.
-//
-// Beams are cast along their own bearings. (MRPT's insertObservation spreads n beams over the aperture in n
-// steps where a scan has n - 1: its last beam is a whole step off, a degree on the usual 180.) In a scan a
-// cell counts once: as hit if any of its beams ended there, else as passed if any went through. Over all
-// scans a hit weighs three times a pass, and nothing saturates on the way: a cell is a wall when more than a
-// quarter of the scans that saw it hit it. Neither does the order of the scans matter, nor the number of
-// beams.
+/// @file
+/// Draws the occupancy grid of all scans, each at its mapped pose, into MRPT's COccupancyGridMap2D.
+///
+/// Beams follow their own bearings. MRPT's insertObservation() instead divides the aperture into n steps for
+/// n beams, where a scan has n - 1: its last beam is one step off, 1 degree for the usual 180 degrees.
+///
+/// Each scan counts once per cell: as a hit if any of its beams ended in the cell, else as a pass if any went
+/// through it. Over all scans, a hit weighs three times a pass and counts do not saturate. A cell is occupied
+/// if more than a quarter of the scans that saw it hit it. The map depends neither on the order of the scans
+/// nor on the number of beams.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -19,19 +21,20 @@
 
 namespace psi_slam {
 
+/// Options of draw_grid_map(): section [map] of settings files.
 struct GridMapOptions {
-  double resolution_m = 0.05;
-  double max_range_m = 30;  ///< longer beams are drawn up to here, as free space only
-  double margin_m = 0.5;    ///< of unknown space around all that was seen
-  /// The resolution is doubled until the map has no more cells than this (four bytes each while drawing, one
-  /// after): a map that fell apart shall not exhaust the memory. coarser_cells_text() tells it.
+  double resolution_m = 0.05;  ///< side of a cell
+  double max_range_m = 30;     ///< longer beams are drawn as free space up to this range
+  double margin_m = 0.5;       ///< width of the unknown border around all observed cells
+  /// The cell size is doubled until the map has at most this many cells. A cell takes four bytes while
+  /// drawing and one byte afterwards. The limit keeps a map that fell apart from exhausting the memory.
   std::size_t max_cells = 100'000'000;
 };
 
-/// The map of all scans of `log`, each at the robot's pose of the same index. Cells are 0 occupied, 0.5 never
-/// seen, 1 free. Its corners lie on multiples of the resolution, and hold what was seen with the margin.
-/// Beams without return draw nothing. Throws std::invalid_argument when the counts differ, or when an option
-/// or a pose is no sensible number.
+/// Draws the scans of `log`, each at the robot pose with the same index. Cells are 0 if occupied, 0.5 if
+/// never observed and 1 if free. The corners of the map lie on multiples of the resolution and include the
+/// margin. Beams without a return draw nothing. Throws std::invalid_argument if the numbers of scans and
+/// poses differ, or if an option or a pose is not finite or out of range.
 mrpt::maps::COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log,
                                                    const std::vector<mrpt::math::TPose2D>& map_T_robot,
                                                    const GridMapOptions& options = {});

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Options for reading logs.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -7,75 +9,85 @@
 #include <optional>
 #include <string>
 
-#include "frames/beam_angles.h"
-
 namespace psi_slam {
 
-/// What the user may state about a log, whatever its format. Everything left out is taken from the log
-/// itself, or, where the log does not say, from the convention of its format as told at each member.
+/// How n beams divide a field of view F. Bearings run counter-clockwise from the right.
+enum class BeamAngles {
+  kAuto,                  ///< as the log states; if it does not, see usual_beam_angles() in beam_angles.h
+  kCentredStepInclusive,  ///< -F/2 ... +F/2 in steps F/(n-1): a beam at either end
+  kCentredHalfStep,       ///< -F/2 + s/2 ... +F/2 - s/2 in steps s = F/n (180 beams: -89.5 ... +89.5 degrees)
+  kLeftOpen,              ///< -F/2 ... +F/2 - s in steps s = F/n (180 beams: -90 ... +89 degrees)
+  kSkipZero,              ///< as kLeftOpen without the beam at 0 (180 beams: -90 ... -1, +1 ... +90 degrees)
+};
+
+/// What the user states about a log of any format. The log itself provides what the user does not state. If
+/// the log does not state it either, the convention of its format applies, as described at each member.
 struct LogOptions {
-  /// Pose of the laser on the robot. Default: the log's own (CARMEN: PARAM robot_frontlaser_offset and kin,
-  /// or the difference of the poses of raw ROBOTLASER lines; rawlog: the sensor's pose; ROS: the transforms);
-  /// CARMEN logs that do not say have the front laser in the robot's centre, and the rear one there looking
-  /// backwards.
+  /// Pose of the laser on the robot, metres and radians; for a single laser. Default: the log's own.
+  /// CARMEN: PARAM robot_frontlaser_offset and its kind, or the difference of the poses of raw ROBOTLASER
+  /// lines. Rawlog: the pose of the sensor. ROS: the transforms. In a CARMEN log without a statement, the
+  /// front laser is at the robot's centre, and the rear laser is there too and looks backwards.
   std::optional<mrpt::math::TPose2D> robot_T_laser;
 
-  /// How the beams share the field of view. Default: what the log states, else `usual_beam_angles`.
+  /// How the beams divide the field of view. Default: as the log states, otherwise the usual convention for
+  /// the number of beams.
   BeamAngles beam_angles = BeamAngles::kAuto;
 
-  /// Field of view of the laser, radians, in (0, 2 pi]. Default: what the log states, else
-  /// `usual_field_of_view_rad`.
+  /// Field of view of the laser, radians, in (0, 2 pi]. Default: as the log states, otherwise the usual one
+  /// for the number of beams.
   std::optional<double> field_of_view_rad;
 
-  /// Readings at or beyond this, metres, are no returns. Default: what the log states, else
+  /// Maximum range, metres: readings at or beyond it are no returns. Default: as the log states, otherwise
   /// `kUnstatedMaxRange_m`.
   std::optional<double> max_range_m;
 
-  /// Readings below this, metres, are no returns (a robot that sees its own bumper).
+  /// Minimum range, metres: readings below it are no returns, for a robot that sees its own bumper.
   double min_range_m = 0;
 
-  /// The readings run clockwise: a laser mounted upside down whose log does not say so.
+  /// The readings run clockwise: a laser is mounted upside down and the log does not say so.
   bool mirrored = false;
 
-  /// Which laser. CARMEN: "front", "rear" or a message name such as "RAWLASER2"; rawlog: a sensor label; ROS:
-  /// a topic of scans. Default: the front laser if there is one, else the only one; of a rawlog, the first.
-  /// "all", or several with commas between them, are read together (see LaserChoice).
+  /// Which laser to read. CARMEN: "front", "rear" or a message name such as "RAWLASER2". Rawlog: a sensor
+  /// label. ROS: a topic of scans. "all", or several names separated by commas, combine lasers into frames.
+  /// Default: CARMEN: the front laser if there is one; rawlog: the first laser; ROS: the only topic of scans.
   std::string laser;
 
-  /// How lasers are mounted that the log does not tell of, or tells wrongly: "NAME X Y YAW" with metres and
-  /// degrees, "mirrored" behind it for one that hangs upside down; several with commas between them. Names as
-  /// in `laser`. `robot_T_laser`, which is for one laser alone, stands over it.
+  /// Poses of lasers that the log states wrongly or not at all: "NAME X Y YAW" in metres and degrees,
+  /// followed by "mirrored" if the laser is mounted upside down; several separated by commas. Names are those
+  /// of `laser`. `robot_T_laser` overrides this option.
   std::string laser_mounts;
 
-  /// The time from the first beam of a scan to its last, seconds, in [0, 1]: the robot's motion in it is
-  /// taken out of the scan. Default: what the log states (ROS: time_increment), else 0, which leaves scans
-  /// alone.
+  /// Time from the first beam of a scan to its last, seconds, in [0, 1]. The robot's motion during this time
+  /// is removed from the scan. Default: as the log states (ROS: time_increment), otherwise 0, which leaves
+  /// scans unchanged.
   std::optional<double> sweep_time_s;
 
-  // ROS bags only. What is left empty is found by the types of the topics and by the transforms.
+  // The next four options apply to ROS bags only. If empty, the reader finds topics by their types and frames
+  // by the transforms.
 
-  /// The topic of the scans (sensor_msgs/LaserScan), or several as in `laser`, over which it stands.
+  /// Topic of the scans (sensor_msgs/LaserScan), or several as in `laser`, which this option overrides.
   std::string scan_topic;
 
-  /// The topic of the odometry (nav_msgs/Odometry); one of transforms ("/tf") takes the transform instead.
+  /// Topic of the odometry (nav_msgs/Odometry). A topic of transforms ("/tf") selects the transform from
+  /// odom_frame to base_frame instead.
   std::string odometry_topic;
 
-  /// The frame that odometry is told in. Default: the nearest above the laser whose name has "odom" in it.
+  /// Frame in which odometry is given. Default: the nearest frame above the laser whose name contains "odom".
   std::string odom_frame;
 
-  /// The robot's frame, which odometry moves. Default: the child frame of the odometry's messages, or that
-  /// of the transform from odom_frame.
+  /// Frame of the robot, which odometry moves. Default: the child frame of the odometry messages, or of the
+  /// transform from odom_frame.
   std::string base_frame;
 
-  /// 2 takes every second scan, and so on; odometry stays that of each scan's own time.
+  /// Reads every nth scan; 1 reads all. Each scan keeps the odometry of its own time.
   std::size_t every_nth_scan = 1;
 };
 
-/// The maximum range, metres, of CARMEN logs that state none. Indoor lasers of such logs report 50 m or more
-/// for "no return", with codes that differ from log to log (50.00, 51.06, 81.83, 81.91).
+/// Maximum range, metres, for CARMEN logs that state none. Their indoor lasers report 50 m or more for "no
+/// return", with codes that differ between logs (50.00, 51.06, 81.83, 81.91).
 inline constexpr double kUnstatedMaxRange_m = 50.0;
 
-/// Throws UserError naming the first value that makes no sense.
+/// Throws UserError that names the first option with an invalid value.
 void check_log_options(const LogOptions& options);
 
 }  // namespace psi_slam

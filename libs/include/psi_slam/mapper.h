@@ -1,142 +1,122 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The engine: front end, local maps, loop closing and pose graph put together. The headless app, the GUI and
-// CMetricMapBuilderPsi all drive this class; it knows nothing of files, windows or options' texts.
+/// @file
+/// The mapping engine: turns scans with odometry into a pose graph and a map, scan by scan.
+///
+///     psi_slam::Mapper mapper;
+///     for each scan:  const psi_slam::FrameRecord& record = mapper.add(frame);
+///     psi_slam::MappingResult result = mapper.finish();
+///
+/// Front end, local maps, loop closing and pose graph work together here. The command line, the window and
+/// CMetricMapBuilderPsi all drive this class. It reads and writes no files.
 #pragma once
 
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
 #include <functional>
-#include <map>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "base/degrees.h"
-#include "local_maps/front_end.h"
-#include "loop_closure/loop_edit.h"
-#include "loop_closure/back_end.h"
-#include "mapping/run_start.h"
-#include "mapping/joint_refinement.h"
+#include "psi_slam/frame.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/mapping_result.h"
-#include "mapping/stage_clock.h"
 #include "psi_slam/pose_graph.h"
-#include "pose_graph/sparse_pose_adjustment.h"
 
 namespace psi_slam {
 
-struct MapperOptions : BackEndOptions {
-  FrontEndOptions front_end;
-  JointRefinementOptions joint_refinement;
-  PoseAdjustmentOptions pose_graph;
+struct KeyframeStore;
+struct MapperOptions;
+struct PlacedLocalMap;
 
-  bool close_loops = true;
-  double local_map_sigma_m =
-      0.015;  ///< of a node's pose in a local map, on top of the front end's covariance
-  double local_map_sigma_rad = radians_from_degrees(0.25L);
+/// Where a run begins in a map made before, relative to a node of the graph. No odometry connects the run to
+/// the map.
+struct RunStart {
+  std::size_t node = 0;              ///< node of the map
+  mrpt::math::TPose2D node_T_robot;  ///< robot at the start of the run, relative to the node
+  /// Pose at which the place was found, relative to the start of the run. There the pose is known best.
+  mrpt::math::TPose2D robot_T_found;
 };
 
-/// What became of an edit.
+/// Outcome of an edit.
 struct LoopEditOutcome {
+  /// What happened to the edit.
   enum class State {
-    kDone,
-    kWaits,       ///< for what is still to come
-    kImpossible,  ///< and nothing was changed
+    kDone,        ///< the loop is changed
+    kWaits,       ///< until its scan, local map or match exists
+    kImpossible,  ///< nothing was changed
   };
-  State state = State::kDone;
-  std::string reason;  ///< why it is not done, as a clause
+  State state = State::kDone;  ///< what happened to the edit
+  std::string reason;          ///< why the edit is not done, as a clause
 };
 
+/// Maps scans with odometry, one by one, into a pose graph.
 class Mapper {
  public:
+  /// Maps with the default options.
+  Mapper();
+  /// Maps with the given options: pass a Configuration.
   explicit Mapper(const MapperOptions& options);
+  ~Mapper();
+  /// Moves the mapper. The moved-from mapper can only be assigned to or destroyed.
+  Mapper(Mapper&& other) noexcept;
+  /// Moves the mapper. The moved-from mapper can only be assigned to or destroyed.
+  Mapper& operator=(Mapper&& other) noexcept;
 
-  /// The per-scan step. Frames come in the log's order; returns what became of this one so far.
+  /// The per-scan step. Takes frames in the log's order and returns the record of this frame so far. The
+  /// reference is valid until the next call.
   const FrameRecord& add(Frame frame);
 
-  /// The next scan is the first of another drive, which begins about there: no odometry joins it to the scans
-  /// before, loops are to. Odometry is told on from there (FrameRecord::odom_T_robot).
+  /// Begins another run: the next frame starts at about this place. Loops join the run to the map. The
+  /// odometry in its records continues from there, see FrameRecord::odom_T_robot.
   void begin_run(const RunStart& start);
 
-  /// Changes a loop by hand, and optimises the graph. An edit whose scan or local map is still to come, or a
-  /// match that is to be forced and has not been found yet, waits for it; the next edit of the same two
-  /// replaces it.
+  /// Changes a loop by hand and optimises the graph. An edit waits if its scan, its local map or the match to
+  /// force does not exist yet. The next edit of the same scan and local map replaces it.
   LoopEditOutcome edit(const LoopEdit& edit);
 
-  /// What stands against an edit, without making it. `frames` are those of the mapper, or, after finish(), of
-  /// its result.
+  /// What would prevent an edit now. Changes nothing. `frames` are frames() or, after finish(), those of the
+  /// result.
   LoopEditOutcome judge(const LoopEdit& edit, const std::vector<FrameRecord>& frames) const;
 
-  /// No scan comes any more: the last local maps are finished.
+  /// Finishes the active local maps. Call after the last scan; finish() does so too.
   void end_log();
 
+  /// What remains possible after finish().
   enum class AfterFinish {
-    kNothing,  ///< the mapper can be asked for its graph, but not go on
-    kReopen,   ///< costs the memory of a second graph
+    kNothing,  ///< only graph() may be called afterwards
+    kReopen,   ///< reopen() is possible; costs the memory of a second graph
   };
-  /// The last loop search over all pairs near each other and the last optimisation; then, where loops are
-  /// closed and nothing is cut short, the refinement of all scans; then the result. `progress` is called with
-  /// the share done, in [0, 1]; when it returns false, the search ends there: the map is of the loops found
-  /// until then, and the result says that it was cut short.
+  /// Finishes the map: final loop search, optimisation and joint refinement of all scans. `progress` gets the
+  /// share done, in [0, 1]. If it returns false, the remaining steps are left out, and the result says that
+  /// it was cut short.
   MappingResult finish(const std::function<bool(double)>& progress = {},
                        AfterFinish after = AfterFinish::kNothing);
 
-  /// Takes back what finish() made, to be edited and finished again: all is as it was after end_log().
+  /// Restores the state before finish(), so that loops can be edited and the map be finished again. `result`
+  /// is what finish() returned; it must have been called with AfterFinish::kReopen.
   void reopen(MappingResult&& result);
 
-  /// The robot now, in the global map.
+  /// Current pose of the robot in the map.
   mrpt::math::TPose2D map_T_robot() const;
-  const PoseGraph& graph() const { return graph_; }
-  const std::vector<Frame>& log() const { return result_.log; }
-  const std::vector<FrameRecord>& frames() const { return result_.frames; }
-  const std::vector<std::size_t>& later_run_frames() const { return result_.later_run_frames; }
-  const std::vector<LoopRecord>& loops() const { return back_end_.loops(); }
-  const KeyframeStore& memory() const { return memory_; }
-  const std::vector<PlacedLocalMap>& active_local_maps() const { return front_end_.active(); }
+  /// Pose graph so far.
+  const PoseGraph& graph() const;
+  /// All frames so far, in the order in which they were added.
+  const std::vector<Frame>& log() const;
+  /// Records of all frames so far, in the same order as log().
+  const std::vector<FrameRecord>& frames() const;
+  /// The first frame of each run after the first run.
+  const std::vector<std::size_t>& later_run_frames() const;
+  /// Attempts to close loops so far.
+  const std::vector<LoopRecord>& loops() const;
+  /// Nodes with their scans and local maps; its type is internal.
+  const KeyframeStore& keyframes() const;
+  /// The local maps that scans are inserted into, older first, at most two; their type is internal.
+  const std::vector<PlacedLocalMap>& active_local_maps() const;
 
  private:
-  void record_factor(FrameRecord& record, const FrontEndStep& step);
-  /// What finish() changes and reopen() brings back.
-  struct Checkpoint {
-    PoseGraph graph;
-    LoopLedger ledger;
-    SparsePoseAdjustment solver;
-    std::map<std::string, LoopMatcherRecord> loop_matchers;
-  };
-
-  void rebase_odometry(FrameRecord& record);
-  void add_node(const FrontEndStep& step, std::size_t frame);
-  void join_run();
-  void follow_graph();
-  void remember(const PlacedLocalMap& finished);
-  void close_loops(std::size_t node, FrameRecord& record);
-  bool is_time_to_optimize() const;
-  void optimize();
-  LoopEditOutcome carry_out(const LoopEdit& edit);
-  void serve_waiting_edits();
-  std::vector<std::string> unmet_edits() const;
-  void run_final_search(const std::function<bool(double)>& progress);
-  void settle_loops();
-  void count_accepted_loops();
-  void refine_poses(const std::function<bool(double)>& progress);
-
-  MapperOptions options_;
-  FrontEnd front_end_;
-  BackEnd back_end_;
-  SparsePoseAdjustment solver_;
-  PoseGraph graph_;
-  KeyframeStore memory_;
-  std::vector<LoopEdit> waiting_edits_;
-  std::vector<std::string> impossible_edits_;  ///< of those that had waited, a sentence each
-  std::optional<Checkpoint> before_finish_;
-  std::optional<RunStart> run_start_;            ///< of the scan that comes next
-  std::optional<mrpt::math::TPose2D> odom_T_run_;  ///< of a later drive: its odometry in the first one's
-  mrpt::math::TPose2D map_T_local_;  ///< the front end's frame, as the newest node says
-  double worst_residual_ = 0;                  ///< of NodeLoops, the most since the graph was optimised
-  std::size_t optimized_nodes_ = 0;  ///< in the graph then
-  MappingResult result_;
-  StageClock front_end_clock_{"match and insert scan"};
-  StageClock loop_clock_{"close loops"};
-  StageClock graph_clock_{"optimise pose graph"};
-  StageClock final_search_clock_{"last global pass"};
-  StageClock refinement_clock_{"refine all scans jointly"};
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 
 }  // namespace psi_slam

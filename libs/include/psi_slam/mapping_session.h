@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run from a log to a map. psi-slam and psi-slam-gui both drive this class scan by scan.
-//
-//     auto session = MappingSession::open("my.log", "my.ini");
-//     while (session.step()) {}              // or: session.run(stop)
-//     session.finish();
-//     session.export_to("out");
-//
-// The class knows neither windows nor signals. To stop early, call finish() instead of step(): the map is
-// then made of the scans that were read.
+/// @file
+/// One run from a log to a map. psi-slam and psi-slam-gui both drive this class scan by scan.
+///
+///     psi_slam::Configuration configuration;
+///     psi_slam::MappingSession session("my.log", configuration);
+///     while (session.step()) {}              // or: session.run(stop)
+///     session.finish();
+///     session.export_to("out");
+///
+/// The class knows neither windows nor signals. To stop early, call finish() instead of step(): the map is
+/// then made of the scans that were read.
 #pragma once
 
 #include <atomic>
@@ -23,6 +25,7 @@
 
 namespace psi_slam {
 
+class Configuration;
 class EditJournal;
 class OutputFolder;
 class SessionInput;
@@ -34,14 +37,16 @@ struct Settings;
 struct SkippedLines;
 struct TimedEdit;
 
+/// Progress of a session, for progress bars.
 struct SessionProgress {
+  /// Part of the work.
   enum class Phase {
     kMapping,      ///< reads the log and maps its scans
     kFinalSearch,  ///< final loop search, last optimisation and final scan refinement
     kWriting,      ///< draws the map and writes all files
   };
 
-  Phase phase = Phase::kMapping;
+  Phase phase = Phase::kMapping;      ///< present part of the work
   double share = 0;                   ///< done of the phase, in [0, 1]; while mapping, of the log
   std::size_t scans = 0;              ///< mapped so far
   double scans_per_s = 0;             ///< average over elapsed_s
@@ -60,14 +65,12 @@ struct SavedSession {
 /// are equal.
 class MappingSession {
  public:
+  /// Function that receives the progress.
   using Observer = std::function<void(const SessionProgress&)>;
 
-  /// Opens a log with the settings of the .ini file `config`, then those of `assignments`, each
-  /// "section.key=value". An empty `config` means the defaults. Throws UserError if the log, the file or an
-  /// assignment is invalid.
-  static MappingSession open(const std::filesystem::path& log, const std::filesystem::path& config = {},
-                             const std::vector<std::string>& assignments = {});
-
+  /// Opens a log. Throws UserError if it is unreadable or if settings contradict each other. warnings() holds
+  /// those of the configuration.
+  MappingSession(const std::filesystem::path& log, const Configuration& configuration);
   /// Opens a log. Throws UserError if it is unreadable or if settings contradict each other.
   MappingSession(const std::filesystem::path& log, const Settings& settings);
   /// Opens a log or a recorded session. Throws UserError as the constructor for logs.
@@ -115,6 +118,7 @@ class MappingSession {
   /// Keeps the mapper after finish(), so that edits, reopen() and begin_run() remain possible. Needs the
   /// memory of a second graph.
   void stay_open();
+  /// Whether finish() was called, and not undone since.
   bool finished() const;
   /// Undoes finish(), which must be called again. Needs stay_open().
   void reopen();
@@ -123,6 +127,7 @@ class MappingSession {
   /// unread or if `stop` became true and cut the final search short. Throws UserError if no scan has a
   /// return.
   void finish(const std::atomic<bool>& stop);
+  /// Ends the mapping without a way to cut the final search short.
   void finish();
 
   /// Maps at least one scan, continues to the end of the log or until `stop` is true, then calls finish().

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Opens logs of every format.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +11,8 @@
 
 namespace psi_slam {
 
-/// Opens a log of any format that is read, which its content decides. Throws UserError when it cannot be
-/// opened or is none of them, and when the options make no sense.
+/// Opens a CARMEN log, an MRPT rawlog or a ROS bag; the content of the file decides, not its name. Throws
+/// UserError if the file cannot be opened, has none of these formats, or an option is invalid.
 std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const LogOptions& options = {});
 
 }  // namespace psi_slam

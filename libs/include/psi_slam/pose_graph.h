@@ -1,67 +1,127 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pose graph: the poses of the nodes and the measured relative poses between them.
-//
-// It keeps both in flat arrays and makes MRPT's CNetworkOfPoses2DInf of them on request (mrpt_network.h)
-// instead of keeping one in step: that container holds one tree or hash node an edge, has no place for an
-// edge's kind, kernel or switch, and cannot tell apart two edges of the same pair of nodes, while the solver
-// and the path search walk all edges hundreds of times a run.
+/// @file
+/// The pose graph: the poses of the nodes, and the measured relative poses between them (equations 3 to 6).
+///
+/// The graph uses flat arrays, because MRPT's CNetworkOfPoses2DInf has no place for the kind, kernel and
+/// switch of an edge. The deciders for MRPT's graph-slam engine convert it.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
-
-#include "pose_graph/constraint.h"
 
 namespace psi_slam {
 
-/// The part of a constraint that searches over the graph read, packed for them.
-struct GraphLink {
-  std::uint32_t from = 0;
-  std::uint32_t to = 0;
-  /// Covariance of from_T_to in the axes of `from`; the inverse of the information, infinite where that is
-  /// singular.
-  double xx = 0, xy = 0, xt = 0, yy = 0, yt = 0, tt = 0;
+/// Robust kernel: the cost rho(s) that a constraint adds to the error sum instead of its squared error
+/// s = e^T Omega e, so that a false constraint cannot bend the whole map. All kernels approach rho(s) = s for
+/// small s.
+struct RobustKernel {
+  /// Form of the cost.
+  enum class Type {
+    kNone,            ///< rho(s) = s
+    kHuber,           ///< grows as sqrt(s) beyond the width; convex in the error
+    kCauchy,          ///< grows logarithmically
+    kDynamicScaling,  ///< dynamic covariance scaling (Agarwal et al., ICRA 2013): bounded by 3 width^2
+    kGemanMcClure,    ///< bounded by width^2; kernel of graduated non-convexity (Yang et al., RA-L 2020)
+  };
+
+  Type type = Type::kNone;  ///< form of the cost
+  double width = 1;         ///< > 0, in standard deviations, the unit of sqrt(e^T Omega e)
+
+  /// rho(chi2), chi2 >= 0.
+  double cost(double chi2) const;
+
+  /// drho/dchi2 in [0, 1]: the factor on the information matrix in iteratively reweighted least squares.
+  double weight(double chi2) const;
 };
 
-/// Nodes are 0 .. num_nodes() - 1 and constraints 0 .. num_constraints() - 1 in the order of their insertion;
-/// neither is ever removed, but a constraint can be switched off. The root's pose is held by the solver; it
-/// is node 0 unless set_root() says otherwise. An index that does not exist throws std::out_of_range.
+/// One measured relative pose between two nodes of a pose graph: one edge, one term of equation 5.
+struct Constraint {
+  /// Origin of the measurement.
+  enum class Kind {
+    kOdometry,  ///< between successive nodes
+    kLocalMap,  ///< from the anchor of a local map to a node whose scan the map holds
+    kRunStart,  ///< from a node of another run to the start of a run
+    kLoop,      ///< from a recognised place; only this kind can be entirely false
+  };
+
+  std::size_t from = 0;           ///< node in whose frame the other is measured
+  std::size_t to = 0;             ///< measured node
+  mrpt::math::TPose2D from_T_to;  ///< metres, radians
+  /// Inverse covariance of (x, y, theta) of from_T_to, in the axes of `from`: 1/m^2, 1/(m rad), 1/rad^2.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
+  Kind kind = Kind::kOdometry;         ///< origin of the measurement
+  std::optional<RobustKernel> kernel;  ///< replaces the solver's kernel for this kind
+};
+
+/// Symmetric 3x3 covariance of (x, y, theta): m^2, m rad, rad^2.
+struct PoseCovariance {
+  double xx = 0;  ///< variance of x, m^2
+  double xy = 0;  ///< covariance of x and y, m^2
+  double xt = 0;  ///< covariance of x and theta, m rad
+  double yy = 0;  ///< variance of y, m^2
+  double yt = 0;  ///< covariance of y and theta, m rad
+  double tt = 0;  ///< variance of theta, rad^2
+};
+
+/// The part of a constraint that graph searches read, packed for them.
+struct GraphLink {
+  std::uint32_t from = 0;     ///< node where the constraint begins
+  std::uint32_t to = 0;       ///< node where the constraint ends
+  PoseCovariance covariance;  ///< of from_T_to in the axes of `from`; infinite if the information is singular
+};
+
+/// Nodes and constraints are numbered from 0 in the order of their insertion and are never removed;
+/// constraints can be switched off. The solver holds the pose of the root, which is node 0 unless set_root()
+/// changes it. Functions throw std::out_of_range for an index that does not exist.
 class PoseGraph {
  public:
-  /// Adds a node and returns its number. Throws std::invalid_argument when the pose is not finite.
+  /// Adds a node and returns its number. Throws std::invalid_argument if the pose is not finite.
   std::size_t add_node(const mrpt::math::TPose2D& map_T_node);
 
-  /// Adds a constraint, switched on, and returns its number. Throws std::invalid_argument when it links a
-  /// node to itself, or its pose is not finite, or its information not symmetric and positive semi-definite.
+  /// Adds a constraint, switched on, and returns its number. Throws std::invalid_argument if it links a node
+  /// to itself, if its pose is not finite, or if its information is not symmetric and positive semi-definite.
   std::size_t add_constraint(const Constraint& constraint);
 
-  /// A constraint that is switched off takes no part in anything but keeps its number.
+  /// Switches a constraint on or off. Solvers and searches ignore a constraint that is off; it keeps its
+  /// number.
   void set_enabled(std::size_t constraint, bool enabled) { enabled_.at(constraint) = enabled ? 1 : 0; }
+  /// Whether a constraint is switched on.
   bool enabled(std::size_t constraint) const { return enabled_.at(constraint) != 0; }
 
+  /// Chooses the node whose pose the solver holds.
   void set_root(std::size_t node);
+  /// Number of the node whose pose the solver holds.
   std::size_t root() const { return root_; }
 
+  /// Number of nodes.
   std::size_t num_nodes() const { return poses_.size(); }
+  /// Number of constraints, enabled or not.
   std::size_t num_constraints() const { return constraints_.size(); }
+  /// Number of constraints that are switched on.
   std::size_t num_enabled_constraints() const;
 
+  /// Pose of a node in the map frame: metres, radians in (-pi, pi].
   const mrpt::math::TPose2D& pose(std::size_t node) const { return poses_.at(node); }
-  /// The heading is wrapped to (-pi, pi]. Throws std::invalid_argument when the pose is not finite.
+  /// Wraps the heading to (-pi, pi]. Throws std::invalid_argument if the pose is not finite.
   void set_pose(std::size_t node, const mrpt::math::TPose2D& map_T_node);
+  /// Poses of all nodes in the map frame.
   const std::vector<mrpt::math::TPose2D>& poses() const { return poses_; }
 
+  /// A constraint by its number.
   const Constraint& constraint(std::size_t index) const { return constraints_.at(index); }
+  /// All constraints, enabled or not.
   const std::vector<Constraint>& constraints() const { return constraints_; }
-  /// One for each constraint, enabled or not.
+  /// One link per constraint, enabled or not.
   const std::vector<GraphLink>& links() const { return links_; }
-  /// The constraints that begin or end at a node, enabled or not, in the order of their insertion.
+  /// Constraints that begin or end at a node, enabled or not, in the order of their insertion.
   const std::vector<std::uint32_t>& constraints_of(std::size_t node) const { return incident_.at(node); }
 
-  /// Sum of e^T Omega e over the enabled constraints: the E of equation 5 without robust kernels.
+  /// Sum of e^T Omega e over the enabled constraints: E of equation 5 without robust kernels.
   double chi2() const;
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time stamps are whole microseconds since the log's own epoch (usually Unix time), as the benchmark is keyed by them;
-// text carries them as decimal seconds, and the way there and back is exact.
+/// @file
+/// Time stamps: integer microseconds since the epoch of the log, usually Unix time. The benchmark identifies
+/// scans by them, so the conversion to decimal seconds in text and back is exact.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +14,16 @@ namespace psi_slam {
 /// Microseconds since the log's epoch.
 using TimeUs = std::int64_t;
 
-/// "976052905.167303": seconds with six decimals.
+/// Seconds with six decimals: "976052905.167303".
 std::string format_seconds(TimeUs time_us);
 
-/// Reads decimal seconds ("976052905.167303", "12", "1.5e9", "-0.25") to the nearest microsecond, without going
-/// through a double unless there is an exponent. Empty when the text is not a finite number of that range.
+/// Reads decimal seconds ("976052905.167303", "12", "1.5e9", "-0.25") to the nearest microsecond, exactly
+/// unless there is an exponent. Empty if the text is not a number, or above 9e12 seconds.
 std::optional<TimeUs> parse_seconds(std::string_view text);
 
-inline double seconds(TimeUs time_us) { return static_cast<double>(time_us) * 1e-6; }
+/// Seconds as a double, for durations.
+inline double seconds(TimeUs time_us) {
+  return static_cast<double>(time_us) * 1e-6;
+}
 
 }  // namespace psi_slam

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Exceptions of the library.
 #pragma once
 
 #include <stdexcept>
 
 namespace psi_slam {
 
-/// A mistake that the user can mend: a file that is not there, a key that does not exist, a log without laser.
-/// Its text is one sentence that says what, where, and what was expected; programs print it and exit with 2.
+/// An error that the user can correct: a missing file, an unknown key, a log without laser scans. Its text
+/// says what is wrong, where, and what was expected. Programs print it and exit with 2.
 class UserError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What went wrong on our side or the machine's (a full disk, a failed write): programs print it and exit with 1.
+/// A failure of the system, such as a full disk. Programs print its text and exit with 1.
 class SystemFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The report of a benchmark in all its forms, and the sections that the reports share.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "batch/report_table.h"
+#include "common/benchmark_logs.h"
+
+namespace psi_slam {
+
+struct BenchReport {
+  std::string page;      ///< file name of the Markdown page: "robustness.md"
+  std::string markdown;  ///< the page
+  std::string json;
+  std::string csv;  ///< the main table
+
+  struct Plot {
+    std::string file;  ///< "robustness-scans-kept.svg"
+    std::string svg;
+  };
+  std::vector<Plot> plots;
+};
+
+/// "0.1.0".
+std::string program_version();
+
+/// Commit that the program was built from: "bf09480d1c2e", followed by " and changes" if tracked files
+/// differed from it; "unknown" for a build outside a git clone.
+std::string program_commit();
+
+/// "psi-slam 0.1.0, commit bf09480d1c2e, AMD EPYC, 2 processors".
+std::string measured_by(const std::string& machine);
+
+/// The first members of a report's JSON: schema, program and machine.
+nlohmann::ordered_json report_json(const std::string& schema, const std::string& machine);
+
+struct LogIdentity {
+  std::string name;
+  std::string sha256;            ///< of the log
+  std::string relations_sha256;  ///< of its relations
+};
+
+/// Checksums of logs with relations. Throws UserError when a file cannot be read.
+std::vector<LogIdentity> identities_of(const std::vector<BenchmarkLog>& logs);
+
+ReportTable logs_table(const std::vector<LogIdentity>& logs);
+
+/// The section with the checksums, which also lists the logs that were left out for want of relations.
+std::string logs_section(const std::vector<LogIdentity>& logs,
+                         const std::vector<std::string>& without_relations);
+
+}  // namespace psi_slam

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/benchmark_logs.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "batch/kept_run.h"
+#include "config/apply_settings.h"
+#include "config/ini_file.h"
+#include "exports/mapped_trajectory.h"
+#include "psi_slam/user_error.h"
+
+namespace psi_slam {
+
+namespace fs = std::filesystem;
+
+std::vector<BenchmarkLog> find_benchmark_logs(const fs::path& data, const fs::path& ini) {
+  if (!fs::is_directory(data)) throw UserError(data.string() + " is not a folder");
+  std::map<std::string, fs::path> files;
+  for (const auto& entry : fs::directory_iterator(data)) {
+    const auto name = log_name_of(entry.path().filename().string());
+    if (!name || !entry.is_regular_file()) continue;
+    fs::path& file = files[*name];
+    if (file.empty() || entry.path() < file) file = entry.path();
+  }
+  if (files.empty())
+    throw UserError("there is no log in " + data.string() +
+                    ": expected NAME.clf.gz, NAME.log or NAME.rawlog with NAME.relations beside it");
+  std::vector<BenchmarkLog> logs;
+  for (const auto& [name, file] : files) {
+    BenchmarkLog log{name, file, ini / (name + ".ini"), {}};
+    if (!fs::exists(log.ini))
+      throw UserError(file.string() + " has no settings: expected " + log.ini.string() +
+                      " with the parameters of its sensor");
+    const fs::path relations = data / (name + ".relations");
+    if (fs::exists(relations)) log.relations = relations;
+    logs.push_back(std::move(log));
+  }
+  return logs;
+}
+
+std::optional<fs::path> shipped_ini_folder() {
+  std::error_code failed;
+  fs::path folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
+  while (!failed && !folder.empty()) {
+    for (const fs::path& ini : {folder / "share" / "psi-slam" / "ini", folder / "ini"})
+      if (fs::exists(ini / "psi-slam.ini", failed)) return ini;
+    if (folder == folder.root_path()) break;
+    folder = folder.parent_path();
+  }
+  return std::nullopt;
+}
+
+Settings benchmark_settings(const fs::path& ini, const std::vector<std::string>& assignments) {
+  Settings settings;
+  OptionTable table;
+  describe(table, settings);
+  apply(read_ini(ini), table);
+  for (const std::string& assignment : assignments) apply_override(assignment, table);
+  check(settings);
+  return settings;
+}
+
+MappedRun map_source(FrameSource& source, const MapperOptions& options,
+                     const std::function<void(double)>& progress) {
+  Mapper mapper(options);
+  while (std::optional<Frame> frame = source.next()) {
+    mapper.add(std::move(*frame));
+    progress(source.progress());
+  }
+  MappedRun run;
+  run.result = mapper.finish();
+  run.graph = mapper.graph();
+  return run;
+}
+
+std::size_t loops_accepted(const MappingResult& result) {
+  return static_cast<std::size_t>(
+      std::count_if(result.loops.begin(), result.loops.end(),
+                    [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
+}
+
+RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations) {
+  return evaluate_relations(trajectory_of(frames), relations);
+}
+
+}  // namespace psi_slam

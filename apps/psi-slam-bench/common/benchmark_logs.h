@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The logs of the benchmarks, their settings, and mapping a log as psi-slam maps it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluation/relations_metric.h"
+#include "psi_slam/frame_source.h"
+#include "mapping/mapper_options.h"
+#include "psi_slam/mapper.h"
+#include "psi_slam/pose_graph.h"
+#include "session/settings.h"
+
+namespace psi_slam {
+
+struct BenchmarkLog {
+  std::string name;                                ///< "intel"
+  std::filesystem::path log;                       ///< intel.clf.gz
+  std::filesystem::path ini;                       ///< intel.ini, with the parameters of the sensor
+  std::optional<std::filesystem::path> relations;  ///< intel.relations, if it exists
+};
+
+/// Logs in the folder `data`, by name. A log is NAME.clf, NAME.log or NAME.rawlog, gzipped or not, or a ROS
+/// bag. Throws UserError when `data` is not a folder or holds no log, and for a log without NAME.ini in
+/// `ini`.
+std::vector<BenchmarkLog> find_benchmark_logs(const std::filesystem::path& data,
+                                              const std::filesystem::path& ini);
+
+/// Folder of the settings that come with the program, installed or in the source tree. Searches upwards from
+/// the folder of the program.
+std::optional<std::filesystem::path> shipped_ini_folder();
+
+/// Settings of a log: the defaults, overridden by the file `ini` and by assignments "section.key=value".
+/// Throws UserError for settings that psi-slam refuses.
+Settings benchmark_settings(const std::filesystem::path& ini,
+                            const std::vector<std::string>& assignments = {});
+
+struct MappedRun {
+  MappingResult result;
+  PoseGraph graph;  ///< optimised, with the kind of each constraint and its switch
+};
+
+/// Maps all frames. Calls `progress` with the share of the log that is done. Throws UserError as the source.
+MappedRun map_source(FrameSource& source, const MapperOptions& options,
+                     const std::function<void(double)>& progress);
+
+/// Number of loops in the finished graph.
+std::size_t loops_accepted(const MappingResult& result);
+
+/// Errors of the mapped poses of the frames.
+RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations);
+
+}  // namespace psi_slam

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plots of positive values on a logarithmic axis, as SVG files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace psi_slam {
+
+/// Lines over a few labelled places of the horizontal axis; the vertical axis is logarithmic.
+struct GrowthPlot {
+  std::string title;
+  std::string unit = "ms";          ///< of the values
+  std::vector<std::string> labels;  ///< of the places, from left to right
+
+  struct Line {
+    std::string name;
+    std::vector<double> values;  ///< one for each label; values that are not positive are left out
+    std::vector<double> low{};   ///< least value at each place, drawn as a bar to `high`; empty: no bars
+    std::vector<double> high{};
+    bool faint = false;  ///< thin and light, in the colour of the preceding line
+  };
+  std::vector<Line> lines;
+};
+
+std::string growth_svg(const GrowthPlot& plot);
+
+/// Horizontal bars, from top to bottom; the horizontal axis is logarithmic.
+struct BarPlot {
+  std::string title;
+  std::string unit;
+
+  struct Bar {
+    std::string name;
+    double value = 0;   ///< a bar that is not positive has length 0
+    bool ours = false;  ///< drawn in another colour
+  };
+  std::vector<Bar> bars;
+};
+
+std::string bar_svg(const BarPlot& plot);
+
+}  // namespace psi_slam

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs a baseline on one of our logs and evaluates its path as ours. The baseline gets every scan that our
+// reader finds, with the odometry between the scans and the mount of the laser.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "batch/run_figures.h"
+#include "batch/workers.h"
+#include "common/benchmark_logs.h"
+#include "freiburg/baseline_program.h"
+#include "psi_slam/time_stamp.h"
+
+namespace psi_slam {
+
+struct BaselineRun {
+  BaselineProgram baseline;
+  BenchmarkLog log;              ///< with relations
+  std::filesystem::path folder;  ///< for the input and the output of the baseline
+  double time_limit_s = 0;
+};
+
+struct BaselineResult {
+  std::string log;
+  std::string baseline;  ///< the name of its kind
+  std::optional<RunFigures> figures;
+  std::optional<double> not_finished_in_s;  ///< the time limit that ended the run
+  std::string failure;                      ///< another reason for missing figures
+  bool made = false;                        ///< now; otherwise kept from before
+};
+
+/// Runs the baseline to its end, or until `stop` returns true: then its failure is "interrupted". An error of
+/// the baseline is its failure. Settings and output stay in the folder. Throws SystemFailure when the folder
+/// cannot be written.
+BaselineResult run_baseline(const BaselineRun& run, const std::function<bool()>& stop);
+
+/// Writes all frames as a rawlog of actions and sensory frames, which MRPT's programs read: the motion since
+/// the previous frame by odometry, then the scan with its beams and the mount of its laser. The first motion
+/// is zero. The noise of odometry is MRPT's default. Returns the times of the frames. Throws SystemFailure
+/// when `stop`, called before each frame, returns true or when the file cannot be written, and UserError as
+/// the source.
+std::vector<TimeUs> write_baseline_log(FrameSource& source, const std::filesystem::path& path,
+                                       const std::function<bool()>& stop);
+
+/// Reads a path from lines "step x y ... yaw ...", with one step for each of the times. Throws UserError for
+/// another content.
+Trajectory read_baseline_path(const std::filesystem::path& file, std::size_t yaw_column,
+                              const std::vector<TimeUs>& times);
+
+struct BaselineOptions {
+  double time_limit_s = 600;     ///< of each run
+  int processes = 1;             ///< runs at a time
+  std::filesystem::path output;  ///< for runs/LOG-BASELINE.json, and for the files of the runs
+};
+
+/// Runs every baseline on every log, each run in a process of its own. A result is kept and not repeated
+/// while the log, its relations, the settings of its reader, the baseline and its settings stay the same. A
+/// run that did not finish is repeated only with a larger time limit. Returns results by log, then baseline.
+/// All `logs` need relations. When `stop` becomes true, ends the running processes and throws SystemFailure.
+/// Also throws SystemFailure when a file cannot be written.
+std::vector<BaselineResult> run_baselines(const std::vector<BaselineProgram>& baselines,
+                                          const std::vector<BenchmarkLog>& logs,
+                                          const BaselineOptions& options, const std::atomic<bool>& stop,
+                                          const ProgressObserver& observer);
+
+}  // namespace psi_slam

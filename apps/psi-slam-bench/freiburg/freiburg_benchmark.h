@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The Freiburg benchmark: maps every log with every matcher and every seed. Each run has a process of its
+// own, so that its time and memory can be measured. Results are kept in small files: a run is not repeated
+// while its log, its relations, its settings and the program stay the same.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "batch/child_process.h"
+#include "batch/seeds.h"
+#include "common/bench_report.h"
+#include "freiburg/baseline_program.h"
+#include "freiburg/baseline_run.h"
+#include "freiburg/freiburg_run.h"
+
+namespace psi_slam {
+
+struct FreiburgOptions {
+  std::vector<std::string> matchers = freiburg_matchers();
+  SeedRange seeds{1, 10};        ///< a matcher without random numbers runs only with the first
+  int processes = 1;             ///< runs at a time
+  int threads = 1;               ///< of each run
+  std::filesystem::path output;  ///< results are kept in output/runs/LOG-MATCHER-SEED.json
+  std::filesystem::path program = "/proc/self/exe";  ///< psi-slam-bench, which makes the runs
+  ChildWorkers workers{};                            ///< empty: `processes` on this machine
+};
+
+struct FreiburgResult {
+  std::uint64_t seed = 1;
+  std::optional<FreiburgFigures> figures;
+  std::string failure;  ///< reason for missing figures
+  bool made = false;    ///< now; otherwise kept from before
+};
+
+/// One log with one matcher.
+struct FreiburgCell {
+  std::string log;
+  std::string matcher;
+  std::vector<FreiburgResult> runs;  ///< by seed
+};
+
+/// Figures of one log with one matcher over all seeds: means and spreads, not the best run.
+struct CellFigures {
+  std::size_t runs = 0;    ///< successful runs
+  std::size_t failed = 0;  ///< failed runs
+  PathErrors errors;       ///< means and standard deviations of the runs, averaged over the seeds
+  std::array<SeedSpread, kPathFigures.size()> spread;  ///< of the mean errors, in the order of kPathFigures
+  double relations_used = 0;                           ///< mean over the seeds
+  double relations_skipped = 0;
+  SeedSpread loops_accepted;
+  SeedSpread loops_judged;
+  SeedSpread loops_false;
+  std::optional<SeedSpread> loop_recall;  ///< of the runs that have a recall; may be empty
+  SeedSpread wall_s;
+  SeedSpread cpu_s;
+  SeedSpread real_time_factor;
+  SeedSpread peak_memory_mib;
+};
+
+/// Empty if every run failed.
+std::optional<CellFigures> figures_of(const FreiburgCell& cell);
+
+struct FreiburgBenchmark {
+  std::vector<LogIdentity> logs;
+  std::vector<FreiburgCell> cells;             ///< by log, then matcher
+  std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
+  std::vector<std::string> left_out;           ///< logs that --logs does not name
+  FoundBaselines baselines;                    ///< empty without --baselines
+  std::vector<BaselineResult> baseline_results;
+};
+
+/// Makes the runs that have no kept results. All `logs` need relations. A run that fails does not stop the
+/// others. When `stop` becomes true, ends the running processes and throws SystemFailure; finished results
+/// are kept. Also throws SystemFailure when a file cannot be written. Calls `progress` from several threads,
+/// one at a time.
+FreiburgBenchmark run_freiburg_benchmark(const std::vector<BenchmarkLog>& logs,
+                                         const FreiburgOptions& options, const std::atomic<bool>& stop,
+                                         const ProgressObserver& progress);
+
+/// The report of the `freiburg` command: psi-slam compared with published systems and baselines, every
+/// matcher on every log, and the checksums of the logs. Each log has a plot. In JSON, "cells" has the
+/// statistics over the seeds of each matcher on each log, "comparison" has the systems for each error of each
+/// log, and "rivals" has the baselines:
+///
+///     {"programs": [{"rival": "icp-slam", "version": "...", "sha256": "...", "config": "...", "changes":
+///       "..."}],
+///      "missing": ["rbpf-slam is not on PATH"],
+///      "runs": [{"log": "intel", "rival": "icp-slam", "figures": {...}}, {..., "not_finished_in_s": 600},
+///       {..., "failure": "..."}]}
+BenchReport freiburg_report(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
+                            const std::string& machine);
+
+}  // namespace psi_slam

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "freiburg/freiburg_benchmark.h"
+
+#include <algorithm>
+
+#include "base/number_text.h"
+#include "batch/kept_run.h"
+#include "freiburg/freiburg_comparison.h"
+#include "report/html_text.h"
+
+namespace psi_slam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A cell of the benchmark with its figures; without figures if every run failed.
+struct CellRow {
+  const FreiburgCell* cell;
+  std::optional<CellFigures> figures;
+};
+
+using CellColumn = ColumnOf<CellRow>;
+
+std::vector<CellRow> rows_of(const FreiburgBenchmark& benchmark, bool with_failed) {
+  std::vector<CellRow> rows;
+  for (const FreiburgCell& cell : benchmark.cells)
+    if (auto figures = figures_of(cell); figures || with_failed) rows.push_back({&cell, std::move(figures)});
+  return rows;
+}
+
+/// "10", "8, 2 failed", "1 run: draws no random numbers"; the reason if every run failed.
+std::string runs_text(const CellRow& row) {
+  if (!row.figures) return "failed: " + row.cell->runs.front().failure;
+  std::string text = std::to_string(row.figures->runs);
+  if (row.figures->failed > 0) text += ", " + std::to_string(row.figures->failed) + " failed";
+  if (!draws_random_numbers(row.cell->matcher)) text += " run: draws no random numbers";
+  return text;
+}
+
+/// A column of the figures, empty for a cell whose runs all failed.
+template <class CellOf>
+CellColumn figure_column(const std::string& head, const std::string& key, const CellOf& cell_of) {
+  return {{head, key},
+          [cell_of](const CellRow& row) { return row.figures ? cell_of(*row.figures) : empty_cell(); }};
+}
+
+/// A column with the mean over the seeds in Markdown, and all statistics in JSON.
+CellColumn mean_column(const std::string& head, const std::string& key, SeedSpread CellFigures::*spread,
+                       int decimals) {
+  return figure_column(head, key, [=](const CellFigures& figures) {
+    const SeedSpread& over_seeds = figures.*spread;
+    return ReportCell{fixed_text(over_seeds.mean, decimals), spread_json(over_seeds)};
+  });
+}
+
+std::vector<CellColumn> name_columns() {
+  return {{{"log", "log", true}, [](const CellRow& row) { return cell(row.cell->log); }},
+          {{"matcher", "matcher", true}, [](const CellRow& row) { return cell(row.cell->matcher); }},
+          {{{}, "random"},
+           [](const CellRow& row) {
+             return ReportCell{{}, draws_random_numbers(row.cell->matcher)};
+           }},
+          {{"runs", "runs", true}, [](const CellRow& row) {
+             return ReportCell{runs_text(row), row.figures ? row.figures->runs : 0};
+           }}};
+}
+
+Json failed_runs(const FreiburgCell& cell) {
+  Json failed = Json::array();
+  for (const FreiburgResult& run : cell.runs)
+    if (!run.figures) failed.push_back({{"seed", run.seed}, {"reason", run.failure}});
+  return failed;
+}
+
+ReportTable matchers_table(const FreiburgBenchmark& benchmark) {
+  std::vector<CellColumn> columns = name_columns();
+  columns.push_back({{{}, "failed"}, [](const CellRow& row) {
+                       return ReportCell{{}, failed_runs(*row.cell)};
+                     }});
+  for (std::size_t i = 0; i < kPathFigures.size(); ++i)
+    columns.push_back(
+        figure_column(kPathFigures[i].name, kPathFigures[i].key, [i](const CellFigures& figures) {
+          const MeanAndStd& errors = figures.errors.*kPathFigures[i].errors;
+          const SeedSpread& spread = figures.spread[i];
+          return ReportCell{
+              errors_text(errors),
+              {{"mean", errors.mean},
+               {"std", errors.std},
+               {"over_seeds", {{"std", spread.std}, {"min", spread.min}, {"max", spread.max}}}}};
+        }));
+  columns.push_back(figure_column("relations used", "relations_used", [](const CellFigures& figures) {
+    return cell(figures.relations_used, 0);
+  }));
+  columns.push_back(figure_column({}, "relations_skipped", [](const CellFigures& figures) {
+    return cell(figures.relations_skipped, 0);
+  }));
+  columns.push_back(mean_column("loops accepted", "loops_accepted", &CellFigures::loops_accepted, 1));
+  columns.push_back(figure_column("false of judged", {}, [](const CellFigures& figures) {
+    return cell(fixed_text(figures.loops_false.mean, 1) + " of " + fixed_text(figures.loops_judged.mean, 1));
+  }));
+  columns.push_back(mean_column({}, "loops_judged", &CellFigures::loops_judged, 1));
+  columns.push_back(mean_column({}, "loops_false", &CellFigures::loops_false, 1));
+  columns.push_back(figure_column("recall %", "loop_recall", [](const CellFigures& figures) {
+    const auto& recall = figures.loop_recall;
+    return recall ? ReportCell{fixed_text(100 * recall->mean, 1), spread_json(*recall)}
+                  : ReportCell{"–", nullptr};
+  }));
+  columns.push_back(mean_column("wall [s]", "wall_s", &CellFigures::wall_s, 2));
+  columns.push_back(mean_column("CPU [s]", "cpu_s", &CellFigures::cpu_s, 2));
+  columns.push_back(mean_column("× real time", "real_time_factor", &CellFigures::real_time_factor, 0));
+  columns.push_back(mean_column("peak [MiB]", "peak_memory_mib", &CellFigures::peak_memory_mib, 0));
+  return table_of(columns, rows_of(benchmark, true));
+}
+
+ReportTable spread_table(const FreiburgBenchmark& benchmark) {
+  std::vector<CellColumn> columns = name_columns();
+  columns.back().column.is_text = false;
+  for (std::size_t i = 0; i < kPaperFigures; ++i)
+    columns.push_back({{kPathFigures[i].name}, [i](const CellRow& row) {
+                         if (!draws_random_numbers(row.cell->matcher)) return cell("0 by construction");
+                         const SeedSpread& spread = row.figures->spread[i];
+                         if (spread.count < 2) return empty_cell();
+                         return cell(fixed_text(spread.std, 5) + " (" + fixed_text(spread.min, 4) + " – " +
+                                     fixed_text(spread.max, 4) + ')');
+                       }});
+  return table_of(columns, rows_of(benchmark, false));
+}
+
+std::string failures_text(const FreiburgBenchmark& benchmark) {
+  std::string text;
+  for (const FreiburgCell& cell : benchmark.cells)
+    for (const FreiburgResult& run : cell.runs)
+      if (!run.figures)
+        text += "- " + cell.log + ", " + cell.matcher + ", seed " + std::to_string(run.seed) +
+                ": failed: " + run.failure + '\n';
+  return text.empty() ? text : "## Runs that failed\n\n" + text + '\n';
+}
+
+std::string sources_text(const Comparison& comparison) {
+  std::string text;
+  for (const ComparisonColumn& column : comparison.columns)
+    text += "- " + column.name + ": " + column.source + '\n';
+  return text;
+}
+
+/// The logs of the Freiburg benchmark that were not mapped, and why.
+std::string missing_text(const FreiburgBenchmark& benchmark) {
+  std::string text;
+  for (const BenchmarkLogTitle& title : benchmark_log_titles()) {
+    const auto is_it = [&](const std::string& name) { return benchmark_log_name(name) == title.log; };
+    if (std::any_of(benchmark.logs.begin(), benchmark.logs.end(),
+                    [&](const LogIdentity& log) { return is_it(log.name); }))
+      continue;
+    const bool unrelated =
+        std::any_of(benchmark.without_relations.begin(), benchmark.without_relations.end(), is_it);
+    const bool left_out = std::any_of(benchmark.left_out.begin(), benchmark.left_out.end(), is_it);
+    text += "- " + title.title + ": " +
+            (unrelated  ? "its log is in the folder without relations."
+             : left_out ? "--logs does not name its log."
+                        : "its log is not in the folder.") +
+            '\n';
+  }
+  return text.empty() ? text : text + '\n';
+}
+
+/// A column of the figures of a baseline, empty for a run without figures.
+template <class CellOf>
+ColumnOf<BaselineResult> baseline_column(const std::string& head, const CellOf& cell_of) {
+  return {{head}, [cell_of](const BaselineResult& run) {
+            return run.figures ? cell_of(*run.figures) : empty_cell();
+          }};
+}
+
+ReportTable baselines_table(const std::vector<BaselineResult>& results) {
+  std::vector<ColumnOf<BaselineResult>> columns{
+      {{"log", {}, true}, [](const BaselineResult& run) { return cell(run.log); }},
+      {{"system", {}, true}, [](const BaselineResult& run) { return cell(run.baseline); }}};
+  for (const PathFigure& figure : kPathFigures)
+    columns.push_back(baseline_column(figure.name, [&figure](const RunFigures& figures) {
+      return cell(errors_text(figures.errors.*figure.errors));
+    }));
+  columns[2].cell_of = [shown = columns[2].cell_of](const BaselineResult& run) {
+    if (run.figures) return shown(run);
+    return cell(run.not_finished_in_s ? "not finished in " + fixed_text(*run.not_finished_in_s, 0) + " s"
+                                      : "failed: " + run.failure);
+  };
+  columns.push_back(baseline_column("relations used",
+                                    [](const RunFigures& figures) { return cell(figures.relations_used); }));
+  columns.push_back(
+      baseline_column("wall [s]", [](const RunFigures& figures) { return cell(figures.wall_s, 2); }));
+  columns.push_back(
+      baseline_column("CPU [s]", [](const RunFigures& figures) { return cell(figures.cpu_s, 2); }));
+  columns.push_back(baseline_column(
+      "× real time", [](const RunFigures& figures) { return cell(figures.real_time_factor(), 0); }));
+  columns.push_back(baseline_column(
+      "peak [MiB]", [](const RunFigures& figures) { return cell(figures.peak_memory_mib, 0); }));
+  return table_of(columns, results);
+}
+
+std::string baselines_text(const FreiburgBenchmark& benchmark) {
+  if (benchmark.baselines.programs.empty() && benchmark.baselines.missing.empty()) return {};
+  std::string text = "## Baselines run here\n\n";
+  for (const BaselineProgram& baseline : benchmark.baselines.programs)
+    text += "- " + baseline.kind.name + ": " + baseline.version + ", with " + baseline.config.string() +
+            " as shipped, except for its output folder and " + changes_text(baseline.kind) + '\n';
+  for (const std::string& missing : benchmark.baselines.missing) text += "- not run: " + missing + '\n';
+  text +=
+      "\nEach baseline ran once. It received every scan of the log as read by psi-slam, with the same "
+      "odometry and the same laser mount. Times and memory: of its whole process, which reads the log, maps "
+      "it and writes path and map.\n\n";
+  if (!benchmark.baseline_results.empty())
+    text += baselines_table(benchmark.baseline_results).markdown() + '\n';
+  return text;
+}
+
+Json baselines_json(const FreiburgBenchmark& benchmark) {
+  Json programs = Json::array();
+  for (const BaselineProgram& baseline : benchmark.baselines.programs)
+    programs.push_back({{"rival", baseline.kind.name},
+                        {"version", baseline.version},
+                        {"sha256", baseline.sha256},
+                        {"config", baseline.config.string()},
+                        {"changes", changes_text(baseline.kind)}});
+  Json runs = Json::array();
+  for (const BaselineResult& result : benchmark.baseline_results) {
+    Json run = {{"log", result.log}, {"rival", result.baseline}};
+    if (result.figures) run["figures"] = run_figures_json(*result.figures);
+    if (result.not_finished_in_s) run["not_finished_in_s"] = *result.not_finished_in_s;
+    if (!result.failure.empty()) run["failure"] = result.failure;
+    runs.push_back(run);
+  }
+  return {{"programs", programs}, {"missing", benchmark.baselines.missing}, {"runs", runs}};
+}
+
+Json comparison_json(const Comparison& comparison) {
+  Json rows = Json::array();
+  for (const ComparisonRow& row : comparison.rows) {
+    Json systems = Json::array();
+    for (std::size_t i = 0; i < row.values.size(); ++i) {
+      if (!row.values[i]) continue;
+      const PublishedFigure& value = *row.values[i];
+      systems.push_back({{"system", comparison.columns[i].name},
+                         {"mean", value.mean},
+                         {"std", value.std ? Json(*value.std) : Json(nullptr)},
+                         {"unchecked", value.unchecked},
+                         {"failed_runs", comparison.columns[i].ours ? row.failed : 0},
+                         {"best", static_cast<bool>(row.best[i])}});
+    }
+    rows.push_back({{"log", row.log}, {"figure", kPathFigures[row.figure].key}, {"systems", systems}});
+  }
+  return rows;
+}
+
+std::string markdown_of(const FreiburgBenchmark& benchmark, const Comparison& comparison,
+                        const FreiburgOptions& options, const std::string& machine) {
+  const std::string runs = counted(static_cast<std::size_t>(options.processes), "run", "runs");
+  std::string text =
+      "# Freiburg benchmark\n\nThis page compares psi-slam with other SLAM systems on the logs of the "
+      "Freiburg benchmark.\n\n" +
+      measured_by(machine) + ", " + (options.processes == 1 ? "" : "at most ") + runs + " at a time with " +
+      counted(static_cast<std::size_t>(options.threads), "thread", "threads") + " each, " +
+      seeds_text(options.seeds) + ".\n\n";
+  text +=
+      "- errors: metric of Kümmerle et al. 2009, mean ± standard deviation over all true relations, "
+      "averaged over all seeds\n"
+      "- translation, Cartographer's variant: translational error as computed by the tool of Hess et al.\n"
+      "- false of judged: accepted loops that a true relation contradicts, out of those that a true "
+      "relation can judge; averaged over all seeds\n"
+      "- recall: share of the relations between two visits to a place whose neighbourhoods a loop joins; "
+      "averaged over all seeds\n"
+      "- times and memory: of the whole process, which reads the log, maps it and evaluates the path, but "
+      "draws no map\n"
+      "- × real time: length of the recording divided by wall time\n"
+      "\n";
+  text += "## psi-slam and other systems\n\n" + comparison_table(comparison) +
+          "\nBold marks the smallest mean of each row. Systems marked \"live\" or \"run here\" mapped these "
+          "logs; figures of failed maps are included. Sources of the figures:\n\n" +
+          sources_text(comparison) + '\n' + missing_text(benchmark);
+  text += baselines_text(benchmark);
+  text += "## Every matcher on every log\n\n" + matchers_table(benchmark).markdown() + '\n';
+  text +=
+      "## Spread of the means over the seeds\n\nSample standard deviation (minimum – maximum) of the means; "
+      "– if there is a single run only.\n\n" +
+      spread_table(benchmark).markdown() + '\n';
+  return text + failures_text(benchmark) + logs_section(benchmark.logs, benchmark.without_relations);
+}
+
+Json json_of(const FreiburgBenchmark& benchmark, const Comparison& comparison, const FreiburgOptions& options,
+             const std::string& machine) {
+  Json json = report_json("psi-slam-freiburg-benchmark", machine);
+  json.update({{"seeds", options.seeds.all()},
+               {"processes", options.processes},
+               {"threads", options.threads},
+               {"logs", logs_table(benchmark.logs).json()},
+               {"cells", matchers_table(benchmark).json()},
+               {"rivals", baselines_json(benchmark)},
+               {"comparison", comparison_json(comparison)}});
+  return json;
+}
+
+}  // namespace
+
+BenchReport freiburg_report(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
+                            const std::string& machine) {
+  const Comparison comparison = compare_with_others(benchmark);
+  BenchReport report{"freiburg.md",
+                     markdown_of(benchmark, comparison, options, machine),
+                     json_file_text(json_of(benchmark, comparison, options, machine)),
+                     matchers_table(benchmark).csv(),
+                     {}};
+  for (const LogIdentity& log : benchmark.logs) {
+    const std::string plot = comparison_plot(comparison, benchmark_log_title(log.name));
+    if (!plot.empty()) report.plots.push_back({"freiburg-" + log.name + ".svg", plot});
+  }
+  return report;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cases for the matchers, drawn from a mapped log: a scan, a finished local map of another time, and a start
+// pose as far from the truth as the prediction of a loop may be.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/degrees.h"
+#include "common/benchmark_logs.h"
+#include "local_maps/local_map.h"
+#include "loop_closure/keyframe_store.h"
+#include "matching/matcher.h"
+
+namespace psi_slam {
+
+/// A mapped log: the data of a loop closer, and the true poses.
+struct MappedLog {
+  std::string name;
+  MapperOptions options;
+  KeyframeStore memory;                         ///< of the whole log
+  std::vector<mrpt::math::TPose2D> map_T_node;  ///< optimised
+  std::vector<std::string> adaptive_matcher;    ///< by node: the adaptive matcher's choice
+  double translation_error_m = 0;               ///< mean over the true relations
+};
+
+/// How MappedLog::adaptive_matcher is chosen, for the pages: cases have no history of their own.
+inline constexpr const char* kAdaptiveNote =
+    "the matcher that Ψ chose at the node of the scan when the log was mapped";
+
+/// Maps a log with relations. Local maps get `nodes_per_local_map` nodes, and a path of proportional length.
+/// Calls `progress` with the share that is done. Throws UserError as open_log() and read_relations().
+MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
+                  const std::function<void(double)>& progress);
+
+struct CaseOptions {
+  double window_m = 8;  ///< half-width of the search window
+  double window_rad = radians_from_degrees(30.0L);
+  bool context = false;     ///< search with the context of the scan, as loops in wide windows do
+  std::size_t count = 250;  ///< number of positive cases, and of negative ones
+  std::uint64_t seed = 1;
+
+  double min_travel_m = 10;  ///< least path between node and local map: closer ones share scans
+  double near_m = 1.5;       ///< positive: largest distance from the node to a node of the local map
+  double clear_m = 20;       ///< negative: least distance beyond window_m to all nodes of the local map
+  double min_observed_share = 0.7;  ///< positive: least share of points in observed space of the local map
+  double min_hit_share = 0.8;       ///< positive: least share of these points in occupied cells
+  double start_share = 0.75;        ///< radius of the disc of start poses, as a share of window_m
+  double turn_share = 25.0 / 30;    ///< largest rotation of start poses, as a share of window_rad
+  std::size_t min_points = 30;      ///< scans with fewer points are not used
+};
+
+struct LoopCase {
+  bool positive = false;      ///< the scan was taken in the local map; otherwise far away from it
+  std::size_t node = 0;       ///< of the scan
+  std::size_t local_map = 0;  ///< index in KeyframeStore::local_maps
+  std::shared_ptr<const ScanPoints> scan;
+  std::shared_ptr<const LocalMap> map;
+  mrpt::math::TPose2D anchor_T_node;  ///< true pose; of negative cases, outside the window
+  mrpt::math::TPose2D start;          ///< centre of the window
+  MatchSeed seed;
+  std::string adaptive_matcher;  ///< name of the matcher for the adaptive candidate
+};
+
+/// Draws `count` positive cases, then `count` negative ones, or fewer if the log has no more. Each pair of
+/// scan and local map occurs once. The same log, options and seed give the same cases.
+std::vector<LoopCase> draw_cases(const MappedLog& log, const CaseOptions& options);
+
+}  // namespace psi_slam

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "match/match_benchmark.h"
+
+#include <cmath>
+
+#include "base/number_text.h"
+#include "batch/kept_run.h"
+#include "common/log_plots.h"
+
+namespace psi_slam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Rounded to the decimals that mean something; null without a finite value.
+Json rounded(const std::optional<double>& value, int decimals) {
+  if (!value || !std::isfinite(*value)) return nullptr;
+  const double scale = std::pow(10.0, decimals);
+  return std::round(*value * scale) / scale;
+}
+
+ReportCell percent(const std::optional<double>& share) {
+  return {share ? fixed_text(100 * *share, 1) : "–", rounded(share, 6)};
+}
+
+ReportCell milliseconds(double time_ms) {
+  return {fixed_text(time_ms, 3), rounded(time_ms, 6)};
+}
+
+ReportCell ratio(double part, double whole, int decimals = 2) {
+  return cell(whole > 0 ? "× " + fixed_text(part / whole, decimals) : "× –");
+}
+
+/// A candidate in one series.
+struct CandidateRow {
+  std::string series;
+  std::string matcher;
+  MatchFigures figures;
+};
+
+std::vector<CandidateRow> rows_of(const std::vector<MatchSeries>& all_series) {
+  std::vector<CandidateRow> rows;
+  for (const MatchSeries& series : all_series)
+    for (const MatchSeries::Row& row : series.rows)
+      rows.push_back({series.title, row.matcher, row.tally.figures()});
+  return rows;
+}
+
+/// The table of several series; `series_head` is the head of the column that names them.
+ReportTable table_of_series(const std::vector<MatchSeries>& all_series, const std::string& series_head) {
+  using Row = CandidateRow;
+  const auto share = [](const std::string& head, const std::string& key,
+                        std::optional<double> MatchFigures::*value) {
+    return ColumnOf<Row>{{head, key}, [=](const Row& row) { return percent(row.figures.*value); }};
+  };
+  const auto time = [](const std::string& head, const std::string& key, double TimeFigures::*value) {
+    return ColumnOf<Row>{{head, key},
+                         [=](const Row& row) { return milliseconds(row.figures.time_ms.*value); }};
+  };
+  return table_of<Row>(
+      {column(series_head, "series", &Row::series),
+       column("matcher", "matcher", &Row::matcher),
+       {{"cases", "cases"}, [](const Row& row) { return cell(row.figures.cases); }},
+       share("success %", "success_rate", &MatchFigures::success_rate),
+       share("same optimum %", "same_optimum_rate", &MatchFigures::same_optimum_rate),
+       share("false accepts %", "false_accept_rate", &MatchFigures::false_accept_rate),
+       {{"evaluations", "evaluations"},
+        [](const Row& row) {
+          return ReportCell{fixed_text(row.figures.evaluations, 0), rounded(row.figures.evaluations, 1)};
+        }},
+       time("mean ms", "time_ms.mean", &TimeFigures::mean),
+       time("p50 ms", "time_ms.p50", &TimeFigures::p50),
+       time("p95 ms", "time_ms.p95", &TimeFigures::p95),
+       time("p99 ms", "time_ms.p99", &TimeFigures::p99),
+       share("repaired %", "repaired_share", &MatchFigures::repaired_share)},
+      rows_of(all_series));
+}
+
+/// Each matcher compared with exact CSM, the first.
+ReportTable against_csm(const MatchSeries& series) {
+  std::vector<CandidateRow> rows = rows_of({series});
+  const MatchFigures csm = rows.front().figures;
+  rows.erase(rows.begin());
+  using Row = CandidateRow;
+  return table_of<Row>(
+      {{{"against csm", {}, true}, [](const Row& row) { return cell(row.matcher); }},
+       {{"successes"},
+        [&](const Row& row) {
+          const double successes = csm.success_rate.value_or(0);
+          return successes > 0 ? ratio(*row.figures.success_rate, successes, 3) : ratio(0, 1, 3);
+        }},
+       {{"mean time"}, [&](const Row& row) { return ratio(row.figures.time_ms.mean, csm.time_ms.mean); }},
+       {{"p99"}, [&](const Row& row) { return ratio(row.figures.time_ms.p99, csm.time_ms.p99); }}},
+      rows);
+}
+
+std::string series_text(const MatchSeries& series) {
+  std::string text = "## " + series.title + "\n\n" + table_of_series({series}, {}).markdown() + '\n';
+  if (!series.rows.empty()) text += against_csm(series).markdown();
+  return text + '\n';
+}
+
+std::string sizes_text(const std::string& title, const std::string& series_head, const std::string& note,
+                       const std::vector<MatchSeries>& sizes) {
+  if (sizes.empty()) return {};
+  return "## " + title + "\n\n" + note + "\n\n" + table_of_series(sizes, series_head).markdown() + '\n';
+}
+
+ReportTable logs_table(const std::vector<LogNote>& logs) {
+  using Log = LogNote;
+  return table_of<Log>({column("log", "name", &Log::name),
+                        {{"MD5", "md5", true},
+                         [](const Log& log) {
+                           return ReportCell{'`' + log.md5 + '`', log.md5};
+                         }},
+                        {{{}, "used"},
+                         [](const Log& log) {
+                           return ReportCell{{}, log.used};
+                         }},
+                        {{"error of its map [m]", "translation_error_m"},
+                         [](const Log& log) {
+                           const auto& error_m = log.translation_error_m;
+                           return ReportCell{error_m ? fixed_text(*error_m, 3) : "–", rounded(error_m, 6)};
+                         }},
+                        {{"positive", "positive"}, [](const Log& log) { return cell(log.positive); }},
+                        {{"negative", "negative"}, [](const Log& log) { return cell(log.negative); }},
+                        {{"remark", "remark", true}, [](const Log& log) { return cell(log.remark); }}},
+                       logs);
+}
+
+Json rows_json(const MatchSeries& series) {
+  return table_of_series({series}, {}).json();
+}
+
+Json repaired_json(const MatchSeries& series) {
+  Json shares = Json::object();
+  for (const CandidateRow& row : rows_of({series}))
+    if (const auto& share = row.figures.repaired_share) shares[row.matcher] = rounded(share, 6);
+  return shares;
+}
+
+Json sizes_json(const std::vector<MatchSeries>& sizes) {
+  Json list = Json::array();
+  for (const MatchSeries& series : sizes)
+    list.push_back({{"window_m", series.cases.window_m},
+                    {"nodes_per_local_map", series.nodes_per_local_map},
+                    {"matchers", rows_json(series)}});
+  return list;
+}
+
+std::string time_plot(const std::string& title, const std::vector<MatchSeries>& sizes) {
+  GrowthPlot plot;
+  plot.title = title;
+  for (const MatchSeries& series : sizes) {
+    plot.labels.push_back(series.title);
+    for (std::size_t i = 0; i < series.rows.size(); ++i) {
+      if (plot.lines.size() <= i) plot.lines.push_back({series.rows[i].matcher, {}});
+      plot.lines[i].values.push_back(series.rows[i].tally.figures().time_ms.mean);
+    }
+  }
+  return growth_svg(plot);
+}
+
+std::string markdown_of(const MatchBenchmark& benchmark, const MatchBenchmarkOptions& options,
+                        const std::string& machine) {
+  const CaseOptions& cases = benchmark.scans.cases;
+  std::string text = "# Matchers compared\n\n" + measured_by(machine) +
+                     ", one thread. Every matcher searched every case: ±" + fixed_text(cases.window_m, 0) +
+                     " m and ±" + fixed_text(cases.window_rad * 180 / M_PI, 0) +
+                     " degrees around a start pose that is up to " +
+                     fixed_text(cases.start_share * cases.window_m, 1) + " m and " +
+                     fixed_text(cases.turn_share * cases.window_rad * 180 / M_PI, 0) +
+                     " degrees off the truth; seed " + std::to_string(options.seed) + ".\n\n";
+  text +=
+      "- success: share of the positive cases with a match within 0.3 m and 3.5 degrees of the truth\n"
+      "- same optimum: share of the positive cases with a match at least as good as that of exact CSM, or "
+      "with no match by either\n"
+      "- false accepts: share of the negative cases (the scan was taken elsewhere) with a response that loop "
+      "closing would accept before it verifies the match\n"
+      "- evaluations: mean number of poses scored, on all levels of the score grid; times are over all "
+      "cases\n"
+      "- repaired: share of the codes decoded to poses that lay outside the window\n"
+      "- adaptive: ";
+  text += std::string(kAdaptiveNote) + "\n\n";
+  text += logs_table(benchmark.logs).markdown() + '\n';
+  text += series_text(benchmark.scans) + series_text(benchmark.contexts);
+  text +=
+      sizes_text("Window sizes", "half-width",
+                 "Every window has the same pairs of scan and local map; there are fewer cases than above.",
+                 benchmark.windows);
+  text += sizes_text("Sizes of local maps", "local maps of",
+                     "Every log is mapped with each size; there are fewer cases than above.",
+                     benchmark.local_maps);
+  text.pop_back();
+  return text;
+}
+
+Json json_of(const MatchBenchmark& benchmark, const MatchBenchmarkOptions& options,
+             const std::string& machine) {
+  const CaseOptions& cases = benchmark.scans.cases;
+  Json json = {{"matchers", rows_json(benchmark.scans)}};
+  json.update(report_json("psi-slam-match-benchmark", machine));
+  json.update({{"seed", options.seed},
+               {"window_m", cases.window_m},
+               {"window_deg", rounded(cases.window_rad * 180 / M_PI, 6)},
+               {"logs", logs_table(benchmark.logs).json()},
+               {"repaired_share", repaired_json(benchmark.scans)},
+               {"context", {{"matchers", rows_json(benchmark.contexts)}}}});
+  if (!benchmark.windows.empty()) {
+    json["windows"] = sizes_json(benchmark.windows);
+    json["local_maps"] = sizes_json(benchmark.local_maps);
+  }
+  return json;
+}
+
+}  // namespace
+
+BenchReport match_report(const MatchBenchmark& benchmark, const MatchBenchmarkOptions& options,
+                         const std::string& machine) {
+  std::vector<MatchSeries> all_series{benchmark.scans, benchmark.contexts};
+  all_series.insert(all_series.end(), benchmark.windows.begin(), benchmark.windows.end());
+  all_series.insert(all_series.end(), benchmark.local_maps.begin(), benchmark.local_maps.end());
+  BenchReport report{"match.md",
+                     markdown_of(benchmark, options, machine),
+                     json_file_text(json_of(benchmark, options, machine)),
+                     table_of_series(all_series, {}).csv(),
+                     {}};
+  if (!benchmark.windows.empty())
+    report.plots = {{"match-windows.svg", window_plot(benchmark)},
+                    {"match-local-maps.svg", local_map_plot(benchmark)}};
+  return report;
+}
+
+std::string window_plot(const MatchBenchmark& benchmark) {
+  return time_plot("Mean time of a match over the half-width of its window", benchmark.windows);
+}
+
+std::string local_map_plot(const MatchBenchmark& benchmark) {
+  return time_plot("Mean time of a match over the size of the local map", benchmark.local_maps);
+}
+
+}  // namespace psi_slam

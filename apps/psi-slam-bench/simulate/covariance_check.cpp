@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulate/covariance_check.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "base/random_draws.h"
+#include "pose_graph/constraint_error.h"
+#include "pose_graph/marginal_covariance.h"
+#include "pose_graph/path_covariance.h"
+#include "pose_graph/sparse_pose_adjustment.h"
+#include "psi_slam/pose_graph.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+// Random pairs: each first node is combined with several others, which costs little more than with one.
+constexpr std::size_t kFirsts = 30;
+constexpr std::size_t kOthers = 20;
+
+class TrueNodes {
+ public:
+  TrueNodes(const MappingResult& result, const Trajectory& truth) : result_(result), truth_(truth) {}
+  /// Pose of node b in the frame of node a.
+  TPose2D a_T_b(std::size_t a, std::size_t b) const { return pose(b) - pose(a); }
+
+ private:
+  const TPose2D& pose(std::size_t node) const { return truth_[result_.node_frames[node]].pose; }
+
+  const MappingResult& result_;
+  const Trajectory& truth_;
+};
+
+struct PairSquares {
+  std::vector<double> whole_graph;
+  std::vector<double> best_path;
+};
+
+PairSquares squares_of_pairs(const PoseGraph& graph, const TrueNodes& truth, std::uint64_t seed) {
+  MarginalCovariance of_graph;
+  of_graph.update(graph);
+  PathCovarianceSearch of_path;
+  RandomDraws random(seed, "pairs of nodes", 0);
+  PairSquares squares;
+  for (std::size_t i = 0; i < kFirsts; ++i) {
+    const std::size_t a = random.index(graph.num_nodes());
+    std::vector<std::size_t> others;
+    while (others.size() < kOthers)
+      if (const std::size_t b = random.index(graph.num_nodes()); b != a) others.push_back(b);
+    const std::vector<Eigen::Matrix3d> covariances = of_graph.relative(a, others);
+    of_path.run(graph, a);
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      const TPose2D found = graph.pose(others[k]) - graph.pose(a);
+      const TPose2D true_pose = truth.a_T_b(a, others[k]);
+      squares.whole_graph.push_back(normalised_square(found, true_pose, covariances[k].inverse()));
+      const RelativeUncertainty along_path = of_path.of(others[k]);
+      if (along_path.reached)
+        squares.best_path.push_back(normalised_square(found, true_pose, along_path.covariance.inverse()));
+    }
+  }
+  return squares;
+}
+
+}  // namespace
+
+double normalised_square(const TPose2D& measured, const TPose2D& truth, const Eigen::Matrix3d& information) {
+  const Eigen::Vector3d error = constraint_error(measured, RotatedPose(TPose2D(0, 0, 0)), RotatedPose(truth));
+  return error.dot(information * error);
+}
+
+NormalisedErrors normalised_errors(std::string of, std::vector<double> squares) {
+  NormalisedErrors errors;
+  errors.of = std::move(of);
+  errors.count = squares.size();
+  if (squares.empty()) return errors;
+  const auto count = static_cast<double>(squares.size());
+  errors.mean = std::accumulate(squares.begin(), squares.end(), 0.0) / count / 3;
+  const auto beyond =
+      std::count_if(squares.begin(), squares.end(), [](double s) { return s > kChiSquare95; });
+  errors.beyond_95 = static_cast<double>(beyond) / count;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  errors.median = *middle / kChiSquareMedian;
+  return errors;
+}
+
+std::vector<NormalisedErrors> check_covariances(const MappingResult& result, const Trajectory& truth,
+                                                std::uint64_t seed) {
+  PoseGraph graph = result.graph;
+  const TrueNodes true_nodes(result, truth);
+  std::set<std::pair<std::size_t, std::size_t>> loops;
+  for (const LoopRecord& loop : result.loops)
+    if (loop.verdict == LoopVerdict::kAccepted) loops.emplace(loop.anchor, loop.node);
+  std::vector<double> of_maps;
+  std::vector<double> of_loops;
+  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
+    if (!graph.enabled(i)) continue;
+    const Constraint& constraint = graph.constraint(i);
+    const bool is_loop = loops.count({constraint.from, constraint.to}) != 0;
+    (is_loop ? of_loops : of_maps)
+        .push_back(normalised_square(constraint.from_T_to, true_nodes.a_T_b(constraint.from, constraint.to),
+                                     constraint.information));
+  }
+  std::vector<NormalisedErrors> errors = {normalised_errors("scans in local maps", std::move(of_maps)),
+                                          normalised_errors("loops", std::move(of_loops))};
+  if (graph.num_nodes() > 1) {
+    SparsePoseAdjustment().optimize(graph);  // covariances are defined at the optimum
+    PairSquares squares = squares_of_pairs(graph, true_nodes, seed);
+    errors.push_back(normalised_errors("any two nodes, by the best path", std::move(squares.best_path)));
+    errors.push_back(normalised_errors("any two nodes, by the whole graph", std::move(squares.whole_graph)));
+  }
+  return errors;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checks covariances: the normalised error e^T C^-1 e follows the chi-square distribution with three degrees
+// of freedom if C is the covariance of the error e (Bar-Shalom's test of consistency).
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "psi_slam/mapping_result.h"
+#include "trajectory/trajectory_file.h"
+
+namespace psi_slam {
+
+/// Median and 95 % point of the chi-square distribution with three degrees of freedom.
+inline constexpr double kChiSquareMedian = 2.366;
+inline constexpr double kChiSquare95 = 7.815;
+
+/// Normalised squared errors of one kind of poses.
+struct NormalisedErrors {
+  std::string of;  ///< "scans in local maps", ...
+  std::size_t count = 0;
+  double mean = 0;       ///< divided by 3: 1 for correct covariances, 4 for standard deviations half as large
+  double median = 0;     ///< divided by kChiSquareMedian: 1 for correct covariances, robust to outliers
+  double beyond_95 = 0;  ///< share above kChiSquare95: 0.05 for correct covariances
+};
+
+/// e^T Omega e of equation 5 between a measured relative pose and the true one.
+double normalised_square(const mrpt::math::TPose2D& measured, const mrpt::math::TPose2D& truth,
+                         const Eigen::Matrix3d& information);
+
+/// Zeros without squares.
+NormalisedErrors normalised_errors(std::string of, std::vector<double> squares);
+
+/// Normalised errors of the optimised graph without the final scan refinement: of local-map constraints, of
+/// loops, and of random pairs of nodes. For pairs, the covariance follows from the best path, as in the loop
+/// search, and from the whole graph. `truth` has a pose for each frame.
+std::vector<NormalisedErrors> check_covariances(const MappingResult& result, const Trajectory& truth,
+                                                std::uint64_t seed);
+
+}  // namespace psi_slam

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes a simulated run as a log file with its truth.
+#pragma once
+
+#include <filesystem>
+
+#include "simulation/simulated_log.h"
+
+namespace psi_slam {
+
+/// Throws UserError if `log` is not named NAME.clf.gz or cannot be written.
+void check_simulated_log_file(const std::filesystem::path& log);
+
+/// Writes the run as a gzipped CARMEN log NAME.clf.gz with the true poses as corrected poses. Also writes
+/// NAME.relations, true relations between random pairs of scans, and NAME.tum, the true path. Throws
+/// SystemFailure when a file cannot be written.
+void write_simulated_log(const std::filesystem::path& log, const SimulatedLogOptions& run);
+
+}  // namespace psi_slam

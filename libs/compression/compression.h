@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compression and decompression of bytes in memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace psi_slam {
+
+/// Returns whether decompress() supports a compression with this name: "bz2", "lz4" (frames) or "zstd".
+bool is_known_compression(std::string_view name);
+
+/// Decompresses to exactly `size` bytes. Memory grows with the decompressed bytes, not with `size`, which may
+/// be wrong. Throws MalformedBytes if the data are damaged or have another size.
+std::string decompress(std::string_view name, std::string_view compressed, std::uint64_t size);
+
+/// Returns whether the bytes start like a zstd frame.
+bool is_zstd(std::string_view bytes);
+
+/// Decompresses a zstd frame, with or without a stated size, to at most `most` bytes. Throws MalformedBytes.
+std::string decompress_zstd_frame(std::string_view compressed, std::uint64_t most);
+
+/// Returns a gzip file of the bytes, without name and time in its header. Throws SystemFailure if memory runs
+/// out.
+std::string gzipped(const void* bytes, std::size_t count);
+
+}  // namespace psi_slam

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tables of a run as comma-separated values (RFC 4180) with a header line. Lengths are metres, angles
+// radians, times seconds unless the column's name says otherwise.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "psi_slam/mapping_result.h"
+
+namespace psi_slam {
+
+/// Returns a text as one field, quoted if necessary.
+std::string csv_field(const std::string& text);
+
+/// Returns frames.csv: one row per scan in the order of the log, with its poses, match, factor Psi, loops and
+/// times. `node` and `matcher` may be empty.
+std::string frames_csv(const std::vector<FrameRecord>& frames);
+
+/// Returns loops.csv: one row per attempt to close a loop in the order of the records, with its match,
+/// verdict and reason. `reason` is empty for accepted loops.
+std::string loops_csv(const std::vector<LoopRecord>& loops);
+
+}  // namespace psi_slam

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping/back_end.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace psi_slam {
+
+BackEnd::BackEnd(const BackEndOptions& options)
+    : options_(options),
+      policy_(options.matcher, options.psi, options.loop_matcher, options.genetic),
+      factor_(options.psi),
+      closer_(options.loop_closure, options.seed),
+      consensus_(options.loop_consensus),
+      ledger_({options.loop_sigma_m, options.loop_sigma_rad}),
+      pool_(options.threads) {}
+
+NodeLoops BackEnd::close(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph) {
+  NodeLoops loops;
+  const double ms = loop_clock_.time([&] { loops = search(node, keyframes, graph); });
+  loops.milliseconds = ms;
+  return loops;
+}
+
+NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph) {
+  matcher_of_node_.push_back(policy_.kind(factor_.value().psi));
+  const ChosenMatcher matcher = policy_.matcher(matcher_of_node_.back());
+  LoopCloser::Outcome outcome = closer_.close(node, keyframes, graph, matcher, pool_);
+  NodeLoops loops;
+  loops.matcher = matcher.kind;
+  loops.effort = outcome.effort;
+  for (LoopRecord& loop : outcome.loops) {
+    const bool waits = loop.verdict == LoopVerdict::kPending;
+    for (const std::size_t confirmed : confirmed_by(ledger_.add(std::move(loop)), keyframes, graph)) {
+      const std::optional<double> residual = ledger_.accept(confirmed, graph);
+      if (!residual) continue;
+      ++loops.accepted;
+      // Loops that waited until others agreed have found the robot's place in the map.
+      schedule_.add_residual(waits ? std::max(*residual, OptimizationSchedule::kUrgentResidual) : *residual);
+    }
+  }
+  factor_.add_frame(loops.accepted);
+  return loops;
+}
+
+// The loops to accept now that this one was found: an accepted loop itself; for a pending loop all pending
+// loops that now agree.
+std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const KeyframeStore& keyframes,
+                                               const PoseGraph& graph) {
+  const LoopRecord& loop = ledger_.loops()[index];
+  if (loop.verdict == LoopVerdict::kAccepted) return {index};
+  if (loop.verdict != LoopVerdict::kPending) return {};
+  const NodeScan& here = keyframes.nodes[loop.node];
+  return consensus_.add(
+      {index, here.travelled_m, here.local_T_robot, loop.anchor, loop.anchor_T_node, loop.ambiguity}, graph,
+      [&](std::size_t other) { return ledger_.loops()[other].verdict == LoopVerdict::kPending; });
+}
+
+double BackEnd::optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver) {
+  return schedule_.is_due(graph) ? optimize(graph, solver) : 0;
+}
+
+double BackEnd::optimize(PoseGraph& graph, SparsePoseAdjustment& solver) {
+  return graph_clock_.time([&] {
+    solver.optimize(graph);
+    schedule_.optimized(graph);
+  });
+}
+
+std::map<MatcherKind, LoopEffort> BackEnd::finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
+                                                        SparsePoseAdjustment& solver,
+                                                        FinalProgress& progress) {
+  std::map<MatcherKind, LoopEffort> effort;
+  const auto settle = [&] {
+    graph_clock_.time([&] { ledger_.settle(graph, solver, options_.max_loop_chi); });
+  };
+  ledger_.refuse_pending();
+  settle();
+  for (int pass = 0; pass < progress.passes() && !progress.cut_short(); ++pass) {
+    final_search_clock_.time([&] {
+      for (const auto& [matcher, of_pass] : run_final_search(keyframes, graph, [&](double share) {
+             return final_search_clock_.leave_out([&] { return progress.at(pass + share); });
+           }))
+        effort[matcher] += of_pass;
+    });
+    settle();
+  }
+  ledger_.refuse_pending();
+  return effort;
+}
+
+std::map<MatcherKind, LoopEffort> BackEnd::run_final_search(const KeyframeStore& keyframes, PoseGraph& graph,
+                                                            const std::function<bool(double)>& progress) {
+  const std::set<LoopPair> searched = ledger_.searched_pairs();
+  const auto known = [&](std::size_t node, std::size_t local_map) {
+    return searched.count({node, local_map}) != 0;
+  };
+  const auto matcher_of = [&](std::size_t node) { return policy_.matcher(matcher_of_node_[node]); };
+  FinalSearchOutcome outcome = final_search(keyframes, graph, matcher_of, options_.loop_closure.verification,
+                                            options_.final_search, known, options_.seed, pool_, progress);
+  for (LoopRecord& loop : outcome.loops) {
+    const std::size_t entered = ledger_.add(std::move(loop));
+    if (ledger_.loops()[entered].verdict == LoopVerdict::kAccepted) ledger_.accept(entered, graph);
+  }
+  return outcome.effort;
+}
+
+void BackEnd::refine(RefinedScans& scans, PoseGraph& graph, FinalProgress& progress) {
+  if (progress.cut_short()) return;
+  refinement_clock_.time([&] {
+    refine_jointly(scans, options_.joint_refinement, pool_, [&](double share) {
+      return refinement_clock_.leave_out([&] { return progress.at(progress.passes() + share); });
+    });
+    const mrpt::math::TPose2D first = scans.map_T_frame[scans.node_frames.front()];
+    for (mrpt::math::TPose2D& pose : scans.map_T_frame) pose = graph.pose(0) + (pose - first);
+    for (std::size_t node = 0; node < scans.node_frames.size(); ++node)
+      graph.set_pose(node, scans.map_T_frame[scans.node_frames[node]]);
+  });
+}
+
+bool BackEnd::match_by_hand(const LoopEdit& edit, std::size_t node, const KeyframeStore& keyframes,
+                            PoseGraph& graph) {
+  LoopCandidate candidate;
+  candidate.local_map = edit.local_map;
+  const LoopRecord* const before = ledger_.find({node, edit.local_map});
+  if (edit.place) {
+    candidate.anchor_T_node = edit.place->anchor_T_node;
+    candidate.extent = edit.place->window;
+  } else if (before != nullptr) {
+    candidate.anchor_T_node = before->anchor_T_predicted;
+    candidate.extent = before->window;
+  } else {
+    candidate.anchor_T_node = graph.pose(node) - graph.pose(keyframes.local_maps[edit.local_map].anchor);
+    candidate.extent = options_.loop_closure.candidates.max_window;
+  }
+  const auto matcher = make_matcher(edit.matcher, options_.loop_matcher, options_.genetic);
+  std::optional<LoopRecord> loop;
+  loop_clock_.time([&] {
+    loop = closer_.match(node, candidate, keyframes, {edit.matcher, *matcher}, pool_);
+  });
+  if (!loop) return false;
+  if (loop->verdict == LoopVerdict::kPending) loop->verdict = LoopVerdict::kAccepted;
+  ledger_.replace(*std::move(loop), graph);
+  return true;
+}
+
+std::size_t BackEnd::accepted() const {
+  return static_cast<std::size_t>(std::count_if(loops().begin(), loops().end(), [](const LoopRecord& loop) {
+    return loop.verdict == LoopVerdict::kAccepted;
+  }));
+}
+
+std::vector<StageTiming> BackEnd::stages() const {
+  return {loop_clock_.timing(), graph_clock_.timing(), final_search_clock_.timing(),
+          refinement_clock_.timing()};
+}
+
+}  // namespace psi_slam

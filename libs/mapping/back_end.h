@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The back end of SLAM on a pose graph that its caller makes grow: closes loops, decides when to optimise the
+// graph, and finishes the map after the last scan. Mapper and CPsiLoopCloserERD share it.
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "base/degrees.h"
+#include "base/worker_pool.h"
+#include "loop_closure/final_search.h"
+#include "loop_closure/keyframe_store.h"
+#include "loop_closure/loop_closer.h"
+#include "loop_closure/loop_closure_factor.h"
+#include "loop_closure/loop_consensus.h"
+#include "loop_closure/loop_ledger.h"
+#include "loop_closure/matcher_policy.h"
+#include "mapping/joint_refinement.h"
+#include "mapping/optimization_schedule.h"
+#include "mapping/stage_clock.h"
+#include "pose_graph/sparse_pose_adjustment.h"
+
+namespace psi_slam {
+
+struct BackEndOptions {
+  std::optional<MatcherKind> matcher;  ///< none: the factor Psi chooses a matcher for each node
+  MatcherOptions loop_matcher;         ///< options that all matchers share
+  GeneticOptions genetic;
+  PsiOptions psi;
+  LoopClosureOptions loop_closure;
+  LoopConsensusOptions loop_consensus;
+  FinalSearchOptions final_search;
+  JointRefinementOptions joint_refinement;
+  double loop_sigma_m = 0.02;  ///< noise of a loop, added to its match's covariance
+  double loop_sigma_rad = radians_from_degrees(0.25L);
+  double max_loop_chi = 5.0;  ///< residual in standard deviations above which a loop is switched off
+  std::uint64_t seed = 1;     ///< of all random numbers
+  int threads = 1;            ///< that match loops; results do not depend on it
+};
+
+/// Result of a node's search for loops.
+struct NodeLoops {
+  MatcherKind matcher = MatcherKind::kCsm;
+  LoopEffort effort;
+  int accepted = 0;  ///< new constraints, loops of earlier nodes included
+  double milliseconds = 0;
+};
+
+/// Progress of the steps after the last scan, reported as one share of all of them in [0, 1].
+class FinalProgress {
+ public:
+  /// `report` may be empty. It returns false to cut the remaining steps short.
+  FinalProgress(const BackEndOptions& options, std::function<bool(double)> report)
+      : passes_(options.final_search.passes),
+        steps_(passes_ + (options.joint_refinement.rounds > 0 ? 1 : 0)),
+        report_(std::move(report)) {}
+
+  int passes() const { return passes_; }
+  /// Reports `done` steps; returns whether to go on.
+  bool at(double done) {
+    const bool go_on = !report_ || report_(done / steps_);
+    cut_short_ = !go_on && done < steps_;
+    return go_on;
+  }
+  bool cut_short() const { return cut_short_; }
+
+ private:
+  int passes_;
+  int steps_;
+  std::function<bool(double)> report_;
+  bool cut_short_ = false;
+};
+
+class BackEnd {
+ public:
+  explicit BackEnd(const BackEndOptions& options);
+
+  /// Tells the odometry's path length since the last call, and the robot's position in the map. Psi depends
+  /// on both.
+  void move(double odometry_m, const mrpt::math::TPoint2D& robot) { factor_.move(odometry_m, robot); }
+  LoopClosureFactor::Value factor() const { return factor_.value(); }
+
+  /// The per-loop step. Call it for every node in order. Adds the loops confirmed by now to the graph, loops
+  /// of earlier nodes included.
+  NodeLoops close(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
+
+  /// Optimises the graph if new loops make it necessary, see OptimizationSchedule. Returns the time in
+  /// milliseconds; 0 if the graph was left alone.
+  double optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver);
+  double optimize(PoseGraph& graph, SparsePoseAdjustment& solver);
+
+  /// After the last scan: optimises the graph and switches off outlier loops, before and after every pass of
+  /// the final loop search; then refuses pending loops. Returns the effort of each matcher.
+  std::map<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
+                                                 SparsePoseAdjustment& solver, FinalProgress& progress);
+
+  /// The last step: refines the poses of all scans jointly, and the graph's nodes with them. The first node
+  /// keeps its pose. Does nothing if `progress` was cut short.
+  void refine(RefinedScans& scans, PoseGraph& graph, FinalProgress& progress);
+
+  /// Matches as LoopEdit::Kind::kMatch asks. False if the scan has no returns to match.
+  bool match_by_hand(const LoopEdit& edit, std::size_t node, const KeyframeStore& keyframes,
+                     PoseGraph& graph);
+
+  const std::vector<LoopRecord>& loops() const { return ledger_.loops(); }
+  std::size_t accepted() const;
+  LoopLedger& ledger() { return ledger_; }
+  const LoopLedger& ledger() const { return ledger_; }
+  const BackEndOptions& options() const { return options_; }
+  std::vector<StageTiming> stages() const;
+
+ private:
+  std::vector<std::size_t> confirmed_by(std::size_t loop, const KeyframeStore& keyframes,
+                                        const PoseGraph& graph);
+  NodeLoops search(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
+  std::map<MatcherKind, LoopEffort> run_final_search(const KeyframeStore& keyframes, PoseGraph& graph,
+                                                     const std::function<bool(double)>& progress);
+
+  BackEndOptions options_;
+  MatcherPolicy policy_;
+  LoopClosureFactor factor_;
+  LoopCloser closer_;
+  LoopConsensus consensus_;
+  LoopLedger ledger_;
+  WorkerPool pool_;
+  OptimizationSchedule schedule_;
+  std::vector<MatcherKind> matcher_of_node_;  ///< that Psi chose there
+  StageClock loop_clock_{"close loops"};
+  StageClock graph_clock_{"optimise pose graph"};
+  StageClock final_search_clock_{"last global pass"};
+  StageClock refinement_clock_{"refine all scans jointly"};
+};
+
+}  // namespace psi_slam

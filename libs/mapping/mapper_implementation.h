@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The hidden part of Mapper. Functions without a comment are described there.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mapping/mapper_options.h"
+#include "psi_slam/mapper.h"
+
+namespace psi_slam {
+
+class Mapper::Implementation {
+ public:
+  explicit Implementation(const MapperOptions& options);
+
+  const FrameRecord& add(Frame frame);
+  void begin_run(const RunStart& start);
+  LoopEditOutcome edit(const LoopEdit& edit);
+  LoopEditOutcome judge(const LoopEdit& edit, const std::vector<FrameRecord>& frames) const;
+  void end_log();
+  MappingResult finish(const std::function<bool(double)>& progress, AfterFinish after);
+  void reopen(MappingResult&& result);
+
+  mrpt::math::TPose2D map_T_robot() const;
+  const PoseGraph& graph() const { return graph_; }
+  const MappingResult& result() const { return result_; }
+  const std::vector<LoopRecord>& loops() const { return back_end_.loops(); }
+  const KeyframeStore& keyframes() const { return keyframes_; }
+  const std::vector<PlacedLocalMap>& active_local_maps() const { return front_end_.active(); }
+
+ private:
+  /// What finish() changes and reopen() restores.
+  struct Checkpoint {
+    PoseGraph graph;
+    LoopLedger ledger;
+    SparsePoseAdjustment solver;
+    std::map<MatcherKind, LoopMatcherRecord> loop_matchers;
+  };
+
+  void rebase_odometry(FrameRecord& record);
+  void record_factor(FrameRecord& record, const FrontEndStep& step);
+  void add_node(const FrontEndStep& step, std::size_t frame);
+  void join_run();
+  void follow_graph();
+  void remember(const PlacedLocalMap& finished);
+  void close_loops(std::size_t node, FrameRecord& record);
+  LoopEditOutcome carry_out(const LoopEdit& edit);
+  void serve_waiting_edits();
+  std::vector<std::string> unmet_edits() const;
+  void finish_loops(FinalProgress& progress);
+  void count_accepted_loops();
+  void refine_poses(FinalProgress& progress);
+
+  MapperOptions options_;
+  FrontEnd front_end_;
+  BackEnd back_end_;
+  SparsePoseAdjustment solver_;
+  PoseGraph graph_;
+  KeyframeStore keyframes_;
+  std::vector<LoopEdit> waiting_edits_;
+  std::vector<std::string> impossible_edits_;  ///< waiting edits that became impossible, a sentence each
+  std::optional<Checkpoint> before_finish_;
+  std::optional<RunStart> run_start_;              ///< of the next frame
+  std::optional<mrpt::math::TPose2D> odom_T_run_;  ///< a later run's odometry frame in the first run's
+  mrpt::math::TPose2D map_T_local_;                ///< the front end's frame, placed by the newest node
+  MappingResult result_;
+  StageClock front_end_clock_{"match and insert scan"};
+};
+
+}  // namespace psi_slam

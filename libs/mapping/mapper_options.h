@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/degrees.h"
+#include "local_maps/front_end.h"
+#include "mapping/back_end.h"
+#include "pose_graph/sparse_pose_adjustment.h"
+
+namespace psi_slam {
+
+struct MapperOptions {
+  FrontEndOptions front_end;
+  BackEndOptions back_end;
+  PoseAdjustmentOptions pose_graph;
+
+  bool close_loops = true;
+  /// Noise of a node's pose in a local map, added to the front end's covariance.
+  double local_map_sigma_m = 0.015;
+  double local_map_sigma_rad = radians_from_degrees(0.25L);
+};
+
+}  // namespace psi_slam

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Coarse looks at a whole search window, on the coarsest level of the score grid's pyramid.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "matching/genetic_operators.h"
+#include "matching/genetic_options.h"
+#include "matching/tile_space.h"
+
+namespace psi_slam {
+
+struct CoarseCells {
+  std::vector<Tile> best;  ///< in descending order of sums; each at its middle heading
+  std::int64_t evaluations = 0;
+};
+
+/// The coarse stage of multi-resolution correlative matching (Olson 2009): sums all points for every block of
+/// the coarsest level and every `heading_stride`-th heading. Returns the `count` best cells that reach
+/// `min_sum`; of equal cells, the first ones. Throws std::invalid_argument if the lattice's grid has no
+/// pyramid.
+CoarseCells rank_coarse_cells(const SearchLattice& lattice, int heading_stride, int count,
+                              std::uint32_t min_sum);
+
+struct Seeds {
+  std::vector<Chromosome> chromosomes;  ///< in descending order of sums
+  std::int64_t evaluations = 0;
+};
+
+/// First generation of the memetic search. Sums a part of the scan's points at every
+/// `options.heading_stride`-th heading from a random one on. Returns at most `options.seeds` tiles whose sum
+/// no neighbour exceeds. A window of one block is not summed: all those headings are seeds.
+Seeds coarse_seeds(const SearchLattice& lattice, const WindowTiles& tiles,
+                   const MemeticGeneticOptions& options, Random& random);
+
+}  // namespace psi_slam

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Conversions between our data and MRPT's observations and actions, for its files and programs.
+#pragma once
+
+#include <mrpt/core/Clock.h>
+#include <mrpt/math/TPose2D.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <optional>
+#include <vector>
+
+#include "psi_slam/frame.h"
+#include "psi_slam/time_stamp.h"
+
+namespace psi_slam {
+
+mrpt::Clock::time_point mrpt_clock_time(TimeUs time_us);
+
+/// Unix time of an observation, rounded to the nearest microsecond. Empty without a time stamp.
+std::optional<TimeUs> time_us(const mrpt::obs::CObservation& observation);
+
+/// Movement of the robot: the increment of odometry, otherwise the mean of another estimate. Empty if no
+/// action is a movement of the robot.
+std::optional<mrpt::math::TPose2D> movement_of(const mrpt::obs::CActionCollection& actions);
+
+/// Returns a movement of the robot by odometry, with MRPT's default noise.
+mrpt::obs::CActionCollection robot_action(const mrpt::math::TPose2D& motion, TimeUs time_us);
+
+/// Returns the scan with evenly spread rays from the first to the last beam, as MRPT stores scans. Uneven
+/// beams, such as GMapping's 180 without the one straight ahead, are assigned to finer rays: the fewest that
+/// meet each bearing within a milliradian, at most four times as many as beams. Rays without a beam and beams
+/// without a return are invalid. The sensor's pose includes the mean bearing.
+mrpt::obs::CObservation2DRangeScan::Ptr range_observation(const Frame& frame);
+
+/// Returns the scans of all lasers of the frame for a sensory frame, each with its own label and time stamp.
+/// Sensor poses are relative to the robot's pose at the frame's time.
+std::vector<mrpt::obs::CObservation2DRangeScan::Ptr> range_observations(const Frame& frame);
+
+}  // namespace psi_slam

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rosbag/record_bag.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "compression/compression.h"
+#include "psi_slam/user_error.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr std::uint64_t kPieceBytes = std::uint64_t{1} << 20;
+constexpr std::int64_t kMaxTailBytes = std::int64_t{1} << 28;
+
+}  // namespace
+
+std::string_view BagStream::read_up_to(std::uint64_t size) {
+  std::size_t have = 0;
+  while (have < size) {
+    const auto wanted =
+        static_cast<std::size_t>(std::min(size - have, std::max<std::uint64_t>(kPieceBytes, have)));
+    if (bytes_.size() < have + wanted) bytes_.resize(have + wanted);
+    const std::size_t got = file_.read(bytes_.data() + have, wanted);
+    have += got;
+    if (got == 0) break;
+  }
+  offset_ += have;
+  return std::string_view(bytes_).substr(0, have);
+}
+
+std::string_view BagStream::read(std::uint64_t size) {
+  const std::uint64_t start = offset_;
+  const std::string_view bytes = read_up_to(size);
+  if (bytes.size() < size)
+    throw UserError(place_of(start) + ": the file is cut off, expected " + std::to_string(size) +
+                    " more bytes, found " + std::to_string(bytes.size()));
+  return bytes;
+}
+
+std::string BagStream::place_of(std::uint64_t offset) const {
+  return path().string() + ": byte " + std::to_string(offset);
+}
+
+std::string tail_of_file(const std::filesystem::path& path, std::int64_t offset) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::int64_t size = file ? static_cast<std::int64_t>(file.tellg()) : 0;
+  const std::int64_t start = offset < 0 ? size + offset : offset;
+  if (start < 0 || start >= size || size - start > kMaxTailBytes) return {};
+  std::string bytes(static_cast<std::size_t>(size - start), '\0');
+  file.seekg(start);
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return file ? bytes : std::string();
+}
+
+bool RecordBag::next(BagMessage& message) {
+  try {
+    while (read_record())
+      if (take_record(message)) return true;
+  } catch (const MalformedBytes& error) {
+    throw UserError(place() + ": the bag is damaged: " + error.what());
+  }
+  check_end();
+  return false;
+}
+
+bool RecordBag::read_record() {
+  if (!in_chunk_ || in_chunk_->at_end()) {
+    in_chunk_.reset();
+    return read_record_of_file();
+  }
+  offset_in_chunk_ = in_chunk_->offset();
+  read_record_of_chunk(*in_chunk_);
+  return true;
+}
+
+void RecordBag::unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size) {
+  if (in_chunk_) throw MalformedBytes("a chunk contains another chunk");
+  if (compression.empty() || compression == "none") {
+    chunk_ = bytes;
+  } else if (is_known_compression(compression)) {
+    chunk_ = decompress(compression, bytes, size);
+  } else {
+    throw MalformedBytes("its compression is \"" + std::string(compression) +
+                         "\", expected bz2, lz4 or zstd");
+  }
+}
+
+void RecordBag::read_to_end() {
+  try {
+    for (BagMessage message; next(message);) continue;
+  } catch (const UserError&) {
+    // The error is reported when the bag is read for its messages.
+  }
+}
+
+std::string RecordBag::place() const {
+  std::string place = stream_.place_of(record_offset_);
+  if (in_chunk_) place += ", byte " + std::to_string(offset_in_chunk_) + " of the chunk";
+  return place;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "view/layers.h"
+
+#include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
+#include <mrpt/opengl/CTexturedPlane.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "local_maps/scan_filter.h"
+#include "view/loop_legend.h"
+#include "view/palette.h"
+
+namespace psi_slam {
+namespace {
+
+using mrpt::maps::COccupancyGridMap2D;
+using mrpt::math::TPoint2D;
+using mrpt::math::TPoint3D;
+using mrpt::math::TPoint3Df;
+using mrpt::math::TPose2D;
+using mrpt::opengl::CSetOfLines;
+
+/// Dots of one colour and size. (Passes all points at once because insertPoint() of MRPT 2.5 deadlocks.)
+mrpt::opengl::CPointCloud::Ptr dots_of(const std::vector<TPoint3Df>& points, const mrpt::img::TColor& colour,
+                                       float size_px) {
+  std::vector<float> x;
+  std::vector<float> y;
+  std::vector<float> z;
+  for (const TPoint3Df& point : points) {
+    x.push_back(point.x);
+    y.push_back(point.y);
+    z.push_back(point.z);
+  }
+  auto dots = mrpt::opengl::CPointCloud::Create();
+  dots->setAllPoints(x, y, z);
+  dots->setColor_u8(colour);
+  dots->setPointSize(size_px);
+  dots->enableVariablePointSize(false);
+  return dots;
+}
+
+/// An empty set of lines of one colour and width.
+CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
+  auto lines = CSetOfLines::Create();
+  lines->setColor_u8(colour);
+  lines->setLineWidth(width);
+  return lines;
+}
+
+/// A plane at height 0 that shows the raster in true colours, whatever the light; transparent where the
+/// raster is.
+mrpt::opengl::CTexturedPlane::Ptr textured_plane(const MapRaster& raster) {
+  const auto width = static_cast<unsigned>(raster.width_px);
+  const auto height = static_cast<unsigned>(raster.height_px);
+  mrpt::img::CImage colour(width, height, mrpt::img::CH_RGB);
+  mrpt::img::CImage opacity(width, height, mrpt::img::CH_GRAY);
+  // MRPT's textures start with the bottom row, rasters with the top row.
+  for (unsigned row = 0; row < height; ++row) {
+    const std::uint8_t* from = raster.pixels.data() + std::size_t{4} * width * (height - 1 - row);
+    auto* to = colour.ptrLine<std::uint8_t>(row);
+    auto* to_opacity = opacity.ptrLine<std::uint8_t>(row);
+    for (unsigned column = 0; column < width; ++column, from += 4, to += 3) {
+      to[0] = from[0];
+      to[1] = from[1];
+      to[2] = from[2];
+      to_opacity[column] = from[3];
+    }
+  }
+  auto plane = mrpt::opengl::CTexturedPlane::Create();
+  plane->assignImage(std::move(colour), std::move(opacity));
+  plane->mrpt::opengl::CRenderizableShaderTexturedTriangles::enableLight(false);
+  const double x_max_m = raster.x_min_m + raster.width_px * raster.resolution_m;
+  const double y_min_m = raster.y_max_m - raster.height_px * raster.resolution_m;
+  plane->setPlaneCorners(static_cast<float>(raster.x_min_m), static_cast<float>(x_max_m),
+                         static_cast<float>(y_min_m), static_cast<float>(raster.y_max_m));
+  return plane;
+}
+
+/// A point or pose in the plane, lifted to a height.
+template <class Planar>
+TPoint3Df raised(const Planar& at, double z_m) {
+  return {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(z_m)};
+}
+
+/// Adds the line between two points or poses in the plane, at a height.
+template <class Planar>
+void join(CSetOfLines& lines, const Planar& a, const Planar& b, double z_m) {
+  lines.appendLine(a.x, a.y, z_m, b.x, b.y, z_m);
+}
+
+// Transparent planes are drawn by decreasing distance: this one makes the grid map come before local maps.
+constexpr float kFarBelow_m = -1000;
+
+constexpr double kWallOpacity = 200;  // out of 255
+constexpr double kFreeOpacity = 70;
+
+/// Walls in the tint, free space in a paler tint. The opacity of a cell grows with its certainty.
+MapRaster tinted_raster(const COccupancyGridMap2D& grid, const mrpt::img::TColor& tint) {
+  MapRaster raster;
+  raster.width_px = static_cast<int>(grid.getSizeX());
+  raster.height_px = static_cast<int>(grid.getSizeY());
+  raster.resolution_m = static_cast<double>(grid.getResolution());
+  raster.x_min_m = static_cast<double>(grid.getXMin());
+  raster.y_max_m = static_cast<double>(grid.getYMin()) + raster.height_px * raster.resolution_m;
+  raster.pixels.reserve(std::size_t{4} * grid.getSizeX() * grid.getSizeY());
+  for (int y = raster.height_px - 1; y >= 0; --y) {
+    const COccupancyGridMap2D::cellType* row = grid.getRow(y);
+    for (int x = 0; x < raster.width_px; ++x) {
+      const double free = 2 * static_cast<double>(COccupancyGridMap2D::l2p(row[x])) - 1;  // -1 wall .. 1 free
+      const double opaque = free < 0 ? -free * kWallOpacity : free * kFreeOpacity;
+      for (const std::uint8_t channel : {tint.B, tint.G, tint.R}) raster.pixels.push_back(channel);
+      raster.pixels.push_back(static_cast<std::uint8_t>(std::lround(opaque)));
+    }
+  }
+  return raster;
+}
+
+constexpr double kShortestLine_m = 0.05;
+
+/// A line through poses that are added one by one. Skips poses closer than kShortestLine_m.
+class Polyline {
+ public:
+  Polyline(const mrpt::img::TColor& colour, float width) : lines_(lines_of(colour, width)) {}
+  void add(const TPose2D& pose, double z_m) {
+    const TPoint3D point(pose.x, pose.y, z_m);
+    if (begun_ && (point - last_).norm() < kShortestLine_m) return;
+    if (begun_) lines_->appendLine(last_, point);
+    last_ = point;
+    begun_ = true;
+  }
+  /// Makes the next pose start a separate line.
+  void interrupt() { begun_ = false; }
+  CSetOfLines::Ptr lines() const { return lines_; }
+
+ private:
+  CSetOfLines::Ptr lines_;
+  TPoint3D last_{0, 0, 0};
+  bool begun_ = false;
+};
+
+bool starts_run(const ReplaySnapshot& snapshot, std::size_t frame) {
+  return std::binary_search(snapshot.later_run_frames.begin(), snapshot.later_run_frames.end(), frame);
+}
+
+constexpr std::uint8_t kFaint = 45;
+// Opacity of accepted loops. It falls with their number, so that the map stays visible.
+constexpr double kClear = 140;
+constexpr double kPalest = 50;
+constexpr double kClearLoops = 100;  // up to this many loops keep the full opacity
+
+// More lines would only cover the map and slow the window down.
+constexpr std::size_t kMostLoopsOfFinalSearch = 3000;
+
+std::size_t final_search_loops(const ReplaySnapshot& snapshot) {
+  return static_cast<std::size_t>(std::count_if(snapshot.loops->begin(), snapshot.loops->end(),
+                                                [](const LoopRecord& loop) { return loop.in_final_search; }));
+}
+
+std::uint8_t clear_alpha(const ReplaySnapshot& snapshot) {
+  const auto loops = std::count_if(
+      snapshot.loops->begin(), snapshot.loops->end(),
+      [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted && !loop.in_final_search; });
+  const double crowd = std::max(1.0, static_cast<double>(loops) / kClearLoops);
+  return static_cast<std::uint8_t>(std::max(kPalest, kClear / std::sqrt(crowd)));
+}
+
+// The arrow that shows the robot, along its x axis.
+constexpr double kNose_m = 0.45;
+constexpr double kTail_m = -0.25;
+constexpr double kHalfWidth_m = 0.25;
+
+/// Adds a search window: a rectangle around a pose, along the pose's axes, and two lines at the limits of the
+/// heading.
+void add_window(CSetOfLines& lines, const TPose2D& map_T_middle, const SearchExtent& extent) {
+  const std::array<TPoint2D, 4> corners{TPoint2D(extent.x_m, extent.y_m), TPoint2D(-extent.x_m, extent.y_m),
+                                        TPoint2D(-extent.x_m, -extent.y_m),
+                                        TPoint2D(extent.x_m, -extent.y_m)};
+  const auto line = [&](const TPoint2D& a, const TPoint2D& b) { join(lines, a, b, height_m::kWindows); };
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    line(map_T_middle.composePoint(corners[i]), map_T_middle.composePoint(corners[(i + 1) % corners.size()]));
+  const double reach_m = std::max(extent.x_m, extent.y_m);
+  for (const double turn_rad : {-extent.theta_rad, extent.theta_rad})
+    line({map_T_middle.x, map_T_middle.y},
+         map_T_middle.composePoint({reach_m * std::cos(turn_rad), reach_m * std::sin(turn_rad)}));
+}
+
+void add_loop_window(CSetOfLines& lines, const ReplaySnapshot& snapshot, const LoopRecord& loop) {
+  add_window(lines, snapshot.map_T_node->at(loop.anchor) + loop.anchor_T_predicted, loop.window);
+}
+
+}  // namespace
+
+void draw_grid(SceneLayer& layer, const DrawnMap& map) {
+  if (map.raster.width_px == 0 || map.raster.height_px == 0) return;
+  const auto plane = textured_plane(map.raster);
+  plane->setLocalRepresentativePoint({0, 0, kFarBelow_m});
+  layer.insert(plane);
+}
+
+void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+  for (std::size_t i = 0; i < snapshot.active_local_maps.size(); ++i)
+    layer.insert(textured_plane(tinted_raster(*snapshot.active_local_maps[i].occupancy,
+                                              i == 0 ? palette::kOlderMap : palette::kNewerMap)));
+}
+
+void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+  auto plane = layer.begin();
+  for (const ActiveLocalMap& active : snapshot.active_local_maps) {
+    const TPose2D pose = snapshot.map_T_node->at(active.anchor);
+    (*plane)->setPose(mrpt::math::TPose3D(pose.x, pose.y, height_m::kLocalMaps, pose.phi, 0, 0));
+    ++plane;
+  }
+}
+
+void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+  if (snapshot.frames.empty()) return;
+  Polyline line(palette::kOdometry, 1.5F);
+  const FrameRecord& first = snapshot.frames[0];
+  for (std::size_t i = 0; i < snapshot.frames.size(); ++i) {
+    if (starts_run(snapshot, i)) line.interrupt();
+    line.add(first.map_T_robot + (snapshot.frames[i].odom_T_robot - first.odom_T_robot), height_m::kOdometry);
+  }
+  layer.insert(line.lines());
+}
+
+void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+  Polyline line(palette::kCorrected, 2.0F);
+  for (std::size_t node = 0; node < snapshot.map_T_node->size(); ++node) {
+    if (starts_run(snapshot, snapshot.nodes[node].frame)) line.interrupt();
+    line.add((*snapshot.map_T_node)[node], height_m::kTrajectory);
+  }
+  if (!snapshot.frames.empty()) line.add(snapshot.map_T_robot, height_m::kTrajectory);
+  layer.insert(line.lines());
+}
+
+void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+  std::vector<TPoint3Df> points;
+  for (const TPose2D& node : *snapshot.map_T_node) points.push_back(raised(node, height_m::kNodes));
+  layer.insert(dots_of(points, palette::kNode, 4));
+}
+
+void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot) {
+  auto lines = lines_of(palette::kConstraint, 1);
+  const std::vector<TPose2D>& nodes = *snapshot.map_T_node;
+  for (std::size_t i = 0; i < snapshot.local_maps.size(); ++i) {
+    const LocalMapRecord& map = snapshot.local_maps[i];
+    for (std::size_t node = map.first_node; node <= map.last_node && node < nodes.size(); ++node)
+      if (node != map.anchor) join(*lines, nodes[map.anchor], nodes[node], height_m::kConstraints);
+  }
+  layer.insert(lines);
+}
+
+void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style) {
+  using Key = std::tuple<bool, std::uint8_t, std::uint8_t, std::uint8_t>;
+  std::map<Key, CSetOfLines::Ptr> by_colour;
+  const std::size_t stride = final_search_loops(snapshot) / kMostLoopsOfFinalSearch + 1;
+  const std::uint8_t clear = clear_alpha(snapshot);
+  std::size_t of_final_search = 0;
+  for (const LoopRecord& loop : *snapshot.loops) {
+    if (loop.in_final_search && !loop.by_hand && of_final_search++ % stride != 0) continue;
+    if (loop.verdict == LoopVerdict::kNotFound) continue;
+    if (was_no_loop(loop.verdict) && !style.refused) continue;
+    mrpt::img::TColor colour = loop_colour(loop, snapshot, style);
+    const bool faint = loop.in_final_search || was_no_loop(loop.verdict);
+    colour.A = faint ? kFaint : clear;
+    CSetOfLines::Ptr& lines = by_colour[{!faint, colour.R, colour.G, colour.B}];
+    if (!lines) lines = lines_of(colour, faint ? 1.0F : 1.5F);
+    join(*lines, snapshot.map_T_node->at(loop.anchor), snapshot.map_T_node->at(loop.node), height_m::kLoops);
+  }
+  for (const auto& [key, lines] : by_colour) layer.insert(lines);
+}
+
+void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t index) {
+  const LoopRecord& loop = (*snapshot.loops)[index];
+  const TPose2D& anchor = snapshot.map_T_node->at(loop.anchor);
+  const TPose2D& node = snapshot.map_T_node->at(loop.node);
+  auto lines = lines_of(palette::kChosen, 4);
+  join(*lines, anchor, node, height_m::kChosenLoop);
+  layer.insert(lines);
+  layer.insert(dots_of({raised(anchor, height_m::kChosenLoop), raised(node, height_m::kChosenLoop)},
+                       palette::kChosen, 10));
+}
+
+void draw_robot(SceneLayer& layer, const TPose2D& map_T_robot) {
+  auto triangles = mrpt::opengl::CSetOfTriangles::Create();
+  triangles->enableLight(false);
+  mrpt::opengl::TTriangle arrow(raised(map_T_robot.composePoint({kNose_m, 0}), height_m::kRobot),
+                                raised(map_T_robot.composePoint({kTail_m, kHalfWidth_m}), height_m::kRobot),
+                                raised(map_T_robot.composePoint({kTail_m, -kHalfWidth_m}), height_m::kRobot));
+  arrow.setColor(mrpt::img::TColor(palette::kRobot));
+  triangles->insertTriangle(arrow);
+  layer.insert(triangles);
+}
+
+void draw_scan(SceneLayer& layer, const Frame& frame, const TPose2D& map_T_robot) {
+  ScanFilterOptions all;
+  all.spacing_m = 0;
+  all.max_range_m = static_cast<double>(frame.scan.max_range_m);
+  for (const CompanionScan& companion : frame.companions)
+    all.max_range_m = std::max(all.max_range_m, static_cast<double>(companion.scan.max_range_m));
+  std::vector<TPoint3Df> points;
+  for (const mrpt::math::TPoint2Df& point : matching_points(frame, all).points) {
+    const TPoint2D at =
+        map_T_robot.composePoint({static_cast<double>(point.x), static_cast<double>(point.y)});
+    points.push_back(raised(at, height_m::kScan));
+  }
+  layer.insert(dots_of(points, palette::kScan, 3));
+}
+
+void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t frame) {
+  auto lines = lines_of(palette::kWindow, 1.5F);
+  if (frame > 0) {  // the front end searches around the pose that odometry predicts
+    const FrameRecord& record = snapshot.frames[frame];
+    const TPose2D motion = record.odom_T_robot - snapshot.frames[frame - 1].odom_T_robot;
+    add_window(*lines, map_T_frame(snapshot, frame - 1) + motion, record.window);
+  }
+  for (const LoopRecord& loop : *snapshot.loops)
+    if (loop.frame == frame && !loop.in_final_search) add_loop_window(*lines, snapshot, loop);
+  layer.insert(lines);
+}
+
+void draw_loop_window(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop) {
+  auto lines = lines_of(palette::kWindow, 1.5F);
+  add_loop_window(*lines, snapshot, (*snapshot.loops)[loop]);
+  layer.insert(lines);
+}
+
+void draw_measure(SceneLayer& layer, const Measure& measure) {
+  auto lines = lines_of(palette::kMeasure, 2);
+  join(*lines, measure.from, measure.to, height_m::kMeasure);
+  layer.insert(lines);
+  layer.insert(dots_of({raised(measure.from, height_m::kMeasure), raised(measure.to, height_m::kMeasure)},
+                       palette::kMeasure, 8));
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The target `docs`: the API reference of the public headers, made by Doxygen in BUILD/reference/html. It fails if a
+# public symbol is undocumented.
+find_package(Doxygen QUIET)
+if(NOT DOXYGEN_FOUND)
+  message(STATUS "Doxygen was not found: there is no target docs (Debian package doxygen)")
+  return()
+endif()
+set(DOXYGEN_OUTPUT_DIRECTORY reference)
+set(DOXYGEN_PROJECT_BRIEF "${PROJECT_DESCRIPTION}")
+set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR}/libs/include ${PROJECT_BINARY_DIR}/include)
+set(DOXYGEN_STRIP_FROM_INC_PATH ${DOXYGEN_STRIP_FROM_PATH})
+set(DOXYGEN_INCLUDE_PATH ${DOXYGEN_STRIP_FROM_PATH})
+set(DOXYGEN_FILE_PATTERNS *.h)
+set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
+set(DOXYGEN_HAVE_DOT NO)
+set(DOXYGEN_GENERATE_LATEX NO)
+set(DOXYGEN_QUIET YES)
+set(DOXYGEN_WARN_IF_UNDOCUMENTED YES)
+set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
+set(DOXYGEN_EXAMPLE_PATH ${PROJECT_SOURCE_DIR}/share/examples)
+set(DOXYGEN_PREDEFINED "MRPT_VERSION=0x20508")
+set(DOXYGEN_MACRO_EXPANSION YES)
+doxygen_add_docs(docs ${PROJECT_SOURCE_DIR}/libs/include/psi_slam ${PROJECT_BINARY_DIR}/include/psi_slam
+  COMMENT "Making the API reference: reference/html/index.html")

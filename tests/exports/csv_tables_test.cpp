@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exports/csv_tables.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "simulated_room.h"
+
+namespace psi_slam {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+TEST(FramesCsv, has_one_row_per_scan_below_the_header) {
+  const MappingResult result = walk_around_the_room();
+  std::istringstream text(frames_csv(result.frames));
+  std::string line;
+  std::getline(text, line);
+  const std::vector<std::string> header = split(line);
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  };
+  for (const FrameRecord& frame : result.frames) {
+    ASSERT_TRUE(std::getline(text, line));
+    const std::vector<std::string> row = split(line);
+    ASSERT_EQ(row.size(), header.size());
+    EXPECT_EQ(row[column("time_s")], format_seconds(frame.time_us));
+    EXPECT_NEAR(std::stod(row[column("map_x_m")]), frame.map_T_robot.x, 1e-6);
+    EXPECT_NEAR(std::stod(row[column("odom_theta_rad")]), frame.odom_T_robot.phi, 1e-6);
+    EXPECT_NEAR(std::stod(row[column("response")]), frame.response, 1e-4);
+    EXPECT_EQ(row[column("node")], frame.node ? std::to_string(*frame.node) : "");
+    EXPECT_EQ(row[column("matcher")], frame.matcher ? name(*frame.matcher) : "");
+    EXPECT_EQ(std::stoll(row[column("evaluations")]), frame.evaluations);
+    EXPECT_EQ(std::stoll(row[column("loop_evaluations")]), frame.loop_evaluations);
+    EXPECT_NEAR(std::stod(row[column("psi")]), frame.psi, 1e-4);
+    EXPECT_NEAR(std::stod(row[column("eta")]), frame.eta, 1e-4);
+    EXPECT_NEAR(std::stod(row[column("mean_loops")]), frame.mean_loops, 1e-4);
+    EXPECT_NEAR(std::stod(row[column("loop_matching_ms")]), frame.loop_matching_ms, 1e-4);
+  }
+  EXPECT_FALSE(std::getline(text, line));
+}
+
+TEST(LoopsCsv, has_one_row_per_attempt_with_verdict_and_reason) {
+  const MappingResult result = walk_around_the_room();
+  std::istringstream text(loops_csv(result.loops));
+  std::string header;
+  std::string refused;
+  std::string accepted;
+  std::getline(text, header);
+  std::getline(text, refused);
+  std::getline(text, accepted);
+  EXPECT_THAT(
+      header,
+      StartsWith(
+          "frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,"));
+  EXPECT_THAT(refused,
+              StartsWith("25,5,0,0,refused,\"the response is too low: 0.41, minimum 0.55\",csm,0,0,"));
+  EXPECT_THAT(accepted, StartsWith("45,9,0,0,accepted,,csm,0,0,"));
+  EXPECT_THAT(accepted, HasSubstr(",0.010000,0.010000,0.010000,"));
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(accepted.begin(), accepted.end(), ','));
+  EXPECT_FALSE(std::getline(text, header));
+}
+
+TEST(CsvField, quotes_separators_and_quotes_only) {
+  EXPECT_EQ(csv_field("plain text"), "plain text");
+  EXPECT_EQ(csv_field("a,\"b\""), "\"a,\"\"b\"\"\"");
+}
+
+}  // namespace
+}  // namespace psi_slam

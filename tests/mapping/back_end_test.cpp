@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping/back_end.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "two_rounds.h"
+
+namespace psi_slam {
+namespace {
+
+BackEndOptions near_maps_too() {
+  BackEndOptions options;
+  options.loop_closure.candidates.min_travel_m = 3;
+  options.loop_closure.attempt_distance_m = 0.3;
+  return options;
+}
+
+/// Closes the loops of all nodes in order.
+std::size_t close_all(BackEnd& back_end, PoseGraph& graph) {
+  const TwoRounds& rounds = two_rounds();
+  std::size_t made = 0;
+  for (std::size_t node = 0; node < graph.num_nodes(); ++node) {
+    back_end.move(0.15, {graph.pose(node).x, graph.pose(node).y});
+    // Only local maps that were finished before this node.
+    KeyframeStore keyframes = rounds.keyframes;
+    while (!keyframes.local_maps.empty() && keyframes.local_maps.back().last_node >= node)
+      keyframes.local_maps.pop_back();
+    made += static_cast<std::size_t>(back_end.close(node, keyframes, graph).accepted);
+  }
+  return made;
+}
+
+TEST(BackEnd, accepted_loops_are_constraints_at_the_true_poses) {
+  PoseGraph graph = two_rounds().graph();
+  const std::size_t before = graph.num_constraints();
+  BackEnd back_end(near_maps_too());
+  const std::size_t made = close_all(back_end, graph);
+  EXPECT_GT(made, 3U);
+  EXPECT_EQ(back_end.accepted(), made);
+  ASSERT_EQ(graph.num_constraints(), before + made);
+  for (std::size_t i = before; i < graph.num_constraints(); ++i) {
+    const Constraint& loop = graph.constraint(i);
+    EXPECT_EQ(loop.kind, Constraint::Kind::kLoop);
+    const auto off = loop.from_T_to - (two_rounds().truth[loop.to] - two_rounds().truth[loop.from]);
+    EXPECT_LT(std::hypot(off.x, off.y), 0.1);
+  }
+}
+
+std::map<MatcherKind, LoopEffort> finish(BackEnd& back_end, PoseGraph& graph, FinalProgress& progress) {
+  SparsePoseAdjustment solver;
+  return back_end.finish_loops(two_rounds().keyframes, graph, solver, progress);
+}
+
+TEST(BackEnd, the_final_search_finds_more) {
+  PoseGraph graph = two_rounds().graph();
+  BackEnd back_end(near_maps_too());
+  const std::size_t made = close_all(back_end, graph);
+  FinalProgress progress(back_end.options(), {});
+  const auto effort = finish(back_end, graph, progress);
+  EXPECT_FALSE(effort.empty());
+  EXPECT_FALSE(progress.cut_short());
+  EXPECT_GT(back_end.accepted(), made);
+  EXPECT_EQ(graph.num_enabled_constraints() - two_rounds().graph().num_constraints(), back_end.accepted());
+}
+
+TEST(BackEnd, a_final_search_cut_short_is_reported_and_not_refined) {
+  PoseGraph graph = two_rounds().graph();
+  BackEnd back_end(near_maps_too());
+  close_all(back_end, graph);
+  int reports = 0;
+  FinalProgress progress(back_end.options(), [&](double share) {
+    EXPECT_LE(share, 1);
+    ++reports;
+    return false;
+  });
+  finish(back_end, graph, progress);
+  EXPECT_EQ(reports, 1);
+  EXPECT_TRUE(progress.cut_short());
+  RefinedScans none;
+  back_end.refine(none, graph, progress);
+}
+
+TEST(BackEnd, a_loop_that_the_graph_contradicts_is_switched_off_at_the_end) {
+  PoseGraph graph = two_rounds().graph();
+  BackEndOptions options = near_maps_too();
+  options.final_search.passes = 0;
+  BackEnd back_end(options);
+  ASSERT_GT(close_all(back_end, graph), 0U);
+  std::size_t loop = graph.num_constraints();
+  for (std::size_t i = graph.num_constraints(); i-- > 0;)
+    if (graph.constraint(i).kind == Constraint::Kind::kLoop) loop = i;
+  ASSERT_LT(loop, graph.num_constraints());
+  // A tight constraint between the same nodes, half a metre longer.
+  Constraint other = graph.constraint(loop);
+  other.kind = Constraint::Kind::kLocalMap;
+  other.from_T_to.x += 0.5;
+  other.information *= 1e4;
+  graph.add_constraint(other);
+  const std::size_t before = back_end.accepted();
+  FinalProgress progress(options, {});
+  finish(back_end, graph, progress);
+  EXPECT_LT(back_end.accepted(), before);
+  EXPECT_FALSE(graph.enabled(loop));
+  EXPECT_TRUE(std::any_of(back_end.loops().begin(), back_end.loops().end(), [](const LoopRecord& record) {
+    return record.refusal && record.refusal->reason == LoopRefusal::Reason::kContradicted;
+  }));
+}
+
+TEST(BackEnd, loops_pending_at_the_end_are_refused) {
+  PoseGraph graph = two_rounds().graph();
+  BackEndOptions options = near_maps_too();
+  options.final_search.passes = 0;
+  options.loop_closure.verification.wide_window_m = 0;  // every window is wide, so all loops wait
+  options.loop_consensus.min_weight = 1e6;              // no loop is ever confirmed
+  BackEnd back_end(options);
+  EXPECT_EQ(close_all(back_end, graph), 0U);
+  const auto pending = [&] {
+    return std::count_if(back_end.loops().begin(), back_end.loops().end(),
+                         [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kPending; });
+  };
+  EXPECT_GT(pending(), 0);
+  FinalProgress progress(options, {});
+  finish(back_end, graph, progress);
+  EXPECT_EQ(pending(), 0);
+  EXPECT_EQ(back_end.accepted(), 0U);
+}
+
+TEST(OptimizationSchedule, optimises_at_once_for_a_strong_contradiction_and_after_growth_for_a_weak_one) {
+  PoseGraph graph;
+  for (int node = 0; node < 2000; ++node) graph.add_node({0, 0, 0});
+  OptimizationSchedule schedule;
+  schedule.optimized(graph);
+  EXPECT_FALSE(schedule.is_due(graph));
+  schedule.add_residual(OptimizationSchedule::kUrgentResidual);
+  EXPECT_TRUE(schedule.is_due(graph));
+  schedule.optimized(graph);
+  EXPECT_FALSE(schedule.is_due(graph));
+  schedule.add_residual(2);
+  EXPECT_FALSE(schedule.is_due(graph));
+  for (int node = 0; node < 3; ++node) graph.add_node({0, 0, 0});
+  EXPECT_TRUE(schedule.is_due(graph));
+}
+
+}  // namespace
+}  // namespace psi_slam

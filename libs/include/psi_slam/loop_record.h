@@ -26,6 +26,7 @@ enum class LoopVerdict {
   kDeleted,      ///< deleted by a person
 };
 
+/// All verdicts.
 inline constexpr std::array<LoopVerdict, 6> kLoopVerdicts{LoopVerdict::kAccepted,    LoopVerdict::kPending,
                                                           LoopVerdict::kRefused,     LoopVerdict::kSwitchedOff,
                                                           LoopVerdict::kNotFound,    LoopVerdict::kDeleted};

@@ -19,6 +19,7 @@
 #include "command_line.h"
 #include "document_options.h"
 #include "main_frame.h"
+#include "psi_slam/user_error.h"
 #include "run_program.h"
 
 namespace psi_slam {

@@ -57,7 +57,9 @@ LoopTable::Cell LoopTable::cell(const LoopRecord& loop, std::size_t column) cons
     case kLocalMap:
       return number(static_cast<double>(loop.local_map), 0);
     case kMatcher:
-      return {0, name(loop.matcher) + std::string(loop.by_hand ? ", by hand" : loop.in_final_search ? ", final search" : "")};
+      return {0, name(loop.matcher) + std::string(loop.by_hand           ? ", by hand"
+                                                  : loop.in_final_search ? ", final search"
+                                                                         : "")};
     case kResponse:
       return number(loop.response, 3);
     case kAmbiguity:

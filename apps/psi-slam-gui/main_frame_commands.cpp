@@ -169,7 +169,11 @@ void MainFrame::open_settings(const Path& file) {
     fresh.load(file, {});
     settings_.settings = fresh.settings;
     settings_panel_->refresh();
-    messages_->note("Settings read from " + file.string());
+    const std::vector<std::string> warnings = fresh.table.take_warnings();
+    if (warnings.empty())
+      messages_->note("Settings read from " + file.string());
+    else
+      messages_->warn(first_sentences(warnings));
     show_pending_settings();
   });
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Actions of the Edit menu: loops changed by hand.
 #include "base/number_text.h"
-#include "psi_slam/loop_record.h"
 #include "loop_inspector.h"
 #include "main_frame.h"
 #include "main_menu.h"
 #include "map_canvas.h"
 #include "message_bar.h"
+#include "psi_slam/loop_record.h"
 #include "psi_slam/user_error.h"
 #include "replay/loop_between_places.h"
 #include "wx_text.h"

@@ -19,10 +19,10 @@ namespace {
 constexpr const char* kWhere = "Settings";  // named in messages about wrong values
 constexpr const char* kNothingSelected =
     "Select an option to read its help. Right-click an option to reset it.";
-constexpr int kHelpHeight = 72;
+constexpr int kHelpHeight = 104;  // six lines
 
 std::string help_of(const Option& option) {
-  return option.name() + ": " + option.help + ".\n" + option.values() + "; default " +
+  return option.name() + ": " + option.help + "\n" + option.values() + "; default " +
          (option.default_text.empty() ? "empty" : option.default_text) + '.';
 }
 

@@ -17,6 +17,7 @@
 #include "psi_slam/frame.h"
 #include "psi_slam/mapping_result.h"
 #include "psi_slam/mapping_session.h"
+#include "session/edit_journal.h"
 #include "replay/shared_history.h"
 
 namespace psi_slam {

@@ -8,6 +8,7 @@
 #include "config/apply_settings.h"
 #include "config/ini_file.h"
 #include "config/option_listing.h"
+#include "frames/beam_angles.h"
 #include "psi_slam/version.h"
 #include "session/settings_parts.h"
 

@@ -78,7 +78,7 @@ TEST(OdometryInterpolator, follows_a_clock_that_is_set_back) {
     interpolator.add_scan(scan_at(100 * kSecond + kSecond / 4));         // last of the old clock
     interpolator.add_scan(scan_at(100 * kSecond + kSecond / 2 + step));  // first of the new clock
     interpolator.add_scan(scan_at(100 * kSecond + 3 * kSecond / 4 + step));
-    EXPECT_FALSE(interpolator.take()) << "odometry has not told of the new clock yet";
+    EXPECT_FALSE(interpolator.take()) << "the first odometry of the new clock has not arrived yet";
     interpolator.add_odometry(101 * kSecond + step, {101, 0, 0});
     EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{100, 101, 101}));
     interpolator.add_scan(scan_at(101 * kSecond + kSecond / 2 + step));

@@ -8,8 +8,8 @@
 #include "gui_run.h"
 #include "message_bar.h"
 #include "psi_slam/mapping_session.h"
-#include "session/settings.h"
 #include "report/output_folder.h"
+#include "session/settings.h"
 #include "settings_panel.h"
 #include "test_files.h"
 

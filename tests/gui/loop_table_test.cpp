@@ -15,7 +15,8 @@ LoopRecord loop(std::size_t frame, double response, LoopVerdict verdict) {
   record.matcher = MatcherKind::kGa;
   record.response = response;
   record.verdict = verdict;
-  if (verdict != LoopVerdict::kAccepted) record.refusal = LoopRefusal{LoopRefusal::Reason::kLowResponse, 0.31, 0.45};
+  if (verdict != LoopVerdict::kAccepted)
+    record.refusal = LoopRefusal{LoopRefusal::Reason::kLowResponse, 0.31, 0.45};
   return record;
 }
 

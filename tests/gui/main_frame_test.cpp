@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "../session/room_log.h"
-#include "psi_slam/loop_record.h"
 #include "gui_run.h"
 #include "loop_canvas.h"
 #include "loop_inspector.h"
@@ -283,7 +282,8 @@ TEST_F(MainFrameTest, two_clicks_add_a_loop) {
         EXPECT_FALSE(frame.map().pointing());
         ASSERT_TRUE(frame.loops().selected().has_value());
         EXPECT_TRUE(selected_loop(frame).by_hand);
-        EXPECT_EQ(selected_loop(frame).verdict, LoopVerdict::kAccepted) << text_of(selected_loop(frame).refusal);
+        EXPECT_EQ(selected_loop(frame).verdict, LoopVerdict::kAccepted)
+            << text_of(selected_loop(frame).refusal);
       })
       .screenshot("loop_added");
   EXPECT_EQ(gui_.run({room_log()}), 0);

@@ -59,9 +59,10 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
   const std::size_t choice = member_count<PsiOptions>() + member_count<GeneticOptions>() - 3 +
                              member_count<PaperGeneticOptions>() + member_count<MemeticGeneticOptions>() +
                              member_count<CoarseCellOptions>();
-  // MapperOptions has three structs. BackEndOptions has seven, and its seed and threads are those of RunOptions.
-  const std::size_t mapper = member_count<MapperOptions>() - 3 + member_count<BackEndOptions>() - 9 +
-                             choice + front_end + matcher + loops + solver;
+  // MapperOptions has three structs. BackEndOptions has seven, and its seed and threads are those of
+  // RunOptions.
+  const std::size_t mapper = member_count<MapperOptions>() - 3 + member_count<BackEndOptions>() - 9 + choice +
+                             front_end + matcher + loops + solver;
   const std::size_t files =
       member_count<MapFileOptions>() - 2 + member_count<MapDrawingOptions>() + member_count<GeoReference>();
   // The localizer takes front end, consensus, matches, smoothing and seed from the mapper.
@@ -137,7 +138,7 @@ TEST_F(SettingsTest, old_option_names_are_accepted_with_a_warning) {
   apply(parse_ini("[last_pass]\npasses = 1\n[front_end]\nmax_strain_m = 0.3\n", "my.ini"), table_);
   apply_override("front_end.strain_travel_m=4", table_);
   apply_override("consensus.max_rival_share=0.4", table_);
-  EXPECT_EQ(settings_.mapper.final_search.passes, 1);
+  EXPECT_EQ(settings_.mapper.back_end.final_search.passes, 1);
   EXPECT_EQ(settings_.mapper.front_end.max_doubtful_correction_m, 0.3);
   EXPECT_EQ(settings_.mapper.front_end.doubtful_correction_travel_m, 4);
   EXPECT_THAT(dump(table_), HasSubstr("\nmax_other_place_share = 0.4\n"));
@@ -172,8 +173,9 @@ TEST_F(SettingsTest, rejects_equal_thresholds_of_psi) {
 TEST_F(SettingsTest, rejects_a_coordinate_system_that_is_not_in_metres) {
   EXPECT_EQ(refusal({"map.epsg=25832"}), "");
   EXPECT_THAT(refusal({"map.epsg=4326"}), HasSubstr("expected a projected system in metres"));
-  EXPECT_EQ(refusal({"map.epsg=99999"}),
-            "map.epsg = 99999: no such coordinate system. Give the EPSG number of a projected system in metres");
+  EXPECT_EQ(
+      refusal({"map.epsg=99999"}),
+      "map.epsg = 99999: no such coordinate system. Give the EPSG number of a projected system in metres");
 }
 
 TEST_F(SettingsTest, seed_and_threads_of_the_run_reach_the_mapper) {

@@ -24,8 +24,9 @@ class LoopLegendTest : public testing::Test {
   LoopLegendTest() {
     snapshot_.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(2);
     snapshot_.loops = std::make_shared<std::vector<LoopRecord>>(std::vector<LoopRecord>{
-        loop(MatcherKind::kGa, LoopVerdict::kAccepted, 0.125), loop(MatcherKind::kCsm, LoopVerdict::kAccepted, 9),
-        loop(MatcherKind::kCsmGa, LoopVerdict::kRefused), loop(MatcherKind::kGa, LoopVerdict::kSwitchedOff)});
+        loop(MatcherKind::kGa, LoopVerdict::kAccepted, 0.125),
+        loop(MatcherKind::kCsm, LoopVerdict::kAccepted, 9), loop(MatcherKind::kCsmGa, LoopVerdict::kRefused),
+        loop(MatcherKind::kGa, LoopVerdict::kSwitchedOff)});
   }
   std::vector<std::string> names(const LoopStyle& style) const {
     std::vector<std::string> result;

@@ -25,7 +25,7 @@ enum class LoopVerdict {
   kNotFound,     ///< no pose of the window scores high enough; anchor_T_node is the prediction
   kDeleted,      ///< deleted by a person
 };
-
+/// All verdicts.
 inline constexpr std::array<LoopVerdict, 6> kLoopVerdicts{LoopVerdict::kAccepted,    LoopVerdict::kPending,
                                                           LoopVerdict::kRefused,     LoopVerdict::kSwitchedOff,
                                                           LoopVerdict::kNotFound,    LoopVerdict::kDeleted};

@@ -59,10 +59,10 @@ TEST_F(BaselineRuns, reports_failures) {
                   .failure,
               "no odometry");
   EXPECT_THAT(result_of("kill -SEGV $$").failure, HasSubstr("ended by a signal"));
-  EXPECT_THAT(result_of("").failure, HasSubstr("it wrote no path"));
+  EXPECT_THAT(result_of("").failure, HasSubstr("wrote no path"));
   EXPECT_THAT(result_of(standing_still(7)).failure, HasSubstr("7 poses for 190 scans"));
   EXPECT_THAT(result_of(standing_still(191)).failure, HasSubstr("steps 0 to 189"));
-  EXPECT_THAT(result_of(standing_still(190, "0 here 0")).failure, HasSubstr("path.txt:1: expected step"));
+  EXPECT_THAT(result_of(standing_still(190, "0 here 0")).failure, HasSubstr("path.txt:1: expected the columns step"));
 }
 
 TEST_F(BaselineRuns, is_killed_at_its_time_limit) {

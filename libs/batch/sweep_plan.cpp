@@ -114,12 +114,14 @@ Choice choice_of(const std::string& assignment) {
 }
 
 std::vector<Choice> choices_of(const SweepRequest& request) {
+  const BoundSettings defaults;
+  const auto name = [&](const Choice& choice) { return defaults.table.current_name(choice.column); };
   std::vector<Choice> choices;
   if (!request.configs.empty()) choices.push_back({"config", request.configs});
   for (const std::string& assignment : request.choices) {
     Choice choice = choice_of(assignment);
     for (const Choice& other : choices)
-      if (other.column == choice.column)
+      if (name(other) == name(choice))
         throw UserError("--set: " + choice.column + " is set twice: give all values at once, " +
                         choice.column + "=VALUE,VALUE");
     choices.push_back(std::move(choice));

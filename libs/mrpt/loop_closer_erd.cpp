@@ -36,7 +36,7 @@ void CPsiLoopCloserERD::loadParams(const std::string& source_fname) {
 SharedMap& CPsiLoopCloserERD::map() const {
   if (!map_)
     throw UserError(
-        "CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD: choose that as the node decider");
+        "CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD. Choose that as the node decider.");
   return *map_;
 }
 

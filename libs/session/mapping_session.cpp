@@ -219,6 +219,8 @@ bool MappingSession::finished() const {
 }
 
 void MappingSession::reopen() {
+  if (!finished() || !m_->mapper)
+    throw std::logic_error("MappingSession::reopen() needs stay_open() and finish()");
   m_->enter(Members::State::kRead);
   m_->mapper->reopen(std::move(m_->result));
 }
@@ -238,6 +240,7 @@ void MappingSession::Members::make_due_edits(EditTime now) {
 
 LoopEditOutcome MappingSession::edit(const LoopEdit& edit) {
   const WorkClock clock(m_->work_s);
+  if (!m_->mapper) throw std::logic_error("MappingSession::edit() after finish() needs stay_open()");
   if (finished()) {
     LoopEditOutcome outcome = m_->mapper->judge(edit, m_->result.frames);
     if (outcome.state == LoopEditOutcome::State::kImpossible) return outcome;
@@ -444,6 +447,7 @@ std::vector<std::string> MappingSession::warnings() const {
 }
 
 const Mapper& MappingSession::mapper() const {
+  if (!m_->mapper) throw std::logic_error("MappingSession::mapper() after finish() needs stay_open()");
   return *m_->mapper;
 }
 

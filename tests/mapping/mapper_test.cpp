@@ -370,7 +370,7 @@ TEST(Mapper, loops_correct_the_error_of_a_blind_stretch) {
 }
 
 TEST(Mapper, finishing_reports_its_progress_up_to_the_end) {
-  Mapper mapper({});
+  Mapper mapper;
   for (const Frame& frame : office_drive().frames) mapper.add(frame);
   std::vector<double> shares;
   const MappingResult result = mapper.finish([&](double share) {
@@ -418,7 +418,7 @@ TEST(Mapper, refinement_can_be_cut_short) {
 }
 
 TEST(Mapper, the_final_search_can_be_cut_short) {
-  Mapper mapper({});
+  Mapper mapper;
   for (const Frame& frame : office_drive().frames) mapper.add(frame);
   int calls = 0;
   const MappingResult result = mapper.finish([&](double) { return ++calls < 3; });

@@ -38,7 +38,7 @@ std::vector<BenchmarkLog> logs_of(const DataArguments& arguments) {
       "the settings of the logs were not found beside the program: name their folder with --ini DIR");
 }
 
-ChosenLogs chosen_logs(const DataArguments& arguments) {
+ChosenLogs chosen_logs(const DataArguments& arguments, const Streams& streams) {
   const std::vector<BenchmarkLog> all = logs_of(arguments);
   const std::vector<std::string>& names = arguments.names;
   for (const std::string& name : names)
@@ -59,6 +59,9 @@ ChosenLogs chosen_logs(const DataArguments& arguments) {
   }
   if (chosen.logs.empty())
     throw UserError("no log can be evaluated: expected NAME.relations beside a log in " + arguments.data);
+  std::vector<std::string> warnings;
+  for (const BenchmarkLog& log : chosen.logs) benchmark_settings(log.ini, {}, &warnings);
+  for (const std::string& warning : warnings) streams.err << "psi-slam-bench: " << warning << '\n';
   return chosen;
 }
 

@@ -11,8 +11,8 @@
 #include "batch/seeds.h"
 #include "common/bench_report.h"
 #include "common/benchmark_logs.h"
-#include "psi_slam_app.h"
 #include "progress_line.h"
+#include "psi_slam_app.h"
 
 namespace psi_slam {
 
@@ -53,8 +53,9 @@ struct ChosenLogs {
 };
 
 /// The logs that --logs names, or all logs with relations, in the order of the folder. Throws UserError as
-/// logs_of(), for an unknown name, for a named log without relations, and when no log remains.
-ChosenLogs chosen_logs(const DataArguments& arguments);
+/// logs_of(), for an unknown name, for a named log without relations, for settings that psi-slam refuses, and
+/// when no log remains. Prints warnings about the settings of the logs.
+ChosenLogs chosen_logs(const DataArguments& arguments, const Streams& streams);
 
 /// Values of the options --json, --csv and -o; empty: not written.
 struct OutputArguments {

@@ -52,13 +52,16 @@ std::optional<fs::path> shipped_ini_folder() {
   return std::nullopt;
 }
 
-Settings benchmark_settings(const fs::path& ini, const std::vector<std::string>& assignments) {
+Settings benchmark_settings(const fs::path& ini, const std::vector<std::string>& assignments,
+                            std::vector<std::string>* warnings) {
   Settings settings;
   OptionTable table;
   describe(table, settings);
   apply(read_ini(ini), table);
   for (const std::string& assignment : assignments) apply_override(assignment, table);
   check(settings);
+  if (warnings != nullptr)
+    for (std::string& warning : table.take_warnings()) warnings->push_back(std::move(warning));
   return settings;
 }
 

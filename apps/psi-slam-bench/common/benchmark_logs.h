@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "evaluation/relations_metric.h"
-#include "psi_slam/frame_source.h"
 #include "mapping/mapper_options.h"
+#include "psi_slam/frame_source.h"
 #include "psi_slam/mapper.h"
 #include "psi_slam/pose_graph.h"
 #include "session/settings.h"
@@ -35,9 +35,11 @@ std::vector<BenchmarkLog> find_benchmark_logs(const std::filesystem::path& data,
 std::optional<std::filesystem::path> shipped_ini_folder();
 
 /// Settings of a log: the defaults, overridden by the file `ini` and by assignments "section.key=value".
-/// Throws UserError for settings that psi-slam refuses.
+/// Appends a sentence to `warnings` for each renamed option in the file. Throws UserError for settings that
+/// psi-slam refuses.
 Settings benchmark_settings(const std::filesystem::path& ini,
-                            const std::vector<std::string>& assignments = {});
+                            const std::vector<std::string>& assignments = {},
+                            std::vector<std::string>* warnings = nullptr);
 
 struct MappedRun {
   MappingResult result;

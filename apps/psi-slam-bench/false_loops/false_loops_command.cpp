@@ -28,7 +28,7 @@ void add_false_loops_command(CLI::App& app, const Streams& streams) {
   add_seeds_option(*command, arguments->options.seeds, "Seeds of the false loops");
   add_output_options(*command, arguments->output, "false-loops.md and the plots");
   command->callback([arguments, &streams] {
-    const ChosenLogs chosen = chosen_logs(arguments->data);
+    const ChosenLogs chosen = chosen_logs(arguments->data, streams);
     check_outputs(arguments->output, "false-loops.md");
     FalseLoopBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
       return run_false_loop_benchmark(chosen.logs, arguments->options, progress);

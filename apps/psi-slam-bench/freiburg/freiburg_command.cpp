@@ -65,9 +65,7 @@ FoundBaselines baselines_of(const FreiburgArguments& arguments, const Streams& s
 
 void run_freiburg(FreiburgArguments arguments, const Streams& streams) {
   check_once(arguments.options.matchers, "--matchers");
-  const ChosenLogs chosen = chosen_logs(arguments.data);
-  for (const BenchmarkLog& log : chosen.logs)
-    benchmark_settings(log.ini);  // throws for wrong settings before the work begins
+  const ChosenLogs chosen = chosen_logs(arguments.data, streams);
   check_outputs(arguments.output, "freiburg.md");
   arguments.options.output = arguments.output.output;
   prepare_folder(arguments.options.output / "runs", "any.json");

@@ -21,7 +21,7 @@ void add_robustness_command(CLI::App& app, const Streams& streams) {
   add_seeds_option(*command, arguments->seeds, "Seeds of the odometry noise");
   add_output_options(*command, arguments->output, "robustness.md and the plots");
   command->callback([arguments, &streams] {
-    const ChosenLogs chosen = chosen_logs(arguments->data);
+    const ChosenLogs chosen = chosen_logs(arguments->data, streams);
     check_outputs(arguments->output, "robustness.md");
     RobustnessBenchmark benchmark = with_progress(streams, [&](const auto& progress) {
       return run_robustness_benchmark(chosen.logs, arguments->seeds, progress);

@@ -70,7 +70,6 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   void processActionObservation(mrpt::obs::CActionCollection& action,
                                 mrpt::obs::CSensoryFrame& observations) override;
   /// Maps a single observation. Throws as processActionObservation().
-  /// Takes one observation of a log without sensory frames. Throws UserError as processActionObservation().
   void processObservation(const mrpt::obs::CObservation::Ptr& observation);
 
   /// Finishes the map: final loop search, optimisation and joint refinement of all scans. Afterwards only
@@ -85,7 +84,6 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   /// The nodes of the graph with their observations. Every pose has a covariance of (1 mm)^2 and (1 mrad)^2,
   /// a placeholder that MRPT can invert.
   void getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map) const override;
-  /// Number of nodes.
   /// Number of nodes of the graph.
   unsigned int getCurrentlyBuiltMapSize() override;
 

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "localization/localization_report.h"
+#include "localization/reference_map.h"
 #include "psi_slam/mapping_session.h"
 #include "report/output_folder.h"
 #include "session/settings.h"

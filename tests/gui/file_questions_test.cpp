@@ -123,7 +123,7 @@ TEST_F(FileQuestionsTest, a_session_saved_half_way_can_be_opened_and_resumed) {
 TEST_F(FileQuestionsTest, edits_made_while_a_session_is_read_are_not_lost) {
   const auto log = write_lines(path("room.log"), room_log_lines(40));
   {
-    MappingSession session(log, {});
+    MappingSession session(log, Settings());
     session.run(std::atomic<bool>(false));
     session.save(path("my.session"));
   }

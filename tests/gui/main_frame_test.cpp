@@ -62,7 +62,7 @@ TEST_F(MainFrameTest, without_a_log_shows_what_to_do) {
 
 TEST_F(MainFrameTest, playing_pausing_and_stepping_gives_the_results_of_psi_slam) {
   const std::string log = room_log();
-  MappingSession session(log, {});
+  MappingSession session(log, Settings());
   session.run(std::atomic<bool>(false));
   session.export_to(OutputFolder::prepare(gui_.folder() / "headless", false));
 
@@ -248,7 +248,7 @@ TEST_F(MainFrameTest, loops_can_be_deleted_matched_again_and_forced) {
       .close();
   EXPECT_EQ(gui_.run({log}), 0);
 
-  MappingSession session(log, {});
+  MappingSession session(log, Settings());
   session.add_edits(EditJournal::read(edits));
   session.run(std::atomic<bool>(false));
   session.export_to(OutputFolder::prepare(gui_.folder() / "headless", false));

@@ -181,10 +181,10 @@ TEST_F(SettingsTest, rejects_a_coordinate_system_that_is_not_in_metres) {
 TEST_F(SettingsTest, seed_and_threads_of_the_run_reach_the_mapper) {
   apply_override("run.seed=7", table_);
   apply_override("run.threads=3", table_);
-  EXPECT_EQ(mapper_options(settings_).seed, 7U);
-  EXPECT_EQ(mapper_options(settings_).threads, 3);
+  EXPECT_EQ(mapper_options(settings_).back_end.seed, 7U);
+  EXPECT_EQ(mapper_options(settings_).back_end.threads, 3);
   apply_override("run.threads=0", table_);
-  EXPECT_EQ(mapper_options(settings_).threads, worker_threads({1, 0}));
+  EXPECT_EQ(mapper_options(settings_).back_end.threads, worker_threads({1, 0}));
 }
 
 TEST_F(SettingsTest, a_partly_stated_mount_is_zero_in_its_other_parts) {

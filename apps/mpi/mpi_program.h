@@ -22,7 +22,7 @@ struct MpiProgram {
   /// The work of rank 0. Throws CLI::ParseError and UserError for mistakes of the user.
   std::function<int(const MpiWorld& world, const std::vector<std::string>& arguments, const Streams& streams)>
       run;
-  /// The work of the other ranks.
+  /// Carries out one work order on another rank.
   MakeOrder make;
 };
 

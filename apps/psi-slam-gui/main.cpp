@@ -5,7 +5,7 @@
 #include "gui_app.h"
 
 int main(int argc, char** argv) {
-  // Makes a file that reaches the limit of `ulimit -f` a failed write, not the end of the program.
+  // Ignores SIGXFSZ, so that a write beyond `ulimit -f` fails instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
   return psi_slam::run_gui({argv + 1, argv + argc}, std::cout, std::cerr);
 }

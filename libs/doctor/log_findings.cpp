@@ -275,7 +275,8 @@ class Judge {
   void judge_correction() {
     if (facts_.contents.scans_with_two_poses > 0) {
       note("two_poses", counted(facts_.contents.scans_with_two_poses, "scan") +
-                            " have a second pose besides their odometry, "
+                            (facts_.contents.scans_with_two_poses == 1 ? " has" : " have") +
+                            " a second pose besides odometry, "
                             "the result of a mapper; the odometry is used");
     }
     const RevisitAgreement& revisits = diagnosis_.revisits;

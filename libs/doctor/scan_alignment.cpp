@@ -3,114 +3,162 @@
 
 #include <mrpt/math/wrap2pi.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <utility>
 
-#include "local_maps/scan_filter.h"
+#include "frames/pose_operations.h"
 
 namespace psi_slam {
 namespace {
 
-using mrpt::math::TPose2D;
-using mrpt::math::wrapToPi;
+using Point = AlignableScan::Point;
 
-constexpr double kFirstRadius_m = 0.6;  // of the search for the surface of a point
+constexpr double kFirstRadius_m = 0.6;  // of the search for the wall of a point
 constexpr double kLastRadius_m = 0.15;
 constexpr int kIterations = 25;
 constexpr double kHuber_m = 0.03;
 constexpr double kLeastNoise_m = 0.01;  // of ranges, so that a perfect fit has a realistic covariance
+constexpr double kDamping_m = 1e-4;     // per matched point; holds the guess in directions without walls
+constexpr std::size_t kFewestMatches = 20;
+constexpr std::size_t kNeighbours = 2;  // on either side of a point, for the normal of the wall
 
-LaserScan every_nth_beam(const LaserScan& scan, std::size_t step) {
-  LaserScan thinned;
-  thinned.robot_T_laser = scan.robot_T_laser;
-  std::vector<float> bearings_rad;
-  for (std::size_t i = 0; i < scan.ranges_m.size(); i += step) {
-    thinned.ranges_m.push_back(scan.ranges_m[i]);
-    bearings_rad.push_back((*scan.bearings_rad)[i]);
+/// Returns whether two neighbouring beams hit one surface: their distance is at most that on a surface whose
+/// normal is 75 degrees from the beam.
+bool on_one_surface(const Point& a, const Point& b) {
+  const double range = std::min(a.position_m.norm(), b.position_m.norm());
+  const double spacing = range * std::abs(b.bearing_rad - a.bearing_rad);
+  return (a.position_m - b.position_m).norm() < 4 * spacing + 0.05;
+}
+
+Eigen::Vector2d normal_at(const std::vector<Point>& points, std::size_t i) {
+  std::size_t first = i;
+  while (first > 0 && i - first < kNeighbours && on_one_surface(points[first - 1], points[first])) --first;
+  std::size_t last = i;
+  while (last + 1 < points.size() && last - i < kNeighbours && on_one_surface(points[last], points[last + 1]))
+    ++last;
+  const auto count = static_cast<double>(last - first + 1);
+  if (count < 3) return Eigen::Vector2d::Zero();
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (std::size_t k = first; k <= last; ++k) mean += points[k].position_m / count;
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+  for (std::size_t k = first; k <= last; ++k) {
+    const Eigen::Vector2d d = points[k].position_m - mean;
+    xx += d.x() * d.x();
+    xy += d.x() * d.y();
+    yy += d.y() * d.y();
   }
-  thinned.bearings_rad = std::make_shared<const std::vector<float>>(std::move(bearings_rad));
-  return thinned;
+  const double along = 0.5 * std::atan2(2 * xy, xx - yy);  // direction of the largest spread
+  return {-std::sin(along), std::cos(along)};
 }
 
-SurfacePoints thinned_surface(const LaserScan& scan, double max_range_m, std::size_t max_points) {
-  const std::size_t step = std::max<std::size_t>(1, (scan.ranges_m.size() + max_points - 1) / max_points);
-  return surface_points(matching_points(every_nth_beam(scan, step), {0, max_range_m, 0}));
-}
+struct Match {
+  Eigen::Vector2d point;  // of the scan, in the frame of the reference
+  double distance = 0;    // signed, to the wall
+  const Point* wall = nullptr;
+};
 
-/// One step of the alignment with this search radius.
-SurfaceAlignmentOptions step_options(double radius_m) {
-  SurfaceAlignmentOptions options;
-  options.neighbours = 1;
-  options.max_distance_m = radius_m;
-  options.max_turn_rad = 1.5;
-  options.kernel_m = std::max(kHuber_m, radius_m / 2);
-  options.prior_sigma_m = 1;  // holds the pose only in directions without surfaces
-  options.prior_sigma_rad = 1;
-  options.iterations = 1;
-  return options;
-}
-
-ScanAlignment rated(const AlignableScan& reference, const AlignableScan& scan, const TPose2D& pose) {
-  const Eigen::Rotation2Dd rotation(pose.phi);
-  const Eigen::Vector2d position(pose.x, pose.y);
-  double visible = 0;
-  double matched = 0;
-  double sum_m = 0;
-  Eigen::Matrix3d information = 1e-6 * Eigen::Matrix3d::Identity();
-  std::vector<std::size_t> nearest;
-  for (const mrpt::math::TPoint2Df& point : scan.surface().points) {
-    const Eigen::Vector2d arm = rotation * Eigen::Vector2f(point.x, point.y).cast<double>();
-    const Eigen::Vector2d at = position + arm;
-    if (!reference.sees(at)) continue;
-    ++visible;
-    const SurfaceMap& map = reference.map();
-    map.index().nearest({static_cast<float>(at.x()), static_cast<float>(at.y())}, 1,
-                        static_cast<float>(kLastRadius_m), nearest);
-    if (nearest.empty()) continue;
-    ++matched;
-    const auto& wall = map.index().points()[nearest.front()];
-    const auto& wall_normal = map.normals()[nearest.front()];
-    const Eigen::Vector2d normal = Eigen::Vector2f(wall_normal.x, wall_normal.y).cast<double>();
-    const double distance_m = std::abs(normal.dot(at - Eigen::Vector2f(wall.x, wall.y).cast<double>()));
-    sum_m += std::min(distance_m, kLastRadius_m);
-    const Eigen::Vector3d slope{normal.x(), normal.y(), normal.y() * arm.x() - normal.x() * arm.y()};
-    information += std::min(1.0, kHuber_m / std::max(distance_m, 1e-12)) * slope * slope.transpose();
+/// Returns the nearest point of the reference within a radius, or null if there is none or it has no normal.
+/// A point at range r is at least r sin(d) away from beams at an angle d, which limits the beams to search.
+const Point* nearest_wall(const std::vector<Point>& reference, const Eigen::Vector2d& p, double radius_m) {
+  const double range = p.norm();
+  const double bearing = std::atan2(p.y(), p.x());
+  const double reach = range > radius_m ? std::asin(radius_m / range) : M_PI;
+  const auto begins_before = [](const Point& point, double value) { return point.bearing_rad < value; };
+  auto candidate = std::lower_bound(reference.begin(), reference.end(), bearing - reach, begins_before);
+  const Point* nearest = nullptr;
+  double nearest_squared = radius_m * radius_m;
+  for (; candidate != reference.end() && candidate->bearing_rad <= bearing + reach; ++candidate) {
+    const double squared = (candidate->position_m - p).squaredNorm();
+    if (squared >= nearest_squared) continue;
+    nearest_squared = squared;
+    nearest = &*candidate;
   }
-  ScanAlignment result;
-  result.reference_T_scan = pose;
-  result.cost_m = visible > 0 ? (sum_m + (visible - matched) * kLastRadius_m) / visible : kLastRadius_m;
+  return nearest != nullptr && nearest->normal != Eigen::Vector2d::Zero() ? nearest : nullptr;
+}
+
+struct Matching {
+  std::vector<Match> matches;
+  std::size_t visible = 0;  // points within the field of view of the reference
+};
+
+Matching match_points(const AlignableScan& reference, const AlignableScan& scan,
+                      const mrpt::math::TPose2D& reference_T_scan, double radius_m) {
+  Matching matching;
+  const std::vector<Point>& walls = reference.points();
+  if (walls.empty()) return matching;
+  const double c = std::cos(reference_T_scan.phi);
+  const double s = std::sin(reference_T_scan.phi);
+  matching.matches.reserve(scan.points().size());
+  for (const Point& point : scan.points()) {
+    const Eigen::Vector2d p{reference_T_scan.x + c * point.position_m.x() - s * point.position_m.y(),
+                            reference_T_scan.y + s * point.position_m.x() + c * point.position_m.y()};
+    const double bearing = std::atan2(p.y(), p.x());
+    if (bearing < walls.front().bearing_rad || bearing > walls.back().bearing_rad) continue;
+    ++matching.visible;
+    const Point* wall = nearest_wall(walls, p, radius_m);
+    if (wall != nullptr) matching.matches.push_back({p, wall->normal.dot(p - wall->position_m), wall});
+  }
+  return matching;
+}
+
+struct NormalEquations {
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+};
+
+/// Normal equations of increments (dx, dy, dheading) that turn about the scan's position in the reference.
+NormalEquations normal_equations(const std::vector<Match>& matches,
+                                 const mrpt::math::TPose2D& reference_T_scan) {
+  NormalEquations equations;
+  const Eigen::Vector2d centre{reference_T_scan.x, reference_T_scan.y};
+  for (const Match& match : matches) {
+    const Eigen::Vector2d arm = match.point - centre;
+    const Eigen::Vector2d normal = match.wall->normal;
+    const Eigen::Vector3d jacobian{normal.x(), normal.y(), normal.y() * arm.x() - normal.x() * arm.y()};
+    const double weight = std::min(1.0, kHuber_m / std::max(std::abs(match.distance), 1e-12));
+    equations.hessian += weight * jacobian * jacobian.transpose();
+    equations.gradient += weight * match.distance * jacobian;
+  }
+  return equations;
+}
+
+void rate(const Matching& matching, double radius_m, const mrpt::math::TPose2D& laser_pose,
+          ScanAlignment& result) {
+  double sum = 0;
+  for (const Match& match : matching.matches) sum += std::min(std::abs(match.distance), radius_m);
+  const auto matched = static_cast<double>(matching.matches.size());
+  const auto visible = static_cast<double>(matching.visible);
+  result.residual_m = matched > 0 ? sum / matched : radius_m;
+  result.cost_m = visible > 0 ? (sum + (visible - matched) * radius_m) / visible : radius_m;
   result.matched_share = visible > 0 ? matched / visible : 0;
-  const double mean_m = matched > 0 ? sum_m / matched : kLastRadius_m;
-  const double noise_m = std::max(kLeastNoise_m, 1.25 * mean_m);  // standard deviation from the mean
-  result.covariance = noise_m * noise_m * information.inverse();
-  return result;
+  const double noise = std::max(kLeastNoise_m, 1.25 * result.residual_m);  // standard deviation from the mean
+  Eigen::Matrix3d information = normal_equations(matching.matches, laser_pose).hessian;
+  information.diagonal().array() += 1e-6;
+  result.covariance = noise * noise * information.inverse();
 }
 
 }  // namespace
 
 AlignableScan::AlignableScan(const LaserScan& scan, double max_range_m, std::size_t max_points)
-    : surface_(thinned_surface(scan, max_range_m, max_points)),
-      map_(std::vector<SurfaceMap::Part>{{&surface_, {0, 0, 0}}}),
-      robot_T_laser_(scan.robot_T_laser),
-      first_rad_(std::numeric_limits<double>::infinity()),
-      last_rad_(-first_rad_) {
-  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    if (!(static_cast<double>(scan.ranges_m[i]) <= max_range_m)) continue;  // NaN too
-    const double bearing_rad = wrapToPi(static_cast<double>((*scan.bearings_rad)[i]));
-    first_rad_ = std::min(first_rad_, bearing_rad);
-    last_rad_ = std::max(last_rad_, bearing_rad);
+    : robot_T_laser_(scan.robot_T_laser) {
+  const std::size_t beams = scan.ranges_m.size();
+  const std::size_t step = std::max<std::size_t>(1, (beams + max_points - 1) / max_points);
+  points_.reserve(beams / step + 1);
+  for (std::size_t i = 0; i < beams; i += step) {
+    const auto range = static_cast<double>(scan.ranges_m[i]);
+    if (!(range <= max_range_m)) continue;  // NaN too
+    const double bearing = mrpt::math::wrapToPi(static_cast<double>((*scan.bearings_rad)[i]));
+    points_.push_back(
+        {range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)), Eigen::Vector2d::Zero(), bearing});
   }
-}
-
-bool AlignableScan::sees(const Eigen::Vector2d& point_m) const {
-  const auto seen = robot_T_laser_.inverseComposePoint({point_m.x(), point_m.y()});
-  const double bearing_rad = std::atan2(seen.y, seen.x);
-  return bearing_rad >= first_rad_ && bearing_rad <= last_rad_;
+  std::sort(points_.begin(), points_.end(),
+            [](const Point& a, const Point& b) { return a.bearing_rad < b.bearing_rad; });
+  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].normal = normal_at(points_, i);
 }
 
 double ScanAlignment::deviation_along_m(double heading_rad) const {
@@ -122,26 +170,37 @@ double ScanAlignment::heading_deviation_rad() const {
   return std::sqrt(covariance(2, 2));
 }
 
-ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan, const TPose2D& guess) {
-  TPose2D pose = guess;
+ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
+                          const mrpt::math::TPose2D& guess) {
+  // Pose of the laser relative to the reference's laser; converted to poses of the robot at the end.
+  mrpt::math::TPose2D pose = (guess + scan.robot_T_laser()) - reference.robot_T_laser();
   double radius_m = kFirstRadius_m;
   for (int i = 0; i < kIterations; ++i) {
-    const TPose2D next =
-        align_to_surfaces(reference.map(), scan.surface(), pose, pose, step_options(radius_m)).map_T_robot;
-    const bool at_rest =
-        std::hypot(next.x - pose.x, next.y - pose.y) < 1e-4 && std::abs(wrapToPi(next.phi - pose.phi)) < 1e-5;
-    pose = next;
+    const Matching matching = match_points(reference, scan, pose, radius_m);
+    if (matching.matches.size() < kFewestMatches) break;
+    NormalEquations equations = normal_equations(matching.matches, pose);
+    const double damping = kDamping_m * static_cast<double>(matching.matches.size());
+    equations.hessian.diagonal().array() += damping;
+    const Eigen::Vector3d step = -equations.hessian.ldlt().solve(equations.gradient);
+    pose.x += step.x();
+    pose.y += step.y();
+    pose.phi = mrpt::math::wrapToPi(pose.phi + step.z());
+    const bool at_rest = step.head<2>().norm() < 1e-4 && std::abs(step.z()) < 1e-5;
     if (at_rest && radius_m <= kLastRadius_m) break;
     radius_m = std::max(kLastRadius_m, at_rest ? radius_m / 2 : radius_m * 0.8);
   }
-  return rated(reference, scan, pose);
+  ScanAlignment result;
+  rate(match_points(reference, scan, pose, kLastRadius_m), kLastRadius_m, pose, result);
+  const mrpt::math::TPose2D laser_T_robot = inverse(scan.robot_T_laser());
+  result.reference_T_scan = reference.robot_T_laser() + pose + laser_T_robot;
+  return result;
 }
 
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
-                          const std::vector<TPose2D>& guesses) {
+                          const std::vector<mrpt::math::TPose2D>& guesses) {
   ScanAlignment best;
   best.cost_m = std::numeric_limits<double>::infinity();
-  for (const TPose2D& guess : guesses) {
+  for (const mrpt::math::TPose2D& guess : guesses) {
     ScanAlignment alignment = align_scans(reference, scan, guess);
     if (alignment.cost_m < best.cost_m) best = alignment;
   }

@@ -1,47 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Aligns two scans without a map and rates the result. Uses the point-to-line alignment of
-// matching/surface_alignment.h with a shrinking search radius, so that a guess may be off by half a metre.
+// Aligns two scans without a map, by iterated closest points with a point-to-line metric (after Censi, "An
+// ICP variant using a point-to-line metric", 2008), Gauss-Newton steps, a robust kernel and a shrinking
+// search radius. The result states how reliable it is.
+//
+// matching/surface_alignment.h refines poses that are accurate to centimetres. This file accepts guesses that
+// are off by half a metre and rates the result: cost, matched fraction of the visible points, covariance.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <vector>
 
-#include "matching/surface_alignment.h"
 #include "psi_slam/frame.h"
 
 namespace psi_slam {
 
-/// Points of a scan on straight surfaces, prepared for alignment. All are in the robot's frame.
+/// Points of a scan in the laser's frame, ordered by bearing, with the normal of the wall at each point.
 class AlignableScan {
  public:
+  struct Point {
+    Eigen::Vector2d position_m;
+    Eigen::Vector2d normal;  ///< unit length, or zero without a wall
+    double bearing_rad;
+  };
+
   /// Uses returns up to `max_range_m`, from at most `max_points` evenly selected beams.
   explicit AlignableScan(const LaserScan& scan, double max_range_m = 30.0, std::size_t max_points = 200);
 
-  const SurfacePoints& surface() const { return surface_; }
-  const SurfaceMap& map() const { return map_; }
-
-  /// Returns whether a point is in the field of view, between the first and the last return.
-  bool sees(const Eigen::Vector2d& point_m) const;
+  const std::vector<Point>& points() const { return points_; }
+  const mrpt::math::TPose2D& robot_T_laser() const { return robot_T_laser_; }
 
  private:
-  SurfacePoints surface_;
-  SurfaceMap map_;
+  std::vector<Point> points_;
   mrpt::math::TPose2D robot_T_laser_;
-  double first_rad_ = 0;  // bearings of the first and the last return, in the laser's frame
-  double last_rad_ = 0;
 };
 
 /// Pose of the robot at one scan relative to its pose at another, the reference.
 struct ScanAlignment {
   mrpt::math::TPose2D reference_T_scan;
-  /// Mean distance from the visible points to surfaces. Each distance is limited to 0.15 m, which also counts
+  /// Mean distance from the visible points to walls. Each distance is limited to 0.15 m, which also counts
   /// for unmatched points.
   double cost_m = 0;
-  double matched_share = 0;  ///< fraction of the visible points with a surface within 0.15 m, in [0, 1]
-  /// Covariance of (x, y, heading), m and rad. Huge in directions that no surface determines.
+  double residual_m = 0;     ///< mean distance from the matched points to walls
+  double matched_share = 0;  ///< fraction of the points visible from the reference that match, in [0, 1]
+  /// Covariance of (x, y, heading), m and rad. Huge in directions that no wall determines.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
   /// Standard deviation of the translation in the direction of `heading_rad`, metres.

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "base/byte_cursor.h"
@@ -131,6 +132,9 @@ Grid read_gridmap(const std::filesystem::path& path) {
 }  // namespace
 
 Grid read_map_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    throw UserError(path.string() + " does not exist, expected a map: map.yaml or map.gridmap.gz");
   const std::string name = path.filename().string();
   const bool is_yaml = ends_with(name, ".yaml") || ends_with(name, ".yml");
   if (!is_yaml && !ends_with(name, ".gridmap.gz") && !ends_with(name, ".gridmap"))

@@ -89,7 +89,7 @@ class Planner {
     if (by_transform || (all.empty() && wanted.empty() && !plan_.transform_topics.empty())) return;
     if (all.empty() && wanted.empty())
       throw UserError(path_ + " has no odometry, expected a topic of type " + kRosOdometry + " or " +
-                      kRosTransforms);
+                      kRosTransforms + ". Record one of them with the scans.");
     plan_.odometry_topic = choose("log.odometry_topic", wanted, all, kRosOdometry);
   }
 
@@ -187,11 +187,14 @@ class Planner {
 
   void require_complete() const {
     for (const std::string& topic : plan_.scan_topics)
-      if (scan_frames_.count(topic) == 0) throw UserError(path_ + " has no message on the topic " + topic);
+      if (scan_frames_.count(topic) == 0)
+        throw UserError(path_ + " has no message on the topic " + topic +
+                        ". Select another topic of scans with log.scan_topic.");
     if (!has_odometry_ && !invalid_pose_.empty())
       throw UserError(invalid_pose_ + ", as in all of its messages");
     if (!has_odometry_ && !plan_.odometry_topic.empty())
-      throw UserError(path_ + " has no message on the topic " + plan_.odometry_topic);
+      throw UserError(path_ + " has no message on the topic " + plan_.odometry_topic +
+                      ". Select another topic with log.odometry_topic.");
     if (!has_odometry_) {
       throw UserError(
           path_ + " has no odometry, expected a topic of type " + kRosOdometry +

@@ -99,7 +99,7 @@ struct MappingSession::Members {
   double phase_began_s = 0;  ///< value of work_s when the phase began
   double work_s = 0;         ///< time of work, without pauses between calls
   std::size_t scans = 0;
-  std::size_t stages_of_mapping = 0;  ///< in result.stages, before those of the export
+  std::size_t stages_of_mapping = 0;  ///< number of entries of result.stages that precede those of the export
 };
 
 MappingSession::MappingSession(const fs::path& log, const Configuration& configuration)

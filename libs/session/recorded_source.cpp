@@ -42,10 +42,12 @@ std::optional<Frame> RecordedSource::next() {
 void RecordedSource::skip_recorded() {
   const std::size_t of_logs_before = recording_->frames.size() - recording_->facts.logs.back().scans;
   if (next_ >= of_logs_before && !log_->next())
-    throw UserError(path_.string() + " holds fewer scans than the session recorded from it");
+    throw UserError(
+        path_.string() +
+        " holds fewer scans than the session recorded from it. Resume with the log that was recorded.");
 }
 
-// The length of a next log is unknown, so the recording counts as half of all.
+// The length of the next log is unknown, so the recording counts as half of the total.
 double RecordedSource::progress() const {
   if (log_ && kind_ == Log::kLast) return log_->progress();
   const std::size_t recorded = recording_->frames.size();

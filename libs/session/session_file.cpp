@@ -112,17 +112,19 @@ std::string all_bytes(const fs::path& path) {
 /// Throws UserError unless all bytes are present and the checksum matches.
 void require_whole(const fs::path& path, std::string_view bytes) {
   if (bytes.substr(0, kMagic.size()) != kMagic)
-    throw UserError(path.string() + " is not a session of psi-slam");
+    throw UserError(path.string() + " is not a session of psi-slam, expected a file of --save-session");
   if (bytes.size() < kHeadBytes + kChecksumBytes)
-    throw UserError(path.string() + " is cut off: it has only " + std::to_string(bytes.size()) + " bytes");
+    throw UserError(path.string() + " is cut off: it has only " + std::to_string(bytes.size()) +
+                    " bytes. Use a copy of it, or map the log again.");
   const std::size_t end = bytes.size() - kChecksumBytes;
   if (bytes.substr(end) == sha256_of_text(bytes.substr(0, end))) return;
   ByteCursor head(bytes.substr(kMagic.size() + sizeof(std::uint32_t)));
   const std::uint64_t expected = kHeadBytes + head.number<std::uint64_t>() + kChecksumBytes;
   if (bytes.size() < expected)
     throw UserError(path.string() + " is cut off: it has " + std::to_string(bytes.size()) + " of " +
-                    std::to_string(expected) + " bytes");
-  throw UserError(path.string() + " is damaged: its checksum does not match");
+                    std::to_string(expected) + " bytes. Use a copy of it, or map the log again.");
+  throw UserError(path.string() +
+                  " is damaged: its checksum does not match. Use a copy of it, or map the log again.");
 }
 
 void require_consistent(const SessionRecording& recording) {

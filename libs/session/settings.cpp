@@ -65,7 +65,7 @@ void describe_log(OptionTable& table, Settings& settings) {
                           "value, or 0 if laser_x_m or laser_y_m is set.")
       .optional_number("sweep_time_s", log.sweep_time_s, between(0, 1), "s",
                        "Time from the first to the last beam of a scan. The scan is corrected for the "
-                       "robot's motion in it. auto: the log's value; 0: no correction.")
+                       "robot's motion during this time. auto: the log's value; 0: no correction.")
       .text("scan_topic", log.scan_topic,
             "ROS bags: topic of the scans. Several with commas, or all. Empty: log.laser, or the only topic "
             "of scans.")
@@ -93,11 +93,11 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
       .angle_deg("window_theta_deg", front_end.window_rad, above(0).at_most(180),
                  "Half-width of the search window in heading when the robot stands still.")
       .number("window_per_metre", front_end.window_per_metre, at_least(0).at_most(100), "",
-              "Metres added to window_m for each metre that odometry moved since the last scan.")
+              "Metres added to window_m for each metre that the robot moved since the last scan.")
       .number("window_theta_per_turn", front_end.window_per_radian, at_least(0).at_most(100), "",
-              "Degrees added to window_theta_deg for each degree that odometry turned since the last scan.")
+              "Degrees added to window_theta_deg for each degree that the robot turned since the last scan.")
       .angle_deg("window_theta_per_metre_deg", front_end.window_rad_per_metre, at_least(0).at_most(180),
-                 "Angle added to window_theta_deg for each metre that odometry moved since the last scan.")
+                 "Angle added to window_theta_deg for each metre that the robot moved since the last scan.")
       .number("max_window_m", front_end.max_window_m, above(0).at_most(20), "m",
               "Largest half-width of the search window along x and y.")
       .angle_deg("max_window_theta_deg", front_end.max_window_rad, above(0).at_most(180),
@@ -111,10 +111,10 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
                  "Standard deviation of the predicted heading. The prediction fixes the heading where the "
                  "scan does not.")
       .number("prior_per_metre", front_end.prior_per_metre, at_least(0).at_most(100), "",
-              "Metres added to prior_sigma_m for each metre that odometry moved since the last scan.")
+              "Metres added to prior_sigma_m for each metre that the robot moved since the last scan.")
       .number(
           "prior_theta_per_turn", front_end.prior_per_radian, at_least(0).at_most(100), "",
-          "Degrees added to prior_sigma_theta_deg for each degree that odometry turned since the last scan.")
+          "Degrees added to prior_sigma_theta_deg for each degree that the robot turned since the last scan.")
       .number("prior_per_surprise", front_end.prior_per_surprise, at_least(0).at_most(100), "",
               "Growth of prior_sigma_m and prior_sigma_theta_deg for each metre or degree by which odometry "
               "differs from the robot's last motion.")
@@ -125,8 +125,9 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
               "A correction is doubtful if the pose predicted by odometry reaches this share of the matched "
               "pose's response.")
       .number("max_doubtful_correction_m", front_end.max_doubtful_correction_m, at_least(0).at_most(100), "m",
-              "Doubtful corrections, as by a person walking ahead, may add up to this. Those beyond are not "
-              "applied.")
+              "Largest sum of doubtful corrections, as a person walking ahead causes them. A correction "
+              "beyond it "
+              "is not applied.")
       .number("doubtful_correction_travel_m", front_end.doubtful_correction_travel_m, above(0).at_most(1000),
               "m", "Travel over which the sum of doubtful corrections decays to 37 %.")
       .number("odometry_sigma_m", front_end.odometry_sigma_m, above(0).at_most(10), "m",
@@ -262,8 +263,7 @@ void describe_localization(OptionTable& table, LocalizerOptions& localization) {
 
 void describe_run(OptionTable& table, RunOptions& run) {
   table.section("run", "How the program runs")
-      .integer("seed", run.seed, any_number(), "",
-               "Seed of all random numbers. The same seed gives the same map.")
+      .integer("seed", run.seed, any_number(), "", "Seed of all random numbers. Equal seeds give equal maps.")
       .integer("threads", run.threads, between(0, 1024), "threads",
                "Number of threads. 0: one for each processor. The results do not depend on it.");
 }

@@ -34,8 +34,8 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
       .number("reach_m", candidates.reach_m, at_least(0).at_most(1000), "m",
               "A local map is searched for loops if one of its nodes is at most this far from the window.")
       .number("min_travel_m", candidates.min_travel_m, at_least(0), "m",
-              "A local map is searched for loops only this much travel after its last node. Nearer ones "
-              "share their scans with it.")
+              "Least travel since the last node of a local map before it is searched for loops. Nearer nodes "
+              "share scans with it.")
       .number("attempt_distance_m", loops.attempt_distance_m, at_least(0), "m",
               "Travel from one search for loops to the next.")
       .number("context_travel_m", loops.context.travel_m, at_least(0).at_most(1000), "m",
@@ -61,11 +61,12 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
 
 void describe_psi(OptionTable& table, PsiOptions& psi) {
   table.section("psi", "Factor Psi: chooses the matcher if loop_closure.matcher = adaptive")
-      .number("psi_1", psi.psi_1, any_number(), "",
-              "Up to this Psi, csm searches for loops; above it, csm_ga. Psi is never negative, so a "
-              "negative value never uses csm.")
+      .number(
+          "psi_1", psi.psi_1, any_number(), "",
+          "Up to this value of Psi, csm searches for loops; for larger values, csm_ga or ga. Psi is never "
+          "negative, so a negative value never uses csm.")
       .number("psi_2", psi.psi_2, any_number(), "",
-              "From this Psi on, ga searches for loops; below it, csm_ga.")
+              "From this value of Psi on, ga searches for loops; for smaller values, csm_ga or csm.")
       .integer("window_frames", psi.window_frames, between(1, 1'000'000), "nodes",
                "Number of previous nodes whose loops are averaged: K of equation 13.")
       .number("eta_max", psi.eta_max, at_least(1), "",
@@ -133,7 +134,7 @@ void describe_genetic(OptionTable& table, GeneticOptions& genetic) {
 }
 
 void describe_verification(OptionTable& table, LoopVerificationOptions& verification) {
-  table.section("verification", "Verification of loops: a single false loop ruins a map")
+  table.section("verification", "Verification of loops: tests that a match must pass")
       .number("wide_window_m", verification.wide_window_m, at_least(0), "m",
               "Windows with a larger half-width are wide. They contain many places that look alike.")
       .number("min_response", verification.min_response, between(0, 1), "",

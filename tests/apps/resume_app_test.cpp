@@ -92,7 +92,7 @@ TEST_F(ResumeApp, wrong_usage_gives_one_sentence) {
   const std::string session = file("my.session");
   ASSERT_EQ(run_app({log, "-q", "-o", file("out"), "--save-session", session}).code, 0);
   expect_refused({"--resume", file("none"), "-o", file("x")}, "does not exist, expected a session");
-  expect_refused({"--resume", log, "-o", file("x")}, "room.log is no session");
+  expect_refused({"--resume", log, "-o", file("x")}, "room.log is not a session of psi-slam");
   expect_refused({"--resume", session, other, "-o", file("x")}, "other.log is not the log of the session");
   expect_refused({"--resume", session, "-o", file("x"), "--set", "front_end.window_m=0.3"},
                  "front_end.window_m is 0.15 in the session " + session + " and cannot become 0.3");

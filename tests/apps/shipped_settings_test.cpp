@@ -83,7 +83,7 @@ TEST(ShippedSettings, every_option_is_explained) {
       EXPECT_THAT(terminal.out, HasSubstr("  " + option.name() + "\n"));
       EXPECT_THAT(markdown.out, HasSubstr("| `" + option.key + "` |"));
       EXPECT_FALSE(option.help.empty()) << option.name();
-      EXPECT_THAT(option.help, Not(testing::EndsWith("."))) << option.name();
+      EXPECT_THAT(option.help, testing::EndsWith(".")) << option.name();
     }
   }
 }

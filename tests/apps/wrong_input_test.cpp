@@ -237,7 +237,7 @@ TEST_F(WrongInput, old_option_names_give_warnings) {
   const AppRun run = run_app({"--dump-config", "-c", ini, "--set", "front_end.max_strain_m=0.3"});
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.err, "psi-slam: " + ini +
-                         ":1: section [last_pass] was renamed; write [final_search]\n"
+                         ":2: section [last_pass] was renamed; write [final_search]\n"
                          "psi-slam: --set: option front_end.max_strain_m was renamed; write "
                          "front_end.max_doubtful_correction_m\n");
   EXPECT_THAT(run.out, AllOf(HasSubstr("\npasses = 1\n"), HasSubstr("\nmax_doubtful_correction_m = 0.3\n")));

@@ -191,7 +191,7 @@ TEST_F(InputDoctorTest, reports_a_second_pose) {
   ASSERT_NE(first_pose, std::string::npos);
   log.replace(first_pose, pose.size(), " 0.100000 0.000000 0.000000");
   EXPECT_THAT(finding_of(diagnose_text(log), "two_poses").sentence,
-              testing::StartsWith("1 scan carry a second pose"));
+              testing::StartsWith("1 scan has a second pose"));
 }
 
 TEST_F(InputDoctorTest, detects_the_code_for_no_return) {

@@ -98,7 +98,7 @@ TEST(ScanAlignment, accepts_scans_without_returns) {
   LaserScan blind = run.scan(0);
   for (float& range : blind.ranges_m) range = std::numeric_limits<float>::quiet_NaN();
   const AlignableScan empty(blind);
-  EXPECT_TRUE(empty.surface().points.empty());
+  EXPECT_TRUE(empty.points().empty());
   const AlignableScan full(run.scan(0));
   for (const auto& alignment :
        {align_scans(empty, full, TPose2D{0, 0, 0}), align_scans(full, empty, TPose2D{0, 0, 0})}) {
@@ -107,14 +107,14 @@ TEST(ScanAlignment, accepts_scans_without_returns) {
   }
 }
 
-TEST(ScanAlignment, thins_scans_of_many_beams_and_accepts_mirrored_ones) {
+TEST(ScanAlignment, thins_scans_of_many_beams_and_sorts_mirrored_ones) {
   SimulatedRun run;
-  run.truth = {{2.5, 2, 0.3}, {2.6, 2, 0.35}};
+  run.truth = {{2.5, 2, 0.3}};
   run.bearings_rad = make_bearings_rad(BeamAngles::kCentredStepInclusive, 1081, DEG2RAD(270.0));
-  EXPECT_LE(AlignableScan(run.scan(0), 30, 200).surface().points.size(), 200U);
+  EXPECT_LE(AlignableScan(run.scan(0), 30, 200).points().size(), 200U);
   for (float& bearing : run.bearings_rad) bearing = -bearing;
-  expect_motion(align_scans(AlignableScan(run.scan(0)), AlignableScan(run.scan(1)), TPose2D{0, 0, 0}),
-                run.truth[1] - run.truth[0]);
+  const auto points = AlignableScan(run.scan(0)).points();
+  for (std::size_t i = 1; i < points.size(); ++i) EXPECT_LT(points[i - 1].bearing_rad, points[i].bearing_rad);
 }
 
 }  // namespace

@@ -79,14 +79,15 @@ TEST_F(LoopTableTest, has_the_texts_of_all_cells) {
   EXPECT_EQ(table_.text(0, LoopTable::kMatcher), "ga");
   EXPECT_EQ(table_.text(0, LoopTable::kResponse), "0.300");
   EXPECT_EQ(table_.text(0, LoopTable::kVerdict), "refused");
-  EXPECT_EQ(table_.text(0, LoopTable::kReason), "the response is too low");
+  EXPECT_EQ(table_.text(0, LoopTable::kReason), "the response is too low: 0.31, minimum 0.45");
   EXPECT_EQ(table_.text(0, LoopTable::kResidual), "") << "only constraints have a residual";
   EXPECT_EQ(table_.text(1, LoopTable::kResidual), "0.000");
   EXPECT_EQ(table_.summary(), "3 searches: 2 accepted, 1 refused");
 }
 
 TEST_F(LoopTableTest, describes_a_loop_in_words) {
-  EXPECT_EQ(describe_loop(table_.loop(0)), "Node 1 on local map 0, refused: the response is too low");
+  EXPECT_EQ(describe_loop(table_.loop(0)),
+            "Node 1 on local map 0, refused: the response is too low: 0.31, minimum 0.45");
   EXPECT_EQ(describe_loop(table_.loop(1)), "Node 1 on local map 0, accepted");
 }
 

@@ -299,7 +299,7 @@ TEST_F(MainFrameTest, edits_of_a_file_are_kept_after_a_restart) {
            frame.replay()->snapshot()->phase == ReplayPhase::kPaused;
   };
   gui_.when_phase(ReplayPhase::kPaused).then([=](MainFrame& frame) { frame.open_edits(wrong); });
-  when_says("wrong.edits:1: \"forget\" is none of");
+  when_says("wrong.edits:1: unknown edit \"forget\"");
   gui_.then([=](MainFrame& frame) { frame.open_edits(edits); })
       .when("there is an edit", one_edit)
       .command(kRestart)

@@ -208,7 +208,7 @@ TEST(GraphSlamRun, a_damaged_log_gives_a_map_of_the_part_read) {
     EXPECT_FALSE(run->step());
     run->finish();
     ASSERT_TRUE(run->broken_off());
-    EXPECT_THAT(*run->broken_off(), HasSubstr("cut off"));
+    EXPECT_THAT(*run->broken_off(), HasSubstr("the file ends within this object"));
     EXPECT_FALSE(run->interrupted());
     EXPECT_NEAR(static_cast<double>(run->scans()), static_cast<double>(simulated_drive().frames.size()) / 2,
                 2);
@@ -240,7 +240,7 @@ TEST(GraphSlamRun, a_log_without_scans_is_an_error) {
   setup.ini = PSI_SLAM_INI_FOLDER "/graphslam.ini";
   setup.log = write_rawlog(folder.path() / "drive.rawlog", simulated_drive().frames, 1);
   const auto run = make_graphslam_run(setup, DeciderCatalogue());
-  EXPECT_THAT(sentence_of([&] { run->finish(); }), HasSubstr("no scan was read, there is nothing to map"));
+  EXPECT_THAT(sentence_of([&] { run->finish(); }), HasSubstr("no scan was read, so there is nothing to map"));
 }
 
 }  // namespace

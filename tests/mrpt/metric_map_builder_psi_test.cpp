@@ -293,7 +293,7 @@ TEST(MetricMapBuilderPsi, an_initial_map_is_an_error) {
     builder.initialize(map);
     FAIL() << "no exception";
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("has " + std::to_string(map.size()) + " frames, expected none"));
+    EXPECT_THAT(error.what(), HasSubstr("has " + std::to_string(map.size()) + " frames. Give an empty map"));
   }
   EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), map.size()) << "and nothing has changed";
 }

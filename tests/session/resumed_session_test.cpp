@@ -99,7 +99,7 @@ TEST_F(ResumedSession, continues_with_a_second_log_as_if_both_were_one) {
   MappingSession again(resumed(), settings_);
   again.run(go_on_);
   expect_same_results(whole, export_of(again, "again"));
-  EXPECT_THAT(sentence_of([&] { resumed(first); }), HasSubstr("first.log is in the session already"));
+  EXPECT_THAT(sentence_of([&] { resumed(first); }), HasSubstr("first.log is already in the session"));
 }
 
 TEST_F(ResumedSession, without_a_log_it_gives_the_same_results) {
@@ -266,7 +266,7 @@ TEST_F(ResumedSession, warns_of_another_version_of_the_program) {
   EXPECT_FALSE(other_version_text("now.session", facts).has_value());
   facts.program_version = "0.0.7";
   EXPECT_THAT(other_version_text("old.session", facts).value(),
-              HasSubstr("old.session was made by psi-slam 0.0.7, this is "));
+              HasSubstr("old.session was made by psi-slam 0.0.7. This is "));
 }
 
 }  // namespace

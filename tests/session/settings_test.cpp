@@ -145,7 +145,7 @@ TEST_F(SettingsTest, old_option_names_are_accepted_with_a_warning) {
   EXPECT_THAT(
       table_.take_warnings(),
       testing::ElementsAre(
-          "my.ini:1: section [last_pass] was renamed; write [final_search]",
+          "my.ini:2: section [last_pass] was renamed; write [final_search]",
           "my.ini:4: option front_end.max_strain_m was renamed; write front_end.max_doubtful_correction_m",
           "--set: option front_end.strain_travel_m was renamed; write front_end.doubtful_correction_travel_m",
           "--set: option consensus.max_rival_share was renamed; write consensus.max_other_place_share"));
@@ -172,7 +172,7 @@ TEST_F(SettingsTest, rejects_equal_thresholds_of_psi) {
 
 TEST_F(SettingsTest, rejects_a_coordinate_system_that_is_not_in_metres) {
   EXPECT_EQ(refusal({"map.epsg=25832"}), "");
-  EXPECT_THAT(refusal({"map.epsg=4326"}), HasSubstr("expected a projected system in metres"));
+  EXPECT_THAT(refusal({"map.epsg=4326"}), HasSubstr("expected a projected coordinate system in metres"));
   EXPECT_EQ(
       refusal({"map.epsg=99999"}),
       "map.epsg = 99999: no such coordinate system. Give the EPSG number of a projected system in metres");

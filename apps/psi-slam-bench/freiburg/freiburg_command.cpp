@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <memory>
 #include <ostream>
@@ -119,17 +118,15 @@ void add_local_options(CLI::App& freiburg, FreiburgArguments& arguments) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   constexpr double kMost_s = 1e6;
-  const auto add = [&](const char* flag_name, const char* limit_name) {
-    CLI::Option* const flag = freiburg.add_flag(
-        flag_name, arguments.baselines,
-        "Also run MRPT's icp-slam and rbpf-slam, if they are on PATH, with their shipped settings");
-    CLI::Option* const limit = freiburg.add_option(limit_name, arguments.baseline_limit_s,
-                                                   "Seconds after which the run of a baseline is stopped");
-    limit->needs(flag)->check(CLI::Range(0.1, kMost_s))->capture_default_str();
-    return std::array<CLI::Option*, 2>{flag, limit};
-  };
-  add("--baselines", "--baseline-limit-s");
-  for (CLI::Option* const old_name : add("--rivals", "--rival-limit-s")) old_name->group("");  // hidden
+  CLI::Option* const baselines = freiburg.add_flag(
+      "--baselines", arguments.baselines,
+      "Also run MRPT's icp-slam and rbpf-slam, if they are on PATH, with their shipped settings");
+  freiburg
+      .add_option("--baseline-limit-s", arguments.baseline_limit_s,
+                  "Seconds after which the run of a baseline is stopped")
+      ->needs(baselines)
+      ->check(CLI::Range(0.1, kMost_s))
+      ->capture_default_str();
 }
 
 }  // namespace

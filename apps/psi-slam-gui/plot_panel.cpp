@@ -50,7 +50,7 @@ const std::vector<Plot>& plots() {
       {"Loops so far",
        1,
        {{"tried", kGraph, &PlotColumn::loops_tried}, {"accepted", kLoops, &PlotColumn::loops_accepted}}},
-      {"Time per scan [ms]",
+      {"Scan time [ms]",
        0.1,
        {{"front end", kFrontEnd, &PlotColumn::front_end_ms},
         {"loops", kLoops, &PlotColumn::loops_ms},

@@ -138,7 +138,7 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const RefinedPose predicted =
       refine(older.map->scores(), *step.points, best_prior.map_T_robot, options_.refinement, best_prior);
   if (predicted.mean_score >= options_.prediction_share * best->refined_response) chosen = predicted;
-  if (motion.measured && motion.length_m > 0)  // an encoder at rest may have stalled
+  if (motion.measured && motion.length_m > 0)  // zero motion may mean a stalled encoder
     if (const auto held = held_to_odometry(older.map->scores(), *step.points, chosen, best_prior))
       chosen = *held;
   step.information = chosen.information;

@@ -42,7 +42,7 @@ struct Localizer::Members {
   std::optional<FrontEnd> front_end;
   TPose2D last_local_T_robot;
   std::optional<TPose2D> map_T_local;  ///< of the front end's frame; empty while lost
-  bool is_near_given_start = false;    ///< true until the first scan fits
+  bool is_near_given_start = false;    ///< true from start_at() until a scan fits
   double misfit_m = 0;                 ///< travel since the last scan that fitted
   TimeUs fitted_us = 0;
   TimeUs now_us = 0;

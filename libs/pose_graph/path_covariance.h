@@ -50,10 +50,10 @@ class PathCovarianceSearch {
   /// does not exist.
   void run(const PoseGraph& graph, std::size_t source, const PathCovarianceOptions& options = {});
 
-  /// Result of the last run for a node of its graph.
+  /// Uncertainty of `node` that the last search found.
   RelativeUncertainty of(std::size_t node) const;
 
-  /// Number of nodes that the last run visited.
+  /// Number of nodes that the last search visited.
   std::size_t nodes_seen() const { return seen_; }
 
  private:

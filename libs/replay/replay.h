@@ -69,8 +69,8 @@ class Replay {
     change([&] { stop_final_search_ = cut_final_search_ = true; });
   }
 
-  /// Changes a loop by hand, between two scans or after the last scan; in that case the final loop search is
-  /// repeated. ReplaySnapshot::edited has the outcome.
+  /// Changes a loop by hand between two scans or after the last scan. After the last scan it also repeats the
+  /// final loop search. ReplaySnapshot::edited has the outcome.
   void edit(const LoopEdit& edit) { request({EditKind::kEdit, edit}); }
   /// Undo and redo edits made by edit(), not those given to the constructor.
   void undo() { request({EditKind::kUndo}); }

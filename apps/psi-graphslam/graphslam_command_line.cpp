@@ -5,6 +5,7 @@
 
 #include "document_options.h"
 #include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
 
 namespace psi_slam {
 namespace {

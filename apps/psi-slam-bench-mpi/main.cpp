@@ -12,6 +12,7 @@
 #include "common/bench_command.h"
 #include "document_options.h"
 #include "mpi_program.h"
+#include "psi_slam/version.h"
 
 namespace psi_slam {
 namespace {

@@ -8,6 +8,7 @@
 #include "base/text_parts.h"
 #include "common/bench_command.h"
 #include "document_options.h"
+#include "psi_slam/version.h"
 #include "run_program.h"
 
 namespace psi_slam {

@@ -13,6 +13,7 @@
 #include "document_options.h"
 #include "evaluation/relations_metric.h"
 #include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
 #include "run_program.h"
 
 namespace psi_slam {

@@ -20,6 +20,7 @@
 #include "document_options.h"
 #include "main_frame.h"
 #include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
 #include "run_program.h"
 
 namespace psi_slam {

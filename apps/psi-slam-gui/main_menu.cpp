@@ -8,6 +8,7 @@
 #include <string>
 
 #include "icons.h"
+#include "psi_slam/version.h"
 
 namespace psi_slam {
 namespace {

@@ -9,6 +9,7 @@
 #include "document_options.h"
 #include "mpi_program.h"
 #include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
 #include "sweep_command.h"
 
 namespace psi_slam {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "closing_text.h"
 
-#include <cstdarg>
-#include <cstdio>
+#include <mrpt/core/format.h>
+
 #include <filesystem>
 #include <system_error>
 
@@ -10,15 +10,6 @@
 
 namespace psi_slam {
 namespace {
-
-__attribute__((format(printf, 1, 2))) std::string text(const char* format, ...) {
-  char line[1000];
-  std::va_list values;
-  va_start(values, format);
-  std::vsnprintf(line, sizeof line, format, values);
-  va_end(values);
-  return line;
-}
 
 std::string counted(std::size_t count, const std::string& one) {
   return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
@@ -34,11 +25,12 @@ std::string closing_text(const RunSummary& summary, const std::string& log_name,
   std::string lines = "The map is in " + (has_picture ? picture : folder.path()).string() +
                       ", the report in " + report + ".\n";
   lines += counted(summary.log.scans, "scan") + " of " + log_name + " over " +
-           minutes_text(summary.log.duration_s) + text(" and %.0f m: ", summary.path_length_m) +
+           minutes_text(summary.log.duration_s) + mrpt::format(" and %.0f m: ", summary.path_length_m) +
            counted(summary.nodes, "node") + ", " + counted(summary.loops.accepted, "loop") + " closed.\n";
-  lines += text("It took %.1f s", summary.wall_s);
-  if (summary.real_time_factor > 0) lines += text(", real-time factor %.1f", summary.real_time_factor);
-  return lines + text(", and %.0f MiB of memory.\n", summary.peak_memory_mib);
+  lines += mrpt::format("It took %.1f s", summary.wall_s);
+  if (summary.real_time_factor > 0)
+    lines += mrpt::format(", real-time factor %.1f", summary.real_time_factor);
+  return lines + mrpt::format(", and %.0f MiB of memory.\n", summary.peak_memory_mib);
 }
 
 std::string interrupted_text(std::size_t scans) {
@@ -53,8 +45,9 @@ std::string broken_off_text(const std::string& why, std::size_t scans) {
 std::string stages_text(const MappingResult& result) {
   std::string lines;
   for (const StageTiming& stage : result.stages)
-    lines += text("%-24s %8zu x  %9.3f ± %.3f ms  [%.3f, %.3f]  %8.2f s\n", stage.name.c_str(), stage.calls,
-                  stage.mean_ms, stage.std_ms, stage.min_ms, stage.max_ms, stage.total_s);
+    lines +=
+        mrpt::format("%-24s %8zu x  %9.3f ± %.3f ms  [%.3f, %.3f]  %8.2f s\n", stage.name.c_str(),
+                     stage.calls, stage.mean_ms, stage.std_ms, stage.min_ms, stage.max_ms, stage.total_s);
   return lines;
 }
 

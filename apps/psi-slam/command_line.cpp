@@ -13,6 +13,7 @@
 #include "config/nearest_name.h"
 #include "document_options.h"
 #include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
 
 namespace psi_slam {
 namespace {

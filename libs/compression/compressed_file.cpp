@@ -20,11 +20,12 @@ constexpr std::size_t kMaxBytesPerCall = std::size_t{1} << 30;  // zlib counts b
 
 }  // namespace
 
-CompressedFile::CompressedFile(fs::path path) : path_(std::move(path)), file_(nullptr, gzclose) {
+CompressedFile::CompressedFile(fs::path path, const std::string& expected)
+    : path_(std::move(path)), file_(nullptr, gzclose) {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
-  if (!fs::exists(status)) throw UserError(path_.string() + " does not exist, expected a log file");
-  if (fs::is_directory(status)) throw UserError(path_.string() + " is a folder, expected a log file");
+  if (!fs::exists(status)) throw UserError(path_.string() + " does not exist, expected " + expected);
+  if (fs::is_directory(status)) throw UserError(path_.string() + " is a folder, expected " + expected);
   errno = 0;
   file_.reset(gzopen(path_.c_str(), "rb"));
   if (!file_) throw UserError("cannot read " + path_.string() + ": " + std::strerror(errno));

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "psi_slam/user_error.h"
 
@@ -17,7 +18,8 @@ namespace psi_slam {
 /// UserError if the file does not exist, is a folder or is not readable.
 class CompressedFile {
  public:
-  explicit CompressedFile(std::filesystem::path path);
+  /// `expected` ends the messages for a missing file and for a folder.
+  explicit CompressedFile(std::filesystem::path path, const std::string& expected = "a log file");
 
   /// Reads the next `size` decompressed bytes and returns their number. It is smaller only at the end and
   /// before damaged or truncated data; then the next call throws UserError.

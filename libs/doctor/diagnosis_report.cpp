@@ -2,10 +2,9 @@
 #include "doctor/diagnosis_report.h"
 
 #include <mrpt/core/bits_math.h>
+#include <mrpt/core/format.h>
 
 #include <array>
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 namespace psi_slam {
@@ -13,15 +12,6 @@ namespace {
 
 using mrpt::RAD2DEG;
 using Json = nlohmann::ordered_json;
-
-__attribute__((format(printf, 1, 2))) std::string text(const char* format, ...) {
-  char line[1000];
-  std::va_list values;
-  va_start(values, format);
-  std::vsnprintf(line, sizeof line, format, values);
-  va_end(values);
-  return line;
-}
 
 std::string_view name_of(HeadingRelation relation) {
   constexpr std::array<std::string_view, 7> kNames{"unknown",          "agrees", "opposite", "degrees",
@@ -98,21 +88,24 @@ std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis) {
   const TimeFacts& time = facts.time;
   const RangeFacts& ranges = facts.ranges;
   std::vector<std::string> lines;
-  lines.push_back(text("%s: %s, %zu scans%s%s of %zu beams from %.2f to %.2f degrees",
-                       diagnosis.path.filename().c_str(), facts.format.c_str(), facts.scans,
-                       facts.contents.laser.empty() ? "" : " by ", facts.contents.laser.c_str(), facts.beams,
-                       RAD2DEG(facts.first_bearing_rad), RAD2DEG(facts.last_bearing_rad)));
-  lines.push_back(text("time: %.1f s from %s, a scan every %.3f s", time.duration_s,
-                       format_seconds(time.first_us).c_str(), time.median_period_s));
-  lines.push_back(text("odometry: path of %.1f m, %.0f degrees of turns", facts.odometry.path_length_m,
-                       RAD2DEG(facts.odometry.turned_rad)));
-  lines.push_back(text("ranges: maximum %.2f m, median %.2f m, %.1f %% of the readings are no returns",
-                       static_cast<double>(ranges.max_range_m), static_cast<double>(ranges.median_return_m),
-                       100 * (1 - ranges.return_share())));
-  lines.push_back(text("laser on the robot: x %.3f m, y %.3f m, yaw %.2f degrees", facts.robot_T_laser.x,
-                       facts.robot_T_laser.y, RAD2DEG(facts.robot_T_laser.phi)));
+  lines.push_back(mrpt::format("%s: %s, %zu scans%s%s of %zu beams from %.2f to %.2f degrees",
+                               diagnosis.path.filename().c_str(), facts.format.c_str(), facts.scans,
+                               facts.contents.laser.empty() ? "" : " by ", facts.contents.laser.c_str(),
+                               facts.beams, RAD2DEG(facts.first_bearing_rad),
+                               RAD2DEG(facts.last_bearing_rad)));
+  lines.push_back(mrpt::format("time: %.1f s from %s, a scan every %.3f s", time.duration_s,
+                               format_seconds(time.first_us).c_str(), time.median_period_s));
+  lines.push_back(mrpt::format("odometry: path of %.1f m, %.0f degrees of turns",
+                               facts.odometry.path_length_m, RAD2DEG(facts.odometry.turned_rad)));
+  lines.push_back(
+      mrpt::format("ranges: maximum %.2f m, median %.2f m, %.1f %% of the readings are no returns",
+                   static_cast<double>(ranges.max_range_m), static_cast<double>(ranges.median_return_m),
+                   100 * (1 - ranges.return_share())));
+  lines.push_back(mrpt::format("laser on the robot: x %.3f m, y %.3f m, yaw %.2f degrees",
+                               facts.robot_T_laser.x, facts.robot_T_laser.y,
+                               RAD2DEG(facts.robot_T_laser.phi)));
   for (const auto& [label, scans] : facts.contents.other_lasers)
-    lines.push_back(text("another laser: %zu scans by \"%s\"", scans, label.c_str()));
+    lines.push_back(mrpt::format("another laser: %zu scans by \"%s\"", scans, label.c_str()));
   return lines;
 }
 
@@ -120,17 +113,17 @@ std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study) {
   std::vector<std::string> lines;
   if (study.fits.empty()) return lines;
   lines.push_back(
-      text("beam angles, by %zu pairs of scans and %zu full turns:", study.pairs, study.full_turns));
+      mrpt::format("beam angles, by %zu pairs of scans and %zu full turns:", study.pairs, study.full_turns));
   for (const BeamAngleFit& fit : study.fits) {
-    std::string line =
-        text("  %c %-22.*s points to walls %.2f mm (%+.2f mm, %.1f standard errors)",
-             fit.angles == study.best ? '*' : ' ', static_cast<int>(psi_slam::name_of(fit.angles).size()),
-             psi_slam::name_of(fit.angles).data(), 1000 * fit.mean_distance_m, 1000 * fit.worse_by_m,
-             fit.significance);
+    std::string line = mrpt::format("  %c %-22.*s points to walls %.2f mm (%+.2f mm, %.1f standard errors)",
+                                    fit.angles == study.best ? '*' : ' ',
+                                    static_cast<int>(psi_slam::name_of(fit.angles).size()),
+                                    psi_slam::name_of(fit.angles).data(), 1000 * fit.mean_distance_m,
+                                    1000 * fit.worse_by_m, fit.significance);
     if (study.full_turns > 0)
-      line += text(", full-turn error %.2f degrees", RAD2DEG(fit.full_turn_error_rad));
+      line += mrpt::format(", full-turn error %.2f degrees", RAD2DEG(fit.full_turn_error_rad));
     if (study.knows_heading)
-      line += text(", laser heading off by %.2f degrees", RAD2DEG(fit.laser_heading_rad));
+      line += mrpt::format(", laser heading off by %.2f degrees", RAD2DEG(fit.laser_heading_rad));
     if (fit.ruled_out_by_walls || fit.ruled_out_by_turns) line += ": ruled out";
     lines.push_back(line);
   }

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "base/number_text.h"
 #include "doctor/input_doctor.h"
 
 namespace psi_slam {
@@ -18,9 +18,7 @@ using mrpt::RAD2DEG;
 using mrpt::math::TPose2D;
 
 std::string fixed(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value + 0.0);
-  return text;
+  return fixed_text(value + 0.0, decimals);  // 0 for -0
 }
 
 std::string percent(double share) {

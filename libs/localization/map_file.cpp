@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "base/byte_cursor.h"
@@ -22,6 +21,8 @@ namespace psi_slam {
 namespace {
 
 using Grid = mrpt::maps::COccupancyGridMap2D;
+
+constexpr const char* kExpected = "a map: map.yaml or map.gridmap.gz";
 
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -43,7 +44,7 @@ void check_yaml(const std::filesystem::path& path, const mrpt::containers::yaml&
 }
 
 Grid read_yaml(const std::filesystem::path& path) {
-  CompressedFile readable(path);  // throws the error message for an unreadable file
+  CompressedFile readable(path, kExpected);  // throws the error message for an unreadable file
   Grid grid;
   try {
     const auto yaml = mrpt::containers::yaml::FromFile(path.string());
@@ -62,7 +63,7 @@ Grid read_yaml(const std::filesystem::path& path) {
 }
 
 std::vector<char> all_bytes(const std::filesystem::path& path) {
-  CompressedFile file(path);
+  CompressedFile file(path, kExpected);
   std::vector<char> bytes;
   constexpr std::size_t kBlock = std::size_t{1} << 20;
   std::size_t read = kBlock;
@@ -132,9 +133,6 @@ Grid read_gridmap(const std::filesystem::path& path) {
 }  // namespace
 
 Grid read_map_file(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
-    throw UserError(path.string() + " does not exist, expected a map: map.yaml or map.gridmap.gz");
   const std::string name = path.filename().string();
   const bool is_yaml = ends_with(name, ".yaml") || ends_with(name, ".yml");
   if (!is_yaml && !ends_with(name, ".gridmap.gz") && !ends_with(name, ".gridmap"))

@@ -4,9 +4,9 @@
 #include <mrpt/config/CConfigFile.h>
 
 #include <array>
-#include <map>
 #include <vector>
 
+#include "config/apply_settings.h"
 #include "config/ini_file.h"
 #include "config/option_table.h"
 #include "psi_slam/user_error.h"
@@ -91,17 +91,14 @@ std::string graphslam_section_of(const std::string& option) {
 }
 
 void load_graphslam_settings(const std::filesystem::path& ini, BoundSettings& bound) {
-  std::map<std::string, std::string> given;  // names as written, by their current names
+  IniFile options;
   for (const IniValue& value : read_ini(ini).values) {
-    if (!is_deciders_section(value.section) || value.key.find('.') == std::string::npos) continue;
-    const std::string name = bound.table.option(value.key, value.where).name();
-    require_own_section(value, name);
-    if (const auto [first, is_new] = given.try_emplace(name, value.key);
-        !is_new && first->second != value.key)
-      throw UserError(value.where + ": " + value.key + " and " + first->second +
-                      " are the same option; keep one, called " + name);
-    bound.table.set(value.key, value.text, value.where);
+    const std::size_t dot = value.key.find('.');
+    if (!is_deciders_section(value.section) || dot == std::string::npos) continue;
+    require_own_section(value, bound.table.option(value.key, value.where).name());
+    options.values.push_back({value.key.substr(0, dot), value.key.substr(dot + 1), value.text, value.where});
   }
+  apply(options, bound.table);
   check(bound.settings);
 }
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <vector>
 
 namespace psi_slam {
 
@@ -29,6 +30,10 @@ struct RotatedPose {
   explicit RotatedPose(const mrpt::math::TPose2D& pose)
       : x(pose.x), y(pose.y), theta(pose.phi), cosine(std::cos(pose.phi)), sine(std::sin(pose.phi)) {}
 };
+
+inline std::vector<RotatedPose> rotated(const std::vector<mrpt::math::TPose2D>& poses) {
+  return std::vector<RotatedPose>(poses.begin(), poses.end());
+}
 
 /// e(x_i, x_j) for the measurement z = i_T_j: metres, metres, radians.
 inline Eigen::Vector3d constraint_error(const mrpt::math::TPose2D& i_T_j, const RotatedPose& map_T_i,

@@ -22,23 +22,19 @@ namespace {
 
 using mrpt::math::TPose2D;
 
+// A node, or the id of a node that is held.
 struct Vertex {
   std::int64_t id = 0;
-  TPose2D pose;
   std::size_t line = 0;
+  TPose2D pose{};
 };
 
 struct Edge {
+  std::size_t line = 0;
   std::int64_t from = 0;
   std::int64_t to = 0;
   TPose2D from_T_to;
   Eigen::Matrix3d information;  // in the axes of `from`
-  std::size_t line = 0;
-};
-
-struct Fix {
-  std::int64_t id = 0;
-  std::size_t line = 0;
 };
 
 // Converts an information matrix from the axes of an edge's end, turned by theta, to those of its beginning.
@@ -48,51 +44,6 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& information, double theta) {
   const Eigen::Matrix3d product = rotation * information * rotation.transpose();
   return 0.5 * (product + product.transpose());
 }
-
-// Reads the words of a line one by one.
-class Fields {
- public:
-  Fields(std::string_view line, const LineReader& reader) : rest_(line), reader_(reader) {}
-
-  // Next word; empty at the end of the line.
-  std::string_view word() {
-    constexpr std::string_view kBlank = " \t\r";
-    const std::size_t begin = std::min(rest_.find_first_not_of(kBlank), rest_.size());
-    rest_.remove_prefix(begin);
-    const std::string_view result = rest_.substr(0, rest_.find_first_of(kBlank));
-    rest_.remove_prefix(result.size());
-    return result;
-  }
-
-  std::int64_t id(const char* layout) {
-    const std::string_view text = word();
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
-      throw bad("'" + std::string(text) + "' is not a vertex id", layout);
-    return value;
-  }
-
-  double number(const char* layout) {
-    const std::string_view text = word();
-    const std::optional<double> value = parse_number(text);
-    if (!value) throw bad("'" + std::string(text) + "' is not a finite number", layout);
-    return *value;
-  }
-
-  void end(const char* layout) {
-    const std::string_view text = word();
-    if (!text.empty()) throw bad("'" + std::string(text) + "' is one field too many", layout);
-  }
-
-  UserError bad(const std::string& what, const char* layout) const {
-    return UserError(reader_.place() + ": " + what + ", expected \"" + layout + "\"");
-  }
-
- private:
-  std::string_view rest_;
-  const LineReader& reader_;
-};
 
 // Layout of an edge: the entries of its information matrix as (row, column), and the axes of the matrix.
 struct EdgeFormat {
@@ -106,36 +57,82 @@ constexpr EdgeFormat kG2oEdge{"EDGE_SE2 from to dx dy dtheta Ixx Ixy Ixt Iyy Iyt
 constexpr EdgeFormat kToroEdge{"EDGE2 from to dx dy dtheta Ixx Ixy Iyy Itt Ixt Iyt",
                                {{{0, 0}, {0, 1}, {1, 1}, {2, 2}, {0, 2}, {1, 2}}},
                                false};
-constexpr const char* kFixLayout = "FIX id";
 
-TPose2D read_pose(Fields& fields, const char* layout) {
-  TPose2D pose;
-  pose.x = fields.number(layout);
-  pose.y = fields.number(layout);
-  pose.phi = fields.number(layout);
-  return pose;
-}
+// Reads the words of a line one by one. Throws UserError with the expected layout.
+class Fields {
+ public:
+  Fields(std::string_view line, const LineReader& reader) : rest_(line), reader_(reader) {}
 
-Edge read_edge(Fields& fields, const EdgeFormat& format, std::size_t line) {
-  Edge edge;
-  edge.line = line;
-  edge.from = fields.id(format.layout);
-  edge.to = fields.id(format.layout);
-  edge.from_T_to = read_pose(fields, format.layout);
-  for (const auto& [row, column] : format.entries)
-    edge.information(row, column) = edge.information(column, row) = fields.number(format.layout);
-  fields.end(format.layout);
-  if (!is_information_matrix(edge.information))
-    throw fields.bad("the information matrix is not positive semi-definite", format.layout);
-  if (edge.from == edge.to) throw fields.bad("an edge links a vertex to itself", format.layout);
-  if (format.in_axes_of_end) edge.information = turned(edge.information, edge.from_T_to.phi);
-  return edge;
-}
+  void expect(const char* layout) { layout_ = layout; }
+
+  // Next word; empty at the end of the line.
+  std::string_view word() {
+    constexpr std::string_view kBlank = " \t\r";
+    const std::size_t begin = std::min(rest_.find_first_not_of(kBlank), rest_.size());
+    rest_.remove_prefix(begin);
+    const std::string_view result = rest_.substr(0, rest_.find_first_of(kBlank));
+    rest_.remove_prefix(result.size());
+    return result;
+  }
+
+  std::int64_t id() {
+    const std::string_view text = word();
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+      throw bad("'" + std::string(text) + "' is not a vertex id");
+    return value;
+  }
+
+  double number() {
+    const std::string_view text = word();
+    const std::optional<double> value = parse_number(text);
+    if (!value) throw bad("'" + std::string(text) + "' is not a finite number");
+    return *value;
+  }
+
+  TPose2D pose() {
+    const double x = number();
+    const double y = number();
+    return {x, y, number()};
+  }
+
+  Edge edge(const EdgeFormat& format) {
+    expect(format.layout);
+    Edge edge;
+    edge.line = reader_.line_number();
+    edge.from = id();
+    edge.to = id();
+    edge.from_T_to = pose();
+    for (const auto& [row, column] : format.entries)
+      edge.information(row, column) = edge.information(column, row) = number();
+    end();
+    if (!is_information_matrix(edge.information))
+      throw bad("the information matrix is not positive semi-definite");
+    if (edge.from == edge.to) throw bad("an edge links a vertex to itself");
+    if (format.in_axes_of_end) edge.information = turned(edge.information, edge.from_T_to.phi);
+    return edge;
+  }
+
+  void end() {
+    const std::string_view text = word();
+    if (!text.empty()) throw bad("'" + std::string(text) + "' is one field too many");
+  }
+
+  UserError bad(const std::string& what) const {
+    return UserError(reader_.place() + ": " + what + ", expected \"" + layout_ + "\"");
+  }
+
+ private:
+  std::string_view rest_;
+  const LineReader& reader_;
+  const char* layout_ = "";
+};
 
 struct Contents {
   std::vector<Vertex> vertices;
   std::vector<Edge> edges;
-  std::optional<Fix> fix;
+  std::optional<Vertex> fix;
 };
 
 Contents read_lines(const std::filesystem::path& path) {
@@ -145,27 +142,22 @@ Contents read_lines(const std::filesystem::path& path) {
   while (reader.next(line)) {
     Fields fields(line, reader);
     const std::string_view tag = fields.word();
-    const std::size_t number = reader.line_number();
     if (tag.empty() || tag.front() == '#') continue;
     if (tag == "VERTEX_SE2" || tag == "VERTEX2") {
-      const char* layout = tag == "VERTEX2" ? "VERTEX2 id x y theta" : "VERTEX_SE2 id x y theta";
-      Vertex vertex;
-      vertex.line = number;
-      vertex.id = fields.id(layout);
-      vertex.pose = read_pose(fields, layout);
-      fields.end(layout);
-      contents.vertices.push_back(vertex);
+      fields.expect(tag == "VERTEX2" ? "VERTEX2 id x y theta" : "VERTEX_SE2 id x y theta");
+      const std::int64_t id = fields.id();
+      contents.vertices.push_back({id, reader.line_number(), fields.pose()});
+      fields.end();
     } else if (tag == "EDGE_SE2") {
-      contents.edges.push_back(read_edge(fields, kG2oEdge, number));
+      contents.edges.push_back(fields.edge(kG2oEdge));
     } else if (tag == "EDGE2") {
-      contents.edges.push_back(read_edge(fields, kToroEdge, number));
+      contents.edges.push_back(fields.edge(kToroEdge));
     } else if (tag == "FIX") {
-      const Fix fix{fields.id(kFixLayout), number};
-      if (contents.fix && contents.fix->id != fix.id) {
-        throw fields.bad("a second vertex is fixed after line " + std::to_string(contents.fix->line),
-                         kFixLayout);
-      }
-      fields.end(kFixLayout);
+      fields.expect("FIX id");
+      const Vertex fix{fields.id(), reader.line_number()};
+      if (contents.fix && contents.fix->id != fix.id)
+        throw fields.bad("a second vertex is fixed after line " + std::to_string(contents.fix->line));
+      fields.end();
       contents.fix = fix;
     } else {
       throw UserError(
@@ -178,13 +170,6 @@ Contents read_lines(const std::filesystem::path& path) {
 
 std::string place(const std::filesystem::path& path, std::size_t line) {
   return path.string() + ":" + std::to_string(line);
-}
-
-// Node with an id; `ids` are ascending.
-std::optional<std::size_t> node_of(const std::vector<std::int64_t>& ids, std::int64_t id) {
-  const auto found = std::lower_bound(ids.begin(), ids.end(), id);
-  if (found == ids.end() || *found != id) return std::nullopt;
-  return static_cast<std::size_t>(found - ids.begin());
 }
 
 void append(std::string& text, double value) {
@@ -208,8 +193,8 @@ PoseGraphFile read_pose_graph(const std::filesystem::path& path) {
   const bool without_poses = contents.vertices.empty();
   if (without_poses) {
     for (const Edge& edge : contents.edges) {
-      contents.vertices.push_back({edge.from, {}, edge.line});
-      contents.vertices.push_back({edge.to, {}, edge.line});
+      contents.vertices.push_back({edge.from, edge.line});
+      contents.vertices.push_back({edge.to, edge.line});
     }
   }
   std::stable_sort(contents.vertices.begin(), contents.vertices.end(),
@@ -224,12 +209,11 @@ PoseGraphFile read_pose_graph(const std::filesystem::path& path) {
     result.graph.add_node(vertex.pose);
   }
   const auto existing = [&](std::int64_t id, std::size_t line) {
-    const std::optional<std::size_t> node = node_of(result.ids, id);
-    if (!node) {
+    const auto found = std::lower_bound(result.ids.begin(), result.ids.end(), id);
+    if (found == result.ids.end() || *found != id)
       throw UserError(place(path, line) + ": vertex " + std::to_string(id) +
                       " is missing, expected a line VERTEX_SE2 (or VERTEX2) for it");
-    }
-    return *node;
+    return static_cast<std::size_t>(found - result.ids.begin());
   };
   for (const Edge& edge : contents.edges) {
     Constraint constraint;

@@ -40,8 +40,7 @@ Matrix6d joint_of(const Columns& a, const Columns& b) {
 
 void MarginalCovariance::update(const PoseGraph& graph, const std::vector<double>& weights) {
   equations_.prepare(graph);
-  poses_.clear();
-  for (const mrpt::math::TPose2D& pose : graph.poses()) poses_.emplace_back(pose);
+  poses_ = rotated(graph.poses());
   // H does not depend on the errors.
   const std::vector<Eigen::Vector3d> errors(graph.num_constraints(), Eigen::Vector3d::Zero());
   const std::vector<double> ones(weights.empty() ? graph.num_constraints() : 0, 1.0);
@@ -49,7 +48,8 @@ void MarginalCovariance::update(const PoseGraph& graph, const std::vector<double
   if (!equations_.factorize(0)) {
     poses_.clear();
     throw UserError(
-        "the constraints of the pose graph do not determine all poses: their information is singular");
+        "the constraints of the pose graph do not determine all poses: their information is singular. Give "
+        "each node constraints with information about x, y and the heading.");
   }
 }
 

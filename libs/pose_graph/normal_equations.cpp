@@ -2,6 +2,7 @@
 #include "pose_graph/normal_equations.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -133,47 +134,28 @@ void NormalEquations::find_order(const PoseGraph& graph) {
 
 void NormalEquations::lay_out(const PoseGraph& graph) {
   const std::size_t n = node_of_.size();
-  // Two counting sorts, by row and then by column, leave the rows of each column ascending.
-  std::vector<std::uint32_t> by_row(ends_.size());
-  std::vector<std::size_t> begin(n + 1, 0);
-  const auto ends_of = [&](std::size_t i) {
-    const std::uint32_t a = variable_of_[ends_[i].first];
-    const std::uint32_t b = variable_of_[ends_[i].second];
-    return std::pair(std::min(a, b), std::max(a, b));
-  };
-  std::size_t num_links = 0;
+  std::vector<std::array<std::uint32_t, 3>>
+      links;  // column, row and constraint of each block off the diagonal
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     places_[i] = Place();
     if (!graph.enabled(i)) continue;
-    places_[i] = {kNoBlock, true, variable_of_[ends_[i].first] > variable_of_[ends_[i].second]};
-    const auto ends = ends_of(i);
-    if (ends.second == kHeld) continue;
-    ++begin[ends.first + 1];
-    ++num_links;
+    const std::uint32_t a = variable_of_[ends_[i].first];
+    const std::uint32_t b = variable_of_[ends_[i].second];
+    places_[i] = {kNoBlock, true, a > b};
+    if (a != kHeld && b != kHeld)
+      links.push_back({std::max(a, b), std::min(a, b), static_cast<std::uint32_t>(i)});
   }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  for (std::size_t i = 0; i < ends_.size(); ++i) {
-    if (places_[i].known && ends_of(i).second != kHeld)
-      by_row[begin[ends_of(i).first]++] = static_cast<std::uint32_t>(i);
-  }
-
-  begin.assign(n + 1, 0);
-  for (std::size_t r = 0; r < num_links; ++r) ++begin[ends_of(by_row[r]).second + 1];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<std::uint32_t> by_column(num_links);
-  {
-    std::vector<std::size_t> next(begin);
-    for (std::size_t r = 0; r < num_links; ++r) by_column[next[ends_of(by_row[r]).second]++] = by_row[r];
-  }
+  std::sort(links.begin(), links.end());
 
   hessian_.rows.clear();
   hessian_.column_begin.assign(n + 1, 0);
+  auto link = links.begin();
   for (std::size_t k = 0; k < n; ++k) {
-    for (std::size_t p = begin[k]; p < begin[k + 1]; ++p) {
-      const std::uint32_t r = ends_of(by_column[p]).first;
-      if (hessian_.rows.size() == hessian_.column_begin[k] || hessian_.rows.back() != r)
-        hessian_.rows.push_back(r);
-      places_[by_column[p]].block = static_cast<std::uint32_t>(hessian_.rows.size() - 1);
+    for (; link != links.end() && (*link)[0] == k; ++link) {
+      const auto [column, row, constraint] = *link;
+      if (hessian_.rows.size() == hessian_.column_begin[k] || hessian_.rows.back() != row)
+        hessian_.rows.push_back(row);
+      places_[constraint].block = static_cast<std::uint32_t>(hessian_.rows.size() - 1);
     }
     hessian_.column_begin[k + 1] = hessian_.rows.size();
   }

@@ -128,9 +128,7 @@ std::size_t PoseGraph::num_enabled_constraints() const {
 }
 
 double PoseGraph::chi2() const {
-  std::vector<RotatedPose> poses;
-  poses.reserve(poses_.size());
-  for (const TPose2D& pose : poses_) poses.emplace_back(pose);
+  const std::vector<RotatedPose> poses = rotated(poses_);
   double sum = 0;
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     if (enabled_[i] == 0) continue;

@@ -5,6 +5,8 @@
 #include <deque>
 #include <string>
 
+#include "frames/pose_operations.h"
+
 namespace psi_slam {
 
 std::vector<mrpt::math::TPose2D> spanning_tree_poses(const PoseGraph& graph) {
@@ -31,7 +33,7 @@ std::vector<mrpt::math::TPose2D> spanning_tree_poses(const PoseGraph& graph) {
       const bool forward = constraint.from == arrival.node;
       const std::size_t next = forward ? constraint.to : constraint.from;
       if (reached[next] != 0) continue;
-      const TPose2D node_T_next = forward ? constraint.from_T_to : TPose2D() - constraint.from_T_to;
+      const TPose2D node_T_next = forward ? constraint.from_T_to : inverse(constraint.from_T_to);
       (constraint.kind == Constraint::Kind::kOdometry ? by_odometry : by_others)
           .push_back({next, arrival.map_T_node + node_T_next});
     }
@@ -43,7 +45,9 @@ std::vector<mrpt::math::TPose2D> spanning_tree_poses(const PoseGraph& graph) {
 
 UserError unreachable_node(std::size_t node, std::size_t root) {
   return UserError("node " + std::to_string(node) + " of the pose graph is not linked to node " +
-                   std::to_string(root) + ": expected a chain of constraints from every node to that node");
+                   std::to_string(root) +
+                   ": expected a chain of constraints from every node to that node. Add a constraint, or "
+                   "remove the node.");
 }
 
 }  // namespace psi_slam

@@ -80,8 +80,7 @@ double SparsePoseAdjustment::negligible() const {
 
 void SparsePoseAdjustment::begin(const PoseGraph& graph) {
   equations_.prepare(graph);
-  current_.poses.clear();
-  for (const mrpt::math::TPose2D& pose : graph.poses()) current_.poses.emplace_back(pose);
+  current_.poses = rotated(graph.poses());
   evaluate(graph, current_);
   lambda_ = options_.initial_lambda;
   lowest_ = current_.robust_sum;
@@ -141,7 +140,6 @@ bool SparsePoseAdjustment::judge(const Attempt& attempt, PoseAdjustmentReport& r
   const bool may_converge = attempt.from_current && uphill_steps_ == 0 && lambda_ <= kMaxLambdaOfConvergence;
   if (trial_.robust_sum <= lowest_) {  // false for NaN
     const bool converged = may_converge && lowest_ - trial_.robust_sum <= negligible();
-    report.headings_first = report.headings_first || !attempt.from_current;
     std::swap(current_, trial_);
     lowest_ = current_.robust_sum;
     uphill_steps_ = 0;

@@ -11,7 +11,6 @@
 // the steps are damped.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "pose_graph/normal_equations.h"
@@ -39,8 +38,7 @@ struct ConstraintFit {
 
 struct PoseAdjustmentReport {
   int iterations = 0;
-  int rejected_steps = 0;       ///< steps that did not lower E, or could not be computed
-  bool headings_first = false;  ///< whether the separate solution of headings and positions was used
+  int rejected_steps = 0;  ///< steps that did not lower E, or could not be computed
   bool converged = false;
   double initial_chi2 = 0;  ///< plain sum of e^T Omega e
   double final_chi2 = 0;

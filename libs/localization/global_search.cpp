@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "localization/clear_beams.h"
 
 namespace psi_slam {
 namespace {
@@ -27,34 +26,55 @@ MatcherOptions with_quick_ambiguity(MatcherOptions options) {
   return options;
 }
 
-/// Window of the whole map and all headings.
-struct Everywhere {
-  TPose2D middle;
-  SearchExtent extent;
-};
+constexpr int kWallScore = 160;           // of 255: inside a wall, not beside it
+constexpr double kSurface_m = 0.25;       // walls this near to the end of a beam are the surface it hit
+constexpr double kLeastIncidence = 0.05;  // sine of the angle between beam and wall
+constexpr double kNoSurface = 0.5;        // incidence if the surface normal is unknown
 
-Everywhere all_of(const ScoreGrid& grid) {
-  const double half_x_m = 0.5 * grid.finest().width() * grid.resolution_m();
-  const double half_y_m = 0.5 * grid.finest().height() * grid.resolution_m();
-  return {{grid.origin_x_m() + half_x_m, grid.origin_y_m() + half_y_m, 0}, {half_x_m, half_y_m, M_PI}};
+/// Length of the last part of a beam that may lie on a wall.
+double tolerance_m(const ScanPoints& scan, std::size_t i, double dx, double dy) {
+  double incidence = kNoSurface;
+  if (!scan.normals.empty() && (scan.normals[i].x != 0 || scan.normals[i].y != 0))
+    incidence =
+        std::abs(dx * static_cast<double>(scan.normals[i].x) + dy * static_cast<double>(scan.normals[i].y));
+  return kSurface_m / std::max(incidence, kLeastIncidence);
 }
 
 std::string two_decimals(double value) {
   return fixed_text(value, 2);
 }
 
-/// Calls `visit` for the node and for the nodes of its context.
-template <class Visit>
-void for_context(std::size_t node, const KeyframeStore& memory, double travel_m, const Visit& visit) {
-  const NodeScan& here = memory.nodes[node];
-  for (std::size_t i = node + 1; i-- > 0;) {
-    const NodeScan& there = memory.nodes[i];
-    if (here.travelled_m - there.travelled_m > travel_m) break;
-    visit(there, there.local_T_robot - here.local_T_robot);
-  }
-}
-
 }  // namespace
+
+ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot) {
+  ClearBeams result;
+  const double cells_per_m = 1 / map.resolution_m();
+  const double c = std::cos(map_T_robot.phi);
+  const double s = std::sin(map_T_robot.phi);
+  for_each_laser(scan, [&](const mrpt::math::TPoint2Df& origin, std::size_t first, std::size_t last) {
+    const auto origin_x = static_cast<double>(origin.x);
+    const auto origin_y = static_cast<double>(origin.y);
+    const double x0 = (map_T_robot.x + c * origin_x - s * origin_y - map.origin_x_m()) * cells_per_m;
+    const double y0 = (map_T_robot.y + s * origin_x + c * origin_y - map.origin_y_m()) * cells_per_m;
+    for (std::size_t i = first; i < last; ++i) {
+      const double bx = static_cast<double>(scan.points[i].x) - origin_x;
+      const double by = static_cast<double>(scan.points[i].y) - origin_y;
+      const double range_m = std::hypot(bx, by);
+      if (range_m <= 0) continue;
+      const double dx = bx / range_m;
+      const double dy = by / range_m;
+      const double step_x = c * dx - s * dy;
+      const double step_y = s * dx + c * dy;
+      const double end = (range_m - tolerance_m(scan, i, dx, dy)) * cells_per_m;
+      bool clear = true;
+      for (double t = 0; t < end && clear; t += 1)
+        clear = map.finest().at(floor_to_int(x0 + t * step_x), floor_to_int(y0 + t * step_y)) < kWallScore;
+      ++result.beams;
+      if (clear) ++result.clear;
+    }
+  });
+  return result;
+}
 
 GlobalSearch::GlobalSearch(ReferenceMap map, const GlobalSearchOptions& options)
     : map_(std::move(map)),
@@ -96,8 +116,10 @@ FoundPlace GlobalSearch::find(std::size_t node, const KeyframeStore& memory, con
 // then repeated with a window centred on 180 degrees.
 MatchResult GlobalSearch::match_anywhere(const ScanPoints& context, const MatchSeed& seed) const {
   const ScoreGrid& grid = map_.coarse->scores();
-  const Everywhere everywhere = all_of(grid);
-  MatchProblem problem{grid, context, everywhere.middle, everywhere.extent};
+  const double half_x_m = 0.5 * grid.finest().width() * grid.resolution_m();
+  const double half_y_m = 0.5 * grid.finest().height() * grid.resolution_m();
+  const TPose2D middle(grid.origin_x_m() + half_x_m, grid.origin_y_m() + half_y_m, 0);
+  MatchProblem problem{grid, context, middle, {half_x_m, half_y_m, M_PI}};
   problem.min_response = kSearchedShare * options_.min_response;
   problem.measure_ambiguity = true;
   problem.seed = seed;
@@ -120,16 +142,18 @@ std::string GlobalSearch::objection(FoundPlace& place, const ScanPoints& context
   place.observed_share = static_cast<double>(all.observed) / static_cast<double>(context.points.size());
   LocalMap::Agreement forward;
   ClearBeams beams;
-  for_context(node, memory, options_.context.travel_m,
-              [&](const NodeScan& there, const TPose2D& here_T_there) {
-                const TPose2D map_T_there = place.map_T_robot + here_T_there;
-                const LocalMap::Agreement one = map_.fine->agreement(*there.points, map_T_there);
-                forward.observed += one.observed;
-                forward.hits += one.hits;
-                const ClearBeams more = clear_beams(map_.fine->scores(), *there.points, map_T_there);
-                beams.clear += more.clear;
-                beams.beams += more.beams;
-              });
+  const NodeScan& here = memory.nodes[node];
+  for (std::size_t i = node + 1; i-- > 0;) {
+    const NodeScan& there = memory.nodes[i];
+    if (here.travelled_m - there.travelled_m > options_.context.travel_m) break;
+    const TPose2D map_T_there = place.map_T_robot + (there.local_T_robot - here.local_T_robot);
+    const LocalMap::Agreement one = map_.fine->agreement(*there.points, map_T_there);
+    forward.observed += one.observed;
+    forward.hits += one.hits;
+    const ClearBeams more = clear_beams(map_.fine->scores(), *there.points, map_T_there);
+    beams.clear += more.clear;
+    beams.beams += more.beams;
+  }
   place.agree = forward.share();
   place.clear_share = beams.share();
   if (place.observed_share < options_.min_observed_share)

@@ -12,9 +12,22 @@
 #include "localization/reference_map.h"
 #include "loop_closure/keyframe_store.h"
 #include "matching/make_matcher.h"
+#include "matching/scan_points.h"
+#include "matching/score_grid.h"
 #include "psi_slam/localizer.h"
 
 namespace psi_slam {
+
+/// Beams of a scan, followed at a pose of a map. A scan taken there has no beam through a wall. It is not
+/// enough that the ends of the beams lie on walls, since most ends find some wall in a large building.
+struct ClearBeams {
+  std::size_t beams = 0;
+  std::size_t clear = 0;  ///< beams that meet no wall before their end
+  double share() const { return beams == 0 ? 0 : static_cast<double>(clear) / static_cast<double>(beams); }
+};
+
+/// Follows all beams of the scan. A wall near the end of a beam counts as the surface that the beam hit.
+ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot);
 
 class GlobalSearch {
  public:

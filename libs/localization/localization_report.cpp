@@ -2,7 +2,6 @@
 #include "localization/localization_report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
@@ -42,13 +41,6 @@ double confidence_at_end(const std::vector<LocalizationStep>& steps) {
   return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
-void count_search(const FoundPlace& place, LocalizationSummary& summary) {
-  ++summary.searches;
-  summary.why_not = place.objection;
-  summary.ambiguous = place.ambiguous;
-  summary.best_response = std::max(summary.best_response, place.response);
-}
-
 /// State of the robot at the end of the log.
 std::string end_text(const LocalizationSummary& summary) {
   if (!summary.tracked_at_end)
@@ -70,7 +62,12 @@ LocalizationSummary summarize(const std::vector<LocalizationStep>& steps) {
   for (const LocalizationStep& step : steps) {
     summary.travelled_m += step.moved_m;
     summary.duration_s = seconds(step.time_us - steps.front().time_us);
-    if (step.search) count_search(*step.search, summary);
+    if (step.search) {
+      ++summary.searches;
+      summary.why_not = step.search->objection;
+      summary.ambiguous = step.search->ambiguous;
+      summary.best_response = std::max(summary.best_response, step.search->response);
+    }
     const bool tracks = step.state == State::kTracking;
     summary.tracked_at_end = tracks;
     if (tracks) {

@@ -30,11 +30,87 @@ struct Localizer::Members {
     map_frame.add_node({0, 0, 0});
   }
 
-  void track(const FrontEndStep& motion, LocalizationStep& step);
-  PosePrior prior_at(const TPose2D& map_T_robot) const;
-  bool match_near(const FrontEndStep& motion, LocalizationStep& step) const;
-  void search(std::size_t frame, LocalizationStep& step);
-  void become_lost();
+  void track(const FrontEndStep& motion, LocalizationStep& step) {
+    step.state = LocalizationStep::State::kTracking;
+    step.map_T_robot = *map_T_local + motion.local_T_robot;
+    step.fits = match_near(motion, step);
+    if (fitted_us == 0) fitted_us = now_us;
+    if (step.fits) {
+      map_T_local = step.map_T_robot + inverse(motion.local_T_robot);
+      is_near_given_start = false;
+      misfit_m = 0;
+      fitted_us = now_us;
+      return;
+    }
+    misfit_m += step.moved_m;
+    if (misfit_m <= options.max_misfit_m && seconds(now_us - fitted_us) <= options.max_misfit_s) return;
+    step.state = LocalizationStep::State::kLost;
+    become_lost();
+  }
+
+  bool match_near(const FrontEndStep& motion, LocalizationStep& step) const {
+    const LocalMap& map = *global_search.map().fine;
+    const ScanPoints& scan = *motion.points;
+    if (scan.points.empty() || scan.farthest_m <= map.scores().resolution_m()) return false;
+    const SearchExtent window =
+        is_near_given_start
+            ? SearchExtent{options.start_window_m, options.start_window_m, options.start_window_rad}
+            : SearchExtent{options.window_m, options.window_m, options.window_rad};
+    MatchProblem problem{map.scores(), scan, step.map_T_robot, window};
+    problem.min_response = options.min_response;
+    if (!is_near_given_start) {
+      const double information_m = 1 / (options.prior_sigma_m * options.prior_sigma_m);
+      const double information_rad = 1 / (options.prior_sigma_rad * options.prior_sigma_rad);
+      problem.prior.emplace().map_T_robot = step.map_T_robot;
+      problem.prior->information.diagonal() << information_m, information_m, information_rad;
+    }
+    const MatchResult match = matcher.match(problem);
+    if (!match.found) return false;
+    TPose2D matched = match.map_T_robot;
+    if (problem.prior) {
+      const RefinedPose predicted =
+          refine(map.scores(), scan, step.map_T_robot, options.search.match.refinement, problem.prior);
+      if (predicted.mean_score >= kPredictionShare * match.refined_response) matched = predicted.map_T_robot;
+    }
+    const LocalMap::Agreement agreement = map.agreement(scan, matched);
+    const auto points = static_cast<double>(scan.points.size());
+    if (static_cast<double>(agreement.observed) < options.min_observed_share * points ||
+        agreement.share() < options.min_agree)
+      return false;
+    step.map_T_robot = matched;
+    step.response = match.response;
+    step.confidence = static_cast<double>(agreement.hits) / points;
+    return true;
+  }
+
+  void search(std::size_t frame, LocalizationStep& step) {
+    const std::size_t node = keyframes.nodes.size() - 1;
+    const NodeScan& here = keyframes.nodes[node];
+    const FoundPlace& place =
+        step.search.emplace(global_search.find(node, keyframes, {options.seed, frame, 0}));
+    if (!place.believed()) return;
+    const LoopConsensus::Vote vote{node, here.travelled_m,  here.local_T_robot,
+                                   0,    place.map_T_robot, place.ambiguity};
+    if (consensus.add(vote, map_frame).empty()) return;
+    map_T_local = place.map_T_robot + inverse(here.local_T_robot);
+    misfit_m = 0;
+    fitted_us = now_us;
+    step.state = LocalizationStep::State::kTracking;
+    step.map_T_robot = place.map_T_robot;
+    step.fits = true;
+    step.response = place.response;
+    step.confidence = place.agree * place.observed_share;
+  }
+
+  // The robot may have been moved by hand, so the motion measured until now may be wrong.
+  void become_lost() {
+    map_T_local.reset();
+    is_near_given_start = false;
+    front_end.emplace(options.front_end);
+    last_local_T_robot = {0, 0, 0};
+    keyframes = {};
+    consensus = LoopConsensus(options.consensus);
+  }
 
   LocalizerOptions options;
   GlobalSearch global_search;
@@ -87,92 +163,6 @@ LocalizationStep Localizer::add(const Frame& frame) {
       m.search(frame.index, step);
   }
   return step;
-}
-
-void Localizer::Members::track(const FrontEndStep& motion, LocalizationStep& step) {
-  step.state = LocalizationStep::State::kTracking;
-  step.map_T_robot = *map_T_local + motion.local_T_robot;
-  step.fits = match_near(motion, step);
-  if (fitted_us == 0) fitted_us = now_us;
-  if (step.fits) {
-    map_T_local = step.map_T_robot + inverse(motion.local_T_robot);
-    is_near_given_start = false;
-    misfit_m = 0;
-    fitted_us = now_us;
-    return;
-  }
-  misfit_m += step.moved_m;
-  if (misfit_m <= options.max_misfit_m && seconds(now_us - fitted_us) <= options.max_misfit_s) return;
-  step.state = LocalizationStep::State::kLost;
-  become_lost();
-}
-
-PosePrior Localizer::Members::prior_at(const TPose2D& map_T_robot) const {
-  const double information_m = 1 / (options.prior_sigma_m * options.prior_sigma_m);
-  const double information_rad = 1 / (options.prior_sigma_rad * options.prior_sigma_rad);
-  PosePrior prior;
-  prior.map_T_robot = map_T_robot;
-  prior.information.diagonal() << information_m, information_m, information_rad;
-  return prior;
-}
-
-bool Localizer::Members::match_near(const FrontEndStep& motion, LocalizationStep& step) const {
-  const LocalMap& map = *global_search.map().fine;
-  const ScanPoints& scan = *motion.points;
-  if (scan.points.empty() || scan.farthest_m <= map.scores().resolution_m()) return false;
-  const SearchExtent window =
-      is_near_given_start
-          ? SearchExtent{options.start_window_m, options.start_window_m, options.start_window_rad}
-          : SearchExtent{options.window_m, options.window_m, options.window_rad};
-  MatchProblem problem{map.scores(), scan, step.map_T_robot, window};
-  problem.min_response = options.min_response;
-  if (!is_near_given_start) problem.prior = prior_at(step.map_T_robot);
-  const MatchResult match = matcher.match(problem);
-  if (!match.found) return false;
-  TPose2D matched = match.map_T_robot;
-  if (problem.prior) {
-    const RefinedPose predicted =
-        refine(map.scores(), scan, step.map_T_robot, options.search.match.refinement, problem.prior);
-    if (predicted.mean_score >= kPredictionShare * match.refined_response) matched = predicted.map_T_robot;
-  }
-  const LocalMap::Agreement agreement = map.agreement(scan, matched);
-  const auto points = static_cast<double>(scan.points.size());
-  if (static_cast<double>(agreement.observed) < options.min_observed_share * points ||
-      agreement.share() < options.min_agree)
-    return false;
-  step.map_T_robot = matched;
-  step.response = match.response;
-  step.confidence = static_cast<double>(agreement.hits) / points;
-  return true;
-}
-
-void Localizer::Members::search(std::size_t frame, LocalizationStep& step) {
-  const std::size_t node = keyframes.nodes.size() - 1;
-  const NodeScan& here = keyframes.nodes[node];
-  const FoundPlace& place =
-      step.search.emplace(global_search.find(node, keyframes, {options.seed, frame, 0}));
-  if (!place.believed()) return;
-  const LoopConsensus::Vote vote{node, here.travelled_m,  here.local_T_robot,
-                                 0,    place.map_T_robot, place.ambiguity};
-  if (consensus.add(vote, map_frame).empty()) return;
-  map_T_local = place.map_T_robot + inverse(here.local_T_robot);
-  misfit_m = 0;
-  fitted_us = now_us;
-  step.state = LocalizationStep::State::kTracking;
-  step.map_T_robot = place.map_T_robot;
-  step.fits = true;
-  step.response = place.response;
-  step.confidence = place.agree * place.observed_share;
-}
-
-// The robot may have been moved by hand, so the motion measured until now may be wrong.
-void Localizer::Members::become_lost() {
-  map_T_local.reset();
-  is_near_given_start = false;
-  front_end.emplace(options.front_end);
-  last_local_T_robot = {0, 0, 0};
-  keyframes = {};
-  consensus = LoopConsensus(options.consensus);
 }
 
 }  // namespace psi_slam

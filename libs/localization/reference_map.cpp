@@ -1,8 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localization/reference_map.h"
 
+#include <mrpt/containers/yaml.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/byte_cursor.h"
+#include "base/number_text.h"
+#include "compression/compressed_file.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -26,6 +39,97 @@ Grid in_larger_cells(const Grid& map, int factor) {
   return larger;
 }
 
+constexpr const char* kExpected = "a map: map.yaml or map.gridmap.gz";
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+constexpr double kLeastResolution_m = 0.001;
+constexpr double kMostResolution_m = 1;
+
+void check_resolution(const std::filesystem::path& path, double resolution_m) {
+  if (!(resolution_m >= kLeastResolution_m && resolution_m <= kMostResolution_m))
+    throw UserError(path.string() + ": resolution is " + shortest_text(static_cast<float>(resolution_m)) +
+                    " m, expected 0.001 to 1 m");
+}
+
+Grid read_yaml(const std::filesystem::path& path) {
+  CompressedFile readable(path, kExpected);  // throws the error message for an unreadable file
+  Grid grid;
+  try {
+    const auto yaml = mrpt::containers::yaml::FromFile(path.string());
+    check_resolution(path, yaml["resolution"].as<double>());
+    if (yaml["origin"](2).as<double>() != 0)
+      throw UserError(path.string() + ": the origin is rotated, expected yaw 0");
+    if (!grid.loadFromROSMapServerYAML(path.string()))
+      throw UserError(path.string() + ": the image that it names is unreadable");
+  } catch (const UserError&) {
+    throw;
+  } catch (const std::exception&) {
+    throw UserError(
+        path.string() +
+        " is not a map of map_server: expected image, resolution, origin, negate, occupied_thresh "
+        "and free_thresh");
+  }
+  return grid;
+}
+
+std::vector<char> all_bytes(const std::filesystem::path& path) {
+  CompressedFile file(path, kExpected);
+  std::vector<char> bytes;
+  constexpr std::size_t kBlock = std::size_t{1} << 20;
+  std::size_t read = kBlock;
+  while (read > 0) {
+    bytes.resize(bytes.size() + kBlock);
+    read = file.read(bytes.data() + bytes.size() - kBlock, kBlock);
+    bytes.resize(bytes.size() - kBlock + read);
+  }
+  return bytes;
+}
+
+/// Protects MRPT, which allocates a grid of any size that the header claims. Throws MalformedBytes if the
+/// bytes end within the header.
+void check_gridmap(const std::filesystem::path& path, std::string_view bytes) {
+  constexpr std::uint8_t kLengthOfName = 0x7F;
+  ByteCursor cursor(bytes);
+  cursor.take(cursor.number<std::uint8_t>() & kLengthOfName);
+  if (cursor.number<std::uint8_t>() >= 2) cursor.number<std::uint8_t>();  // version; bits of a cell
+  const auto metres = [&] { return static_cast<double>(cursor.number<float>()); };
+  const double cells_x = cursor.number<std::uint32_t>();
+  const double cells_y = cursor.number<std::uint32_t>();
+  const double x_min_m = metres();
+  const double x_max_m = metres();
+  const double y_min_m = metres();
+  const double y_max_m = metres();
+  const double resolution_m = metres();
+  check_resolution(path, resolution_m);
+  const auto agree = [&](double cells, double from_m, double to_m) {
+    return std::abs(cells - (to_m - from_m) / resolution_m) <= 1.5;
+  };
+  if (!agree(cells_x, x_min_m, x_max_m) || !agree(cells_y, y_min_m, y_max_m) ||
+      cells_x * cells_y > static_cast<double>(cursor.left()))
+    throw UserError(path.string() + " is damaged: it claims " + fixed_text(cells_x, 0) + " x " +
+                    fixed_text(cells_y, 0) + " cells, which contradicts its limits or its " +
+                    std::to_string(bytes.size()) + " bytes");
+}
+
+Grid read_gridmap(const std::filesystem::path& path) {
+  const std::vector<char> bytes = all_bytes(path);
+  mrpt::io::CMemoryStream stream;
+  stream.assignMemoryNotOwn(bytes.data(), bytes.size());
+  Grid grid;
+  try {
+    check_gridmap(path, {bytes.data(), bytes.size()});
+    mrpt::serialization::archiveFrom(stream) >> grid;
+  } catch (const UserError&) {
+    throw;
+  } catch (const std::exception&) {
+    throw UserError(path.string() + " is not a complete gridmap of MRPT");
+  }
+  return grid;
+}
+
 }  // namespace
 
 ReferenceMap make_reference_map(const Grid& map, double search_resolution_m, double smoothing_sigma_m) {
@@ -38,6 +142,19 @@ ReferenceMap make_reference_map(const Grid& map, double search_resolution_m, dou
   options.smoothing_sigma_m = smoothing_sigma_m * factor;
   reference.coarse = std::make_shared<const LocalMap>(options, in_larger_cells(map, factor));
   return reference;
+}
+
+Grid read_map_file(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  const bool is_yaml = ends_with(name, ".yaml") || ends_with(name, ".yml");
+  if (!is_yaml && !ends_with(name, ".gridmap.gz") && !ends_with(name, ".gridmap"))
+    throw UserError(path.string() +
+                    " is not a map: expected map.yaml or map.gridmap.gz, as psi-slam writes them");
+  Grid grid = is_yaml ? read_yaml(path) : read_gridmap(path);
+  const auto& cells = grid.getRawMap();
+  if (std::none_of(cells.begin(), cells.end(), [](Grid::cellType cell) { return cell < 0; }))
+    throw UserError(path.string() + ": the map has no wall");
+  return grid;
 }
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "localization/clear_beams.h"
+#include "localization/global_search.h"
 
 #include <gtest/gtest.h>
 

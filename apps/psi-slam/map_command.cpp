@@ -7,7 +7,6 @@
 #include "base/exit_code.h"
 #include "closing_text.h"
 #include "commands.h"
-#include "doctor/diagnosis_report.h"
 #include "doctor/input_doctor.h"
 #include "exports/run_summary.h"
 #include "psi_slam/frame_source.h"

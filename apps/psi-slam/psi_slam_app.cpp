@@ -5,7 +5,7 @@
 
 #include "base/exit_code.h"
 #include "commands.h"
-#include "config/option_listing.h"
+#include "config/settings_text.h"
 #include "run_program.h"
 
 namespace psi_slam {

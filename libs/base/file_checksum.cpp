@@ -29,11 +29,8 @@ class Sha256 {
     unsigned size = 0;
     require(EVP_DigestFinal_ex(context_.get(), digest.data(), &size) == 1);
     std::string text;
-    for (unsigned i = 0; i < size; ++i) {
-      constexpr std::string_view kDigits = "0123456789abcdef";
-      text += kDigits[digest[i] >> 4];
-      text += kDigits[digest[i] & 15];
-    }
+    for (unsigned i = 0; i < size; ++i)
+      for (const unsigned digit : {digest[i] / 16U, digest[i] % 16U}) text += "0123456789abcdef"[digit];
     return text;
   }
 

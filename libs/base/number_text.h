@@ -28,8 +28,8 @@ std::optional<double> parse_degrees(std::string_view text);
 /// The angle in degrees, with the fewest decimals that parse_degrees() reads as exactly `radians`.
 std::string exact_degrees_text(double radians);
 
-/// Returns `value` rounded to at most `max_decimals` decimals, without trailing zeros: trimmed_text(0.5, 4) ==
-/// "0.5".
+/// Returns `value` rounded to at most `max_decimals` decimals, without trailing zeros: trimmed_text(0.5, 4)
+/// == "0.5".
 std::string trimmed_text(double value, int max_decimals);
 
 }  // namespace psi_slam

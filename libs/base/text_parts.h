@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of a text as views, without copies.
+// Parts of texts as views, and lists as texts.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace psi_slam {
 
@@ -15,6 +17,13 @@ inline std::string_view trimmed(std::string_view text, std::string_view space = 
   const std::size_t begin = text.find_first_not_of(space);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(space) - begin + 1);
+}
+
+/// Names for a message: "a, b".
+inline std::string name_list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
 }
 
 }  // namespace psi_slam

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/time_stamp.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
+
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {
@@ -13,14 +14,6 @@ constexpr TimeUs kMaxSeconds = 9'000'000'000'000;  // microseconds still fit in 
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
-}
-
-std::optional<TimeUs> parse_with_exponent(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  if (!(std::abs(value) < static_cast<double>(kMaxSeconds))) return std::nullopt;
-  return std::llround(value * 1e6);
 }
 
 }  // namespace
@@ -37,7 +30,11 @@ std::string format_seconds(TimeUs time_us) {
 }
 
 std::optional<TimeUs> parse_seconds(std::string_view text) {
-  if (text.find_first_of("eE") != std::string_view::npos) return parse_with_exponent(text);
+  if (text.find_first_of("eE") != std::string_view::npos) {
+    const std::optional<double> value = parse_number(text);
+    if (!value || !(std::abs(*value) < static_cast<double>(kMaxSeconds))) return std::nullopt;
+    return std::llround(*value * 1e6);
+  }
   std::size_t i = 0;
   const bool negative = !text.empty() && text[0] == '-';
   if (negative || (!text.empty() && text[0] == '+')) ++i;

@@ -11,9 +11,8 @@
 #include <set>
 #include <utility>
 
-#include "compression/line_reader.h"
 #include "base/text_parts.h"
-#include "frames/beam_angles.h"
+#include "compression/line_reader.h"
 #include "frames/laser_readings.h"
 #include "psi_slam/user_error.h"
 

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carmen/carmen_reader.h"
-
+// CARMEN logs: text, one message a line; '#' starts a comment.
+//
+// Scans of a laser come from one kind of message. By default this is the front laser's: ROBOTLASER1,
+// otherwise FLASER, otherwise RAWLASER1, as far as the first lines of the log have it. Without any of them it
+// is the rear laser's (ROBOTLASER2, RLASER, RAWLASER2), and finally RAWLASER3 and RAWLASER4. Messages of
+// other kinds are counted and otherwise ignored.
+//
+// The line of a scan states the odometry at its time, except RAWLASER lines: their odometry is interpolated
+// between ODOM lines. FLASER lines state a second pose, which a mapper may have corrected. It is never used.
+//
+// Malformed lines are skipped if they are few: one line, or at most 1 % of the lines that are needed. More of
+// them throw UserError, and so does a truncated last line.
 #include <algorithm>
-#include <string_view>
 #include <utility>
-#include <vector>
 
-#include "compression/line_reader.h"
 #include "base/text_parts.h"
 #include "carmen/carmen_lasers.h"
-#include "carmen/carmen_message.h"
+#include "frames/log_reader.h"
 #include "frames/odometry_interpolator.h"
-#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -42,11 +48,6 @@ class CarmenReader : public LogReader {
   }
 
  private:
-  void add_laser(std::string_view message) {
-    contents_.laser += (contents_.laser.empty() ? "" : ", ") + std::string(message);
-    contents_.states_beam_angles = contents_.laser != "FLASER" && contents_.laser != "RLASER";
-  }
-
   void count(std::string_view message, CarmenLasers::Laser* laser) {
     if (laser == nullptr) {
       ++contents_.messages[std::string(message)];
@@ -56,7 +57,8 @@ class CarmenReader : public LogReader {
     std::size_t*& lines = scan_counts_[laser->number];
     if (lines == nullptr) {
       lines = &contents_.messages[std::string(message)];
-      add_laser(message);
+      contents_.laser += (contents_.laser.empty() ? "" : ", ") + std::string(message);
+      contents_.states_beam_angles = contents_.laser != "FLASER" && contents_.laser != "RLASER";
     }
     ++*lines;
   }
@@ -87,7 +89,7 @@ class CarmenReader : public LogReader {
     CarmenLasers::Laser* laser = lasers_.laser_of(name);
     count(name, laser);
     if (laser != nullptr) return take_scan(fields, *laser);
-    if (name == "ODOM" && needs_odometry_messages()) {
+    if (name == "ODOM" && (!lasers_.any_known() || lasers_.any_needs_odometry())) {
       ++lines_needed_;
       const CarmenOdometryMessage odometry = read_odometry(fields);
       interpolator_.add_odometry(odometry.time_us, odometry.odom_T_robot);
@@ -96,8 +98,6 @@ class CarmenReader : public LogReader {
     }
     return std::nullopt;
   }
-
-  bool needs_odometry_messages() const { return !lasers_.any_known() || lasers_.any_needs_odometry(); }
 
   void take_parameter(std::string_view line) {
     if (!lasers_.all_known()) lasers_.keep_parameter(line);
@@ -165,7 +165,8 @@ class CarmenReader : public LogReader {
 
   [[noreturn]] void fail_without_odometry(const std::string& found) const {
     throw UserError(lines_.path().string() + " has no odometry for its " + contents_.laser +
-                    " lines, expected ODOM lines: " + found);
+                    " lines, expected ODOM lines: " + found +
+                    ". Log the odometry too, or select a laser whose lines state it with log.laser");
   }
 
   [[noreturn]] void fail_without_mount(const CarmenLaser& laser) const {

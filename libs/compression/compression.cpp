@@ -10,8 +10,10 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 
 #include "base/byte_cursor.h"
+#include "compression/packed_bytes.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -19,40 +21,37 @@ namespace {
 
 constexpr std::size_t kFirstBytes = std::size_t{1} << 16;
 
-/// Decompressed bytes. The buffer grows as needed, up to `most` bytes.
-class Output {
- public:
-  explicit Output(std::uint64_t most) : most_(most) {}
-
-  /// Returns the number of free bytes after the existing ones; 0 if the limit is reached.
-  std::size_t make_room() {
-    if (used_ == bytes_.size()) {
-      const std::uint64_t wanted = std::max<std::uint64_t>(kFirstBytes, 2 * std::uint64_t{used_});
-      bytes_.resize(static_cast<std::size_t>(std::min(most_, wanted)));
-    }
-    return bytes_.size() - used_;
-  }
-
-  char* end() { return bytes_.data() + used_; }
-  void add(std::size_t size) { used_ += size; }
-
-  std::string take() {
-    bytes_.resize(used_);
-    return std::move(bytes_);
-  }
-
- private:
-  std::uint64_t most_;
-  std::string bytes_;
-  std::size_t used_ = 0;
-};
-
 [[noreturn]] void fail(std::string_view name) {
   throw MalformedBytes("its " + std::string(name) + " data cannot be decompressed");
 }
 
-[[noreturn]] void fail_as_too_many(std::uint64_t most) {
-  throw MalformedBytes("its data decompress to more than the expected " + std::to_string(most) + " bytes");
+/// What one step of a decompression did.
+struct Step {
+  std::size_t written = 0;
+  std::size_t taken = 0;  ///< compressed bytes
+  bool at_end = false;
+};
+
+/// Calls `step(bytes, room)`, which writes up to `room` bytes, until the end of the data. Throws
+/// MalformedBytes if the data end early or decompress to more than `most` bytes.
+template <class TakeStep>
+std::string decompressed(std::string_view name, std::uint64_t most, const TakeStep& step) {
+  std::string bytes;
+  std::size_t used = 0;
+  for (Step done; !done.at_end; used += done.written) {
+    if (used == bytes.size())
+      bytes.resize(static_cast<std::size_t>(
+          std::min(most, std::max<std::uint64_t>(kFirstBytes, 2 * std::uint64_t{used}))));
+    const std::size_t room = bytes.size() - used;
+    char beyond = 0;
+    done = room > 0 ? step(bytes.data() + used, room) : step(&beyond, 1);
+    if (room == 0 && done.written > 0)
+      throw MalformedBytes("its data decompress to more than the expected " + std::to_string(most) +
+                           " bytes");
+    if (!done.at_end && done.written == 0 && done.taken == 0) fail(name);  // the data are incomplete
+  }
+  bytes.resize(used);
+  return bytes;
 }
 
 std::string decompress_bz2(std::string_view compressed, std::uint64_t most) {
@@ -62,22 +61,14 @@ std::string decompress_bz2(std::string_view compressed, std::uint64_t most) {
   std::string input(compressed);
   stream.next_in = input.data();
   stream.avail_in = static_cast<unsigned>(input.size());
-  Output output(most);
-  char beyond = 0;
-  for (int code = BZ_OK; code != BZ_STREAM_END;) {
-    const std::size_t room = std::min<std::size_t>(output.make_room(), std::size_t{1} << 30);
-    stream.next_out = room > 0 ? output.end() : &beyond;
-    stream.avail_out = room > 0 ? static_cast<unsigned>(room) : 1;
-    const unsigned offered = stream.avail_out;
-    const unsigned unread = stream.avail_in;
-    code = BZ2_bzDecompress(&stream);
-    const unsigned got = offered - stream.avail_out;
+  return decompressed("bz2", most, [&](char* bytes, std::size_t room) -> Step {
+    stream.next_out = bytes;
+    stream.avail_out = static_cast<unsigned>(std::min(room, std::size_t{1} << 30));
+    const bz_stream before = stream;
+    const int code = BZ2_bzDecompress(&stream);
     if (code != BZ_OK && code != BZ_STREAM_END) fail("bz2");
-    if (room == 0 && got > 0) fail_as_too_many(most);
-    if (code == BZ_OK && got == 0 && unread == stream.avail_in) fail("bz2");  // the data are incomplete
-    if (room > 0) output.add(got);
-  }
-  return output.take();
+    return {before.avail_out - stream.avail_out, before.avail_in - stream.avail_in, code == BZ_STREAM_END};
+  });
 }
 
 std::string decompress_lz4(std::string_view compressed, std::uint64_t most) {
@@ -85,45 +76,27 @@ std::string decompress_lz4(std::string_view compressed, std::uint64_t most) {
   if (LZ4F_isError(LZ4F_createDecompressionContext(&raw, LZ4F_VERSION)) != 0) fail("lz4");
   const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context(
       raw, &LZ4F_freeDecompressionContext);
-  Output output(most);
-  char beyond = 0;
-  for (std::size_t hint = 1; hint != 0;) {
-    const std::size_t room = output.make_room();
-    std::size_t got = std::max<std::size_t>(room, 1);
+  return decompressed("lz4", most, [&](char* bytes, std::size_t room) -> Step {
     std::size_t taken = compressed.size();
-    hint = LZ4F_decompress(context.get(), room > 0 ? output.end() : &beyond, &got, compressed.data(), &taken,
-                           nullptr);
+    const std::size_t hint = LZ4F_decompress(context.get(), bytes, &room, compressed.data(), &taken, nullptr);
     if (LZ4F_isError(hint) != 0) fail("lz4");
-    if (room == 0 && got > 0) fail_as_too_many(most);
-    if (hint != 0 && got == 0 && taken == 0) fail("lz4");  // the data are incomplete
     compressed.remove_prefix(taken);
-    if (room > 0) output.add(got);
-  }
-  return output.take();
+    return {room, taken, hint == 0};
+  });
 }
 
 }  // namespace
 
 std::string decompress_zstd_frame(std::string_view compressed, std::uint64_t most) {
   const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
-  Output output(most);
-  char beyond = 0;
   ZSTD_inBuffer in{compressed.data(), compressed.size(), 0};
-  for (std::size_t hint = 1; hint != 0;) {
-    const std::size_t room = output.make_room();
-    ZSTD_outBuffer out{room > 0 ? output.end() : &beyond, std::max<std::size_t>(room, 1), 0};
-    const std::size_t taken = in.pos;
-    hint = ZSTD_decompressStream(context.get(), &out, &in);
+  return decompressed("zstd", most, [&](char* bytes, std::size_t room) -> Step {
+    ZSTD_outBuffer out{bytes, room, 0};
+    const std::size_t before = in.pos;
+    const std::size_t hint = ZSTD_decompressStream(context.get(), &out, &in);
     if (ZSTD_isError(hint) != 0) fail("zstd");
-    if (room == 0 && out.pos > 0) fail_as_too_many(most);
-    if (hint != 0 && out.pos == 0 && taken == in.pos) fail("zstd");  // the data are incomplete
-    if (room > 0) output.add(out.pos);
-  }
-  return output.take();
-}
-
-bool is_known_compression(std::string_view name) {
-  return name == "bz2" || name == "lz4" || name == "zstd";
+    return {out.pos, in.pos - before, hint == 0};
+  });
 }
 
 bool is_zstd(std::string_view bytes) {
@@ -131,6 +104,8 @@ bool is_zstd(std::string_view bytes) {
 }
 
 std::string decompress(std::string_view name, std::string_view compressed, std::uint64_t size) {
+  if (name != "bz2" && name != "lz4" && name != "zstd")
+    throw MalformedBytes("its compression is \"" + std::string(name) + "\", expected bz2, lz4 or zstd");
   std::string bytes = name == "bz2"   ? decompress_bz2(compressed, size)
                       : name == "lz4" ? decompress_lz4(compressed, size)
                                       : decompress_zstd_frame(compressed, size);
@@ -165,6 +140,23 @@ std::string gzipped(const void* bytes, std::size_t count) {
     result.append(buffer.data(), buffer.size() - stream.avail_out);
   }
   return result;
+}
+
+PackedBytes::PackedBytes(const std::vector<std::uint8_t>& bytes) : size_(bytes.size()) {
+  std::vector<std::uint8_t> room(compressBound(bytes.size()));
+  uLongf used = room.size();
+  if (compress2(room.data(), &used, bytes.data(), bytes.size(), Z_BEST_SPEED) != Z_OK)
+    throw SystemFailure("cannot compress a part of the map: out of memory");
+  packed_.assign(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(used));
+}
+
+std::vector<std::uint8_t> PackedBytes::unpacked() const {
+  std::vector<std::uint8_t> bytes(size_);
+  uLongf got = bytes.size();
+  if (size_ == 0) return bytes;
+  if (uncompress(bytes.data(), &got, packed_.data(), packed_.size()) != Z_OK || got != size_)
+    throw std::logic_error("PackedBytes: the packed bytes are corrupt");
+  return bytes;
 }
 
 }  // namespace psi_slam

@@ -9,11 +9,9 @@
 
 namespace psi_slam {
 
-/// Returns whether decompress() supports a compression with this name: "bz2", "lz4" (frames) or "zstd".
-bool is_known_compression(std::string_view name);
-
-/// Decompresses to exactly `size` bytes. Memory grows with the decompressed bytes, not with `size`, which may
-/// be wrong. Throws MalformedBytes if the data are damaged or have another size.
+/// Decompresses data of the compression "bz2", "lz4" (frames) or "zstd" to exactly `size` bytes. Memory grows
+/// with the decompressed bytes, not with `size`, which may be wrong. Throws MalformedBytes if the name is
+/// another one, and if the data are damaged or have another size.
 std::string decompress(std::string_view name, std::string_view compressed, std::uint64_t size);
 
 /// Returns whether the bytes start like a zstd frame.

@@ -4,9 +4,11 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -67,36 +69,6 @@ fs::path identity(const fs::path& path) {
   return error ? path.lexically_normal() : canonical;
 }
 
-/// Reads a file and the files that it includes.
-class Reader {
- public:
-  explicit Reader(IniFile& result) : result_(result) {}
-
-  void read(std::string_view text, const fs::path& path) {
-    open_files_.push_back(path);
-    read_lines(text, Position{path, 0, {}, {}});
-    open_files_.pop_back();
-  }
-
- private:
-  /// Current position in one file.
-  struct Position {
-    fs::path path;
-    int line = 0;
-    std::optional<std::string> section;
-    std::map<std::pair<std::string, std::string>, int> line_of_key;
-
-    std::string where() const { return path.string() + ':' + std::to_string(line); }
-  };
-
-  void read_lines(std::string_view text, Position position);
-  void read_assignment(std::string_view line, Position& position);
-  void include(const std::string& name, const Position& from);
-
-  IniFile& result_;
-  std::vector<fs::path> open_files_;  ///< outermost first
-};
-
 /// The value of a "key = value" line, unquoted. Throws UserError if its quotes do not match.
 std::string parse_value(std::string_view text, const std::string& where) {
   text = stripped(text);
@@ -126,58 +98,81 @@ std::string parse_heading(std::string_view line, const std::string& where) {
   return std::string(stripped(line.substr(1, end - 1)));
 }
 
-void Reader::read_lines(std::string_view text, Position position) {
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    const std::string_view line = stripped(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    ++position.line;
-    if (is_blank(line)) continue;
-    if (line[0] == '[') {
-      position.section = parse_heading(line, position.where());
-      result_.sections.push_back({*position.section, position.where()});
-    } else {
-      read_assignment(line, position);
+/// Reads a file and the files that it includes.
+class Reader {
+ public:
+  explicit Reader(IniFile& result) : result_(result) {}
+
+  void read(std::string_view text, const fs::path& path) {
+    open_files_.push_back(path);
+    Position position{path, 0, {}, {}};
+    if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
+    while (!text.empty()) {
+      const std::size_t end = text.find('\n');
+      const std::string_view line = stripped(text.substr(0, end));
+      text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+      ++position.line;
+      if (is_blank(line)) continue;
+      if (line[0] == '[') {
+        position.section = parse_heading(line, position.where());
+        result_.sections.push_back({*position.section, position.where()});
+      } else {
+        read_assignment(line, position);
+      }
     }
+    open_files_.pop_back();
   }
-}
 
-void Reader::read_assignment(std::string_view line, Position& position) {
-  const std::string where = position.where();
-  const std::size_t equals = line.find('=');
-  const std::string key(stripped(line.substr(0, equals)));
-  if (equals == std::string_view::npos || key.empty())
-    throw UserError(where + ": expected key = value or [section], not " + std::string(line));
-  const std::string value = parse_value(line.substr(equals + 1), where);
-  if (key == kInclude) {
-    if (position.section) throw UserError(where + ": include must precede the first section");
-    include(value, position);
-    return;
-  }
-  if (!position.section) throw UserError(where + ": \"" + key + "\" precedes the first [section]");
-  const auto [first, is_new] = position.line_of_key.try_emplace({*position.section, key}, position.line);
-  if (!is_new) {
-    throw UserError(where + ": \"" + key + "\" in [" + *position.section +
-                    "] is given twice, first in line " + std::to_string(first->second) + "; keep one");
-  }
-  result_.values.push_back({*position.section, key, value, where});
-}
+ private:
+  /// Current position in one file.
+  struct Position {
+    fs::path path;
+    int line = 0;
+    std::optional<std::string> section;
+    std::map<std::pair<std::string, std::string>, int> line_of_key;
 
-void Reader::include(const std::string& name, const Position& from) {
-  if (name.empty()) throw UserError(from.where() + ": include needs the name of a file");
-  const fs::path path = (from.path.parent_path() / name).lexically_normal();
-  std::string chain;
-  for (const fs::path& open_file : open_files_)
-    if (!chain.empty() || identity(open_file) == identity(path)) chain += open_file.string() + " -> ";
-  if (!chain.empty())
-    throw UserError(from.where() + ": a file cannot include itself: " + chain + path.string());
-  std::string failure;
-  const std::string text = contents(path, failure);
-  if (!failure.empty())
-    throw UserError(from.where() + ": cannot read the included file " + path.string() + ": " + failure);
-  read(text, path);
-}
+    std::string where() const { return path.string() + ':' + std::to_string(line); }
+  };
+
+  void read_assignment(std::string_view line, Position& position) {
+    const std::string where = position.where();
+    const std::size_t equals = line.find('=');
+    const std::string key(stripped(line.substr(0, equals)));
+    if (equals == std::string_view::npos || key.empty())
+      throw UserError(where + ": expected key = value or [section], not " + std::string(line));
+    const std::string value = parse_value(line.substr(equals + 1), where);
+    if (key == kInclude) {
+      if (position.section) throw UserError(where + ": include must precede the first section");
+      include(value, position);
+      return;
+    }
+    if (!position.section) throw UserError(where + ": \"" + key + "\" precedes the first [section]");
+    const auto [first, is_new] = position.line_of_key.try_emplace({*position.section, key}, position.line);
+    if (!is_new) {
+      throw UserError(where + ": \"" + key + "\" in [" + *position.section +
+                      "] is given twice, first in line " + std::to_string(first->second) + "; keep one");
+    }
+    result_.values.push_back({*position.section, key, value, where});
+  }
+
+  void include(const std::string& name, const Position& from) {
+    if (name.empty()) throw UserError(from.where() + ": include needs the name of a file");
+    const fs::path path = (from.path.parent_path() / name).lexically_normal();
+    std::string chain;
+    for (const fs::path& open_file : open_files_)
+      if (!chain.empty() || identity(open_file) == identity(path)) chain += open_file.string() + " -> ";
+    if (!chain.empty())
+      throw UserError(from.where() + ": a file cannot include itself: " + chain + path.string());
+    std::string failure;
+    const std::string text = contents(path, failure);
+    if (!failure.empty())
+      throw UserError(from.where() + ": cannot read the included file " + path.string() + ": " + failure);
+    read(text, path);
+  }
+
+  IniFile& result_;
+  std::vector<fs::path> open_files_;  ///< outermost first
+};
 
 }  // namespace
 
@@ -197,12 +192,9 @@ IniFile parse_ini(std::string_view text, const fs::path& path) {
 std::string ini_value_text(const std::string& text) {
   const bool is_plain = !text.empty() && text[0] != '"' && stripped(without_comment(text)) == text;
   if (is_plain) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + '"';
+  std::ostringstream quoted;
+  quoted << std::quoted(text);
+  return quoted.str();
 }
 
 }  // namespace psi_slam

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads settings files:
 //
-//     include = usual.ini       ; before the first section: reads that file, whose values this one can
-//     override [front_end] window_m = 0.15           // a comment label = "a ; b \"c\" \\"  # quotes keep all
-//     characters; inside, \" means " and \\ means a backslash
+//     include = usual.ini        ; before the first section: values of this file override those of that one
+//     [front_end]
+//     window_m = 0.15            // a comment
+//     label = "a ; b \"c\" \\"  # quotes keep all characters; inside, \" means " and \\ means a backslash
 //
 // Comments begin with ';' anywhere, or with '#' or '//' at the start of a line or value or after a space.
 // Names are case-sensitive. A section can continue later in the file, but a key must not be given twice in

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "base/number_text.h"
+#include "base/text_parts.h"
 #include "config/nearest_name.h"
 #include "psi_slam/user_error.h"
 
@@ -13,6 +15,24 @@ namespace psi_slam {
 namespace {
 
 constexpr std::string_view kAuto = "auto";
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kUnitWords{
+    {{"m", "metres"}, {"deg", "degrees"}, {"s", "seconds"}, {"ms", "milliseconds"}}};
+
+std::string of_unit(const std::string& unit) {
+  if (unit.empty()) return "";
+  for (const auto& [symbol, word] : kUnitWords)
+    if (symbol == unit) return " of " + std::string(word);
+  const bool is_word = unit.find_first_of("/^ ") == std::string::npos && unit.size() > 3;
+  return (is_word ? " of " : " in ") + unit;
+}
+
+std::string number_expectation(const Option& option) {
+  std::string text = option.type == OptionType::kInteger ? "a whole number" : "a number";
+  text += of_unit(option.unit);
+  const std::string range = option.range.words();
+  const bool range_is_aside = range.find(" or ") != std::string::npos;
+  return range.empty() ? text : text + (range_is_aside ? ", " : " ") + range;
+}
 
 std::string quoted(std::string_view text) {
   return '"' + std::string(text) + '"';
@@ -38,57 +58,16 @@ std::optional<std::string> parse_line(std::string_view text) {
   return std::string(text);
 }
 
-/// Reads a number and converts it to the unit of the member; empty if it is out of range.
-std::optional<double> parse_in_range(std::string_view text, const NumberRange& range, bool is_angle) {
-  const std::optional<double> value = parse_number(text);
-  if (!value || !range.contains(*value)) return {};
-  return is_angle ? parse_degrees(text) : value;
-}
-
-std::string number_text(double value, bool is_angle) {
-  return is_angle ? exact_degrees_text(value) : exact_text(value);
-}
-
-Option describe(std::string key, OptionType type, std::string help) {
-  Option option;
-  option.key = std::move(key);
-  option.type = type;
-  option.help = std::move(help);
-  return option;
-}
-
-Option describe_number(std::string key, const NumberRange& range, std::string unit, std::string help) {
-  Option option = describe(std::move(key), OptionType::kNumber, std::move(help));
-  option.range = range;
-  option.unit = std::move(unit);
-  return option;
-}
-
-bool is_angle(const Option& option) {
-  return option.type == OptionType::kNumber && option.unit == "deg";
-}
-
-void refuse_degrees(const std::string& key, const std::string& unit) {
-  if (unit == "deg") throw std::logic_error(key + ": angles are described by angle_deg");
-}
-
 bool names_degrees(std::string_view key) {
   constexpr std::string_view kSuffix = "_deg";
   return key.size() > kSuffix.size() && key.substr(key.size() - kSuffix.size()) == kSuffix;
 }
 
-std::vector<std::string> names(const std::vector<OptionSection>& sections) {
-  std::vector<std::string> result;
-  result.reserve(sections.size());
-  for (const OptionSection& section : sections) result.push_back(section.name);
-  return result;
-}
-
-std::vector<std::string> keys(const OptionSection& section) {
-  std::vector<std::string> result;
-  result.reserve(section.options.size());
-  for (const Option& option : section.options) result.push_back(option.key);
-  return result;
+template <class Items>
+std::vector<std::string> names_of(const Items& items, std::string Items::value_type::*name) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.*name);
+  return names;
 }
 
 const OptionSection* find(const std::vector<OptionSection>& sections, std::string_view name) {
@@ -115,15 +94,58 @@ std::string proposal(const std::vector<OptionSection>& sections, const OptionSec
                      std::string_view key) {
   for (const OptionSection& section : sections)
     if (find(section, key) != nullptr) return "; " + quoted(key) + " belongs in [" + section.name + ']';
-  if (const auto near = nearest_name(key, keys(here))) return "; did you mean " + quoted(*near) + '?';
+  if (const auto near = nearest_name(key, names_of(here.options, &Option::key)))
+    return "; did you mean " + quoted(*near) + '?';
   for (const OptionSection& section : sections) {
-    if (const auto near = nearest_name(key, keys(section)))
+    if (const auto near = nearest_name(key, names_of(section.options, &Option::key)))
       return "; did you mean " + quoted(*near) + " in [" + section.name + "]?";
   }
   return "";
 }
 
 }  // namespace
+
+bool NumberRange::contains(double value) const {
+  if (!std::isfinite(value)) return false;
+  if (min && !(min->inclusive ? value >= min->value : value > min->value)) return false;
+  if (max && !(max->inclusive ? value <= max->value : value < max->value)) return false;
+  return true;
+}
+
+std::string NumberRange::words() const {
+  if (!min && !max) return "";
+  if (!max) return min->inclusive ? exact_text(min->value) + " or more" : "above " + exact_text(min->value);
+  if (!min) return max->inclusive ? exact_text(max->value) + " or less" : "below " + exact_text(max->value);
+  if (min->inclusive && max->inclusive)
+    return "between " + exact_text(min->value) + " and " + exact_text(max->value);
+  return (min->inclusive ? "at least " : "above ") + exact_text(min->value) + " and " +
+         (max->inclusive ? "at most " : "below ") + exact_text(max->value);
+}
+
+std::string Option::expectation() const {
+  if (type == OptionType::kText) return "a text of one line";
+  if (type != OptionType::kInteger && type != OptionType::kNumber) return values();
+  return (may_be_auto ? "auto or " : "") + number_expectation(*this);
+}
+
+std::string Option::values() const {
+  switch (type) {
+    case OptionType::kFlag:
+      return "true or false";
+    case OptionType::kInteger:
+    case OptionType::kNumber: {
+      const std::string number = type == OptionType::kInteger ? "whole number" : "number";
+      const std::string words = range.words();
+      return (unit.empty() ? number : unit) + (words.empty() ? "" : ", ") + words +
+             (may_be_auto ? "; or auto" : "");
+    }
+    case OptionType::kChoice:
+      return "one of " + name_list(choices);
+    case OptionType::kText:
+      return "text";
+  }
+  return "";
+}
 
 OptionTable& OptionTable::section(std::string name, std::string title) {
   if (find(sections_, name) != nullptr) throw std::logic_error("section [" + name + "] is described twice");
@@ -136,7 +158,8 @@ OptionTable& OptionTable::add_bound(Option option) {
   OptionSection& section = sections_.back();
   option.section = section.name;
   if (find(section, option.key) != nullptr) throw std::logic_error(option.name() + " is described twice");
-  if (names_degrees(option.key) != is_angle(option))
+  const bool is_angle = option.type == OptionType::kNumber && option.unit == "deg";
+  if (names_degrees(option.key) != is_angle)
     throw std::logic_error(option.name() + ": the key of an angle ends in _deg, and no other key does");
   option.default_text = option.text();
   if (!option.accepts(option.default_text)) {
@@ -147,59 +170,56 @@ OptionTable& OptionTable::add_bound(Option option) {
   return *this;
 }
 
-OptionTable& OptionTable::add_number(Option option, double& member) {
-  const auto parse = [range = option.range, angle = is_angle(option)](std::string_view text) {
-    return parse_in_range(text, range, angle);
+/// `Number` is double or std::optional<double>, which can be "auto".
+template <class Number>
+OptionTable& OptionTable::add_number(Option option, Number& member, bool is_angle) {
+  if (!is_angle && option.unit == "deg")
+    throw std::logic_error(option.key + ": angles are described by angle_deg");
+  option.may_be_auto = std::is_same_v<Number, std::optional<double>>;
+  const auto parse = [option, is_angle](std::string_view text) -> std::optional<Number> {
+    if (option.may_be_auto && text == kAuto) return Number();
+    const std::optional<double> value = parse_number(text);
+    if (!value || !option.range.contains(*value)) return {};
+    return Number(*(is_angle ? parse_degrees(text) : value));
   };
-  const auto format = [angle = is_angle(option)](double value) { return number_text(value, angle); };
-  return add(std::move(option), member, parse, format);
-}
-
-OptionTable& OptionTable::add_optional_number(Option option, std::optional<double>& member) {
-  using Value = std::optional<double>;
-  option.may_be_auto = true;
-  const auto parse = [range = option.range,
-                      angle = is_angle(option)](std::string_view text) -> std::optional<Value> {
-    if (text == kAuto) return std::optional<Value>(std::in_place);
-    const Value value = parse_in_range(text, range, angle);
-    return value ? std::optional<Value>(value) : std::nullopt;
-  };
-  const auto format = [angle = is_angle(option)](const Value& value) {
-    return value ? number_text(*value, angle) : std::string(kAuto);
+  const auto format = [is_angle](const std::optional<double>& value) {
+    if (!value) return std::string(kAuto);
+    return is_angle ? exact_degrees_text(*value) : exact_text(*value);
   };
   return add(std::move(option), member, parse, format);
 }
 
 OptionTable& OptionTable::flag(std::string key, bool& member, std::string help) {
-  return add(describe(std::move(key), OptionType::kFlag, std::move(help)), member, parse_flag,
+  return add({std::move(key), OptionType::kFlag, std::move(help)}, member, parse_flag,
              [](bool value) -> std::string { return value ? "true" : "false"; });
 }
 
 OptionTable& OptionTable::number(std::string key, double& member, NumberRange range, std::string unit,
                                  std::string help) {
-  refuse_degrees(key, unit);
-  return add_number(describe_number(std::move(key), range, std::move(unit), std::move(help)), member);
+  return add_number({std::move(key), OptionType::kNumber, std::move(help), std::move(unit), range}, member,
+                    false);
 }
 
 OptionTable& OptionTable::angle_deg(std::string key, double& member_rad, NumberRange range_deg,
                                     std::string help) {
-  return add_number(describe_number(std::move(key), range_deg, "deg", std::move(help)), member_rad);
+  return add_number({std::move(key), OptionType::kNumber, std::move(help), "deg", range_deg}, member_rad,
+                    true);
 }
 
 OptionTable& OptionTable::optional_number(std::string key, std::optional<double>& member, NumberRange range,
                                           std::string unit, std::string help) {
-  refuse_degrees(key, unit);
-  return add_optional_number(describe_number(std::move(key), range, std::move(unit), std::move(help)),
-                             member);
+  return add_number({std::move(key), OptionType::kNumber, std::move(help), std::move(unit), range}, member,
+                    false);
 }
 
 OptionTable& OptionTable::optional_angle_deg(std::string key, std::optional<double>& member_rad,
                                              NumberRange range_deg, std::string help) {
-  return add_optional_number(describe_number(std::move(key), range_deg, "deg", std::move(help)), member_rad);
+  return add_number({std::move(key), OptionType::kNumber, std::move(help), "deg", range_deg}, member_rad,
+                    true);
 }
 
 OptionTable& OptionTable::text(std::string key, std::string& member, std::string help) {
-  return add(describe(std::move(key), OptionType::kText, std::move(help)), member, parse_line,
+  return add({std::move(key), OptionType::kText, std::move(help)}, member, parse_line,
              [](const std::string& value) { return value; });
 }
 
@@ -235,7 +255,7 @@ bool OptionTable::knows(std::string_view name) const {
 void OptionTable::require_section(std::string_view name, std::string_view where) const {
   if (find(sections_, name) != nullptr || aliases_.count(name) > 0) return;
   std::string sentence = std::string(where) + ": unknown section [" + std::string(name) + "]; ";
-  if (const auto near = nearest_name(name, names(sections_))) {
+  if (const auto near = nearest_name(name, names_of(sections_, &OptionSection::name))) {
     sentence += "did you mean [" + *near + "]?";
   } else {
     sentence += "the sections are";

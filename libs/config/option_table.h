@@ -10,7 +10,7 @@
 #pragma once
 
 #include <charconv>
-#include <limits>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -20,9 +20,71 @@
 #include <utility>
 #include <vector>
 
-#include "config/option.h"
-
 namespace psi_slam {
+
+struct RangeEnd {
+  double value = 0;
+  bool inclusive = true;
+};
+
+/// The numbers that an option accepts: at_least(0), above(0).at_most(20), at_least(0).below(360),
+/// any_number(). No range contains NaN or an infinity.
+struct NumberRange {
+  std::optional<RangeEnd> min;
+  std::optional<RangeEnd> max;
+
+  NumberRange at_most(double value) const { return {min, RangeEnd{value, true}}; }
+  NumberRange below(double value) const { return {min, RangeEnd{value, false}}; }
+
+  bool contains(double value) const;
+
+  /// "between 0.01 and 20", "0 or more", "above 0 and at most 20", …; "" for any_number().
+  std::string words() const;
+};
+
+inline NumberRange any_number() {
+  return {};
+}
+inline NumberRange at_least(double value) {
+  return {RangeEnd{value, true}, {}};
+}
+inline NumberRange above(double value) {
+  return {RangeEnd{value, false}, {}};
+}
+inline NumberRange between(double min, double max) {
+  return at_least(min).at_most(max);
+}
+
+enum class OptionType { kFlag, kInteger, kNumber, kChoice, kText };
+
+/// One option, bound to a member of a settings struct. All code that shows, loads or saves the option uses
+/// this description.
+struct Option {
+  std::string key;  ///< ends in its unit if it has one: "window_x_m", "window_theta_deg"
+  OptionType type = OptionType::kText;
+  std::string help{};                  ///< one line
+  std::string unit{};                  ///< of integers and numbers: "m", "deg", "scans"; "" for pure numbers
+  NumberRange range{};                 ///< of integers and numbers, in `unit`
+  bool may_be_auto = false;            ///< the text "auto" means the empty std::optional
+  std::vector<std::string> choices{};  ///< accepted texts of a choice
+  std::string section{};
+  std::string default_text{};  ///< the member's value when the option was described
+
+  /// Returns the member's value as text. Assigning this text changes no bit.
+  std::function<std::string()> text{};
+  /// Whether the text is a value of this option's type and range.
+  std::function<bool(std::string_view text)> accepts{};
+  /// Sets the member to the value of the text. Returns false, and changes nothing, if it is not accepted.
+  std::function<bool(std::string_view text)> assign{};
+
+  std::string name() const { return section + '.' + key; }
+
+  /// The accepted values in words, to follow "expected": "a number of metres between 0.01 and 20".
+  std::string expectation() const;
+
+  /// The accepted values in short, for listings: "m, between 0.01 and 20", "true or false", "one of csm, ga".
+  std::string values() const;
+};
 
 struct OptionSection {
   std::string name;
@@ -99,8 +161,8 @@ class OptionTable {
   template <class T, class Parse, class Format>
   OptionTable& add(Option option, T& member, Parse parse, Format format);
   OptionTable& add_bound(Option option);
-  OptionTable& add_number(Option option, double& member);
-  OptionTable& add_optional_number(Option option, std::optional<double>& member);
+  template <class Number>
+  OptionTable& add_number(Option option, Number& member, bool is_angle);
 
   void warn_of_old_name(std::string_view old_name, const std::string& new_name, std::string_view where);
 
@@ -127,13 +189,7 @@ template <class Integer>
 OptionTable& OptionTable::integer(std::string key, Integer& member, NumberRange range, std::string unit,
                                   std::string help) {
   static_assert(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>);
-  Option option;
-  option.key = std::move(key);
-  option.unit = std::move(unit);
-  option.help = std::move(help);
-  option.type = OptionType::kInteger;
   if (std::is_unsigned_v<Integer> && !range.min) range.min = RangeEnd{0, true};
-  option.range = range;
   const auto parse = [range](std::string_view text) -> std::optional<Integer> {
     Integer value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -141,16 +197,14 @@ OptionTable& OptionTable::integer(std::string key, Integer& member, NumberRange 
     if (!range.contains(static_cast<double>(value))) return {};
     return value;
   };
-  return add(std::move(option), member, parse, [](Integer value) { return std::to_string(value); });
+  return add(Option{std::move(key), OptionType::kInteger, std::move(help), std::move(unit), range}, member,
+             parse, [](Integer value) { return std::to_string(value); });
 }
 
 template <class Enum>
 OptionTable& OptionTable::choice(std::string key, Enum& member,
                                  std::vector<std::pair<std::string, Enum>> choices, std::string help) {
-  Option option;
-  option.key = std::move(key);
-  option.help = std::move(help);
-  option.type = OptionType::kChoice;
+  Option option{std::move(key), OptionType::kChoice, std::move(help)};
   for (const auto& [name, value] : choices) option.choices.push_back(name);
   const auto parse = [choices](std::string_view text) -> std::optional<Enum> {
     for (const auto& [name, value] : choices)

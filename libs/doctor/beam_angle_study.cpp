@@ -49,10 +49,6 @@ AlignableScan with_bearings(LaserScan scan, const BeamBearings& bearings_rad) {
   return AlignableScan(scan, kSight_m, kPoints);
 }
 
-bool has_beams(const LaserScan& scan, std::size_t beams) {
-  return scan.ranges_m.size() == beams;
-}
-
 /// Returns [pair][convention]: the mean distance to walls. Skips pairs that some convention does not align
 /// reliably.
 std::vector<std::vector<double>> distances_m(const std::vector<FrameMark>& marks,
@@ -63,13 +59,13 @@ std::vector<std::vector<double>> distances_m(const std::vector<FrameMark>& marks
     const LaserScan& first = library.at(pair.first);
     const LaserScan& second = library.at(pair.second);
     const std::size_t beams = conventions.front().bearings_rad->size();
-    if (!has_beams(first, beams) || !has_beams(second, beams)) continue;
+    if (first.ranges_m.size() != beams || second.ranges_m.size() != beams) continue;
     std::vector<double> row;
     for (const Convention& convention : conventions) {
       const ScanAlignment alignment =
           align_scans(with_bearings(first, convention.bearings_rad),
                       with_bearings(second, convention.bearings_rad), odometry_between(marks, pair));
-      if (!is_reliable(alignment)) break;
+      if (!alignment.is_reliable()) break;
       row.push_back(alignment.cost_m);
     }
     if (row.size() == conventions.size()) rows.push_back(std::move(row));
@@ -107,7 +103,8 @@ std::optional<double> turn_error_rad(const std::vector<FrameMark>& marks,
   const auto aligned_turn = [&](std::size_t first, std::size_t second) -> std::optional<double> {
     const LaserScan& a = library.at(first);
     const LaserScan& b = library.at(second);
-    if (!has_beams(a, bearings_rad->size()) || !has_beams(b, bearings_rad->size())) return std::nullopt;
+    if (a.ranges_m.size() != bearings_rad->size() || b.ranges_m.size() != bearings_rad->size())
+      return std::nullopt;
     const ScanAlignment alignment =
         align_scans(with_bearings(a, bearings_rad), with_bearings(b, bearings_rad),
                     odometry_between(marks, {first, second}));

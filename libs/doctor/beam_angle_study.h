@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "doctor/scan_sampling.h"
-#include "frames/beam_angles.h"
+#include "frames/laser_readings.h"
 
 namespace psi_slam {
 

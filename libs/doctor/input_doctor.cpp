@@ -4,11 +4,9 @@
 #include <mrpt/core/bits_math.h>
 
 #include <cmath>
-#include <memory>
 
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
-#include "logs/open_log_reader.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_plan.h"
@@ -77,14 +75,12 @@ bool is_sound(const OdometryAgreement& odometry) {
   return length_is_right && heading_is_right;
 }
 
-double span_rad(const std::vector<float>& bearings_rad) {
-  return std::abs(static_cast<double>(bearings_rad.back() - bearings_rad.front()));
-}
-
 /// Returns the field of view that make_bearings_rad() was called with.
 double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
   if (options.field_of_view_rad) return *options.field_of_view_rad;
-  return usual_field_of_view_rad(pass.bearings_rad.size()).value_or(span_rad(pass.bearings_rad));
+  const std::vector<float>& bearings_rad = pass.bearings_rad;
+  return usual_field_of_view_rad(bearings_rad.size())
+      .value_or(std::abs(static_cast<double>(bearings_rad.back() - bearings_rad.front())));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,5 +55,17 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
 
 /// Derives findings from the measurements, warnings first. diagnose() calls it.
 std::vector<Finding> judge(const LogDiagnosis& diagnosis);
+
+/// Facts about the log, one per line.
+std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis);
+
+/// Table of the beam angle study, one convention per line, the best marked. Empty without a study.
+std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study);
+
+/// Facts, beam angles and findings with their remedies, as `psi-slam check` prints them.
+std::vector<std::string> describe(const LogDiagnosis& diagnosis);
+
+/// All measurements and findings as JSON, in SI units with the unit in each key.
+nlohmann::ordered_json to_json(const LogDiagnosis& diagnosis);
 
 }  // namespace psi_slam

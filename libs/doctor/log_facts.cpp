@@ -18,9 +18,8 @@ bool same_readings(const std::vector<float>& a, const std::vector<float>& b) {
                     [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
-TimeFacts time_facts(const std::vector<FrameMark>& marks) {
-  TimeFacts facts;
-  if (marks.empty()) return facts;
+void add_time_facts(const std::vector<FrameMark>& marks, TimeFacts& facts) {
+  if (marks.empty()) return;
   facts.first_us = marks.front().time_us;
   facts.last_us = marks.back().time_us;
   const auto [earliest, latest] =
@@ -30,7 +29,7 @@ TimeFacts time_facts(const std::vector<FrameMark>& marks) {
   std::vector<double> periods_s;
   for (std::size_t i = 1; i < marks.size(); ++i)
     periods_s.push_back(seconds(marks[i].time_us - marks[i - 1].time_us));
-  if (periods_s.empty()) return facts;
+  if (periods_s.empty()) return;
   std::vector<double> sorted_s = periods_s;
   const auto middle = sorted_s.begin() + static_cast<std::ptrdiff_t>(sorted_s.size() / 2);
   std::nth_element(sorted_s.begin(), middle, sorted_s.end());
@@ -45,7 +44,6 @@ TimeFacts time_facts(const std::vector<FrameMark>& marks) {
       facts.largest_backward_step_s = std::max(facts.largest_backward_step_s, -period_s);
     }
   }
-  return facts;
 }
 
 OdometryFacts odometry_facts(const std::vector<FrameMark>& marks) {
@@ -109,11 +107,7 @@ void LogFactsCollector::add(const Frame& frame, float max_range_m) {
     if (same_readings(scan.ranges_m, last_ranges_m_)) ++facts_.time.repeated_scans;
   }
   marks_.push_back({frame.time_us, frame.odom_T_robot});
-  add_ranges(scan, max_range_m);
   last_ranges_m_ = scan.ranges_m;
-}
-
-void LogFactsCollector::add_ranges(const LaserScan& scan, float max_range_m) {
   RangeFacts& facts = facts_.ranges;
   facts.max_range_m = max_range_m;
   std::size_t returns = 0;
@@ -133,10 +127,7 @@ void LogFactsCollector::add_ranges(const LaserScan& scan, float max_range_m) {
 LogFacts LogFactsCollector::facts() const {
   LogFacts facts = facts_;
   facts.scans = marks_.size();
-  const TimeFacts counted = facts.time;
-  facts.time = time_facts(marks_);
-  facts.time.repeated_stamps = counted.repeated_stamps;
-  facts.time.repeated_scans = counted.repeated_scans;
+  add_time_facts(marks_, facts.time);
   facts.odometry = odometry_facts(marks_);
   find_ceiling(readings_by_cm_, facts.ranges);
   facts.ranges.median_return_m = median_below(readings_by_cm_, facts.ranges.returns);

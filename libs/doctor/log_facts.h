@@ -5,7 +5,6 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -85,8 +84,6 @@ class LogFactsCollector {
   LogFacts facts() const;
 
  private:
-  void add_ranges(const LaserScan& scan, float max_range_m);
-
   LogFacts facts_;
   std::vector<FrameMark> marks_;
   std::vector<float> last_ranges_m_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/number_text.h"
 #include "doctor/input_doctor.h"
@@ -43,7 +44,13 @@ class Judge {
     judge_time();
     judge_ranges();
     judge_motion();
-    if (diagnosis_.odometry_is_sound) judge_sound_odometry();
+    if (diagnosis_.odometry_is_sound) {
+      judge_reversals();
+      judge_jumps();
+      judge_correction();
+      judge_mount();
+      judge_beam_angles();
+    }
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
     return std::move(findings_);
@@ -162,23 +169,19 @@ class Judge {
   }
 
   void judge_length(const OdometryAgreement& odometry) {
-    struct Unit {
-      double per_metre;
-      const char* name;
-    };
-    constexpr std::array<Unit, 6> kUnits{{{1000, "millimetres"},
-                                          {100, "centimetres"},
-                                          {39.37, "inches"},
-                                          {3.281, "feet"},
-                                          {0.001, "kilometres"},
-                                          {0.01, "hundreds of metres"}}};
+    constexpr std::array<std::pair<double, const char*>, 6> kUnits{{{1000, "millimetres"},
+                                                                    {100, "centimetres"},
+                                                                    {39.37, "inches"},
+                                                                    {3.281, "feet"},
+                                                                    {0.001, "kilometres"},
+                                                                    {0.01, "hundreds of metres"}}};
     const double ratio = odometry.length_ratio;
     if (ratio == 0 || (ratio > 0.6 && ratio < 1.6)) return;
-    for (const Unit& unit : kUnits) {
-      if (std::abs(std::log(ratio / unit.per_metre)) > std::log(1.3)) continue;
+    for (const auto& [per_metre, name] : kUnits) {
+      if (std::abs(std::log(ratio / per_metre)) > std::log(1.3)) continue;
       warn("odometry_unit",
            "odometry moves " + fixed(ratio, ratio < 1 ? 4 : 1) +
-               " times as far as the scans: it looks like " + unit.name + ", not metres",
+               " times as far as the scans: it looks like " + name + ", not metres",
            "write the positions of the odometry in metres");
       return;
     }
@@ -232,14 +235,6 @@ class Judge {
          "the scans move " + fixed(RAD2DEG(off_rad), 0) +
              " degrees away from the direction of odometry: the stated heading of the laser is wrong",
          "log.laser_yaw_deg = " + fixed(RAD2DEG(heading_rad), 0));
-  }
-
-  void judge_sound_odometry() {
-    judge_reversals();
-    judge_jumps();
-    judge_correction();
-    judge_mount();
-    judge_beam_angles();
   }
 
   void judge_reversals() {

@@ -23,7 +23,6 @@ constexpr std::size_t kFramesInTrack = 15;
 constexpr double kTrackLength_m = 0.5;  // in a longer track, first and last scan overlap too little
 const double kTrackTurn_rad = DEG2RAD(25.0);
 constexpr double kGoodCost_m = 0.06;
-constexpr double kGoodShare = 0.6;
 constexpr double kLeastLength_m = 0.1;
 constexpr double kLengthDeviation_m = 0.02;
 const double kHeadingDeviation_rad = DEG2RAD(0.4);
@@ -45,10 +44,6 @@ struct Track {
   std::vector<Step> steps;
 };
 
-bool is_good(const ScanAlignment& alignment) {
-  return alignment.cost_m < kGoodCost_m && alignment.matched_share > kGoodShare;
-}
-
 /// Guesses that do not assume any motion model: turned to either side, behind or ahead.
 std::vector<TPose2D> fan_of_guesses(const TPose2D& around) {
   std::vector<TPose2D> guesses;
@@ -68,12 +63,13 @@ std::optional<Track> follow(const std::vector<FrameMark>& marks, const std::vect
     const AlignableScan scan(library.at(frames[k]));
     const TPose2D odometry_step = odometry_between(marks, {frames[k - 1], frames[k]});
     ScanAlignment alignment = align_scans(reference, scan, std::vector<TPose2D>{now, now + last_step});
-    if (!is_good(alignment)) {
+    if (!alignment.is_reliable(kGoodCost_m)) {
       std::vector<TPose2D> guesses = fan_of_guesses(now);
       guesses.push_back(now + odometry_step);
       alignment = align_scans(reference, scan, guesses);
     }
-    if (!is_good(alignment) || alignment.heading_deviation_rad() > kHeadingDeviation_rad) break;
+    if (!alignment.is_reliable(kGoodCost_m) || alignment.heading_deviation_rad() > kHeadingDeviation_rad)
+      break;
     last_step = alignment.reference_T_scan - now;
     now = alignment.reference_T_scan;
     track.by_scans = now;
@@ -113,8 +109,6 @@ void compare_lengths(const std::vector<Track>& tracks, OdometryAgreement& agreem
   agreement.length_samples = ratios.size();
   if (ratios.size() < kFewestSamples) return;
   agreement.length_ratio = quantile(ratios, 0.5);
-  agreement.length_ratio_low = quantile(ratios, 0.25);
-  agreement.length_ratio_high = quantile(ratios, 0.75);
   if (slips_rad.size() < kFewestSamples) return;
   agreement.direction_offset_rad = std::arg(directions);
   agreement.direction_concentration = std::abs(directions) / static_cast<double>(slips_rad.size());

@@ -28,8 +28,6 @@ struct OdometryAgreement {
   double odometry_path_m = 0;      ///< motion in all tracks by odometry
   std::size_t length_samples = 0;  ///< tracks with a translation that the scans determine
   double length_ratio = 0;         ///< median of odometry's length divided by the scans'; 0 if unknown
-  double length_ratio_low = 0;     ///< lower quartile
-  double length_ratio_high = 0;    ///< upper quartile
   std::size_t turn_samples = 0;
   HeadingRelation heading = HeadingRelation::kUnknown;
   double heading_share = 0;  ///< fraction of the turns with this relation; for degrees, its quality in [0, 1]

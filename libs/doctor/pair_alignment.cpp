@@ -17,18 +17,12 @@ using mrpt::DEG2RAD;
 using mrpt::math::TPose2D;
 using mrpt::math::wrapToPi;
 
-constexpr double kGoodCost_m = 0.05;
-constexpr double kGoodShare = 0.6;
 constexpr double kJumpSpeed_m_s = 3.0;
 constexpr double kJump_m = 0.4;
 const double kJumpSpeed_rad_s = DEG2RAD(150.0);
 const double kJump_rad = DEG2RAD(30.0);
 
 }  // namespace
-
-bool is_reliable(const ScanAlignment& alignment) {
-  return alignment.cost_m < kGoodCost_m && alignment.matched_share > kGoodShare;
-}
 
 std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
                                      const ScanLibrary& library) {
@@ -61,16 +55,15 @@ LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const S
     };
     const auto went_back = [&](const ScanAlignment& alignment) {
       const double share = share_along(alignment);
-      return is_reliable(alignment) && alignment.deviation_along_m(direction) < kDetermined_m &&
+      return alignment.is_reliable() && alignment.deviation_along_m(direction) < kDetermined_m &&
              share < -0.4 && share > -2.0;
     };
     const AlignableScan reference(library.at(pair.frames.first));
     const AlignableScan scan(library.at(pair.frames.second));
     const ScanAlignment back = align_scans(reference, scan, TPose2D{-odometry.x, -odometry.y, odometry.phi});
     const bool determined =
-        pair.by_scans.deviation_along_m(direction) < kDetermined_m && is_reliable(pair.by_scans);
+        pair.by_scans.deviation_along_m(direction) < kDetermined_m && pair.by_scans.is_reliable();
     if (!determined && !went_back(back)) continue;
-    ++reversals.pairs_checked;
     reversals.checked_m += way_m;
     const bool both_say_so = went_back(pair.by_scans) && went_back(back);
     const bool better = went_back(back) && back.cost_m < kClearlyBetter * pair.by_scans.cost_m;
@@ -101,7 +94,7 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
     const ScanAlignment& scans = pair.by_scans;
     const double off_rad = wrapToPi(scans.reference_T_scan.phi - pair.by_odometry.phi);
     const bool determined = scans.deviation_along_m(0) < 0.01 && scans.deviation_along_m(M_PI / 2) < 0.01;
-    if (!is_reliable(scans) || !determined || std::abs(off_rad) > 0.1) continue;
+    if (!scans.is_reliable() || !determined || std::abs(off_rad) > 0.1) continue;
     const TPose2D laser = (scans.reference_T_scan + stated_mount) - stated_mount;
     const double turn = laser.phi;
     if (std::abs(turn) > 0.1) ++turning;
@@ -169,7 +162,7 @@ OdometryJumps confirm_jumps(const std::vector<FrameMark>& marks, const std::vect
     const ScanAlignment alignment =
         align_scans(AlignableScan(library.at(pair.first)), AlignableScan(library.at(pair.second)), guesses);
     const TPose2D& motion = alignment.reference_T_scan;
-    const bool stayed = is_reliable(alignment) && motion.norm() < 0.5 * step.norm() + 0.05 &&
+    const bool stayed = alignment.is_reliable() && motion.norm() < 0.5 * step.norm() + 0.05 &&
                         std::abs(motion.phi) < 0.5 * std::abs(step.phi) + DEG2RAD(5.0);
     if (!stayed) continue;
     jumps.pairs.push_back(pair);
@@ -188,7 +181,7 @@ RevisitAgreement check_revisits(const std::vector<FrameMark>& marks, const std::
   std::vector<double> offsets_m;
   for (const AlignedPair& pair : align_pairs(marks, pairs, library)) {
     const TPose2D off = pair.by_scans.reference_T_scan - pair.by_odometry;
-    if (!is_reliable(pair.by_scans) || off.norm() > kSame_m || std::abs(off.phi) > same_rad) continue;
+    if (!pair.by_scans.is_reliable() || off.norm() > kSame_m || std::abs(off.phi) > same_rad) continue;
     offsets_m.push_back(off.norm());
   }
   agreement.agreeing = offsets_m.size();

@@ -21,9 +21,6 @@ struct AlignedPair {
   ScanAlignment by_scans;  ///< aligned with odometry's motion as the guess
 };
 
-/// Returns whether most points are matched and close to walls.
-bool is_reliable(const ScanAlignment& alignment);
-
 /// Aligns all pairs. The result includes unreliable alignments.
 std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,
                                      const ScanLibrary& library);
@@ -31,10 +28,9 @@ std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const 
 /// Odometry that counts reversing as driving forwards: the scans move backwards by about as much as odometry
 /// moves forwards.
 struct LostReversals {
-  std::size_t pairs_checked = 0;  ///< pairs with enough motion that the scans determine
-  double checked_m = 0;           ///< motion of these pairs by odometry
-  std::vector<FramePair> pairs;   ///< pairs with a reversed motion according to the scans
-  double reversed_m = 0;          ///< motion of these pairs by scans
+  double checked_m = 0;          ///< motion by odometry of the pairs whose motion the scans determine
+  std::vector<FramePair> pairs;  ///< pairs with a reversed motion according to the scans
+  double reversed_m = 0;         ///< motion of these pairs by scans
 };
 
 /// Aligns every moving pair again with the opposite motion as the guess. A pair counts as reversed if that
@@ -51,7 +47,7 @@ struct LaserMountEstimate {
   double odometry_scale = 1.0;  ///< distance by odometry divided by distance by scans
 };
 
-/// Empty if too few pairs turn or too few pairs drive. `stated_mount` is the mount that the scans were read
+/// Empty if too few pairs turn or too few move straight. `stated_mount` is the mount that the scans were read
 /// with.
 std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<AlignedPair>& pairs,
                                                        const mrpt::math::TPose2D& stated_mount);

@@ -50,6 +50,9 @@ struct ScanAlignment {
   /// Standard deviation of the translation in the direction of `heading_rad`, metres.
   double deviation_along_m(double heading_rad) const;
   double heading_deviation_rad() const;
+
+  /// Whether most points are matched and close to walls.
+  bool is_reliable(double max_cost_m = 0.05) const { return cost_m < max_cost_m && matched_share > 0.6; }
 };
 
 /// Aligns from a guess that is off by at most about 0.6 m and 10 degrees.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 
 #include "psi_slam/open_log.h"
@@ -133,8 +134,7 @@ std::vector<FramePair> revisiting_pairs(const std::vector<FrameMark>& marks, dou
     if (ways[i] - last_way < spacing_m) continue;
     last_way = ways[i];
     const TPose2D& here = marks[i].odom_T_robot;
-    const FramePair* found = nullptr;
-    FramePair nearest;
+    std::optional<FramePair> nearest;
     double nearest_m = distance;
     for (const double dx : {-distance, 0.0, distance}) {
       for (const double dy : {-distance, 0.0, distance}) {
@@ -146,11 +146,10 @@ std::vector<FramePair> revisiting_pairs(const std::vector<FrameMark>& marks, dou
           if (ways[i] - ways[before] < way_m || apart > nearest_m || turn > turn_rad) continue;
           nearest_m = apart;
           nearest = {before, i};
-          found = &nearest;
         }
       }
     }
-    if (found != nullptr) pairs.push_back(*found);
+    if (nearest) pairs.push_back(*nearest);
     visited[cell_key(here.x, here.y, distance)].push_back(i);
   }
   return thinned(pairs, most);

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
-#include <utility>
 #include <vector>
 
 #include "doctor/log_facts.h"

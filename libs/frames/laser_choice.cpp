@@ -4,10 +4,11 @@
 #include <mrpt/core/bits_math.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/text_parts.h"
 #include "psi_slam/user_error.h"
 
@@ -26,14 +27,6 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
   }
 }
 
-std::optional<double> finite_number(const std::string& word) {
-  double value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stopped, error] = std::from_chars(word.data(), end, value);
-  if (error != std::errc() || stopped != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 /// Parses NAME X Y YAW [mirrored]. The name may contain spaces.
 std::optional<StatedMount> mount_from(const std::string& text) {
   std::vector<std::string> words = split(text, " \t");
@@ -45,15 +38,22 @@ std::optional<StatedMount> mount_from(const std::string& text) {
   }
   if (words.size() < 4) return std::nullopt;
   const auto numbers = words.end() - 3;
-  const auto x_m = finite_number(numbers[0]);
-  const auto y_m = finite_number(numbers[1]);
-  const auto yaw_deg = finite_number(numbers[2]);
+  const auto x_m = parse_number(numbers[0]);
+  const auto y_m = parse_number(numbers[1]);
+  const auto yaw_deg = parse_number(numbers[2]);
   if (!x_m || !y_m || !yaw_deg) return std::nullopt;
   mount.robot_T_laser = {*x_m, *y_m, mrpt::DEG2RAD(*yaw_deg)};
   mount.robot_T_laser.normalizePhi();
   for (auto word = words.begin(); word != numbers; ++word)
     mount.name += (mount.name.empty() ? "" : " ") + *word;
   return mount;
+}
+
+template <class Value>
+[[noreturn]] void fail(const char* key, Value value, const char* expected) {
+  std::ostringstream sentence;
+  sentence << key << " is " << value << ", expected " << expected;
+  throw UserError(sentence.str());
 }
 
 }  // namespace
@@ -136,16 +136,31 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string name_list(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 std::string quoted_list(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "\"" : ", \"") + name + "\"";
   return text;
+}
+
+void check_log_options(const LogOptions& options) {
+  if (options.every_nth_scan < 1) fail("log.every_nth_scan", options.every_nth_scan, "1 or more");
+  if (options.field_of_view_rad &&
+      !(*options.field_of_view_rad > 0 && *options.field_of_view_rad <= 2 * M_PI)) {
+    fail("log.field_of_view_deg", mrpt::RAD2DEG(*options.field_of_view_rad),
+         "more than 0 and up to 360 degrees");
+  }
+  if (!(options.min_range_m >= 0)) fail("log.min_range_m", options.min_range_m, "0 metres or more");
+  if (options.max_range_m && !(*options.max_range_m > options.min_range_m))
+    fail("log.max_range_m", *options.max_range_m, "more metres than log.min_range_m");
+  if (options.sweep_time_s && !(*options.sweep_time_s >= 0 && *options.sweep_time_s <= 1))
+    fail("log.sweep_time_s", *options.sweep_time_s, "0 to 1 seconds");
+  if (options.robot_T_laser &&
+      !(std::isfinite(options.robot_T_laser->x) && std::isfinite(options.robot_T_laser->y) &&
+        std::isfinite(options.robot_T_laser->phi)))
+    fail("the laser's pose on the robot", options.robot_T_laser->asString(), "finite numbers");
+  stated_mounts(options);
+  laser_choice("log.laser", options.laser);
+  laser_choice("log.scan_topic", options.scan_topic);
 }
 
 }  // namespace psi_slam

@@ -66,9 +66,6 @@ LogOptions options_of_laser(const LogOptions& options, const std::vector<std::st
 
 bool contains(const std::vector<std::string>& names, const std::string& name);
 
-/// Names for a message: a, b.
-std::string name_list(const std::vector<std::string>& names);
-
 /// Names for a message: "a", "b".
 std::string quoted_list(const std::vector<std::string>& names);
 

@@ -4,6 +4,7 @@
 #include <mrpt/core/bits_math.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -20,6 +21,61 @@ double tilt_rad(const mrpt::math::CMatrixDouble33& rotation) {
 }
 
 }  // namespace
+
+const std::vector<BeamAngles>& stated_beam_angles() {
+  static const std::vector<BeamAngles> all{BeamAngles::kCentredStepInclusive, BeamAngles::kCentredHalfStep,
+                                           BeamAngles::kLeftOpen, BeamAngles::kSkipZero};
+  return all;
+}
+
+std::string_view name_of(BeamAngles angles) {
+  constexpr std::array<std::string_view, 5> kNames{"auto", "centred_step_inclusive", "centred_half_step",
+                                                   "left_open", "skip_zero"};
+  return kNames.at(static_cast<std::size_t>(angles));
+}
+
+std::optional<double> usual_field_of_view_rad(std::size_t beams) {
+  switch (beams) {
+    case 180:
+    case 181:
+    case 360:
+    case 361:
+      return mrpt::DEG2RAD(180.0);
+    case 540:
+    case 541:
+      return mrpt::DEG2RAD(270.0);
+    case 682:
+    case 683:
+    case 769:
+      return mrpt::DEG2RAD(static_cast<double>(beams - 1) * 360.0 / 1024.0);
+    default:
+      return std::nullopt;
+  }
+}
+
+BeamAngles usual_beam_angles(std::size_t beams) {
+  const bool lacks_the_last_beam = beams == 180 || beams == 360 || beams == 540;
+  return lacks_the_last_beam ? BeamAngles::kLeftOpen : BeamAngles::kCentredStepInclusive;
+}
+
+std::vector<float> make_bearings_rad(BeamAngles angles, std::size_t beams, double field_of_view_rad) {
+  if (angles == BeamAngles::kAuto) angles = usual_beam_angles(beams);
+  if (angles == BeamAngles::kSkipZero && beams % 2 != 0) {
+    throw UserError("log.beam_angles is skip_zero, which needs an even number of beams, but the scans have " +
+                    std::to_string(beams) + ". Choose another convention");
+  }
+  const bool inclusive = angles == BeamAngles::kCentredStepInclusive;
+  const double steps = static_cast<double>(inclusive ? beams - 1 : beams);
+  const double step_rad = steps > 0 ? field_of_view_rad / steps : 0;
+  double first_rad = beams > 1 ? -field_of_view_rad / 2 : 0;
+  if (angles == BeamAngles::kCentredHalfStep && beams > 1) first_rad += step_rad / 2;
+  std::vector<float> bearings_rad(beams);
+  for (std::size_t i = 0; i < beams; ++i) {
+    const std::size_t skipped = angles == BeamAngles::kSkipZero && i >= beams / 2 ? 1 : 0;
+    bearings_rad[i] = static_cast<float>(first_rad + static_cast<double>(i + skipped) * step_rad);
+  }
+  return bearings_rad;
+}
 
 FloorMount floor_mount(const mrpt::poses::CPose3D& robot_T_laser, const std::string& place) {
   const mrpt::math::CMatrixDouble33 rotation = robot_T_laser.getRotationMatrix();

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <tuple>
@@ -26,14 +25,6 @@ constexpr const char* kExpected =
     "folder of a ROS 2 bag)";
 constexpr std::size_t kHeadBytes = std::size_t{256} * 1024;
 
-std::optional<LogFormat> bag_format(std::string_view head) {
-  constexpr std::string_view kSqlite("SQLite format 3\0", 16);
-  if (starts_with(head, "#ROSBAG")) return LogFormat::kRos1Bag;
-  if (starts_with(head, "\x89MCAP")) return LogFormat::kRos2Mcap;
-  if (starts_with(head, kSqlite)) return LogFormat::kRos2Sqlite;
-  return std::nullopt;
-}
-
 /// An MRPT archive starts with an object: one byte with the length of its class name and the highest bit set,
 /// followed by the class name.
 bool is_mrpt_archive(std::string_view head) {
@@ -48,28 +39,21 @@ bool is_mrpt_archive(std::string_view head) {
          });
 }
 
-bool is_carmen_message(std::string_view name) {
-  constexpr std::array<std::string_view, 7> kBeginnings{"FLASER", "RLASER", "RAWLASER", "ROBOTLASER",
-                                                        "PARAM",  "ODOM",   "TRUEPOS"};
-  return std::any_of(kBeginnings.begin(), kBeginnings.end(),
-                     [&](std::string_view beginning) { return starts_with(name, beginning); });
-}
-
 /// Returns whether the text has a line that starts with the name of a CARMEN message.
 bool is_carmen(std::string_view head) {
+  constexpr std::array<std::string_view, 7> kBeginnings{"FLASER", "RLASER", "RAWLASER", "ROBOTLASER",
+                                                        "PARAM",  "ODOM",   "TRUEPOS"};
   if (head.find('\0') != std::string_view::npos) return false;
   while (!head.empty()) {
     const std::size_t end = std::min(head.find('\n'), head.size());
     const std::string_view line = head.substr(0, end);
     const std::size_t space = line.find_first_of(" \t");
-    if (space != std::string_view::npos && is_carmen_message(line.substr(0, space))) return true;
+    if (space != std::string_view::npos)
+      for (const std::string_view beginning : kBeginnings)
+        if (starts_with(line.substr(0, space), beginning)) return true;
     head.remove_prefix(std::min(end + 1, head.size()));
   }
   return false;
-}
-
-bool is_bag_file(const fs::path& path) {
-  return path.extension() == ".db3" || path.extension() == ".mcap";
 }
 
 /// Orders "run_2.db3" before "run_10.db3".
@@ -117,7 +101,8 @@ std::vector<fs::path> files_of_bag_folder(const fs::path& folder) {
   if (fs::exists(folder / "metadata.yaml", ignored)) return files_listed(folder / "metadata.yaml");
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (is_bag_file(entry.path())) files.push_back(entry.path());
+    if (entry.path().extension() == ".db3" || entry.path().extension() == ".mcap")
+      files.push_back(entry.path());
   std::sort(files.begin(), files.end(), by_numbers);
   return files;
 }
@@ -133,7 +118,9 @@ LogFormat detect_log_format(const fs::path& path) {
   std::string head(kHeadBytes, '\0');
   head.resize(file.read(head.data(), head.size()));
   if (head.empty()) throw UserError(path.string() + " is empty" + kExpected);
-  if (const auto format = bag_format(head)) return *format;
+  if (starts_with(head, "#ROSBAG")) return LogFormat::kRos1Bag;
+  if (starts_with(head, "\x89MCAP")) return LogFormat::kRos2Mcap;
+  if (starts_with(head, std::string_view("SQLite format 3\0", 16))) return LogFormat::kRos2Sqlite;
   if (is_mrpt_archive(head)) return LogFormat::kMrptRawlog;
   if (is_carmen(head)) return LogFormat::kCarmen;
   if (is_zstd(head))

@@ -2,12 +2,12 @@
 // What the readers of all formats have in common.
 #pragma once
 
-#include <cstddef>
+#include <filesystem>
 #include <map>
-#include <optional>
-#include <string>
+#include <memory>
 
 #include "psi_slam/frame_source.h"
+#include "psi_slam/log_options.h"
 
 namespace psi_slam {
 
@@ -46,5 +46,15 @@ class LogReader : public FrameSource {
  private:
   std::size_t frames_given_ = 0;
 };
+
+/// Opens a log of any format with the reader of its format: each frame is a scan of one laser as recorded,
+/// and `every_nth_scan` and `sweep_time_s` are not applied. Throws UserError as open_log() does.
+std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options);
+
+// Each opens a log of one format. Throws UserError if a selected laser does not exist; open_rawlog() and
+// open_bag_log() also if scans, odometry or a frame is missing, since they read until all have appeared.
+std::unique_ptr<LogReader> open_carmen_log(const std::filesystem::path& path, const LogOptions& options);
+std::unique_ptr<LogReader> open_rawlog(const std::filesystem::path& path, const LogOptions& options);
+std::unique_ptr<LogReader> open_bag_log(const std::filesystem::path& path, const LogOptions& options);
 
 }  // namespace psi_slam

@@ -143,7 +143,16 @@ std::optional<Frame> SynchronizedSource::next() {
       if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
       return std::nullopt;
     }
-    read();
+    try {
+      if (auto scan = source_->next()) {
+        synchronizer_.add(*std::move(scan));
+        continue;
+      }
+    } catch (const UserError&) {
+      failure_ = std::current_exception();
+    }
+    at_end_ = true;
+    synchronizer_.end_of_log();
   }
 }
 
@@ -151,19 +160,6 @@ SkippedLines SynchronizedSource::skipped_lines() const {
   SkippedLines skipped = source_->skipped_lines();
   skipped.spare_scans += synchronizer_.spare_scans();
   return skipped;
-}
-
-void SynchronizedSource::read() {
-  try {
-    if (auto scan = source_->next()) {
-      synchronizer_.add(*std::move(scan));
-      return;
-    }
-  } catch (const UserError&) {
-    failure_ = std::current_exception();
-  }
-  at_end_ = true;
-  synchronizer_.end_of_log();
 }
 
 }  // namespace psi_slam

@@ -86,8 +86,6 @@ class SynchronizedSource : public FrameSource {
   SkippedLines skipped_lines() const override;
 
  private:
-  void read();
-
   std::unique_ptr<FrameSource> source_;
   ScanSynchronizer synchronizer_;
   std::size_t frames_given_ = 0;

@@ -3,14 +3,10 @@
 
 #include <utility>
 
-#include "carmen/carmen_reader.h"
 #include "frames/deskewed_source.h"
 #include "frames/laser_choice.h"
-#include "frames/log_format.h"
+#include "frames/log_reader.h"
 #include "frames/scan_synchronizer.h"
-#include "logs/open_log_reader.h"
-#include "rawlog/rawlog_reader.h"
-#include "rosbag/rosbag_reader.h"
 
 namespace psi_slam {
 namespace {
@@ -38,11 +34,6 @@ class ThinnedSource : public FrameSource {
   std::size_t every_nth_;
 };
 
-/// Returns whether scans may have a sweep time. Only bags may state one.
-bool may_be_skewed(LogFormat format, const LogOptions& options) {
-  return options.sweep_time_s ? *options.sweep_time_s > 0 : is_bag(format);
-}
-
 }  // namespace
 
 std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options) {
@@ -57,8 +48,9 @@ std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const L
   const LogFormat format = detect_log_format(path);
   std::unique_ptr<FrameSource> source = open_log_reader(path, options);
   if (reads_several_lasers(options, format)) source = std::make_unique<SynchronizedSource>(std::move(source));
-  if (may_be_skewed(format, options))
-    source = std::make_unique<DeskewedSource>(std::move(source), options.sweep_time_s);
+  // Only bags may state a sweep time.
+  const bool may_be_skewed = options.sweep_time_s ? *options.sweep_time_s > 0 : is_bag(format);
+  if (may_be_skewed) source = std::make_unique<DeskewedSource>(std::move(source), options.sweep_time_s);
   if (options.every_nth_scan == 1) return source;
   return std::make_unique<ThinnedSource>(std::move(source), options.every_nth_scan);
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The only file that instantiates MRPT's deciders, which are templates.
-#include "mrpt/decider_catalogue.h"
-
 #include <mrpt/graphslam/CGraphSlamEngine.h>
 #include <mrpt/graphslam/ERD/CEmptyERD.h>
 #include <mrpt/graphslam/ERD/CICPCriteriaERD.h>
@@ -14,6 +12,7 @@
 #include <mrpt/graphslam/apps_related/TUserOptionsChecker.h>
 
 #include "config/nearest_name.h"
+#include "mrpt/graphslam_run.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -22,32 +21,11 @@ namespace {
 using mrpt::graphslam::apps::TOptimizerProps;
 using mrpt::graphslam::apps::TRegistrationDeciderProps;
 
-constexpr const char* kActionsOrOdometry =
-    "CActionRobotMovement2D - Format #1, CObservationOdometry - Format #2";
-constexpr const char* kScans = "CObservation2DRangeScan - Format #1, #2";
-
 /// MRPT 2.5.8 leaves CEmptyGSO abstract, and creates a CLevMarqGSO under its name.
 class EmptyOptimizer : public mrpt::graphslam::optimizers::CEmptyGSO<MrptGraph> {
  protected:
   void optimizeGraph() override {}
 };
-
-TRegistrationDeciderProps* our_decider(const std::string& name, const std::string& type,
-                                       const std::string& description) {
-  auto* const decider = new TRegistrationDeciderProps;  // MRPT's table deletes it
-  decider->name = name;
-  decider->type = type;
-  decider->description = description;
-  decider->rawlog_format = "Both";
-  decider->observations_used = {kScans, kActionsOrOdometry};
-  decider->is_slam_2d = true;
-  return decider;
-}
-
-DeciderDescription described(const TRegistrationDeciderProps& decider) {
-  return {decider.name, decider.description, decider.rawlog_format, decider.observations_used,
-          decider.name.rfind("CPsi", 0) == 0};
-}
 
 template <class Makers>
 auto made(const Makers& makers, const std::string& name, const std::string& what) {
@@ -71,35 +49,32 @@ class DeciderCatalogue::Checker : public mrpt::graphslam::apps::TUserOptionsChec
     edge_regs_map["CPsiLoopCloserERD"] = &createEdgeRegistrationDecider<CPsiLoopCloserERD>;
     optimizers_map["CPsiSpaGSO"] = &createGraphSlamOptimizer<CPsiSpaGSO>;
   }
-
-  void populateDeciderOptimizerProperties() override {
-    TUserOptionsChecker::populateDeciderOptimizerProperties();
-    regs_descriptions.push_back(our_decider(
-        "CPsiFrontEndNRD", "Node",
-        "Match each scan with a local map and register a node when the robot has moved or turned enough"));
-    regs_descriptions.push_back(our_decider(
-        "CPsiLoopCloserERD", "Edge",
-        "Close loops by matching nodes with local maps by the matcher that the factor Psi chooses; needs "
-        "CPsiFrontEndNRD"));
-    auto* const optimizer = new TOptimizerProps;
-    optimizer->name = "CPsiSpaGSO";
-    optimizer->description = "Sparse pose adjustment, for the edges of any deciders";
-    optimizer->is_slam_2d = true;
-    optimizers_descriptions.push_back(optimizer);
-  }
 };
 
 DeciderCatalogue::DeciderCatalogue() : checker_(std::make_unique<Checker>()) {
   checker_->createDeciderOptimizerMappings();
   checker_->populateDeciderOptimizerProperties();
-  for (const TRegistrationDeciderProps* decider : checker_->regs_descriptions) {
-    if (!decider->is_slam_2d) continue;
-    (decider->type == "Node" ? node_deciders_ : edge_deciders_).push_back(described(*decider));
-  }
+  for (const TRegistrationDeciderProps* decider : checker_->regs_descriptions)
+    if (decider->is_slam_2d)
+      (decider->type == "Node" ? node_deciders_ : edge_deciders_)
+          .push_back(
+              {decider->name, decider->description, decider->rawlog_format, decider->observations_used});
   for (const TOptimizerProps* optimizer : checker_->optimizers_descriptions)
-    if (optimizer->is_slam_2d)
-      optimizers_.push_back(
-          {optimizer->name, optimizer->description, "", {}, optimizer->name == "CPsiSpaGSO"});
+    if (optimizer->is_slam_2d) optimizers_.push_back({optimizer->name, optimizer->description});
+  const std::vector<std::string> observations{
+      "CObservation2DRangeScan - Format #1, #2",
+      "CActionRobotMovement2D - Format #1, CObservationOdometry - Format #2"};
+  node_deciders_.push_back(
+      {"CPsiFrontEndNRD",
+       "Match each scan with a local map and register a node when the robot has moved or turned enough",
+       "Both", observations, true});
+  edge_deciders_.push_back(
+      {"CPsiLoopCloserERD",
+       "Close loops by matching nodes with local maps by the matcher that the factor Psi "
+       "chooses; needs CPsiFrontEndNRD",
+       "Both", observations, true});
+  optimizers_.push_back(
+      {"CPsiSpaGSO", "Sparse pose adjustment, for the edges of any deciders", "", {}, true});
 }
 
 DeciderCatalogue::~DeciderCatalogue() = default;

@@ -7,7 +7,6 @@
 #include "mrpt/entry_frames.h"
 #include "mrpt/graph_mirror.h"
 #include "mrpt/graphslam_settings.h"
-#include "mrpt/passed_user_error.h"
 #include "psi_slam/graphslam_deciders.h"
 
 namespace psi_slam {
@@ -16,10 +15,6 @@ namespace {
 using mrpt::math::TPose2D;
 
 constexpr char kSpeaker[] = "rawlog";
-
-double length_m(const TPose2D& motion) {
-  return std::hypot(motion.x, motion.y);
-}
 
 void keep_local_maps(const std::vector<PlacedLocalMap>& finished, KeyframeStore& keyframes) {
   for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, keyframes);
@@ -49,8 +44,7 @@ CPsiFrontEndNRD::CPsiFrontEndNRD() : state_(std::make_unique<State>()), map_(std
 CPsiFrontEndNRD::~CPsiFrontEndNRD() = default;
 
 void CPsiFrontEndNRD::loadParams(const std::string& source_fname) {
-  const DeciderParams params =
-      through_engine([&] { return read_decider_params(source_fname, kNodeDeciderSection); });
+  const DeciderParams params = read_decider_params(source_fname, kNodeDeciderSection);
   const MapperOptions& mapper = params.settings.mapper;
   state_->local_map_noise = {mapper.local_map_sigma_m, mapper.local_map_sigma_rad};
   if (!state_->log_options_set)
@@ -68,27 +62,19 @@ void CPsiFrontEndNRD::set_log_options(const LogOptions& options) {
 bool CPsiFrontEndNRD::updateState(mrpt::obs::CActionCollection::Ptr action,
                                   mrpt::obs::CSensoryFrame::Ptr observations,
                                   mrpt::obs::CObservation::Ptr observation) {
-  return through_engine([&] { return update(action, observations, observation); });
-}
+  return through_engine([&] {
+    // The engine moves all nodes after each new node, and other deciders may add edges.
+    map_->mirror.read(*m_graph);
+    if (map_->solver)
+      map_->mirror.write_poses(*m_graph);
+    else
+      map_->mirror.read_poses(*m_graph);
 
-bool CPsiFrontEndNRD::update(const mrpt::obs::CActionCollection::Ptr& action,
-                             const mrpt::obs::CSensoryFrame::Ptr& observations,
-                             const mrpt::obs::CObservation::Ptr& observation) {
-  // The engine moves all nodes after each new node, and other deciders may add edges.
-  map_->mirror.read(*m_graph);
-  if (map_->solver)
-    map_->mirror.write_poses(*m_graph);
-  else
-    map_->mirror.read_poses(*m_graph);
-
-  state_->entries->take(action, observations, observation);
-  bool registered = false;
-  while (!registered) {
-    const std::optional<Frame> frame = state_->entries->next();
-    if (!frame) break;
-    registered = add(*frame);
-  }
-  return registered;
+    state_->entries->take(action, observations, observation);
+    while (const std::optional<Frame> frame = state_->entries->next())
+      if (add(*frame)) return true;
+    return false;
+  });
 }
 
 bool CPsiFrontEndNRD::add(const Frame& frame) {
@@ -99,8 +85,10 @@ bool CPsiFrontEndNRD::add(const Frame& frame) {
   record.front_end_T_robot = state_->step.local_T_robot;
   record.response = state_->step.response;
   record.node = state_->step.node;
-  if (!state_->frames.empty())
-    state_->odometry_m += length_m(record.odom_T_robot - state_->frames.back().odom_T_robot);
+  if (!state_->frames.empty()) {
+    const TPose2D motion = record.odom_T_robot - state_->frames.back().odom_T_robot;
+    state_->odometry_m += std::hypot(motion.x, motion.y);
+  }
   if (!state_->step.matched) ++state_->unmatched;
   state_->frames.push_back(record);
   return checkRegistrationCondition();

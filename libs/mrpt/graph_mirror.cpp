@@ -2,7 +2,6 @@
 #include "mrpt/graph_mirror.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 #include "pose_graph/information_matrix.h"
@@ -50,18 +49,14 @@ void GraphMirror::read(const MrptGraph& network) {
     const auto known = edges_.find(ends);
     std::size_t seen = known == edges_.end() ? 0 : known->second.size();
     for (; edge != network.edges.end() && edge->first == ends; ++edge) {
-      if (seen == 0) {
-        add_edge(ends, edge->second);
-      } else {
+      if (seen > 0) {
         --seen;
+      } else {
+        edges_[ends].push_back(graph_.add_constraint(constraint_of(ends, edge->second)));
+        ++shared_constraints_;
       }
     }
   }
-}
-
-void GraphMirror::add_edge(const Ends& ends, const MrptGraph::edge_t& edge) {
-  edges_[ends].push_back(graph_.add_constraint(constraint_of(ends, edge)));
-  ++shared_constraints_;
 }
 
 void GraphMirror::add_nodes_of(const MrptGraph& network) {

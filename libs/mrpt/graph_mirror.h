@@ -42,7 +42,6 @@ class GraphMirror {
  private:
   using Ends = mrpt::graphs::TPairNodeIDs;
   void add_nodes_of(const MrptGraph& network);
-  void add_edge(const Ends& ends, const MrptGraph::edge_t& edge);
 
   PoseGraph graph_;
   std::size_t shared_nodes_ = 0;                    ///< nodes that both graphs have, from node 0 on

@@ -4,20 +4,23 @@
 
 #include <fcntl.h>
 #include <mrpt/graphslam/CGraphSlamEngine.h>
+#include <mrpt/graphslam/misc/CWindowManager.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/opengl/COpenGLScene.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "base/atomic_file.h"
 #include "exports/mapped_trajectory.h"
 #include "frames/laser_choice.h"
 #include "mrpt/graphslam_settings.h"
-#include "mrpt/graphslam_window.h"
 #include "mrpt/log_entries.h"
 #include "observations/mrpt_objects.h"
 #include "psi_slam/user_error.h"
@@ -52,6 +55,44 @@ class NoStandardInput {
 
  private:
   int kept_ = -1;
+};
+
+/// The window that MRPT's graph-slam engine draws into.
+class GraphSlamWindow {
+ public:
+  /// Throws UserError if there is no display.
+  GraphSlamWindow() {
+    constexpr unsigned kWidth_px = 800;
+    constexpr unsigned kHeight_px = 600;
+    const char* const display = std::getenv("DISPLAY");
+    if (display == nullptr || *display == '\0')
+      throw UserError(
+          "no display for the window: DISPLAY is not set. Run without window by --disable-visuals.");
+    window_ = std::make_unique<mrpt::gui::CDisplayWindow3D>("psi-graphslam", kWidth_px, kHeight_px);
+    observer_.observeBegin(*window_);
+    observer_.observeBegin(*window_->get3DSceneAndLock()->getViewport("main"));
+    window_->unlockAccess3DScene();
+    manager_.setCDisplayWindow3DPtr(window_.get());
+    manager_.setWindowObserverPtr(&observer_);
+  }
+
+  mrpt::graphslam::CWindowManager& manager() { return manager_; }
+
+  /// Returns when the user has closed the window or pressed Ctrl+C in it.
+  void wait_until_closed() {
+    constexpr std::chrono::milliseconds kPause(100);
+    std::map<std::string, bool> events;
+    while (window_->isOpen() && !events["Ctrl+c"]) {
+      std::this_thread::sleep_for(kPause);
+      window_->forceRepaint();
+      observer_.returnEventsStruct(&events, /*reset_keypresses=*/false);
+    }
+  }
+
+ private:
+  mrpt::graphslam::CWindowObserver observer_;
+  std::unique_ptr<mrpt::gui::CDisplayWindow3D> window_;
+  mrpt::graphslam::CWindowManager manager_;
 };
 
 /// MRPT's engine, extended by drawing the final map.
@@ -215,8 +256,12 @@ class EngineRun : public GraphSlamRun {
       engine_->getGraph().writeAsText(graph);
       write_text_atomically(folder.path() / general_.save_graph_fname, graph.str());
     }
+    const fs::path prefix = folder.path() / general_.save_map_fname;
     if (general_.save_map && !engine_->getGraph().nodes.empty())
-      write_map(folder.path() / general_.save_map_fname);
+      write_named(prefix, [&](const fs::path& temporary) {
+        engine_->draw_map()->saveMetricMapRepresentationToFile(temporary.string());
+        require_whole_png(temporary.string() + ".png", prefix.string() + ".png");
+      });
     if (window_ && general_.save_3DScene)
       write_named(folder.path() / general_.save_3DScene_fname, [&](const fs::path& file) {
         const std::string scene = file.string();
@@ -241,13 +286,6 @@ class EngineRun : public GraphSlamRun {
     TPose2D node_T_robot;
   };
 
-  void write_map(const fs::path& prefix) {
-    write_named(prefix, [&](const fs::path& temporary) {
-      engine_->draw_map()->saveMetricMapRepresentationToFile(temporary.string());
-      require_whole_png(temporary.string() + ".png", prefix.string() + ".png");
-    });
-  }
-
   bool map_next_entry() {
     std::optional<LogEntry> entry = entries_->next();
     at_end_ = !entry;
@@ -260,25 +298,20 @@ class EngineRun : public GraphSlamRun {
       return engine_->_execGraphSlamStep(entry->action, entry->observations, entry->observation, steps_);
     });
     ++steps_;
-    if (scan) keep_path(*scan);
+    if (scan && front_end_ == nullptr) keep_path(*scan);
+    if (scan) ++scans_;
     return go_on;
   }
 
   void keep_path(const mrpt::obs::CObservation2DRangeScan& scan) {
-    if (front_end_ == nullptr) path_.push_back(path_pose(scan));
-    ++scans_;
-  }
-
-  PathPose path_pose(const mrpt::obs::CObservation2DRangeScan& scan) const {
     const std::optional<TimeUs> time = time_us(scan);
-    if (!time) throw UserError("scan " + std::to_string(scans_ + 1) + " of the rawlog has no time stamp");
+    if (!time)
+      throw UserError(log_.string() + ": scan " + std::to_string(scans_ + 1) +
+                      " has no time stamp, expected one on every scan. Record the log with time stamps.");
     const auto& nodes = engine_->getGraph().nodes;
-    PathPose pose;
-    pose.time_us = *time;
-    pose.node = nodes.empty() ? 0 : nodes.size() - 1;
-    const TPose2D map_T_node = nodes.empty() ? TPose2D(0, 0, 0) : nodes.at(pose.node).asTPose();
-    pose.node_T_robot = engine_->getCurrentRobotPosEstimation().asTPose() - map_T_node;
-    return pose;
+    const TNodeID node = nodes.empty() ? 0 : nodes.size() - 1;
+    const TPose2D map_T_node = nodes.empty() ? TPose2D(0, 0, 0) : nodes.at(node).asTPose();
+    path_.push_back({*time, node, engine_->getCurrentRobotPosEstimation().asTPose() - map_T_node});
   }
 
   const GraphSlamGeneral general_;

@@ -6,10 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "config/apply_settings.h"
 #include "config/ini_file.h"
-#include "config/option_table.h"
-#include "psi_slam/user_error.h"
+#include "config/settings_text.h"
 
 namespace psi_slam {
 namespace {
@@ -19,18 +17,15 @@ struct Owner {
   std::vector<std::string> options;  ///< sections of psi-slam, or single options
 };
 
-const std::array<Owner, 3>& owners() {
-  static const std::array<Owner, 3> kOwners{
-      {{kNodeDeciderSection,
-        {"log", "front_end", "local_maps", "pose_graph.local_map_sigma_m",
-         "pose_graph.local_map_sigma_theta_deg"}},
-       {kEdgeDeciderSection,
-        {"loop_closure", "psi", "genetic", "verification", "consensus", "final_search", "last_pass",
-         "joint_refinement", "run", "pose_graph.loop_sigma_m", "pose_graph.loop_sigma_theta_deg",
-         "pose_graph.max_loop_chi"}},
-       {kOptimizerSection, {"pose_graph"}}}};
-  return kOwners;
-}
+const std::array<Owner, 3> kOwners{
+    {{kNodeDeciderSection,
+      {"log", "front_end", "local_maps", "pose_graph.local_map_sigma_m",
+       "pose_graph.local_map_sigma_theta_deg"}},
+     {kEdgeDeciderSection,
+      {"loop_closure", "psi", "genetic", "verification", "consensus", "final_search", "last_pass",
+       "joint_refinement", "run", "pose_graph.loop_sigma_m", "pose_graph.loop_sigma_theta_deg",
+       "pose_graph.max_loop_chi"}},
+     {kOptimizerSection, {"pose_graph"}}}};
 
 /// Options without effect in the engine: it reads every scan, and the edge decider decides on loop closing.
 bool has_no_effect(const std::string& option) {
@@ -47,44 +42,18 @@ void require_own_section(const IniValue& value, const std::string& option) {
 }
 
 bool is_deciders_section(const std::string& section) {
-  for (const Owner& owner : owners())
+  for (const Owner& owner : kOwners)
     if (section == owner.section) return true;
   return false;
 }
 
 constexpr const char* kGeneralSection = "GeneralConfiguration";
 
-/// Keys of MRPT itself, read by it or contained in its example files.
-struct MrptsOwn {
-  bool user_decides_about_output_dir = false;
-  std::string ground_truth_file_format = "NavSimul";
-  int LC_min_nodeid_diff = 0;
-  int class_verbosity = 1;
-};
-
-void describe(OptionTable& table, GraphSlamGeneral& general, MrptsOwn& mrpt) {
-  table.section(kGeneralSection, "Output files")
-      .text("output_dir_fname", general.output_dir_fname, "folder for the results")
-      .flag("save_graph", general.save_graph, "write the graph")
-      .text("save_graph_fname", general.save_graph_fname, "name of its file")
-      .flag("save_map", general.save_map, "write the map")
-      .text("save_map_fname", general.save_map_fname, "prefix of the names of its files")
-      .flag("save_3DScene", general.save_3DScene, "write the scene of the window, if there is one")
-      .text("save_3DScene_fname", general.save_3DScene_fname, "name of its file")
-      .flag("user_decides_about_output_dir", mrpt.user_decides_about_output_dir,
-            "no effect: only --force overwrites files")
-      .text("ground_truth_file_format", mrpt.ground_truth_file_format, "format of the ground truth file")
-      .integer("LC_min_nodeid_diff", mrpt.LC_min_nodeid_diff, any_number(), "nodes",
-               "smallest difference of node numbers for loops; read by MRPT's deciders")
-      .integer("class_verbosity", mrpt.class_verbosity, between(0, 4), "",
-               "least level of the engine's messages to print");
-}
-
 }  // namespace
 
 std::string graphslam_section_of(const std::string& option) {
   if (has_no_effect(option)) return "";
-  for (const Owner& owner : owners())
+  for (const Owner& owner : kOwners)
     for (const std::string& name : owner.options)
       if (option == name || option.substr(0, option.find('.')) == name) return owner.section;
   return "";
@@ -111,18 +80,14 @@ Settings read_graphslam_settings(const std::filesystem::path& ini) {
 std::string graphslam_options_text(const OptionTable& table, const std::string& section) {
   std::string text;
   for (const OptionSection& described : table.sections())
-    for (const Option& option : described.options) {
-      if (graphslam_section_of(option.name()) != section) continue;
-      text += "\n; " + option.help + "\n; " + option.values() + "; default " +
-              ini_value_text(option.default_text) + '\n' + option.name() + " = " +
-              ini_value_text(option.text()) + '\n';
-    }
+    for (const Option& option : described.options)
+      if (graphslam_section_of(option.name()) == section) text += commented(option, option.name());
   return text;
 }
 
 DeciderParams read_decider_params(const std::filesystem::path& ini, const std::string& section) {
   BoundSettings bound;
-  load_graphslam_settings(ini, bound);
+  through_engine([&] { load_graphslam_settings(ini, bound); });
   const mrpt::config::CConfigFile file(ini.string());
   const int verbosity = file.read_int(section, "class_verbosity", mrpt::system::LVL_INFO, false);
   return {bound.settings, graphslam_options_text(bound.table, section),
@@ -131,13 +96,31 @@ DeciderParams read_decider_params(const std::filesystem::path& ini, const std::s
 
 GraphSlamGeneral read_graphslam_general(const std::filesystem::path& ini) {
   GraphSlamGeneral general;
-  MrptsOwn mrpt;
+  // Keys of MRPT itself, read by it or contained in its example files.
+  bool user_decides_about_output_dir = false;
+  std::string ground_truth_file_format = "NavSimul";
+  int least_difference_of_nodes = 0;
+  int class_verbosity = 1;
   OptionTable table;
-  describe(table, general, mrpt);
+  table.section(kGeneralSection, "Output files")
+      .text("output_dir_fname", general.output_dir_fname, "folder for the results")
+      .flag("save_graph", general.save_graph, "write the graph")
+      .text("save_graph_fname", general.save_graph_fname, "name of its file")
+      .flag("save_map", general.save_map, "write the map")
+      .text("save_map_fname", general.save_map_fname, "prefix of the names of its files")
+      .flag("save_3DScene", general.save_3DScene, "write the scene of the window, if there is one")
+      .text("save_3DScene_fname", general.save_3DScene_fname, "name of its file")
+      .flag("user_decides_about_output_dir", user_decides_about_output_dir,
+            "no effect: only --force overwrites files")
+      .text("ground_truth_file_format", ground_truth_file_format, "format of the ground truth file")
+      .integer("LC_min_nodeid_diff", least_difference_of_nodes, any_number(), "nodes",
+               "smallest difference of node numbers for loops; read by MRPT's deciders")
+      .integer("class_verbosity", class_verbosity, between(0, 4), "",
+               "least level of the engine's messages to print");
   for (const IniValue& value : read_ini(ini).values)
     if (value.section == kGeneralSection) table.set(value.section + '.' + value.key, value.text, value.where);
-  if (mrpt.ground_truth_file_format != "NavSimul")
-    throw UserError("ground_truth_file_format = " + mrpt.ground_truth_file_format +
+  if (ground_truth_file_format != "NavSimul")
+    throw UserError("ground_truth_file_format = " + ground_truth_file_format +
                     " is not supported. Set NavSimul, the only format of MRPT's engine.");
   return general;
 }

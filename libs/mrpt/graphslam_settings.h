@@ -7,11 +7,13 @@
 //     class_verbosity = 1                 ; keys without a dot are MRPT's own
 #pragma once
 
+#include <mrpt/core/exceptions.h>
 #include <mrpt/system/COutputLogger.h>
 
 #include <filesystem>
 #include <string>
 
+#include "psi_slam/user_error.h"
 #include "session/settings.h"
 
 namespace psi_slam {
@@ -39,8 +41,26 @@ struct DeciderParams {
   std::string text;                        ///< see graphslam_options_text()
   mrpt::system::VerbosityLevel verbosity;  ///< messages from this level on are printed
 };
-/// Throws UserError as load_graphslam_settings() does.
+/// Throws PassedUserError for the errors of load_graphslam_settings().
 DeciderParams read_decider_params(const std::filesystem::path& ini, const std::string& section);
+
+/// A UserError that passes through MRPT's engine. The engine passes only exceptions of its own kind and
+/// replaces all others.
+class PassedUserError : public UserError, public mrpt::ExceptionWithCallBackBase {
+ public:
+  explicit PassedUserError(const UserError& error)
+      : UserError(error), mrpt::ExceptionWithCallBackBase(error.what(), mrpt::TCallStackBackTrace()) {}
+};
+
+/// Returns the result of `work`. Throws its UserError in a form that passes through MRPT's engine.
+template <class Work>
+auto through_engine(const Work& work) {
+  try {
+    return work();
+  } catch (const UserError& error) {
+    throw PassedUserError(error);
+  }
+}
 
 /// The section [GeneralConfiguration] of MRPT's graphslam-engine.
 struct GraphSlamGeneral {

@@ -6,7 +6,6 @@
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
-#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
 #include <numeric>
-#include <utility>
 
 #include "mapping/back_end.h"
 #include "mrpt/graph_mirror.h"
 #include "mrpt/graphslam_settings.h"
-#include "mrpt/passed_user_error.h"
 #include "psi_slam/graphslam_deciders.h"
 
 namespace psi_slam {
@@ -26,8 +24,7 @@ CPsiLoopCloserERD::CPsiLoopCloserERD() : state_(std::make_unique<State>()) {
 CPsiLoopCloserERD::~CPsiLoopCloserERD() = default;
 
 void CPsiLoopCloserERD::loadParams(const std::string& source_fname) {
-  const DeciderParams params =
-      through_engine([&] { return read_decider_params(source_fname, kEdgeDeciderSection); });
+  const DeciderParams params = read_decider_params(source_fname, kEdgeDeciderSection);
   state_->back_end = std::make_unique<BackEnd>(mapper_options(params.settings).back_end);
   state_->params_text = params.text;
   setMinLoggingLevel(params.verbosity);

@@ -32,13 +32,6 @@ using mrpt::obs::CSensoryFrame;
 using mrpt::poses::CPose2D;
 using mrpt::poses::CPosePDFGaussian;
 
-// A sensory frame with a single observation, for the map.
-CSensoryFrame::Ptr frame_of(const CObservation::Ptr& observation) {
-  auto frame = CSensoryFrame::Create();
-  frame->insert(observation);
-  return frame;
-}
-
 // The observations taken with a frame's first scan, and the scans of other lasers that came separately.
 CSensoryFrame::Ptr with_all_scans(const CSensoryFrame::Ptr& kept, const Frame& frame) {
   const auto came = std::count_if(kept->begin(), kept->end(), [](const CObservation::Ptr& observation) {
@@ -51,102 +44,15 @@ CSensoryFrame::Ptr with_all_scans(const CSensoryFrame::Ptr& kept, const Frame& f
   return all;
 }
 
-void expect_map_updating(bool enabled) {
-  if (!enabled)
-    throw UserError(
-        "CMetricMapBuilderPsi: options.enableMapUpdating is false. Set it to true: psi-slam does not "
-        "localise "
-        "in a fixed map.");
-}
-
 }  // namespace
 
-class CMetricMapBuilderPsi::Implementation {
- public:
+struct CMetricMapBuilderPsi::Implementation {
   explicit Implementation(const Options& options)
       : options_(options), mapper_options_(options.mapper ? *options.mapper : MapperOptions()) {
     check_log_options(options.log);
     start(CPosePDFGaussian());
   }
 
-  void initialize(const mrpt::maps::CSimpleMap& initial_map, const mrpt::poses::CPosePDF* x0) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (!initial_map.empty())
-      throw UserError("CMetricMapBuilderPsi::initialize: initial_map has " +
-                      std::to_string(initial_map.size()) +
-                      " frames. Give an empty map: psi-slam cannot extend an earlier map.");
-    start(x0 != nullptr ? CPosePDFGaussian(*x0) : estimate());
-  }
-
-  void process(const mrpt::obs::CActionCollection& actions, const CSensoryFrame& observations) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    expect_unfinished();
-    entries_->take(std::make_shared<mrpt::obs::CActionCollection>(actions), nullptr, nullptr);
-    map_ready_scans();
-    // Copies the list of observations, since the caller may reuse the frame. The observations are shared.
-    const auto kept = std::make_shared<CSensoryFrame>(observations);
-    for (const CObservation::Ptr& observation : *kept) take(observation, kept);
-  }
-
-  void process(const CObservation::Ptr& observation) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    expect_unfinished();
-    if (!observation)
-      throw std::invalid_argument("CMetricMapBuilderPsi::processObservation: the observation is null");
-    take(observation, frame_of(observation));
-  }
-
-  void finish() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (finished_) return;
-    entries_->end_of_log();
-    map_ready_scans();
-    MappingResult result = mapper_->finish();
-    graph_ = mapper_->graph();
-    mapper_.reset();
-    newest_marginal_.reset();
-    log_ = std::move(result.log);
-    frames_ = std::move(result.frames);
-    finished_ = true;
-  }
-
-  mrpt::poses::CPose3DPDF::Ptr pose() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return std::make_shared<mrpt::poses::CPose3DPDFGaussian>(estimate());
-  }
-
-  void simple_map(mrpt::maps::CSimpleMap& map) const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    mrpt::math::CMatrixDouble33 covariance = mrpt::math::CMatrixDouble33::Zero();
-    covariance.setDiagonal(3, 1e-6);
-    map.clear();
-    for (std::size_t node = 0; node < node_observations_.size(); ++node) {
-      const CPose2D pose(start_.mean.asTPose() + graph().pose(node));
-      map.insert(CPosePDFGaussian::Create(pose, covariance), node_observations_[node]);
-    }
-  }
-
-  std::size_t nodes() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return node_observations_.size();
-  }
-
-  COccupancyGridMap2D::Ptr grid() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return up_to_date_grid();
-  }
-
-  const mrpt::maps::CMultiMetricMap& metric_map() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const COccupancyGridMap2D::Ptr grid = up_to_date_grid();
-    if (metric_map_.maps.size() != 1 || metric_map_.maps.front() != grid) {
-      metric_map_.maps.clear();
-      metric_map_.maps.push_back(grid);
-    }
-    return metric_map_;
-  }
-
- private:
   void start(const CPosePDFGaussian& map_T_start) {
     start_ = map_T_start;
     mapper_ = std::make_unique<Mapper>(mapper_options_);
@@ -163,7 +69,11 @@ class CMetricMapBuilderPsi::Implementation {
     finished_ = false;
   }
 
-  void expect_unfinished() const {
+  void expect_mapping(bool map_updating) const {
+    if (!map_updating)
+      throw UserError(
+          "CMetricMapBuilderPsi: options.enableMapUpdating is false. Set it to true: psi-slam does not "
+          "localise in a fixed map.");
     if (finished_)
       throw std::logic_error(
           "CMetricMapBuilderPsi: the map is finished. Call initialize() to begin another one.");
@@ -182,15 +92,24 @@ class CMetricMapBuilderPsi::Implementation {
       while (waiting_observations_.front().first != entries_->opened_by()) waiting_observations_.pop_front();
       const CSensoryFrame::Ptr kept = with_all_scans(waiting_observations_.front().second, *frame);
       waiting_observations_.pop_front();
-      map(*std::move(frame), kept);
+      const std::size_t index = frame->index;
+      if (!mapper_->add(*std::move(frame)).node) continue;
+      node_frames_.push_back(index);
+      node_observations_.push_back(kept);
     }
   }
 
-  void map(Frame frame, const CSensoryFrame::Ptr& kept) {
-    const std::size_t index = frame.index;
-    if (!mapper_->add(std::move(frame)).node) return;
-    node_frames_.push_back(index);
-    node_observations_.push_back(kept);
+  void finish() {
+    if (finished_) return;
+    entries_->end_of_log();
+    map_ready_scans();
+    MappingResult result = mapper_->finish();
+    graph_ = mapper_->graph();
+    mapper_.reset();
+    newest_marginal_.reset();
+    log_ = std::move(result.log);
+    frames_ = std::move(result.frames);
+    finished_ = true;
   }
 
   const std::vector<Frame>& log() const { return finished_ ? log_ : mapper_->log(); }
@@ -218,8 +137,7 @@ class CMetricMapBuilderPsi::Implementation {
     const double sigma_m = mapper_options_.local_map_sigma_m;
     const double sigma_rad = mapper_options_.local_map_sigma_rad;
     covariance.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) robot.cov(i, j) = covariance(i, j);
+    robot.cov = mrpt::math::CMatrixDouble33(covariance);
     CPosePDFGaussian estimate = start_;
     estimate += robot;
     return estimate;
@@ -249,6 +167,16 @@ class CMetricMapBuilderPsi::Implementation {
       drawn_finished_ = finished_;
     }
     return drawn_grid_;
+  }
+
+  const mrpt::maps::CMultiMetricMap& metric_map() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const COccupancyGridMap2D::Ptr grid = up_to_date_grid();
+    if (metric_map_.maps.size() != 1 || metric_map_.maps.front() != grid) {
+      metric_map_.maps.clear();
+      metric_map_.maps.push_back(grid);
+    }
+    return metric_map_;
   }
 
   const Options options_;
@@ -287,34 +215,60 @@ CMetricMapBuilderPsi::~CMetricMapBuilderPsi() = default;
 
 void CMetricMapBuilderPsi::initialize(const mrpt::maps::CSimpleMap& initial_map,
                                       const mrpt::poses::CPosePDF* x0) {
-  implementation_->initialize(initial_map, x0);
+  const std::lock_guard<std::mutex> lock(implementation_->mutex_);
+  if (!initial_map.empty())
+    throw UserError("CMetricMapBuilderPsi::initialize: initial_map has " +
+                    std::to_string(initial_map.size()) +
+                    " frames. Give an empty map: psi-slam cannot extend an earlier map.");
+  implementation_->start(x0 != nullptr ? CPosePDFGaussian(*x0) : implementation_->estimate());
 }
 
 void CMetricMapBuilderPsi::processActionObservation(mrpt::obs::CActionCollection& action,
                                                     CSensoryFrame& observations) {
-  expect_map_updating(options.enableMapUpdating);
-  implementation_->process(action, observations);
+  const std::lock_guard<std::mutex> lock(implementation_->mutex_);
+  implementation_->expect_mapping(options.enableMapUpdating);
+  implementation_->entries_->take(std::make_shared<mrpt::obs::CActionCollection>(action), nullptr, nullptr);
+  implementation_->map_ready_scans();
+  // Copies the list of observations, since the caller may reuse the frame. The observations are shared.
+  const auto kept = std::make_shared<CSensoryFrame>(observations);
+  for (const CObservation::Ptr& observation : *kept) implementation_->take(observation, kept);
 }
 
 void CMetricMapBuilderPsi::processObservation(const CObservation::Ptr& observation) {
-  expect_map_updating(options.enableMapUpdating);
-  implementation_->process(observation);
+  const std::lock_guard<std::mutex> lock(implementation_->mutex_);
+  implementation_->expect_mapping(options.enableMapUpdating);
+  if (!observation)
+    throw std::invalid_argument("CMetricMapBuilderPsi::processObservation: the observation is null");
+  auto frame = CSensoryFrame::Create();
+  frame->insert(observation);
+  implementation_->take(observation, frame);
 }
 
 void CMetricMapBuilderPsi::finish() {
+  const std::lock_guard<std::mutex> lock(implementation_->mutex_);
   implementation_->finish();
 }
 
 mrpt::poses::CPose3DPDF::Ptr CMetricMapBuilderPsi::getCurrentPoseEstimation() const {
-  return implementation_->pose();
+  const std::lock_guard<std::mutex> lock(implementation_->mutex_);
+  return std::make_shared<mrpt::poses::CPose3DPDFGaussian>(implementation_->estimate());
 }
 
 void CMetricMapBuilderPsi::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map) const {
-  implementation_->simple_map(out_map);
+  const Implementation& m = *implementation_;
+  const std::lock_guard<std::mutex> lock(m.mutex_);
+  mrpt::math::CMatrixDouble33 covariance = mrpt::math::CMatrixDouble33::Zero();
+  covariance.setDiagonal(3, 1e-6);
+  out_map.clear();
+  for (std::size_t node = 0; node < m.node_observations_.size(); ++node) {
+    const CPose2D pose(m.start_.mean.asTPose() + m.graph().pose(node));
+    out_map.insert(CPosePDFGaussian::Create(pose, covariance), m.node_observations_[node]);
+  }
 }
 
 unsigned int CMetricMapBuilderPsi::getCurrentlyBuiltMapSize() {
-  return static_cast<unsigned int>(implementation_->nodes());
+  const std::lock_guard<std::mutex> lock(implementation_->mutex_);
+  return static_cast<unsigned int>(implementation_->node_observations_.size());
 }
 
 #if MRPT_VERSION >= 0x292
@@ -328,7 +282,8 @@ const mrpt::maps::CMultiMetricMap* CMetricMapBuilderPsi::getCurrentlyBuiltMetric
 #endif
 
 COccupancyGridMap2D::ConstPtr CMetricMapBuilderPsi::grid() const {
-  return implementation_->grid();
+  const std::lock_guard<std::mutex> lock(implementation_->mutex_);
+  return implementation_->up_to_date_grid();
 }
 
 #if MRPT_VERSION >= 0x030000

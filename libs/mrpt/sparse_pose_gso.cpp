@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <utility>
@@ -7,7 +6,6 @@
 #include "mapping/optimization_schedule.h"
 #include "mrpt/graph_mirror.h"
 #include "mrpt/graphslam_settings.h"
-#include "mrpt/passed_user_error.h"
 #include "pose_graph/constraint_error.h"
 #include "psi_slam/graphslam_deciders.h"
 
@@ -48,8 +46,7 @@ void CPsiSpaGSO::share(std::shared_ptr<SharedMap> map) {
 }
 
 void CPsiSpaGSO::loadParams(const std::string& source_fname) {
-  const DeciderParams params =
-      through_engine([&] { return read_decider_params(source_fname, kOptimizerSection); });
+  const DeciderParams params = read_decider_params(source_fname, kOptimizerSection);
   map_->solver->set_options(params.settings.mapper.pose_graph);
   state_->params_text = params.text;
   setMinLoggingLevel(params.verbosity);

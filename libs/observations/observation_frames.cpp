@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "observations/observation_frames.h"
 
+#include <limits>
+#include <memory>
 #include <utility>
 
+#include "frames/laser_readings.h"
 #include "observations/mrpt_objects.h"
 #include "psi_slam/user_error.h"
 
@@ -11,33 +14,87 @@ namespace {
 
 TimeUs stamp_of(const mrpt::obs::CObservation& observation, const char* what, const std::string& place) {
   if (const std::optional<TimeUs> stamp = time_us(observation)) return *stamp;
-  throw UserError(place + ": the " + what + " has no time stamp, expected one on every observation");
+  throw UserError(place + ": the " + what +
+                  " has no time stamp, expected one on every observation. Record the log with time stamps");
 }
 
 [[noreturn]] void throw_no_odometry(std::size_t scans, const std::string& place) {
   throw UserError(place + ": no odometry came with " + std::to_string(scans) +
                   " scans, expected actions of class CActionRobotMovement2D or observations of class "
-                  "CObservationOdometry");
+                  "CObservationOdometry. Record the odometry with the scans");
 }
 
 }  // namespace
+
+std::vector<float> RawlogLaser::bearings_rad(std::size_t beams, double aperture_rad, bool clockwise) const {
+  const bool is_auto = options_.beam_angles == BeamAngles::kAuto;
+  const BeamAngles angles = is_auto ? BeamAngles::kCentredStepInclusive : options_.beam_angles;
+  std::vector<float> bearings =
+      make_bearings_rad(angles, beams, options_.field_of_view_rad.value_or(aperture_rad));
+  if (clockwise) mirror(bearings);
+  return bearings;
+}
+
+LaserScan RawlogLaser::scan(const mrpt::obs::CObservation2DRangeScan& observation, const std::string& place) {
+  const std::size_t beams = observation.getScanSize();
+  if (beams == 0) throw UserError(place + ": the scan has 0 rays, expected 1 or more");
+  const FloorMount mount = floor_mount(observation.sensorPose, place);
+  const bool clockwise = (mount.upside_down == observation.rightToLeft) != options_.mirrored;
+  const auto aperture_rad = static_cast<double>(observation.aperture);
+  const std::tuple geometry{beams, aperture_rad, clockwise};
+  if (!bearings_ || geometry != geometry_) {
+    bearings_ = std::make_shared<const std::vector<float>>(bearings_rad(beams, aperture_rad, clockwise));
+    geometry_ = geometry;
+  }
+
+  LaserScan scan;
+  scan.bearings_rad = bearings_;
+  scan.robot_T_laser = options_.robot_T_laser.value_or(mount.robot_T_laser);
+  scan.ranges_m.resize(beams);
+  for (std::size_t i = 0; i < beams; ++i) {
+    scan.ranges_m[i] = observation.getScanRangeValidity(i) ? observation.getScanRange(i)
+                                                           : std::numeric_limits<float>::quiet_NaN();
+  }
+  limit_ranges(scan, options_, static_cast<double>(observation.maxRange));
+  return scan;
+}
+
+std::optional<LaserScan> RawlogLasers::scan(const mrpt::obs::CObservation2DRangeScan& observation,
+                                            const std::string& place) {
+  const auto number = chosen_.number_of(observation.sensorLabel);
+  if (!number) return std::nullopt;
+  LaserScan scan = laser(*number, observation, place).reader.scan(observation, place);
+  scan.laser = *number;
+  return scan;
+}
+
+RawlogLasers::Laser& RawlogLasers::laser(std::size_t number, const mrpt::obs::CObservation2DRangeScan& first,
+                                         const std::string& place) {
+  if (const auto known = lasers_.find(number); known != lasers_.end()) return known->second;
+  const LogOptions own = options_of_laser(options_, {first.sensorLabel});
+  const Laser added{first.sensorLabel, RawlogLaser(own), first.sensorPose, own.robot_T_laser.has_value()};
+  for (const auto& [other_number, other] : lasers_)
+    if (!added.is_stated && !other.is_stated && added.robot_T_sensor == other.robot_T_sensor)
+      throw UserError(
+          place + ": the lasers \"" + other.label + "\" and \"" + added.label +
+          "\" have the same pose on the robot. State their mounts with log.laser_mounts, such as \"" +
+          added.label + " -0.3 0 180\" (metres, degrees)");
+  return lasers_.emplace(number, added).first->second;
+}
 
 ObservationFrames::ObservationFrames(const LogOptions& options, Odometry odometry)
     : lasers_(options), odometry_(odometry) {}
 
 void ObservationFrames::take(const mrpt::obs::CActionCollection& action) {
   const std::optional<mrpt::math::TPose2D> motion = movement_of(action);
-  if (motion && odometry_ == Odometry::kUndecided) begin_with_actions();
+  if (motion && odometry_ == Odometry::kUndecided) {
+    odometry_ = Odometry::kActions;
+    waiting_.add_odometry(0, odom_T_robot_);  // scans before the first action are at the start
+    waiting_.end_of_log();
+    while (std::optional<Frame> frame = waiting_.take()) ready_.push_back(*std::move(frame));
+    waiting_ = {};
+  }
   if (motion && odometry_ == Odometry::kActions) odom_T_robot_ = odom_T_robot_ + *motion;
-}
-
-// Scans before the first action are at the start.
-void ObservationFrames::begin_with_actions() {
-  odometry_ = Odometry::kActions;
-  waiting_.add_odometry(0, odom_T_robot_);
-  waiting_.end_of_log();
-  while (std::optional<Frame> frame = waiting_.take()) ready_.push_back(*std::move(frame));
-  waiting_ = {};
 }
 
 void ObservationFrames::take(const mrpt::obs::CObservation& observation, const std::string& place) {

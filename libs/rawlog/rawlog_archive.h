@@ -3,7 +3,6 @@
 
 #include <mrpt/serialization/CSerializable.h>
 
-#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>

@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rawlog/rawlog_reader.h"
-
+// MRPT rawlogs, plain or gzipped, in both common forms:
+//
+// - Actions and sensory frames. Odometry is the sum of the increments of the actions. Every scan of a sensory
+//   frame has the odometry of that frame.
+// - Single observations, in sensory frames or not. Odometry is absolute, in its own observations, and is
+//   interpolated at each scan's time.
+//
+// The kind of odometry that appears first is used; the other is ignored. By default scans come from the first
+// laser in the log. Time stamps, ticks of 100 ns since 1601, become Unix time rounded to the nearest
+// microsecond.
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -9,9 +17,9 @@
 #include <algorithm>
 #include <functional>
 #include <set>
-#include <utility>
-#include <vector>
 
+#include "base/text_parts.h"
+#include "frames/log_reader.h"
 #include "observations/mrpt_objects.h"
 #include "observations/observation_frames.h"
 #include "psi_slam/user_error.h"
@@ -84,7 +92,7 @@ LasersAndOdometry find_lasers_and_odometry(const std::filesystem::path& path, co
     throw UserError(
         path.string() +
         " has no odometry, expected actions of class CActionRobotMovement2D or observations of class "
-        "CObservationOdometry");
+        "CObservationOdometry. Record the odometry with the scans");
   }
   return {name_list(chosen.names()), odometry};
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/byte_cursor.h"
+#include "base/text_parts.h"
 #include "frames/laser_choice.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/ros_messages.h"
@@ -43,7 +44,9 @@ class Planner {
 
   BagPlan plan() {
     choose_scan_topics();
-    choose_transform_topics();
+    for (const BagTopic& topic : topics_)
+      if (is_transforms(topic) && !contains(plan_.transform_topics, topic.name))
+        plan_.transform_topics.push_back(topic.name);
     choose_odometry_topic();
     plan_.odom_frame = options_.odom_frame;
     plan_.base_frame = options_.base_frame;
@@ -74,12 +77,6 @@ class Planner {
     if (plan_.scan_topics.empty()) plan_.scan_topics = {choose("log.scan_topic", "", all, kRosLaserScan)};
     for (const StatedMount& mount : stated_mounts(options_))
       choose("log.laser_mounts", mount.name, all, kRosLaserScan);
-  }
-
-  void choose_transform_topics() {
-    for (const BagTopic& topic : topics_)
-      if (is_transforms(topic) && !contains(plan_.transform_topics, topic.name))
-        plan_.transform_topics.push_back(topic.name);
   }
 
   void choose_odometry_topic() {
@@ -167,8 +164,6 @@ class Planner {
     return plan_.transforms.base_T_frame(plan_.base_frame, frame).has_value();
   }
 
-  bool knows_scan_frames() const { return scan_frames_.size() == plan_.scan_topics.size(); }
-
   bool states_mount(const std::string& topic) const {
     return options_of_topic(options_, topic).robot_T_laser.has_value();
   }
@@ -176,14 +171,13 @@ class Planner {
   /// If there are transforms, they are needed even for a stated mount: they show whether it is upside down.
   bool is_complete() const {
     const bool has_transforms = !plan_.transform_topics.empty();
-    return has_odometry_ && knows_scan_frames() &&
-           std::all_of(scan_frames_.begin(), scan_frames_.end(), [&](const auto& scan) {
+    return is_enough() && std::all_of(scan_frames_.begin(), scan_frames_.end(), [&](const auto& scan) {
              return knows_mount(scan.second) || (!has_transforms && states_mount(scan.first));
            });
   }
 
   /// Returns whether enough is known if the bag ends here.
-  bool is_enough() const { return has_odometry_ && knows_scan_frames(); }
+  bool is_enough() const { return has_odometry_ && scan_frames_.size() == plan_.scan_topics.size(); }
 
   void require_complete() const {
     for (const std::string& topic : plan_.scan_topics)

@@ -29,10 +29,6 @@ std::string_view text(ByteCursor& cursor) {
   return cursor.take(cursor.number<std::uint32_t>());
 }
 
-std::string_view long_piece(ByteCursor& cursor, std::uint64_t size) {
-  return cursor.take(static_cast<std::size_t>(size));
-}
-
 BagEncoding encoding_named(std::string_view name) {
   if (name == "cdr") return BagEncoding::kCdr;
   return name == "ros1" ? BagEncoding::kRos1 : BagEncoding::kOther;
@@ -51,153 +47,126 @@ std::uint32_t crc_of(std::string_view bytes) {
 /// Channels that the records have stated so far. The type of a channel is the name of its schema.
 class Channels {
  public:
-  void add_schema(ByteCursor record);
-  void add_channel(ByteCursor record);
+  void add_schema(ByteCursor record) {
+    const auto id = record.number<std::uint16_t>();
+    schemas_[id] = ros1_type_name(text(record));
+  }
+
+  void add_channel(ByteCursor record) {
+    const auto id = record.number<std::uint16_t>();
+    const auto schema = schemas_.find(record.number<std::uint16_t>());
+    BagTopic topic;
+    topic.name = text(record);
+    topic.encoding = encoding_named(text(record));
+    if (schema != schemas_.end()) topic.type = schema->second;
+    channels_.emplace(id, std::move(topic));
+  }
 
   /// Returns null for an unknown channel.
-  const BagTopic* topic(std::uint16_t channel) const;
-  std::vector<BagTopic> topics() const;
+  const BagTopic* topic(std::uint16_t channel) const {
+    const auto found = channels_.find(channel);
+    return found == channels_.end() ? nullptr : &found->second;
+  }
+
+  std::vector<BagTopic> topics() const {
+    std::vector<BagTopic> topics;
+    for (const auto& [id, topic] : channels_) add_topic(topics, topic);
+    return topics;
+  }
 
  private:
   std::map<std::uint16_t, std::string> schemas_;
   std::map<std::uint16_t, BagTopic> channels_;
 };
 
-void Channels::add_schema(ByteCursor record) {
-  const auto id = record.number<std::uint16_t>();
-  schemas_[id] = ros1_type_name(text(record));
-}
-
-void Channels::add_channel(ByteCursor record) {
-  const auto id = record.number<std::uint16_t>();
-  const auto schema = schemas_.find(record.number<std::uint16_t>());
-  BagTopic topic;
-  topic.name = text(record);
-  topic.encoding = encoding_named(text(record));
-  if (schema != schemas_.end()) topic.type = schema->second;
-  channels_.emplace(id, std::move(topic));
-}
-
-const BagTopic* Channels::topic(std::uint16_t channel) const {
-  const auto found = channels_.find(channel);
-  return found == channels_.end() ? nullptr : &found->second;
-}
-
-std::vector<BagTopic> Channels::topics() const {
-  std::vector<BagTopic> topics;
-  for (const auto& [id, topic] : channels_) add_topic(topics, topic);
-  return topics;
-}
-
 class McapBag : public RecordBag {
  public:
-  explicit McapBag(const std::filesystem::path& path);
+  explicit McapBag(const std::filesystem::path& path) : RecordBag(path) {
+    if (stream_.read_up_to(kMagic.size()) != kMagic)
+      throw UserError(
+          path.string() +
+          " is not an MCAP file of version 0, the only version that is read. Record the bag again");
+  }
 
-  std::vector<BagTopic> topics() override;
+  std::vector<BagTopic> topics() override {
+    try {
+      if (auto topics = topics_of_summary(); !topics.empty()) return topics;
+    } catch (const MalformedBytes&) {
+      // The summary is damaged. The records before it state the topics too.
+    }
+    McapBag whole(stream_.path());
+    whole.read_to_end();
+    return whole.channels_.topics();
+  }
 
  protected:
-  bool read_record_of_file() override;
-  void read_record_of_chunk(ByteCursor& chunk) override;
-  bool take_record(BagMessage& message) override;
+  bool read_record_of_file() override {
+    if (at_end_) return false;
+    record_offset_ = stream_.offset();
+    ByteCursor head(stream_.read(9));
+    kind_ = head.number<std::uint8_t>();
+    bytes_ = stream_.read(head.number<std::uint64_t>());
+    at_end_ = kind_ == kDataEnd || kind_ == kFooter;
+    return !at_end_;
+  }
+
+  void read_record_of_chunk(ByteCursor& chunk) override {
+    kind_ = chunk.number<std::uint8_t>();
+    bytes_ = chunk.take(chunk.number<std::uint64_t>());
+  }
+
+  bool take_record(BagMessage& message) override {
+    const ByteCursor cursor(bytes_);
+    if (kind_ == kSchema) channels_.add_schema(cursor);
+    if (kind_ == kChannel) channels_.add_channel(cursor);
+    if (kind_ == kChunk) open_chunk(cursor);
+    return kind_ == kMessage && take_message(cursor, message);
+  }
 
  private:
-  bool take_message(ByteCursor cursor, BagMessage& message) const;
-  void open_chunk(ByteCursor cursor);
-  std::vector<BagTopic> topics_of_summary() const;
+  bool take_message(ByteCursor cursor, BagMessage& message) const {
+    const BagTopic* topic = channels_.topic(cursor.number<std::uint16_t>());
+    if (topic == nullptr) throw MalformedBytes("a message has no channel");
+    if (!is_wanted(*topic)) return false;
+    cursor.number<std::uint32_t>();  // number in the channel
+    const auto recorded_ns = cursor.number<std::uint64_t>();
+    cursor.number<std::uint64_t>();  // time of publication
+    message = {topic, static_cast<TimeUs>(recorded_ns / 1000), cursor.rest()};
+    return true;
+  }
+
+  void open_chunk(ByteCursor cursor) {
+    cursor.take(16);  // times of the first and last message
+    const auto size = cursor.number<std::uint64_t>();
+    const auto crc = cursor.number<std::uint32_t>();
+    const std::string_view compression = text(cursor);
+    const std::string_view bytes = cursor.take(cursor.number<std::uint64_t>());
+    unpack_chunk(compression, bytes, size);
+    if (crc != 0 && crc != crc_of(chunk_)) throw MalformedBytes("the checksum of a chunk is wrong");
+    begin_chunk();
+  }
+
+  std::vector<BagTopic> topics_of_summary() const {
+    const std::string footer = tail_of_file(stream_.path(), -kFooterBytes);
+    if (footer.empty() || footer.front() != kFooter) return {};
+    const auto start = ByteCursor(std::string_view(footer).substr(9)).number<std::uint64_t>();
+    if (start == 0 || start > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) return {};
+    const std::string summary = tail_of_file(stream_.path(), static_cast<std::int64_t>(start));
+    Channels channels;
+    for (ByteCursor cursor(summary); cursor.left() > static_cast<std::size_t>(kFooterBytes);) {
+      const auto kind = cursor.number<std::uint8_t>();
+      const ByteCursor record(cursor.take(cursor.number<std::uint64_t>()));
+      if (kind == kSchema) channels.add_schema(record);
+      if (kind == kChannel) channels.add_channel(record);
+    }
+    return channels.topics();
+  }
 
   std::uint8_t kind_ = 0;  // of the record
   std::string_view bytes_;
   Channels channels_;
   bool at_end_ = false;
 };
-
-McapBag::McapBag(const std::filesystem::path& path) : RecordBag(path) {
-  if (stream_.read_up_to(kMagic.size()) != kMagic)
-    throw UserError(path.string() + " is not an MCAP file of version 0");
-}
-
-bool McapBag::read_record_of_file() {
-  if (at_end_) return false;
-  record_offset_ = stream_.offset();
-  ByteCursor head(stream_.read(9));
-  kind_ = head.number<std::uint8_t>();
-  bytes_ = stream_.read(head.number<std::uint64_t>());
-  at_end_ = kind_ == kDataEnd || kind_ == kFooter;
-  return !at_end_;
-}
-
-void McapBag::read_record_of_chunk(ByteCursor& chunk) {
-  kind_ = chunk.number<std::uint8_t>();
-  bytes_ = long_piece(chunk, chunk.number<std::uint64_t>());
-}
-
-bool McapBag::take_record(BagMessage& message) {
-  const ByteCursor cursor(bytes_);
-  switch (kind_) {
-    case kSchema:
-      channels_.add_schema(cursor);
-      return false;
-    case kChannel:
-      channels_.add_channel(cursor);
-      return false;
-    case kMessage:
-      return take_message(cursor, message);
-    case kChunk:
-      open_chunk(cursor);
-      return false;
-    default:  // indices, attachments, metadata
-      return false;
-  }
-}
-
-bool McapBag::take_message(ByteCursor cursor, BagMessage& message) const {
-  const BagTopic* topic = channels_.topic(cursor.number<std::uint16_t>());
-  if (topic == nullptr) throw MalformedBytes("a message has no channel");
-  if (!is_wanted(*topic)) return false;
-  cursor.number<std::uint32_t>();  // number in the channel
-  const auto recorded_ns = cursor.number<std::uint64_t>();
-  cursor.number<std::uint64_t>();  // time of publication
-  message = {topic, static_cast<TimeUs>(recorded_ns / 1000), cursor.rest()};
-  return true;
-}
-
-void McapBag::open_chunk(ByteCursor cursor) {
-  cursor.take(16);  // times of the first and last message
-  const auto size = cursor.number<std::uint64_t>();
-  const auto crc = cursor.number<std::uint32_t>();
-  const std::string_view compression = text(cursor);
-  const std::string_view bytes = long_piece(cursor, cursor.number<std::uint64_t>());
-  unpack_chunk(compression, bytes, size);
-  if (crc != 0 && crc != crc_of(chunk_)) throw MalformedBytes("the checksum of a chunk is wrong");
-  begin_chunk();
-}
-
-std::vector<BagTopic> McapBag::topics_of_summary() const {
-  const std::string footer = tail_of_file(stream_.path(), -kFooterBytes);
-  if (footer.empty() || footer.front() != kFooter) return {};
-  const auto start = ByteCursor(std::string_view(footer).substr(9)).number<std::uint64_t>();
-  if (start == 0 || start > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) return {};
-  const std::string summary = tail_of_file(stream_.path(), static_cast<std::int64_t>(start));
-  Channels channels;
-  for (ByteCursor cursor(summary); cursor.left() > static_cast<std::size_t>(kFooterBytes);) {
-    const auto kind = cursor.number<std::uint8_t>();
-    const ByteCursor record(long_piece(cursor, cursor.number<std::uint64_t>()));
-    if (kind == kSchema) channels.add_schema(record);
-    if (kind == kChannel) channels.add_channel(record);
-  }
-  return channels.topics();
-}
-
-std::vector<BagTopic> McapBag::topics() {
-  try {
-    if (auto topics = topics_of_summary(); !topics.empty()) return topics;
-  } catch (const MalformedBytes&) {
-    // The summary is damaged. The records before it state the topics too.
-  }
-  McapBag whole(stream_.path());
-  whole.read_to_end();
-  return whole.channels_.topics();
-}
 
 }  // namespace
 

@@ -55,8 +55,16 @@ std::string tail_of_file(const std::filesystem::path& path, std::int64_t offset)
 
 bool RecordBag::next(BagMessage& message) {
   try {
-    while (read_record())
+    while (true) {
+      if (in_chunk_ && !in_chunk_->at_end()) {
+        offset_in_chunk_ = in_chunk_->offset();
+        read_record_of_chunk(*in_chunk_);
+      } else {
+        in_chunk_.reset();
+        if (!read_record_of_file()) break;
+      }
       if (take_record(message)) return true;
+    }
   } catch (const MalformedBytes& error) {
     throw UserError(place() + ": the bag is damaged: " + error.what());
   }
@@ -64,26 +72,10 @@ bool RecordBag::next(BagMessage& message) {
   return false;
 }
 
-bool RecordBag::read_record() {
-  if (!in_chunk_ || in_chunk_->at_end()) {
-    in_chunk_.reset();
-    return read_record_of_file();
-  }
-  offset_in_chunk_ = in_chunk_->offset();
-  read_record_of_chunk(*in_chunk_);
-  return true;
-}
-
 void RecordBag::unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size) {
   if (in_chunk_) throw MalformedBytes("a chunk contains another chunk");
-  if (compression.empty() || compression == "none") {
-    chunk_ = bytes;
-  } else if (is_known_compression(compression)) {
-    chunk_ = decompress(compression, bytes, size);
-  } else {
-    throw MalformedBytes("its compression is \"" + std::string(compression) +
-                         "\", expected bz2, lz4 or zstd");
-  }
+  const bool is_plain = compression.empty() || compression == "none";
+  chunk_ = is_plain ? std::string(bytes) : decompress(compression, bytes, size);
 }
 
 void RecordBag::read_to_end() {

@@ -3,7 +3,6 @@
 // compressed.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -63,7 +62,6 @@ class RecordBag : public BagFile {
   /// Throws UserError if the file ended too early.
   virtual void check_end() const {}
 
-  bool read_record();
   /// Sets the decompressed bytes of a chunk.
   void unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size);
   void begin_chunk() { in_chunk_.emplace(chunk_); }

@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <utility>
 
 #include "psi_slam/user_error.h"
 #include "rosbag/record_bag.h"
@@ -63,133 +62,106 @@ BagTopic topic_of(const Record& record) {
 
 class Ros1Bag : public RecordBag {
  public:
-  explicit Ros1Bag(const std::filesystem::path& path);
+  explicit Ros1Bag(const std::filesystem::path& path) : RecordBag(path) {
+    if (stream_.read_up_to(kMagic.size()) != kMagic)
+      throw UserError(path.string() +
+                      " is not a ROS 1 bag of version 2.0. Convert an older bag with rosbag fix");
+    try {
+      read_bag_header();
+    } catch (const MalformedBytes& error) {
+      throw UserError(place() + ": the bag's header is damaged: " + error.what());
+    }
+  }
 
-  std::vector<BagTopic> topics() override;
+  std::vector<BagTopic> topics() override {
+    std::vector<BagTopic> topics;
+    const std::string index =
+        index_offset_ > 0 ? tail_of_file(stream_.path(), static_cast<std::int64_t>(index_offset_)) : "";
+    std::uint32_t connections = 0;
+    try {
+      for (ByteCursor cursor(index); !cursor.at_end();) {
+        const Record record = record_of(cursor);
+        if (operation_of(record) != kConnection) continue;
+        add_topic(topics, topic_of(record));
+        ++connections;
+      }
+      const bool is_whole = connections >= stated_connections_;
+      if (is_whole && !topics.empty()) return topics;
+    } catch (const MalformedBytes&) {
+      // The index is truncated or damaged. The chunks hold the connections too.
+    }
+    topics.clear();
+    Ros1Bag whole(stream_.path());
+    whole.read_to_end();
+    for (const auto& [number, topic] : whole.connections_) add_topic(topics, topic);
+    return topics;
+  }
 
  protected:
-  bool read_record_of_file() override;
+  bool read_record_of_file() override {
+    record_offset_ = stream_.offset();
+    const std::string_view length = stream_.read_up_to(sizeof(std::uint32_t));
+    if (length.empty()) return false;
+    header_ = stream_.read(ByteCursor(length).number<std::uint32_t>());
+    record_.fields = fields_of(header_);
+    const auto size = ByteCursor(stream_.read(sizeof(std::uint32_t))).number<std::uint32_t>();
+    record_.data = stream_.read(size);
+    return true;
+  }
+
   void read_record_of_chunk(ByteCursor& chunk) override { record_ = record_of(chunk); }
-  bool take_record(BagMessage& message) override;
-  void check_end() const override;
+
+  bool take_record(BagMessage& message) override {
+    const std::uint8_t operation = operation_of(record_);
+    if (operation == kConnection)
+      connections_.emplace(number_field<std::uint32_t>(record_.fields, "conn"), topic_of(record_));
+    if (operation == kChunk) {
+      unpack_chunk(text_field(record_.fields, "compression"), record_.data,
+                   number_field<std::uint32_t>(record_.fields, "size"));
+      begin_chunk();
+    }
+    return operation == kMessageData && take_message(message);
+  }
+
+  void check_end() const override {
+    if (index_offset_ == 0)
+      throw UserError(stream_.path().string() +
+                      " was not closed by its recorder and may lack its end. Repair it with rosbag reindex");
+    if (stream_.offset() <= index_offset_)
+      throw UserError(stream_.place_of(stream_.offset()) +
+                      ": the file is cut off, expected its index at byte " + std::to_string(index_offset_));
+  }
 
  private:
-  struct Connection {
-    BagTopic topic;
-    bool is_wanted = true;
-  };
+  void read_bag_header() {
+    if (!read_record_of_file() || operation_of(record_) != kBagHeader)
+      throw MalformedBytes("the first record is not a header");
+    index_offset_ = number_field<std::uint64_t>(record_.fields, "index_pos");
+    if (record_.fields.count("conn_count") != 0)
+      stated_connections_ = number_field<std::uint32_t>(record_.fields, "conn_count");
+    const auto encryptor = record_.fields.find("encryptor");
+    if (encryptor != record_.fields.end() && !encryptor->second.empty())
+      throw UserError(stream_.path().string() + " is encrypted (" + std::string(encryptor->second) +
+                      "), expected a plain bag. Decrypt it with rosbag decrypt");
+  }
 
-  void read_bag_header();
-  void add_connection();
-  bool take_message(BagMessage& message) const;
+  bool take_message(BagMessage& message) const {
+    const auto connection = connections_.find(number_field<std::uint32_t>(record_.fields, "conn"));
+    if (connection == connections_.end()) throw MalformedBytes("a message has no connection");
+    if (!is_wanted(connection->second)) return false;
+    ByteCursor time(text_field(record_.fields, "time"));
+    const auto stamp_s = time.number<std::uint32_t>();
+    const auto stamp_ns = time.number<std::uint32_t>();
+    message = {&connection->second, TimeUs{stamp_s} * 1'000'000 + stamp_ns / 1000, record_.data};
+    return true;
+  }
 
   Record record_;
-  std::map<std::uint32_t, Connection> connections_;
+  std::map<std::uint32_t, BagTopic> connections_;
   std::string header_;
   std::uint64_t index_offset_ = 0;  // where the index should start; 0: the recorder did not close the bag
   std::uint32_t stated_connections_ = 0;  // number of connections that the index should have
 };
-
-Ros1Bag::Ros1Bag(const std::filesystem::path& path) : RecordBag(path) {
-  if (stream_.read_up_to(kMagic.size()) != kMagic)
-    throw UserError(path.string() +
-                    " is not a ROS 1 bag of version 2.0. Convert an older bag with rosbag fix");
-  try {
-    read_bag_header();
-  } catch (const MalformedBytes& error) {
-    throw UserError(place() + ": the bag's header is damaged: " + error.what());
-  }
-}
-
-void Ros1Bag::read_bag_header() {
-  if (!read_record_of_file() || operation_of(record_) != kBagHeader)
-    throw MalformedBytes("the first record is not a header");
-  index_offset_ = number_field<std::uint64_t>(record_.fields, "index_pos");
-  if (record_.fields.count("conn_count") != 0)
-    stated_connections_ = number_field<std::uint32_t>(record_.fields, "conn_count");
-  const auto encryptor = record_.fields.find("encryptor");
-  if (encryptor != record_.fields.end() && !encryptor->second.empty())
-    throw UserError(stream_.path().string() + " is encrypted (" + std::string(encryptor->second) +
-                    "), expected a plain bag. Decrypt it with rosbag decrypt");
-}
-
-bool Ros1Bag::read_record_of_file() {
-  record_offset_ = stream_.offset();
-  const std::string_view length = stream_.read_up_to(sizeof(std::uint32_t));
-  if (length.empty()) return false;
-  header_ = stream_.read(ByteCursor(length).number<std::uint32_t>());
-  record_.fields = fields_of(header_);
-  const auto size = ByteCursor(stream_.read(sizeof(std::uint32_t))).number<std::uint32_t>();
-  record_.data = stream_.read(size);
-  return true;
-}
-
-bool Ros1Bag::take_record(BagMessage& message) {
-  switch (operation_of(record_)) {
-    case kMessageData:
-      return take_message(message);
-    case kConnection:
-      add_connection();
-      return false;
-    case kChunk:
-      unpack_chunk(text_field(record_.fields, "compression"), record_.data,
-                   number_field<std::uint32_t>(record_.fields, "size"));
-      begin_chunk();
-      return false;
-    default:  // the index
-      return false;
-  }
-}
-
-void Ros1Bag::add_connection() {
-  Connection connection{topic_of(record_), true};
-  connection.is_wanted = is_wanted(connection.topic);
-  connections_.emplace(number_field<std::uint32_t>(record_.fields, "conn"), std::move(connection));
-}
-
-bool Ros1Bag::take_message(BagMessage& message) const {
-  const auto connection = connections_.find(number_field<std::uint32_t>(record_.fields, "conn"));
-  if (connection == connections_.end()) throw MalformedBytes("a message has no connection");
-  if (!connection->second.is_wanted) return false;
-  ByteCursor time(text_field(record_.fields, "time"));
-  const auto stamp_s = time.number<std::uint32_t>();
-  const auto stamp_ns = time.number<std::uint32_t>();
-  message = {&connection->second.topic, TimeUs{stamp_s} * 1'000'000 + stamp_ns / 1000, record_.data};
-  return true;
-}
-
-void Ros1Bag::check_end() const {
-  if (index_offset_ == 0)
-    throw UserError(stream_.path().string() +
-                    " was not closed by its recorder and may lack its end. Repair it with rosbag reindex");
-  if (stream_.offset() <= index_offset_)
-    throw UserError(stream_.place_of(stream_.offset()) +
-                    ": the file is cut off, expected its index at byte " + std::to_string(index_offset_));
-}
-
-std::vector<BagTopic> Ros1Bag::topics() {
-  std::vector<BagTopic> topics;
-  const std::string index =
-      index_offset_ > 0 ? tail_of_file(stream_.path(), static_cast<std::int64_t>(index_offset_)) : "";
-  std::uint32_t connections = 0;
-  try {
-    for (ByteCursor cursor(index); !cursor.at_end();) {
-      const Record record = record_of(cursor);
-      if (operation_of(record) != kConnection) continue;
-      add_topic(topics, topic_of(record));
-      ++connections;
-    }
-    const bool is_whole = connections >= stated_connections_;
-    if (is_whole && !topics.empty()) return topics;
-  } catch (const MalformedBytes&) {
-    // The index is truncated or damaged. The chunks hold the connections too.
-  }
-  topics.clear();
-  Ros1Bag whole(stream_.path());
-  whole.read_to_end();
-  for (const auto& [number, connection] : whole.connections_) add_topic(topics, connection.topic);
-  return topics;
-}
 
 }  // namespace
 

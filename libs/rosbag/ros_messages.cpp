@@ -101,6 +101,17 @@ std::optional<mrpt::math::TPose3D> pose(RosFields& fields) {
   return pose;
 }
 
+/// Parses a header, the name of a frame and its pose. Empty if the pose is invalid.
+std::optional<RosTransform> transform(RosFields& fields, TimeUs recorded_us) {
+  RosTransform transform;
+  transform.header = header(fields, recorded_us);
+  transform.child_frame = frame_name(fields.text());
+  const auto valid_pose = pose(fields);
+  if (!valid_pose) return std::nullopt;
+  transform.pose = *valid_pose;
+  return transform;
+}
+
 }  // namespace
 
 RosLaserScan read_ros_laser_scan(const BagMessage& message) {
@@ -120,27 +131,14 @@ RosLaserScan read_ros_laser_scan(const BagMessage& message) {
 
 std::optional<RosTransform> read_ros_odometry(const BagMessage& message) {
   RosFields fields(message);
-  RosTransform odometry;
-  odometry.header = header(fields, message.recorded_us);
-  odometry.child_frame = frame_name(fields.text());
-  const auto pose_found = pose(fields);
-  if (!pose_found) return std::nullopt;
-  odometry.pose = *pose_found;
-  return odometry;
+  return transform(fields, message.recorded_us);
 }
 
 std::vector<RosTransform> read_ros_transforms(const BagMessage& message) {
   RosFields fields(message);
   std::vector<RosTransform> transforms;
-  for (auto left = fields.number<std::uint32_t>(); left > 0; --left) {
-    RosTransform transform;
-    transform.header = header(fields, message.recorded_us);
-    transform.child_frame = frame_name(fields.text());
-    const auto pose_found = pose(fields);
-    if (!pose_found) continue;
-    transform.pose = *pose_found;
-    transforms.push_back(std::move(transform));
-  }
+  for (auto left = fields.number<std::uint32_t>(); left > 0; --left)
+    if (auto valid = transform(fields, message.recorded_us)) transforms.push_back(*std::move(valid));
   return transforms;
 }
 

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rosbag/rosbag_reader.h"
-
+// ROS bags of any kind (see bag_file.h): scans of sensor_msgs/LaserScan. Odometry of nav_msgs/Odometry, or of
+// the transform odom -> base_link, is interpolated at the header stamp of each scan. The laser's mount comes
+// from the transforms. A message without a stamp has the time at which it was recorded.
+//
+// A damaged or truncated bag yields all frames before that place. Odometry with an invalid pose is skipped.
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include "base/byte_cursor.h"
-#include "frames/beam_angles.h"
-#include "frames/laser_choice.h"
+#include "base/text_parts.h"
 #include "frames/laser_readings.h"
+#include "frames/log_reader.h"
 #include "frames/odometry_interpolator.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/bag_plan.h"
-#include "rosbag/ros_messages.h"
 
 namespace psi_slam {
 namespace {
@@ -42,63 +42,59 @@ class RosLaser {
 
   /// `mount` is the laser's mount according to the transforms. A stated pose overrides its pose, but not
   /// whether it is upside down. Throws UserError that starts with `place` for invalid angles.
-  LaserScan scan(RosLaserScan message, const FloorMount& mount, const std::string& place);
+  LaserScan scan(RosLaserScan message, const FloorMount& mount, const std::string& place) {
+    const bool clockwise = mount.upside_down != options_.mirrored;
+    const Geometry geometry{message.ranges_m.size(), message.angle_min_rad, message.angle_increment_rad,
+                            clockwise};
+    const bool has_angles = std::isfinite(message.angle_min_rad) &&
+                            std::isfinite(message.angle_increment_rad) &&
+                            (message.ranges_m.size() < 2 || message.angle_increment_rad != 0);
+    if (!has_angles)
+      throw UserError(place + ": the scan's angles start at " + std::to_string(message.angle_min_rad) +
+                      " in steps of " + std::to_string(message.angle_increment_rad) +
+                      " radians, expected finite angles and a step other than 0");
+    if (!bearings_ || geometry != geometry_) {
+      bearings_ = std::make_shared<const std::vector<float>>(bearings_rad(message, clockwise));
+      geometry_ = geometry;
+    }
+    LaserScan scan;
+    scan.bearings_rad = bearings_;
+    scan.robot_T_laser = options_.robot_T_laser.value_or(mount.robot_T_laser);
+    scan.sweep_time_s = sweep_time_s(message);
+    scan.ranges_m = std::move(message.ranges_m);
+    limit_ranges(scan, options_,
+                 std::isfinite(message.range_max_m) ? static_cast<double>(message.range_max_m) : 0,
+                 static_cast<double>(message.range_min_m));
+    return scan;
+  }
 
  private:
   using Geometry = std::tuple<std::size_t, float, float, bool>;  // beams, first bearing, step, clockwise
 
-  std::vector<float> bearings_rad(const RosLaserScan& message, bool clockwise) const;
+  std::vector<float> bearings_rad(const RosLaserScan& message, bool clockwise) const {
+    const auto step_rad = static_cast<double>(message.angle_increment_rad);
+    const std::size_t beams = message.ranges_m.size();
+    std::vector<float> bearings(beams);
+    if (options_.beam_angles == BeamAngles::kAuto && !options_.field_of_view_rad) {
+      for (std::size_t i = 0; i < beams; ++i)
+        bearings[i] = static_cast<float>(static_cast<double>(message.angle_min_rad) +
+                                         static_cast<double>(i) * step_rad);
+    } else {
+      const bool is_auto = options_.beam_angles == BeamAngles::kAuto;
+      const double steps = static_cast<double>(std::max<std::size_t>(beams - 1, 1));
+      const double span_rad = std::min(std::abs(step_rad) * steps, 2 * M_PI);
+      bearings = make_bearings_rad(is_auto ? BeamAngles::kCentredStepInclusive : options_.beam_angles, beams,
+                                   options_.field_of_view_rad.value_or(span_rad));
+      if (step_rad < 0) mirror(bearings);
+    }
+    if (clockwise) mirror(bearings);
+    return bearings;
+  }
 
   LogOptions options_;
   Geometry geometry_;  // of bearings_
   BeamBearings bearings_;
 };
-
-std::vector<float> RosLaser::bearings_rad(const RosLaserScan& message, bool clockwise) const {
-  const auto step_rad = static_cast<double>(message.angle_increment_rad);
-  const std::size_t beams = message.ranges_m.size();
-  std::vector<float> bearings(beams);
-  if (options_.beam_angles == BeamAngles::kAuto && !options_.field_of_view_rad) {
-    for (std::size_t i = 0; i < beams; ++i)
-      bearings[i] =
-          static_cast<float>(static_cast<double>(message.angle_min_rad) + static_cast<double>(i) * step_rad);
-  } else {
-    const bool is_auto = options_.beam_angles == BeamAngles::kAuto;
-    const double steps = static_cast<double>(std::max<std::size_t>(beams - 1, 1));
-    const double span_rad = std::min(std::abs(step_rad) * steps, 2 * M_PI);
-    bearings = make_bearings_rad(is_auto ? BeamAngles::kCentredStepInclusive : options_.beam_angles, beams,
-                                 options_.field_of_view_rad.value_or(span_rad));
-    if (step_rad < 0) mirror(bearings);
-  }
-  if (clockwise) mirror(bearings);
-  return bearings;
-}
-
-LaserScan RosLaser::scan(RosLaserScan message, const FloorMount& mount, const std::string& place) {
-  const bool clockwise = mount.upside_down != options_.mirrored;
-  const Geometry geometry{message.ranges_m.size(), message.angle_min_rad, message.angle_increment_rad,
-                          clockwise};
-  const bool has_angles = std::isfinite(message.angle_min_rad) &&
-                          std::isfinite(message.angle_increment_rad) &&
-                          (message.ranges_m.size() < 2 || message.angle_increment_rad != 0);
-  if (!has_angles)
-    throw UserError(place + ": the scan's angles start at " + std::to_string(message.angle_min_rad) +
-                    " in steps of " + std::to_string(message.angle_increment_rad) +
-                    " radians, expected finite angles and a step other than 0");
-  if (!bearings_ || geometry != geometry_) {
-    bearings_ = std::make_shared<const std::vector<float>>(bearings_rad(message, clockwise));
-    geometry_ = geometry;
-  }
-  LaserScan scan;
-  scan.bearings_rad = bearings_;
-  scan.robot_T_laser = options_.robot_T_laser.value_or(mount.robot_T_laser);
-  scan.sweep_time_s = sweep_time_s(message);
-  scan.ranges_m = std::move(message.ranges_m);
-  limit_ranges(scan, options_,
-               std::isfinite(message.range_max_m) ? static_cast<double>(message.range_max_m) : 0,
-               static_cast<double>(message.range_min_m));
-  return scan;
-}
 
 class RosbagReader : public LogReader {
  public:
@@ -115,32 +111,25 @@ class RosbagReader : public LogReader {
   std::optional<Frame> read_frame() override {
     while (true) {
       if (auto frame = interpolator_.take()) return frame;
-      if (at_end_) return end();
-      read_message();
+      if (at_end_) {
+        if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+        return std::nullopt;
+      }
+      try {
+        BagMessage message;
+        if (bag_->next(message)) {
+          take(message);
+          continue;
+        }
+      } catch (const UserError&) {
+        failure_ = std::current_exception();  // thrown after the waiting scans, since no odometry follows
+      }
+      at_end_ = true;
+      interpolator_.end_of_log();
     }
   }
 
  private:
-  /// After an error no odometry follows, so the waiting scans leave first. Then the error is thrown.
-  void read_message() {
-    try {
-      BagMessage message;
-      if (bag_->next(message)) {
-        take(message);
-        return;
-      }
-    } catch (const UserError&) {
-      failure_ = std::current_exception();
-    }
-    at_end_ = true;
-    interpolator_.end_of_log();
-  }
-
-  std::optional<Frame> end() {
-    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-    return std::nullopt;
-  }
-
   void take(const BagMessage& message) {
     try {
       if (is_transforms(*message.topic)) {

@@ -41,125 +41,109 @@ std::string uri_of(const std::filesystem::path& path) {
 
 class SqliteBag : public BagFile {
  public:
-  explicit SqliteBag(const std::filesystem::path& path);
+  explicit SqliteBag(const std::filesystem::path& path)
+      : path_(path), database_(nullptr, &sqlite3_close), messages_(nullptr, &sqlite3_finalize) {
+    sqlite3* database = nullptr;
+    const int code =
+        sqlite3_open_v2(uri_of(path).c_str(), &database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+    database_.reset(database);
+    if (code != SQLITE_OK) fail();
+    std::error_code ignored;
+    const auto bytes = std::filesystem::file_size(path, ignored);
+    sqlite3_limit(
+        database, SQLITE_LIMIT_LENGTH,
+        static_cast<int>(std::clamp<std::uintmax_t>(bytes, 1 << 20, std::numeric_limits<int>::max())));
+    // Without this, SQLite rejects a truncated file as a whole.
+    sqlite3_exec(database, "PRAGMA writable_schema = ON", nullptr, nullptr, nullptr);
+    read_topics();
+  }
 
-  std::vector<BagTopic> topics() override;
-  bool next(BagMessage& message) override;
-  double progress() const override;
-  std::string place() const override;
+  std::vector<BagTopic> topics() override {
+    std::vector<BagTopic> topics;
+    for (const auto& [id, topic] : topics_) add_topic(topics, topic);
+    return topics;
+  }
+
+  bool next(BagMessage& message) override {
+    if (!messages_) begin_messages();
+    if (!step(messages_)) return false;
+    sqlite3_stmt* row = messages_.get();
+    id_ = sqlite3_column_int64(row, 0);
+    const auto topic = topics_.find(sqlite3_column_int64(row, 1));
+    if (topic == topics_.end()) fail();
+    const auto* data = static_cast<const char*>(sqlite3_column_blob(row, 3));
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, 3));
+    message = {&topic->second, sqlite3_column_int64(row, 2) / 1000, std::string_view(data, data ? size : 0)};
+    if (!is_zstd(message.bytes)) return true;
+    try {
+      unpacked_ = decompress_zstd_frame(message.bytes, kMaxMessageBytes);
+    } catch (const MalformedBytes& error) {
+      throw UserError(place() + ": the bag is damaged: " + error.what());
+    }
+    message.bytes = unpacked_;
+    return true;
+  }
+
+  double progress() const override {
+    if (last_id_ <= 0) return id_ > 0 ? 1 : 0;
+    return std::clamp(static_cast<double>(id_) / static_cast<double>(last_id_), 0.0, 1.0);
+  }
+
+  std::string place() const override { return path_.string() + ": message " + std::to_string(id_); }
 
  private:
-  using Database = std::unique_ptr<sqlite3, int (*)(sqlite3*)>;
   using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
 
-  Statement prepare(const std::string& query) const;
-  bool step(const Statement& statement) const;
-  void read_topics();
-  void begin_messages();
-  [[noreturn]] void fail() const;
+  Statement prepare(const std::string& query) const {
+    sqlite3_stmt* statement = nullptr;
+    if (sqlite3_prepare_v2(database_.get(), query.c_str(), -1, &statement, nullptr) != SQLITE_OK) fail();
+    return {statement, &sqlite3_finalize};
+  }
+
+  bool step(const Statement& statement) const {
+    const int code = sqlite3_step(statement.get());
+    if (code != SQLITE_ROW && code != SQLITE_DONE) fail();
+    return code == SQLITE_ROW;
+  }
+
+  void read_topics() {
+    const Statement rows = prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id");
+    while (step(rows)) {
+      const BagEncoding encoding = text_at(rows.get(), 3) == "cdr" ? BagEncoding::kCdr : BagEncoding::kOther;
+      topics_[sqlite3_column_int64(rows.get(), 0)] = {text_at(rows.get(), 1),
+                                                      ros1_type_name(text_at(rows.get(), 2)), encoding};
+    }
+  }
+
+  void begin_messages() {
+    std::string ids;
+    for (const auto& [id, topic] : topics_)
+      if (is_wanted(topic)) ids += (ids.empty() ? "" : ",") + std::to_string(id);
+    messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages WHERE topic_id IN (" + ids +
+                        ") ORDER BY id");
+    try {
+      const Statement last = prepare("SELECT max(id) FROM messages");
+      if (step(last)) last_id_ = sqlite3_column_int64(last.get(), 0);
+    } catch (const UserError&) {
+      last_id_ = 0;  // the end of the file is missing, so that progress is unknown
+    }
+  }
+
+  [[noreturn]] void fail() const {
+    const std::string reason = database_ ? sqlite3_errmsg(database_.get()) : "out of memory";
+    const std::string where =
+        id_ > 0 ? path_.string() + ": after message " + std::to_string(id_) : path_.string();
+    throw UserError(where + ": the bag is cut off or damaged, or is not a ROS 2 bag (" + reason + ")");
+  }
 
   std::filesystem::path path_;
-  Database database_;
+  std::unique_ptr<sqlite3, int (*)(sqlite3*)> database_;
   Statement messages_;
   std::map<std::int64_t, BagTopic> topics_;
   std::string unpacked_;
   std::int64_t id_ = 0;  // of the last message
   std::int64_t last_id_ = 0;
 };
-
-SqliteBag::SqliteBag(const std::filesystem::path& path)
-    : path_(path), database_(nullptr, &sqlite3_close), messages_(nullptr, &sqlite3_finalize) {
-  sqlite3* database = nullptr;
-  const int code =
-      sqlite3_open_v2(uri_of(path).c_str(), &database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
-  database_.reset(database);
-  if (code != SQLITE_OK) fail();
-  std::error_code ignored;
-  const auto bytes = std::filesystem::file_size(path, ignored);
-  sqlite3_limit(
-      database, SQLITE_LIMIT_LENGTH,
-      static_cast<int>(std::clamp<std::uintmax_t>(bytes, 1 << 20, std::numeric_limits<int>::max())));
-  // Without this, SQLite rejects a truncated file as a whole.
-  sqlite3_exec(database, "PRAGMA writable_schema = ON", nullptr, nullptr, nullptr);
-  read_topics();
-}
-
-SqliteBag::Statement SqliteBag::prepare(const std::string& query) const {
-  sqlite3_stmt* statement = nullptr;
-  if (sqlite3_prepare_v2(database_.get(), query.c_str(), -1, &statement, nullptr) != SQLITE_OK) fail();
-  return {statement, &sqlite3_finalize};
-}
-
-bool SqliteBag::step(const Statement& statement) const {
-  const int code = sqlite3_step(statement.get());
-  if (code != SQLITE_ROW && code != SQLITE_DONE) fail();
-  return code == SQLITE_ROW;
-}
-
-void SqliteBag::read_topics() {
-  const Statement rows = prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id");
-  while (step(rows)) {
-    const BagEncoding encoding = text_at(rows.get(), 3) == "cdr" ? BagEncoding::kCdr : BagEncoding::kOther;
-    topics_[sqlite3_column_int64(rows.get(), 0)] = {text_at(rows.get(), 1),
-                                                    ros1_type_name(text_at(rows.get(), 2)), encoding};
-  }
-}
-
-std::vector<BagTopic> SqliteBag::topics() {
-  std::vector<BagTopic> topics;
-  for (const auto& [id, topic] : topics_) add_topic(topics, topic);
-  return topics;
-}
-
-void SqliteBag::begin_messages() {
-  std::string ids;
-  for (const auto& [id, topic] : topics_)
-    if (is_wanted(topic)) ids += (ids.empty() ? "" : ",") + std::to_string(id);
-  messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages WHERE topic_id IN (" + ids +
-                      ") ORDER BY id");
-  try {
-    const Statement last = prepare("SELECT max(id) FROM messages");
-    if (step(last)) last_id_ = sqlite3_column_int64(last.get(), 0);
-  } catch (const UserError&) {
-    last_id_ = 0;  // the end of the file is missing, so that progress is unknown
-  }
-}
-
-bool SqliteBag::next(BagMessage& message) {
-  if (!messages_) begin_messages();
-  if (!step(messages_)) return false;
-  sqlite3_stmt* row = messages_.get();
-  id_ = sqlite3_column_int64(row, 0);
-  const auto topic = topics_.find(sqlite3_column_int64(row, 1));
-  if (topic == topics_.end()) fail();
-  const auto* data = static_cast<const char*>(sqlite3_column_blob(row, 3));
-  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, 3));
-  message = {&topic->second, sqlite3_column_int64(row, 2) / 1000, std::string_view(data, data ? size : 0)};
-  if (!is_zstd(message.bytes)) return true;
-  try {
-    unpacked_ = decompress_zstd_frame(message.bytes, kMaxMessageBytes);
-  } catch (const MalformedBytes& error) {
-    throw UserError(place() + ": the bag is damaged: " + error.what());
-  }
-  message.bytes = unpacked_;
-  return true;
-}
-
-double SqliteBag::progress() const {
-  if (last_id_ <= 0) return id_ > 0 ? 1 : 0;
-  return std::clamp(static_cast<double>(id_) / static_cast<double>(last_id_), 0.0, 1.0);
-}
-
-std::string SqliteBag::place() const {
-  return path_.string() + ": message " + std::to_string(id_);
-}
-
-void SqliteBag::fail() const {
-  const std::string reason = database_ ? sqlite3_errmsg(database_.get()) : "out of memory";
-  const std::string where =
-      id_ > 0 ? path_.string() + ": after message " + std::to_string(id_) : path_.string();
-  throw UserError(where + ": the bag is cut off or damaged, or is not a ROS 2 bag (" + reason + ")");
-}
 
 }  // namespace
 

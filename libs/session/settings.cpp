@@ -5,10 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "config/apply_settings.h"
 #include "config/ini_file.h"
-#include "config/option_listing.h"
-#include "frames/beam_angles.h"
+#include "config/settings_text.h"
+#include "frames/laser_readings.h"
 #include "psi_slam/version.h"
 #include "session/settings_parts.h"
 

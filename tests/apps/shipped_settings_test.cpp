@@ -5,9 +5,8 @@
 #include <filesystem>
 
 #include "app_run.h"
-#include "config/apply_settings.h"
 #include "config/ini_file.h"
-#include "config/option_listing.h"
+#include "config/settings_text.h"
 #include "session/settings.h"
 #include "temporary_folder.h"
 

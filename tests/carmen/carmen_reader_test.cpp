@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carmen/carmen_reader.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
+#include "frames/log_reader.h"
 #include "log_files.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
@@ -165,13 +164,15 @@ TEST_F(CarmenReaderTest, counts_ignored_messages) {
 
 TEST_F(CarmenReaderTest, reports_missing_odometry) {
   EXPECT_EQ(sentence_about(rawlaser("RAWLASER1", "1")),
-            path_.string() + " has no odometry for its RAWLASER1 lines, expected ODOM lines: there is none");
+            path_.string() +
+                " has no odometry for its RAWLASER1 lines, expected ODOM lines: there is none. Log the "
+                "odometry too, or select a laser whose lines state it with log.laser");
   std::string many;
   for (int i = 0; i < 1500; ++i) many += rawlaser("RAWLASER1", "1");
   EXPECT_EQ(sentence_about(many),
             path_.string() +
                 " has no odometry for its RAWLASER1 lines, expected ODOM lines: none is among the first 1001 "
-                "scans");
+                "scans. Log the odometry too, or select a laser whose lines state it with log.laser");
 }
 
 TEST_F(CarmenReaderTest, reports_missing_scans) {

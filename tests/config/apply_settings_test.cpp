@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "config/apply_settings.h"
+#include "config/settings_text.h"
 
 #include <gmock/gmock.h>
 

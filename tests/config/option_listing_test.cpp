@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "config/option_listing.h"
+#include "config/settings_text.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "config/apply_settings.h"
 #include "sample_settings.h"
 
 namespace psi_slam {

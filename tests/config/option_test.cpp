@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "config/option.h"
+#include "config/option_table.h"
 
 #include <gtest/gtest.h>
 

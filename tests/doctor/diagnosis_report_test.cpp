@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor/diagnosis_report.h"
+#include "doctor/input_doctor.h"
 
 #include <gmock/gmock.h>
 

@@ -44,7 +44,7 @@ TEST_F(PairAlignmentTest, aligns_pairs_that_odometry_puts_near) {
   ASSERT_GT(pairs.size(), 100U);
   std::size_t reliable = 0;
   for (const AlignedPair& pair : pairs) {
-    if (!is_reliable(pair.by_scans)) continue;
+    if (!pair.by_scans.is_reliable()) continue;
     ++reliable;
     const TPose2D off = pair.by_scans.reference_T_scan - pair.by_odometry;
     EXPECT_LT(off.norm(), 0.06);

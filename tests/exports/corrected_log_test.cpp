@@ -9,7 +9,7 @@
 #include <limits>
 #include <sstream>
 
-#include "carmen/carmen_reader.h"
+#include "frames/log_reader.h"
 #include "psi_slam/open_log.h"
 #include "temporary_folder.h"
 #include "trajectory/trajectory_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frames/beam_angles.h"
+#include "frames/laser_readings.h"
 
 #include <gmock/gmock.h>
 #include <mrpt/core/bits_math.h>
@@ -78,11 +78,12 @@ TEST(BeamAngles, single_beam_points_straight_ahead) {
     EXPECT_THAT(make_bearings_rad(angles, 1, 3.0), testing::ElementsAre(0.0F));
 }
 
-TEST(BeamAngles, names_can_be_read_back) {
-  for (const BeamAngles angles : stated_beam_angles()) EXPECT_EQ(beam_angles_named(name_of(angles)), angles);
-  EXPECT_EQ(beam_angles_named("auto"), BeamAngles::kAuto);
-  EXPECT_EQ(stated_beam_angles().size(), 4U);
-  EXPECT_EQ(beam_angles_named("centered"), std::nullopt);
+TEST(BeamAngles, have_the_names_of_settings_files) {
+  std::vector<std::string_view> names;
+  for (const BeamAngles angles : stated_beam_angles()) names.push_back(name_of(angles));
+  EXPECT_THAT(names,
+              testing::ElementsAre("centred_step_inclusive", "centred_half_step", "left_open", "skip_zero"));
+  EXPECT_EQ(name_of(BeamAngles::kAuto), "auto");
 }
 
 }  // namespace

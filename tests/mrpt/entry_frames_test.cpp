@@ -60,7 +60,7 @@ TEST(EntryFrames, a_log_without_odometry_is_refused) {
   EXPECT_FALSE(entries.next());
   EXPECT_EQ(sentence_of([&] { entries.end_of_log(); }),
             "entries: no odometry came with 1 scans, expected actions of class CActionRobotMovement2D or "
-            "observations of class CObservationOdometry");
+            "observations of class CObservationOdometry. Record the odometry with the scans");
 }
 
 TEST(EntryFrames, missing_odometry_is_an_error_before_the_log_ends) {
@@ -76,7 +76,8 @@ TEST(EntryFrames, a_scan_without_time_is_refused) {
   const auto scan = range_scan(1'000'000);
   scan->timestamp = {};
   EXPECT_EQ(sentence_of([&] { entries.take(nullptr, nullptr, scan); }),
-            "entries: observation 1: the scan has no time stamp, expected one on every observation");
+            "entries: observation 1: the scan has no time stamp, expected one on every observation. "
+            "Record the log with time stamps");
 }
 
 TEST(EntryFrames, of_two_lasers_hold_the_scans_of_both) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "observations/rawlog_lasers.h"
+#include "observations/observation_frames.h"
 
 #include <gmock/gmock.h>
 #include <mrpt/core/bits_math.h>

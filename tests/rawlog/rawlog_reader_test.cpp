@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rawlog/rawlog_reader.h"
-
 #include <gmock/gmock.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <cmath>
 
+#include "frames/log_reader.h"
 #include "log_files.h"
 #include "rawlog_files.h"
 #include "temporary_folder.h"
@@ -135,11 +134,13 @@ TEST_F(RawlogReaderTest, reports_missing_scans_odometry_and_time_stamps) {
   EXPECT_EQ(sentence_about({range_scan(kStart), range_scan(kStart)}),
             path_.string() +
                 " has no odometry, expected actions of class CActionRobotMovement2D or observations of class "
-                "CObservationOdometry");
+                "CObservationOdometry. Record the odometry with the scans");
   const auto scan = range_scan(kStart);
   scan->timestamp = INVALID_TIMESTAMP;
   EXPECT_EQ(sentence_about({movement({1, 0, 0}), sensory_frame({scan})}),
-            path_.string() + ": object 2: the scan has no time stamp, expected one on every observation");
+            path_.string() +
+                ": object 2: the scan has no time stamp, expected one on every observation. "
+                "Record the log with time stamps");
 }
 
 TEST_F(RawlogReaderTest, yields_the_frames_before_the_end_of_a_truncated_file) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rosbag/rosbag_reader.h"
-
 #include <gmock/gmock.h>
 
 #include <sys/wait.h>
@@ -12,6 +10,7 @@
 #include <string>
 
 #include "bag_files.h"
+#include "frames/log_reader.h"
 #include "log_files.h"
 #include "ros1_files.h"
 #include "temporary_folder.h"

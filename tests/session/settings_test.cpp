@@ -7,9 +7,8 @@
 #include <functional>
 #include <set>
 
-#include "config/apply_settings.h"
 #include "config/ini_file.h"
-#include "config/option_listing.h"
+#include "config/settings_text.h"
 #include "member_count.h"
 #include "psi_slam/user_error.h"
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "frames/beam_angles.h"
+#include "frames/laser_readings.h"
 #include "psi_slam/frame.h"
 
 namespace psi_slam {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "batch/kept_run.h"
-#include "config/apply_settings.h"
 #include "config/ini_file.h"
+#include "config/settings_text.h"
 #include "exports/mapped_trajectory.h"
 #include "psi_slam/user_error.h"
 

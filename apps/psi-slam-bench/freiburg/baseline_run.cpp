@@ -15,7 +15,7 @@
 #include "batch/child_process.h"
 #include "batch/kept_run.h"
 #include "common/bench_report.h"
-#include "config/apply_settings.h"
+#include "config/settings_text.h"
 #include "freiburg/freiburg_run.h"
 #include "observations/mrpt_objects.h"
 #include "psi_slam/open_log.h"

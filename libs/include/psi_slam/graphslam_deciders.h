@@ -83,9 +83,6 @@ class CPsiFrontEndNRD : public NodeDecider {
   bool checkRegistrationCondition() override;
 
  private:
-  bool update(const mrpt::obs::CActionCollection::Ptr& action,
-              const mrpt::obs::CSensoryFrame::Ptr& observations,
-              const mrpt::obs::CObservation::Ptr& observation);
   bool add(const Frame& frame);
   void add_node();
 
@@ -117,7 +114,6 @@ class CPsiLoopCloserERD : public EdgeDecider {
                    mrpt::obs::CObservation::Ptr observation) override;
 
   /// Sets "LC" and "ICP2D", the engine's names for loops, to the number of accepted loops.
-  /// Counts the edges of each kind: "LC" are loops.
   void getEdgesStats(std::map<std::string, int>* edge_type_to_num) const override;
   /// Appends the state of the object as text for people.
   void getDescriptiveReport(std::string* report_str) const override;

@@ -13,7 +13,7 @@ namespace psi_slam {
 
 /// How n beams divide a field of view F. Bearings run counter-clockwise from the right.
 enum class BeamAngles {
-  kAuto,                  ///< as the log states; if it does not, see usual_beam_angles() in beam_angles.h
+  kAuto,                  ///< as the log states; if it does not, see usual_beam_angles()
   kCentredStepInclusive,  ///< -F/2 ... +F/2 in steps F/(n-1): a beam at either end
   kCentredHalfStep,       ///< -F/2 + s/2 ... +F/2 - s/2 in steps s = F/n (180 beams: -89.5 ... +89.5 degrees)
   kLeftOpen,              ///< -F/2 ... +F/2 - s in steps s = F/n (180 beams: -90 ... +89 degrees)

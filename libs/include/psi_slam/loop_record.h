@@ -26,9 +26,9 @@ enum class LoopVerdict {
   kDeleted,      ///< deleted by a person
 };
 /// All verdicts.
-inline constexpr std::array<LoopVerdict, 6> kLoopVerdicts{LoopVerdict::kAccepted,    LoopVerdict::kPending,
-                                                          LoopVerdict::kRefused,     LoopVerdict::kSwitchedOff,
-                                                          LoopVerdict::kNotFound,    LoopVerdict::kDeleted};
+inline constexpr std::array<LoopVerdict, 6> kLoopVerdicts{LoopVerdict::kAccepted, LoopVerdict::kPending,
+                                                          LoopVerdict::kRefused,  LoopVerdict::kSwitchedOff,
+                                                          LoopVerdict::kNotFound, LoopVerdict::kDeleted};
 
 /// "accepted", "pending", "refused", "switched off", "not found" or "deleted".
 constexpr const char* verdict_text(LoopVerdict verdict) {

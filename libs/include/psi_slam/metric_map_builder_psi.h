@@ -107,7 +107,7 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
 #endif
 
  private:
-  class Implementation;
+  struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
 

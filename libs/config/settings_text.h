@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Settings as text: reads them from files and the command line into the structs that an OptionTable is bound
+// to. Lists all options as a commented settings file, as help for a terminal, and as a page of the manual.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "config/ini_file.h"
+#include "config/option_table.h"
+
+namespace psi_slam {
+
+/// Sets every value of the file. Throws UserError with file and line for an unknown section or key (with the
+/// nearest name), for a value that the option does not accept, and for an option that one file gives by its
+/// old and its new name. Then no setting has changed. `table` collects a warning for each old name.
+void apply(const IniFile& file, OptionTable& table);
+
+/// Sets one value as given on the command line: "section.key=value". Throws UserError that begins with
+/// "--set".
+void apply_override(std::string_view assignment, OptionTable& table);
+
+/// Returns an option, called `name`, as lines of a settings file: its help, range, default and current value.
+std::string commented(const Option& option, const std::string& name);
+
+/// Returns a settings file with the help, range, default and current value of every option. Loading it
+/// restores the current values bit for bit. Throws std::logic_error if a member has a value that its option
+/// does not accept.
+std::string dump(const OptionTable& table);
+
+/// Returns the options with their help, for a terminal.
+std::string help_text(const OptionTable& table);
+
+/// Returns a Markdown page with a heading and a table for each section.
+std::string markdown_reference(const OptionTable& table);
+
+}  // namespace psi_slam

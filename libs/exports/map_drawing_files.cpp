@@ -31,7 +31,7 @@ class DxfText {
   std::string text_;
 };
 
-void write_header(DxfText& dxf, const DrawingExtent& extent) {
+void write_header(DxfText& dxf, const MapRectangle& extent) {
   dxf.pair(999, "Floor plan by psi-slam; one unit is a metre");
   dxf.pair(0, "SECTION").pair(2, "HEADER").pair(9, "$ACADVER").pair(1, "AC1009");
   dxf.pair(9, "$EXTMIN").point(extent.x_min_m, extent.y_min_m);
@@ -141,7 +141,7 @@ std::string map_dxf(const MapDrawing& drawing) {
 
 std::string map_svg(const MapDrawing& drawing, double scale) {
   const double mm = scale / 1000;
-  const DrawingExtent& extent = drawing.extent;
+  const MapRectangle& extent = drawing.extent;
   const double left = extent.x_min_m - kMargin_mm * mm;
   const double top = -extent.y_max_m - kMargin_mm * mm;
   const double width = extent.width_m() + 2 * kMargin_mm * mm;

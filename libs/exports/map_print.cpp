@@ -45,7 +45,7 @@ int dpi_that_fits(const MapRaster& raster, const MapPrintOptions& options) {
 /// Draws an arrow in a direction counter-clockwise from the x axis, with its name at the tip.
 void draw_arrow(cv::Mat& image, const cv::Point2d& from, double length, double direction_rad,
                 const std::string& name, double px_per_mm) {
-  const cv::Scalar ink = scalar_of(kWallInk);
+  const cv::Scalar ink = kWallInk;
   const cv::Point2d direction(std::cos(direction_rad), -std::sin(direction_rad));
   const cv::Point2d tip = from + length * direction;
   const int thick = std::max(1, static_cast<int>(std::lround(0.3 * px_per_mm)));
@@ -61,7 +61,7 @@ void draw_arrow(cv::Mat& image, const cv::Point2d& from, double length, double d
 void add_footer(cv::Mat& image, const MapPrintOptions& options, double pixels_a_m, double px_per_mm) {
   const int top = image.rows;
   cv::copyMakeBorder(image, image, 0, static_cast<int>(std::lround(kFooter_mm * px_per_mm)), 0, 0,
-                     cv::BORDER_CONSTANT, scalar_of(kUnknownInk));
+                     cv::BORDER_CONSTANT, kUnknownInk);
   const int unit = std::max(4, static_cast<int>(std::lround(2.5 * px_per_mm)));
   const int middle = top + static_cast<int>(kFooter_mm / 2 * px_per_mm);
   draw_scale_bar(image, {unit, middle, unit}, scale_bar_m(image.cols / pixels_a_m, 1 / pixels_a_m),

@@ -90,7 +90,7 @@ LoopCounts loop_counts(const MappingResult& result) {
 
 MapExtent map_extent(const mrpt::maps::COccupancyGridMap2D& grid, double asked_resolution_m) {
   const SeenCells seen = seen_cells(grid);
-  const DrawingExtent part = seen_extent(grid, seen);
+  const MapRectangle part = seen_extent(grid, seen);
   const auto cell_m = static_cast<double>(grid.getResolution());
   return {part.x_min_m,
           part.y_min_m,

@@ -24,10 +24,7 @@ constexpr int kMaxEvidence = 30'000;
 /// In MRPT's units of 1/16 nat: one pass makes a cell free with 0.82, one hit makes it occupied with 0.99.
 constexpr int kLogOddsOfOnePass = 24;
 
-struct Point {
-  double x = 0;
-  double y = 0;
-};
+using Point = mrpt::math::TPoint2D;
 
 /// End of a beam with a return, in the map, and whether an obstacle is there.
 struct Ray {
@@ -35,10 +32,12 @@ struct Ray {
   bool hit = false;
 };
 
-/// The rays of one scan. They start at its laser.
+/// The rays of one scan, which start at its laser.
 struct Fan {
   Point start;
   std::vector<Ray> rays;
+  BeamBearings bearings;          // of the laser's last scan
+  std::vector<Point> directions;  // of the beams, unit vectors in the laser's frame
 };
 
 /// Turns scans into rays in the map's frame. Keeps the directions of each laser's beams from scan to scan.
@@ -52,51 +51,45 @@ class RayMaker {
     for_each_scan(frame, map_T_robot, [&](const LaserScan& scan, const TPose2D& map_T_robot_then) {
       while (lasers_.size() <= scan.laser) lasers_.emplace_back();
       cast(scan, map_T_robot_then, lasers_[scan.laser]);
-      fans_.push_back(&lasers_[scan.laser].fan);
+      fans_.push_back(&lasers_[scan.laser]);
     });
     return fans_;
   }
 
  private:
-  struct Laser {
-    BeamBearings bearings;
-    std::vector<Point> directions;  // of the beams, unit vectors in the laser's frame
-    Fan fan;
-  };
-
-  void cast(const LaserScan& scan, const TPose2D& map_T_robot, Laser& laser) const {
-    if (scan.bearings_rad != laser.bearings) {
-      laser.bearings = scan.bearings_rad;
-      laser.directions.clear();
-      for (std::size_t i = 0; laser.bearings && i < laser.bearings->size(); ++i) {
-        const double angle = static_cast<double>((*laser.bearings)[i]);
-        laser.directions.push_back({std::cos(angle), std::sin(angle)});
+  void cast(const LaserScan& scan, const TPose2D& map_T_robot, Fan& fan) const {
+    if (scan.bearings_rad != fan.bearings) {
+      fan.bearings = scan.bearings_rad;
+      fan.directions.clear();
+      for (std::size_t i = 0; fan.bearings && i < fan.bearings->size(); ++i) {
+        const double angle = static_cast<double>((*fan.bearings)[i]);
+        fan.directions.emplace_back(std::cos(angle), std::sin(angle));
       }
     }
     const std::size_t beams = scan.ranges_m.size();
-    if (laser.directions.size() != beams)
+    if (fan.directions.size() != beams)
       throw std::invalid_argument("draw_grid_map: " + std::to_string(beams) + " ranges but " +
-                                  std::to_string(laser.directions.size()) + " bearings");
+                                  std::to_string(fan.directions.size()) + " bearings");
     const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
     if (!std::isfinite(map_T_laser.x) || !std::isfinite(map_T_laser.y) || !std::isfinite(map_T_laser.phi))
       throw std::invalid_argument("draw_grid_map: a pose is not finite");
     const double c = std::cos(map_T_laser.phi);
     const double s = std::sin(map_T_laser.phi);
-    laser.fan.start = {map_T_laser.x, map_T_laser.y};
-    laser.fan.rays.clear();
+    fan.start = {map_T_laser.x, map_T_laser.y};
+    fan.rays.clear();
     for (std::size_t i = 0; i < beams; ++i) {
       const double range_m = static_cast<double>(scan.ranges_m[i]);
       if (!std::isfinite(range_m)) continue;
       const double length = std::min(range_m, max_range_m_);
-      const Point& direction = laser.directions[i];
-      laser.fan.rays.push_back({{laser.fan.start.x + length * (c * direction.x - s * direction.y),
-                                 laser.fan.start.y + length * (s * direction.x + c * direction.y)},
-                                range_m <= max_range_m_});
+      const Point& direction = fan.directions[i];
+      fan.rays.push_back({{fan.start.x + length * (c * direction.x - s * direction.y),
+                           fan.start.y + length * (s * direction.x + c * direction.y)},
+                          range_m <= max_range_m_});
     }
   }
 
   double max_range_m_;
-  std::deque<Laser> lasers_;  // a deque, so that pointers to fans stay valid
+  std::deque<Fan> lasers_;  // by laser; a deque, so that pointers to fans stay valid
   std::vector<const Fan*> fans_;
 };
 
@@ -105,12 +98,11 @@ TBoundingBox bounds_of(const std::vector<Frame>& log, const std::vector<TPose2D>
   RayMaker maker(max_range_m);
   TBoundingBox bounds = TBoundingBox::PlusMinusInfinity();
   const auto include = [&](const Point& point) { bounds.updateWithPoint({point.x, point.y, 0}); };
-  for (std::size_t i = 0; i < log.size(); ++i) {
+  for (std::size_t i = 0; i < log.size(); ++i)
     for (const Fan* fan : maker.fans(log[i], map_T_robot[i])) {
       for (const Ray& ray : fan->rays) include(ray.end);
       include(fan->start);
     }
-  }
   if (log.empty()) include({0, 0});
   return bounds;
 }
@@ -208,11 +200,10 @@ class Evidence {
 
   /// Counts a pass in each cell of the digital line except the last, which holds the hit. Units are cells.
   void pass(const Point& start, const Point& end) {
-    if (std::abs(end.x - start.x) >= std::abs(end.y - start.y)) {
+    if (std::abs(end.x - start.x) >= std::abs(end.y - start.y))
       walk(start.x, start.y, end.x, end.y, 1, layout_.width);
-    } else {
+    else
       walk(start.y, start.x, end.y, end.x, layout_.width, 1);
-    }
   }
 
   /// Steps along the longer axis of the line and evaluates `across` at the middle of each step, in fixed

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "rendering/map_image.h"
-
 namespace psi_slam {
 namespace {
 
@@ -61,7 +59,7 @@ MapLine path_line(const std::vector<mrpt::math::TPose2D>& map_T_robot, double to
 
 }  // namespace
 
-DrawingExtent seen_extent(const COccupancyGridMap2D& grid, const SeenCells& seen) {
+MapRectangle seen_extent(const COccupancyGridMap2D& grid, const SeenCells& seen) {
   const auto cell_m = static_cast<double>(grid.getResolution());
   const auto x_min_m = static_cast<double>(grid.getXMin());
   const auto y_min_m = static_cast<double>(grid.getYMin());

@@ -24,24 +24,13 @@ struct MapDrawingOptions {
 /// Points in the map's frame.
 using MapLine = std::vector<mrpt::math::TPoint2D>;
 
-/// A rectangle in the map's frame.
-struct DrawingExtent {
-  double x_min_m = 0;
-  double x_max_m = 0;
-  double y_min_m = 0;
-  double y_max_m = 0;
-
-  double width_m() const { return x_max_m - x_min_m; }
-  double height_m() const { return y_max_m - y_min_m; }
-};
-
 /// Returns the rectangle of the cells seen.
-DrawingExtent seen_extent(const mrpt::maps::COccupancyGridMap2D& grid, const SeenCells& seen);
+MapRectangle seen_extent(const mrpt::maps::COccupancyGridMap2D& grid, const SeenCells& seen);
 
 struct MapDrawing {
   std::vector<MapLine> walls;         ///< closed; a line of two points runs there and back
   std::vector<MapLine> trajectories;  ///< open, one for each run
-  DrawingExtent extent;               ///< of all lines and of everything seen
+  MapRectangle extent;                ///< of all lines and of everything seen
   double cell_m = 0;                  ///< thickness of an outline
 };
 

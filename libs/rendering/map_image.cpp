@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <vector>
 
 #include "base/atomic_file.h"
+#include "base/number_text.h"
+#include "psi_slam/user_error.h"
 #include "rendering/picture_ink.h"
 
 namespace psi_slam {
@@ -21,34 +22,24 @@ Pixel mixed(const Pixel& a, const Pixel& b, double share_of_b) {
   return result;
 }
 
-/// Number of cells that one pixel shows.
-struct Block {
-  int cells = 0;
+/// Colour of the pixel that shows a block of side x side cells. A wall of one cell that crosses the block is
+/// as dark as a thick wall.
+Pixel block_colour(const COccupancyGridMap2D& grid, int x_begin, int y_begin, int side,
+                   const Pixel& unknown) {
   int free = 0;
   int occupied = 0;
-};
-
-Block block_at(const COccupancyGridMap2D& grid, int x_begin, int y_begin, int side) {
-  Block block;
   const int x_end = std::min(x_begin + side, static_cast<int>(grid.getSizeX()));
   const int y_end = std::min(y_begin + side, static_cast<int>(grid.getSizeY()));
   for (int y = std::max(y_begin, 0); y < y_end; ++y) {
     const auto* row = grid.getRow(y);
     for (int x = std::max(x_begin, 0); x < x_end; ++x) {
-      block.free += is_free(row[x]) ? 1 : 0;
-      block.occupied += is_occupied(row[x]) ? 1 : 0;
+      free += is_free(row[x]) ? 1 : 0;
+      occupied += is_occupied(row[x]) ? 1 : 0;
     }
   }
-  block.cells = side * side;
-  return block;
-}
-
-/// A wall of one cell that crosses the block is as dark as a thick wall.
-Pixel colour(const Block& block, int side, const Pixel& unknown) {
-  const int open = block.cells - block.occupied;
-  const Pixel ground =
-      open == 0 ? kFreeInk : mixed(unknown, kFreeInk, static_cast<double>(block.free) / open);
-  return mixed(ground, kWallInk, std::min(1.0, static_cast<double>(block.occupied) / side));
+  const int open = side * side - occupied;
+  const Pixel ground = open == 0 ? kFreeInk : mixed(unknown, kFreeInk, static_cast<double>(free) / open);
+  return mixed(ground, kWallInk, std::min(1.0, static_cast<double>(occupied) / side));
 }
 
 /// Returns a view of the raster's pixels.
@@ -59,11 +50,40 @@ cv::Mat image_of(MapRaster& raster) {
 void add_scale_bar(cv::Mat& image, double resolution_m, const Pixel& ground) {
   const int unit = std::max(6, std::max(image.cols, image.rows) / 160);
   const ScaleBarPlace place{2 * unit, image.rows + 5 * unit / 2, unit};
-  cv::copyMakeBorder(image, image, 0, 5 * unit, 0, 0, cv::BORDER_CONSTANT, scalar_of(ground));
+  cv::copyMakeBorder(image, image, 0, 5 * unit, 0, 0, cv::BORDER_CONSTANT, ground);
   draw_scale_bar(image, place, scale_bar_m(image.cols * resolution_m, resolution_m), resolution_m);
 }
 
 }  // namespace
+
+double scale_bar_m(double width_m, double resolution_m) {
+  const double longest_m = std::max(width_m / 5, resolution_m);
+  const double power_m = std::pow(10, std::floor(std::log10(longest_m)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power_m <= longest_m) return digit * power_m;
+  return power_m;
+}
+
+void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, double resolution_m,
+                    const std::string& note) {
+  const int unit = place.unit;
+  const int bar_px = static_cast<int>(std::lround(bar_m / resolution_m));
+  const cv::Scalar ink = kWallInk;
+  const int thick = std::max(1, unit / 4);
+  cv::rectangle(image, {place.left, place.middle - thick / 2, bar_px, thick}, ink, cv::FILLED);
+  for (const int end : {place.left, place.left + bar_px - thick})
+    cv::rectangle(image, {end, place.middle - unit / 2, thick, unit}, ink, cv::FILLED);
+  const std::string label = fixed_text(bar_m, bar_m < 1 ? 2 : 0) + " m";
+  cv::putText(image, label + note, {place.left + bar_px + unit, place.middle + unit / 2},
+              cv::FONT_HERSHEY_DUPLEX, unit / 15.0, ink, std::max(1, unit / 10), cv::LINE_AA);
+}
+
+std::string png_bytes(const cv::Mat& image) {
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9}))
+    throw SystemFailure("cannot encode the map as a PNG picture");
+  return {bytes.begin(), bytes.end()};
+}
 
 SeenCells seen_cells(const COccupancyGridMap2D& grid) {
   const auto width = static_cast<int>(grid.getSizeX());
@@ -109,9 +129,8 @@ MapRaster map_raster(const COccupancyGridMap2D& grid, const MapPictureOptions& o
   for (int row = 0; row < image.rows; ++row) {
     auto* pixels = image.ptr<Pixel>(row);
     for (int column = 0; column < image.cols; ++column)
-      pixels[column] = colour(
-          block_at(grid, x_begin + column * cells_a_pixel, y_end - (row + 1) * cells_a_pixel, cells_a_pixel),
-          cells_a_pixel, unknown);
+      pixels[column] = block_colour(grid, x_begin + column * cells_a_pixel, y_end - (row + 1) * cells_a_pixel,
+                                    cells_a_pixel, unknown);
   }
   return raster;
 }
@@ -124,7 +143,7 @@ MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions&
   const int pixels_a_cell = reduced ? 1 : std::max(1, (options.min_side_px + longer - 1) / longer);
   if (pixels_a_cell > 1) cv::resize(image, image, {}, pixels_a_cell, pixels_a_cell, cv::INTER_NEAREST);
 
-  MapPicture picture;
+  MapPicture picture{raster, {}};
   picture.resolution_m = raster.resolution_m / pixels_a_cell;
   const Pixel& unknown = options.transparent_unknown ? kTransparentInk : kUnknownInk;
   if (options.scale_bar) add_scale_bar(image, picture.resolution_m, unknown);
@@ -132,8 +151,6 @@ MapPicture map_picture(const COccupancyGridMap2D& grid, const MapPictureOptions&
   picture.png = png_bytes(image);
   picture.width_px = image.cols;
   picture.height_px = image.rows;
-  picture.x_min_m = raster.x_min_m;
-  picture.y_max_m = raster.y_max_m;
   return picture;
 }
 

@@ -42,23 +42,37 @@ struct MapPictureOptions {
   bool scale_bar = true;  ///< in a strip below the map
 };
 
-/// A picture and its place in the map. The map position of the upper left corner is (x_min_m, y_max_m).
-struct MapPicture {
-  std::string png;  ///< contents of a PNG file
-  int width_px = 0;
-  int height_px = 0;  ///< including the strip of the scale bar
+/// A rectangle in the map's frame.
+struct MapRectangle {
   double x_min_m = 0;
+  double x_max_m = 0;
+  double y_min_m = 0;
   double y_max_m = 0;
-  double resolution_m = 0;  ///< side of a pixel in the map
+
+  double width_m() const { return x_max_m - x_min_m; }
+  double height_m() const { return y_max_m - y_min_m; }
 };
 
-/// A picture as plain pixels, for textures. (x_min_m, y_max_m) is the upper left corner in the map.
-struct MapRaster {
+/// Size of a picture and its place in the map. (x_min_m, y_max_m) is the upper left corner.
+struct PicturePlace {
   int width_px = 0;
   int height_px = 0;
   double x_min_m = 0;
   double y_max_m = 0;
-  double resolution_m = 0;           ///< side of a pixel in the map
+  double resolution_m = 0;  ///< side of a pixel in the map
+
+  MapRectangle rectangle() const {
+    return {x_min_m, x_min_m + width_px * resolution_m, y_max_m - height_px * resolution_m, y_max_m};
+  }
+};
+
+/// A picture as a file. Its height includes the strip of the scale bar.
+struct MapPicture : PicturePlace {
+  std::string png;  ///< contents of a PNG file
+};
+
+/// A picture as plain pixels, for textures.
+struct MapRaster : PicturePlace {
   std::vector<std::uint8_t> pixels;  ///< blue, green, red, opacity; row by row from the upper left
 };
 

@@ -14,11 +14,6 @@ inline const Pixel kFreeInk{255, 255, 255, 255};
 inline const Pixel kUnknownInk{232, 229, 226, 255};
 inline const Pixel kTransparentInk{255, 255, 255, 0};
 
-inline cv::Scalar scalar_of(const Pixel& pixel) {
-  return {static_cast<double>(pixel[0]), static_cast<double>(pixel[1]), static_cast<double>(pixel[2]),
-          static_cast<double>(pixel[3])};
-}
-
 /// Position and size of a scale bar in a picture, in pixels.
 struct ScaleBarPlace {
   int left = 0;

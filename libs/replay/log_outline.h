@@ -3,12 +3,11 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
-#include <thread>
+#include <optional>
 #include <vector>
 
-#include "psi_slam/log_options.h"
 #include "psi_slam/time_stamp.h"
+#include "replay/background_thread.h"
 #include "session/session_input.h"
 
 namespace psi_slam {
@@ -16,29 +15,34 @@ namespace psi_slam {
 /// Time stamps of all scans of a log, for a time slider. A thread reads them ahead of the mapping.
 class LogOutline {
  public:
-  LogOutline(const SessionInput& log, const LogOptions& options);
+  LogOutline(const SessionInput& log, const LogOptions& options)
+      : stamps_us_(run_in_background([this, log, options] { return read(log, options); })) {}
   /// Stops reading and waits for the thread.
-  ~LogOutline();
-  LogOutline(const LogOutline&) = delete;
-  LogOutline& operator=(const LogOutline&) = delete;
+  ~LogOutline() { stop(); }
 
   /// Tells the thread to stop reading. Does not wait for it.
   void stop() { stop_ = true; }
   /// True once the thread has ended, so that the destructor does not wait.
-  bool ended() const { return ended_; }
+  bool ended() const { return has_ended(stamps_us_); }
 
+  using Stamps = std::shared_ptr<const std::vector<TimeUs>>;
   /// Time stamps of all readable scans, in the log's order. Null until they are known. Any thread may call.
-  std::shared_ptr<const std::vector<TimeUs>> stamps_us() const;
+  Stamps stamps_us() const { return ended() ? stamps_us_.get() : nullptr; }
 
  private:
-  void read(const SessionInput& log, const LogOptions& options);
+  Stamps read(const SessionInput& log, const LogOptions& options) const {
+    auto stamps_us = std::make_shared<std::vector<TimeUs>>();
+    try {
+      const auto source = log.open(options);
+      for (std::optional<Frame> frame; !stop_ && (frame = source->next());)
+        stamps_us->push_back(frame->time_us);
+    } catch (const std::exception&) {  // the mapping reports the same error
+    }
+    return stamps_us;
+  }
 
   std::atomic<bool> stop_{false};
-  std::atomic<bool> ended_{false};
-  mutable std::mutex mutex_;  // guards stamps_us_
-  std::shared_ptr<const std::vector<TimeUs>> stamps_us_;
-
-  std::thread thread_;
+  std::shared_future<Stamps> stamps_us_;
 };
 
 }  // namespace psi_slam

@@ -6,8 +6,6 @@
 #include <exception>
 #include <utility>
 
-#include "replay/background_thread.h"
-
 namespace psi_slam {
 namespace {
 
@@ -24,38 +22,24 @@ std::shared_ptr<const DrawnMap> draw(const MapSketch& sketch, const GridMapOptio
   MapPictureOptions picture;
   picture.max_side_px = kLargestTexture_px;
   picture.transparent_unknown = true;
-  auto drawn = std::make_shared<DrawnMap>();
-  drawn->raster = map_raster(*draw_grid_map(log, sketch.map_T_robot, options), picture);
-  drawn->scans = sketch.frames.size();
-  return drawn;
+  return std::make_shared<DrawnMap>(
+      DrawnMap{map_raster(*draw_grid_map(log, sketch.map_T_robot, options), picture), log.size()});
 }
 
 }  // namespace
 
 MapPainter::MapPainter(const GridMapOptions& options)
-    : options_(options), thread_([this] {
-        work();
-        ended_ = true;
-      }) {}
-
-MapPainter::~MapPainter() {
-  stop();
-  thread_.join();
-}
+    : options_(options), thread_(run_in_background([this] { work(); })) {}
 
 void MapPainter::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
+  const std::lock_guard lock(mutex_);
+  stop_ = true;
   changed_.notify_all();
 }
 
 void MapPainter::request(MapSketch sketch) {
-  {
-    const std::lock_guard lock(mutex_);
-    wanted_ = std::move(sketch);
-  }
+  const std::lock_guard lock(mutex_);
+  wanted_ = std::move(sketch);
   changed_.notify_all();
 }
 
@@ -65,7 +49,6 @@ std::shared_ptr<const DrawnMap> MapPainter::drawn() const {
 }
 
 void MapPainter::work() {
-  lower_thread_priority();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stop_ || wanted_; });

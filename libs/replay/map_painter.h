@@ -3,18 +3,17 @@
 
 #include <mrpt/math/TPose2D.h>
 
-#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include "psi_slam/frame.h"
 #include "psi_slam/grid_map.h"
 #include "rendering/map_image.h"
+#include "replay/background_thread.h"
 #include "replay/shared_history.h"
 
 namespace psi_slam {
@@ -37,9 +36,7 @@ class MapPainter {
  public:
   explicit MapPainter(const GridMapOptions& options);
   /// Waits until the present drawing is finished.
-  ~MapPainter();
-  MapPainter(const MapPainter&) = delete;
-  MapPainter& operator=(const MapPainter&) = delete;
+  ~MapPainter() { stop(); }
 
   /// Asks for a drawing; replaces a request that still waits. After each drawing the thread rests twice as
   /// long as it worked, so that it uses at most a third of one processor.
@@ -48,7 +45,7 @@ class MapPainter {
   /// Makes the thread start no further drawing.
   void stop();
   /// True once the thread has ended, so that the destructor does not wait.
-  bool ended() const { return ended_; }
+  bool ended() const { return has_ended(thread_); }
 
   /// The newest drawing, or null. Any thread may call.
   std::shared_ptr<const DrawnMap> drawn() const;
@@ -63,8 +60,7 @@ class MapPainter {
   std::shared_ptr<const DrawnMap> drawn_;
   bool stop_ = false;
 
-  std::atomic<bool> ended_{false};
-  std::thread thread_;
+  std::future<void> thread_;
 };
 
 }  // namespace psi_slam

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "replay/replay.h"
-#include "report/output_folder.h"
 
 #include <algorithm>
 #include <new>
-#include <utility>
 
-#include "psi_slam/user_error.h"
-#include "replay/background_thread.h"
 #include "replay/snapshot_maker.h"
+#include "report/output_folder.h"
 
 namespace psi_slam {
 namespace {
@@ -18,21 +15,17 @@ using Clock = LogPace::Clock;
 constexpr std::chrono::milliseconds kBetweenSnapshots{100};
 constexpr int kWorkPerPublishing = 20;  // snapshots take at most 1/20 of the engine's time
 
-/// Calls `write`. Returns why it failed, as a sentence, or nothing after success.
-template <class Write>
-std::string failure_of(const Write& write, const std::string& what) {
+/// Calls `action`. Returns why it failed, as a sentence, or nothing after success.
+template <class Action>
+std::string failure_of(const Action& action, const char* out_of_memory) {
   try {
-    write();
+    action();
   } catch (const std::bad_alloc&) {
-    return "Out of memory while writing " + what;
+    return out_of_memory;
   } catch (const std::exception& error) {
     return error.what();
   }
   return {};
-}
-
-PsiThresholds thresholds(const Settings& settings) {
-  return {settings.mapper.back_end.psi.psi_1, settings.mapper.back_end.psi.psi_2};
 }
 
 }  // namespace
@@ -45,76 +38,14 @@ Replay::Replay(SessionInput input, const Settings& settings)
       settings_(settings),
       outline_(input_, log_options(settings)),
       painter_(settings.map),
-      maker_(std::make_unique<SnapshotMaker>(thresholds(settings), input_.edits().edits())),
+      maker_(std::make_unique<SnapshotMaker>(
+          PsiThresholds{settings.mapper.back_end.psi.psi_1, settings.mapper.back_end.psi.psi_2},
+          input_.edits().edits())),
       snapshot_(maker_->snapshot(phase_)),
-      thread_([this] { run(); }) {}
+      thread_(run_in_background([this] { run(); })) {}
 
 Replay::~Replay() {
   close();
-  thread_.join();
-}
-
-void Replay::play() {
-  change([&] {
-    playing_ = true;
-    held_ = false;
-    pace_.restart();
-    due_ = Clock::now();
-  });
-}
-
-void Replay::pause() {
-  change([&] {
-    playing_ = false;
-    held_ = true;
-    steps_ = 0;
-    hurry_to_ = 0;
-  });
-}
-
-void Replay::step() {
-  change([&] {
-    playing_ = false;
-    held_ = false;
-    ++steps_;
-  });
-}
-
-void Replay::set_speed(double times) {
-  change([&] {
-    pace_.set_speed(times);
-    due_ = Clock::now();
-  });
-}
-
-void Replay::hurry_to(std::size_t scans) {
-  change([&] {
-    held_ = false;
-    hurry_to_ = scans;
-  });
-}
-
-void Replay::finish() {
-  change([&] {
-    held_ = false;
-    finish_ = true;
-  });
-}
-
-void Replay::request(const EditRequest& edit) {
-  ++edits_asked_;
-  change([&] {
-    edit_requests_.push_back(edit);
-    stop_final_search_ = true;
-  });
-}
-
-void Replay::export_to(std::filesystem::path folder, bool replace) {
-  change([&] { export_ = ExportRequest{std::move(folder), replace}; });
-}
-
-void Replay::save_session(std::filesystem::path file) {
-  change([&] { save_ = std::move(file); });
 }
 
 void Replay::close() {
@@ -132,16 +63,9 @@ std::shared_ptr<const ReplaySnapshot> Replay::snapshot() const {
 }
 
 void Replay::run() noexcept {
-  lower_thread_priority();
-  try {
-    work();
-  } catch (const std::bad_alloc&) {
-    fail("Out of memory: the run has stopped");
-  } catch (const std::exception& error) {
-    fail(error.what());
-  }
+  maker_->now.failure = failure_of([&] { work(); }, "Out of memory: the run has stopped");
+  if (!maker_->now.failure.empty()) phase_ = ReplayPhase::kFailed;
   refuse_requests();
-  ended_ = true;
 }
 
 void Replay::work() {
@@ -172,18 +96,14 @@ bool Replay::map_scans(MappingSession& session) {
   while (true) {
     const Turn turn = next_turn();
     if (turn == Turn::kClose) return false;
-    if (turn == Turn::kEdit) {
-      serve_edits(session);
-      continue;
-    }
+    if (turn == Turn::kEdit) serve_edits(session);
     if (turn == Turn::kSave) {
       save_once(session);
       publish();
-      continue;
     }
-    if (turn == Turn::kFinish || !session.step()) return true;
+    if (turn == Turn::kFinish || (turn == Turn::kStep && !session.step())) return true;
     const std::lock_guard lock(mutex_);
-    due_ = pace_.due_after(session.mapper().frames().back().time_us, Clock::now());
+    if (turn == Turn::kStep) due_ = pace_.due_after(session.mapper().frames().back().time_us, Clock::now());
   }
 }
 
@@ -199,12 +119,14 @@ Replay::Turn Replay::next_turn() {
     const bool hurries = hurry_to_ > 0 || (playing_ && Clock::now() >= due_);
     if (steps_ > 0 || hurries || playing_) {
       phase_ = ReplayPhase::kPlaying;
-      if (steps_ > 0) {
-        --steps_;
+      if (steps_ > 0 || hurries) {
+        if (steps_ > 0) --steps_;
         return Turn::kStep;
       }
-      if (hurries) return Turn::kStep;
-      wait_for_due_scan(lock);
+      if (stale_ && Clock::now() >= next_publication())
+        publish_unlocked(lock);
+      else
+        changed_.wait_until(lock, stale_ ? std::min(due_, next_publication()) : due_);
       continue;
     }
     if (phase_ != ReplayPhase::kPaused || stale_) {
@@ -216,34 +138,24 @@ Replay::Turn Replay::next_turn() {
   }
 }
 
-/// Waits until a scan is due or something changes. Publishes a snapshot while it waits, if one is pending.
-void Replay::wait_for_due_scan(std::unique_lock<std::mutex>& lock) {
-  if (stale_ && Clock::now() >= next_publication()) return publish_unlocked(lock);
-  changed_.wait_until(lock, stale_ ? std::min(due_, next_publication()) : due_);
-}
-
 /// Serves exports, saves and edits. Returns true if the map must be finished again, false after close().
 bool Replay::serve_finished(MappingSession& session) {
   while (true) {
-    const Turn turn = next_turn_when_finished();
-    if (turn == Turn::kClose) break;
+    std::unique_lock lock(mutex_);
+    if (!urgent_turn()) {
+      held_ = false;
+      phase_ = ReplayPhase::kFinished;
+      publish_unlocked(lock);
+    }
+    changed_.wait(lock, [this] { return urgent_turn() || export_; });
+    const Turn turn = urgent_turn().value_or(Turn::kExport);
+    lock.unlock();
+    if (turn == Turn::kClose) return false;
     if (turn == Turn::kSave) save_once(session);
     if (turn == Turn::kExport) export_once(session);
     if (turn == Turn::kEdit) serve_edits(session);
     if (!session.finished()) return true;
   }
-  return false;
-}
-
-Replay::Turn Replay::next_turn_when_finished() {
-  std::unique_lock lock(mutex_);
-  if (!urgent_turn()) {
-    held_ = false;
-    phase_ = ReplayPhase::kFinished;
-    publish_unlocked(lock);
-  }
-  changed_.wait(lock, [this] { return urgent_turn() || export_; });
-  return urgent_turn().value_or(Turn::kExport);
 }
 
 /// Requests that go before all others, the most urgent first.
@@ -296,7 +208,8 @@ void Replay::save_once(const MappingSession& session) {
   WriteOutcome outcome{++saves_, {}, "", "", {}};
   outcome.path = locked([&] { return std::exchange(save_, std::nullopt).value(); });
   SavedSession saved;
-  outcome.failure = failure_of([&] { saved = session.save(outcome.path); }, "the session");
+  outcome.failure =
+      failure_of([&] { saved = session.save(outcome.path); }, "Out of memory while writing the session");
   outcome.remark = saved.remark;
   outcome.written.scans = saved.scans;
   maker_->note_save(std::move(outcome));
@@ -307,8 +220,9 @@ void Replay::export_once(MappingSession& session) {
   phase_ = ReplayPhase::kExporting;
   publish();
   WriteOutcome outcome{++exports_, request.folder, "", "", {}};
-  outcome.failure = failure_of(
-      [&] { session.export_to(OutputFolder::prepare(request.folder, request.replace)); }, "the results");
+  outcome.failure =
+      failure_of([&] { session.export_to(OutputFolder::prepare(request.folder, request.replace)); },
+                 "Out of memory while writing the results");
   maker_->note_export(std::move(outcome));
 }
 
@@ -372,20 +286,12 @@ void Replay::publish_as_it_is() {
 
 /// Reports the requests that were never served, after the end of the run.
 void Replay::refuse_requests() {
-  session_ = nullptr;
   const std::lock_guard lock(mutex_);
   const auto refusal = [](int number, const std::filesystem::path& path) {
     return WriteOutcome{number, path, path.string() + " was not written: the run ended first", "", {}};
   };
   if (save_) maker_->note_save(refusal(++saves_, *save_));
   if (export_) maker_->note_export(refusal(++exports_, export_->folder));
-  publish_as_it_is();
-}
-
-void Replay::fail(const std::string& sentence) {
-  session_ = nullptr;
-  phase_ = ReplayPhase::kFailed;
-  maker_->now.failure = sentence;
   publish_as_it_is();
 }
 

@@ -8,8 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include "replay/log_outline.h"
@@ -44,8 +43,6 @@ class Replay {
   Replay(SessionInput input, const Settings& settings);
   /// Calls close() and waits for the threads.
   ~Replay();
-  Replay(const Replay&) = delete;
-  Replay& operator=(const Replay&) = delete;
 
   const SessionInput& input() const { return input_; }
   /// Path of the log that is read; empty if the input is only a recording.
@@ -53,17 +50,52 @@ class Replay {
   const Settings& settings() const { return settings_; }
 
   /// Maps scan after scan at the given speed. The final loop search follows after the last scan.
-  void play();
+  void play() {
+    change([&] {
+      playing_ = true;
+      held_ = false;
+      pace_.restart();
+      due_ = LogPace::Clock::now();
+    });
+  }
   /// Pauses after the present scan, or within the final loop search (see ReplaySnapshot::final_search_held).
-  void pause();
+  void pause() {
+    change([&] {
+      playing_ = false;
+      held_ = true;
+      steps_ = 0;
+      hurry_to_ = 0;
+    });
+  }
   /// Maps one more scan and pauses. Not for the final loop search, which has no steps.
-  void step();
+  void step() {
+    change([&] {
+      playing_ = false;
+      held_ = false;
+      ++steps_;
+    });
+  }
   /// Sets the speed as a multiple of the recorded speed; 0 is as fast as possible. Initially 1.
-  void set_speed(double times);
+  void set_speed(double times) {
+    change([&] {
+      pace_.set_speed(times);
+      due_ = LogPace::Clock::now();
+    });
+  }
   /// Maps as fast as possible until `scans` scans are mapped, then continues as before.
-  void hurry_to(std::size_t scans);
+  void hurry_to(std::size_t scans) {
+    change([&] {
+      held_ = false;
+      hurry_to_ = scans;
+    });
+  }
   /// Stops reading the log. The final loop search follows, with the scans mapped so far.
-  void finish();
+  void finish() {
+    change([&] {
+      held_ = false;
+      finish_ = true;
+    });
+  }
   /// Stops the final loop search before its end.
   void cut_final_search() {
     change([&] { stop_final_search_ = cut_final_search_ = true; });
@@ -80,23 +112,27 @@ class Replay {
 
   /// Writes all results; before the run is finished, the request waits. With `replace`, results in the folder
   /// are replaced. ReplaySnapshot::exported has the outcome.
-  void export_to(std::filesystem::path folder, bool replace);
+  void export_to(std::filesystem::path folder, bool replace) {
+    change([&] { export_ = ExportRequest{std::move(folder), replace}; });
+  }
 
   /// Writes the scans mapped so far to a session file and replaces an existing one. Happens between two scans
   /// or after the final loop search. ReplaySnapshot::saved has the outcome.
-  void save_session(std::filesystem::path file);
+  void save_session(std::filesystem::path file) {
+    change([&] { save_ = std::move(file); });
+  }
 
   /// Ends the threads as soon as possible, but completes an export that has begun. Does not wait.
   void close();
   /// True once all threads have ended, so that the destructor does not wait.
-  bool ended() const { return ended_ && outline_.ended() && painter_.ended(); }
+  bool ended() const { return has_ended(thread_) && outline_.ended() && painter_.ended(); }
 
   /// The newest snapshot; never null.
   std::shared_ptr<const ReplaySnapshot> snapshot() const;
   /// The newest drawing of the grid map, or null.
   std::shared_ptr<const DrawnMap> drawn_map() const { return painter_.drawn(); }
   /// Time stamps of all scans of the log, or null until they are known.
-  std::shared_ptr<const std::vector<TimeUs>> stamps_us() const { return outline_.stamps_us(); }
+  LogOutline::Stamps stamps_us() const { return outline_.stamps_us(); }
 
  private:
   enum class Turn { kStep, kEdit, kSave, kExport, kFinish, kClose };
@@ -121,14 +157,18 @@ class Replay {
     const std::lock_guard lock(mutex_);
     return action();
   }
-  void request(const EditRequest& edit);
+  void request(const EditRequest& edit) {
+    ++edits_asked_;
+    change([&] {
+      edit_requests_.push_back(edit);
+      stop_final_search_ = true;
+    });
+  }
   void run() noexcept;
   void work();
   bool map_scans(MappingSession& session);
   Turn next_turn();
-  Turn next_turn_when_finished();
   std::optional<Turn> urgent_turn() const;
-  void wait_for_due_scan(std::unique_lock<std::mutex>& lock);
   void finish_map(MappingSession& session);
   bool serve_finished(MappingSession& session);
   void serve_edits(MappingSession& session);
@@ -141,7 +181,6 @@ class Replay {
   void publish_unlocked(std::unique_lock<std::mutex>& lock);
   void publish_as_it_is();
   LogPace::Clock::time_point next_publication() const;
-  void fail(const std::string& sentence);
   void refuse_requests();
 
   const SessionInput input_;
@@ -183,8 +222,7 @@ class Replay {
 
   std::atomic<bool> stop_final_search_{false};  // to end the final loop search, or to repeat it after edits
   std::atomic<int> edits_asked_{0};
-  std::atomic<bool> ended_{false};
-  std::thread thread_;
+  std::future<void> thread_;
 };
 
 }  // namespace psi_slam

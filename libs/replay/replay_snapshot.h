@@ -17,8 +17,8 @@
 #include "psi_slam/frame.h"
 #include "psi_slam/mapping_result.h"
 #include "psi_slam/mapping_session.h"
-#include "session/edit_journal.h"
 #include "replay/shared_history.h"
+#include "session/edit_journal.h"
 
 namespace psi_slam {
 
@@ -99,6 +99,12 @@ struct ReplaySnapshot {
   std::optional<WriteOutcome> exported;  ///< outcome of the last export
   std::optional<WriteOutcome> saved;     ///< outcome of the last saved session
 };
+
+/// True if an outcome of a snapshot is not in an earlier snapshot of the same run.
+template <class Outcome>
+bool is_new(const std::optional<Outcome>& now, const std::optional<Outcome>& before) {
+  return now && (!before || now->number != before->number);
+}
 
 /// Pose of the robot at a scan in the present map. Once the run is finished it is the result's pose; before,
 /// it is the pose of the last node up to the scan, moved by the front end's motion since that node.

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "replay/snapshot_maker.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace psi_slam {
 namespace {
 
@@ -14,11 +11,20 @@ void append_new(SharedHistory<T>& history, const std::vector<T>& all) {
   while (history.size() < all.size()) history.push_back(all[history.size()]);
 }
 
-bool same_poses(const std::vector<mrpt::math::TPose2D>& a, const std::vector<mrpt::math::TPose2D>& b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
-}
-
 }  // namespace
+
+mrpt::math::TPose2D map_T_frame(const ReplaySnapshot& snapshot, std::size_t frame) {
+  const bool finished = snapshot.phase == ReplayPhase::kFinished || snapshot.phase == ReplayPhase::kExporting;
+  if (finished || snapshot.nodes.empty()) return snapshot.frames[frame].map_T_robot;
+  std::size_t node = 0;  // the last one whose scan is `frame` or an earlier scan
+  for (std::size_t end = snapshot.nodes.size(); end - node > 1;) {
+    const std::size_t middle = node + (end - node) / 2;
+    (snapshot.nodes[middle].frame <= frame ? node : end) = middle;
+  }
+  const mrpt::math::TPose2D node_T_frame =
+      snapshot.frames[frame].front_end_T_robot - snapshot.nodes[node].local_T_robot;
+  return (*snapshot.map_T_node)[node] + node_T_frame;
+}
 
 SnapshotMaker::SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits) {
   now.psi = psi;
@@ -42,7 +48,7 @@ void SnapshotMaker::follow(const Mapper& mapper, ActiveMaps active) {
   append_new(nodes_, mapper.keyframes().nodes);
   follow_local_maps(mapper);
   now.map_T_robot = mapper.map_T_robot();
-  if (!same_poses(*now.map_T_node, mapper.graph().poses()))
+  if (*now.map_T_node != mapper.graph().poses())
     now.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(mapper.graph().poses());
   // While scans are mapped, verdicts change only when a loop is added.
   const bool verdicts_may_change = now.progress.phase != SessionProgress::Phase::kMapping;
@@ -83,9 +89,8 @@ void SnapshotMaker::copy_active(const Mapper& mapper, ActiveMaps active) {
 
 void SnapshotMaker::take(const MappingResult& result) {
   finished_ = true;
-  SharedHistory<FrameRecord> frames;
-  append_new(frames, result.frames);
-  frames_ = std::move(frames);
+  frames_ = {};
+  append_new(frames_, result.frames);
   std::vector<mrpt::math::TPose2D> poses;
   for (const std::size_t frame : result.node_frames) poses.push_back(result.frames[frame].map_T_robot);
   now.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(std::move(poses));

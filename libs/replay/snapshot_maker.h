@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,8 +18,8 @@ class SnapshotMaker {
   /// `edits` are planned before the run starts.
   SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits);
 
-  /// The next snapshot. The caller may set all members except the histories and those that note_written(),
-  /// note_edits(), follow() and take() set.
+  /// The next snapshot. The caller may set all members except the histories and those that note_export(),
+  /// note_save(), note_edits(), follow() and take() set.
   ReplaySnapshot now;
 
   /// Notes that a scan was mapped, at this share of the log.

@@ -2,7 +2,6 @@
 #include "icons.h"
 
 #include <array>
-#include <string>
 
 namespace psi_slam {
 namespace {
@@ -28,25 +27,19 @@ constexpr std::array<const char*, 15> kShapes{
     R"(<circle cx="10" cy="10" r="7.5" LINE/><path d="M7 7l6 6M13 7l-6 6" LINE/>)",
     R"(<path d="M5.5 5.5l9 9M14.5 5.5l-9 9" LINE/>)"};
 
-void replace_all(std::string& text, const std::string& what, const std::string& by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at))
-    text.replace(at, what.size(), by);
-}
-
-wxBitmapBundle bundle_of(const std::string& shapes, const std::string& ink, int side) {
-  std::string svg = R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 20">)" + shapes + "</svg>";
-  replace_all(
-      svg, "LINE",
+wxBitmapBundle bundle_of(const wxString& shapes, const wxString& ink, int side) {
+  wxString svg = R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 20">)" + shapes + "</svg>";
+  svg.Replace(
+      "LINE",
       R"(fill="none" stroke="INK" stroke-width="1.8" stroke-linecap="round" stroke-linejoin="round")");
-  replace_all(svg, "INK", ink);
-  return wxBitmapBundle::FromSVG(svg.c_str(), wxSize(side, side));
+  svg.Replace("INK", ink);
+  return wxBitmapBundle::FromSVG(svg.utf8_string().c_str(), wxSize(side, side));
 }
 
 }  // namespace
 
 wxBitmapBundle icon_of(Icon icon, const wxColour& colour) {
-  return bundle_of(kShapes.at(static_cast<std::size_t>(icon)),
-                   colour.GetAsString(wxC2S_HTML_SYNTAX).utf8_string(), kSide);
+  return bundle_of(kShapes.at(static_cast<std::size_t>(icon)), colour.GetAsString(wxC2S_HTML_SYNTAX), kSide);
 }
 
 wxBitmapBundle program_icon() {

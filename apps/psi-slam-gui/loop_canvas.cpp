@@ -6,7 +6,6 @@
 #include <wx/settings.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -21,16 +20,16 @@ constexpr double kAround_m = 1.5;  // margin around the scan
 // At each side, one of this many points may lie outside the picture.
 constexpr std::size_t kPointsPerOutlier = 12;
 
-/// Maps the ground to pixels.
+/// Maps the ground to pixels. The middle of both is given.
 struct Frame2D {
-  double x_min_m = 0;
-  double y_max_m = 0;
+  double x_m = 0;
+  double y_m = 0;
+  double x_px = 0;
+  double y_px = 0;
   double px_per_m = 1;
-  double left_px = 0;
-  double top_px = 0;
 
-  double x(double x_m) const { return left_px + (x_m - x_min_m) * px_per_m; }
-  double y(double y_m) const { return top_px + (y_max_m - y_m) * px_per_m; }
+  double x(double at_m) const { return x_px + (at_m - x_m) * px_per_m; }
+  double y(double at_m) const { return y_px + (y_m - at_m) * px_per_m; }
 };
 
 /// The range of the values without the outliers at both ends.
@@ -52,15 +51,9 @@ Frame2D frame_for(const LoopPicture& picture, const wxRect& area) {
     }
   const auto [x_min, x_max] = range_without_outliers(std::move(x_m));
   const auto [y_min, y_max] = range_without_outliers(std::move(y_m));
-  const double width_m = x_max - x_min + 2 * kAround_m;
-  const double height_m = y_max - y_min + 2 * kAround_m;
-  Frame2D frame;
-  frame.px_per_m = std::min(area.width / width_m, area.height / height_m);
-  frame.x_min_m = x_min - kAround_m;
-  frame.y_max_m = y_max + kAround_m;
-  frame.left_px = area.x + (area.width - width_m * frame.px_per_m) / 2;
-  frame.top_px = area.y + (area.height - height_m * frame.px_per_m) / 2;
-  return frame;
+  return {
+      (x_min + x_max) / 2, (y_min + y_max) / 2, area.x + area.width / 2.0, area.y + area.height / 2.0,
+      std::min(area.width / (x_max - x_min + 2 * kAround_m), area.height / (y_max - y_min + 2 * kAround_m))};
 }
 
 wxBitmap bitmap_of(const MapRaster& raster) {
@@ -73,15 +66,12 @@ wxBitmap bitmap_of(const MapRaster& raster) {
 
 }  // namespace
 
-LoopCanvas::LoopCanvas(wxWindow* parent) : wxPanel(parent) {
+LoopCanvas::LoopCanvas(wxWindow* parent)
+    : wxPanel(parent, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxFULL_REPAINT_ON_RESIZE) {
   SetName("loop picture");
   SetBackgroundStyle(wxBG_STYLE_PAINT);
   SetMinSize(FromDIP(wxSize(240, 130)));
   Bind(wxEVT_PAINT, [this](wxPaintEvent&) { paint(); });
-  Bind(wxEVT_SIZE, [this](wxSizeEvent& event) {
-    Refresh();
-    event.Skip();
-  });
 }
 
 void LoopCanvas::show(std::optional<LoopPicture> picture) {
@@ -104,31 +94,27 @@ void LoopCanvas::paint() {
   }
   const std::unique_ptr<wxGraphicsContext> context(wxGraphicsContext::Create(dc));
   const int half = size.GetWidth() / 2;
-  draw_half(*context, wxRect(0, 0, half, size.GetHeight()), picture_->before, colour_of(palette::kBefore),
-            "Predicted");
-  draw_half(*context, wxRect(half, 0, size.GetWidth() - half, size.GetHeight()), picture_->after,
+  const auto draw_half = [&](const wxRect& area, const auto& scan, const wxColour& colour,
+                             const wxString& title) {
+    context->Clip(area.x, area.y, area.width, area.height);
+    const Frame2D frame = frame_for(*picture_, area);
+    const MapRectangle map = picture_->local_map.rectangle();
+    context->DrawBitmap(local_map_, frame.x(map.x_min_m), frame.y(map.y_max_m),
+                        map.width_m() * frame.px_per_m, map.height_m() * frame.px_per_m);
+    context->SetPen(*wxTRANSPARENT_PEN);
+    context->SetBrush(wxBrush(colour));
+    const double radius = FromDIP(15) / 10.0;
+    for (const mrpt::math::TPoint2D& point : scan)
+      context->DrawEllipse(frame.x(point.x) - radius, frame.y(point.y) - radius, 2 * radius, 2 * radius);
+    context->SetFont(GetFont().Bold(), colour);
+    context->DrawText(title, area.x + FromDIP(6), area.y + FromDIP(4));
+    context->ResetClip();
+  };
+  draw_half(wxRect(0, 0, half, size.GetHeight()), picture_->before, colour_of(palette::kBefore), "Predicted");
+  draw_half(wxRect(half, 0, size.GetWidth() - half, size.GetHeight()), picture_->after,
             colour_of(palette::kAfter), picture_->after.empty() ? "Not found" : "Matched");
   context->SetPen(wxPen(wxSystemSettings::GetColour(wxSYS_COLOUR_BTNSHADOW)));
   context->StrokeLine(half, 0, half, size.GetHeight());
-}
-
-void LoopCanvas::draw_half(wxGraphicsContext& context, const wxRect& area,
-                           const std::vector<mrpt::math::TPoint2D>& scan, const wxColour& colour,
-                           const wxString& title) const {
-  context.Clip(area.x, area.y, area.width, area.height);
-  const Frame2D frame = frame_for(*picture_, area);
-  const MapRaster& map = picture_->local_map;
-  context.DrawBitmap(local_map_, frame.x(map.x_min_m), frame.y(map.y_max_m),
-                     map.width_px * map.resolution_m * frame.px_per_m,
-                     map.height_px * map.resolution_m * frame.px_per_m);
-  context.SetPen(*wxTRANSPARENT_PEN);
-  context.SetBrush(wxBrush(colour));
-  const double radius = FromDIP(15) / 10.0;
-  for (const mrpt::math::TPoint2D& point : scan)
-    context.DrawEllipse(frame.x(point.x) - radius, frame.y(point.y) - radius, 2 * radius, 2 * radius);
-  context.SetFont(GetFont().Bold(), colour);
-  context.DrawText(title, area.x + FromDIP(6), area.y + FromDIP(4));
-  context.ResetClip();
 }
 
 }  // namespace psi_slam

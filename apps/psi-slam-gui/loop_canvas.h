@@ -8,8 +8,6 @@
 
 #include "view/loop_picture.h"
 
-class wxGraphicsContext;
-
 namespace psi_slam {
 
 /// Picture of a loop: its scan on its local map at the predicted pose (left) and at the matched pose (right).
@@ -23,9 +21,6 @@ class LoopCanvas : public wxPanel {
 
  private:
   void paint();
-  void draw_half(wxGraphicsContext& context, const wxRect& area,
-                 const std::vector<mrpt::math::TPoint2D>& scan, const wxColour& colour,
-                 const wxString& title) const;
 
   std::optional<LoopPicture> picture_;
   wxBitmap local_map_;

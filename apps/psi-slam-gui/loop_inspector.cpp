@@ -6,7 +6,6 @@
 #include <wx/menu.h>
 #include <wx/sizer.h>
 #include <wx/splitter.h>
-#include <wx/stattext.h>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +13,6 @@
 
 #include "loop_canvas.h"
 #include "main_menu.h"
-#include "psi_slam/loop_record.h"
 #include "view/palette.h"
 #include "wx_text.h"
 
@@ -44,18 +42,12 @@ LoopList::LoopList(wxWindow* parent)
     AppendColumn(LoopTable::title(column), is_text ? wxLIST_FORMAT_LEFT : wxLIST_FORMAT_RIGHT,
                  width + FromDIP(kCellMargin));
   }
-  Bind(wxEVT_SIZE, [this](wxSizeEvent& event) {
-    fit_columns();
-    event.Skip();
-  });
-  for (wxWindow* child : GetChildren())
-    child->Bind(wxEVT_MOTION, [this](wxMouseEvent& event) {
-      show_tip(event);
-      event.Skip();
-    });
+  Bind(wxEVT_SIZE, &LoopList::fit_columns, this);
+  for (wxWindow* child : GetChildren()) child->Bind(wxEVT_MOTION, &LoopList::show_tip, this);
 }
 
-void LoopList::fit_columns() {
+void LoopList::fit_columns(wxSizeEvent& event) {
+  event.Skip();
   int left = GetSize().GetWidth() - FromDIP(kScrollBar);
   for (std::size_t column = 0; column + 1 < LoopTable::kColumns; ++column)
     left -= GetColumnWidth(static_cast<int>(column));
@@ -64,6 +56,7 @@ void LoopList::fit_columns() {
 }
 
 void LoopList::show_tip(wxMouseEvent& event) {
+  event.Skip();
   auto* const target = static_cast<wxWindow*>(event.GetEventObject());
   int flags = 0;
   const long row = HitTest(event.GetPosition(), flags);
@@ -137,22 +130,20 @@ void LoopInspector::add_action(wxSizer& row, int command, const char* label, con
   button->Bind(wxEVT_BUTTON, [this, command, button](wxCommandEvent&) {
     if (command != kMatchLoop) return choose_command(*this, command);
     wxMenu menu;
-    for (std::size_t i = 0; i < kMatcherChoices.size(); ++i)
-      menu.Append(kMatchLoopBy + static_cast<int>(i), kMatcherChoices[i].title);
+    for (std::size_t i = 0; i < kMatcherKinds.size(); ++i)
+      menu.Append(kMatchLoopBy + static_cast<int>(i), kMatcherTitles[i]);
     const int chosen = GetPopupMenuSelectionFromUser(menu, button->GetPosition());
     if (chosen != wxID_NONE) choose_command(*this, chosen);
   });
   row.Add(button, 0, wxALIGN_CENTRE_VERTICAL | wxLEFT, FromDIP(3));
-  actions_.push_back(button);
 }
 
 void LoopInspector::enable_action(int command, bool enabled) {
-  for (wxButton* button : actions_)
-    if (button->GetId() == command && button->IsEnabled() != enabled) button->Enable(enabled);
+  if (wxWindow* const button = FindWindow(command)) button->Enable(enabled);
 }
 
 void LoopInspector::show(const std::shared_ptr<const ReplaySnapshot>& snapshot) {
-  const bool same_loops = snapshot_ && snapshot_->loops == snapshot->loops;
+  const bool same_loops = snapshot_->loops == snapshot->loops;
   snapshot_ = snapshot;
   if (!same_loops) find_chosen();
   if (list_->table.show(snapshot)) refresh_rows();
@@ -165,9 +156,8 @@ void LoopInspector::find_chosen() {
   const auto is_chosen = [&](const LoopRecord& loop) {
     return loop.frame == chosen_->frame && loop.local_map == chosen_->local_map;
   };
-  if (selected_ && *selected_ < loops.size() && is_chosen(loops[*selected_])) {
-    const LoopRecord& now = loops[*selected_];
-    if (now.verdict == chosen_->verdict && now.anchor_T_node == chosen_->anchor_T_node) return;
+  if (const LoopRecord* const now = selected_loop(); now != nullptr && is_chosen(*now)) {
+    if (now->verdict == chosen_->verdict && now->anchor_T_node == chosen_->anchor_T_node) return;
   } else {
     const auto found = std::find_if(loops.rbegin(), loops.rend(), is_chosen);
     selected_.reset();
@@ -179,6 +169,10 @@ void LoopInspector::find_chosen() {
   canvas_->show(loop_picture(*snapshot_, *selected_));
 }
 
+const LoopRecord* LoopInspector::selected_loop() const {
+  return selected_ && *selected_ < snapshot_->loops->size() ? &(*snapshot_->loops)[*selected_] : nullptr;
+}
+
 void LoopInspector::show_nothing() {
   choose(std::nullopt);
   show(std::make_shared<ReplaySnapshot>());
@@ -187,32 +181,22 @@ void LoopInspector::show_nothing() {
 void LoopInspector::choose(std::optional<std::size_t> loop) {
   selected_ = loop;
   chosen_.reset();
-  if (loop && snapshot_ && *loop < snapshot_->loops->size()) chosen_ = (*snapshot_->loops)[*loop];
-  canvas_->show(loop && snapshot_ ? loop_picture(*snapshot_, *loop) : std::nullopt);
-  show_picture(loop.has_value());
+  if (selected_loop() != nullptr) chosen_ = *selected_loop();
+  canvas_->show(loop ? loop_picture(*snapshot_, *loop) : std::nullopt);
+  if (!loop)
+    splitter_->Unsplit(canvas_);
+  else if (!splitter_->IsSplit())
+    splitter_->SplitVertically(list_, canvas_, -FromDIP(kPictureWidth));
   describe();
   on_chosen_(loop);
 }
 
-void LoopInspector::show_picture(bool shown) {
-  if (shown == splitter_->IsSplit()) return;
-  if (shown)
-    splitter_->SplitVertically(list_, canvas_, -FromDIP(kPictureWidth));
-  else
-    splitter_->Unsplit(canvas_);
-}
-
 void LoopInspector::describe() {
-  const bool known = selected_ && snapshot_ && *selected_ < snapshot_->loops->size();
-  const wxString text =
-      known ? text_of(describe_loop((*snapshot_->loops)[*selected_])) : wxString(kNothingSelected);
+  const LoopRecord* const loop = selected_loop();
+  const wxString text = loop != nullptr ? text_of(describe_loop(*loop)) : wxString(kNothingSelected);
   if (details_->GetLabel() == text) return;
   details_->SetLabel(text);
   details_->SetToolTip(text);
-}
-
-std::string LoopInspector::details() const {
-  return details_->GetLabel().utf8_string();
 }
 
 void LoopInspector::select(std::optional<std::size_t> loop) {

@@ -3,20 +3,18 @@
 
 #include <wx/listctrl.h>
 #include <wx/panel.h>
+#include <wx/stattext.h>
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "loop_table.h"
 
-class wxButton;
 class wxChoice;
 class wxSizer;
 class wxSplitterWindow;
-class wxStaticText;
 
 namespace psi_slam {
 
@@ -30,7 +28,7 @@ class LoopList : public wxListCtrl {
 
  private:
   /// Gives the last column the width that the others leave.
-  void fit_columns();
+  void fit_columns(wxSizeEvent& event);
   /// Shows a reason as a tooltip if its column cuts it off.
   void show_tip(wxMouseEvent& event);
   wxString OnGetItemText(long row, long column) const override;
@@ -49,6 +47,8 @@ class LoopInspector : public wxPanel {
   void show_nothing();
   void select(std::optional<std::size_t> loop);
   std::optional<std::size_t> selected() const { return selected_; }
+  /// The selected loop, or null.
+  const LoopRecord* selected_loop() const;
   /// Enables or disables the button of a command of the Edit menu.
   void enable_action(int command, bool enabled);
 
@@ -56,7 +56,7 @@ class LoopInspector : public wxPanel {
   const LoopList& list() const { return *list_; }
   const LoopCanvas& canvas() const { return *canvas_; }
   /// The text below the table about the selected loop.
-  std::string details() const;
+  std::string details() const { return details_->GetLabel().utf8_string(); }
 
  private:
   void add_action(wxSizer& row, int command, const char* label, const char* tip);
@@ -66,16 +66,14 @@ class LoopInspector : public wxPanel {
   void find_chosen();
   void refresh_rows();
   void describe();
-  void show_picture(bool shown);
 
   std::function<void(std::optional<std::size_t>)> on_chosen_;
-  std::shared_ptr<const ReplaySnapshot> snapshot_;
+  std::shared_ptr<const ReplaySnapshot> snapshot_ = std::make_shared<ReplaySnapshot>();
   std::optional<std::size_t> selected_;
-  bool selecting_ = false;
+  bool selecting_ = false;  ///< refresh_rows() changes the selection, not the user
   bool scroll_to_selected_ = false;
   /// The selected loop. Identifies it after edits, which change the indices of loops.
   std::optional<LoopRecord> chosen_;
-  std::vector<wxButton*> actions_;
   wxChoice* filter_;
   wxStaticText* summary_;
   wxStaticText* details_;

@@ -2,11 +2,11 @@
 #include "loop_table.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <tuple>
 
 #include "base/number_text.h"
-#include "psi_slam/loop_record.h"
 #include "view/loop_picture.h"
 
 namespace psi_slam {
@@ -48,35 +48,22 @@ void LoopTable::sort_by(std::size_t column, bool ascending) {
 }
 
 LoopTable::Cell LoopTable::cell(const LoopRecord& loop, std::size_t column) const {
-  const auto number = [](double value, int decimals) { return Cell{value, fixed_text(value, decimals)}; };
-  switch (column) {
-    case kFrame:
-      return number(static_cast<double>(loop.frame), 0);
-    case kNode:
-      return number(static_cast<double>(loop.node), 0);
-    case kLocalMap:
-      return number(static_cast<double>(loop.local_map), 0);
-    case kMatcher:
-      return {0, name(loop.matcher) + std::string(loop.by_hand           ? ", by hand"
-                                                  : loop.in_final_search ? ", final search"
-                                                                         : "")};
-    case kResponse:
-      return number(loop.response, 3);
-    case kAmbiguity:
-      return number(loop.ambiguity, 3);
-    case kMoved:
-      return number(loop.moved_m, 2);
-    case kResidual:
-      if (loop.verdict == LoopVerdict::kAccepted || loop.verdict == LoopVerdict::kSwitchedOff)
-        return number(loop_residual(loop, *snapshot_->map_T_node).distance_m, 3);
-      return {std::numeric_limits<double>::infinity() * (ascending_ ? 1 : -1), ""};  // listed last
-    case kVerdict:
-      return {0, verdict_text(loop.verdict)};
-    case kReason:
-      return {0, text_of(loop.refusal)};
-    default:
-      return {};
-  }
+  const auto number = [](auto value, int decimals) {
+    return Cell{static_cast<double>(value), fixed_text(static_cast<double>(value), decimals)};
+  };
+  const char* const manner = loop.by_hand ? ", by hand" : loop.in_final_search ? ", final search" : "";
+  if (column == kFrame) return number(loop.frame, 0);
+  if (column == kNode) return number(loop.node, 0);
+  if (column == kLocalMap) return number(loop.local_map, 0);
+  if (column == kMatcher) return {0, std::string(name(loop.matcher)) + manner};
+  if (column == kResponse) return number(loop.response, 3);
+  if (column == kAmbiguity) return number(loop.ambiguity, 3);
+  if (column == kMoved) return number(loop.moved_m, 2);
+  if (column == kVerdict) return {0, verdict_text(loop.verdict)};
+  if (column == kReason) return {0, text_of(loop.refusal)};
+  if (loop.verdict == LoopVerdict::kAccepted || loop.verdict == LoopVerdict::kSwitchedOff)
+    return number(loop_residual_m(loop, *snapshot_->map_T_node), 3);
+  return {std::numeric_limits<double>::infinity() * (ascending_ ? 1 : -1), ""};  // listed last
 }
 
 void LoopTable::arrange() {

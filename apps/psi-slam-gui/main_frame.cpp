@@ -4,7 +4,6 @@
 #include <wx/button.h>
 #include <wx/config.h>
 #include <wx/dirdlg.h>
-#include <wx/dnd.h>
 #include <wx/filedlg.h>
 #include <wx/settings.h>
 #include <wx/simplebook.h>
@@ -22,6 +21,7 @@
 #include "psi_slam/user_error.h"
 #include "settings_panel.h"
 #include "transport_bar.h"
+#include "window_layout.h"
 #include "wx_text.h"
 
 namespace psi_slam {
@@ -31,25 +31,6 @@ constexpr int kRefresh_ms = 50;
 constexpr const char* kUnsaved =
     "Some scans or edits have not been exported or saved. Close the window anyway?";
 constexpr double kLoopDistance_m = 20;  // from the eye to a selected loop
-
-class LogDrop : public wxFileDropTarget {
- public:
-  explicit LogDrop(MainFrame& frame) : frame_(frame) {}
-  bool OnDropFiles(wxCoord, wxCoord, const wxArrayString& names) override {
-    if (names.empty()) return false;
-    const std::filesystem::path path = path_of(names[0]);
-    if (path.extension() == ".ini")
-      frame_.open_settings(path);
-    else if (path.extension() == ".edits")
-      frame_.open_edits(path);
-    else
-      frame_.open_other_log(path);
-    return true;
-  }
-
- private:
-  MainFrame& frame_;
-};
 
 /// The page shown in place of the map until a log is open.
 wxPanel* make_start_page(wxWindow* parent) {
@@ -76,48 +57,44 @@ wxPanel* make_start_page(wxWindow* parent) {
 
 AskForFile ask_in_dialogs(wxWindow& parent) {
   return [&parent](const FileQuestion& question) -> std::optional<std::filesystem::path> {
-    if (question.kind == FileQuestion::Kind::kFolder) {
-      wxDirDialog dialog(&parent, text_of(question.title));
-      if (dialog.ShowModal() != wxID_OK) return std::nullopt;
-      return path_of(dialog.GetPath());
-    }
-    const bool saves = question.kind == FileQuestion::Kind::kSave;
-    wxFileDialog dialog(&parent, text_of(question.title), "", text_of(question.proposed_name),
-                        text_of(question.wildcard),
-                        saves ? wxFD_SAVE | wxFD_OVERWRITE_PROMPT : wxFD_OPEN | wxFD_FILE_MUST_EXIST);
-    if (dialog.ShowModal() != wxID_OK) return std::nullopt;
-    return path_of(dialog.GetPath());
+    const wxString title = text_of(question.title);
+    const int style = question.kind == FileQuestion::Kind::kSave ? wxFD_SAVE | wxFD_OVERWRITE_PROMPT
+                                                                 : wxFD_OPEN | wxFD_FILE_MUST_EXIST;
+    const wxString path = question.kind == FileQuestion::Kind::kFolder
+                              ? wxDirSelector(title, "", wxDD_DEFAULT_STYLE, wxDefaultPosition, &parent)
+                              : wxFileSelector(title, "", text_of(question.proposed_name), "",
+                                               text_of(question.wildcard), style, &parent);
+    if (path.empty()) return std::nullopt;
+    return path_of(path);
   };
 }
 
 }  // namespace
 
 MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "psi-slam"), recent_(9), timer_(this) {
-  SetIcons(wxIconBundle());
   SetIcon(program_icon().GetIcon(wxSize(64, 64)));
   SetMinSize(FromDIP(wxSize(720, 480)));
   SetSize(FromDIP(wxSize(1500, 960)));
   build();
   bind_commands();
-  enable_commands(nullptr);
+  enable_commands();
   ask_for_file_ = ask_in_dialogs(*this);
-  layout_.emplace(*this, panes_);
-  if (wxConfigBase* config = wxConfigBase::Get(false)) layout_->restore(*config, canvas_->map_scene());
+  default_panes_ = panes_.SavePerspective();
+  restore_layout(*wxConfigBase::Get(), *this, panes_, canvas_->map_scene());
   check_choices();
-  SetDropTarget(new LogDrop(*this));
+  DragAcceptFiles(true);
+  Bind(wxEVT_DROP_FILES, [this](wxDropFilesEvent& event) {
+    if (event.GetNumberOfFiles() > 0) open_dropped(path_of(event.GetFiles()[0]));
+  });
   Bind(wxEVT_TIMER, [this](wxTimerEvent&) { refresh(); });
   Bind(wxEVT_CLOSE_WINDOW, [this](wxCloseEvent& event) { close(event); });
   timer_.Start(kRefresh_ms);
 }
 
-MainFrame::~MainFrame() {
-  panes_.UnInit();
-}
-
 void MainFrame::build() {
   auto* recent = new wxMenu;
   recent_.UseMenu(recent);
-  if (wxConfigBase* config = wxConfigBase::Get(false)) recent_.Load(*config);
+  recent_.Load(*wxConfigBase::Get());
   SetMenuBar(make_menu_bar(recent));
   CreateStatusBar();
   show_status(hint_text());
@@ -185,12 +162,11 @@ void MainFrame::refresh() {
   if (!replay_) return;
   const std::shared_ptr<const ReplaySnapshot> snapshot = replay_->snapshot();
   if (snapshot != run_.snapshot) {
-    run_.snapshot = snapshot;
+    const std::shared_ptr<const ReplaySnapshot> before = std::exchange(run_.snapshot, snapshot);
     loops_->show(snapshot);
-    enable_commands(snapshot.get());
-    report_news(*snapshot);
-    if (!replay_) return;
-    report_edit(*snapshot);
+    enable_commands();
+    static const ReplaySnapshot kOpening;
+    report_changes(*snapshot, before ? *before : kOpening);
     canvas_->map_scene().choose_loop(loops_->selected());
   }
   transport_->show(*snapshot, replay_->stamps_us(), run_.frame);
@@ -198,23 +174,19 @@ void MainFrame::refresh() {
   plots_->show(snapshot, run_.frame);
 }
 
-/// Shows warnings, failures and outcomes of saves and exports, each once.
-void MainFrame::report_news(const ReplaySnapshot& snapshot) {
-  const bool saved = snapshot.saved && snapshot.saved->number != run_.reported_save;
-  const bool exported = snapshot.exported && snapshot.exported->number != run_.reported_export;
+/// Shows warnings, failures and outcomes of saves, exports and edits that `before` does not have.
+void MainFrame::report_changes(const ReplaySnapshot& snapshot, const ReplaySnapshot& before) {
+  const bool saved = is_new(snapshot.saved, before.saved);
+  const bool exported = is_new(snapshot.exported, before.exported);
+  const bool failed = snapshot.phase == ReplayPhase::kFailed;
   report_warnings(snapshot.warnings);
-  if (!run_.in_recent_logs && snapshot.phase != ReplayPhase::kOpening &&
-      snapshot.phase != ReplayPhase::kFailed) {
-    run_.in_recent_logs = true;
-    add_to_recent_logs(opened_);
-  }
+  if (before.phase == ReplayPhase::kOpening && snapshot.phase != ReplayPhase::kOpening && !failed)
+    add_to_recent_logs();
   if (saved) report_save(*snapshot.saved);
   if (exported) report_export(*snapshot.exported);
-  if (snapshot.phase == ReplayPhase::kFailed &&
-      (saved || exported || snapshot.failure != run_.reported_failure)) {
-    run_.reported_failure = snapshot.failure;
+  if (failed && (saved || exported || before.phase != ReplayPhase::kFailed))
     messages_->fail(snapshot.failure);  // the cause of the other failures
-  }
+  if (is_new(snapshot.edited, before.edited)) report_edit(snapshot);
 }
 
 /// Shows warnings if there are new ones. If only a number in them has changed, updates the text on show.
@@ -227,7 +199,6 @@ void MainFrame::report_warnings(const std::vector<std::string>& warnings) {
 }
 
 void MainFrame::report_save(const WriteOutcome& outcome) {
-  run_.reported_save = outcome.number;
   if (!outcome.failure.empty()) return messages_->fail(outcome.failure);
   unsaved_.note_written(outcome.written);
   if (!outcome.remark.empty()) return messages_->warn(outcome.remark);
@@ -236,7 +207,6 @@ void MainFrame::report_save(const WriteOutcome& outcome) {
 }
 
 void MainFrame::report_export(const WriteOutcome& outcome) {
-  run_.reported_export = outcome.number;
   const bool closes = std::exchange(run_.close_when_written, false);
   if (!outcome.failure.empty()) return messages_->fail(outcome.failure);
   unsaved_.note_written(outcome.written);
@@ -244,23 +214,24 @@ void MainFrame::report_export(const WriteOutcome& outcome) {
   if (closes) Close();
 }
 
-void MainFrame::enable_commands(const ReplaySnapshot* snapshot) {
-  const bool mapping = snapshot != nullptr &&
-                       (snapshot->phase == ReplayPhase::kPaused || snapshot->phase == ReplayPhase::kPlaying);
-  const bool searching = snapshot != nullptr && snapshot->phase == ReplayPhase::kFinalSearch;
-  const bool has_scans = snapshot != nullptr && !snapshot->frames.empty();
-  const bool finished = snapshot != nullptr && snapshot->phase == ReplayPhase::kFinished;
+void MainFrame::enable_commands() {
+  const bool open = run_.snapshot != nullptr;
+  const ReplayPhase phase = open ? run_.snapshot->phase : ReplayPhase::kOpening;
+  const bool mapping = phase == ReplayPhase::kPaused || phase == ReplayPhase::kPlaying;
+  const bool searching = phase == ReplayPhase::kFinalSearch;
+  const bool finished = phase == ReplayPhase::kFinished;
+  const bool has_scans = open && !run_.snapshot->frames.empty();
   wxMenuBar& menu = *GetMenuBar();
   menu.Enable(kPlayOrPause, mapping || searching);
   menu.Enable(kStep, mapping);
   menu.Enable(kFinish, has_scans && (mapping || searching));
-  menu.Enable(kRestart, snapshot != nullptr);
+  menu.Enable(kRestart, open);
   menu.Enable(kExport, finished);
   menu.Enable(kResumeWithLog, replay_ && replay_->input().recording() != nullptr);
   menu.Enable(kSaveSession, has_scans && (mapping || finished));
-  menu.Enable(kSavePicture, snapshot != nullptr);
-  enable_edit_commands(snapshot);
-  GetToolBar()->EnableTool(kRestart, snapshot != nullptr);
+  menu.Enable(kSavePicture, open);
+  enable_edit_commands();
+  GetToolBar()->EnableTool(kRestart, open);
   GetToolBar()->EnableTool(kExport, finished);
 }
 
@@ -270,22 +241,16 @@ void MainFrame::play_or_pause() {
   TransportBar::can_pause(*run_.snapshot) ? replay_->pause() : replay_->play();
 }
 
-void MainFrame::step() {
-  run_.frame.reset();
-  if (replay_) replay_->step();
-}
-
 void MainFrame::finish() {
   if (!replay_ || !run_.snapshot) return;
   run_.snapshot->phase == ReplayPhase::kFinalSearch ? replay_->cut_final_search() : replay_->finish();
 }
 
-void MainFrame::set_speed(double speed) {
-  speed_ = speed;
-  transport_->set_speed(speed);
-  for (std::size_t i = 0; i < kSpeeds.size(); ++i)
-    if (kSpeeds[i] == speed) GetMenuBar()->Check(kSpeed + static_cast<int>(i), true);
-  if (replay_) replay_->set_speed(speed);
+void MainFrame::set_speed(int choice) {
+  speed_ = kSpeeds.at(static_cast<std::size_t>(choice));
+  transport_->set_speed(choice);
+  GetMenuBar()->Check(kSpeed + choice, true);
+  if (replay_) replay_->set_speed(speed_);
 }
 
 void MainFrame::go_to(std::size_t scan) {
@@ -306,11 +271,11 @@ void MainFrame::go_to(std::size_t scan) {
 }
 
 void MainFrame::choose_loop(std::optional<std::size_t> loop) {
-  if (run_.snapshot) enable_edit_commands(run_.snapshot.get());
+  if (run_.snapshot) enable_edit_commands();
   canvas_->map_scene().choose_loop(loop);
-  if (!loop || !run_.snapshot || *loop >= run_.snapshot->loops->size()) return;
-  const mrpt::math::TPose2D node = run_.snapshot->map_T_node->at((*run_.snapshot->loops)[*loop].node);
-  canvas_->look_at({node.x, node.y}, kLoopDistance_m);
+  const LoopRecord* const record = loop ? loops_->selected_loop() : nullptr;
+  if (record != nullptr)
+    canvas_->look_at(mrpt::math::TPoint2D(run_.snapshot->map_T_node->at(record->node)), kLoopDistance_m);
 }
 
 void MainFrame::export_to(const std::filesystem::path& folder, bool replace) {
@@ -353,18 +318,16 @@ void MainFrame::close(wxCloseEvent& event) {
     return event.Veto();
   }
   timer_.Stop();
-  if (wxConfigBase* config = wxConfigBase::Get(false)) layout_->save(*config, canvas_->map_scene());
+  save_layout(*wxConfigBase::Get(), *this, panes_, canvas_->map_scene());
   Hide();  // the threads may take a moment to end
   event.Skip();
 }
 
-void MainFrame::add_to_recent_logs(const std::filesystem::path& log) {
+void MainFrame::add_to_recent_logs() {
   std::error_code ignored;
-  recent_.AddFileToHistory(text_of(std::filesystem::absolute(log, ignored)));
-  wxConfigBase* const config = wxConfigBase::Get(false);
-  if (config == nullptr) return;
-  recent_.Save(*config);
-  config->Flush();
+  recent_.AddFileToHistory(text_of(std::filesystem::absolute(opened_, ignored)));
+  recent_.Save(*wxConfigBase::Get());
+  wxConfigBase::Get()->Flush();
 }
 
 void MainFrame::show_status(const std::string& text) {

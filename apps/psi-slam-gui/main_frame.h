@@ -21,7 +21,6 @@
 #include "session/settings.h"
 #include "session_reader.h"
 #include "unsaved_work.h"
-#include "window_layout.h"
 
 class wxSimplebook;
 
@@ -51,7 +50,6 @@ using AskForFile = std::function<std::optional<std::filesystem::path>(const File
 class MainFrame : public wxFrame {
  public:
   MainFrame();
-  ~MainFrame() override;
 
   /// Opens what the command line names; empty names are ignored.
   void start(const std::string& log, const std::string& config, const std::vector<std::string>& settings,
@@ -63,6 +61,8 @@ class MainFrame : public wxFrame {
                 const std::function<void(BoundSettings&)>& overrule = {});
   /// Calls open_log(), but asks first if edits would be lost.
   void open_other_log(const std::filesystem::path& log);
+  /// Opens a file that was dropped on the window: settings, loop edits, a log or a session.
+  void open_dropped(const std::filesystem::path& file);
   void open_settings(const std::filesystem::path& file);
   void save_settings(const std::filesystem::path& file);
   void export_to(const std::filesystem::path& folder, bool replace);
@@ -95,12 +95,7 @@ class MainFrame : public wxFrame {
     std::shared_ptr<const ReplaySnapshot> snapshot;
     std::optional<std::size_t> frame;  ///< an earlier scan to show instead of the newest
     std::string settings;              ///< text of the run's settings
-    std::string reported_failure;
     std::vector<std::string> reported_warnings;
-    int reported_export = 0;
-    int reported_save = 0;
-    int reported_edit = 0;
-    bool in_recent_logs = false;
     bool may_close_unsaved = false;
     bool close_when_written = false;
   };
@@ -114,28 +109,26 @@ class MainFrame : public wxFrame {
   void bind_edit_commands();
   void on(int command, const std::function<void()>& action);
   void on_file(int command, const FileQuestion& question,
-               const std::function<void(const std::filesystem::path&)>& action);
+               const std::function<void(MainFrame&, const std::filesystem::path&)>& action);
   /// The panes that the menu View shows and hides, with their commands.
   std::array<std::pair<wxWindow*, int>, 3> optional_panes() const;
 
   void press_key(wxKeyEvent& event);
 
   void refresh();
-  void report_news(const ReplaySnapshot& snapshot);
+  void report_changes(const ReplaySnapshot& snapshot, const ReplaySnapshot& before);
   void report_warnings(const std::vector<std::string>& warnings);
   void report_save(const WriteOutcome& outcome);
   void report_export(const WriteOutcome& outcome);
   void report_edit(const ReplaySnapshot& snapshot);
-  void enable_commands(const ReplaySnapshot* snapshot);
-  void enable_edit_commands(const ReplaySnapshot* snapshot);
+  void enable_commands();
+  void enable_edit_commands();
   void close(wxCloseEvent& event);
   bool has_unsaved_work() const;
   bool has_unsaved_edits() const;
   /// True while an edit has no outcome yet, so that snapshots lack it.
   bool edits_are_pending() const;
 
-  /// Calls `read` in another thread, then `take` with the session in this thread.
-  void read_session(const std::filesystem::path& file, SessionReader::Read read, SessionReader::Take take);
   std::vector<std::string> take_settings_of(const SessionFacts& facts, const std::filesystem::path& file,
                                             const std::function<void(BoundSettings&)>& overrule);
   enum class Edits { kOfFile, kMadeSoFar };
@@ -146,12 +139,12 @@ class MainFrame : public wxFrame {
   /// Updates the check marks of the menus from what is shown.
   void check_choices();
   void play_or_pause();
-  void step();
   void finish();
   void restart();
   /// Shows whether the settings differ from those of the run.
   void show_pending_settings();
-  void set_speed(double speed);
+  /// Chooses one of kSpeeds by its index.
+  void set_speed(int choice);
   void choose_loop(std::optional<std::size_t> loop);
   void edit_selected(LoopEdit::Kind kind, MatcherKind matcher = MatcherKind::kCsm);
   void toggle_adding_loop();
@@ -160,7 +153,7 @@ class MainFrame : public wxFrame {
   void map_again_with(const std::filesystem::path& edits);
   /// All edits of the run. Throws UserError while an edit is pending.
   EditJournal edits() const;
-  void add_to_recent_logs(const std::filesystem::path& log);
+  void add_to_recent_logs();
   void show_status(const std::string& text);
 
   BoundSettings settings_;
@@ -175,7 +168,7 @@ class MainFrame : public wxFrame {
 
   AskForFile ask_for_file_;
   wxAuiManager panes_;
-  std::optional<WindowLayout> layout_;
+  wxString default_panes_;
   wxFileHistory recent_;
   wxTimer timer_;
   static constexpr int kMapPage = 1;  // of middle_; page 0 is shown without a log

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Actions of the window's menus and keys.
+// Actions of the window's menus and keys, except the Edit menu.
 #include <wx/log.h>
+#include <wx/simplebook.h>
 #include <wx/textentry.h>
 #include <wx/toolbar.h>
+
+#include <new>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
@@ -13,6 +16,8 @@
 #include "message_bar.h"
 #include "plot_panel.h"
 #include "psi_slam/user_error.h"
+#include "session/recorded_settings.h"
+#include "session/session_file.h"
 #include "settings_panel.h"
 #include "wx_text.h"
 
@@ -35,9 +40,9 @@ void MainFrame::on(int command, const std::function<void()>& action) {
 
 /// Makes a command ask for a file and call `action` with it, unless the user cancels.
 void MainFrame::on_file(int command, const FileQuestion& question,
-                        const std::function<void(const Path&)>& action) {
+                        const std::function<void(MainFrame&, const Path&)>& action) {
   on(command, [this, question, action] {
-    if (const auto file = ask_for_file_(question)) action(*file);
+    if (const auto file = ask_for_file_(question)) action(*this, *file);
   });
 }
 
@@ -46,11 +51,13 @@ void MainFrame::bind_commands() {
   bind_view_commands();
   bind_edit_commands();
   on(kPlayOrPause, [this] { play_or_pause(); });
-  on(kStep, [this] { step(); });
+  on(kStep, [this] {
+    run_.frame.reset();
+    if (replay_) replay_->step();
+  });
   on(kFinish, [this] { finish(); });
   on(kRestart, [this] { restart(); });
-  for (std::size_t i = 0; i < kSpeeds.size(); ++i)
-    on(kSpeed + static_cast<int>(i), [this, i] { set_speed(kSpeeds[i]); });
+  for (int i = 0; i < static_cast<int>(kSpeeds.size()); ++i) on(kSpeed + i, [this, i] { set_speed(i); });
   Bind(wxEVT_CHAR_HOOK, [this](wxKeyEvent& event) { press_key(event); });
   on(kShortcuts, [this] { messages_->note(shortcuts_text()); });
   on(kAbout, [this] { wxAboutBox(about_info(), this); });
@@ -70,23 +77,21 @@ void MainFrame::press_key(wxKeyEvent& event) {
 }
 
 void MainFrame::bind_file_commands() {
-  const auto open_log = [this](const Path& log) { open_other_log(log); };
-  on_file(kOpenLog, {Ask::kOpen, "Open a log or a session", kLogFiles, ""}, open_log);
-  on_file(kOpenFolder, {Ask::kFolder, "Open the folder of a ROS 2 bag", "", ""}, open_log);
+  on_file(kOpenLog, {Ask::kOpen, "Open a log or a session", kLogFiles, ""}, &MainFrame::open_other_log);
+  on_file(kOpenFolder, {Ask::kFolder, "Open the folder of a ROS 2 bag", "", ""}, &MainFrame::open_other_log);
   on_file(kSaveSession, {Ask::kSave, "Save the session", "Sessions (*.session)|*.session", "my.session"},
-          [this](const Path& file) { save_session(file); });
+          &MainFrame::save_session);
   on_file(kResumeWithLog,
           {Ask::kOpen, "Open the last log of the session, or a log that continues it", kLogFiles, ""},
-          [this](const Path& log) { resume_with(log); });
-  on_file(kOpenSettings, {Ask::kOpen, "Open settings", kSettingsFiles, ""},
-          [this](const Path& file) { open_settings(file); });
+          &MainFrame::resume_with);
+  on_file(kOpenSettings, {Ask::kOpen, "Open settings", kSettingsFiles, ""}, &MainFrame::open_settings);
   on_file(kSaveSettings, {Ask::kSave, "Save the settings", kSettingsFiles, "my.ini"},
-          [this](const Path& file) { save_settings(file); });
+          &MainFrame::save_settings);
   on(kResetSettings, [this] { settings_panel_->reset_all(); });
   on_file(kExport, {Ask::kFolder, "Choose a new or empty folder for the results", "", ""},
-          [this](const Path& folder) { export_to(folder, false); });
+          [](MainFrame& frame, const Path& folder) { frame.export_to(folder, false); });
   on_file(kSavePicture, {Ask::kSave, "Save a picture of the map view", "PNG (*.png)|*.png", "view.png"},
-          [this](const Path& file) { save_picture(file); });
+          &MainFrame::save_picture);
   on(kQuit, [this] { Close(); });
   Bind(
       wxEVT_MENU,
@@ -135,7 +140,7 @@ void MainFrame::bind_view_commands() {
       panes_.Update();
     });
   on(kDefaultLayout, [this] {
-    layout_->restore_default_panes();
+    panes_.LoadPerspective(default_panes_);
     check_choices();
   });
   panes_.Bind(wxEVT_AUI_PANE_CLOSE, [this](wxAuiManagerEvent& event) {
@@ -157,6 +162,127 @@ void MainFrame::check_choices() {
   const bool residual = scene.loop_style().colour == LoopStyle::Colour::kResidual;
   menu.Check(residual ? kLoopsByResidual : kLoopsByMatcher, true);
   for (const auto& [pane, command] : optional_panes()) menu.Check(command, panes_.GetPane(pane).IsShown());
+}
+
+void MainFrame::start(const std::string& log, const std::string& config,
+                      const std::vector<std::string>& settings, const std::string& edits) {
+  std::optional<EditJournal> journal;
+  attempt([&] {
+    settings_.load(config, settings);
+    if (!edits.empty()) journal = EditJournal::read(edits);
+  });
+  settings_panel_->refresh();
+  if (log.empty()) return;
+  open_log(log, std::move(journal), [=](BoundSettings& bound) { bound.load(config, settings); });
+}
+
+void MainFrame::open_log(const Path& log, std::optional<EditJournal> edits,
+                         const std::function<void(BoundSettings&)>& overrule) {
+  const auto open_input = [=](SessionInput input, const std::vector<std::string>& remarks) {
+    opened_ = log;
+    open(edits ? input.with_edits(*edits) : std::move(input), Edits::kOfFile);
+    if (!remarks.empty()) messages_->warn(first_sentences(remarks));
+  };
+  attempt([&] {
+    if (!is_session_file(log)) {
+      session_settings_.clear();
+      return open_input(SessionInput(log), {});
+    }
+    const int edits_before = replay_ ? replay_->edits_asked() : 0;
+    messages_->note("Reading " + log.string());
+    session_reader_.begin([log] { return SessionInput::of_file(log); },
+                          [=](const SessionInput& input) {
+                            const auto open_session = [=] {
+                              open_input(input, take_settings_of(input.recording()->facts, log, overrule));
+                            };
+                            if (!replay_ || replay_->edits_asked() == edits_before) return open_session();
+                            messages_->warn(
+                                "Loops were edited while " + log.string() + " was read. Open it anyway?",
+                                {{"Open it", [=] { attempt(open_session); }}});
+                          });
+  });
+}
+
+/// Takes over the settings of a session, all or none. Returns remarks for the user.
+std::vector<std::string> MainFrame::take_settings_of(const SessionFacts& facts, const Path& file,
+                                                     const std::function<void(BoundSettings&)>& overrule) {
+  BoundSettings recorded;  // options that the session does not set have their defaults
+  std::vector<std::string> remarks = load_recorded(recorded, facts, file);
+  if (const auto other = other_version_text(file, facts)) remarks.push_back(*other);
+  std::map<std::string, std::string> kept = kept_settings(recorded.table);
+  if (overrule) overrule(recorded);
+  require_kept(kept, recorded.table, file);
+  session_settings_ = std::move(kept);
+  settings_.settings = recorded.settings;
+  settings_panel_->refresh();
+  return remarks;
+}
+
+void MainFrame::resume_with(const Path& log) {
+  if (!replay_ || !replay_->input().recording()) return;
+  attempt([&] {
+    messages_->note("Reading " + log.string());
+    session_reader_.begin(
+        [recording = replay_->input().recording(), log] { return SessionInput(recording, log); },
+        [this](const SessionInput& input) { open(input.with_edits(edits()), Edits::kMadeSoFar); });
+  });
+}
+
+void MainFrame::attempt(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (...) {
+    report_failure(std::current_exception());
+  }
+}
+
+void MainFrame::report_failure(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const std::bad_alloc&) {
+    messages_->fail("Out of memory: close other programs or map a shorter log");
+  } catch (const std::exception& error) {
+    messages_->fail(error.what());
+  }
+}
+
+void MainFrame::open(SessionInput input, Edits edits) {
+  if (input.recording()) require_kept(session_settings_, settings_.table, opened_);
+  session_reader_.give_up();  // its session was to continue the previous run
+  messages_->dismiss();
+  run_ = {};
+  set_adding_loop(false);
+  loops_->show_nothing();
+  plots_->show(std::make_shared<ReplaySnapshot>(), {});
+  run_.settings = settings_file_text(settings_.table);
+  settings_panel_->show_pending(false);
+  edits == Edits::kOfFile ? unsaved_.open(input) : unsaved_.restart(input);
+  replay_.open(std::move(input), settings_.settings);
+  replay_->set_speed(speed_);
+  middle_->SetSelection(kMapPage);
+  canvas_->show_all();
+  SetTitle(text_of(opened_.filename()) + wxString::FromUTF8(" — psi-slam"));
+  refresh();
+}
+
+void MainFrame::open_other_log(const Path& log) {
+  if (!has_unsaved_edits()) return open_log(log);
+  messages_->warn("Loop edits have not been saved. Open another log anyway?",
+                  {{"Open it", [this, log] { open_log(log); }}});
+}
+
+void MainFrame::open_dropped(const Path& file) {
+  if (file.extension() == ".ini") return open_settings(file);
+  if (file.extension() == ".edits") return open_edits(file);
+  open_other_log(file);
+}
+
+void MainFrame::show_pending_settings() {
+  if (replay_) settings_panel_->show_pending(settings_file_text(settings_.table) != run_.settings);
+}
+
+void MainFrame::restart() {
+  if (replay_) attempt([this] { open(replay_->input().with_edits(edits()), Edits::kMadeSoFar); });
 }
 
 void MainFrame::save_session(const Path& file) {

@@ -18,11 +18,6 @@ using Kind = LoopEdit::Kind;
 
 const char* const kEditFiles = "Loop edits (*.edits)|*.edits|All files|*";
 
-std::string capitalized(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
-
 const LoopRecord* record_of(const ReplaySnapshot& snapshot, const LoopEdit& edit) {
   const std::vector<LoopRecord>& loops = *snapshot.loops;
   const auto found = std::find_if(loops.rbegin(), loops.rend(),
@@ -33,30 +28,23 @@ const LoopRecord* record_of(const ReplaySnapshot& snapshot, const LoopEdit& edit
 }  // namespace
 
 void MainFrame::bind_edit_commands() {
-  on(kUndo, [this] {
-    if (replay_) replay_->undo();
-  });
-  on(kRedo, [this] {
-    if (replay_) replay_->redo();
-  });
+  on(kUndo, [this] { replay_->undo(); });  // enabled only while a run is open
+  on(kRedo, [this] { replay_->redo(); });
   on(kDeleteLoop, [this] { edit_selected(Kind::kDelete); });
   on(kForceLoop, [this] { edit_selected(Kind::kForce); });
   on(kRestoreLoop, [this] { edit_selected(Kind::kRestore); });
-  for (std::size_t i = 0; i < kMatcherChoices.size(); ++i)
-    on(kMatchLoopBy + static_cast<int>(i),
-       [this, i] { edit_selected(Kind::kMatch, kMatcherChoices[i].kind); });
+  for (std::size_t i = 0; i < kMatcherKinds.size(); ++i)
+    on(kMatchLoopBy + static_cast<int>(i), [this, i] { edit_selected(Kind::kMatch, kMatcherKinds[i]); });
   on(kAddLoop, [this] { toggle_adding_loop(); });
-  on_file(kOpenEdits, {FileQuestion::Kind::kOpen, "Open loop edits", kEditFiles, ""},
-          [this](const std::filesystem::path& file) { open_edits(file); });
+  on_file(kOpenEdits, {FileQuestion::Kind::kOpen, "Open loop edits", kEditFiles, ""}, &MainFrame::open_edits);
   on_file(kSaveEdits, {FileQuestion::Kind::kSave, "Save the loop edits", kEditFiles, "my.edits"},
-          [this](const std::filesystem::path& file) { save_edits(file); });
+          &MainFrame::save_edits);
   canvas_->on.clicked = [this](const mrpt::math::TPoint2D& place) { click_place(place); };
 }
 
 void MainFrame::edit_selected(Kind kind, MatcherKind matcher) {
-  const std::optional<std::size_t> selected = loops_->selected();
-  if (!replay_ || !run_.snapshot || !selected || *selected >= run_.snapshot->loops->size()) return;
-  const LoopRecord& loop = (*run_.snapshot->loops)[*selected];
+  if (loops_->selected_loop() == nullptr) return;
+  const LoopRecord& loop = *loops_->selected_loop();
   LoopEdit edit{kind, loop.frame, loop.local_map};
   edit.matcher = matcher;
   // An edit discards the loops of the final loop search, so a forced one must be searched again in its place.
@@ -102,14 +90,13 @@ void MainFrame::click_place(const mrpt::math::TPoint2D& place) {
         "more scans first.");
 }
 
-/// Shows the outcome of the newest edit, once.
+/// Shows the outcome of the newest edit.
 void MainFrame::report_edit(const ReplaySnapshot& snapshot) {
-  if (!snapshot.edited || snapshot.edited->number == run_.reported_edit) return;
-  run_.reported_edit = snapshot.edited->number;
   const auto& [number, edit, outcome] = *snapshot.edited;
   const bool made = outcome.state != LoopEditOutcome::State::kImpossible;
   const LoopRecord* const loop = record_of(snapshot, edit);
-  std::string words = capitalized(text_of(edit));
+  std::string words = text_of(edit);
+  words.front() = static_cast<char>(std::toupper(words.front()));
   if (!outcome.reason.empty())
     words += ": " + outcome.reason;
   else if (loop != nullptr)
@@ -123,12 +110,11 @@ void MainFrame::report_edit(const ReplaySnapshot& snapshot) {
     loops_->select(static_cast<std::size_t>(loop - snapshot.loops->data()));
 }
 
-void MainFrame::enable_edit_commands(const ReplaySnapshot* snapshot) {
+void MainFrame::enable_edit_commands() {
+  const ReplaySnapshot* const snapshot = run_.snapshot.get();
   const bool open = snapshot != nullptr && snapshot->phase != ReplayPhase::kOpening &&
                     snapshot->phase != ReplayPhase::kFailed;
-  const std::optional<std::size_t> selected = loops_->selected();
-  const LoopRecord* const loop =
-      open && selected && *selected < snapshot->loops->size() ? &(*snapshot->loops)[*selected] : nullptr;
+  const LoopRecord* const loop = open ? loops_->selected_loop() : nullptr;
   const auto enable = [this](int command, bool enabled) {
     GetMenuBar()->Enable(command, enabled);
     loops_->enable_action(command, enabled);
@@ -137,7 +123,7 @@ void MainFrame::enable_edit_commands(const ReplaySnapshot* snapshot) {
   enable(kForceLoop, loop != nullptr && loop->verdict != LoopVerdict::kNotFound);
   enable(kRestoreLoop, loop != nullptr && loop->by_hand);
   loops_->enable_action(kMatchLoop, loop != nullptr);
-  for (std::size_t i = 0; i < kMatcherChoices.size(); ++i)
+  for (std::size_t i = 0; i < kMatcherKinds.size(); ++i)
     enable(kMatchLoopBy + static_cast<int>(i), loop != nullptr);
   enable(kAddLoop, open && !snapshot->map_T_node->empty());
   enable(kUndo, open && !snapshot->undo_text.empty());

@@ -5,7 +5,8 @@
 #include <wx/version.h>
 #include <wx/window.h>
 
-#include <string>
+#include <initializer_list>
+#include <map>
 
 #include "icons.h"
 #include "psi_slam/version.h"
@@ -17,51 +18,58 @@ wxString utf8(const char* text) {
   return wxString::FromUTF8(text);
 }
 
-wxMenu* file_menu(wxMenu* recent) {
-  auto* menu = new wxMenu;
-  menu->Append(kOpenLog, utf8("&Open log or session…\tCtrl+O"));
-  menu->Append(kOpenFolder, utf8("Open &folder of a ROS 2 bag…"));
-  menu->AppendSubMenu(recent, "&Recent logs");
-  menu->AppendSeparator();
-  menu->Append(kResumeWithLog, utf8("Resume session with its lo&g…"));
-  menu->Append(kSaveSession, utf8("Save sessio&n…\tCtrl+S"));
-  menu->AppendSeparator();
-  menu->Append(kOpenSettings, utf8("Open &settings…\tCtrl+Shift+O"));
-  menu->Append(kSaveSettings, utf8("Save se&ttings…\tCtrl+Shift+S"));
-  menu->Append(kResetSettings, "Reset a&ll settings");
-  menu->AppendSeparator();
-  menu->Append(kExport, utf8("&Export results…\tCtrl+E"));
-  menu->Append(kSavePicture, utf8("Save map view as &picture…\tCtrl+P"));
-  menu->AppendSeparator();
-  menu->Append(kQuit, "&Quit\tCtrl+Q");
+struct Item {
+  int command = wxID_SEPARATOR;
+  const char* label = "";
+  wxItemKind kind = wxITEM_NORMAL;
+};
+
+/// Appends items to a menu and returns the menu. Items without a command are separators.
+wxMenu* append(wxMenu* menu, std::initializer_list<Item> items) {
+  for (const Item& item : items) menu->Append(item.command, utf8(item.label), "", item.kind);
   return menu;
+}
+
+wxMenu* file_menu(wxMenu* recent) {
+  wxMenu* const menu = append(new wxMenu, {{kOpenLog, "&Open log or session…\tCtrl+O"},
+                                           {kOpenFolder, "Open &folder of a ROS 2 bag…"}});
+  menu->AppendSubMenu(recent, "&Recent logs");
+  return append(menu, {{},
+                       {kResumeWithLog, "Resume session with its lo&g…"},
+                       {kSaveSession, "Save sessio&n…\tCtrl+S"},
+                       {},
+                       {kOpenSettings, "Open &settings…\tCtrl+Shift+O"},
+                       {kSaveSettings, "Save se&ttings…\tCtrl+Shift+S"},
+                       {kResetSettings, "Reset a&ll settings"},
+                       {},
+                       {kExport, "&Export results…\tCtrl+E"},
+                       {kSavePicture, "Save map view as &picture…\tCtrl+P"},
+                       {},
+                       {kQuit, "&Quit\tCtrl+Q"}});
 }
 
 wxMenu* edit_menu() {
-  auto* menu = new wxMenu;
-  menu->Append(kUndo, "&Undo\tCtrl+Z");
-  menu->Append(kRedo, "&Redo\tCtrl+Shift+Z");
-  menu->AppendSeparator();
-  menu->Append(kDeleteLoop, "&Delete selected loop (Delete)");
-  menu->Append(kForceLoop, "&Force selected loop");
-  for (std::size_t i = 0; i < kMatcherChoices.size(); ++i)
+  wxMenu* const menu = append(new wxMenu, {{kUndo, "&Undo\tCtrl+Z"},
+                                           {kRedo, "&Redo\tCtrl+Shift+Z"},
+                                           {},
+                                           {kDeleteLoop, "&Delete selected loop (Delete)"},
+                                           {kForceLoop, "&Force selected loop"}});
+  for (std::size_t i = 0; i < kMatcherKinds.size(); ++i)
     menu->Append(kMatchLoopBy + static_cast<int>(i),
-                 wxString("Match selected loop again: ") + kMatcherChoices[i].title);
-  menu->Append(kRestoreLoop, "Re&store selected loop");
-  menu->AppendCheckItem(kAddLoop, "&Add loop by two clicks (L)");
-  menu->AppendSeparator();
-  menu->Append(kOpenEdits, utf8("&Open loop edits…"));
-  menu->Append(kSaveEdits, utf8("Sa&ve loop edits…"));
-  return menu;
+                 wxString("Match selected loop again: ") + kMatcherTitles[i]);
+  return append(menu, {{kRestoreLoop, "Re&store selected loop"},
+                       {kAddLoop, "&Add loop by two clicks (L)", wxITEM_CHECK},
+                       {},
+                       {kOpenEdits, "&Open loop edits…"},
+                       {kSaveEdits, "Sa&ve loop edits…"}});
 }
 
 wxMenu* run_menu() {
-  auto* menu = new wxMenu;
-  menu->Append(kPlayOrPause, "&Play or pause (Space)");
-  menu->Append(kStep, "&Map one scan (.)");
-  menu->Append(kFinish, "&Finish map now\tCtrl+Return");
-  menu->Append(kRestart, "&Restart from first scan\tCtrl+R");
-  menu->AppendSeparator();
+  wxMenu* const menu = append(new wxMenu, {{kPlayOrPause, "&Play or pause (Space)"},
+                                           {kStep, "&Map one scan (.)"},
+                                           {kFinish, "&Finish map now\tCtrl+Return"},
+                                           {kRestart, "&Restart from first scan\tCtrl+R"},
+                                           {}});
   for (std::size_t i = 0; i < kSpeeds.size(); ++i)
     menu->AppendRadioItem(kSpeed + static_cast<int>(i),
                           "Speed: " + speed_text(kSpeeds[i]) + wxString::Format("\tAlt+%zu", i + 1));
@@ -70,27 +78,23 @@ wxMenu* run_menu() {
 }
 
 wxMenu* view_menu() {
-  auto* menu = new wxMenu;
-  menu->Append(kFitMap, "Fit &map (Home)");
-  menu->Append(kTopView, "&Top view (T)");
-  menu->AppendCheckItem(kFollow, "&Follow robot (F)");
-  menu->AppendCheckItem(kMeasure, "M&easure distance (M)");
-  menu->AppendSeparator();
-  for (std::size_t i = 0; i < kMapLayers; ++i) {
-    const auto layer = static_cast<MapLayer>(i);
-    const wxString key = wxString::Format("\tCtrl+%zu", (i + 1) % 10);
-    menu->AppendCheckItem(kLayer + static_cast<int>(i), name_of(layer) + key)->Check(shown_at_first(layer));
-  }
-  menu->AppendCheckItem(kRefusedLoops, "Refused loops");
-  menu->AppendSeparator();
-  menu->AppendRadioItem(kLoopsByMatcher, "Colour loops by matcher");
-  menu->AppendRadioItem(kLoopsByResidual, "Colour loops by residual");
-  menu->AppendSeparator();
-  menu->AppendCheckItem(kPaneSettings, "Settings\tF9")->Check();
-  menu->AppendCheckItem(kPaneLoops, "Loops\tF10")->Check();
-  menu->AppendCheckItem(kPanePlots, "Plots\tF11")->Check();
-  menu->Append(kDefaultLayout, "Restore &default layout");
-  return menu;
+  wxMenu* const menu = append(new wxMenu, {{kFitMap, "Fit &map (Home)"},
+                                           {kTopView, "&Top view (T)"},
+                                           {kFollow, "&Follow robot (F)", wxITEM_CHECK},
+                                           {kMeasure, "M&easure distance (M)", wxITEM_CHECK},
+                                           {}});
+  for (std::size_t i = 0; i < kMapLayers; ++i)
+    menu->AppendCheckItem(kLayer + static_cast<int>(i),
+                          name_of(static_cast<MapLayer>(i)) + wxString::Format("\tCtrl+%zu", (i + 1) % 10));
+  return append(menu, {{kRefusedLoops, "Refused loops", wxITEM_CHECK},
+                       {},
+                       {kLoopsByMatcher, "Colour loops by matcher", wxITEM_RADIO},
+                       {kLoopsByResidual, "Colour loops by residual", wxITEM_RADIO},
+                       {},
+                       {kPaneSettings, "Settings\tF9", wxITEM_CHECK},
+                       {kPaneLoops, "Loops\tF10", wxITEM_CHECK},
+                       {kPanePlots, "Plots\tF11", wxITEM_CHECK},
+                       {kDefaultLayout, "Restore &default layout"}});
 }
 
 }  // namespace
@@ -106,10 +110,8 @@ wxMenuBar* make_menu_bar(wxMenu* recent) {
   bar->Append(edit_menu(), "&Edit");
   bar->Append(run_menu(), "&Run");
   bar->Append(view_menu(), "&View");
-  auto* help = new wxMenu;
-  help->Append(kShortcuts, "Mouse and &keys\tF1");
-  help->Append(kAbout, "&About psi-slam");
-  bar->Append(help, "&Help");
+  bar->Append(append(new wxMenu, {{kShortcuts, "Mouse and &keys\tF1"}, {kAbout, "&About psi-slam"}}),
+              "&Help");
   return bar;
 }
 
@@ -118,39 +120,22 @@ void choose_command(wxWindow& from, int command) {
 }
 
 int command_of_key(int key) {
-  switch (key) {
-    case WXK_SPACE:
-      return kPlayOrPause;
-    case '.':
-      return kStep;
-    case WXK_HOME:
-      return kFitMap;
-    case 'T':
-      return kTopView;
-    case 'F':
-      return kFollow;
-    case 'M':
-      return kMeasure;
-    case 'L':
-      return kAddLoop;
-    case WXK_DELETE:
-      return kDeleteLoop;
-    default:
-      return wxID_NONE;
-  }
+  static const std::map<int, int> kCommands{
+      {WXK_SPACE, kPlayOrPause}, {'.', kStep},    {WXK_HOME, kFitMap},      {'T', kTopView}, {'F', kFollow},
+      {'M', kMeasure},           {'L', kAddLoop}, {WXK_DELETE, kDeleteLoop}};
+  const auto found = kCommands.find(key);
+  return found == kCommands.end() ? wxID_NONE : found->second;
 }
 
 const char* hint_text() {
-  return "Space: play or pause. In the map: drag to move, right-drag to rotate, turn the wheel to zoom. F1: "
-         "all "
-         "keys";
+  return "Space: play or pause. In the map: drag to move, right-drag to rotate, turn the wheel to zoom. "
+         "F1: all keys";
 }
 
 const char* shortcuts_text() {
   return "Space plays or pauses, \".\" maps one scan. In the map: drag to move, right-drag to rotate and "
-         "tilt, "
-         "turn the wheel to zoom. Home fits the map, T shows the top view, F follows the robot, M measures a "
-         "distance. L adds a loop, Delete deletes the selected loop, Ctrl+Z undoes the last edit.";
+         "tilt, turn the wheel to zoom. Home fits the map, T shows the top view, F follows the robot, M "
+         "measures a distance. L adds a loop, Delete deletes the selected loop, Ctrl+Z undoes the last edit.";
 }
 
 wxAboutDialogInfo about_info() {

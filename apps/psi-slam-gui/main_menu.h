@@ -12,15 +12,9 @@
 
 namespace psi_slam {
 
-/// A choice of the matcher for a loop that is matched again.
-struct MatcherChoice {
-  MatcherKind kind;
-  const char* title;
-};
-inline constexpr std::array<MatcherChoice, 3> kMatcherChoices{
-    {{MatcherKind::kCsm, "exact search (csm)"},
-     {MatcherKind::kCsmGa, "coarse and genetic search (csm_ga)"},
-     {MatcherKind::kGa, "genetic search (ga)"}}};
+/// Titles of kMatcherKinds, as choices for a loop that is matched again.
+inline constexpr std::array<const char*, kMatcherKinds.size()> kMatcherTitles{
+    "exact search (csm)", "coarse and genetic search (csm_ga)", "genetic search (ga)"};
 
 /// Choices of the replay speed, as multiples of the recorded speed; 0 is as fast as possible.
 inline constexpr std::array<double, 4> kSpeeds{1, 5, 20, 0};
@@ -65,7 +59,7 @@ enum Command : int {
   kSaveEdits,
   kSpeed,                                                // one for each of kSpeeds
   kLayer = kSpeed + static_cast<int>(kSpeeds.size()),    // one for each layer
-  kMatchLoopBy = kLayer + static_cast<int>(kMapLayers),  // one for each of kMatcherChoices
+  kMatchLoopBy = kLayer + static_cast<int>(kMapLayers),  // one for each of kMatcherKinds
 };
 
 /// Makes the menu bar. `recent` is the submenu of recent logs, filled by the caller.
@@ -74,11 +68,11 @@ wxMenuBar* make_menu_bar(wxMenu* recent);
 /// Sends a command to the window that contains `from`, as if it were chosen in the menu.
 void choose_command(wxWindow& from, int command);
 
-/// The command of a key that is pressed without Ctrl, Alt or Shift, or wxID_NONE. These are no menu
-/// accelerators, because those would act while the user types in a text field.
+/// The command of a key that is pressed without Ctrl, Alt or Shift, or wxID_NONE. Menu accelerators would act
+/// while the user types in a text field.
 int command_of_key(int key);
 
-/// What mouse and keys do: the most important in a line, and everything.
+/// Help on mouse and keys: the most important ones in a line, and all of them.
 const char* hint_text();
 const char* shortcuts_text();
 

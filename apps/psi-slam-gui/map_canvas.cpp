@@ -2,14 +2,16 @@
 #include "map_canvas.h"
 
 #include <GL/gl.h>
+#include <mrpt/gui/WxUtils.h>
+#include <wx/dcmemory.h>
+#include <wx/graphics.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
-#include <vector>
 
-#include "legend_picture.h"
+#include "wx_text.h"
 
 namespace psi_slam {
 namespace {
@@ -26,6 +28,54 @@ constexpr int kLegendMargin = 10;
 constexpr double kNearShare = 0.2;
 constexpr double kFarShare = 8;
 
+/// Draws a legend from the upper left corner on: its title, and a coloured stroke with a name for each entry.
+/// Returns the size that it takes with a margin. All sizes are pixels at 100 % scaling.
+wxSize draw_legend(wxGraphicsContext& context, const LoopLegend& legend, const wxFont& font) {
+  constexpr double kMargin = 7;
+  constexpr double kStroke = 18;
+  constexpr int kStrokeWidth = 3;
+  constexpr double kGap = 6;
+  double right = 0;
+  double y = kMargin;
+  const auto draw_line = [&](const wxString& text, const wxFont& line_font, double x) {
+    double width = 0;
+    double height = 0;
+    context.SetFont(line_font, wxColour(40, 44, 52));
+    context.GetTextExtent(text, &width, &height);
+    context.DrawText(text, x, y);
+    right = std::max(right, x + width);
+    y += height;
+  };
+  draw_line(text_of(legend.title), font.Bold(), kMargin);
+  for (const LoopLegend::Entry& entry : legend.entries) {
+    const double top = y;
+    draw_line(text_of(entry.name), font, kMargin + kStroke + kGap);
+    context.SetPen(wxPen(colour_of(entry.colour), kStrokeWidth));
+    context.StrokeLine(kMargin, (top + y) / 2, kMargin + kStroke, (top + y) / 2);
+  }
+  return {static_cast<int>(std::ceil(right + kMargin)), static_cast<int>(std::ceil(y + kMargin))};
+}
+
+/// The legend in a box, in the window's font and scaling; empty without entries.
+mrpt::img::CImage legend_picture(const LoopLegend& legend, const wxWindow& window) {
+  if (legend.entries.empty()) return {};
+  const double scale = window.GetContentScaleFactor();
+  wxSize size(1, 1);
+  wxBitmap bitmap;
+  for (const double zoom : {1.0, scale}) {  // the first pass measures
+    bitmap.Create(size * zoom, 24);
+    wxMemoryDC dc(bitmap);
+    dc.SetBackground(*wxWHITE_BRUSH);
+    dc.Clear();
+    const std::unique_ptr<wxGraphicsContext> context(wxGraphicsContext::Create(dc));
+    context->Scale(zoom, zoom);
+    context->SetPen(wxPen(wxColour(190, 194, 200)));
+    context->DrawRectangle(0, 0, size.x - 1, size.y - 1);
+    size = draw_legend(*context, legend, window.GetFont().Smaller());
+  }
+  return *mrpt::gui::wxImage2MRPTImagePtr(bitmap.ConvertToImage());
+}
+
 }  // namespace
 
 MapCanvas::MapCanvas(wxWindow* parent) : CWxGLCanvasBase(parent, wxID_ANY) {
@@ -38,9 +88,8 @@ MapCanvas::MapCanvas(wxWindow* parent) : CWxGLCanvasBase(parent, wxID_ANY) {
 }
 
 void MapCanvas::bind_mouse() {
-  Bind(wxEVT_LEFT_DOWN, [this](wxMouseEvent& event) { press(event, true); });
-  Bind(wxEVT_RIGHT_DOWN, [this](wxMouseEvent& event) { press(event, false); });
-  Bind(wxEVT_MIDDLE_DOWN, [this](wxMouseEvent& event) { press(event, false); });
+  for (const auto& down : {wxEVT_LEFT_DOWN, wxEVT_RIGHT_DOWN, wxEVT_MIDDLE_DOWN})
+    Bind(down, [this](wxMouseEvent& event) { press(event); });
   for (const auto& up : {wxEVT_LEFT_UP, wxEVT_RIGHT_UP, wxEVT_MIDDLE_UP})
     Bind(up, [this](wxMouseEvent&) { release(); });
   Bind(wxEVT_MOTION, [this](wxMouseEvent& event) { move(event); });
@@ -61,8 +110,7 @@ void MapCanvas::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
   robot_.reset();
   if (!snapshot->frames.empty()) {
     const std::size_t last = snapshot->frames.size() - 1;
-    const mrpt::math::TPose2D pose = map_T_frame(*snapshot, std::min(frame.value_or(last), last));
-    robot_ = mrpt::math::TPoint2D(pose.x, pose.y);
+    robot_ = mrpt::math::TPoint2D(map_T_frame(*snapshot, std::min(frame.value_or(last), last)));
   }
   if (follow_ && robot_)
     set_target(*robot_);
@@ -98,11 +146,7 @@ void MapCanvas::fit() {
     if (robot_) set_target(*robot_);
     return;
   }
-  const MapRaster& raster = map_->raster;
-  GroundRectangle all;
-  all.min = {raster.x_min_m, raster.y_max_m - raster.height_px * raster.resolution_m};
-  all.max = {raster.x_min_m + raster.width_px * raster.resolution_m, raster.y_max_m};
-  set_camera(camera_above(all, picture_size()));
+  set_camera(camera_above(map_->raster.rectangle(), picture_size()));
 }
 
 void MapCanvas::look_from_above() {
@@ -154,13 +198,11 @@ void MapCanvas::look_at(const mrpt::math::TPoint2D& place, double distance_m) {
 }
 
 MapCamera MapCanvas::camera() const {
-  MapCamera camera;
-  camera.target = {static_cast<double>(getCameraPointingX()), static_cast<double>(getCameraPointingY())};
-  camera.distance_m = static_cast<double>(getZoomDistance());
-  camera.azimuth_deg = static_cast<double>(getAzimuthDegrees());
-  camera.elevation_deg = static_cast<double>(getElevationDegrees());
-  camera.field_of_view_deg = static_cast<double>(cameraFOV());
-  return camera;
+  return {{static_cast<double>(getCameraPointingX()), static_cast<double>(getCameraPointingY())},
+          static_cast<double>(getZoomDistance()),
+          static_cast<double>(getAzimuthDegrees()),
+          static_cast<double>(getElevationDegrees()),
+          static_cast<double>(cameraFOV())};
 }
 
 void MapCanvas::set_target(const mrpt::math::TPoint2D& target) {
@@ -178,16 +220,12 @@ void MapCanvas::set_camera(const MapCamera& camera) {
   map_scene_.set_clip_distances(distance_m * kNearShare, distance_m * kFarShare);
 }
 
-PictureSize MapCanvas::picture_size() const {
-  const wxSize size = GetClientSize();
-  return {std::max(1, size.GetWidth()), std::max(1, size.GetHeight())};
-}
-
 std::optional<mrpt::math::TPoint2D> MapCanvas::ground(const wxMouseEvent& event) const {
   return ground_at(camera(), picture_size(), event.GetX(), event.GetY());
 }
 
-void MapCanvas::press(wxMouseEvent& event, bool left) {
+void MapCanvas::press(wxMouseEvent& event) {
+  const bool left = event.LeftDown();
   SetFocus();
   if (left && pointing_) {
     if (const auto place = ground(event)) on.clicked(*place);
@@ -256,25 +294,14 @@ void MapCanvas::zoom(wxMouseEvent& event) {
 
 void MapCanvas::key(wxKeyEvent& event) {
   const double step = camera().distance_m / 20;
-  switch (event.GetKeyCode()) {
-    case WXK_LEFT:
-      return move_target({-step, 0});
-    case WXK_RIGHT:
-      return move_target({step, 0});
-    case WXK_UP:
-      return move_target({0, step});
-    case WXK_DOWN:
-      return move_target({0, -step});
-    case '+':
-    case '=':
-    case WXK_NUMPAD_ADD:
-      return zoom_by(kZoomPerNotch);
-    case '-':
-    case WXK_NUMPAD_SUBTRACT:
-      return zoom_by(1 / kZoomPerNotch);
-    default:
-      event.Skip();
-  }
+  const int code = event.GetKeyCode();
+  if (code == WXK_LEFT) return move_target({-step, 0});
+  if (code == WXK_RIGHT) return move_target({step, 0});
+  if (code == WXK_UP) return move_target({0, step});
+  if (code == WXK_DOWN) return move_target({0, -step});
+  if (code == '+' || code == '=' || code == WXK_NUMPAD_ADD) return zoom_by(kZoomPerNotch);
+  if (code == '-' || code == WXK_NUMPAD_SUBTRACT) return zoom_by(1 / kZoomPerNotch);
+  event.Skip();
 }
 
 void MapCanvas::take_picture(std::function<void(const wxImage&)> taken) {
@@ -293,13 +320,9 @@ void MapCanvas::OnPostRender() {
   if (!picture_taken_) return;
   std::array<GLint, 4> viewport{};
   glGetIntegerv(GL_VIEWPORT, viewport.data());
-  const int width = viewport[2];
-  const int height = viewport[3];
-  std::vector<unsigned char> pixels(std::size_t{3} * static_cast<std::size_t>(width * height));
+  const wxImage image(viewport[2], viewport[3], false);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
-  wxImage image(width, height, false);
-  std::copy(pixels.begin(), pixels.end(), image.GetData());
+  glReadPixels(0, 0, viewport[2], viewport[3], GL_RGB, GL_UNSIGNED_BYTE, image.GetData());
   CallAfter([taken = std::exchange(picture_taken_, {}), picture = image.Mirror(false)] { taken(picture); });
 }
 

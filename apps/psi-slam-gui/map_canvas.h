@@ -9,9 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "view/loop_legend.h"
 #include "view/map_camera.h"
-#include "view/map_scene.h"
+#include "view/palette.h"
 
 namespace psi_slam {
 
@@ -69,12 +68,12 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   void OnRenderError(const wxString& text) override;
 
   void bind_mouse();
-  void press(wxMouseEvent& event, bool left);
+  void press(wxMouseEvent& event);
   void move(wxMouseEvent& event);
   void release();
   void zoom(wxMouseEvent& event);
   void key(wxKeyEvent& event);
-  PictureSize picture_size() const;
+  mrpt::img::TImageSize picture_size() const { return {GetClientSize().x, GetClientSize().y}; }
   std::optional<mrpt::math::TPoint2D> ground(const wxMouseEvent& event) const;
   void set_camera(const MapCamera& camera);
   void set_target(const mrpt::math::TPoint2D& target);

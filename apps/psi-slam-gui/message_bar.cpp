@@ -7,6 +7,7 @@
 #include <wx/stattext.h>
 
 #include <algorithm>
+#include <array>
 
 #include "icons.h"
 #include "wx_text.h"
@@ -24,17 +25,10 @@ struct Look {
   wxColour ink;  // of the icon
 };
 
-Look look_of(MessageBar::Kind kind) {
-  switch (kind) {
-    case MessageBar::Kind::kNote:
-      return {Icon::kNote, {222, 235, 250}, {31, 97, 171}};
-    case MessageBar::Kind::kWarning:
-      return {Icon::kWarning, {253, 240, 208}, {176, 112, 0}};
-    case MessageBar::Kind::kError:
-      return {Icon::kError, {251, 224, 222}, {196, 30, 40}};
-  }
-  return {Icon::kNote, *wxWHITE, *wxBLACK};
-}
+/// The look of each MessageBar::Kind.
+const std::array<Look, 3> kLooks{{{Icon::kNote, {222, 235, 250}, {31, 97, 171}},
+                                  {Icon::kWarning, {253, 240, 208}, {176, 112, 0}},
+                                  {Icon::kError, {251, 224, 222}, {196, 30, 40}}}};
 
 }  // namespace
 
@@ -66,7 +60,7 @@ MessageBar::MessageBar(wxWindow* parent) : wxPanel(parent) {
 void MessageBar::say(Kind kind, const std::string& sentence, const std::vector<Answer>& answers) {
   sentence_ = sentence;
   answers_ = answers;
-  const Look look = look_of(kind);
+  const Look& look = kLooks.at(static_cast<std::size_t>(kind));
   SetBackgroundColour(look.paper);
   icon_->SetBitmap(icon_of(look.icon, look.ink));
   buttons_->Clear(true);

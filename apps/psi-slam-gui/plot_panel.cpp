@@ -7,9 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "plot_series.h"
 #include "view/palette.h"
 #include "wx_text.h"
 
@@ -41,23 +39,20 @@ struct Plot {
   }
 };
 
-const std::vector<Plot>& plots() {
-  static const std::vector<Plot> kPlots{
-      {wxString::FromUTF8("Factor Ψ"), 0.1, {{wxString::FromUTF8("Ψ"), kFrontEnd, &PlotColumn::psi}}},
-      {"Response",
-       1,
-       {{"lowest", kGraph, &PlotColumn::response_min}, {"highest", kFrontEnd, &PlotColumn::response_max}}},
-      {"Loops so far",
-       1,
-       {{"tried", kGraph, &PlotColumn::loops_tried}, {"accepted", kLoops, &PlotColumn::loops_accepted}}},
-      {"Scan time [ms]",
-       0.1,
-       {{"front end", kFrontEnd, &PlotColumn::front_end_ms},
-        {"loops", kLoops, &PlotColumn::loops_ms},
-        {"pose graph", kGraph, &PlotColumn::graph_ms}},
-       true}};
-  return kPlots;
-}
+const std::vector<Plot> kPlots{
+    {wxString::FromUTF8("Factor Ψ"), 0.1, {{wxString::FromUTF8("Ψ"), kFrontEnd, &PlotColumn::psi}}},
+    {"Response",
+     1,
+     {{"lowest", kGraph, &PlotColumn::response_min}, {"highest", kFrontEnd, &PlotColumn::response_max}}},
+    {"Loops so far",
+     1,
+     {{"tried", kGraph, &PlotColumn::loops_tried}, {"accepted", kLoops, &PlotColumn::loops_accepted}}},
+    {"Scan time [ms]",
+     0.1,
+     {{"front end", kFrontEnd, &PlotColumn::front_end_ms},
+      {"loops", kLoops, &PlotColumn::loops_ms},
+      {"pose graph", kGraph, &PlotColumn::graph_ms}},
+     true}};
 
 /// Draws one plot into its strip of the panel.
 struct PlotPainter {
@@ -153,7 +148,52 @@ struct PlotPainter {
   }
 };
 
+void add(PlotColumn& column, const FrameRecord& frame) {
+  column.psi = std::max(column.psi, frame.psi);
+  if (frame.response > 0) {
+    column.response_min =
+        column.response_max == 0 ? frame.response : std::min(column.response_min, frame.response);
+    column.response_max = std::max(column.response_max, frame.response);
+  }
+  column.loops_accepted += std::max(0, frame.loops_accepted);
+  column.loops_tried += std::max(0, frame.loops_tried);
+  column.front_end_ms += frame.front_end_ms;
+  column.loops_ms += frame.loop_closing_ms;
+  column.graph_ms += frame.pose_graph_ms;
+  if (frame.matcher) column.matcher = frame.matcher;
+}
+
 }  // namespace
+
+std::vector<PlotColumn> plot_columns(const HistoryView<FrameRecord>& frames, std::size_t columns) {
+  std::vector<PlotColumn> result;
+  const std::size_t count = std::min(columns, frames.size());
+  result.reserve(count);
+  PlotColumn before;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t first = i * frames.size() / count;
+    const std::size_t end = (i + 1) * frames.size() / count;
+    PlotColumn column;
+    column.first_frame = first;
+    column.matcher = before.matcher;
+    column.loops_accepted = before.loops_accepted;
+    column.loops_tried = before.loops_tried;
+    for (std::size_t frame = first; frame < end; ++frame) add(column, frames[frame]);
+    const auto scans = static_cast<double>(end - first);
+    for (double* mean : {&column.front_end_ms, &column.loops_ms, &column.graph_ms}) *mean /= scans;
+    before = column;
+    result.push_back(std::move(column));
+  }
+  return result;
+}
+
+double round_up(double value) {
+  if (!(value > 0)) return 1;
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (const double digit : {1.0, 2.0, 5.0})
+    if (value <= digit * power * (1 + 1e-9)) return digit * power;
+  return 10 * power;
+}
 
 PlotPanel::PlotPanel(wxWindow* parent, std::function<void(std::size_t)> go_to)
     : wxPanel(parent, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxFULL_REPAINT_ON_RESIZE),
@@ -176,11 +216,6 @@ void PlotPanel::show(const std::shared_ptr<const ReplaySnapshot>& snapshot,
   snapshot_ = snapshot;
   frame_ = frame;
   if (!same) Refresh();
-}
-
-void PlotPanel::show_nothing() {
-  snapshot_.reset();
-  Refresh();
 }
 
 wxRect PlotPanel::strip(int index) const {
@@ -208,7 +243,7 @@ void PlotPanel::paint() {
   std::vector<PlotPainter> painters;
   for (int i = 0; i < kStrips; ++i) {
     painters.push_back({*context, *this, strip(i), columns, snapshot_->frames.size()});
-    const Plot& plot = plots()[static_cast<std::size_t>(i)];
+    const Plot& plot = kPlots[static_cast<std::size_t>(i)];
     painters.back().draw(plot, i == 0 ? snapshot_->psi.psi_2 : 0);
     if (i > 0) painters.back().draw_legend(plot.curves);
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,15 +31,12 @@ class ReplaySlot {
   /// were pending when their run was closed were not written, a sentence each.
   std::vector<std::string> tidy() {
     std::vector<std::string> failures;
-    const auto note = [&](const std::optional<WriteOutcome>& before, const std::optional<WriteOutcome>& now) {
-      const bool is_new = now && (!before || now->number > before->number);
-      if (is_new && !now->failure.empty()) failures.push_back(now->failure);
-    };
     const auto ended = [&](const Closing& closing) {
       if (!closing.replay->ended()) return false;
       const auto now = closing.replay->snapshot();
-      note(closing.closed_at->exported, now->exported);
-      note(closing.closed_at->saved, now->saved);
+      for (const auto outcome : {&ReplaySnapshot::exported, &ReplaySnapshot::saved})
+        if (is_new((*now).*outcome, (*closing.closed_at).*outcome) && !((*now).*outcome)->failure.empty())
+          failures.push_back(((*now).*outcome)->failure);
       return true;
     };
     closing_.erase(std::remove_if(closing_.begin(), closing_.end(), ended), closing_.end());

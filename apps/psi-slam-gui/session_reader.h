@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <future>
 #include <utility>
 #include <vector>
 
+#include "replay/background_thread.h"
 #include "session/session_input.h"
 
 namespace psi_slam {
@@ -31,17 +31,14 @@ class SessionReader {
 
   /// Calls `take` if a read has ended; call it regularly. Rethrows what `read` threw.
   void serve() {
-    given_up_.erase(std::remove_if(given_up_.begin(), given_up_.end(), has_ended), given_up_.end());
+    given_up_.erase(std::remove_if(given_up_.begin(), given_up_.end(), has_ended<std::future<SessionInput>>),
+                    given_up_.end());
     if (!reading_.valid() || !has_ended(reading_)) return;
     const Take take = std::exchange(take_, {});
     take(std::exchange(reading_, {}).get());
   }
 
  private:
-  static bool has_ended(const std::future<SessionInput>& reading) {
-    return reading.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  }
-
   std::future<SessionInput> reading_;
   Take take_;
   std::vector<std::future<SessionInput>> given_up_;  // until they end

@@ -26,17 +26,12 @@ std::string help_of(const Option& option) {
          (option.default_text.empty() ? "empty" : option.default_text) + '.';
 }
 
-/// The key of an option with its unit.
-wxString label_of(const Option& option) {
-  return text_of(option.unit.empty() ? option.key : option.key + "  [" + option.unit + ']');
-}
-
-/// Makes a property. Its text is the option's value as in a settings file.
+/// Makes a property without a value. Texts of its values are those of a settings file.
 wxPGProperty* property_for(const Option& option) {
-  const wxString label = label_of(option);
+  const wxString label = text_of(option.unit.empty() ? option.key : option.key + "  [" + option.unit + ']');
   const wxString name = text_of(option.name());
   if (option.type == OptionType::kFlag) {
-    auto* flag = new wxBoolProperty(label, name, option.text() == "true");
+    auto* flag = new wxBoolProperty(label, name);
     flag->SetAttribute(wxPG_BOOL_USE_CHECKBOX, true);
     return flag;
   }
@@ -45,22 +40,7 @@ wxPGProperty* property_for(const Option& option) {
     for (const std::string& choice : option.choices) choices.Add(text_of(choice));
     return new wxEnumProperty(label, name, choices);
   }
-  return new wxStringProperty(label, name, text_of(option.text()));
-}
-
-wxVariant value_of(const Option& option) {
-  if (option.type == OptionType::kFlag) return {option.text() == "true"};
-  if (option.type != OptionType::kChoice) return {text_of(option.text())};
-  const std::string text = option.text();
-  for (std::size_t i = 0; i < option.choices.size(); ++i)
-    if (option.choices[i] == text) return {static_cast<long>(i)};
-  return {0L};
-}
-
-std::string text_of_value(const Option& option, const wxVariant& value) {
-  if (option.type == OptionType::kFlag) return value.GetBool() ? "true" : "false";
-  if (option.type == OptionType::kChoice) return option.choices.at(static_cast<std::size_t>(value.GetLong()));
-  return value.GetString().utf8_string();
+  return new wxStringProperty(label, name);
 }
 
 }  // namespace
@@ -116,7 +96,7 @@ void SettingsPanel::refresh() {
   for (const OptionSection& section : settings_.table.sections())
     for (const Option& option : section.options) {
       wxPGProperty* property = grid_->GetPropertyByName(text_of(option.name()));
-      property->SetValue(value_of(option));
+      property->SetValueFromString(text_of(option.text()), wxPG_FULL_VALUE);
       mark(*property, option);
     }
   grid_->Refresh();
@@ -152,33 +132,23 @@ bool SettingsPanel::set(const std::string& name, const std::string& text) {
 void SettingsPanel::changing(wxPropertyGridEvent& event) {
   const std::string name = event.GetPropertyName().utf8_string();
   const Option& option = settings_.table.option(name, kWhere);
-  if (set(name, text_of_value(option, event.GetValue()))) {
-    mark(*event.GetProperty(), option);
-    return;
-  }
+  wxPGProperty& property = *event.GetProperty();
+  wxVariant value = event.GetValue();
+  if (set(name, property.ValueToString(value, wxPG_FULL_VALUE).utf8_string())) return mark(property, option);
   event.SetValidationFailureBehavior(0);  // the message bar shows the reason: no dialog, no beep
   event.Veto();
 }
 
 bool SettingsPanel::enter(const std::string& name, const std::string& text) {
-  const Option& option = settings_.table.option(name, kWhere);
   wxPGProperty* const property = grid_->GetPropertyByName(text_of(name));
-  if (option.type == OptionType::kFlag || option.type == OptionType::kChoice) {
-    const bool accepted = set(name, text);
-    refresh();
-    return accepted;
-  }
+  wxVariant value = property->GetValue();
+  property->StringToValue(value, text_of(text), wxPG_FULL_VALUE);
   grid_->SelectProperty(property, true);
-  return grid_->ChangePropertyValue(property, text_of(text));
+  return grid_->ChangePropertyValue(property, value);
 }
 
 std::string SettingsPanel::shown(const std::string& name) const {
   return grid_->GetPropertyValueAsString(text_of(name)).utf8_string();
-}
-
-void SettingsPanel::reset(const std::string& name) {
-  set(name, settings_.table.option(name, kWhere).default_text);
-  refresh();
 }
 
 void SettingsPanel::reset_all() {
@@ -200,7 +170,8 @@ void SettingsPanel::show_context_menu(wxPropertyGridEvent& event) {
           ->GetId();
   const int all = menu.Append(wxID_ANY, "Reset all settings")->GetId();
   const int chosen = GetPopupMenuSelectionFromUser(menu);
-  if (chosen == one) reset(name);
+  if (chosen == one) set(name, option.default_text);
+  if (chosen == one) refresh();
   if (chosen == all) reset_all();
 }
 

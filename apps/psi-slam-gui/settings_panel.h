@@ -43,7 +43,6 @@ class SettingsPanel : public wxPanel {
   void add_options();
   void changing(wxPropertyGridEvent& event);
   void show_context_menu(wxPropertyGridEvent& event);
-  void reset(const std::string& name);
   void mark(wxPGProperty& property, const Option& option);
   bool set(const std::string& name, const std::string& text);
 

@@ -2,14 +2,13 @@
 #include "transport_bar.h"
 
 #include <wx/bmpbuttn.h>
-#include <wx/choice.h>
 #include <wx/settings.h>
 #include <wx/sizer.h>
 #include <wx/slider.h>
 #include <wx/stattext.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "icons.h"
 #include "main_menu.h"
@@ -48,7 +47,7 @@ TransportBar::TransportBar(wxWindow* parent, const std::function<void(std::size_
   slider_->Bind(wxEVT_SCROLL_THUMBRELEASE, dragged);
   slider_->Bind(wxEVT_SCROLL_CHANGED, dragged);
   time_ = new wxStaticText(this, wxID_ANY, "");
-  progress_ = new wxStaticText(this, wxID_ANY, "");
+  progress_ = new wxStaticText(this, wxID_ANY, "No log is open");
 
   auto* row = new wxBoxSizer(wxHORIZONTAL);
   const int gap = FromDIP(4);
@@ -60,69 +59,43 @@ TransportBar::TransportBar(wxWindow* parent, const std::function<void(std::size_
   column->Add(row, 0, wxEXPAND);
   column->Add(progress_, 0, wxEXPAND | wxLEFT | wxRIGHT | wxBOTTOM, 2 * gap);
   SetSizer(column);
-  show_nothing();
-}
-
-double TransportBar::speed() const {
-  return kSpeeds.at(static_cast<std::size_t>(std::max(0, speed_->GetSelection())));
-}
-
-void TransportBar::set_speed(double speed) {
-  const auto found = std::find(kSpeeds.begin(), kSpeeds.end(), speed);
-  if (found != kSpeeds.end()) speed_->SetSelection(static_cast<int>(found - kSpeeds.begin()));
-}
-
-void TransportBar::show_nothing() {
   for (wxWindow* child : std::initializer_list<wxWindow*>{play_, step_, finish_, slider_}) child->Disable();
-  slider_->SetValue(0);
-  time_->SetLabel("");
-  progress_->SetLabel("No log is open");
 }
 
 void TransportBar::show(const ReplaySnapshot& snapshot,
                         const std::shared_ptr<const std::vector<TimeUs>>& stamps_us,
                         std::optional<std::size_t> shown) {
-  enable(snapshot);
-  const std::size_t mapped = snapshot.frames.size();
-  const std::size_t count = stamps_us ? std::max(stamps_us->size(), mapped) : mapped;
-  const std::size_t at = shown.value_or(mapped == 0 ? 0 : mapped - 1);
-  show_slider(at, count);
-  const std::string time = stamps_us ? log_time_text(*stamps_us, at) : std::string();
-  if (time_->GetLabel() != time) {
-    time_->SetLabel(time);
-    Layout();
-  }
-  std::string words =
-      progress_words(snapshot, stamps_us ? replay_time_left_s(*stamps_us, mapped, speed()) : 0);
-  if (shown) words += "   (showing scan " + std::to_string(*shown + 1) + ")";
-  const wxString label = wxString::FromUTF8(words);
-  if (progress_->GetLabel() != label) progress_->SetLabel(label);
-}
-
-void TransportBar::enable(const ReplaySnapshot& snapshot) {
   const bool mapping = snapshot.phase == ReplayPhase::kPaused || snapshot.phase == ReplayPhase::kPlaying;
   const bool final_search = snapshot.phase == ReplayPhase::kFinalSearch;
   play_->Enable(mapping || final_search || snapshot.phase == ReplayPhase::kOpening);
   step_->Enable(mapping);
   finish_->Enable((mapping && !snapshot.frames.empty()) || final_search);
   slider_->Enable(mapping || !snapshot.frames.empty());
-  const bool plays = can_pause(snapshot);
-  if (plays == plays_) return;
-  plays_ = plays;
-  play_->SetBitmap(
-      icon_of(plays ? Icon::kPause : Icon::kPlay, wxSystemSettings::GetColour(wxSYS_COLOUR_BTNTEXT)));
+  if (const bool plays = can_pause(snapshot); plays != std::exchange(plays_, plays))
+    play_->SetBitmap(
+        icon_of(plays ? Icon::kPause : Icon::kPlay, wxSystemSettings::GetColour(wxSYS_COLOUR_BTNTEXT)));
+  const std::size_t mapped = snapshot.frames.size();
+  const std::size_t count = stamps_us ? std::max(stamps_us->size(), mapped) : mapped;
+  const std::size_t at = shown.value_or(mapped == 0 ? 0 : mapped - 1);
+  const int last = std::max(1, static_cast<int>(count) - 1);
+  if (slider_->GetMax() != last) slider_->SetRange(0, last);
+  const bool dragged = slider_->HasCapture() || wxGetMouseState().LeftIsDown();
+  if (!dragged) slider_->SetValue(std::min(static_cast<int>(at), last));
+  const std::string time = stamps_us ? log_time_text(*stamps_us, at) : std::string();
+  if (time_->GetLabel() != time) {
+    time_->SetLabel(time);
+    Layout();
+  }
+  const double speed = kSpeeds.at(static_cast<std::size_t>(speed_->GetSelection()));
+  std::string words = progress_words(snapshot, stamps_us ? replay_time_left_s(*stamps_us, mapped, speed) : 0);
+  if (shown) words += "   (showing scan " + std::to_string(*shown + 1) + ")";
+  const wxString label = wxString::FromUTF8(words);
+  if (progress_->GetLabel() != label) progress_->SetLabel(label);
 }
 
 bool TransportBar::can_pause(const ReplaySnapshot& snapshot) {
   return snapshot.phase == ReplayPhase::kPlaying ||
          (snapshot.phase == ReplayPhase::kFinalSearch && !snapshot.final_search_held);
-}
-
-void TransportBar::show_slider(std::size_t at, std::size_t count) {
-  const int last = std::max(1, static_cast<int>(count) - 1);
-  if (slider_->GetMax() != last) slider_->SetRange(0, last);
-  const bool dragged = slider_->HasCapture() || wxGetMouseState().LeftIsDown();
-  if (!dragged) slider_->SetValue(std::min(static_cast<int>(at), last));
 }
 
 std::string log_time_text(const std::vector<TimeUs>& stamps_us, std::size_t scan) {

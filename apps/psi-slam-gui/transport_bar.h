@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <wx/choice.h>
 #include <wx/panel.h>
 
 #include <functional>
@@ -13,7 +14,6 @@
 #include "replay/replay_snapshot.h"
 
 class wxBitmapButton;
-class wxChoice;
 class wxSlider;
 class wxStaticText;
 
@@ -30,19 +30,14 @@ class TransportBar : public wxPanel {
   /// the mapper's work and of the log's duration at the given speed.
   void show(const ReplaySnapshot& snapshot, const std::shared_ptr<const std::vector<TimeUs>>& stamps_us,
             std::optional<std::size_t> shown);
-  void show_nothing();
 
   /// True while the run does something that can be paused.
   static bool can_pause(const ReplaySnapshot& snapshot);
 
-  /// Selects one of kSpeeds.
-  void set_speed(double speed);
+  /// Selects one of kSpeeds by its index.
+  void set_speed(int choice) { speed_->SetSelection(choice); }
 
  private:
-  double speed() const;
-  void enable(const ReplaySnapshot& snapshot);
-  void show_slider(std::size_t at, std::size_t count);
-
   wxBitmapButton* play_;
   wxBitmapButton* step_;
   wxBitmapButton* finish_;

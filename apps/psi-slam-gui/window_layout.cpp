@@ -14,14 +14,10 @@ namespace {
 constexpr long kVersion = 1;  // of the saved layout; other versions are ignored
 constexpr int kGrip = 80;     // at least this many pixels of the title bar must be on a screen
 
-const char* const kSection = "/window/";
+const char* const kSection = "/window/";  // of the preferences
 
-wxString key(const std::string& name) {
-  return kSection + name;
-}
-
-wxString layer_key(std::size_t layer) {
-  return key(std::string("layers/") + name_of(static_cast<MapLayer>(layer)));
+wxString key_of(MapLayer layer) {
+  return wxString("layers/") + name_of(layer);
 }
 
 /// The names of the panes in a layout text of wxAUI.
@@ -61,74 +57,70 @@ bool on_a_screen(const wxRect& window) {
   return false;
 }
 
-}  // namespace
-
-WindowLayout::WindowLayout(wxFrame& frame, wxAuiManager& panes)
-    : frame_(frame), panes_(panes), default_panes_(panes.SavePerspective()) {}
-
-void WindowLayout::save(wxConfigBase& config, const MapScene& scene) const {
-  config.Write(key("version"), kVersion);
-  config.Write(key("maximized"), frame_.IsMaximized());
-  if (!frame_.IsMaximized() && !frame_.IsIconized()) {
-    const wxRect window(frame_.GetPosition(), frame_.ToDIP(frame_.GetSize()));
-    config.Write(key("x"), window.x);
-    config.Write(key("y"), window.y);
-    config.Write(key("width"), window.width);
-    config.Write(key("height"), window.height);
-  }
-  config.Write(key("panes"), panes_.SavePerspective());
-  for (std::size_t i = 0; i < kMapLayers; ++i)
-    config.Write(layer_key(i), scene.visible(static_cast<MapLayer>(i)));
-  config.Write(key("layers/refused"), scene.loop_style().refused);
-  config.Write(key("layers/residual"), scene.loop_style().colour == LoopStyle::Colour::kResidual);
-  config.Flush();
-}
-
-void WindowLayout::restore(wxConfigBase& config, MapScene& scene) {
-  if (config.ReadLong(key("version"), 0) != kVersion) return;
-  restore_window(config);
-  restore_panes(config.Read(key("panes"), ""));
-  for (std::size_t i = 0; i < kMapLayers; ++i) {
-    const auto layer = static_cast<MapLayer>(i);
-    scene.set_visible(layer, config.ReadBool(layer_key(i), shown_at_first(layer)));
-  }
-  LoopStyle style;
-  style.refused = config.ReadBool(key("layers/refused"), false);
-  if (config.ReadBool(key("layers/residual"), false)) style.colour = LoopStyle::Colour::kResidual;
-  scene.set_loop_style(style);
-}
-
-void WindowLayout::restore_window(const wxConfigBase& config) {
-  const auto read = [&](const char* name) { return static_cast<int>(config.ReadLong(key(name), 0)); };
-  wxSize size = frame_.FromDIP(wxSize(read("width"), read("height")));
+void restore_window(const wxConfigBase& config, wxFrame& frame) {
+  const auto read = [&](const char* name) { return static_cast<int>(config.ReadLong(name, 0)); };
+  wxSize size = frame.FromDIP(wxSize(read("width"), read("height")));
   const wxPoint corner(read("x"), read("y"));
   if (size.x > 0 && size.y > 0) {
     const bool there = on_a_screen(wxRect(corner, size));
     const int screen = there ? wxDisplay::GetFromPoint(corner) : 0;
     const wxRect room = wxDisplay(static_cast<unsigned>(std::max(0, screen))).GetClientArea();
     size.DecTo(room.GetSize());
-    size.IncTo(frame_.GetMinSize());
-    frame_.SetSize(size);
-    if (there) frame_.SetPosition(corner);
+    size.IncTo(frame.GetMinSize());
+    frame.SetSize(size);
+    if (there) frame.SetPosition(corner);
   }
-  if (config.ReadBool(key("maximized"), false)) frame_.Maximize();
+  if (config.ReadBool("maximized", false)) frame.Maximize();
 }
 
-void WindowLayout::restore_panes(const wxString& saved) {
-  const bool fits = panes_of(saved) == panes_of(default_panes_) && leaves_room(saved, frame_.GetSize());
-  if (!fits || !panes_.LoadPerspective(saved, false)) {
-    restore_default_panes();
+void restore_panes(const wxString& saved, const wxFrame& frame, wxAuiManager& panes) {
+  const wxString present = panes.SavePerspective();
+  const bool fits = panes_of(saved) == panes_of(present) && leaves_room(saved, frame.GetSize());
+  if (!fits || !panes.LoadPerspective(saved, false)) {
+    panes.LoadPerspective(present);
     return;
   }
-  wxAuiPaneInfoArray& all = panes_.GetAllPanes();
+  wxAuiPaneInfoArray& all = panes.GetAllPanes();
   for (std::size_t i = 0; i < all.GetCount(); ++i)
     if (all[i].IsFloating() && !on_a_screen(wxRect(all[i].floating_pos, all[i].floating_size))) all[i].Dock();
-  panes_.GetPane("map").Show();
-  panes_.Update();
+  panes.GetPane("map").Show();
+  panes.Update();
 }
 
-void WindowLayout::restore_default_panes() {
-  panes_.LoadPerspective(default_panes_);
+}  // namespace
+
+void save_layout(wxConfigBase& config, const wxFrame& frame, wxAuiManager& panes, const MapScene& scene) {
+  const wxConfigPathChanger section(&config, kSection);
+  config.Write("version", kVersion);
+  config.Write("maximized", frame.IsMaximized());
+  if (!frame.IsMaximized() && !frame.IsIconized()) {
+    const wxRect window(frame.GetPosition(), frame.ToDIP(frame.GetSize()));
+    config.Write("x", window.x);
+    config.Write("y", window.y);
+    config.Write("width", window.width);
+    config.Write("height", window.height);
+  }
+  config.Write("panes", panes.SavePerspective());
+  for (std::size_t i = 0; i < kMapLayers; ++i)
+    config.Write(key_of(static_cast<MapLayer>(i)), scene.visible(static_cast<MapLayer>(i)));
+  config.Write("layers/refused", scene.loop_style().refused);
+  config.Write("layers/residual", scene.loop_style().colour == LoopStyle::Colour::kResidual);
+  config.Flush();
+}
+
+void restore_layout(wxConfigBase& config, wxFrame& frame, wxAuiManager& panes, MapScene& scene) {
+  const wxConfigPathChanger section(&config, kSection);
+  if (config.ReadLong("version", 0) != kVersion) return;
+  restore_window(config, frame);
+  restore_panes(config.Read("panes", ""), frame, panes);
+  for (std::size_t i = 0; i < kMapLayers; ++i) {
+    const auto layer = static_cast<MapLayer>(i);
+    scene.set_visible(layer, config.ReadBool(key_of(layer), shown_at_first(layer)));
+  }
+  LoopStyle style;
+  style.refused = config.ReadBool("layers/refused", false);
+  if (config.ReadBool("layers/residual", false)) style.colour = LoopStyle::Colour::kResidual;
+  scene.set_loop_style(style);
 }
 
 }  // namespace psi_slam

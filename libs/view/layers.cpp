@@ -10,12 +10,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "local_maps/scan_filter.h"
-#include "view/loop_legend.h"
 #include "view/palette.h"
 
 namespace psi_slam {
@@ -24,23 +24,14 @@ namespace {
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPoint2D;
 using mrpt::math::TPoint3D;
-using mrpt::math::TPoint3Df;
 using mrpt::math::TPose2D;
 using mrpt::opengl::CSetOfLines;
 
 /// Dots of one colour and size. (Passes all points at once because insertPoint() of MRPT 2.5 deadlocks.)
-mrpt::opengl::CPointCloud::Ptr dots_of(const std::vector<TPoint3Df>& points, const mrpt::img::TColor& colour,
+mrpt::opengl::CPointCloud::Ptr dots_of(const std::vector<TPoint3D>& points, const mrpt::img::TColor& colour,
                                        float size_px) {
-  std::vector<float> x;
-  std::vector<float> y;
-  std::vector<float> z;
-  for (const TPoint3Df& point : points) {
-    x.push_back(point.x);
-    y.push_back(point.y);
-    z.push_back(point.z);
-  }
   auto dots = mrpt::opengl::CPointCloud::Create();
-  dots->setAllPoints(x, y, z);
+  dots->setAllPoints(points);
   dots->setColor_u8(colour);
   dots->setPointSize(size_px);
   dots->enableVariablePointSize(false);
@@ -77,23 +68,32 @@ mrpt::opengl::CTexturedPlane::Ptr textured_plane(const MapRaster& raster) {
   auto plane = mrpt::opengl::CTexturedPlane::Create();
   plane->assignImage(std::move(colour), std::move(opacity));
   plane->mrpt::opengl::CRenderizableShaderTexturedTriangles::enableLight(false);
-  const double x_max_m = raster.x_min_m + raster.width_px * raster.resolution_m;
-  const double y_min_m = raster.y_max_m - raster.height_px * raster.resolution_m;
-  plane->setPlaneCorners(static_cast<float>(raster.x_min_m), static_cast<float>(x_max_m),
-                         static_cast<float>(y_min_m), static_cast<float>(raster.y_max_m));
+  const MapRectangle corners = raster.rectangle();
+  plane->setPlaneCorners(static_cast<float>(corners.x_min_m), static_cast<float>(corners.x_max_m),
+                         static_cast<float>(corners.y_min_m), static_cast<float>(corners.y_max_m));
   return plane;
 }
 
 /// A point or pose in the plane, lifted to a height.
 template <class Planar>
-TPoint3Df raised(const Planar& at, double z_m) {
-  return {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(z_m)};
+TPoint3D raised(const Planar& at, double z_m) {
+  return {at.x, at.y, z_m};
 }
 
 /// Adds the line between two points or poses in the plane, at a height.
 template <class Planar>
 void join(CSetOfLines& lines, const Planar& a, const Planar& b, double z_m) {
   lines.appendLine(a.x, a.y, z_m, b.x, b.y, z_m);
+}
+
+/// Adds the line between two points or poses in the plane, with a dot at each end, to a layer.
+template <class Planar>
+void insert_line_with_ends(SceneLayer& layer, const Planar& a, const Planar& b, double z_m,
+                           const mrpt::img::TColor& colour, float width, float dot_px) {
+  auto lines = lines_of(colour, width);
+  join(*lines, a, b, z_m);
+  layer.insert(lines);
+  layer.insert(dots_of({raised(a, z_m), raised(b, z_m)}, colour, dot_px));
 }
 
 // Transparent planes are drawn by decreasing distance: this one makes the grid map come before local maps.
@@ -125,26 +125,13 @@ MapRaster tinted_raster(const COccupancyGridMap2D& grid, const mrpt::img::TColor
 
 constexpr double kShortestLine_m = 0.05;
 
-/// A line through poses that are added one by one. Skips poses closer than kShortestLine_m.
-class Polyline {
- public:
-  Polyline(const mrpt::img::TColor& colour, float width) : lines_(lines_of(colour, width)) {}
-  void add(const TPose2D& pose, double z_m) {
-    const TPoint3D point(pose.x, pose.y, z_m);
-    if (begun_ && (point - last_).norm() < kShortestLine_m) return;
-    if (begun_) lines_->appendLine(last_, point);
-    last_ = point;
-    begun_ = true;
-  }
-  /// Makes the next pose start a separate line.
-  void interrupt() { begun_ = false; }
-  CSetOfLines::Ptr lines() const { return lines_; }
-
- private:
-  CSetOfLines::Ptr lines_;
-  TPoint3D last_{0, 0, 0};
-  bool begun_ = false;
-};
+/// Continues a line from `last`, or starts it if there is none. Skips poses closer than kShortestLine_m.
+void extend(CSetOfLines& lines, std::optional<TPoint3D>& last, const TPose2D& pose, double z_m) {
+  const TPoint3D point = raised(pose, z_m);
+  if (last && (point - *last).norm() < kShortestLine_m) return;
+  if (last) lines.appendLine(*last, point);
+  last = point;
+}
 
 bool starts_run(const ReplaySnapshot& snapshot, std::size_t frame) {
   return std::binary_search(snapshot.later_run_frames.begin(), snapshot.later_run_frames.end(), frame);
@@ -158,19 +145,6 @@ constexpr double kClearLoops = 100;  // up to this many loops keep the full opac
 
 // More lines would only cover the map and slow the window down.
 constexpr std::size_t kMostLoopsOfFinalSearch = 3000;
-
-std::size_t final_search_loops(const ReplaySnapshot& snapshot) {
-  return static_cast<std::size_t>(std::count_if(snapshot.loops->begin(), snapshot.loops->end(),
-                                                [](const LoopRecord& loop) { return loop.in_final_search; }));
-}
-
-std::uint8_t clear_alpha(const ReplaySnapshot& snapshot) {
-  const auto loops = std::count_if(
-      snapshot.loops->begin(), snapshot.loops->end(),
-      [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted && !loop.in_final_search; });
-  const double crowd = std::max(1.0, static_cast<double>(loops) / kClearLoops);
-  return static_cast<std::uint8_t>(std::max(kPalest, kClear / std::sqrt(crowd)));
-}
 
 // The arrow that shows the robot, along its x axis.
 constexpr double kNose_m = 0.45;
@@ -222,27 +196,30 @@ void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot) {
 
 void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot) {
   if (snapshot.frames.empty()) return;
-  Polyline line(palette::kOdometry, 1.5F);
+  auto lines = lines_of(palette::kOdometry, 1.5F);
+  std::optional<TPoint3D> last;
   const FrameRecord& first = snapshot.frames[0];
   for (std::size_t i = 0; i < snapshot.frames.size(); ++i) {
-    if (starts_run(snapshot, i)) line.interrupt();
-    line.add(first.map_T_robot + (snapshot.frames[i].odom_T_robot - first.odom_T_robot), height_m::kOdometry);
+    if (starts_run(snapshot, i)) last.reset();
+    extend(*lines, last, first.map_T_robot + (snapshot.frames[i].odom_T_robot - first.odom_T_robot),
+           height_m::kOdometry);
   }
-  layer.insert(line.lines());
+  layer.insert(lines);
 }
 
 void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot) {
-  Polyline line(palette::kCorrected, 2.0F);
+  auto lines = lines_of(palette::kCorrected, 2.0F);
+  std::optional<TPoint3D> last;
   for (std::size_t node = 0; node < snapshot.map_T_node->size(); ++node) {
-    if (starts_run(snapshot, snapshot.nodes[node].frame)) line.interrupt();
-    line.add((*snapshot.map_T_node)[node], height_m::kTrajectory);
+    if (starts_run(snapshot, snapshot.nodes[node].frame)) last.reset();
+    extend(*lines, last, (*snapshot.map_T_node)[node], height_m::kTrajectory);
   }
-  if (!snapshot.frames.empty()) line.add(snapshot.map_T_robot, height_m::kTrajectory);
-  layer.insert(line.lines());
+  if (!snapshot.frames.empty()) extend(*lines, last, snapshot.map_T_robot, height_m::kTrajectory);
+  layer.insert(lines);
 }
 
 void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot) {
-  std::vector<TPoint3Df> points;
+  std::vector<TPoint3D> points;
   for (const TPose2D& node : *snapshot.map_T_node) points.push_back(raised(node, height_m::kNodes));
   layer.insert(dots_of(points, palette::kNode, 4));
 }
@@ -261,8 +238,15 @@ void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot) {
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style) {
   using Key = std::tuple<bool, std::uint8_t, std::uint8_t, std::uint8_t>;
   std::map<Key, CSetOfLines::Ptr> by_colour;
-  const std::size_t stride = final_search_loops(snapshot) / kMostLoopsOfFinalSearch + 1;
-  const std::uint8_t clear = clear_alpha(snapshot);
+  const auto count = [&](const auto& condition) {
+    return static_cast<std::size_t>(std::count_if(snapshot.loops->begin(), snapshot.loops->end(), condition));
+  };
+  const std::size_t of_mapping = count(
+      [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted && !loop.in_final_search; });
+  const double crowd = std::max(1.0, static_cast<double>(of_mapping) / kClearLoops);
+  const auto clear = static_cast<std::uint8_t>(std::max(kPalest, kClear / std::sqrt(crowd)));
+  const std::size_t stride =
+      count([](const LoopRecord& loop) { return loop.in_final_search; }) / kMostLoopsOfFinalSearch + 1;
   std::size_t of_final_search = 0;
   for (const LoopRecord& loop : *snapshot.loops) {
     if (loop.in_final_search && !loop.by_hand && of_final_search++ % stride != 0) continue;
@@ -280,13 +264,11 @@ void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopSty
 
 void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t index) {
   const LoopRecord& loop = (*snapshot.loops)[index];
-  const TPose2D& anchor = snapshot.map_T_node->at(loop.anchor);
-  const TPose2D& node = snapshot.map_T_node->at(loop.node);
-  auto lines = lines_of(palette::kChosen, 4);
-  join(*lines, anchor, node, height_m::kChosenLoop);
-  layer.insert(lines);
-  layer.insert(dots_of({raised(anchor, height_m::kChosenLoop), raised(node, height_m::kChosenLoop)},
-                       palette::kChosen, 10));
+  insert_line_with_ends(layer, snapshot.map_T_node->at(loop.anchor), snapshot.map_T_node->at(loop.node),
+                        height_m::kChosenLoop, palette::kChosen, 4, 10);
+  auto window = lines_of(palette::kWindow, 1.5F);
+  add_loop_window(*window, snapshot, loop);
+  layer.insert(window);
 }
 
 void draw_robot(SceneLayer& layer, const TPose2D& map_T_robot) {
@@ -306,12 +288,9 @@ void draw_scan(SceneLayer& layer, const Frame& frame, const TPose2D& map_T_robot
   all.max_range_m = static_cast<double>(frame.scan.max_range_m);
   for (const CompanionScan& companion : frame.companions)
     all.max_range_m = std::max(all.max_range_m, static_cast<double>(companion.scan.max_range_m));
-  std::vector<TPoint3Df> points;
-  for (const mrpt::math::TPoint2Df& point : matching_points(frame, all).points) {
-    const TPoint2D at =
-        map_T_robot.composePoint({static_cast<double>(point.x), static_cast<double>(point.y)});
-    points.push_back(raised(at, height_m::kScan));
-  }
+  std::vector<TPoint3D> points;
+  for (const mrpt::math::TPoint2Df& point : matching_points(frame, all).points)
+    points.push_back(raised(map_T_robot.composePoint(point), height_m::kScan));
   layer.insert(dots_of(points, palette::kScan, 3));
 }
 
@@ -327,18 +306,8 @@ void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t
   layer.insert(lines);
 }
 
-void draw_loop_window(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop) {
-  auto lines = lines_of(palette::kWindow, 1.5F);
-  add_loop_window(*lines, snapshot, (*snapshot.loops)[loop]);
-  layer.insert(lines);
-}
-
 void draw_measure(SceneLayer& layer, const Measure& measure) {
-  auto lines = lines_of(palette::kMeasure, 2);
-  join(*lines, measure.from, measure.to, height_m::kMeasure);
-  layer.insert(lines);
-  layer.insert(dots_of({raised(measure.from, height_m::kMeasure), raised(measure.to, height_m::kMeasure)},
-                       palette::kMeasure, 8));
+  insert_line_with_ends(layer, measure.from, measure.to, height_m::kMeasure, palette::kMeasure, 2, 8);
 }
 
 }  // namespace psi_slam

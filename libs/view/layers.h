@@ -5,7 +5,6 @@
 #include <mrpt/opengl/CSetOfObjects.h>
 
 #include <cstddef>
-#include <optional>
 
 #include "replay/map_painter.h"
 #include "replay/replay_snapshot.h"
@@ -47,7 +46,6 @@ void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot);
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style);
 /// Draws the selected loop, and the window of its search.
 void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);
-void draw_loop_window(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);
 
 void draw_robot(SceneLayer& layer, const mrpt::math::TPose2D& map_T_robot);
 void draw_scan(SceneLayer& layer, const Frame& frame, const mrpt::math::TPose2D& map_T_robot);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "view/loop_picture.h"
 
+#include <mrpt/math/TBoundingBox.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -18,8 +20,7 @@ constexpr int kDarkerByPoint = 75;
 std::vector<mrpt::math::TPoint2D> placed(const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot) {
   std::vector<mrpt::math::TPoint2D> points;
   points.reserve(scan.points.size());
-  for (const mrpt::math::TPoint2Df& point : scan.points)
-    points.push_back(map_T_robot.composePoint({static_cast<double>(point.x), static_cast<double>(point.y)}));
+  for (const mrpt::math::TPoint2Df& point : scan.points) points.push_back(map_T_robot.composePoint(point));
   return points;
 }
 
@@ -39,14 +40,12 @@ MapRaster raster_of(const std::vector<mrpt::math::TPoint2D>& points) {
   MapRaster raster;
   raster.resolution_m = kCell_m;
   if (points.empty()) return raster;
-  const auto [left, right] =
-      std::minmax_element(points.begin(), points.end(), [](auto& a, auto& b) { return a.x < b.x; });
-  const auto [low, high] =
-      std::minmax_element(points.begin(), points.end(), [](auto& a, auto& b) { return a.y < b.y; });
-  raster.x_min_m = left->x - kCell_m;
-  raster.y_max_m = high->y + kCell_m;
-  raster.width_px = static_cast<int>((right->x - raster.x_min_m) / kCell_m) + 2;
-  raster.height_px = static_cast<int>((raster.y_max_m - low->y) / kCell_m) + 2;
+  auto all = mrpt::math::TBoundingBox::PlusMinusInfinity();
+  for (const mrpt::math::TPoint2D& point : points) all.updateWithPoint({point.x, point.y, 0});
+  raster.x_min_m = all.min.x - kCell_m;
+  raster.y_max_m = all.max.y + kCell_m;
+  raster.width_px = static_cast<int>((all.max.x - raster.x_min_m) / kCell_m) + 2;
+  raster.height_px = static_cast<int>((raster.y_max_m - all.min.y) / kCell_m) + 2;
   raster.pixels.assign(std::size_t{4} * static_cast<std::size_t>(raster.width_px * raster.height_px), kWhite);
   for (const mrpt::math::TPoint2D& point : points) {
     const auto column = static_cast<int>((point.x - raster.x_min_m) / kCell_m);
@@ -73,10 +72,10 @@ std::optional<LoopPicture> loop_picture(const ReplaySnapshot& snapshot, std::siz
   return picture;
 }
 
-LoopResidual loop_residual(const LoopRecord& loop, const std::vector<mrpt::math::TPose2D>& map_T_node) {
+double loop_residual_m(const LoopRecord& loop, const std::vector<mrpt::math::TPose2D>& map_T_node) {
   const Eigen::Vector3d error = constraint_error(loop.anchor_T_node, RotatedPose(map_T_node.at(loop.anchor)),
                                                  RotatedPose(map_T_node.at(loop.node)));
-  return {std::hypot(error.x(), error.y()), std::abs(error.z())};
+  return std::hypot(error.x(), error.y());
 }
 
 }  // namespace psi_slam

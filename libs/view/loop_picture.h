@@ -24,12 +24,8 @@ struct LoopPicture {
 /// Picture of a loop by its index; nothing if the snapshot lacks the loop, its local map or its node.
 std::optional<LoopPicture> loop_picture(const ReplaySnapshot& snapshot, std::size_t loop);
 
-/// Error of a loop in the present graph: from the matched pose of the node to its pose in the graph.
-struct LoopResidual {
-  double distance_m = 0;
-  double turn_rad = 0;  ///< absolute value
-};
-
-LoopResidual loop_residual(const LoopRecord& loop, const std::vector<mrpt::math::TPose2D>& map_T_node);
+/// Error of a loop in the present graph: distance from the matched position of the node to its position in
+/// the graph, in metres.
+double loop_residual_m(const LoopRecord& loop, const std::vector<mrpt::math::TPose2D>& map_T_node);
 
 }  // namespace psi_slam

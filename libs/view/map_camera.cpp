@@ -18,8 +18,8 @@ double half_tangent(const MapCamera& camera) {
 
 }  // namespace
 
-std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const PictureSize& size, double x_px,
-                                              double y_px) {
+std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const mrpt::img::TImageSize& size,
+                                              double x_px, double y_px) {
   const double azimuth = camera.azimuth_deg * M_PI / 180;
   const double elevation = camera.elevation_deg * M_PI / 180;
   const Eigen::Vector3d to_eye(std::cos(azimuth) * std::cos(elevation),
@@ -27,9 +27,9 @@ std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const Pic
   const Eigen::Vector3d right(-std::sin(azimuth), std::cos(azimuth), 0);
   const Eigen::Vector3d up = to_eye.cross(right);
   const double scale = half_tangent(camera);
-  const double aspect = static_cast<double>(size.width_px) / std::max(1, size.height_px);
-  const double across = (2 * x_px / std::max(1, size.width_px) - 1) * scale * aspect;
-  const double above = (1 - 2 * y_px / std::max(1, size.height_px)) * scale;
+  const double aspect = static_cast<double>(size.x) / std::max(1, size.y);
+  const double across = (2 * x_px / std::max(1, size.x) - 1) * scale * aspect;
+  const double above = (1 - 2 * y_px / std::max(1, size.y)) * scale;
   const Eigen::Vector3d direction = across * right + above * up - to_eye;
   if (direction.z() >= -1e-6) return std::nullopt;
   const double length = camera.distance_m * to_eye.z() / -direction.z();
@@ -37,12 +37,11 @@ std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const Pic
                               camera.target.y + camera.distance_m * to_eye.y() + length * direction.y());
 }
 
-MapCamera camera_above(const GroundRectangle& rectangle, const PictureSize& size) {
+MapCamera camera_above(const MapRectangle& rectangle, const mrpt::img::TImageSize& size) {
   MapCamera camera;
-  camera.target = {(rectangle.min.x + rectangle.max.x) / 2, (rectangle.min.y + rectangle.max.y) / 2};
-  const double aspect = static_cast<double>(std::max(1, size.width_px)) / std::max(1, size.height_px);
-  const double half_height_m =
-      std::max((rectangle.max.y - rectangle.min.y) / 2, (rectangle.max.x - rectangle.min.x) / 2 / aspect);
+  camera.target = {(rectangle.x_min_m + rectangle.x_max_m) / 2, (rectangle.y_min_m + rectangle.y_max_m) / 2};
+  const double aspect = static_cast<double>(std::max(1, size.x)) / std::max(1, size.y);
+  const double half_height_m = std::max(rectangle.height_m() / 2, rectangle.width_m() / 2 / aspect);
   camera.distance_m = std::max(kNearest_m, kMargin * half_height_m / half_tangent(camera));
   return camera;
 }

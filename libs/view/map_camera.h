@@ -2,9 +2,12 @@
 // MRPT's orbit camera over the ground plane: from pixels to places, and a view of a whole map.
 #pragma once
 
+#include <mrpt/img/TPixelCoord.h>
 #include <mrpt/math/TPoint2D.h>
 
 #include <optional>
+
+#include "rendering/map_image.h"
 
 namespace psi_slam {
 
@@ -16,21 +19,12 @@ struct MapCamera {
   double field_of_view_deg = 30;  ///< from the lower to the upper edge
 };
 
-struct PictureSize {
-  int width_px = 1;
-  int height_px = 1;
-};
-
-/// Place on the ground that a pixel shows; (0, 0) is the upper left corner. Nothing above the horizon.
-std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const PictureSize& size, double x_px,
-                                              double y_px);
-
-struct GroundRectangle {
-  mrpt::math::TPoint2D min;
-  mrpt::math::TPoint2D max;
-};
+/// Place on the ground that a pixel shows in a picture of `size` pixels; (0, 0) is the upper left corner.
+/// Nothing above the horizon.
+std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const mrpt::img::TImageSize& size,
+                                              double x_px, double y_px);
 
 /// Camera that looks straight down on the whole rectangle with a small margin, at azimuth -90.
-MapCamera camera_above(const GroundRectangle& rectangle, const PictureSize& size);
+MapCamera camera_above(const MapRectangle& rectangle, const mrpt::img::TImageSize& size);
 
 }  // namespace psi_slam

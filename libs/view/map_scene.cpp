@@ -5,7 +5,6 @@
 #include <mrpt/opengl/CSetOfLines.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "view/layers.h"
 #include "view/palette.h"
@@ -154,9 +153,8 @@ bool MapScene::show_graph(const ReplaySnapshot& snapshot, bool poses_changed) {
   const bool chosen_changed = loops_changed || chosen_loop_ != shown_.chosen_loop;
   if (chosen_changed)
     fill(*chosen_layer_, [&](SceneLayer& layer) {
-      if (!chosen_loop_ || *chosen_loop_ >= snapshot.loops->size()) return;
-      draw_chosen_loop(layer, snapshot, *chosen_loop_);
-      draw_loop_window(layer, snapshot, *chosen_loop_);
+      if (chosen_loop_ && *chosen_loop_ < snapshot.loops->size())
+        draw_chosen_loop(layer, snapshot, *chosen_loop_);
     });
   return maps_changed || loops_changed || chosen_changed;
 }

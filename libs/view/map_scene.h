@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "replay/map_painter.h"
 #include "replay/replay_snapshot.h"

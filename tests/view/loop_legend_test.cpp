@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view/loop_legend.h"
+#include "view/palette.h"
 
 #include <gmock/gmock.h>
-
-#include "view/palette.h"
 
 namespace psi_slam {
 namespace {

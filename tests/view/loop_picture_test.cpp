@@ -49,8 +49,7 @@ TEST_F(LoopPictureTest, is_missing_for_a_missing_loop) {
 TEST_F(LoopPictureTest, residuals_of_true_loops_are_small) {
   for (const LoopRecord& loop : *finished_->loops)
     if (loop.verdict == LoopVerdict::kAccepted) {
-      EXPECT_LT(loop_residual(loop, *finished_->map_T_node).distance_m, 0.1);
-      EXPECT_LT(loop_residual(loop, *finished_->map_T_node).turn_rad, 0.05);
+      EXPECT_LT(loop_residual_m(loop, *finished_->map_T_node), 0.1);
     }
 }
 
@@ -59,9 +58,7 @@ TEST(LoopResidual, is_the_error_of_the_node) {
   loop.anchor = 0;
   loop.node = 1;
   loop.anchor_T_node = {1, 0, 0};
-  const LoopResidual residual = loop_residual(loop, {{5, 5, M_PI / 2}, {5, 6.3, M_PI / 2 + 0.1}});
-  EXPECT_NEAR(residual.distance_m, 0.3, 1e-12);
-  EXPECT_NEAR(residual.turn_rad, 0.1, 1e-12);
+  EXPECT_NEAR(loop_residual_m(loop, {{5, 5, M_PI / 2}, {5, 6.3, M_PI / 2 + 0.1}}), 0.3, 1e-12);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr PictureSize kSize{800, 400};
+const mrpt::img::TImageSize kSize(800, 400);
 
 TEST(MapCamera, looking_straight_down_x_points_right_and_y_up) {
   MapCamera camera;
@@ -37,17 +37,16 @@ TEST(MapCamera, when_tilted_the_upper_edge_is_farther_away_and_the_sky_shows_no_
 }
 
 TEST(MapCamera, looking_straight_down_sees_the_whole_rectangle) {
-  for (const GroundRectangle& rectangle :
-       {GroundRectangle{{-10, 0}, {50, 5}}, GroundRectangle{{0, -30}, {4, 30}},
-        GroundRectangle{{1, 1}, {1, 1}}}) {
+  for (const MapRectangle& rectangle :
+       {MapRectangle{-10, 50, 0, 5}, MapRectangle{0, 4, -30, 30}, MapRectangle{1, 1, 1, 1}}) {
     const MapCamera camera = camera_above(rectangle, kSize);
     const auto upper_left = ground_at(camera, kSize, 0, 0);
-    const auto lower_right = ground_at(camera, kSize, kSize.width_px, kSize.height_px);
+    const auto lower_right = ground_at(camera, kSize, kSize.x, kSize.y);
     ASSERT_TRUE(upper_left && lower_right);
-    EXPECT_LT(upper_left->x, rectangle.min.x);
-    EXPECT_GT(upper_left->y, rectangle.max.y);
-    EXPECT_GT(lower_right->x, rectangle.max.x);
-    EXPECT_LT(lower_right->y, rectangle.min.y);
+    EXPECT_LT(upper_left->x, rectangle.x_min_m);
+    EXPECT_GT(upper_left->y, rectangle.y_max_m);
+    EXPECT_GT(lower_right->x, rectangle.x_max_m);
+    EXPECT_LT(lower_right->y, rectangle.y_min_m);
   }
 }
 

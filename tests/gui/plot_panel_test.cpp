@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plot_series.h"
+#include "plot_panel.h"
 
 #include <gtest/gtest.h>
 

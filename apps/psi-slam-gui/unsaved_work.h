@@ -16,16 +16,16 @@ inline EditJournal journal_of(const std::vector<TimedEdit>& edits) {
   return journal;
 }
 
-/// Knows what closing the window would lose: scans mapped and edits made since results, a session or a file
+/// Tracks what closing the window would lose: scans mapped and edits made since results, a session or a file
 /// of edits were last written.
 class UnsavedWork {
  public:
-  /// A run was opened; its edits come from a file.
+  /// Call this when a run is opened whose edits come from a file.
   void open(const SessionInput& input) {
     restart(input);
     written_edits_ = input.edits().text();
   }
-  /// The run was restarted, or resumed with a log; its edits stay as unsaved as before.
+  /// Call this when the run is restarted or resumed with a log. Its edits stay as unsaved as before.
   void restart(const SessionInput& input) {
     written_scans_ = input.recording() ? input.recording()->frames.size() : 0;
   }

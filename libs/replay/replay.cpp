@@ -63,7 +63,8 @@ std::shared_ptr<const ReplaySnapshot> Replay::snapshot() const {
 }
 
 void Replay::run() noexcept {
-  maker_->now.failure = failure_of([&] { work(); }, "Out of memory: the run has stopped");
+  maker_->now.failure = failure_of(
+      [&] { work(); }, "Out of memory: the run has stopped. Close other programs or map a shorter log.");
   if (!maker_->now.failure.empty()) phase_ = ReplayPhase::kFailed;
   refuse_requests();
 }
@@ -209,7 +210,8 @@ void Replay::save_once(const MappingSession& session) {
   outcome.path = locked([&] { return std::exchange(save_, std::nullopt).value(); });
   SavedSession saved;
   outcome.failure =
-      failure_of([&] { saved = session.save(outcome.path); }, "Out of memory while writing the session");
+      failure_of([&] { saved = session.save(outcome.path); },
+                 "Out of memory while writing the session. Close other programs and save it again.");
   outcome.remark = saved.remark;
   outcome.written.scans = saved.scans;
   maker_->note_save(std::move(outcome));
@@ -222,7 +224,7 @@ void Replay::export_once(MappingSession& session) {
   WriteOutcome outcome{++exports_, request.folder, "", "", {}};
   outcome.failure =
       failure_of([&] { session.export_to(OutputFolder::prepare(request.folder, request.replace)); },
-                 "Out of memory while writing the results");
+                 "Out of memory while writing the results. Close other programs and export them again.");
   maker_->note_export(std::move(outcome));
 }
 
@@ -288,7 +290,9 @@ void Replay::publish_as_it_is() {
 void Replay::refuse_requests() {
   const std::lock_guard lock(mutex_);
   const auto refusal = [](int number, const std::filesystem::path& path) {
-    return WriteOutcome{number, path, path.string() + " was not written: the run ended first", "", {}};
+    const std::string failure =
+        path.string() + " was not written: the run ended first. Map the log again and repeat the command.";
+    return WriteOutcome{number, path, failure, "", {}};
   };
   if (save_) maker_->note_save(refusal(++saves_, *save_));
   if (export_) maker_->note_export(refusal(++exports_, export_->folder));

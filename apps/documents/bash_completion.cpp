@@ -55,18 +55,16 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-/// Names of all commands, separated by blanks.
-std::string command_names(const CLI::App& app) {
-  std::string names;
-  for (const CLI::App* command : shown_commands(app))
-    names += (names.empty() ? "" : " ") + command->get_name();
-  return names;
-}
-
 std::string joined(const std::vector<std::string>& words, const char* between) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
   return text;
+}
+
+std::string command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : shown_commands(app)) names.push_back(command->get_name());
+  return joined(names, " ");
 }
 
 std::vector<std::string> names_with_values(const CLI::App& app) {
@@ -85,18 +83,9 @@ std::string answer(const std::string& compgen, const std::string& option = "") {
 }
 
 std::string answer_for(WordKind kind, const std::string& function) {
-  switch (kind) {
-    case WordKind::kFile:
-      return answer("-f", "filenames");
-    case WordKind::kFolder:
-      return answer("-d", "filenames");
-    case WordKind::kSetting:
-      return function + "_setting";
-    case WordKind::kOther:
-    case WordKind::kNothing:
-      break;
-  }
-  return ":";
+  if (kind == WordKind::kFile) return answer("-f", "filenames");
+  if (kind == WordKind::kFolder) return answer("-d", "filenames");
+  return kind == WordKind::kSetting ? function + "_setting" : ":";
 }
 
 /// Branches of `case "$command $previous" in`, one for each kind of value.

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_words.h"
 
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 namespace psi_slam {
 
 WordKind kind_of_value(const CLI::Option& option) {
-  const std::string name = value_name(option);
-  const auto is_one_of = [&](const auto& names) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
   if (option.nonpositional() && option.get_items_expected_max() == 0) return WordKind::kNothing;
+  const std::string name = value_name(option);
   if (name == "DIR") return WordKind::kFolder;
   if (name.rfind("SECTION.KEY=VALUE", 0) == 0) return WordKind::kSetting;
-  constexpr std::array<std::string_view, 3> kFiles{"FILE", "INI", "LOG"};
-  return is_one_of(kFiles) || !option.nonpositional() ? WordKind::kFile : WordKind::kOther;
+  const bool is_file = !option.nonpositional() || name == "FILE" || name == "INI" || name == "LOG";
+  return is_file ? WordKind::kFile : WordKind::kOther;
 }
 
 std::string value_name(const CLI::Option& option) {

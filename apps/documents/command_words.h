@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace psi_slam {
@@ -20,6 +21,9 @@ std::string value_name(const CLI::Option& option);
 std::vector<const CLI::Option*> shown_options(const CLI::App& app);
 std::vector<const CLI::Option*> shown_positionals(const CLI::App& app);
 std::vector<const CLI::App*> shown_commands(const CLI::App& app);
+
+/// Plain text of one or more lines for a manual page, with the characters that troff interprets escaped.
+std::string roff_text(std::string_view text);
 
 /// All names as a user types them: "-c", "--config".
 std::vector<std::string> typed_names(const CLI::Option& option);

@@ -1,31 +1,182 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "document_options.h"
 
+#include <algorithm>
+#include <cctype>
 #include <functional>
-#include <string>
-#include <utility>
+#include <map>
+#include <sstream>
+
+#include "command_words.h"
+#include "config/ini_file.h"
 
 namespace psi_slam {
 namespace {
 
-void add_hidden(CLI::App& app, const std::string& name, std::function<std::string()> text) {
-  // CLI11 adds a line end to the text of --version, so the document's own is removed.
-  app.add_flag_callback(name,
-                        [text = std::move(text)] {
-                          std::string document = text();
-                          if (!document.empty()) document.pop_back();
-                          throw CLI::CallForVersion(document, 0);
-                        })
-      ->group("");
+/// Bold text, which the user types as it is.
+std::string roff_bold(std::string_view text) {
+  return "\\fB" + roff_text(text) + "\\fR";
+}
+
+/// Italic text, which the user replaces.
+std::string roff_italic(std::string_view text) {
+  return "\\fI" + roff_text(text) + "\\fR";
+}
+
+std::string roff_section(std::string_view title) {
+  return ".SH \"" + roff_text(title) + "\"\n";
+}
+
+/// A paragraph with a hanging tag. `tag` and `text` are in troff already.
+std::string roff_item(const std::string& tag, const std::string& text) {
+  return ".TP\n" + tag + '\n' + text + '\n';
+}
+
+std::string heading(const std::string& name, int section, const std::string& version) {
+  const std::string manual = section == 1 ? "User Commands" : "File Formats";
+  std::string upper = name;
+  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return ".TH \"" + roff_text(upper) + "\" " + std::to_string(section) + " \"\" \"" + roff_text(version) +
+         "\" \"" + manual + "\"\n";
+}
+
+/// First clause of the description, without the program's name.
+std::string in_a_line(const CLI::App& app) {
+  std::string text = app.get_description();
+  const std::string name = app.get_name() + ' ';
+  if (text.compare(0, name.size(), name) == 0) text.erase(0, name.size());
+  text.erase(std::min(text.find_first_of(".:"), text.size()));
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string synopsis(const CLI::App& app, const std::string& program) {
+  std::string line = roff_bold(program) + " [" + roff_italic("OPTION") + "]...";
+  for (const CLI::Option* positional : shown_positionals(app)) {
+    const std::string name = roff_italic(positional->get_name(true));
+    line += positional->get_required() ? ' ' + name : " [" + name + ']';
+  }
+  return line;
+}
+
+std::string option_item(const CLI::Option& option) {
+  std::string tag;
+  for (const std::string& name : typed_names(option)) tag += (tag.empty() ? "" : ", ") + roff_bold(name);
+  if (const std::string value = value_name(option); !value.empty()) tag += ' ' + roff_italic(value);
+  std::string text = roff_text(option.get_description());
+  if (!option.get_default_str().empty()) text += " (default " + roff_text(option.get_default_str()) + ')';
+  if (option.get_required()) text += " (required)";
+  return roff_item(tag, text);
+}
+
+std::string option_items(const CLI::App& app) {
+  std::string text;
+  for (const CLI::Option* positional : shown_positionals(app))
+    text += roff_item(roff_italic(positional->get_name(true)), roff_text(positional->get_description()));
+  for (const CLI::Option* option : shown_options(app)) text += option_item(*option);
+  return text;
+}
+
+std::string commands(const CLI::App& app) {
+  std::string text;
+  for (const CLI::App* command : shown_commands(app))
+    text += ".SS \"" + roff_text(app.get_name() + ' ' + command->get_name()) + "\"\n" +
+            roff_text(command->get_description()) + '\n' + option_items(*command);
+  return text.empty() ? "" : roff_section("COMMANDS") + text;
+}
+
+std::string footer(const CLI::App& app) {
+  constexpr std::string_view kTitle = "\nExamples:\n";
+  const std::string text = app.get_footer();
+  if (text.empty()) return "";
+  if (text.compare(0, kTitle.size(), kTitle) != 0) return roff_section("NOTES") + roff_text(text) + '\n';
+  return roff_section("EXAMPLES") + ".PP\n.RS 4\n.nf\n" + roff_text(text.substr(kTitle.size())) +
+         (text.back() == '\n' ? "" : "\n") + ".fi\n.RE\n";
+}
+
+std::string see_also(const std::string& name) {
+  std::string text;
+  std::istringstream programs(PSI_SLAM_PROGRAMS);
+  for (std::string other; programs >> other;)
+    if (name != other) text += roff_bold(other) + "(1), ";
+  if (name == "psi-slam.ini") return text.substr(0, text.size() - 2) + '\n';
+  return text + roff_bold("psi-slam.ini") + "(5)\n";
 }
 
 }  // namespace
 
+std::string roff_text(std::string_view text) {
+  static const std::map<char, const char*> kEscapes{{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
+                                                    {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"},
+                                                    {'"', "\\(dq"}};
+  std::string roff;
+  bool line_begins = true;
+  for (const char c : text) {
+    if (line_begins && (c == '.' || c == '\'')) roff += "\\&";
+    line_begins = c == '\n';
+    const auto escape = kEscapes.find(c);
+    roff += escape == kEscapes.end() ? std::string(1, c) : escape->second;
+  }
+  return roff;
+}
+
+std::string man_page(const CLI::App& app) {
+  const std::string name = app.get_name();
+  std::string page = heading(name, 1, app.version());
+  page += roff_section("NAME") + roff_text(name) + " \\- " + roff_text(in_a_line(app)) + '\n';
+  page += roff_section("SYNOPSIS");
+  const bool only_commands = app.get_require_subcommand_min() > 0;
+  if (!only_commands) page += synopsis(app, name) + '\n';
+  for (const CLI::App* command : shown_commands(app))
+    page += (page.compare(page.size() - 11, 11, "\"SYNOPSIS\"\n") == 0 ? "" : ".br\n") +
+            synopsis(*command, name + ' ' + command->get_name()) + '\n';
+  page += roff_section("DESCRIPTION") + roff_text(app.get_description()) + '\n';
+  page += roff_section("OPTIONS") + option_items(app);
+  page += commands(app);
+  page += roff_section("EXIT STATUS") + roff_item("0", "Success.") +
+          roff_item("1", "The system failed: a full disk, no memory, no display.") +
+          roff_item("2", "The arguments, the settings or the log are invalid.");
+  page += footer(app);
+  return page + roff_section("SEE ALSO") + see_also(name);
+}
+
+std::string settings_man_page(const OptionTable& table, const std::string& version) {
+  std::string page = heading("psi-slam.ini", 5, version);
+  page += roff_section("NAME") + "psi\\-slam.ini \\- settings of psi\\-slam and psi\\-slam\\-gui\n";
+  page +=
+      roff_section("DESCRIPTION") +
+      roff_text(
+          "A settings file has sections in brackets and lines KEY = VALUE. Comments begin with a semicolon, "
+          "or with a hash at the start of a line or after a space. Options that a file leaves out keep their "
+          "defaults. A line include = FILE before the first section takes the values of another file, which "
+          "this file may override. Unknown keys and values out of range are errors.") +
+      "\n" + roff_bold("psi-slam --dump-config") + '\n' + roff_text("prints a file with every option.") +
+      '\n' + roff_bold("--set SECTION.KEY=VALUE") + '\n' + roff_text("changes one option for one run.") +
+      '\n';
+  for (const OptionSection& section : table.sections()) {
+    page += roff_section('[' + section.name + ']') + roff_text(section.title + '.') + '\n';
+    for (const Option& option : section.options)
+      page += roff_item(roff_bold(option.key),
+                        roff_text(option.help) + "\n.br\n" +
+                            roff_text(option.values() + "; default " + ini_value_text(option.default_text)));
+  }
+  return page + roff_section("SEE ALSO") + see_also("psi-slam.ini");
+}
+
 void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings) {
-  add_hidden(app, "--man-page", [&app] { return man_page(app); });
-  add_hidden(app, "--bash-completion", [&app, settings] { return bash_completion(app, settings.get()); });
+  const auto add_hidden = [&app](const std::string& name, const std::function<std::string()>& text) {
+    // CLI11 adds a line end to the text of --version, so the document's own is removed.
+    const auto print = [text] {
+      std::string document = text();
+      if (!document.empty()) document.pop_back();
+      throw CLI::CallForVersion(document, 0);
+    };
+    app.add_flag_callback(name, print)->group("");
+  };
+  add_hidden("--man-page", [&app] { return man_page(app); });
+  add_hidden("--bash-completion", [&app, settings] { return bash_completion(app, settings.get()); });
   if (settings)
-    add_hidden(app, "--settings-man-page",
+    add_hidden("--settings-man-page",
                [&app, settings] { return settings_man_page(*settings, app.version()); });
 }
 

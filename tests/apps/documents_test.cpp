@@ -4,7 +4,6 @@
 
 #include "command_words.h"
 #include "document_options.h"
-#include "roff_text.h"
 
 namespace psi_slam {
 namespace {

@@ -2,7 +2,7 @@
 #include "eval_app.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <array>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -61,35 +61,38 @@ std::string per_relation_csv(const RelationsMetric& metric) {
   return text;
 }
 
-nlohmann::ordered_json to_json(const ErrorSummary& summary) {
-  return {{"mean", summary.mean},
-          {"std", summary.std},
-          {"median", summary.median},
-          {"p95", summary.p95},
-          {"max", summary.max}};
-}
+/// A figure of the metric.
+struct Row {
+  const char* key;   // in JSON
+  const char* name;  // in the table
+  ErrorSummary RelationsMetric::*summary;
+};
+
+constexpr std::array<Row, 6> kRows{
+    {{"translation_abs_m", "translation, absolute [m]", &RelationsMetric::translation_abs_m},
+     {"translation_sq_m2", "translation, squared [m^2]", &RelationsMetric::translation_sq_m2},
+     {"rotation_abs_deg", "rotation, absolute [deg]", &RelationsMetric::rotation_abs_deg},
+     {"rotation_sq_deg2", "rotation, squared [deg^2]", &RelationsMetric::rotation_sq_deg2},
+     {"cartographer_translation_abs_m", "translation, absolute [m]",
+      &RelationsMetric::cartographer_translation_abs_m},
+     {"cartographer_translation_sq_m2", "translation, squared [m^2]",
+      &RelationsMetric::cartographer_translation_sq_m2}}};
 
 nlohmann::ordered_json to_json(const RelationsMetric& metric) {
-  return {{"relations",
-           {{"used", metric.exact + metric.interpolated},
-            {"exact", metric.exact},
-            {"interpolated", metric.interpolated},
-            {"skipped", metric.skipped}}},
-          {"translation_abs_m", to_json(metric.translation_abs_m)},
-          {"translation_sq_m2", to_json(metric.translation_sq_m2)},
-          {"rotation_abs_deg", to_json(metric.rotation_abs_deg)},
-          {"rotation_sq_deg2", to_json(metric.rotation_sq_deg2)},
-          {"cartographer_translation_abs_m", to_json(metric.cartographer_translation_abs_m)},
-          {"cartographer_translation_sq_m2", to_json(metric.cartographer_translation_sq_m2)}};
-}
-
-void print_row(std::ostream& out, const char* name, const ErrorSummary& summary) {
-  out << "  " << std::left << std::setw(28) << name << std::right;
-  out << std::setw(11) << fixed_text(summary.mean, 4) << " ± " << std::left << std::setw(11)
-      << fixed_text(summary.std, 4) << std::right;
-  for (const double value : {summary.median, summary.p95, summary.max})
-    out << std::setw(11) << fixed_text(value, 4);
-  out << '\n';
+  nlohmann::ordered_json json{{"relations",
+                               {{"used", metric.exact + metric.interpolated},
+                                {"exact", metric.exact},
+                                {"interpolated", metric.interpolated},
+                                {"skipped", metric.skipped}}}};
+  for (const Row& row : kRows) {
+    const ErrorSummary& summary = metric.*row.summary;
+    json[row.key] = {{"mean", summary.mean},
+                     {"std", summary.std},
+                     {"median", summary.median},
+                     {"p95", summary.p95},
+                     {"max", summary.max}};
+  }
+  return json;
 }
 
 void print_table(std::ostream& out, const RelationsMetric& metric) {
@@ -97,13 +100,17 @@ void print_table(std::ostream& out, const RelationsMetric& metric) {
       << " of them interpolated), " << metric.skipped << " skipped (outside the trajectory or in a gap)\n\n"
       << "                                     mean ± std             median       95 %        max\n"
       << "Kümmerle et al. 2009\n";
-  print_row(out, "translation, absolute [m]", metric.translation_abs_m);
-  print_row(out, "translation, squared [m^2]", metric.translation_sq_m2);
-  print_row(out, "rotation, absolute [deg]", metric.rotation_abs_deg);
-  print_row(out, "rotation, squared [deg^2]", metric.rotation_sq_deg2);
-  out << "Cartographer's variant (with equal rotation)\n";
-  print_row(out, "translation, absolute [m]", metric.cartographer_translation_abs_m);
-  print_row(out, "translation, squared [m^2]", metric.cartographer_translation_sq_m2);
+  for (const Row& row : kRows) {
+    if (row.summary == &RelationsMetric::cartographer_translation_abs_m)
+      out << "Cartographer's variant (with equal rotation)\n";
+    const ErrorSummary& summary = metric.*row.summary;
+    out << "  " << std::left << std::setw(28) << row.name << std::right << std::setw(11)
+        << fixed_text(summary.mean, 4) << " ± " << std::left << std::setw(11) << fixed_text(summary.std, 4)
+        << std::right;
+    for (const double value : {summary.median, summary.p95, summary.max})
+      out << std::setw(11) << fixed_text(value, 4);
+    out << '\n';
+  }
 }
 
 void evaluate(const EvalOptions& options, std::ostream& out) {

@@ -2,17 +2,174 @@
 #include "bench_app.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
 #include <ostream>
 
 #include "base/exit_code.h"
 #include "base/text_parts.h"
+#include "batch/kept_run.h"
 #include "common/bench_command.h"
 #include "document_options.h"
+#include "false_loops/false_loop_benchmark.h"
+#include "match/match_benchmark.h"
+#include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
+#include "robustness/robustness_benchmark.h"
 #include "run_program.h"
+#include "simulate/simulate_benchmark.h"
+#include "simulate/simulated_log_file.h"
 
 namespace psi_slam {
 namespace {
+
+/// Options of one benchmark, and those that all benchmarks share.
+template <class Options>
+struct Arguments : BenchArguments {
+  Options options{};
+};
+
+/// Adds the output options, and what happens when `command` is parsed: `logs_for(arguments)` chooses the
+/// logs, and `report_on(logs, options, progress)` runs the benchmark.
+template <class Options, class LogsFor, class ReportOn>
+void run_on_logs(CLI::App& command, const std::shared_ptr<Arguments<Options>>& arguments,
+                 const Streams& streams, const LogsFor& logs_for, const ReportOn& report_on) {
+  const std::string page = command.get_name() + ".md";
+  add_output_options(command, *arguments, page + " and the plots");
+  command.callback([=, &streams] {
+    const auto logs = logs_for(*arguments);
+    check_outputs(*arguments, page);
+    const BenchReport report = with_progress(
+        streams, [&](const auto& progress) { return report_on(logs, arguments->options, progress); });
+    write_report(report, *arguments, streams);
+  });
+}
+
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& purpose) {
+  command.add_option("--seed", seed, purpose)->check(CLI::NonNegativeNumber)->capture_default_str();
+}
+
+void add_match_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<Arguments<MatchBenchmarkOptions>>();
+  MatchBenchmarkOptions& options = arguments->options;
+  CLI::App& match = *app.add_subcommand("match", "Compare the matchers on loops drawn from real logs");
+  add_data_options(match, *arguments);
+  match.add_option("--cases", options.cases, "Number of positive cases from each log, and of negative ones")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  add_seed_option(match, options.seed, "Seed of the cases and of the random matchers");
+  match.add_flag("--windows", options.windows,
+                 "Also compare the matchers over window sizes and over sizes of local maps");
+  run_on_logs(match, arguments, streams, logs_of,
+              [](const auto& logs, const auto& how, const ProgressObserver& progress) {
+                return match_report(run_match_benchmark(logs, how, progress), how, machine_text());
+              });
+}
+
+void add_false_loops_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<Arguments<FalseLoopBenchmarkOptions>>();
+  CLI::App& command = *app.add_subcommand(
+      "false-loops", "Add false loops to the graphs of real logs and measure the errors of the maps");
+  add_data_options(command, *arguments);
+  add_logs_option(command, *arguments);
+  command
+      .add_option("--shares", arguments->options.shares_percent,
+                  "Numbers of false loops in percent of the true loops, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 10'000.0))
+      ->capture_default_str()
+      ->type_name("PERCENTS");
+  add_seeds_option(command, arguments->options.seeds, "Seeds of the false loops");
+  run_on_logs(
+      command, arguments, streams, [&](const auto& data) { return chosen_logs(data, streams); },
+      [](const ChosenLogs& chosen, const auto& options, const ProgressObserver& progress) {
+        FalseLoopBenchmark benchmark = run_false_loop_benchmark(chosen.logs, options, progress);
+        benchmark.without_relations = chosen.without_relations;
+        return false_loop_report(benchmark, options, machine_text());
+      });
+}
+
+void add_robustness_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<Arguments<SeedRange>>();
+  CLI::App& command =
+      *app.add_subcommand("robustness", "Degrade real logs and measure the errors of their maps");
+  add_data_options(command, *arguments);
+  add_logs_option(command, *arguments);
+  add_seeds_option(command, arguments->options, "Seeds of the odometry noise");
+  run_on_logs(
+      command, arguments, streams, [&](const auto& data) { return chosen_logs(data, streams); },
+      [](const ChosenLogs& chosen, const SeedRange& seeds, const ProgressObserver& progress) {
+        RobustnessBenchmark benchmark = run_robustness_benchmark(chosen.logs, seeds, progress);
+        benchmark.without_relations = chosen.without_relations;
+        return robustness_report(benchmark, seeds, machine_text());
+      });
+}
+
+struct SimulateArguments : Arguments<SimulateOptions> {
+  std::string log;
+};
+
+/// Floor plan and path of the shortest run, as SVG: pictures of longer runs are too large to read.
+std::string plan_of_shortest(const SimulateOptions& options) {
+  const double path_m = *std::min_element(options.path_m.begin(), options.path_m.end());
+  SimulatedLog log(simulated_run_options(options, path_m));
+  Trajectory truth;
+  while (const std::optional<Frame> frame = log.next())
+    truth.push_back({frame->time_us, log.world_T_robot()});
+  return plan_svg(log.plan(), truth);
+}
+
+void run_simulate(const SimulateArguments& arguments, const Streams& streams) {
+  const SimulateOptions& options = arguments.options;
+  check_outputs(arguments, "simulate.md");
+  if (!arguments.log.empty() && options.path_m.size() != 1)
+    throw UserError("--write-log writes one run: name one length with --path-m");
+  if (!arguments.log.empty()) check_simulated_log_file(arguments.log);
+  const std::vector<SimulateRow> rows =
+      with_progress(streams, [&](const auto& progress) { return run_simulate_benchmark(options, progress); });
+
+  // Not before the benchmark: memory of this process would count as memory of its children.
+  BenchReport report = simulate_report(rows, options, machine_text());
+  if (!arguments.output.empty()) report.plots.push_back({"simulate-plan.svg", plan_of_shortest(options)});
+  if (!arguments.log.empty())
+    write_simulated_log(arguments.log, simulated_run_options(options, options.path_m.front()));
+  write_report(report, arguments, streams);
+}
+
+void add_simulate_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<SimulateArguments>();
+  SimulateOptions& options = arguments->options;
+  CLI::App& simulate = *app.add_subcommand(
+      "simulate", "Map simulated runs of growing length and compare the maps with the truth");
+  simulate.add_option("--path-m", options.path_m, "Lengths of the paths in metres, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Range(20.0, 100'000.0))
+      ->capture_default_str();
+  add_seed_option(simulate, options.seed, "Seed of the buildings, paths and noise");
+  simulate
+      .add_option("--people", options.people,
+                  "Number of people who walk the corridors, for every 500 m of path")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  simulate
+      .add_option("--glass", options.glass_share,
+                  "Share of the front walls of rooms and of the outer walls that is glass")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("SHARE")
+      ->capture_default_str();
+  simulate
+      .add_option("--threads", options.threads, "Number of threads that match loops; it changes times only")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  add_output_options(simulate, *arguments,
+                     "simulate.md, the plots and a picture of the shortest run's floor plan");
+  simulate
+      .add_option(
+          "--write-log", arguments->log,
+          "Also write the run as a log to FILE, NAME.clf.gz, and the truth to NAME.relations and NAME.tum")
+      ->type_name("FILE");
+  simulate.callback([arguments, &streams] { run_simulate(*arguments, streams); });
+}
 
 /// The arguments in the order that CLI11 expects, last first. Old names of options are replaced.
 std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "freiburg/baseline_program.h"
+#include "freiburg/baselines.h"
 #include "test_files.h"
 
 namespace psi_slam {

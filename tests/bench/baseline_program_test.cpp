@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg/baseline_program.h"
+#include "freiburg/baselines.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg/baseline_run.h"
+#include "freiburg/baselines.h"
 
 #include <gmock/gmock.h>
 
@@ -62,7 +62,8 @@ TEST_F(BaselineRuns, reports_failures) {
   EXPECT_THAT(result_of("").failure, HasSubstr("wrote no path"));
   EXPECT_THAT(result_of(standing_still(7)).failure, HasSubstr("7 poses for 190 scans"));
   EXPECT_THAT(result_of(standing_still(191)).failure, HasSubstr("steps 0 to 189"));
-  EXPECT_THAT(result_of(standing_still(190, "0 here 0")).failure, HasSubstr("path.txt:1: expected the columns step"));
+  EXPECT_THAT(result_of(standing_still(190, "0 here 0")).failure,
+              HasSubstr("path.txt:1: expected the columns step"));
 }
 
 TEST_F(BaselineRuns, is_killed_at_its_time_limit) {

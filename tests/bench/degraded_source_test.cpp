@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robustness/degraded_source.h"
+#include "robustness/robustness_benchmark.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>

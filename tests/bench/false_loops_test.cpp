@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "false_loops/false_loops.h"
+#include "false_loops/false_loop_benchmark.h"
 
 #include <gtest/gtest.h>
 

@@ -7,35 +7,33 @@
 #include <stdexcept>
 #include <vector>
 
+#include "exports/run_summary.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
 
-using Report = std::function<void(const std::string&)>;
-
 TEST(ForkedWork, returns_reports_and_result) {
   std::vector<std::string> reports;
-  const ForkedResult result = run_forked(
-      [](const Report& report) {
+  const std::string result = run_forked(
+      [](const TextObserver& report) {
         report("one");
         report("");
         return std::string(100'000, 'x');
       },
       [&](const std::string& report) { reports.push_back(report); });
-  EXPECT_EQ(result.text, std::string(100'000, 'x'));
+  EXPECT_EQ(result, std::string(100'000, 'x'));
   EXPECT_THAT(reports, testing::ElementsAre("one", ""));
 }
 
-TEST(ForkedWork, measures_the_memory_of_each_child) {
+TEST(ForkedWork, a_child_measures_its_own_memory) {
   const auto holding = [](std::size_t bytes) {
-    return run_forked(
-               [bytes](const Report&) {
-                 const std::vector<char> held(bytes, 1);
-                 return std::string(1, held.back());
-               },
-               [](const std::string&) {})
-        .peak_memory_mib;
+    return std::stod(run_forked(
+        [bytes](const TextObserver&) {
+          const std::vector<char> held(bytes, 1);
+          return std::to_string(peak_memory_mib() + 0 * held.back());
+        },
+        [](const std::string&) {}));
   };
   const double much_mib = holding(200'000'000);
   EXPECT_GT(much_mib, 190);
@@ -44,12 +42,13 @@ TEST(ForkedWork, measures_the_memory_of_each_child) {
 
 TEST(ForkedWork, rethrows_errors_of_the_child) {
   const auto ignore = [](const std::string&) {};
-  EXPECT_THROW(run_forked([](const Report&) -> std::string { throw UserError("mistaken"); }, ignore),
+  EXPECT_THROW(run_forked([](const TextObserver&) -> std::string { throw UserError("mistaken"); }, ignore),
                UserError);
-  EXPECT_THROW(run_forked([](const Report&) -> std::string { throw std::runtime_error("failed"); }, ignore),
-               SystemFailure);
+  EXPECT_THROW(
+      run_forked([](const TextObserver&) -> std::string { throw std::runtime_error("failed"); }, ignore),
+      SystemFailure);
   EXPECT_THROW(run_forked(
-                   [](const Report&) -> std::string {
+                   [](const TextObserver&) -> std::string {
                      std::raise(SIGKILL);
                      return {};
                    },

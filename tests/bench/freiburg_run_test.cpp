@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg/freiburg_run.h"
+#include "freiburg/freiburg_benchmark.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "match/match_figures.h"
+#include "match/match_benchmark.h"
 
 #include <gtest/gtest.h>
 

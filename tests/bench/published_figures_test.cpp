@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg/published_figures.h"
+#include "freiburg/freiburg_comparison.h"
 
 #include <gtest/gtest.h>
 

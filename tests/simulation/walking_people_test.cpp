@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/walking_people.h"
+#include "simulation/simulated_log.h"
 
 #include <gtest/gtest.h>
 

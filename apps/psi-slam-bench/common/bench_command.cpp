@@ -13,7 +13,7 @@ namespace psi_slam {
 
 namespace fs = std::filesystem;
 
-void add_data_options(CLI::App& command, DataArguments& arguments) {
+void add_data_options(CLI::App& command, BenchArguments& arguments) {
   command.add_option("--data", arguments.data, "Folder of the logs NAME.clf.gz with NAME.relations")
       ->required()
       ->type_name("DIR");
@@ -23,7 +23,7 @@ void add_data_options(CLI::App& command, DataArguments& arguments) {
       ->type_name("DIR");
 }
 
-void add_logs_option(CLI::App& command, DataArguments& arguments) {
+void add_logs_option(CLI::App& command, BenchArguments& arguments) {
   command
       .add_option("--logs", arguments.names,
                   "Names of the logs to use, separated by commas; default: all logs with relations")
@@ -31,14 +31,14 @@ void add_logs_option(CLI::App& command, DataArguments& arguments) {
       ->type_name("NAMES");
 }
 
-std::vector<BenchmarkLog> logs_of(const DataArguments& arguments) {
+std::vector<BenchmarkLog> logs_of(const BenchArguments& arguments) {
   if (!arguments.ini.empty()) return find_benchmark_logs(arguments.data, arguments.ini);
   if (const auto shipped = shipped_ini_folder()) return find_benchmark_logs(arguments.data, *shipped);
   throw UserError(
       "the settings of the logs were not found beside the program: name their folder with --ini DIR");
 }
 
-ChosenLogs chosen_logs(const DataArguments& arguments, const Streams& streams) {
+ChosenLogs chosen_logs(const BenchArguments& arguments, const Streams& streams) {
   const std::vector<BenchmarkLog> all = logs_of(arguments);
   const std::vector<std::string>& names = arguments.names;
   for (const std::string& name : names)
@@ -65,7 +65,7 @@ ChosenLogs chosen_logs(const DataArguments& arguments, const Streams& streams) {
   return chosen;
 }
 
-void add_output_options(CLI::App& command, OutputArguments& arguments, const std::string& content) {
+void add_output_options(CLI::App& command, BenchArguments& arguments, const std::string& content) {
   command
       .add_option("--json", arguments.json, "Write all figures to FILE as JSON, replacing an existing FILE")
       ->type_name("FILE");
@@ -77,13 +77,13 @@ void add_output_options(CLI::App& command, OutputArguments& arguments, const std
   if (!arguments.output.empty()) folder->capture_default_str();
 }
 
-void check_outputs(const OutputArguments& arguments, const std::string& page) {
+void check_outputs(const BenchArguments& arguments, const std::string& page) {
   for (const std::string& file : {arguments.json, arguments.csv})
     if (!file.empty()) check_writable(file);
   if (!arguments.output.empty()) prepare_folder(arguments.output, page);
 }
 
-void write_report(const BenchReport& report, const OutputArguments& arguments, const Streams& streams) {
+void write_report(const BenchReport& report, const BenchArguments& arguments, const Streams& streams) {
   if (!arguments.json.empty()) write_text_atomically(arguments.json, report.json);
   if (!arguments.csv.empty()) write_text_atomically(arguments.csv, report.csv);
   if (const fs::path folder = arguments.output; !folder.empty()) {
@@ -101,10 +101,6 @@ void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& pu
           purpose + ": N for the seeds 1 to N, or FIRST-LAST")
       ->default_str(std::to_string(seeds.last))
       ->type_name("SEEDS");
-}
-
-void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& purpose) {
-  command.add_option("--seed", seed, purpose)->check(CLI::NonNegativeNumber)->capture_default_str();
 }
 
 void check_writable(const fs::path& file) {

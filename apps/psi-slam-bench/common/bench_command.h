@@ -7,43 +7,46 @@
 #include <string>
 #include <vector>
 
-#include "batch/child_process.h"
 #include "batch/seeds.h"
 #include "common/bench_report.h"
 #include "common/benchmark_logs.h"
+#include "freiburg/freiburg_benchmark.h"
 #include "progress_line.h"
 #include "psi_slam_app.h"
 
 namespace psi_slam {
 
-// Each function adds a command with its options to the program. Parsing the command line runs the command,
-// which throws UserError for wrong input. `streams` must outlive `app`.
-void add_freiburg_run_command(CLI::App& app, const Streams& streams);  ///< one run, for `freiburg` to start
-void add_match_command(CLI::App& app, const Streams& streams);
-void add_simulate_command(CLI::App& app, const Streams& streams);
-void add_false_loops_command(CLI::App& app, const Streams& streams);
-void add_robustness_command(CLI::App& app, const Streams& streams);
+/// Adds the command of one run of the Freiburg benchmark, for the command `freiburg` to start. Parsing the
+/// command line runs the command, which throws UserError for wrong input. `streams` must outlive `app`.
+void add_freiburg_run_command(CLI::App& app, const Streams& streams);
 
-/// Workers of the `freiburg` command.
-struct FreiburgWork {
-  std::filesystem::path program = "/proc/self/exe";  ///< with the command of add_freiburg_run_command()
-  ChildWorkers workers{};    ///< empty: processes of this machine, and options for these and for baselines
-  int runs_at_a_time = 1;    ///< of `workers`
-  bool only_parsed = false;  ///< parse the command line without running the command
-};
-void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgWork& work = {});
+/// Adds the command `freiburg`. `options` are its defaults. Without `options.workers` the command also has
+/// options for processes of this machine and for baselines. `only_parsed`: parsing does not run the command.
+void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgOptions& options = {},
+                          bool only_parsed = false);
 
-/// Values of the options --data, --ini and --logs.
-struct DataArguments {
+/// Values of the options that the commands share.
+struct BenchArguments {
   std::string data;
   std::string ini;
   std::vector<std::string> names;  ///< of logs; empty: all that have relations
+  std::string json;                ///< empty: not written, as for the next two
+  std::string csv;
+  std::string output;
 };
-void add_data_options(CLI::App& command, DataArguments& arguments);
-void add_logs_option(CLI::App& command, DataArguments& arguments);
+
+/// Adds --data and --ini.
+void add_data_options(CLI::App& command, BenchArguments& arguments);
+void add_logs_option(CLI::App& command, BenchArguments& arguments);
+
+/// Adds --json, --csv and -o. `content` names the files for the folder -o: "match.md and the plots".
+void add_output_options(CLI::App& command, BenchArguments& arguments, const std::string& content);
+
+/// Adds --seeds; `purpose` says what the seeds are for.
+void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose);
 
 /// All logs of the folder; see find_benchmark_logs().
-std::vector<BenchmarkLog> logs_of(const DataArguments& arguments);
+std::vector<BenchmarkLog> logs_of(const BenchArguments& arguments);
 
 /// The logs for a command to work on, and the names of the other logs in the folder.
 struct ChosenLogs {
@@ -55,30 +58,14 @@ struct ChosenLogs {
 /// The logs that --logs names, or all logs with relations, in the order of the folder. Throws UserError as
 /// logs_of(), for an unknown name, for a named log without relations, for settings that psi-slam refuses, and
 /// when no log remains. Prints warnings about the settings of the logs.
-ChosenLogs chosen_logs(const DataArguments& arguments, const Streams& streams);
-
-/// Values of the options --json, --csv and -o; empty: not written.
-struct OutputArguments {
-  std::string json;
-  std::string csv;
-  std::string output;
-};
-
-/// `content` names the files for the folder -o: "match.md and the plots".
-void add_output_options(CLI::App& command, OutputArguments& arguments, const std::string& content);
+ChosenLogs chosen_logs(const BenchArguments& arguments, const Streams& streams);
 
 /// Creates the folder for `page` and throws UserError if a file cannot be written. Called before the work,
 /// which takes long.
-void check_outputs(const OutputArguments& arguments, const std::string& page);
+void check_outputs(const BenchArguments& arguments, const std::string& page);
 
 /// Writes the files that the options ask for, then prints the page. Throws SystemFailure when it cannot.
-void write_report(const BenchReport& report, const OutputArguments& arguments, const Streams& streams);
-
-/// Adds --seeds; `purpose` says what the seeds are for.
-void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose);
-
-/// Adds --seed; `purpose` says what the seed is for.
-void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& purpose);
+void write_report(const BenchReport& report, const BenchArguments& arguments, const Streams& streams);
 
 /// Calls `work` with an observer that shows its progress on a terminal, and returns its result.
 template <class Work>

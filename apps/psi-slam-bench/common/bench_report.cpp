@@ -7,24 +7,23 @@
 
 namespace psi_slam {
 
-std::string program_version() {
-  return PSI_SLAM_VERSION;
-}
-
 std::string program_commit() {
   return PSI_SLAM_COMMIT;
 }
 
 std::string measured_by(const std::string& machine) {
-  return "psi-slam " + program_version() + ", commit " + program_commit() + ", " + machine;
+  return "psi-slam " PSI_SLAM_VERSION ", commit " + program_commit() + ", " + machine;
 }
 
-nlohmann::ordered_json report_json(const std::string& schema, const std::string& machine) {
-  return {{"schema", schema},
-          {"schema_version", 1},
-          {"program_version", program_version()},
-          {"commit", program_commit()},
-          {"machine", machine}};
+nlohmann::ordered_json report_json(const std::string& schema, const std::string& machine,
+                                   const nlohmann::ordered_json& members) {
+  nlohmann::ordered_json json = {{"schema", schema},
+                                 {"schema_version", 1},
+                                 {"program_version", PSI_SLAM_VERSION},
+                                 {"commit", program_commit()},
+                                 {"machine", machine}};
+  json.update(members);
+  return json;
 }
 
 std::vector<LogIdentity> identities_of(const std::vector<BenchmarkLog>& logs) {
@@ -35,13 +34,16 @@ std::vector<LogIdentity> identities_of(const std::vector<BenchmarkLog>& logs) {
 }
 
 ReportTable logs_table(const std::vector<LogIdentity>& logs) {
-  using Log = LogIdentity;
-  const auto checksum = [](const std::string& sha256) { return ReportCell{'`' + sha256 + '`', sha256}; };
-  return table_of<Log>(
-      {column("log", "name", &Log::name),
-       {{"SHA-256 of the log", "sha256", true}, [&](const Log& log) { return checksum(log.sha256); }},
-       {{"SHA-256 of its relations", "relations_sha256", true},
-        [&](const Log& log) { return checksum(log.relations_sha256); }}},
+  const auto checksum = [](const std::string& head, const std::string& key,
+                           std::string LogIdentity::*sha256) {
+    return ColumnOf<LogIdentity>{{head, key, true}, [=](const LogIdentity& log) {
+                                   return ReportCell{'`' + log.*sha256 + '`', log.*sha256};
+                                 }};
+  };
+  return table_of<LogIdentity>(
+      {column("log", "name", &LogIdentity::name),
+       checksum("SHA-256 of the log", "sha256", &LogIdentity::sha256),
+       checksum("SHA-256 of its relations", "relations_sha256", &LogIdentity::relations_sha256)},
       logs);
 }
 

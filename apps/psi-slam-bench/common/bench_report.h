@@ -24,9 +24,6 @@ struct BenchReport {
   std::vector<Plot> plots;
 };
 
-/// "0.1.0".
-std::string program_version();
-
 /// Commit that the program was built from: "bf09480d1c2e", followed by " and changes" if tracked files
 /// differed from it; "unknown" for a build outside a git clone.
 std::string program_commit();
@@ -34,8 +31,9 @@ std::string program_commit();
 /// "psi-slam 0.1.0, commit bf09480d1c2e, AMD EPYC, 2 processors".
 std::string measured_by(const std::string& machine);
 
-/// The first members of a report's JSON: schema, program and machine.
-nlohmann::ordered_json report_json(const std::string& schema, const std::string& machine);
+/// A report's JSON: schema, program and machine, then `members`.
+nlohmann::ordered_json report_json(const std::string& schema, const std::string& machine,
+                                   const nlohmann::ordered_json& members);
 
 struct LogIdentity {
   std::string name;

@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "batch/kept_run.h"
-#include "config/ini_file.h"
-#include "config/settings_text.h"
 #include "exports/mapped_trajectory.h"
 #include "psi_slam/user_error.h"
 
@@ -42,40 +40,33 @@ std::vector<BenchmarkLog> find_benchmark_logs(const fs::path& data, const fs::pa
 
 std::optional<fs::path> shipped_ini_folder() {
   std::error_code failed;
-  fs::path folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
-  while (!failed && !folder.empty()) {
+  fs::path folder = fs::read_symlink("/proc/self/exe", failed);
+  while (!failed && folder.has_relative_path()) {
+    folder = folder.parent_path();
     for (const fs::path& ini : {folder / "share" / "psi-slam" / "ini", folder / "ini"})
       if (fs::exists(ini / "psi-slam.ini", failed)) return ini;
-    if (folder == folder.root_path()) break;
-    folder = folder.parent_path();
   }
   return std::nullopt;
 }
 
 Settings benchmark_settings(const fs::path& ini, const std::vector<std::string>& assignments,
                             std::vector<std::string>* warnings) {
-  Settings settings;
-  OptionTable table;
-  describe(table, settings);
-  apply(read_ini(ini), table);
-  for (const std::string& assignment : assignments) apply_override(assignment, table);
-  check(settings);
+  BoundSettings bound;
+  bound.load(ini, assignments);
+  check(bound.settings);
   if (warnings != nullptr)
-    for (std::string& warning : table.take_warnings()) warnings->push_back(std::move(warning));
-  return settings;
+    for (std::string& warning : bound.table.take_warnings()) warnings->push_back(std::move(warning));
+  return bound.settings;
 }
 
-MappedRun map_source(FrameSource& source, const MapperOptions& options,
-                     const std::function<void(double)>& progress) {
+MappingResult map_source(FrameSource& source, const MapperOptions& options,
+                         const std::function<void(double)>& progress) {
   Mapper mapper(options);
   while (std::optional<Frame> frame = source.next()) {
     mapper.add(std::move(*frame));
     progress(source.progress());
   }
-  MappedRun run;
-  run.result = mapper.finish();
-  run.graph = mapper.graph();
-  return run;
+  return mapper.finish();
 }
 
 std::size_t loops_accepted(const MappingResult& result) {

@@ -6,13 +6,14 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "evaluation/relations_metric.h"
 #include "mapping/mapper_options.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/mapper.h"
-#include "psi_slam/pose_graph.h"
 #include "session/settings.h"
 
 namespace psi_slam {
@@ -41,14 +42,22 @@ Settings benchmark_settings(const std::filesystem::path& ini,
                             const std::vector<std::string>& assignments = {},
                             std::vector<std::string>* warnings = nullptr);
 
-struct MappedRun {
-  MappingResult result;
-  PoseGraph graph;  ///< optimised, with the kind of each constraint and its switch
-};
-
 /// Maps all frames. Calls `progress` with the share of the log that is done. Throws UserError as the source.
-MappedRun map_source(FrameSource& source, const MapperOptions& options,
-                     const std::function<void(double)>& progress);
+MappingResult map_source(FrameSource& source, const MapperOptions& options,
+                         const std::function<void(double)>& progress);
+
+/// A file that the destructor deletes.
+struct ScratchFile {
+  std::filesystem::path path;
+
+  explicit ScratchFile(std::filesystem::path file) : path(std::move(file)) {}
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  ~ScratchFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
 
 /// Number of loops in the finished graph.
 std::size_t loops_accepted(const MappingResult& result);

@@ -30,18 +30,35 @@ struct LogAxis {
   }
 };
 
-/// The axis for values from `least` to `most`; 0.1 to 1 without a positive value.
-LogAxis decades_axis(double least, double most) {
-  if (!(most > 0)) return {};
-  LogAxis axis{std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most)))};
-  if (axis.high <= axis.low) axis.high = 10 * axis.low;
-  return axis;
+/// Range of positive values; others are ignored.
+struct PositiveRange {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+
+  void add(double value) {
+    if (!(value > 0)) return;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+
+  /// The axis over the range; 0.1 to 1 without a value.
+  LogAxis axis() const {
+    if (!(most > 0)) return {};
+    LogAxis axis{std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most)))};
+    if (axis.high <= axis.low) axis.high = 10 * axis.low;
+    return axis;
+  }
+};
+
+/// Pixels as text.
+std::string px(double pixels) {
+  return fixed_text(pixels, 1);
 }
 
 /// `content` is plain text; `attributes` are those of the element: "text-anchor=\"end\"".
 std::string svg_text(double x, double y, const std::string& attributes, const std::string& content) {
-  return "<text x=\"" + fixed_text(x, 1) + "\" y=\"" + fixed_text(y, 1) + "\" " + attributes + '>' +
-         escape_html(content) + "</text>\n";
+  return "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" " + attributes + '>' + escape_html(content) +
+         "</text>\n";
 }
 
 /// A whole file with a white background; width and height are pixels.
@@ -67,16 +84,11 @@ constexpr std::array<const char*, 6> kColours = {"#1f5fa8", "#c2571a", "#2f8f4e"
                                                  "#8a3fa0", "#a88a1f", "#555555"};
 
 LogAxis axis_of(const GrowthPlot& plot) {
-  double least = std::numeric_limits<double>::infinity();
-  double most = 0;
+  PositiveRange range;
   for (const GrowthPlot::Line& line : plot.lines)
-    for (const std::vector<double>* values : {&line.values, &line.low, &line.high})
-      for (const double value : *values) {
-        if (!(value > 0)) continue;
-        least = std::min(least, value);
-        most = std::max(most, value);
-      }
-  return decades_axis(least, most);
+    for (const SeedSpread& spread : line.values)
+      for (const double value : {spread.mean, spread.min, spread.max}) range.add(value);
+  return range.axis();
 }
 
 double y_of(const LogAxis& axis, double value) {
@@ -93,8 +105,8 @@ std::string axes(const GrowthPlot& plot, const LogAxis& axis) {
   std::string svg;
   axis.for_each_decade(plot.unit, [&](double value, const std::string& label) {
     const double y = y_of(axis, value);
-    svg += "<path d=\"M" + fixed_text(kLeft, 0) + ',' + fixed_text(y, 1) + 'H' +
-           fixed_text(kWidth - kRight, 0) + "\" stroke=\"#ddd\"/>\n";
+    svg += "<path d=\"M" + fixed_text(kLeft, 0) + ',' + px(y) + 'H' + fixed_text(kWidth - kRight, 0) +
+           "\" stroke=\"#ddd\"/>\n";
     svg += svg_text(kLeft - 8, y + 4, "text-anchor=\"end\"", label);
   });
   for (std::size_t i = 0; i < plot.labels.size(); ++i)
@@ -107,8 +119,9 @@ std::vector<double> name_places(const GrowthPlot& plot, const LogAxis& axis) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < plot.lines.size(); ++i) {
     if (plot.lines[i].faint) continue;
-    const std::vector<double>& values = plot.lines[i].values;
-    order.emplace_back(values.empty() || !(values.back() > 0) ? kTop : y_of(axis, values.back()), i);
+    const std::vector<SeedSpread>& values = plot.lines[i].values;
+    const double last = values.empty() ? 0 : values.back().mean;
+    order.emplace_back(last > 0 ? y_of(axis, last) : kTop, i);
   }
   std::sort(order.begin(), order.end());
   std::vector<double> places(plot.lines.size());
@@ -123,24 +136,25 @@ std::vector<double> name_places(const GrowthPlot& plot, const LogAxis& axis) {
 /// A bar from the least to the greatest value with a dash at each end; empty if they are equal.
 std::string spread_svg(const GrowthPlot::Line& line, std::size_t place, const char* colour,
                        const LogAxis& axis) {
-  if (line.low.empty() || !(line.low[place] > 0) || !(line.high[place] > line.low[place])) return {};
+  const SeedSpread& spread = line.values[place];
+  if (!(spread.min > 0) || !(spread.max > spread.min)) return {};
   constexpr double kDash = 4;
   const double x = x_of(place, line.values.size());
-  const std::string low = fixed_text(y_of(axis, line.low[place]), 1);
-  const std::string high = fixed_text(y_of(axis, line.high[place]), 1);
-  const std::string dash = fixed_text(x - kDash, 1) + ',';
-  const std::string to = 'H' + fixed_text(x + kDash, 1);
-  return "<path class=\"spread\" d=\"M" + fixed_text(x, 1) + ',' + low + 'V' + high + 'M' + dash + low + to +
-         'M' + dash + high + to + "\" stroke=\"" + colour + "\" fill=\"none\"/>\n";
+  const std::string low = px(y_of(axis, spread.min));
+  const std::string high = px(y_of(axis, spread.max));
+  const std::string dash = px(x - kDash) + ',';
+  const std::string to = 'H' + px(x + kDash);
+  return "<path class=\"spread\" d=\"M" + px(x) + ',' + low + 'V' + high + 'M' + dash + low + to + 'M' +
+         dash + high + to + "\" stroke=\"" + colour + "\" fill=\"none\"/>\n";
 }
 
 std::string line_svg(const GrowthPlot::Line& line, const char* colour, const LogAxis& axis, double name_y) {
   std::string path;
   std::string dots;
   for (std::size_t i = 0; i < line.values.size(); ++i) {
-    if (!(line.values[i] > 0)) continue;
+    if (!(line.values[i].mean > 0)) continue;
     const std::string x = fixed_text(x_of(i, line.values.size()), 1);
-    const std::string y = fixed_text(y_of(axis, line.values[i]), 1);
+    const std::string y = px(y_of(axis, line.values[i].mean));
     path += (path.empty() ? 'M' : 'L') + x + ',' + y;
     dots += spread_svg(line, i, colour, axis) + "<circle cx=\"" + x + "\" cy=\"" + y +
             "\" r=\"3.5\" fill=\"" + colour + "\"/>\n";
@@ -168,24 +182,10 @@ double x_of(const LogAxis& axis, double value) {
 }
 
 LogAxis axis_of(const std::vector<BarPlot::Bar>& bars) {
-  double least = std::numeric_limits<double>::infinity();
-  double most = 0;
-  for (const BarPlot::Bar& bar : bars) {
-    if (bar.value > 0) least = std::min(least, bar.value);
-    most = std::max(most, bar.value);
-  }
-  return decades_axis(0.9 * least, most);  // so that the shortest bar has a length
-}
-
-std::string grid(const LogAxis& axis, double bottom, const std::string& unit) {
-  std::string svg;
-  axis.for_each_decade(unit, [&](double value, const std::string& label) {
-    const double x = x_of(axis, value);
-    svg += "<path d=\"M" + fixed_text(x, 1) + ',' + fixed_text(kTop, 1) + 'V' + fixed_text(bottom, 1) +
-           "\" stroke=\"#ddd\"/>\n";
-    svg += svg_text(x, bottom + 18, "text-anchor=\"middle\"", label);
-  });
-  return svg;
+  PositiveRange range;
+  for (const BarPlot::Bar& bar : bars) range.add(bar.value);
+  range.least *= 0.9;  // so that the shortest bar has a length
+  return range.axis();
 }
 
 }  // namespace bars
@@ -208,14 +208,18 @@ std::string bar_svg(const BarPlot& plot) {
   using namespace bars;
   const LogAxis axis = axis_of(plot.bars);
   const double bottom = kTop + kPitch * static_cast<double>(plot.bars.size());
-  std::string svg = svg_text(kLeft, 24, "font-size=\"15\"", plot.title) + grid(axis, bottom, plot.unit);
+  std::string svg = svg_text(kLeft, 24, "font-size=\"15\"", plot.title);
+  axis.for_each_decade(plot.unit, [&](double value, const std::string& label) {
+    const double x = x_of(axis, value);
+    svg += "<path d=\"M" + px(x) + ',' + px(kTop) + 'V' + px(bottom) + "\" stroke=\"#ddd\"/>\n";
+    svg += svg_text(x, bottom + 18, "text-anchor=\"middle\"", label);
+  });
   double y = kTop + (kPitch - kBarHeight) / 2;
   for (const BarPlot::Bar& bar : plot.bars) {
     const double end = bar.value > 0 ? x_of(axis, bar.value) : kLeft;
     svg += svg_text(kLeft - 8, y + 13, "text-anchor=\"end\"", bar.name);
-    svg += "<rect x=\"" + fixed_text(kLeft, 1) + "\" y=\"" + fixed_text(y, 1) + "\" width=\"" +
-           fixed_text(end - kLeft, 1) + "\" height=\"" + fixed_text(kBarHeight, 1) + "\" fill=\"" +
-           (bar.ours ? "#c2571a" : "#1f5fa8") + "\"/>\n";
+    svg += "<rect x=\"" + px(kLeft) + "\" y=\"" + px(y) + "\" width=\"" + px(end - kLeft) + "\" height=\"" +
+           px(kBarHeight) + "\" fill=\"" + (bar.ours ? "#c2571a" : "#1f5fa8") + "\"/>\n";
     svg += svg_text(end + 6, y + 13, "font-size=\"12\"", fixed_text(bar.value, 3));
     y += kPitch;
   }

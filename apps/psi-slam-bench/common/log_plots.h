@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "batch/seeds.h"
+
 namespace psi_slam {
 
 /// Lines over a few labelled places of the horizontal axis; the vertical axis is logarithmic.
@@ -15,9 +17,8 @@ struct GrowthPlot {
 
   struct Line {
     std::string name;
-    std::vector<double> values;  ///< one for each label; values that are not positive are left out
-    std::vector<double> low{};   ///< least value at each place, drawn as a bar to `high`; empty: no bars
-    std::vector<double> high{};
+    /// One for each label; a bar joins least and greatest value. Means that are not positive are left out.
+    std::vector<SeedSpread> values;
     bool faint = false;  ///< thin and light, in the colour of the preceding line
   };
   std::vector<Line> lines;

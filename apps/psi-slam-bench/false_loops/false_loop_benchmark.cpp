@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "false_loops/false_loop_benchmark.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <utility>
 
+#include "base/random_draws.h"
 #include "loop_closure/outlier_loops.h"
 #include "mapping/carried_frames.h"
 #include "psi_slam/open_log.h"
@@ -14,6 +18,68 @@ namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
+
+struct Material {
+  std::vector<std::size_t> anchors;
+  std::vector<Constraint> loops;  ///< enabled ones
+};
+
+Material material_of(const PoseGraph& graph) {
+  Material material;
+  std::set<std::size_t> anchors;
+  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
+    const Constraint& constraint = graph.constraint(i);
+    if (constraint.kind == Constraint::Kind::kLocalMap) anchors.insert(constraint.from);
+    if (constraint.kind != Constraint::Kind::kLoop || !graph.enabled(i)) continue;
+    anchors.insert(constraint.from);
+    material.loops.push_back(constraint);
+  }
+  material.anchors.assign(anchors.begin(), anchors.end());
+  return material;
+}
+
+TPose2D draw_place(double reach_m, RandomDraws& draws) {
+  const double radius_m = reach_m * std::sqrt(draws.share());
+  const double direction = draws.plus_minus(M_PI);
+  return {radius_m * std::cos(direction), radius_m * std::sin(direction), draws.plus_minus(M_PI)};
+}
+
+bool is_false(const TPose2D& place, const TPose2D& truth, const FalseLoopOptions& options) {
+  TPose2D error = place - truth;
+  error.normalizePhi();
+  return std::hypot(error.x, error.y) >= options.min_error_m || std::abs(error.phi) >= options.min_error_rad;
+}
+
+/// One node, or several successive nodes, at one wrong place.
+std::vector<Constraint> draw_elsewhere(const Material& material, const std::vector<TPose2D>& map_T_node,
+                                       const FalseLoopOptions& options, RandomDraws& draws) {
+  std::size_t group = 1;
+  if (options.kind == FalseLoopKind::kGroups)
+    group = options.smallest_group + draws.index(options.largest_group - options.smallest_group + 1);
+  const std::size_t first = draws.index(map_T_node.size());
+  const std::size_t last = std::min(first + group, map_T_node.size());
+  const std::size_t anchor = material.anchors[draws.index(material.anchors.size())];
+  const TPose2D place = draw_place(options.reach_m, draws);
+  std::vector<Constraint> loops;
+  for (std::size_t node = first; node < last; ++node) {
+    Constraint loop;
+    loop.from = anchor;
+    loop.to = node;
+    loop.from_T_to = place + (map_T_node[node] - map_T_node[first]);
+    loop.information = material.loops[draws.index(material.loops.size())].information;
+    loops.push_back(loop);
+  }
+  return loops;
+}
+
+Constraint draw_nearby(const Material& material, const FalseLoopOptions& options, RandomDraws& draws) {
+  Constraint loop = material.loops[draws.index(material.loops.size())];
+  const double off_m = options.min_error_m + draws.share() * (options.nearby_m - options.min_error_m);
+  const double direction = draws.plus_minus(M_PI);
+  loop.from_T_to = loop.from_T_to + TPose2D(off_m * std::cos(direction), off_m * std::sin(direction),
+                                            draws.plus_minus(options.min_error_rad));
+  return loop;
+}
 
 constexpr double kWorstFirstOnly = 1;  // doubtful share that switches off only the worst loops
 
@@ -24,53 +90,17 @@ std::vector<std::size_t> loops_on(const PoseGraph& graph) {
   return loops;
 }
 
-/// The graph of the trial with false loops, for several treatments.
-class SpoiltGraph {
- public:
-  SpoiltGraph(const LoopTrial& trial, const FalseLoopOptions& options)
-      : trial_(trial), graph_(trial.graph), true_loops_(loops_on(graph_)) {
-    false_loops_ = add_false_loops(graph_, trial.graph.poses(), options);
-  }
-
-  std::size_t true_loops() const { return true_loops_.size(); }
-  std::size_t false_loops() const { return false_loops_.size(); }
-
-  template <class Settle>
-  LoopTrialOutcome settled(const std::vector<TPose2D>& start, const Settle& settle) const {
-    PoseGraph graph = graph_;
-    for (std::size_t node = 0; node < start.size(); ++node) graph.set_pose(node, start[node]);
-    std::vector<std::size_t> loops = true_loops_;
-    loops.insert(loops.end(), false_loops_.begin(), false_loops_.end());
-    SparsePoseAdjustment solver(trial_.solver);
-    const auto began = std::chrono::steady_clock::now();
-    settle(graph, solver, loops);
-    LoopTrialOutcome outcome;
-    outcome.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
-    outcome.error = trial_.error(graph.poses());
-    for (const std::size_t loop : false_loops_) outcome.false_kept += graph.enabled(loop) ? 1 : 0;
-    for (const std::size_t loop : true_loops_) outcome.true_lost += graph.enabled(loop) ? 0 : 1;
-    return outcome;
-  }
-
- private:
-  const LoopTrial& trial_;
-  PoseGraph graph_;
-  std::vector<std::size_t> true_loops_;
-  std::vector<std::size_t> false_loops_;
-};
-
-LoopTrial trial_of(const MappedRun& run, const MapperOptions& options,
+LoopTrial trial_of(const MappingResult& run, const MapperOptions& options,
                    const std::vector<Relation>& relations) {
   LoopTrial trial;
   trial.graph = run.graph;
-  for (const std::size_t frame : run.result.node_frames)
-    trial.unlooped.push_back(run.result.frames[frame].front_end_T_robot);
+  for (const std::size_t frame : run.node_frames)
+    trial.unlooped.push_back(run.frames[frame].front_end_T_robot);
   trial.max_chi = options.back_end.max_loop_chi;
   trial.solver = options.pose_graph;
   trial.error = [&run, &relations](const std::vector<TPose2D>& map_T_node) {
-    std::vector<FrameRecord> frames = run.result.frames;
-    carry_frames_along(map_T_node, run.result.node_frames, frames);
+    std::vector<FrameRecord> frames = run.frames;
+    carry_frames_along(map_T_node, run.node_frames, frames);
     const RelationsMetric metric = error_of(frames, relations);
     return LoopTrial::Error{metric.translation_abs_m.mean, metric.rotation_abs_deg.mean};
   };
@@ -79,32 +109,74 @@ LoopTrial trial_of(const MappedRun& run, const MapperOptions& options,
 
 }  // namespace
 
+std::string name_of(FalseLoopKind kind) {
+  constexpr std::array<const char*, 3> kNames{"scattered", "groups", "nearby"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::vector<std::size_t> add_false_loops(PoseGraph& graph, const std::vector<TPose2D>& map_T_node,
+                                         const FalseLoopOptions& options) {
+  const Material material = material_of(graph);
+  std::vector<std::size_t> added;
+  if (material.loops.empty()) return added;
+  RandomDraws draws(options.seed, name_of(options.kind), 0);
+  while (added.size() < options.count) {
+    std::vector<Constraint> loops = options.kind == FalseLoopKind::kNearby
+                                        ? std::vector<Constraint>{draw_nearby(material, options, draws)}
+                                        : draw_elsewhere(material, map_T_node, options, draws);
+    for (Constraint& loop : loops) {
+      loop.from_T_to.normalizePhi();
+      loop.kind = Constraint::Kind::kLoop;
+      const bool wrong = loop.from != loop.to &&
+                         is_false(loop.from_T_to, map_T_node[loop.to] - map_T_node[loop.from], options);
+      if (wrong && added.size() < options.count) added.push_back(graph.add_constraint(loop));
+    }
+  }
+  return added;
+}
+
 FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double share_percent,
                             std::uint64_t seed) {
+  const std::vector<std::size_t> true_loops = loops_on(trial.graph);
   FalseLoopOptions options;
   options.kind = kind;
   options.seed = seed;
-  options.count = static_cast<std::size_t>(
-      std::lround(share_percent / 100 * static_cast<double>(loops_on(trial.graph).size())));
-  const SpoiltGraph spoilt(trial, options);
-  const auto defend = [&](double doubtful_share) {
-    return [&trial, doubtful_share](PoseGraph& graph, SparsePoseAdjustment& solver,
-                                    const std::vector<std::size_t>& loops) {
-      switch_off_outlier_loops(graph, solver, loops, trial.max_chi, doubtful_share);
-    };
+  options.count =
+      static_cast<std::size_t>(std::lround(share_percent / 100 * static_cast<double>(true_loops.size())));
+  PoseGraph spoilt = trial.graph;
+  const std::vector<std::size_t> false_loops = add_false_loops(spoilt, trial.graph.poses(), options);
+  std::vector<std::size_t> loops = true_loops;
+  loops.insert(loops.end(), false_loops.begin(), false_loops.end());
+
+  const auto settled = [&](const std::vector<TPose2D>& start, const auto& settle) {
+    PoseGraph graph = spoilt;
+    for (std::size_t node = 0; node < start.size(); ++node) graph.set_pose(node, start[node]);
+    SparsePoseAdjustment solver(trial.solver);
+    const auto began = std::chrono::steady_clock::now();
+    settle(graph, solver);
+    LoopTrialOutcome outcome;
+    outcome.milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
+    outcome.error = trial.error(graph.poses());
+    for (const std::size_t loop : false_loops) outcome.false_kept += graph.enabled(loop) ? 1 : 0;
+    for (const std::size_t loop : true_loops) outcome.true_lost += graph.enabled(loop) ? 0 : 1;
+    return outcome;
   };
-  const auto optimize_only = [](PoseGraph& graph, SparsePoseAdjustment& solver,
-                                const std::vector<std::size_t>&) { solver.optimize(graph); };
+  const auto defended = [&](const std::vector<TPose2D>& start, double doubtful_share) {
+    return settled(start, [&](PoseGraph& graph, SparsePoseAdjustment& solver) {
+      switch_off_outlier_loops(graph, solver, loops, trial.max_chi, doubtful_share);
+    });
+  };
   FalseLoopRow row;
   row.kind = kind;
   row.share_percent = share_percent;
   row.seed = seed;
-  row.true_loops = spoilt.true_loops();
-  row.false_loops = spoilt.false_loops();
-  row.undefended = spoilt.settled(trial.unlooped, optimize_only);
-  row.worst_first = spoilt.settled(trial.unlooped, defend(kWorstFirstOnly));
-  row.defended = spoilt.settled(trial.unlooped, defend(kDoubtfulShare));
-  row.from_map = spoilt.settled(trial.graph.poses(), defend(kDoubtfulShare));
+  row.true_loops = true_loops.size();
+  row.false_loops = false_loops.size();
+  row.undefended = settled(trial.unlooped, [](auto& graph, auto& solver) { solver.optimize(graph); });
+  row.worst_first = defended(trial.unlooped, kWorstFirstOnly);
+  row.defended = defended(trial.unlooped, kDoubtfulShare);
+  row.from_map = defended(trial.graph.poses(), kDoubtfulShare);
   return row;
 }
 
@@ -124,7 +196,7 @@ FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& log
     const auto source = open_log(log.log, log_options(settings));
     MapperOptions mapper = mapper_options(settings);
     mapper.back_end.joint_refinement.rounds = 0;  // it would move the graph away from its optimum
-    const MappedRun run = map_source(
+    const MappingResult run = map_source(
         *source, mapper, [&](double share) { observer("mapping " + log.name, done + trials * share, all); });
     done += trials;
     const LoopTrial trial = trial_of(run, settings.mapper, relations);

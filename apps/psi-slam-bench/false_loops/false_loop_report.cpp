@@ -10,8 +10,6 @@
 namespace psi_slam {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// The trials of one share of one kind on a log, one for each seed.
 using Trials = std::vector<FalseLoopRow>;
 
@@ -32,8 +30,8 @@ SeedSpread spread_of_trials(const Trials& trials, Treatment treatment, const Val
   return spread_over(trials, [&](const FalseLoopRow& trial) { return value_of(trial.*treatment); });
 }
 
-SeedSpread translation_error_m(const Trials& trials, Treatment treatment) {
-  return spread_of_trials(trials, treatment, [](const auto& outcome) { return outcome.error.translation_m; });
+double translation_error_m(const LoopTrialOutcome& outcome) {
+  return outcome.error.translation_m;
 }
 
 /// The columns of a treatment named `key` in JSON. An empty head is missing in Markdown.
@@ -55,8 +53,8 @@ void add_columns(const TreatmentColumns& of, std::vector<Column>& columns) {
   };
   const auto false_kept = [](const LoopTrialOutcome& outcome) { return outcome.false_kept; };
   const auto true_lost = [](const LoopTrialOutcome& outcome) { return outcome.true_lost; };
-  add(of.translation_head, "translation_error_m", of.translation_decimals,
-      [](const LoopTrialOutcome& outcome) { return outcome.error.translation_m; });
+  const auto time_ms = [](const LoopTrialOutcome& outcome) { return outcome.milliseconds; };
+  add(of.translation_head, "translation_error_m", of.translation_decimals, translation_error_m);
   add(of.rotation_head, "rotation_error_deg", 3,
       [](const LoopTrialOutcome& outcome) { return outcome.error.rotation_deg; });
   columns.push_back({{of.counts_head}, [=, treatment = of.treatment](const Trials& trials) {
@@ -67,12 +65,9 @@ void add_columns(const TreatmentColumns& of, std::vector<Column>& columns) {
                      }});
   add({}, "false_kept", 1, false_kept);
   add({}, "true_lost", 1, true_lost);
-  add({}, "time_ms", 0, [](const LoopTrialOutcome& outcome) { return outcome.milliseconds; });
-  columns.push_back({{of.time_head}, [treatment = of.treatment](const Trials& trials) {
-                       return cell(spread_of_trials(trials, treatment,
-                                                    [](const auto& outcome) { return outcome.milliseconds; })
-                                       .mean,
-                                   0);
+  add({}, "time_ms", 0, time_ms);
+  columns.push_back({{of.time_head}, [=, treatment = of.treatment](const Trials& trials) {
+                       return cell(spread_of_trials(trials, treatment, time_ms).mean, 0);
                      }});
 }
 
@@ -128,12 +123,9 @@ std::string markdown_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenc
       "during mapping\n"
       "- scattered: join random nodes and local maps, at a random place and heading within " +
       fixed_text(how.reach_m, 0) +
-      " m of the "
-      "anchor of the local map\n"
-      "- groups: " +
-      std::to_string(how.smallest_group) + " to " + std::to_string(how.largest_group) +
-      " successive nodes agree on such a random place\n"
-      "- nearby: true loops, shifted by " +
+      " m of the anchor of the local map\n- groups: " + std::to_string(how.smallest_group) + " to " +
+      std::to_string(how.largest_group) +
+      " successive nodes agree on such a random place\n- nearby: true loops, shifted by " +
       fixed_text(how.min_error_m, 0) + " to " + fixed_text(how.nearby_m, 0) + " m and rotated by up to " +
       fixed_text(how.min_error_rad * 180 / M_PI, 0) +
       " degrees\n"
@@ -150,30 +142,8 @@ std::string markdown_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenc
          logs_section(benchmark.identities, benchmark.without_relations);
 }
 
-Json json_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
-             const std::string& machine) {
-  Json json = report_json("psi-slam-false-loops", machine);
-  json.update({{"seeds", options.seeds.all()},
-               {"files", logs_table(benchmark.identities).json()},
-               {"logs", graphs_table(benchmark.logs).json()},
-               {"rows", cases_table(benchmark).json()}});
-  return json;
-}
-
-}  // namespace
-
-BenchReport false_loop_report(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
-                              const std::string& machine) {
-  BenchReport report{"false-loops.md",
-                     markdown_of(benchmark, options, machine),
-                     json_file_text(json_of(benchmark, options, machine)),
-                     cases_table(benchmark).csv(),
-                     {}};
-  for (const FalseLoopKind kind : options.kinds)
-    report.plots.push_back({"false-loops-" + name_of(kind) + ".svg", false_loop_plot(benchmark, kind)});
-  return report;
-}
-
+/// Plot of the error over the share of false loops of one kind, as SVG: a line for each log with bars from
+/// the least to the greatest error of the seeds, and a thin line without the defence.
 std::string false_loop_plot(const FalseLoopBenchmark& benchmark, FalseLoopKind kind) {
   GrowthPlot plot;
   plot.title = "Error by the share of false loops, " + name_of(kind) + " (dark: defended, light: undefended)";
@@ -184,22 +154,38 @@ std::string false_loop_plot(const FalseLoopBenchmark& benchmark, FalseLoopKind k
     defended.name = log.name;
     GrowthPlot::Line undefended;
     undefended.faint = true;
-    for (std::vector<double>* values : {&defended.values, &defended.low, &defended.high, &undefended.values})
-      values->push_back(log.map.translation_m);
+    defended.values = undefended.values = {spread_of({log.map.translation_m})};
     for (const Trials& trials : cases_of(benchmark)) {
       const FalseLoopRow& first = trials.front();
       if (first.log != log.name || first.kind != kind) continue;
       if (plot.lines.empty()) plot.labels.push_back(fixed_text(first.share_percent, 0) + " %");
-      const SeedSpread errors = translation_error_m(trials, &FalseLoopRow::defended);
-      defended.values.push_back(errors.mean);
-      defended.low.push_back(errors.min);
-      defended.high.push_back(errors.max);
-      undefended.values.push_back(translation_error_m(trials, &FalseLoopRow::undefended).mean);
+      defended.values.push_back(spread_of_trials(trials, &FalseLoopRow::defended, translation_error_m));
+      undefended.values.push_back(
+          spread_of({spread_of_trials(trials, &FalseLoopRow::undefended, translation_error_m).mean}));
     }
     plot.lines.push_back(std::move(defended));
     plot.lines.push_back(std::move(undefended));
   }
   return growth_svg(plot);
+}
+
+}  // namespace
+
+BenchReport false_loop_report(const FalseLoopBenchmark& benchmark, const FalseLoopBenchmarkOptions& options,
+                              const std::string& machine) {
+  const ReportTable cases = cases_table(benchmark);
+  BenchReport report{"false-loops.md",
+                     markdown_of(benchmark, options, machine),
+                     json_file_text(report_json("psi-slam-false-loops", machine,
+                                                {{"seeds", options.seeds.all()},
+                                                 {"files", logs_table(benchmark.identities).json()},
+                                                 {"logs", graphs_table(benchmark.logs).json()},
+                                                 {"rows", cases.json()}})),
+                     cases.csv(),
+                     {}};
+  for (const FalseLoopKind kind : options.kinds)
+    report.plots.push_back({"false-loops-" + name_of(kind) + ".svg", false_loop_plot(benchmark, kind)});
+  return report;
 }
 
 }  // namespace psi_slam

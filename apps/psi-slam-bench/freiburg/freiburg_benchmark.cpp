@@ -5,7 +5,12 @@
 
 #include "base/file_checksum.h"
 #include "batch/kept_run.h"
+#include "common/benchmark_logs.h"
+#include "evaluation/loop_judgement.h"
+#include "exports/mapped_trajectory.h"
+#include "psi_slam/mapping_session.h"
 #include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
 
 namespace psi_slam {
 namespace {
@@ -24,19 +29,18 @@ struct Task {
   FreiburgResult* result = nullptr;
 };
 
-std::string key_of(const FreiburgRun& run, const LogIdentity& log, const std::string& program_sha256) {
-  return sha256_of_text(machine_text() + '\n' + log.sha256 + '\n' + log.relations_sha256 + '\n' +
-                        program_version() + '\n' + program_sha256 + '\n' + settings_text(settings_of(run)));
-}
-
-/// The figures in the file of an earlier run with the same key.
-std::optional<FreiburgFigures> kept_figures(const Task& task) {
-  const std::optional<Json> kept = kept_run(task.file, task.key);
-  if (!kept || !kept->contains("figures")) return std::nullopt;
-  return read_figures(kept->at("figures").dump());
-}
-
-void keep_figures(const Task& task, const FreiburgFigures& figures) {
+/// Takes over the figures of a finished run with its time and memory, or the reason of its failure.
+void take(const Task& task, const ChildEnd& end) {
+  FreiburgResult& result = *task.result;
+  result.made = true;
+  result.failure = end.failure_without("psi-slam-bench: ");
+  if (!result.failure.empty()) return;
+  result.figures = read_figures(end.out);
+  if (!result.figures) {
+    result.failure = "the run printed no figures";
+    return;
+  }
+  set_effort(*result.figures, end);
   const LogIdentity& log = *task.log;
   keep_run(task.file, task.key,
            {{"schema", "psi-slam-freiburg-run"},
@@ -48,97 +52,120 @@ void keep_figures(const Task& task, const FreiburgFigures& figures) {
             {"seed", task.run.seed},
             {"threads", task.run.threads},
             {"machine", machine_text()},
-            {"program_version", program_version()},
+            {"program_version", PSI_SLAM_VERSION},
             {"commit", program_commit()},
-            {"figures", Json::parse(figures_json(figures))},
+            {"figures", Json::parse(figures_json(*result.figures))},
             {"settings", settings_text(settings_of(task.run))}});
 }
 
-ChildWords words_of(const FreiburgRun& run, const fs::path& program) {
-  return {program.string(), "freiburg-run",
-          "--log",          run.log.string(),
-          "--ini",          run.ini.string(),
-          "--relations",    run.relations.string(),
-          "--matcher",      run.matcher,
-          "--seed",         std::to_string(run.seed),
-          "--threads",      std::to_string(run.threads)};
-}
-
-/// The figures of a finished run with its time and memory, or the reason of its failure.
-FreiburgResult result_of(const ChildEnd& end, std::uint64_t seed) {
-  FreiburgResult result;
-  result.seed = seed;
-  result.made = true;
-  result.failure = end.failure_without("psi-slam-bench: ");
-  if (!result.failure.empty()) return result;
-  result.figures = read_figures(end.out);
-  if (!result.figures) {
-    result.failure = "the run printed no figures";
-    return result;
-  }
-  set_effort(*result.figures, end);
-  return result;
-}
-
-FreiburgRun run_of(const BenchmarkLog& log, const std::string& matcher, std::uint64_t seed, int threads) {
-  return {log.log, log.ini, log.relations.value(), matcher, seed, threads};
-}
-
-/// All cells, without results.
-FreiburgBenchmark plan(const std::vector<BenchmarkLog>& logs, const FreiburgOptions& options) {
-  FreiburgBenchmark benchmark;
-  benchmark.logs = identities_of(logs);
-  for (const BenchmarkLog& log : logs) {
-    for (const std::string& matcher : options.matchers) {
-      FreiburgCell cell{log.name, matcher, {}};
-      cell.runs.resize(draws_random_numbers(matcher) ? options.seeds.count() : 1);
-      for (std::size_t i = 0; i < cell.runs.size(); ++i) cell.runs[i].seed = options.seeds.first + i;
-      benchmark.cells.push_back(std::move(cell));
-    }
-  }
-  return benchmark;
-}
-
-/// The runs without kept results. Fills in the kept results of the others.
-std::vector<Task> tasks_of(FreiburgBenchmark& benchmark, const std::vector<BenchmarkLog>& logs,
-                           const FreiburgOptions& options) {
+/// Fills in all cells with their kept results. Returns the runs without kept results.
+std::vector<Task> plan(const std::vector<BenchmarkLog>& logs, const FreiburgOptions& options,
+                       FreiburgBenchmark& benchmark) {
   const std::string program_sha256 = sha256_of_file(options.program);
+  benchmark.logs = identities_of(logs);
+  benchmark.cells.reserve(logs.size() * options.matchers.size());  // tasks point to their results
   std::vector<Task> tasks;
-  for (std::size_t i = 0; i < benchmark.cells.size(); ++i) {
-    const std::size_t log = i / options.matchers.size();
-    for (FreiburgResult& result : benchmark.cells[i].runs) {
-      Task task;
-      task.run = run_of(logs[log], benchmark.cells[i].matcher, result.seed, options.threads);
-      task.name = logs[log].name + '-' + task.run.matcher + '-' + std::to_string(result.seed);
-      task.file = options.output / "runs" / (task.name + ".json");
-      task.key = {key_of(task.run, benchmark.logs[log], program_sha256), options.processes};
-      task.work = static_cast<double>(fs::file_size(logs[log].log));
-      task.log = &benchmark.logs[log];
-      task.result = &result;
-      result.figures = kept_figures(task);
-      if (!result.figures) tasks.push_back(std::move(task));
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const BenchmarkLog& log = logs[i];
+    const LogIdentity& identity = benchmark.logs[i];
+    for (const std::string& matcher : options.matchers) {
+      FreiburgCell& cell = benchmark.cells.emplace_back(FreiburgCell{log.name, matcher, {}});
+      cell.runs.resize(draws_random_numbers(matcher) ? options.seeds.count() : 1);
+      for (std::size_t k = 0; k < cell.runs.size(); ++k) {
+        FreiburgResult& result = cell.runs[k];
+        result.seed = options.seeds.first + k;
+        Task task;
+        task.run = {log.log, log.ini, log.relations.value(), matcher, result.seed, options.threads};
+        task.name = log.name + '-' + matcher + '-' + std::to_string(result.seed);
+        task.file = options.output / "runs" / (task.name + ".json");
+        const std::string inputs = machine_text() + '\n' + identity.sha256 + '\n' +
+                                   identity.relations_sha256 + "\n" PSI_SLAM_VERSION "\n" + program_sha256 +
+                                   '\n' + settings_text(settings_of(task.run));
+        task.key = {sha256_of_text(inputs), options.processes};
+        task.work = static_cast<double>(fs::file_size(log.log));
+        task.log = &identity;
+        task.result = &result;
+        if (const auto kept = kept_run(task.file, task.key); kept && kept->contains("figures"))
+          result.figures = read_figures(kept->at("figures").dump());
+        if (!result.figures) tasks.push_back(std::move(task));
+      }
     }
   }
   return tasks;
 }
 
-/// Fills in the result of a finished task, and keeps its figures.
-void take(const Task& task, const ChildEnd& end, TaskProgress& progress) {
-  const FreiburgResult result = result_of(end, task.run.seed);
-  if (result.figures) keep_figures(task, *result.figures);
-  *task.result = result;
-  progress.end(task.work);
-}
-
-std::optional<SeedSpread> recall_of(const std::vector<FreiburgFigures>& runs) {
-  std::vector<double> recalls;
-  for (const FreiburgFigures& run : runs)
-    if (run.loop_recall) recalls.push_back(*run.loop_recall);
-  if (recalls.empty()) return std::nullopt;
-  return spread_of(recalls);
-}
-
 }  // namespace
+
+const std::vector<std::string>& freiburg_matchers() {
+  static const std::vector<std::string> kMatchers{"csm", "csm_ga", "ga", "adaptive", "adaptive_paper"};
+  return kMatchers;
+}
+
+bool draws_random_numbers(const std::string& matcher) {
+  return matcher != "csm";
+}
+
+Settings settings_of(const FreiburgRun& run) {
+  const bool paper = run.matcher == "adaptive_paper";
+  std::vector<std::string> assignments{"loop_closure.matcher=" + (paper ? "adaptive" : run.matcher),
+                                       "run.seed=" + std::to_string(run.seed),
+                                       "run.threads=" + std::to_string(run.threads)};
+  if (paper) assignments.emplace_back("genetic.variant=paper");
+  return benchmark_settings(run.ini, assignments);
+}
+
+std::string settings_text(const Settings& settings) {
+  BoundSettings bound;
+  bound.settings = settings;
+  std::string text;
+  for (const OptionSection& section : bound.table.sections())
+    for (const Option& option : section.options) text += option.name() + " = " + option.text() + '\n';
+  return text;
+}
+
+FreiburgFigures map_and_evaluate(const FreiburgRun& run) {
+  const std::vector<Relation> relations = read_relations(run.relations);
+  MappingSession session(run.log, settings_of(run));
+  while (session.step()) {
+  }
+  if (session.broken_off()) throw UserError(*session.broken_off());
+  session.finish();
+
+  const MappingResult& result = session.result();
+  FreiburgFigures figures;
+  static_cast<RunFigures&>(figures) = evaluate_path(trajectory_of(result.frames), relations);
+  figures.loops_accepted = loops_accepted(result);
+  const LoopJudgement judgement = judge_loops(result, relations);
+  figures.loops_judged = judgement.judged.size();
+  figures.loops_false = judgement.false_ones.size();
+  figures.loop_recall = judgement.recall();
+  return figures;
+}
+
+std::string figures_json(const FreiburgFigures& figures) {
+  Json json = run_figures_json(figures);
+  json.update({{"loops_accepted", figures.loops_accepted},
+               {"loops_judged", figures.loops_judged},
+               {"loops_false", figures.loops_false},
+               {"loop_recall", figures.loop_recall ? Json(*figures.loop_recall) : Json(nullptr)}});
+  return json.dump();
+}
+
+std::optional<FreiburgFigures> read_figures(const std::string& text) {
+  try {
+    const Json json = Json::parse(text);
+    FreiburgFigures figures{read_run_figures(json),
+                            json.at("loops_accepted"),
+                            json.at("loops_judged"),
+                            json.at("loops_false"),
+                            {}};
+    if (const Json& recall = json.at("loop_recall"); !recall.is_null())
+      figures.loop_recall = recall.get<double>();
+    return figures;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
 
 std::optional<CellFigures> figures_of(const FreiburgCell& cell) {
   std::vector<FreiburgFigures> runs;
@@ -162,7 +189,10 @@ std::optional<CellFigures> figures_of(const FreiburgCell& cell) {
   figures.loops_accepted = over_seeds([](const FreiburgFigures& run) { return run.loops_accepted; });
   figures.loops_judged = over_seeds([](const FreiburgFigures& run) { return run.loops_judged; });
   figures.loops_false = over_seeds([](const FreiburgFigures& run) { return run.loops_false; });
-  figures.loop_recall = recall_of(runs);
+  std::vector<double> recalls;
+  for (const FreiburgFigures& run : runs)
+    if (run.loop_recall) recalls.push_back(*run.loop_recall);
+  if (!recalls.empty()) figures.loop_recall = spread_of(recalls);
   figures.wall_s = over_seeds([](const FreiburgFigures& run) { return run.wall_s; });
   figures.cpu_s = over_seeds([](const FreiburgFigures& run) { return run.cpu_s; });
   figures.real_time_factor = over_seeds([](const FreiburgFigures& run) { return run.real_time_factor(); });
@@ -173,16 +203,24 @@ std::optional<CellFigures> figures_of(const FreiburgCell& cell) {
 FreiburgBenchmark run_freiburg_benchmark(const std::vector<BenchmarkLog>& logs,
                                          const FreiburgOptions& options, const std::atomic<bool>& stop,
                                          const ProgressObserver& progress) {
-  FreiburgBenchmark benchmark = plan(logs, options);
-  const std::vector<Task> tasks = tasks_of(benchmark, logs, options);
+  FreiburgBenchmark benchmark;
+  const std::vector<Task> tasks = plan(logs, options, benchmark);
   double work = 0;
   for (const Task& task : tasks) work += task.work;
   TaskProgress running(tasks.size(), work, progress);
   std::vector<ChildWords> children;
-  for (const Task& task : tasks) children.push_back(words_of(task.run, options.program));
+  for (const Task& task : tasks) {
+    const FreiburgRun& run = task.run;
+    children.push_back({options.program.string(), "freiburg-run", "--log", run.log.string(), "--ini",
+                        run.ini.string(), "--relations", run.relations.string(), "--matcher", run.matcher,
+                        "--seed", std::to_string(run.seed), "--threads", std::to_string(run.threads)});
+  }
   const ChildWorkers workers = options.workers ? options.workers : local_child_workers(options.processes);
   workers(children, {[&] { return stop.load(); }, [&](std::size_t task) { running.show(tasks[task].name); },
-                     [&](std::size_t task, const ChildEnd& end) { take(tasks[task], end, running); }});
+                     [&](std::size_t task, const ChildEnd& end) {
+                       take(tasks[task], end);
+                       running.end(tasks[task].work);
+                     }});
   if (stop && running.remaining() > 0)
     throw SystemFailure("interrupted with " + std::to_string(running.remaining()) +
                         " runs to go: finished runs are kept in " + (options.output / "runs").string() +

@@ -6,7 +6,6 @@
 #include "base/number_text.h"
 #include "batch/report_table.h"
 #include "common/log_plots.h"
-#include "freiburg/freiburg_benchmark.h"
 
 namespace psi_slam {
 namespace {
@@ -29,43 +28,35 @@ std::vector<BenchmarkLogTitle> logs_of(const FreiburgBenchmark& benchmark) {
   return logs;
 }
 
-std::optional<CellFigures> our_figures(const FreiburgBenchmark& benchmark, const std::string& matcher,
-                                       const std::string& log) {
+PublishedErrors errors_of(const PathErrors& errors, std::size_t failed_runs = 0) {
+  PublishedErrors published;
+  for (std::size_t i = 0; i < published.size(); ++i) {
+    const MeanAndStd& one = errors.*kPathFigures[i].errors;
+    published[i] = PublishedFigure{one.mean, one.std, false, failed_runs};
+  }
+  return published;
+}
+
+PublishedSystem our_system(const FreiburgBenchmark& benchmark) {
+  const std::string matcher = our_matcher(benchmark);
+  PublishedSystem system{"psi-slam, " + matcher, "this benchmark, averaged over all seeds.", {}};
   for (const FreiburgCell& cell : benchmark.cells)
-    if (cell.matcher == matcher && benchmark_log_name(cell.log) == log) return figures_of(cell);
-  return std::nullopt;
+    if (const auto figures = cell.matcher == matcher ? figures_of(cell) : std::nullopt)
+      system.logs.push_back({benchmark_log_name(cell.log), errors_of(figures->errors, figures->failed)});
+  return system;
 }
 
-std::string column_name(const BaselineProgram& baseline) {
-  return "MRPT " + baseline.kind.name + " (run here)";
-}
-
-std::string source_of(const BaselineProgram& baseline) {
-  return baseline.version + ", run here on the same log, every scan, with " +
-         baseline.config.filename().string() +
-         " as shipped; changed settings: " + changes_text(baseline.kind) + ". " + baseline.kind.remark;
-}
-
-PublishedErrors errors_of(const RunFigures& figures) {
-  PublishedErrors errors;
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    const MeanAndStd& one = figures.errors.*kPathFigures[i].errors;
-    errors[i] = PublishedFigure{one.mean, one.std};
-  }
-  return errors;
-}
-
-/// The baselines that were run here, in the form of published systems.
-std::vector<PublishedSystem> baseline_systems(const FreiburgBenchmark& benchmark) {
-  std::vector<PublishedSystem> systems;
-  for (const BaselineProgram& baseline : benchmark.baselines.programs) {
-    PublishedSystem system{column_name(baseline), source_of(baseline), {}};
-    for (const BaselineResult& result : benchmark.baseline_results)
-      if (result.baseline == baseline.kind.name && result.figures)
-        system.logs.push_back({benchmark_log_name(result.log), errors_of(*result.figures)});
-    systems.push_back(std::move(system));
-  }
-  return systems;
+/// The figures of a baseline that was run here.
+PublishedSystem baseline_system(const BaselineProgram& baseline, const std::vector<BaselineResult>& results) {
+  PublishedSystem system{"MRPT " + baseline.kind.name + " (run here)",
+                         baseline.version + ", run here on the same log, every scan, with " +
+                             baseline.config.filename().string() + " as shipped; changed settings: " +
+                             changes_text(baseline.kind) + ". " + baseline.kind.remark,
+                         {}};
+  for (const BaselineResult& result : results)
+    if (result.baseline == baseline.kind.name && result.figures)
+      system.logs.push_back({benchmark_log_name(result.log), errors_of(result.figures->errors)});
+  return system;
 }
 
 void mark_best(ComparisonRow& row) {
@@ -78,16 +69,14 @@ void mark_best(ComparisonRow& row) {
 constexpr const char* kUncheckedMark = " †";
 constexpr const char* kFailedMark = " ‡";
 
-std::string value_text(const PublishedFigure& value) {
+ReportCell cell_of(const std::optional<PublishedFigure>& value, bool best) {
+  if (!value) return empty_cell();
   constexpr int kDecimals = 4;
-  return fixed_text(value.mean, kDecimals) + (value.std ? " ± " + fixed_text(*value.std, kDecimals) : "") +
-         (value.unchecked ? kUncheckedMark : "");
-}
-
-ReportCell cell_of(const Comparison& comparison, const ComparisonRow& row, std::size_t column) {
-  if (!row.values[column]) return empty_cell();
-  const bool some_failed = comparison.columns[column].ours && row.failed > 0;
-  return {value_text(*row.values[column]) + (some_failed ? kFailedMark : ""), {}, row.best[column]};
+  return {fixed_text(value->mean, kDecimals) +
+              (value->std ? " ± " + fixed_text(*value->std, kDecimals) : "") +
+              (value->unchecked ? kUncheckedMark : "") + (value->failed_runs > 0 ? kFailedMark : ""),
+          {},
+          best};
 }
 
 /// The footnotes for the marks in the table.
@@ -103,59 +92,44 @@ std::string footnotes(const std::string& table) {
 }  // namespace
 
 Comparison compare_with_others(const FreiburgBenchmark& benchmark) {
-  const std::string matcher = our_matcher(benchmark);
-  Comparison comparison;
-  comparison.columns.push_back({"psi-slam, " + matcher, "this benchmark, averaged over all seeds.", true});
-  std::vector<PublishedSystem> others = baseline_systems(benchmark);
-  others.insert(others.end(), published_systems().begin(), published_systems().end());
-  for (const PublishedSystem& system : others)
-    comparison.columns.push_back({system.name, system.source, false});
-  for (const BenchmarkLogTitle& log : logs_of(benchmark)) {
-    const auto ours = our_figures(benchmark, matcher, log.log);
+  Comparison comparison{{our_system(benchmark)}, {}};
+  std::vector<PublishedSystem>& systems = comparison.columns;
+  for (const BaselineProgram& baseline : benchmark.baselines.programs)
+    systems.push_back(baseline_system(baseline, benchmark.baseline_results));
+  systems.insert(systems.end(), published_systems().begin(), published_systems().end());
+  for (const BenchmarkLogTitle& log : logs_of(benchmark))
     for (std::size_t figure = 0; figure < kPaperFigures; ++figure) {
-      ComparisonRow row{log.title, figure, {}, {}, ours ? ours->failed : 0};
-      row.values.emplace_back();
-      if (ours) {
-        const MeanAndStd& errors = ours->errors.*kPathFigures[figure].errors;
-        row.values.back() = PublishedFigure{errors.mean, errors.std};
-      }
-      for (const PublishedSystem& system : others) {
+      ComparisonRow& row = comparison.rows.emplace_back(ComparisonRow{log.title, figure, {}, {}});
+      for (const PublishedSystem& system : systems) {
         const PublishedErrors* errors = system.errors_of(log.log);
         row.values.push_back(errors != nullptr ? (*errors)[figure] : std::nullopt);
       }
       mark_best(row);
-      comparison.rows.push_back(std::move(row));
     }
-  }
   return comparison;
 }
 
 std::string comparison_table(const Comparison& comparison) {
   ReportTable table{{{"log", {}, true}, {"error", {}, true}}, {}};
-  for (const ComparisonColumn& column : comparison.columns) table.columns.push_back({column.name});
+  for (const PublishedSystem& system : comparison.columns) table.columns.push_back({system.name});
   for (const ComparisonRow& row : comparison.rows) {
     std::vector<ReportCell>& cells = table.rows.emplace_back();
     cells = {cell(row.log), cell(kPathFigures[row.figure].name)};
-    for (std::size_t i = 0; i < row.values.size(); ++i) cells.push_back(cell_of(comparison, row, i));
+    for (std::size_t i = 0; i < row.values.size(); ++i) cells.push_back(cell_of(row.values[i], row.best[i]));
   }
   const std::string text = table.markdown();
   return text + footnotes(text);
 }
 
 std::string comparison_plot(const Comparison& comparison, const std::string& log) {
-  for (const ComparisonRow& row : comparison.rows) {
-    if (row.log != log || row.figure != 0) continue;
-    BarPlot plot{log + ": mean translational error (logarithmic)", "m", {}};
-    bool any_of_ours = false;
-    for (std::size_t i = 0; i < row.values.size(); ++i) {
-      const ComparisonColumn& column = comparison.columns[i];
-      if (!row.values[i]) continue;
-      plot.bars.push_back({column.name, row.values[i]->mean, column.ours});
-      any_of_ours = any_of_ours || column.ours;
-    }
-    return any_of_ours ? bar_svg(plot) : std::string();
-  }
-  return {};
+  const auto row = std::find_if(comparison.rows.begin(), comparison.rows.end(),
+                                [&](const ComparisonRow& one) { return one.log == log && one.figure == 0; });
+  if (row == comparison.rows.end() || !row->values.front()) return {};
+  BarPlot plot{log + ": mean translational error (logarithmic)", "m", {}};
+  for (std::size_t i = 0; i < row->values.size(); ++i)
+    if (const auto& value = row->values[i])
+      plot.bars.push_back({comparison.columns[i].name, value->mean, i == 0});
+  return bar_svg(plot);
 }
 
 }  // namespace psi_slam

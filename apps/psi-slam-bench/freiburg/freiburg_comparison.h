@@ -1,33 +1,68 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam compared with other systems: a column for each system, a row for each error of each log.
+// psi-slam compared with other systems: a column for each system, a row for each error of each log. Figures
+// of other systems are published ones, and results of their programs on these logs. Each system names the
+// source of its figures.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "freiburg/freiburg_benchmark.h"
-#include "freiburg/published_figures.h"
 
 namespace psi_slam {
 
-struct ComparisonColumn {
-  std::string name;
-  std::string source;
-  bool ours = false;
+/// A mean over the relations, with its standard deviation if that was published.
+struct PublishedFigure {
+  double mean = 0;
+  std::optional<double> std;
+  bool unchecked = false;       ///< quoted from memory and not checked against the source
+  std::size_t failed_runs = 0;  ///< runs of psi-slam that the mean leaves out
 };
+
+/// In the order of kPathFigures; empty where nothing was published.
+using PublishedErrors = std::array<std::optional<PublishedFigure>, kPaperFigures>;
+
+struct PublishedLog {
+  std::string log;  ///< a name of benchmark_log_titles()
+  PublishedErrors errors;
+};
+
+struct PublishedSystem {
+  std::string name;    ///< head of the column in the comparison
+  std::string source;  ///< one or more sentences
+  std::vector<PublishedLog> logs;
+
+  /// Null if the system has no figures for that log.
+  const PublishedErrors* errors_of(const std::string& log) const;
+};
+
+const std::vector<PublishedSystem>& published_systems();
+
+/// One of the six logs of the benchmark: the name of its file and its usual name.
+struct BenchmarkLogTitle {
+  std::string log;
+  std::string title;
+};
+const std::vector<BenchmarkLogTitle>& benchmark_log_titles();
+
+/// "hospital" is "fr-hospital"; every other name is itself.
+std::string benchmark_log_name(const std::string& name);
+
+/// The usual name of a log of the benchmark; the name itself for other logs.
+std::string benchmark_log_title(const std::string& name);
 
 struct ComparisonRow {
   std::string log;                                     ///< "Intel"
   std::size_t figure;                                  ///< index in kPathFigures
   std::vector<std::optional<PublishedFigure>> values;  ///< by column
   std::vector<bool> best;                              ///< by column: true for the least mean of the row
-  std::size_t failed = 0;  ///< number of our runs that failed; our figures are those of the others
 };
 
 struct Comparison {
-  std::vector<ComparisonColumn> columns;
-  std::vector<ComparisonRow> rows;  ///< four for each log
+  std::vector<PublishedSystem> columns;  ///< the first is psi-slam
+  std::vector<ComparisonRow> rows;       ///< four for each log
 };
 
 /// The adaptive matcher represents psi-slam, or the first matcher if the adaptive one was not run. Rows are

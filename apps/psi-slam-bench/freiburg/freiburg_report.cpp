@@ -37,11 +37,10 @@ std::string runs_text(const CellRow& row) {
   return text;
 }
 
-/// A column of the figures, empty for a cell whose runs all failed.
-template <class CellOf>
-CellColumn figure_column(const std::string& head, const std::string& key, const CellOf& cell_of) {
-  return {{head, key},
-          [cell_of](const CellRow& row) { return row.figures ? cell_of(*row.figures) : empty_cell(); }};
+/// A column of the figures, empty for a row without figures.
+template <class Row = CellRow, class CellOf>
+ColumnOf<Row> figure_column(const std::string& head, const std::string& key, const CellOf& cell_of) {
+  return {{head, key}, [=](const Row& row) { return row.figures ? cell_of(*row.figures) : empty_cell(); }};
 }
 
 /// A column with the mean over the seeds in Markdown, and all statistics in JSON.
@@ -88,27 +87,31 @@ ReportTable matchers_table(const FreiburgBenchmark& benchmark) {
                {"std", errors.std},
                {"over_seeds", {{"std", spread.std}, {"min", spread.min}, {"max", spread.max}}}}};
         }));
-  columns.push_back(figure_column("relations used", "relations_used", [](const CellFigures& figures) {
-    return cell(figures.relations_used, 0);
-  }));
-  columns.push_back(figure_column({}, "relations_skipped", [](const CellFigures& figures) {
-    return cell(figures.relations_skipped, 0);
-  }));
-  columns.push_back(mean_column("loops accepted", "loops_accepted", &CellFigures::loops_accepted, 1));
-  columns.push_back(figure_column("false of judged", {}, [](const CellFigures& figures) {
-    return cell(fixed_text(figures.loops_false.mean, 1) + " of " + fixed_text(figures.loops_judged.mean, 1));
-  }));
-  columns.push_back(mean_column({}, "loops_judged", &CellFigures::loops_judged, 1));
-  columns.push_back(mean_column({}, "loops_false", &CellFigures::loops_false, 1));
-  columns.push_back(figure_column("recall %", "loop_recall", [](const CellFigures& figures) {
-    const auto& recall = figures.loop_recall;
-    return recall ? ReportCell{fixed_text(100 * recall->mean, 1), spread_json(*recall)}
-                  : ReportCell{"–", nullptr};
-  }));
-  columns.push_back(mean_column("wall [s]", "wall_s", &CellFigures::wall_s, 2));
-  columns.push_back(mean_column("CPU [s]", "cpu_s", &CellFigures::cpu_s, 2));
-  columns.push_back(mean_column("× real time", "real_time_factor", &CellFigures::real_time_factor, 0));
-  columns.push_back(mean_column("peak [MiB]", "peak_memory_mib", &CellFigures::peak_memory_mib, 0));
+  using Figures = CellFigures;
+  const std::vector<CellColumn> others{
+      figure_column("relations used", "relations_used",
+                    [](const Figures& figures) { return cell(figures.relations_used, 0); }),
+      figure_column({}, "relations_skipped",
+                    [](const Figures& figures) { return cell(figures.relations_skipped, 0); }),
+      mean_column("loops accepted", "loops_accepted", &Figures::loops_accepted, 1),
+      figure_column("false of judged", {},
+                    [](const Figures& figures) {
+                      return cell(fixed_text(figures.loops_false.mean, 1) + " of " +
+                                  fixed_text(figures.loops_judged.mean, 1));
+                    }),
+      mean_column({}, "loops_judged", &Figures::loops_judged, 1),
+      mean_column({}, "loops_false", &Figures::loops_false, 1),
+      figure_column("recall %", "loop_recall",
+                    [](const Figures& figures) {
+                      const auto& recall = figures.loop_recall;
+                      return recall ? ReportCell{fixed_text(100 * recall->mean, 1), spread_json(*recall)}
+                                    : ReportCell{"–", nullptr};
+                    }),
+      mean_column("wall [s]", "wall_s", &Figures::wall_s, 2),
+      mean_column("CPU [s]", "cpu_s", &Figures::cpu_s, 2),
+      mean_column("× real time", "real_time_factor", &Figures::real_time_factor, 0),
+      mean_column("peak [MiB]", "peak_memory_mib", &Figures::peak_memory_mib, 0)};
+  columns.insert(columns.end(), others.begin(), others.end());
   return table_of(columns, rows_of(benchmark, true));
 }
 
@@ -136,64 +139,44 @@ std::string failures_text(const FreiburgBenchmark& benchmark) {
   return text.empty() ? text : "## Runs that failed\n\n" + text + '\n';
 }
 
-std::string sources_text(const Comparison& comparison) {
-  std::string text;
-  for (const ComparisonColumn& column : comparison.columns)
-    text += "- " + column.name + ": " + column.source + '\n';
-  return text;
-}
-
 /// The logs of the Freiburg benchmark that were not mapped, and why.
 std::string missing_text(const FreiburgBenchmark& benchmark) {
   std::string text;
   for (const BenchmarkLogTitle& title : benchmark_log_titles()) {
-    const auto is_it = [&](const std::string& name) { return benchmark_log_name(name) == title.log; };
+    const auto names_it = [&](const std::string& name) { return benchmark_log_name(name) == title.log; };
+    const auto has_it = [&](const std::vector<std::string>& names) {
+      return std::any_of(names.begin(), names.end(), names_it);
+    };
     if (std::any_of(benchmark.logs.begin(), benchmark.logs.end(),
-                    [&](const LogIdentity& log) { return is_it(log.name); }))
+                    [&](const LogIdentity& log) { return names_it(log.name); }))
       continue;
-    const bool unrelated =
-        std::any_of(benchmark.without_relations.begin(), benchmark.without_relations.end(), is_it);
-    const bool left_out = std::any_of(benchmark.left_out.begin(), benchmark.left_out.end(), is_it);
     text += "- " + title.title + ": " +
-            (unrelated  ? "its log is in the folder without relations."
-             : left_out ? "--logs does not name its log."
-                        : "its log is not in the folder.") +
+            (has_it(benchmark.without_relations) ? "its log is in the folder without relations."
+             : has_it(benchmark.left_out)        ? "--logs does not name its log."
+                                                 : "its log is not in the folder.") +
             '\n';
   }
   return text.empty() ? text : text + '\n';
 }
 
-/// A column of the figures of a baseline, empty for a run without figures.
-template <class CellOf>
-ColumnOf<BaselineResult> baseline_column(const std::string& head, const CellOf& cell_of) {
-  return {{head}, [cell_of](const BaselineResult& run) {
-            return run.figures ? cell_of(*run.figures) : empty_cell();
-          }};
-}
-
 ReportTable baselines_table(const std::vector<BaselineResult>& results) {
-  std::vector<ColumnOf<BaselineResult>> columns{
-      {{"log", {}, true}, [](const BaselineResult& run) { return cell(run.log); }},
-      {{"system", {}, true}, [](const BaselineResult& run) { return cell(run.baseline); }}};
+  using Run = BaselineResult;
+  std::vector<ColumnOf<Run>> columns{column("log", {}, &Run::log), column("system", {}, &Run::baseline)};
+  const auto add = [&columns](const std::string& head, const auto& cell_of) {
+    columns.push_back(figure_column<Run>(head, {}, cell_of));
+  };
   for (const PathFigure& figure : kPathFigures)
-    columns.push_back(baseline_column(figure.name, [&figure](const RunFigures& figures) {
-      return cell(errors_text(figures.errors.*figure.errors));
-    }));
-  columns[2].cell_of = [shown = columns[2].cell_of](const BaselineResult& run) {
+    add(figure.name, [&](const RunFigures& run) { return cell(errors_text(run.errors.*figure.errors)); });
+  columns[2].cell_of = [shown = columns[2].cell_of](const Run& run) {
     if (run.figures) return shown(run);
     return cell(run.not_finished_in_s ? "not finished in " + fixed_text(*run.not_finished_in_s, 0) + " s"
                                       : "failed: " + run.failure);
   };
-  columns.push_back(baseline_column("relations used",
-                                    [](const RunFigures& figures) { return cell(figures.relations_used); }));
-  columns.push_back(
-      baseline_column("wall [s]", [](const RunFigures& figures) { return cell(figures.wall_s, 2); }));
-  columns.push_back(
-      baseline_column("CPU [s]", [](const RunFigures& figures) { return cell(figures.cpu_s, 2); }));
-  columns.push_back(baseline_column(
-      "× real time", [](const RunFigures& figures) { return cell(figures.real_time_factor(), 0); }));
-  columns.push_back(baseline_column(
-      "peak [MiB]", [](const RunFigures& figures) { return cell(figures.peak_memory_mib, 0); }));
+  add("relations used", [](const RunFigures& run) { return cell(run.relations_used); });
+  add("wall [s]", [](const RunFigures& run) { return cell(run.wall_s, 2); });
+  add("CPU [s]", [](const RunFigures& run) { return cell(run.cpu_s, 2); });
+  add("× real time", [](const RunFigures& run) { return cell(run.real_time_factor(), 0); });
+  add("peak [MiB]", [](const RunFigures& run) { return cell(run.peak_memory_mib, 0); });
   return table_of(columns, results);
 }
 
@@ -243,7 +226,7 @@ Json comparison_json(const Comparison& comparison) {
                          {"mean", value.mean},
                          {"std", value.std ? Json(*value.std) : Json(nullptr)},
                          {"unchecked", value.unchecked},
-                         {"failed_runs", comparison.columns[i].ours ? row.failed : 0},
+                         {"failed_runs", value.failed_runs},
                          {"best", static_cast<bool>(row.best[i])}});
     }
     rows.push_back({{"log", row.log}, {"figure", kPathFigures[row.figure].key}, {"systems", systems}});
@@ -272,10 +255,13 @@ std::string markdown_of(const FreiburgBenchmark& benchmark, const Comparison& co
       "draws no map\n"
       "- × real time: length of the recording divided by wall time\n"
       "\n";
+  std::string sources;
+  for (const PublishedSystem& system : comparison.columns)
+    sources += "- " + system.name + ": " + system.source + '\n';
   text += "## psi-slam and other systems\n\n" + comparison_table(comparison) +
           "\nBold marks the smallest mean of each row. Systems marked \"live\" or \"run here\" mapped these "
           "logs; figures of failed maps are included. Sources of the figures:\n\n" +
-          sources_text(comparison) + '\n' + missing_text(benchmark);
+          sources + '\n' + missing_text(benchmark);
   text += baselines_text(benchmark);
   text += "## Every matcher on every log\n\n" + matchers_table(benchmark).markdown() + '\n';
   text +=
@@ -285,28 +271,23 @@ std::string markdown_of(const FreiburgBenchmark& benchmark, const Comparison& co
   return text + failures_text(benchmark) + logs_section(benchmark.logs, benchmark.without_relations);
 }
 
-Json json_of(const FreiburgBenchmark& benchmark, const Comparison& comparison, const FreiburgOptions& options,
-             const std::string& machine) {
-  Json json = report_json("psi-slam-freiburg-benchmark", machine);
-  json.update({{"seeds", options.seeds.all()},
-               {"processes", options.processes},
-               {"threads", options.threads},
-               {"logs", logs_table(benchmark.logs).json()},
-               {"cells", matchers_table(benchmark).json()},
-               {"rivals", baselines_json(benchmark)},
-               {"comparison", comparison_json(comparison)}});
-  return json;
-}
-
 }  // namespace
 
 BenchReport freiburg_report(const FreiburgBenchmark& benchmark, const FreiburgOptions& options,
                             const std::string& machine) {
   const Comparison comparison = compare_with_others(benchmark);
+  const ReportTable matchers = matchers_table(benchmark);
   BenchReport report{"freiburg.md",
                      markdown_of(benchmark, comparison, options, machine),
-                     json_file_text(json_of(benchmark, comparison, options, machine)),
-                     matchers_table(benchmark).csv(),
+                     json_file_text(report_json("psi-slam-freiburg-benchmark", machine,
+                                                {{"seeds", options.seeds.all()},
+                                                 {"processes", options.processes},
+                                                 {"threads", options.threads},
+                                                 {"logs", logs_table(benchmark.logs).json()},
+                                                 {"cells", matchers.json()},
+                                                 {"rivals", baselines_json(benchmark)},
+                                                 {"comparison", comparison_json(comparison)}})),
+                     matchers.csv(),
                      {}};
   for (const LogIdentity& log : benchmark.logs) {
     const std::string plot = comparison_plot(comparison, benchmark_log_title(log.name));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg/published_figures.h"
+#include "freiburg/freiburg_comparison.h"
 
 namespace psi_slam {
 namespace {
@@ -13,18 +13,22 @@ constexpr const char* kHospital = "fr-hospital";
 
 using Figure = PublishedFigure;
 
+PublishedLog all_four(const char* log, Figure translation_m, Figure translation_m2, Figure rotation_deg,
+                      Figure rotation_deg2) {
+  return {log, {translation_m, translation_m2, rotation_deg, rotation_deg2}};
+}
+
 /// Errors of a system whose squared errors, and possibly rotational errors, are unknown.
-PublishedErrors absolute(Figure translation_m, std::optional<Figure> rotation_deg = std::nullopt) {
-  return {translation_m, std::nullopt, rotation_deg, std::nullopt};
+PublishedLog absolute(const char* log, Figure translation_m, std::optional<Figure> rotation_deg = {}) {
+  return {log, {translation_m, std::nullopt, rotation_deg, std::nullopt}};
 }
 
 constexpr const char* kPaper = "A self-adaptive loop matching algorithm based on GA for 2D lidar SLAM";
 
 constexpr const char* kKuemmerle =
     "R. Kümmerle, B. Steder, C. Dornhege, M. Ruhnke, G. Grisetti, C. Stachniss and A. Kleiner, On measuring "
-    "the "
-    "accuracy of SLAM algorithms, Autonomous Robots 27(4), 2009; translation only; its other figures are not "
-    "quoted here.";
+    "the accuracy of SLAM algorithms, Autonomous Robots 27(4), 2009; translation only; its other figures are "
+    "not quoted here.";
 
 /// A rotational error quoted from memory.
 Figure remembered(double mean_deg) {
@@ -45,89 +49,74 @@ const std::vector<PublishedSystem>& published_systems() {
   static const std::vector<PublishedSystem> kSystems{
       {"GA-based (paper)",
        std::string(kPaper) + ", tables 1 and 2.",
-       {{kAces, {Figure{0.238, 0.533}, Figure{0.411, 2.320}, Figure{0.336, 0.829}, Figure{1.056, 4.714}}},
-        {kIntel, {Figure{0.165, 0.470}, Figure{0.306, 1.924}, Figure{1.253, 2.866}, Figure{8.632, 25.707}}},
-        {kKillian, {Figure{0.249, 0.608}, Figure{0.507, 2.692}, Figure{0.357, 1.433}, Figure{1.734, 4.635}}},
-        {kCsail, {Figure{0.226, 0.482}, Figure{0.384, 1.815}, Figure{0.522, 2.054}, Figure{4.732, 12.788}}},
-        {kFreiburg,
-         {Figure{0.328, 0.859}, Figure{0.930, 3.556}, Figure{0.921, 3.714}, Figure{11.408, 33.224}}},
-        {kHospital,
-         {Figure{0.575, 0.836}, Figure{1.255, 3.880}, Figure{1.457, 2.602}, Figure{10.575, 52.016}}}}},
+       {all_four(kAces, {0.238, 0.533}, {0.411, 2.320}, {0.336, 0.829}, {1.056, 4.714}),
+        all_four(kIntel, {0.165, 0.470}, {0.306, 1.924}, {1.253, 2.866}, {8.632, 25.707}),
+        all_four(kKillian, {0.249, 0.608}, {0.507, 2.692}, {0.357, 1.433}, {1.734, 4.635}),
+        all_four(kCsail, {0.226, 0.482}, {0.384, 1.815}, {0.522, 2.054}, {4.732, 12.788}),
+        all_four(kFreiburg, {0.328, 0.859}, {0.930, 3.556}, {0.921, 3.714}, {11.408, 33.224}),
+        all_four(kHospital, {0.575, 0.836}, {1.255, 3.880}, {1.457, 2.602}, {10.575, 52.016})}},
       {"Karto (paper)",
        std::string(kPaper) + ", table 1.",
-       {{kAces, {Figure{0.408, 1.325}, Figure{1.604, 7.009}, Figure{0.440, 0.683}, Figure{0.874, 3.295}}},
-        {kIntel, {Figure{0.207, 0.823}, Figure{0.702, 3.204}, Figure{1.875, 3.830}, Figure{16.170, 83.348}}},
-        {kKillian,
-         {Figure{0.350, 0.752}, Figure{0.608, 3.159}, Figure{0.755, 2.514}, Figure{7.548, 22.900}}}}},
+       {all_four(kAces, {0.408, 1.325}, {1.604, 7.009}, {0.440, 0.683}, {0.874, 3.295}),
+        all_four(kIntel, {0.207, 0.823}, {0.702, 3.204}, {1.875, 3.830}, {16.170, 83.348}),
+        all_four(kKillian, {0.350, 0.752}, {0.608, 3.159}, {0.755, 2.514}, {7.548, 22.900})}},
       {"GMapping (paper)",
        std::string(kPaper) + ", table 2.",
-       {{kCsail, {Figure{0.443, 0.879}, Figure{2.175, 8.033}, Figure{1.216, 3.724}, Figure{14.915, 77.362}}},
-        {kFreiburg,
-         {Figure{0.507, 1.074}, Figure{3.404, 14.538}, Figure{1.030, 2.715}, Figure{8.799, 17.036}}},
-        {kHospital,
-         {Figure{0.873, 2.825}, Figure{8.239, 34.372}, Figure{2.609, 5.330}, Figure{34.152, 142.274}}}}},
+       {all_four(kCsail, {0.443, 0.879}, {2.175, 8.033}, {1.216, 3.724}, {14.915, 77.362}),
+        all_four(kFreiburg, {0.507, 1.074}, {3.404, 14.538}, {1.030, 2.715}, {8.799, 17.036}),
+        all_four(kHospital, {0.873, 2.825}, {8.239, 34.372}, {2.609, 5.330}, {34.152, 142.274})}},
       {"scan matching",
        kKuemmerle,
-       {{kAces, absolute({0.173, 0.614})},
-        {kIntel, absolute({0.220, 0.296})},
-        {kKillian, absolute({1.651, 4.138})},
-        {kCsail, absolute({0.106, 0.325})},
-        {kFreiburg, absolute({0.258, 0.427})},
-        {kHospital, absolute({0.434, 1.615})}}},
+       {absolute(kAces, {0.173, 0.614}), absolute(kIntel, {0.220, 0.296}), absolute(kKillian, {1.651, 4.138}),
+        absolute(kCsail, {0.106, 0.325}), absolute(kFreiburg, {0.258, 0.427}),
+        absolute(kHospital, {0.434, 1.615})}},
       {"RBPF",
        std::string("50 particles: ") + kKuemmerle,
-       {{kAces, absolute({0.060, 0.049})},
-        {kIntel, absolute({0.070, 0.083})},
-        {kKillian, absolute({0.122, 0.386})},
-        {kCsail, absolute({0.049, 0.049})},
-        {kFreiburg, absolute({0.061, 0.044})},
-        {kHospital, absolute({0.637, 2.638})}}},
+       {absolute(kAces, {0.060, 0.049}), absolute(kIntel, {0.070, 0.083}), absolute(kKillian, {0.122, 0.386}),
+        absolute(kCsail, {0.049, 0.049}), absolute(kFreiburg, {0.061, 0.044}),
+        absolute(kHospital, {0.637, 2.638})}},
       {"graph mapping",
        std::string(kKuemmerle) +
            " The relations of MIT CSAIL were probably made from the result of this system.",
-       {{kAces, absolute({0.044, 0.044})},
-        {kIntel, absolute({0.031, 0.026})},
-        {kKillian, absolute({0.050, 0.056})},
-        {kCsail, absolute({0.004, 0.009})},
-        {kFreiburg, absolute({0.056, 0.042})},
-        {kHospital, absolute({0.143, 0.180})}}},
+       {absolute(kAces, {0.044, 0.044}), absolute(kIntel, {0.031, 0.026}), absolute(kKillian, {0.050, 0.056}),
+        absolute(kCsail, {0.004, 0.009}), absolute(kFreiburg, {0.056, 0.042}),
+        absolute(kHospital, {0.143, 0.180})}},
       {"Cartographer",
        "W. Hess, D. Kohler, H. Rapp and D. Andor, Real-time loop closure in 2D LIDAR SLAM, ICRA 2016; "
        "rotation without standard deviation; squared errors are not quoted.",
-       {{kAces, absolute({0.0375, 0.0426}, remembered(0.373))},
-        {kIntel, absolute({0.0229, 0.0239}, remembered(0.453))},
-        {kKillian, absolute({0.0395, 0.0488}, remembered(0.352))},
-        {kCsail, absolute({0.0319, 0.0363}, remembered(0.369))},
-        {kFreiburg, absolute({0.0452, 0.0354}, remembered(0.538))},
-        {kHospital, absolute({0.108, 0.194}, remembered(0.747))}}},
+       {absolute(kAces, {0.0375, 0.0426}, remembered(0.373)),
+        absolute(kIntel, {0.0229, 0.0239}, remembered(0.453)),
+        absolute(kKillian, {0.0395, 0.0488}, remembered(0.352)),
+        absolute(kCsail, {0.0319, 0.0363}, remembered(0.369)),
+        absolute(kFreiburg, {0.0452, 0.0354}, remembered(0.538)),
+        absolute(kHospital, {0.108, 0.194}, remembered(0.747))}},
       {"Cartographer (its paths)",
        "Cartographer trajectories published by others, measured here with the same relations; the "
        "standard deviations were not kept.",
-       {{kIntel, absolute({0.0224, {}}, Figure{0.388, {}})},
-        {kCsail, absolute({0.0364, {}}, Figure{0.331, {}})},
-        {kFreiburg, absolute({0.0441, {}}, Figure{0.517, {}})}}},
+       {absolute(kIntel, {0.0224, {}}, Figure{0.388, {}}), absolute(kCsail, {0.0364, {}}, Figure{0.331, {}}),
+        absolute(kFreiburg, {0.0441, {}}, Figure{0.517, {}})}},
       {"Karto (live)",
        std::string("open_karto with sparse pose adjustment,") + kLive +
            " It failed to map Freiburg 079, where odometry has the wrong sign when the robot reverses "
            "(0.0563 ± 0.0388 m with corrected signs). It missed the loops of MIT Killian.",
-       {{kAces, absolute({0.0492, 0.0424}, Figure{0.708, {}})},
-        {kIntel, absolute({0.0213, 0.0144}, Figure{0.722, {}})},
-        {kKillian, absolute({1.09, 2.85}, Figure{1.181, {}})},
-        {kCsail, absolute({0.0407, 0.0403}, Figure{1.075, {}})},
-        {kFreiburg, absolute({2.89, 6.31}, Figure{7.64, {}})}}},
+       {absolute(kAces, {0.0492, 0.0424}, Figure{0.708, {}}),
+        absolute(kIntel, {0.0213, 0.0144}, Figure{0.722, {}}),
+        absolute(kKillian, {1.09, 2.85}, Figure{1.181, {}}),
+        absolute(kCsail, {0.0407, 0.0403}, Figure{1.075, {}}),
+        absolute(kFreiburg, {2.89, 6.31}, Figure{7.64, {}})}},
       {"slam_toolbox (live)",
        std::string("slam_toolbox,") + kLive +
            " Its map of Intel has double walls, and its map of MIT Killian has false loops.",
-       {{kAces, absolute({0.0539, 0.0734}, Figure{1.031, {}})},
-        {kIntel, absolute({0.3095, 1.0193}, Figure{1.498, {}})},
-        {kKillian, absolute({0.522, 2.505}, Figure{1.358, {}})},
-        {kCsail, absolute({0.0579, 0.0730}, Figure{2.749, {}})},
-        {kFreiburg, absolute({0.566, 1.168}, Figure{4.45, {}})}}},
+       {absolute(kAces, {0.0539, 0.0734}, Figure{1.031, {}}),
+        absolute(kIntel, {0.3095, 1.0193}, Figure{1.498, {}}),
+        absolute(kKillian, {0.522, 2.505}, Figure{1.358, {}}),
+        absolute(kCsail, {0.0579, 0.0730}, Figure{2.749, {}}),
+        absolute(kFreiburg, {0.566, 1.168}, Figure{4.45, {}})}},
       {"GMapping (live)",
        std::string("30 particles,") + kLive,
-       {{kAces, absolute({0.0490, 0.0461}, Figure{1.071, {}})},
-        {kIntel, absolute({0.0394, 0.0347}, Figure{1.904, {}})},
-        {kCsail, absolute({0.0550, 0.0584}, Figure{3.382, {}})}}}};
+       {absolute(kAces, {0.0490, 0.0461}, Figure{1.071, {}}),
+        absolute(kIntel, {0.0394, 0.0347}, Figure{1.904, {}}),
+        absolute(kCsail, {0.0550, 0.0584}, Figure{3.382, {}})}}};
   return kSystems;
 }
 

@@ -15,38 +15,6 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// A second front end that repeats the work of the mapper, whose local maps are not accessible.
-class PlaceCollector {
- public:
-  explicit PlaceCollector(const FrontEndOptions& options) : front_end_(options) {}
-
-  void add(const Frame& frame) {
-    const FrontEndStep step = front_end_.add(frame);
-    if (step.node) remember_node(step, frames_, memory_);
-    keep(step.finished);
-    ++frames_;
-  }
-
-  KeyframeStore finish() {
-    keep(front_end_.finish());
-    return std::move(memory_);
-  }
-
- private:
-  void keep(const std::vector<PlacedLocalMap>& finished) {
-    for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, memory_);
-  }
-
-  FrontEnd front_end_;
-  KeyframeStore memory_;
-  std::size_t frames_ = 0;
-};
-
-struct Pair {
-  std::size_t node = 0;
-  std::size_t local_map = 0;
-};
-
 /// Length of the path between a node and a local map; 0 for nodes of the local map.
 double travel_between_m(const KeyframeStore& memory, std::size_t node, const PlacedLocalMap& map) {
   const double here_m = memory.nodes[node].travelled_m;
@@ -65,16 +33,17 @@ double nearest_node_m(const MappedLog& log, std::size_t node, const PlacedLocalM
   return std::sqrt(nearest);
 }
 
-/// All pairs for cases, by local map, then node.
-std::vector<Pair> pairs(const MappedLog& log, const CaseOptions& options, bool positive) {
-  std::vector<Pair> result;
+/// All pairs of a node and a local map for cases, by local map, then node.
+std::vector<std::pair<std::size_t, std::size_t>> pairs(const MappedLog& log, const CaseOptions& options,
+                                                       bool positive) {
+  std::vector<std::pair<std::size_t, std::size_t>> result;
   for (std::size_t m = 0; m < log.memory.local_maps.size(); ++m) {
     const PlacedLocalMap& map = log.memory.local_maps[m];
     for (std::size_t node = 0; node < log.memory.nodes.size(); ++node) {
       if (travel_between_m(log.memory, node, map) < options.min_travel_m) continue;
       const double nearest_m = nearest_node_m(log, node, map);
       if (positive ? nearest_m <= options.near_m : nearest_m > options.window_m + options.clear_m)
-        result.push_back({node, m});
+        result.emplace_back(node, m);
     }
   }
   return result;
@@ -111,24 +80,24 @@ TPose2D draw_start(const MappedLog& log, const LoopCase& loop_case, const CaseOp
 
 void draw(const MappedLog& log, const CaseOptions& options, bool positive, std::vector<LoopCase>& cases) {
   RandomDraws draws(options.seed, log.name, positive ? 1U : 0U);
-  std::vector<Pair> left = pairs(log, options, positive);
+  auto left = pairs(log, options, positive);
   std::size_t drawn = 0;
   while (drawn < options.count && !left.empty()) {
     std::swap(left[draws.index(left.size())], left.back());
-    const Pair pair = left.back();
+    const auto [node, local_map] = left.back();
     left.pop_back();
-    const PlacedLocalMap& map = log.memory.local_maps[pair.local_map];
+    const PlacedLocalMap& map = log.memory.local_maps[local_map];
     LoopCase loop_case;
     loop_case.positive = positive;
-    loop_case.node = pair.node;
-    loop_case.local_map = pair.local_map;
+    loop_case.node = node;
+    loop_case.local_map = local_map;
     loop_case.map = map.map;
     loop_case.scan = options.context ? std::make_shared<const ScanPoints>(scan_context(
-                                           pair.node, log.memory, log.options.back_end.loop_closure.context))
-                                     : log.memory.nodes[pair.node].points;
-    loop_case.anchor_T_node = log.map_T_node[pair.node] - log.map_T_node[map.anchor];
-    loop_case.seed = {options.seed, log.memory.nodes[pair.node].frame, map.id};
-    loop_case.adaptive_matcher = log.adaptive_matcher[pair.node];
+                                           node, log.memory, log.options.back_end.loop_closure.context))
+                                     : log.memory.nodes[node].points;
+    loop_case.anchor_T_node = log.map_T_node[node] - log.map_T_node[map.anchor];
+    loop_case.seed = {options.seed, log.memory.nodes[node].frame, map.id};
+    loop_case.adaptive_matcher = log.adaptive_matcher[node];
     if (!can_be_searched(*loop_case.scan, *loop_case.map, options)) continue;
     if (positive && !shares_space(loop_case, options)) continue;
     loop_case.start = draw_start(log, loop_case, options, draws);
@@ -152,17 +121,23 @@ MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
 
   const std::unique_ptr<FrameSource> source = open_log(log.log, log_options(settings));
   Mapper mapper(mapped.options);
-  PlaceCollector places(front_end);
-  while (std::optional<Frame> frame = source->next()) {
-    places.add(*frame);
+  // A second front end repeats the work of the mapper, whose local maps are not accessible.
+  FrontEnd places(front_end);
+  const auto keep = [&mapped](const std::vector<PlacedLocalMap>& finished) {
+    for (const PlacedLocalMap& local_map : finished) remember_local_map(local_map, mapped.memory);
+  };
+  for (std::size_t frames = 0; std::optional<Frame> frame = source->next(); ++frames) {
+    const FrontEndStep step = places.add(*frame);
+    if (step.node) remember_node(step, frames, mapped.memory);
+    keep(step.finished);
     mapper.add(std::move(*frame));
     progress(source->progress());
   }
-  mapped.memory = places.finish();
+  keep(places.finish());
   const MappingResult result = mapper.finish();
   mapped.map_T_node = result.graph.poses();
   for (const std::size_t frame : result.node_frames)
-    mapped.adaptive_matcher.emplace_back(name(result.frames[frame].matcher.value()));
+    mapped.adaptive_matcher.push_back(result.frames[frame].matcher.value());
   mapped.translation_error_m =
       error_of(result.frames, read_relations(log.relations.value())).translation_abs_m.mean;
   return mapped;

@@ -26,13 +26,9 @@ struct MappedLog {
   MapperOptions options;
   KeyframeStore memory;                         ///< of the whole log
   std::vector<mrpt::math::TPose2D> map_T_node;  ///< optimised
-  std::vector<std::string> adaptive_matcher;    ///< by node: the adaptive matcher's choice
+  std::vector<MatcherKind> adaptive_matcher;    ///< by node: the adaptive matcher's choice
   double translation_error_m = 0;               ///< mean over the true relations
 };
-
-/// How MappedLog::adaptive_matcher is chosen, for the pages: cases have no history of their own.
-inline constexpr const char* kAdaptiveNote =
-    "the matcher that Ψ chose at the node of the scan when the log was mapped";
 
 /// Maps a log with relations. Local maps get `nodes_per_local_map` nodes, and a path of proportional length.
 /// Calls `progress` with the share that is done. Throws UserError as open_log() and read_relations().
@@ -65,7 +61,7 @@ struct LoopCase {
   mrpt::math::TPose2D anchor_T_node;  ///< true pose; of negative cases, outside the window
   mrpt::math::TPose2D start;          ///< centre of the window
   MatchSeed seed;
-  std::string adaptive_matcher;  ///< name of the matcher for the adaptive candidate
+  MatcherKind adaptive_matcher = MatcherKind::kCsm;  ///< for the adaptive candidate
 };
 
 /// Draws `count` positive cases, then `count` negative ones, or fewer if the log has no more. Each pair of

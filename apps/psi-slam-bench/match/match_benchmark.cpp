@@ -5,16 +5,43 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <numeric>
 
 #include "base/number_text.h"
-#include "loop_closure/loop_verification.h"
+#include "matching/make_matcher.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
+
+std::optional<double> share(std::size_t part, std::size_t all) {
+  if (all == 0) return std::nullopt;
+  return static_cast<double>(part) / static_cast<double>(all);
+}
+
+/// The memetic search without one of its steps.
+struct Ablation {
+  const char* name;
+  void (*apply)(MemeticGeneticOptions&);
+};
+
+constexpr Ablation kAblations[] = {
+    {"ga without sparse search", [](MemeticGeneticOptions& options) { options.seed_coarse = false; }},
+    {"ga without generations", [](MemeticGeneticOptions& options) { options.generations = 0; }},
+    {"ga without crossover", [](MemeticGeneticOptions& options) { options.crossover_rate = 0; }},
+    {"ga without elite", [](MemeticGeneticOptions& options) { options.elite = 0; }},
+    {"ga without Gray code", [](MemeticGeneticOptions& options) { options.gray_code = false; }},
+    {"ga without niches", [](MemeticGeneticOptions& options) { options.niches = false; }},
+    {"ga without memory", [](MemeticGeneticOptions& options) { options.remember = false; }},
+    {"ga without pooled fitness", [](MemeticGeneticOptions& options) { options.pooled_fitness = false; }},
+    {"ga without descents", [](MemeticGeneticOptions& options) { options.descents = 0; }},
+    {"ga without polish", [](MemeticGeneticOptions& options) { options.polished = 0; }},
+    {"ga without early stop", [](MemeticGeneticOptions& options) { options.patience = 0; }},
+};
 
 const std::size_t kUsualNodesPerLocalMap = FrontEndOptions().nodes_per_local_map;
 constexpr std::size_t kFewerCases = 5;  // series over sizes draw a fifth of the cases
@@ -24,8 +51,10 @@ std::string md5_of(const std::filesystem::path& path) {
   return mrpt::system::md5(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
-MatchSeries make_series(std::string title, const MatchBenchmarkOptions& options) {
+MatchSeries make_series(std::string title, const MatchBenchmarkOptions& options,
+                        CandidateSet set = CandidateSet::kAll) {
   MatchSeries series;
+  series.set = set;
   series.title = std::move(title);
   series.cases.count = options.cases;
   series.cases.seed = options.seed;
@@ -41,18 +70,16 @@ MatchBenchmark plan(const MatchBenchmarkOptions& options) {
   MatchBenchmarkOptions fewer = options;
   fewer.cases = std::max<std::size_t>(1, options.cases / kFewerCases);
   for (const double window_m : {2.0, 4.0, 8.0, 16.0}) {
-    MatchSeries series = make_series("±" + fixed_text(window_m, 0) + " m", fewer);
+    MatchSeries series = make_series("±" + fixed_text(window_m, 0) + " m", fewer, CandidateSet::kMatchers);
     // The same distance for windows of all sizes, so that all have the same negative pairs.
     series.cases.clear_m += series.cases.window_m - window_m;
     series.cases.window_m = window_m;
-    series.set = CandidateSet::kMatchers;
     benchmark.windows.push_back(std::move(series));
   }
   for (const std::size_t nodes :
        {kUsualNodesPerLocalMap / 2, kUsualNodesPerLocalMap, 2 * kUsualNodesPerLocalMap}) {
-    MatchSeries series = make_series(std::to_string(nodes) + " nodes", fewer);
+    MatchSeries series = make_series(std::to_string(nodes) + " nodes", fewer, CandidateSet::kMatchers);
     series.nodes_per_local_map = nodes;
-    series.set = CandidateSet::kMatchers;
     benchmark.local_maps.push_back(std::move(series));
   }
   return benchmark;
@@ -69,118 +96,156 @@ std::map<std::size_t, std::vector<MatchSeries*>> series_by_nodes(MatchBenchmark&
   return result;
 }
 
-double accepted_response(const CaseOptions& cases, const LoopVerificationOptions& verification) {
-  return cases.context ? verification.min_context_response : verification.min_response;
-}
-
-struct CaseCounts {
-  std::size_t positive = 0;
-  std::size_t negative = 0;
-};
-
-CaseCounts count(const std::vector<LoopCase>& cases) {
-  CaseCounts counts;
-  for (const LoopCase& loop_case : cases) ++(loop_case.positive ? counts.positive : counts.negative);
-  return counts;
-}
-
 /// The cases that the log lacks, as a clause; may be empty.
-std::string missing_cases(const CaseCounts& counts, const MatchSeries& series) {
-  const auto missing = [&](std::size_t got, const char* kind) {
-    if (got >= series.cases.count) return std::string();
-    return std::to_string(got) + " of " + std::to_string(series.cases.count) + ' ' + kind + " cases";
+std::string missing_cases(std::size_t positive, std::size_t negative, const MatchSeries& series) {
+  std::string missing;
+  const auto add = [&](std::size_t got, const char* kind) {
+    if (got >= series.cases.count) return;
+    missing += (missing.empty() ? "" : " and ") + std::to_string(got) + " of " +
+               std::to_string(series.cases.count) + ' ' + kind + " cases";
   };
-  const std::string positive = missing(counts.positive, "positive");
-  const std::string negative = missing(counts.negative, "negative");
-  if (positive.empty() && negative.empty()) return {};
-  return series.title + ": the log has only " + positive +
-         (positive.empty() || negative.empty() ? "" : " and ") + negative;
+  add(positive, "positive");
+  add(negative, "negative");
+  return missing.empty() ? missing : series.title + ": the log has only " + missing;
 }
 
 void add_remark(LogNote& note, const std::string& remark) {
   note.remark += (note.remark.empty() ? "" : "; ") + remark;
 }
 
-/// Runs the benchmark log by log. Progress counts matches: mapping takes much less time.
-class BenchmarkRun {
- public:
-  BenchmarkRun(const MatchBenchmarkOptions& options, std::size_t logs, const ProgressObserver& observer)
-      : observer_(observer), benchmark_(plan(options)), by_nodes_(series_by_nodes(benchmark_)) {
-    for (const auto& [nodes, all_series] : by_nodes_) all_ += static_cast<double>(logs) * planned(all_series);
-  }
+/// Number of matches of all series on one log.
+double planned_matches(const std::vector<MatchSeries*>& all_series) {
+  double matches = 0;
+  for (const MatchSeries* series : all_series)
+    matches += 2 * static_cast<double>(series->cases.count) *
+               static_cast<double>(match_candidates(series->set, MapperOptions()).size());
+  return matches;
+}
 
-  void run(const BenchmarkLog& log) {
-    LogNote& note = benchmark_.logs.emplace_back();
-    note.name = log.name;
-    note.md5 = md5_of(log.log);
-    note.used = log.relations.has_value();
-    if (!note.used) add_remark(note, "left out: it has no relations to check its map");
-    for (const auto& [nodes, all_series] : by_nodes_) {
-      if (note.used) run(log, nodes, all_series, note);
-      done_ += planned(all_series);
+/// Maps a log with local maps of one size, and runs all series with such maps. Calls `progress` with what is
+/// being done and the number of matches made.
+void run_log(const BenchmarkLog& log, std::size_t nodes, const std::vector<MatchSeries*>& all_series,
+             LogNote& note, const std::function<void(const std::string& doing, double matches)>& progress) {
+  const bool usual = nodes == kUsualNodesPerLocalMap;
+  const std::string of_maps = usual ? "" : " with local maps of " + std::to_string(nodes) + " nodes";
+  const MappedLog mapped = map_log(log, nodes, [&](double share) {
+    progress("mapping " + log.name + of_maps + ' ' + fixed_text(100 * share, 0) + " %, in all", 0);
+  });
+  if (usual) note.translation_error_m = mapped.translation_error_m;
+  if (mapped.translation_error_m > kTrustedError_m) {
+    if (usual) note.used = false;
+    add_remark(note, "left out" + of_maps + ": the error of its map over the true relations, " +
+                         fixed_text(mapped.translation_error_m, 3) + " m, is too large for a truth");
+    return;
+  }
+  double matches = 0;
+  for (MatchSeries* series : all_series) {
+    const std::vector<LoopCase> cases = draw_cases(mapped, series->cases);
+    const auto positive = static_cast<std::size_t>(
+        std::count_if(cases.begin(), cases.end(), [](const LoopCase& one) { return one.positive; }));
+    const std::size_t negative = cases.size() - positive;
+    if (series == all_series.front() && usual) {
+      note.positive = positive;
+      note.negative = negative;
     }
+    const std::string missing = missing_cases(positive, negative, *series);
+    if (!missing.empty()) add_remark(note, missing);
+    const std::vector<MatchCandidate> all_candidates = match_candidates(series->set, mapped.options);
+    const auto& verification = mapped.options.back_end.loop_closure.verification;
+    run_cases(cases, all_candidates,
+              series->cases.context ? verification.min_context_response : verification.min_response, *series,
+              [&] {
+                matches += static_cast<double>(all_candidates.size());
+                progress(log.name + ", " + series->title, matches);
+              });
   }
-
-  MatchBenchmark take_result() { return std::move(benchmark_); }
-
- private:
-  using AllSeries = std::vector<MatchSeries*>;
-
-  static double planned(const AllSeries& all_series) {
-    double matches = 0;
-    for (const MatchSeries* series : all_series)
-      matches += 2 * static_cast<double>(series->cases.count) *
-                 static_cast<double>(match_candidates(series->set, MapperOptions()).size());
-    return matches;
-  }
-
-  void run(const BenchmarkLog& log, std::size_t nodes, const AllSeries& all_series, LogNote& note) {
-    const bool usual = nodes == kUsualNodesPerLocalMap;
-    const std::string of_maps = usual ? "" : " with local maps of " + std::to_string(nodes) + " nodes";
-    const MappedLog mapped = map_log(log, nodes, [&](double share) {
-      observer_("mapping " + log.name + of_maps + ' ' + fixed_text(100 * share, 0) + " %, in all", done_,
-                all_);
-    });
-    if (usual) note.translation_error_m = mapped.translation_error_m;
-    if (mapped.translation_error_m > kTrustedError_m) {
-      if (usual) note.used = false;
-      add_remark(note, "left out" + of_maps + ": the error of its map over the true relations, " +
-                           fixed_text(mapped.translation_error_m, 3) + " m, is too large for a truth");
-      return;
-    }
-    double matches = 0;
-    for (MatchSeries* series : all_series) {
-      const std::vector<LoopCase> cases = draw_cases(mapped, series->cases);
-      const CaseCounts counts = count(cases);
-      if (series == &benchmark_.scans) {
-        note.positive = counts.positive;
-        note.negative = counts.negative;
-      }
-      const std::string missing = missing_cases(counts, *series);
-      if (!missing.empty()) add_remark(note, missing);
-      const std::vector<MatchCandidate> all_candidates = match_candidates(series->set, mapped.options);
-      run_cases(cases, all_candidates,
-                accepted_response(series->cases, mapped.options.back_end.loop_closure.verification), *series,
-                [&] {
-                  matches += static_cast<double>(all_candidates.size());
-                  observer_(log.name + ", " + series->title, done_ + matches, all_);
-                });
-    }
-  }
-
-  const ProgressObserver& observer_;
-  MatchBenchmark benchmark_;
-  const std::map<std::size_t, AllSeries> by_nodes_;
-  double done_ = 0;
-  double all_ = 0;
-};
+}
 
 }  // namespace
+
+Judgement judge(const LoopCase& loop_case, const MatchResult& match, const MatchResult& exact,
+                double accepted_response) {
+  Judgement judgement;
+  if (loop_case.positive) {
+    const mrpt::math::TPose2D off = match.map_T_robot - loop_case.anchor_T_node;
+    judgement.success =
+        match.found && std::hypot(off.x, off.y) <= kSuccess_m && std::abs(off.phi) <= kSuccess_rad;
+    judgement.same_optimum = match.found == exact.found && (!match.found || match.response >= exact.response);
+  } else {
+    judgement.false_accept = match.found && match.response >= accepted_response;
+  }
+  return judgement;
+}
+
+void MatchTally::add(const LoopCase& loop_case, const Judgement& judgement, const MatchResult& match,
+                     double time_ms) {
+  ++(loop_case.positive ? positive_ : negative_);
+  successes_ += judgement.success ? 1 : 0;
+  same_optima_ += judgement.same_optimum ? 1 : 0;
+  false_accepts_ += judgement.false_accept ? 1 : 0;
+  evaluations_ += match.evaluations;
+  genetic_.decoded += match.genetic.decoded;
+  genetic_.repaired += match.genetic.repaired;
+  times_ms_.push_back(time_ms);
+}
+
+MatchFigures MatchTally::figures() const {
+  MatchFigures figures;
+  figures.cases = times_ms_.size();
+  figures.positive = positive_;
+  figures.negative = negative_;
+  figures.success_rate = share(successes_, positive_);
+  figures.same_optimum_rate = share(same_optima_, positive_);
+  figures.false_accept_rate = share(false_accepts_, negative_);
+  if (genetic_.decoded > 0)
+    figures.repaired_share = static_cast<double>(genetic_.repaired) / static_cast<double>(genetic_.decoded);
+  if (times_ms_.empty()) return figures;
+  const auto count = static_cast<double>(times_ms_.size());
+  figures.evaluations = static_cast<double>(evaluations_) / count;
+  std::vector<double> sorted = times_ms_;
+  std::sort(sorted.begin(), sorted.end());
+  const auto percentile = [&sorted](std::size_t percent) { return sorted[sorted.size() * percent / 100]; };
+  figures.time_ms = {std::accumulate(sorted.begin(), sorted.end(), 0.0) / count, percentile(50),
+                     percentile(95), percentile(99)};
+  return figures;
+}
+
+std::vector<MatchCandidate> match_candidates(CandidateSet set, const MapperOptions& options) {
+  GeneticOptions genetic = options.back_end.genetic;
+  genetic.variant = GeneticVariant::kMemetic;
+  const auto make = [&options](MatcherKind kind, const GeneticOptions& how) {
+    return std::shared_ptr<const Matcher>(make_matcher(kind, options.back_end.loop_matcher, how));
+  };
+  GeneticOptions paper = genetic;
+  paper.variant = GeneticVariant::kPaper;
+  std::vector<std::shared_ptr<const Matcher>> choices;
+  std::vector<MatchCandidate> all;
+  for (const MatcherKind kind : kMatcherKinds) {
+    choices.push_back(make(kind, genetic));
+    all.push_back({name(kind), {choices.back()}});
+  }
+  if (set == CandidateSet::kAll) all.push_back({"adaptive", choices});
+  all.push_back({"ga_paper", {make(MatcherKind::kGa, paper)}});
+  if (set == CandidateSet::kMatchers) return all;
+  for (const Ablation& ablation : kAblations) {
+    GeneticOptions without = genetic;
+    ablation.apply(without.memetic);
+    all.push_back({ablation.name, {make(MatcherKind::kGa, without)}});
+  }
+  all.push_back({"csm_ga_paper", {make(MatcherKind::kCsmGa, paper)}});
+  GeneticOptions few_cells = genetic;
+  few_cells.coarse.cells = 256;
+  all.push_back({"csm_ga with 256 cells", {make(MatcherKind::kCsmGa, few_cells)}});
+  GeneticOptions no_generations = genetic;
+  no_generations.memetic.generations = 0;
+  all.push_back({"csm_ga without generations", {make(MatcherKind::kCsmGa, no_generations)}});
+  return all;
+}
 
 void run_cases(const std::vector<LoopCase>& cases, const std::vector<MatchCandidate>& candidates,
                double accepted_response, MatchSeries& series, const std::function<void()>& after_case) {
   if (series.rows.empty())
-    for (const MatchCandidate& candidate : candidates) series.rows.push_back({candidate.name(), {}});
+    for (const MatchCandidate& candidate : candidates) series.rows.push_back({candidate.name, {}});
   std::vector<MatchResult> matches(candidates.size());
   std::vector<double> times_ms(candidates.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -195,7 +260,10 @@ void run_cases(const std::vector<LoopCase>& cases, const std::vector<MatchCandid
     // Each case starts with another candidate, so that cache misses hit all candidates alike.
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       const std::size_t at = (i + k) % candidates.size();
-      const Matcher& matcher = candidates[at].matcher(loop_case);
+      const auto& matchers = candidates[at].matchers;
+      const Matcher& matcher = matchers.size() == 1
+                                   ? *matchers[0]
+                                   : *matchers[static_cast<std::size_t>(loop_case.adaptive_matcher)];
       const auto start = std::chrono::steady_clock::now();
       matches[at] = matcher.match(problem);
       times_ms[at] =
@@ -210,9 +278,25 @@ void run_cases(const std::vector<LoopCase>& cases, const std::vector<MatchCandid
 
 MatchBenchmark run_match_benchmark(const std::vector<BenchmarkLog>& logs,
                                    const MatchBenchmarkOptions& options, const ProgressObserver& observer) {
-  BenchmarkRun run(options, logs.size(), observer);
-  for (const BenchmarkLog& log : logs) run.run(log);
-  MatchBenchmark benchmark = run.take_result();
+  MatchBenchmark benchmark = plan(options);
+  const auto by_nodes = series_by_nodes(benchmark);
+  double all = 0;  // progress counts matches: mapping takes much less time
+  for (const auto& [nodes, all_series] : by_nodes)
+    all += static_cast<double>(logs.size()) * planned_matches(all_series);
+  double done = 0;
+  for (const BenchmarkLog& log : logs) {
+    LogNote& note = benchmark.logs.emplace_back();
+    note.name = log.name;
+    note.md5 = md5_of(log.log);
+    note.used = log.relations.has_value();
+    if (!note.used) add_remark(note, "left out: it has no relations to check its map");
+    for (const auto& [nodes, all_series] : by_nodes) {
+      if (note.used)
+        run_log(log, nodes, all_series, note,
+                [&](const std::string& doing, double matches) { observer(doing, done + matches, all); });
+      done += planned_matches(all_series);
+    }
+  }
   if (std::none_of(benchmark.logs.begin(), benchmark.logs.end(), [](const LogNote& log) { return log.used; }))
     throw UserError("no log can be used: " + benchmark.logs.front().name + " was " +
                     benchmark.logs.front().remark);

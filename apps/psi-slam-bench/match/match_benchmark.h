@@ -1,19 +1,91 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares the matchers: runs every candidate on every case.
+// Compares the matchers: those of the settings, the one of the paper, and the genetic matcher with one of its
+// steps switched off at a time. Runs every candidate on every case.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/degrees.h"
 #include "batch/workers.h"
 #include "common/bench_report.h"
-#include "match/candidates.h"
 #include "match/loop_cases.h"
-#include "match/match_figures.h"
+#include "matching/matcher.h"
 
 namespace psi_slam {
+
+/// Largest distance of a successful match from the truth.
+inline constexpr double kSuccess_m = 0.3;
+inline constexpr double kSuccess_rad = radians_from_degrees(3.5L);
+
+struct Judgement {
+  bool success = false;       ///< positive cases: found within the limits above
+  bool same_optimum = false;  ///< positive cases: at least as good as exact CSM's match, or none by either
+  bool false_accept = false;  ///< negative cases: found with a response that loop closing would accept
+};
+
+/// `exact` is the match of exact CSM in the same case.
+Judgement judge(const LoopCase& loop_case, const MatchResult& match, const MatchResult& exact,
+                double accepted_response);
+
+struct TimeFigures {
+  double mean = 0;
+  double p50 = 0;
+  double p95 = 0;
+  double p99 = 0;
+};
+
+struct MatchFigures {
+  std::size_t cases = 0;
+  std::size_t positive = 0;
+  std::size_t negative = 0;
+  std::optional<double> success_rate;       ///< of the positive cases; empty without positive cases
+  std::optional<double> same_optimum_rate;  ///< of the positive cases; empty without positive cases
+  std::optional<double> false_accept_rate;  ///< of the negative cases; empty without negative cases
+  double evaluations = 0;                   ///< mean
+  TimeFigures time_ms;
+  /// Share of the decoded codes that lay outside the window.
+  std::optional<double> repaired_share;
+};
+
+/// Sums up the figures of a matcher over the cases.
+class MatchTally {
+ public:
+  void add(const LoopCase& loop_case, const Judgement& judgement, const MatchResult& match, double time_ms);
+
+  /// The percentile p of n values is the value of rank floor(p n / 100), counted from 0.
+  MatchFigures figures() const;
+
+ private:
+  std::size_t positive_ = 0;
+  std::size_t negative_ = 0;
+  std::size_t successes_ = 0;
+  std::size_t same_optima_ = 0;
+  std::size_t false_accepts_ = 0;
+  std::int64_t evaluations_ = 0;
+  GeneticEffort genetic_;
+  std::vector<double> times_ms_;
+};
+
+/// A row of the tables.
+struct MatchCandidate {
+  std::string name;
+  /// A single matcher, or one of each MatcherKind in their order: then each case names the one to use.
+  std::vector<std::shared_ptr<const Matcher>> matchers;
+};
+
+enum class CandidateSet {
+  kAll,       ///< with all ablations
+  kMatchers,  ///< csm, csm_ga, ga and ga_paper
+};
+
+/// The first candidate is exact CSM, with which the others are compared.
+std::vector<MatchCandidate> match_candidates(CandidateSet set, const MapperOptions& options);
 
 /// Cases of one kind, drawn from every log: one table of the report.
 struct MatchSeries {
@@ -68,12 +140,9 @@ MatchBenchmark run_match_benchmark(const std::vector<BenchmarkLog>& logs,
 
 /// The report of the `match` command. JSON has the rows of the single scans as "matchers", and those of scans
 /// with their context as "context", over window sizes as "windows" and over sizes of local maps as
-/// "local_maps". A rate without cases is null. CSV has the rows of all series.
+/// "local_maps". A rate without cases is null. CSV has the rows of all series. The plots show the mean time
+/// over the half-width of the window and over the size of the local maps.
 BenchReport match_report(const MatchBenchmark& benchmark, const MatchBenchmarkOptions& options,
                          const std::string& machine);
-
-/// Plots of the mean time as SVG: over the half-width of the window, and over the size of the local maps.
-std::string window_plot(const MatchBenchmark& benchmark);
-std::string local_map_plot(const MatchBenchmark& benchmark);
 
 }  // namespace psi_slam

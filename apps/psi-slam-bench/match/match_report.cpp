@@ -122,14 +122,10 @@ ReportTable logs_table(const std::vector<LogNote>& logs) {
                            const auto& error_m = log.translation_error_m;
                            return ReportCell{error_m ? fixed_text(*error_m, 3) : "–", rounded(error_m, 6)};
                          }},
-                        {{"positive", "positive"}, [](const Log& log) { return cell(log.positive); }},
-                        {{"negative", "negative"}, [](const Log& log) { return cell(log.negative); }},
-                        {{"remark", "remark", true}, [](const Log& log) { return cell(log.remark); }}},
+                        column("positive", "positive", &Log::positive),
+                        column("negative", "negative", &Log::negative),
+                        column("remark", "remark", &Log::remark)},
                        logs);
-}
-
-Json rows_json(const MatchSeries& series) {
-  return table_of_series({series}, {}).json();
 }
 
 Json repaired_json(const MatchSeries& series) {
@@ -144,7 +140,7 @@ Json sizes_json(const std::vector<MatchSeries>& sizes) {
   for (const MatchSeries& series : sizes)
     list.push_back({{"window_m", series.cases.window_m},
                     {"nodes_per_local_map", series.nodes_per_local_map},
-                    {"matchers", rows_json(series)}});
+                    {"matchers", table_of_series({series}, {}).json()}});
   return list;
 }
 
@@ -155,7 +151,7 @@ std::string time_plot(const std::string& title, const std::vector<MatchSeries>& 
     plot.labels.push_back(series.title);
     for (std::size_t i = 0; i < series.rows.size(); ++i) {
       if (plot.lines.size() <= i) plot.lines.push_back({series.rows[i].matcher, {}});
-      plot.lines[i].values.push_back(series.rows[i].tally.figures().time_ms.mean);
+      plot.lines[i].values.push_back(spread_of({series.rows[i].tally.figures().time_ms.mean}));
     }
   }
   return growth_svg(plot);
@@ -180,9 +176,8 @@ std::string markdown_of(const MatchBenchmark& benchmark, const MatchBenchmarkOpt
       "- evaluations: mean number of poses scored, on all levels of the score grid; times are over all "
       "cases\n"
       "- repaired: share of the codes decoded to poses that lay outside the window\n"
-      "- adaptive: ";
-  text += std::string(kAdaptiveNote) + "\n\n";
-  text += logs_table(benchmark.logs).markdown() + '\n';
+      "- adaptive: the matcher that Ψ chose at the node of the scan when the log was mapped\n\n" +
+      logs_table(benchmark.logs).markdown() + '\n';
   text += series_text(benchmark.scans) + series_text(benchmark.contexts);
   text +=
       sizes_text("Window sizes", "half-width",
@@ -198,14 +193,14 @@ std::string markdown_of(const MatchBenchmark& benchmark, const MatchBenchmarkOpt
 Json json_of(const MatchBenchmark& benchmark, const MatchBenchmarkOptions& options,
              const std::string& machine) {
   const CaseOptions& cases = benchmark.scans.cases;
-  Json json = {{"matchers", rows_json(benchmark.scans)}};
-  json.update(report_json("psi-slam-match-benchmark", machine));
-  json.update({{"seed", options.seed},
-               {"window_m", cases.window_m},
-               {"window_deg", rounded(cases.window_rad * 180 / M_PI, 6)},
-               {"logs", logs_table(benchmark.logs).json()},
-               {"repaired_share", repaired_json(benchmark.scans)},
-               {"context", {{"matchers", rows_json(benchmark.contexts)}}}});
+  Json json = {{"matchers", table_of_series({benchmark.scans}, {}).json()}};
+  json.update(report_json("psi-slam-match-benchmark", machine,
+                          {{"seed", options.seed},
+                           {"window_m", cases.window_m},
+                           {"window_deg", rounded(cases.window_rad * 180 / M_PI, 6)},
+                           {"logs", logs_table(benchmark.logs).json()},
+                           {"repaired_share", repaired_json(benchmark.scans)},
+                           {"context", {{"matchers", table_of_series({benchmark.contexts}, {}).json()}}}}));
   if (!benchmark.windows.empty()) {
     json["windows"] = sizes_json(benchmark.windows);
     json["local_maps"] = sizes_json(benchmark.local_maps);
@@ -226,17 +221,11 @@ BenchReport match_report(const MatchBenchmark& benchmark, const MatchBenchmarkOp
                      table_of_series(all_series, {}).csv(),
                      {}};
   if (!benchmark.windows.empty())
-    report.plots = {{"match-windows.svg", window_plot(benchmark)},
-                    {"match-local-maps.svg", local_map_plot(benchmark)}};
+    report.plots = {{"match-windows.svg",
+                     time_plot("Mean time of a match over the half-width of its window", benchmark.windows)},
+                    {"match-local-maps.svg",
+                     time_plot("Mean time of a match over the size of the local map", benchmark.local_maps)}};
   return report;
-}
-
-std::string window_plot(const MatchBenchmark& benchmark) {
-  return time_plot("Mean time of a match over the half-width of its window", benchmark.windows);
-}
-
-std::string local_map_plot(const MatchBenchmark& benchmark) {
-  return time_plot("Mean time of a match over the size of the local map", benchmark.local_maps);
 }
 
 }  // namespace psi_slam

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "robustness/robustness_benchmark.h"
 
+#include <mrpt/math/wrap2pi.h>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "base/degrees.h"
@@ -12,6 +17,68 @@
 
 namespace psi_slam {
 namespace {
+
+using mrpt::math::TPose2D;
+
+constexpr double kStretch_m = 1;
+constexpr double kStretch_rad = 1;
+
+/// A stretch of the path and the error of odometry over it. Sums the errors of the steps in the frame of the
+/// map, so that a wrong heading does not add to the error of the position.
+struct Stretch {
+  double way_m = 0;     // by odometry, which has no jitter while the robot stands
+  double turn_rad = 0;  // sum of absolute rotations
+  double off_x_m = 0;
+  double off_y_m = 0;
+  double off_rad = 0;
+
+  void add(const TPose2D& odometry_motion, const TPose2D& map_motion, double map_heading_rad) {
+    way_m += std::hypot(odometry_motion.x, odometry_motion.y);
+    turn_rad += std::abs(mrpt::math::wrapToPi(odometry_motion.phi));
+    const TPose2D off = TPose2D(0, 0, map_heading_rad) +
+                        TPose2D(odometry_motion.x - map_motion.x, odometry_motion.y - map_motion.y, 0);
+    off_x_m += off.x;
+    off_y_m += off.y;
+    off_rad += mrpt::math::wrapToPi(odometry_motion.phi - map_motion.phi);
+  }
+};
+
+std::vector<Stretch> stretches_of(const std::vector<TPose2D>& odom_T_robot,
+                                  const std::vector<TPose2D>& map_T_robot) {
+  std::vector<Stretch> stretches;
+  Stretch stretch;
+  for (std::size_t i = 1; i < map_T_robot.size(); ++i) {
+    stretch.add(odom_T_robot[i] - odom_T_robot[i - 1], map_T_robot[i] - map_T_robot[i - 1],
+                map_T_robot[i - 1].phi);
+    if (stretch.way_m < kStretch_m && stretch.turn_rad < kStretch_rad) continue;
+    stretches.push_back(stretch);
+    stretch = {};
+  }
+  return stretches;
+}
+
+/// Variances per metre and per radian: least squares of off_rad^2 = a way + b turn with a, b >= 0.
+void split_heading(const std::vector<Stretch>& stretches, OdometryNoise& noise) {
+  double ww = 0, wt = 0, tt = 0, we = 0, te = 0;
+  for (const Stretch& stretch : stretches) {
+    const double squared_rad2 = stretch.off_rad * stretch.off_rad;
+    ww += stretch.way_m * stretch.way_m;
+    wt += stretch.way_m * stretch.turn_rad;
+    tt += stretch.turn_rad * stretch.turn_rad;
+    we += stretch.way_m * squared_rad2;
+    te += stretch.turn_rad * squared_rad2;
+  }
+  const double determinant = ww * tt - wt * wt;
+  double a = determinant > 1e-9 * ww * tt ? (we * tt - te * wt) / determinant : -1;
+  double b = determinant > 1e-9 * ww * tt ? (te * ww - we * wt) / determinant : -1;
+  if (a < 0 || b < 0) {  // a negative one is set to 0
+    const bool way_only = a >= 0 || (b < 0 && ww >= tt);
+    a = way_only && ww > 0 ? we / ww : 0;
+    b = !way_only && tt > 0 ? te / tt : 0;
+  }
+  noise.sigma_rad_per_root_m = std::sqrt(a);
+  noise.sigma_rad_per_root_rad = std::sqrt(b);
+}
 
 bool is_the_log_itself(const DegradationOptions& degradation) {
   return degradation.odometry_noise_scale <= 1 && degradation.keep_every_nth == 1 &&
@@ -44,49 +111,6 @@ RobustnessRow row_of(const MappingResult& result, const std::vector<Relation>& r
   return row;
 }
 
-/// The cases of one log.
-class LogRuns {
- public:
-  LogRuns(const BenchmarkLog& log, std::function<void(const std::string& doing, double share)> progress)
-      : log_(log),
-        settings_(benchmark_settings(log.ini)),
-        relations_(read_relations(log.relations.value())),
-        progress_(std::move(progress)) {
-    const MappingResult result = map({}, "as it is");
-    natural_ = natural_noise(result.frames);
-    as_it_is_ = row_of(result, relations_);
-  }
-
-  const OdometryNoise& natural() const { return natural_; }
-
-  RobustnessRow run(RobustnessCase degraded) const {
-    degraded.degradation.natural_noise = natural_;
-    RobustnessRow row =
-        is_the_log_itself(degraded.degradation)
-            ? as_it_is_
-            : row_of(map(degraded.degradation, degraded.series + ' ' + degraded.name), relations_);
-    row.log = log_.name;
-    row.seed = degraded.degradation.seed;
-    row.degraded = std::move(degraded);
-    return row;
-  }
-
- private:
-  MappingResult map(const DegradationOptions& degradation, const std::string& doing) const {
-    DegradedSource source(open_log(log_.log, log_options(settings_)), degradation);
-    return map_source(source, mapper_options(settings_),
-                      [&](double share) { progress_(log_.name + ", " + doing, share); })
-        .result;
-  }
-
-  BenchmarkLog log_;
-  Settings settings_;
-  std::vector<Relation> relations_;
-  std::function<void(const std::string&, double)> progress_;
-  OdometryNoise natural_;
-  RobustnessRow as_it_is_;
-};
-
 /// The cases in order, with all seeds if they draw random numbers, otherwise with the first.
 std::vector<RobustnessCase> runs_of(const SeedRange& seeds) {
   std::vector<RobustnessCase> runs;
@@ -100,6 +124,82 @@ std::vector<RobustnessCase> runs_of(const SeedRange& seeds) {
 }
 
 }  // namespace
+
+OdometryNoise measure_odometry_noise(const std::vector<TPose2D>& odom_T_robot,
+                                     const std::vector<TPose2D>& map_T_robot) {
+  if (odom_T_robot.size() != map_T_robot.size())
+    throw std::invalid_argument("measure_odometry_noise: odometry and map have different numbers of poses");
+  const std::vector<Stretch> stretches = stretches_of(odom_T_robot, map_T_robot);
+  OdometryNoise noise;
+  double way_m = 0;
+  double squared_m2 = 0;
+  for (const Stretch& stretch : stretches) {
+    way_m += stretch.way_m;
+    squared_m2 += stretch.off_x_m * stretch.off_x_m + stretch.off_y_m * stretch.off_y_m;
+  }
+  if (way_m > 0) noise.sigma_m_per_root_m = std::sqrt(squared_m2 / (2 * way_m));
+  split_heading(stretches, noise);
+  return noise;
+}
+
+DegradedSource::DegradedSource(std::unique_ptr<FrameSource> source, const DegradationOptions& options)
+    : source_(std::move(source)), options_(options), draws_(options.seed, "odometry", 0) {
+  if (options.keep_every_nth == 0) throw std::invalid_argument("DegradedSource: no scan would be kept");
+  if (options.field_of_view_rad && !(*options.field_of_view_rad > 0))
+    throw std::invalid_argument("DegradedSource: the field of view must be positive");
+}
+
+std::optional<Frame> DegradedSource::next() {
+  while (auto frame = source_->next()) {
+    spoil_odometry(*frame);  // also of skipped frames, so that the noise does not depend on keep_every_nth
+    if (read_++ % options_.keep_every_nth != 0) continue;
+    frame->index = kept_++;
+    narrow(frame->scan);
+    for (CompanionScan& companion : frame->companions) narrow(companion.scan);
+    return frame;
+  }
+  return std::nullopt;
+}
+
+void DegradedSource::spoil_odometry(Frame& frame) {
+  if (options_.no_odometry) {
+    frame.has_odometry = false;
+    frame.odom_T_robot = {};
+    for (CompanionScan& companion : frame.companions) companion.frame_T_robot = {};
+    return;
+  }
+  if (!(options_.odometry_noise_scale > 1)) return;
+  const TPose2D odom_T_robot = frame.odom_T_robot;
+  if (!last_odom_T_robot_) {
+    spoilt_odom_T_robot_ = odom_T_robot;
+  } else {
+    const double share = std::sqrt(options_.odometry_noise_scale * options_.odometry_noise_scale - 1);
+    const OdometryNoise& natural = options_.natural_noise;
+    TPose2D motion = odom_T_robot - *last_odom_T_robot_;
+    const double way_m = std::hypot(motion.x, motion.y);
+    const double turn_rad = std::abs(mrpt::math::wrapToPi(motion.phi));
+    const double sigma_m = share * natural.sigma_m_per_root_m * std::sqrt(way_m);
+    const double sigma_rad = share * std::hypot(natural.sigma_rad_per_root_m * std::sqrt(way_m),
+                                                natural.sigma_rad_per_root_rad * std::sqrt(turn_rad));
+    motion.x += sigma_m * draws_.normal();
+    motion.y += sigma_m * draws_.normal();
+    motion.phi += sigma_rad * draws_.normal();
+    spoilt_odom_T_robot_ = spoilt_odom_T_robot_ + motion;
+    spoilt_odom_T_robot_.normalizePhi();
+  }
+  last_odom_T_robot_ = odom_T_robot;
+  frame.odom_T_robot = spoilt_odom_T_robot_;
+}
+
+void DegradedSource::narrow(LaserScan& scan) const {
+  if (!options_.field_of_view_rad || !scan.bearings_rad) return;
+  constexpr double kRounding_rad = 1e-5;  // bearings are floats
+  const std::size_t beams = std::min(scan.ranges_m.size(), scan.bearings_rad->size());
+  for (std::size_t i = 0; i < beams; ++i)
+    if (std::abs(static_cast<double>((*scan.bearings_rad)[i])) >
+        *options_.field_of_view_rad / 2 + kRounding_rad)
+      scan.ranges_m[i] = std::numeric_limits<float>::quiet_NaN();
+}
 
 std::vector<RobustnessCase> robustness_cases(std::uint64_t seed) {
   std::vector<RobustnessCase> cases;
@@ -133,16 +233,33 @@ RobustnessBenchmark run_robustness_benchmark(const std::vector<BenchmarkLog>& lo
   });
   const double all = static_cast<double>(logs.size()) * static_cast<double>(own + 1);
   double done = 0;
-  const auto progress = [&](const std::string& doing, double share) { observer(doing, done + share, all); };
   RobustnessBenchmark benchmark;
   benchmark.identities = identities_of(logs);
   for (const BenchmarkLog& log : logs) {
-    const LogRuns log_runs(log, progress);
+    const Settings settings = benchmark_settings(log.ini);
+    const std::vector<Relation> relations = read_relations(log.relations.value());
+    const auto map = [&](const DegradationOptions& degradation, const std::string& doing) {
+      DegradedSource source(open_log(log.log, log_options(settings)), degradation);
+      return map_source(source, mapper_options(settings),
+                        [&](double share) { observer(log.name + ", " + doing, done + share, all); });
+    };
+    MappingResult unchanged = map({}, "as it is");
+    const OdometryNoise natural = natural_noise(unchanged.frames);
+    const RobustnessRow as_it_is = row_of(unchanged, relations);
+    unchanged = {};  // frees its memory
     ++done;
-    benchmark.logs.push_back({log.name, log_runs.natural()});
-    for (const RobustnessCase& degraded : runs) {
-      benchmark.rows.push_back(log_runs.run(degraded));
-      if (!is_the_log_itself(degraded.degradation)) ++done;
+    benchmark.logs.push_back({log.name, natural});
+    for (RobustnessCase degraded : runs) {
+      degraded.degradation.natural_noise = natural;
+      RobustnessRow row = as_it_is;
+      if (!is_the_log_itself(degraded.degradation)) {
+        row = row_of(map(degraded.degradation, degraded.series + ' ' + degraded.name), relations);
+        ++done;
+      }
+      row.log = log.name;
+      row.seed = degraded.degradation.seed;
+      row.degraded = std::move(degraded);
+      benchmark.rows.push_back(std::move(row));
     }
   }
   return benchmark;

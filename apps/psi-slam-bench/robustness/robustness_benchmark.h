@@ -2,19 +2,76 @@
 // Maps degraded logs: with fewer scans, a narrower field of view, noisier odometry or no odometry.
 #pragma once
 
+#include <mrpt/math/TPose2D.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/random_draws.h"
 #include "batch/seeds.h"
 #include "batch/workers.h"
 #include "common/bench_report.h"
-#include "robustness/degraded_source.h"
+#include "psi_slam/frame_source.h"
 
 namespace psi_slam {
+
+/// Noise of odometry as a random walk: errors of successive stretches are independent, so that their
+/// variances grow with the distance and the rotation that odometry measures.
+struct OdometryNoise {
+  double sigma_m_per_root_m = 0;      ///< of the position along each axis, after 1 m
+  double sigma_rad_per_root_m = 0;    ///< of the heading, after 1 m straight ahead
+  double sigma_rad_per_root_rad = 0;  ///< of the heading, after 1 rad on the spot
+};
+
+/// Measures the noise of odometry against the true poses of the robot: root mean squares of the differences
+/// over successive stretches of at least 1 m or 1 rad by odometry. Compares positions along the true
+/// headings, so that a wrong heading does not add to the error of the position. Splits the error of the
+/// heading between distance and rotation by least squares; the split is ambiguous if both are always in the
+/// same proportion. Zero without a complete stretch. Throws std::invalid_argument for paths of different
+/// lengths.
+OdometryNoise measure_odometry_noise(const std::vector<mrpt::math::TPose2D>& odom_T_robot,
+                                     const std::vector<mrpt::math::TPose2D>& map_T_robot);
+
+struct DegradationOptions {
+  /// Factor for the error of odometry. Adds normal noise of sqrt(scale^2 - 1) times `natural_noise` to each
+  /// step between scans of the log; its variance grows with the distance and rotation of the step. Odometry
+  /// stays unchanged for a scale of 1 or less.
+  double odometry_noise_scale = 1;
+  OdometryNoise natural_noise;
+  std::size_t keep_every_nth = 1;           ///< keeps every nth scan, starting with the first
+  std::optional<double> field_of_view_rad;  ///< centred ahead of the laser; other beams have no return
+  bool no_odometry = false;                 ///< removes odometry from the frames
+  std::uint64_t seed = 1;                   ///< of the noise
+};
+
+/// A source that degrades the frames of another one.
+class DegradedSource : public FrameSource {
+ public:
+  /// Throws std::invalid_argument if keep_every_nth is 0 or the field of view is not positive.
+  DegradedSource(std::unique_ptr<FrameSource> source, const DegradationOptions& options);
+
+  /// Frame indices count the kept scans.
+  std::optional<Frame> next() override;
+  double progress() const override { return source_->progress(); }
+  SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
+
+ private:
+  void spoil_odometry(Frame& frame);
+  void narrow(LaserScan& scan) const;
+
+  std::unique_ptr<FrameSource> source_;
+  DegradationOptions options_;
+  RandomDraws draws_;
+  std::size_t read_ = 0;
+  std::size_t kept_ = 0;
+  std::optional<mrpt::math::TPose2D> last_odom_T_robot_;  ///< of the previous frame in the log
+  mrpt::math::TPose2D spoilt_odom_T_robot_;
+};
 
 /// One way to degrade a log.
 struct RobustnessCase {

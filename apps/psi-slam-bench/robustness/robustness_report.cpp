@@ -11,8 +11,6 @@
 namespace psi_slam {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr double kDegrees = 180 / M_PI;
 
 /// The runs of one case on a log, one for each seed.
@@ -119,10 +117,7 @@ std::vector<BenchReport::Plot> plots_of(const RobustnessBenchmark& benchmark) {
         const RobustnessRow& first = runs.front();
         if (first.log != log.name || first.degraded.series != series) continue;
         if (plot.lines.empty()) plot.labels.push_back(first.degraded.name);
-        const SeedSpread errors = over_seeds(runs, &RobustnessRow::translation_error_m);
-        line.values.push_back(errors.mean);
-        line.low.push_back(errors.min);
-        line.high.push_back(errors.max);
+        line.values.push_back(over_seeds(runs, &RobustnessRow::translation_error_m));
       }
       plot.lines.push_back(std::move(line));
     }
@@ -156,22 +151,18 @@ std::string markdown_of(const RobustnessBenchmark& benchmark, const SeedRange& s
          logs_section(benchmark.identities, benchmark.without_relations);
 }
 
-Json json_of(const RobustnessBenchmark& benchmark, const SeedRange& seeds, const std::string& machine) {
-  Json json = report_json("psi-slam-robustness", machine);
-  json.update({{"seeds", seeds.all()},
-               {"files", logs_table(benchmark.identities).json()},
-               {"logs", noise_table(benchmark.logs).json()},
-               {"rows", cases_table(benchmark).json()}});
-  return json;
-}
-
 }  // namespace
 
 BenchReport robustness_report(const RobustnessBenchmark& benchmark, const SeedRange& seeds,
                               const std::string& machine) {
+  const ReportTable cases = cases_table(benchmark);
   return {"robustness.md", markdown_of(benchmark, seeds, machine),
-          json_file_text(json_of(benchmark, seeds, machine)), cases_table(benchmark).csv(),
-          plots_of(benchmark)};
+          json_file_text(report_json("psi-slam-robustness", machine,
+                                     {{"seeds", seeds.all()},
+                                      {"files", logs_table(benchmark.identities).json()},
+                                      {"logs", noise_table(benchmark.logs).json()},
+                                      {"rows", cases.json()}})),
+          cases.csv(), plots_of(benchmark)};
 }
 
 }  // namespace psi_slam

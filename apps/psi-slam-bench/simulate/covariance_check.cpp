@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -23,25 +24,15 @@ using mrpt::math::TPose2D;
 constexpr std::size_t kFirsts = 30;
 constexpr std::size_t kOthers = 20;
 
-class TrueNodes {
- public:
-  TrueNodes(const MappingResult& result, const Trajectory& truth) : result_(result), truth_(truth) {}
-  /// Pose of node b in the frame of node a.
-  TPose2D a_T_b(std::size_t a, std::size_t b) const { return pose(b) - pose(a); }
-
- private:
-  const TPose2D& pose(std::size_t node) const { return truth_[result_.node_frames[node]].pose; }
-
-  const MappingResult& result_;
-  const Trajectory& truth_;
-};
+/// True pose of node b in the frame of node a.
+using TruePose = std::function<TPose2D(std::size_t a, std::size_t b)>;
 
 struct PairSquares {
   std::vector<double> whole_graph;
   std::vector<double> best_path;
 };
 
-PairSquares squares_of_pairs(const PoseGraph& graph, const TrueNodes& truth, std::uint64_t seed) {
+PairSquares squares_of_pairs(const PoseGraph& graph, const TruePose& a_T_b, std::uint64_t seed) {
   MarginalCovariance of_graph;
   of_graph.update(graph);
   PathCovarianceSearch of_path;
@@ -56,7 +47,7 @@ PairSquares squares_of_pairs(const PoseGraph& graph, const TrueNodes& truth, std
     of_path.run(graph, a);
     for (std::size_t k = 0; k < others.size(); ++k) {
       const TPose2D found = graph.pose(others[k]) - graph.pose(a);
-      const TPose2D true_pose = truth.a_T_b(a, others[k]);
+      const TPose2D true_pose = a_T_b(a, others[k]);
       squares.whole_graph.push_back(normalised_square(found, true_pose, covariances[k].inverse()));
       const RelativeUncertainty along_path = of_path.of(others[k]);
       if (along_path.reached)
@@ -92,7 +83,9 @@ NormalisedErrors normalised_errors(std::string of, std::vector<double> squares) 
 std::vector<NormalisedErrors> check_covariances(const MappingResult& result, const Trajectory& truth,
                                                 std::uint64_t seed) {
   PoseGraph graph = result.graph;
-  const TrueNodes true_nodes(result, truth);
+  const TruePose a_T_b = [&](std::size_t a, std::size_t b) {
+    return truth[result.node_frames[b]].pose - truth[result.node_frames[a]].pose;
+  };
   std::set<std::pair<std::size_t, std::size_t>> loops;
   for (const LoopRecord& loop : result.loops)
     if (loop.verdict == LoopVerdict::kAccepted) loops.emplace(loop.anchor, loop.node);
@@ -103,14 +96,14 @@ std::vector<NormalisedErrors> check_covariances(const MappingResult& result, con
     const Constraint& constraint = graph.constraint(i);
     const bool is_loop = loops.count({constraint.from, constraint.to}) != 0;
     (is_loop ? of_loops : of_maps)
-        .push_back(normalised_square(constraint.from_T_to, true_nodes.a_T_b(constraint.from, constraint.to),
+        .push_back(normalised_square(constraint.from_T_to, a_T_b(constraint.from, constraint.to),
                                      constraint.information));
   }
   std::vector<NormalisedErrors> errors = {normalised_errors("scans in local maps", std::move(of_maps)),
                                           normalised_errors("loops", std::move(of_loops))};
   if (graph.num_nodes() > 1) {
     SparsePoseAdjustment().optimize(graph);  // covariances are defined at the optimum
-    PairSquares squares = squares_of_pairs(graph, true_nodes, seed);
+    PairSquares squares = squares_of_pairs(graph, a_T_b, seed);
     errors.push_back(normalised_errors("any two nodes, by the best path", std::move(squares.best_path)));
     errors.push_back(normalised_errors("any two nodes, by the whole graph", std::move(squares.whole_graph)));
   }

@@ -30,61 +30,45 @@ void send(int pipe, char kind, const std::string& text) {
   }
 }
 
-[[noreturn]] void be_the_child(
-    int pipe, const std::function<std::string(const std::function<void(const std::string&)>&)>& work) {
-  try {
-    send(pipe, kResult, work([pipe](const std::string& report) { send(pipe, kReport, report); }));
-  } catch (const UserError& error) {
-    send(pipe, kUserError, error.what());
-  } catch (const std::exception& error) {
-    send(pipe, kFailure, error.what());
-  }
-  ::_exit(0);  // without destructors and stream buffers of the parent
-}
-
-/// Removes complete messages from `bytes`. Passes reports to `observer` and stores the last other message in
-/// `last`.
-void take_messages(std::string& bytes, std::string& last,
-                   const std::function<void(const std::string&)>& observer) {
-  std::size_t begin = 0;
-  for (std::size_t end = bytes.find('\0'); end != std::string::npos; end = bytes.find('\0', begin)) {
-    const std::string message = bytes.substr(begin, end - begin);
-    begin = end + 1;
-    if (message[0] == kReport) {
-      observer(message.substr(1));
-    } else {
-      last = message;
-    }
-  }
-  bytes.erase(0, begin);
-}
-
 }  // namespace
 
-ForkedResult run_forked(
-    const std::function<std::string(const std::function<void(const std::string&)>&)>& work,
-    const std::function<void(const std::string&)>& observer) {
+std::string run_forked(const std::function<std::string(const TextObserver& report)>& work,
+                       const TextObserver& observer) {
   Pipe pipe;
   const pid_t pid = ::fork();
   if (pid < 0) throw SystemFailure("cannot start a child process");
   if (pid == 0) {
     pipe.close_reading();
-    be_the_child(pipe.writing(), work);
+    try {
+      send(pipe.writing(), kResult,
+           work([&](const std::string& report) { send(pipe.writing(), kReport, report); }));
+    } catch (const UserError& error) {
+      send(pipe.writing(), kUserError, error.what());
+    } catch (const std::exception& error) {
+      send(pipe.writing(), kFailure, error.what());
+    }
+    ::_exit(0);  // without destructors and stream buffers of the parent
   }
   RunningChild child(pid);
   pipe.close_writing();
   std::string bytes;
   std::string last;
-  while (pipe.read_to(bytes)) take_messages(bytes, last, observer);
-  const EndedChild end = child.wait();
-  if (last.empty()) {
-    throw SystemFailure(WIFSIGNALED(end.status)
-                            ? "a child process was killed by signal " + std::to_string(WTERMSIG(end.status))
+  while (pipe.read_to(bytes))
+    for (std::size_t end = 0; (end = bytes.find('\0')) != std::string::npos; bytes.erase(0, end + 1)) {
+      const std::string message = bytes.substr(0, end);
+      if (message[0] == kReport)
+        observer(message.substr(1));
+      else
+        last = message;
+    }
+  const int status = child.wait().status;
+  if (last.empty())
+    throw SystemFailure(WIFSIGNALED(status)
+                            ? "a child process was killed by signal " + std::to_string(WTERMSIG(status))
                             : "a child process ended without a result");
-  }
   if (last[0] == kUserError) throw UserError(last.substr(1));
   if (last[0] == kFailure) throw SystemFailure(last.substr(1));
-  return {last.substr(1), end.peak_memory_mib};
+  return last.substr(1);
 }
 
 }  // namespace psi_slam

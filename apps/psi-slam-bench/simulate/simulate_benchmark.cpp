@@ -158,22 +158,21 @@ std::vector<SimulateRow> run_simulate_benchmark(const SimulateOptions& options,
   for (const double path_m : options.path_m) {
     const std::string doing = metres_text(path_m);
     observer(doing, done_m, all_m);
-    const ForkedResult child = run_forked(
-        [&](const std::function<void(const std::string&)>& report) {
+    const std::string row = run_forked(
+        [&](const TextObserver& report) {
           int reported = 0;
-          const SimulateRow row =
+          return row_text(
               map_simulated_run(simulated_run_options(options, path_m), options.threads, [&](double share) {
                 const int now = static_cast<int>(1000 * share);
                 if (now == reported) return;
                 reported = now;
                 report(std::to_string(now));
-              });
-          return row_text(row);
+              }));
         },
         [&](const std::string& per_mille) {
           observer(doing, done_m + path_m * std::stoi(per_mille) / 1000, all_m);
         });
-    rows.push_back(row_of_text(child.text));
+    rows.push_back(row_of_text(row));
     done_m += path_m;
   }
   return rows;

@@ -102,7 +102,4 @@ std::string metres_text(double metres);
 BenchReport simulate_report(const std::vector<SimulateRow>& rows, const SimulateOptions& options,
                             const std::string& machine);
 
-/// The floor plan with the true path of the robot, as SVG.
-std::string plan_svg(const FloorPlan& plan, const Trajectory& truth);
-
 }  // namespace psi_slam

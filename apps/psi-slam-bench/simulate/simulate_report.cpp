@@ -49,8 +49,8 @@ std::vector<Column> cost_columns() {
 }
 
 ReportTable cost_table(const Rows& rows) {
-  std::vector<Column> columns = cost_columns();
-  columns.insert(columns.begin(), path_column());
+  std::vector<Column> columns{path_column()};
+  for (const Column& column : cost_columns()) columns.push_back(column);
   if (!rows.empty())
     for (std::size_t i = 0; i < rows.front().stages_s.size(); ++i)
       columns.push_back({{rows.front().stages_s[i].first + " [s]"},
@@ -64,7 +64,10 @@ struct CovarianceRow {
   NormalisedErrors errors;
 };
 
-ReportTable covariances_table(const std::vector<CovarianceRow>& rows) {
+ReportTable covariances_table(const Rows& rows) {
+  std::vector<CovarianceRow> covariances;
+  for (const SimulateRow& row : rows)
+    for (const NormalisedErrors& errors : row.covariances) covariances.push_back({row.path_m, errors});
   using Row = CovarianceRow;
   return table_of<Row>(
       {{{"path"}, [](const Row& row) { return cell(metres_text(row.path_m)); }},
@@ -76,20 +79,14 @@ ReportTable covariances_table(const std::vector<CovarianceRow>& rows) {
         [](const Row& row) {
           return ReportCell{fixed_text(100 * row.errors.beyond_95, 1) + " %", row.errors.beyond_95};
         }}},
-      rows);
-}
-
-std::vector<CovarianceRow> covariances_of(const SimulateRow& row) {
-  std::vector<CovarianceRow> covariances;
-  for (const NormalisedErrors& errors : row.covariances) covariances.push_back({row.path_m, errors});
-  return covariances;
+      covariances);
 }
 
 /// All figures, for JSON and CSV.
 ReportTable figures_table(const Rows& rows) {
   std::vector<Column> columns = map_columns();
   columns.push_back({{{}, "covariances"}, [](const SimulateRow& row) {
-                       return ReportCell{{}, covariances_table(covariances_of(row)).json()};
+                       return ReportCell{{}, covariances_table({row}).json()};
                      }});
   for (const Column& column : cost_columns()) columns.push_back(column);
   columns.push_back({{{}, "stages_s"}, [](const SimulateRow& row) {
@@ -111,52 +108,29 @@ std::string markdown_of(const Rows& rows, const SimulateOptions& options, const 
       "- error: distance from the truth, with both paths aligned at the first scan\n"
       "- relations: metric of Kümmerle et al. over " +
       std::to_string(kRelations) +
-      " randomly drawn pairs of scans\n"
-      "- odometry: mean error of odometry alone, measured like error\n"
+      " randomly drawn pairs of scans\n- odometry: mean error of odometry alone, measured like error\n"
       "- false: loops kept by the map that are more than " +
       fixed_text(kFalseLoop_m, 1) + " m or " + fixed_text(kFalseLoop_deg, 0) +
-      " degrees off the truth\n"
-      "- times are the mapper's alone; making the scans is not counted\n"
+      " degrees off the truth\n- times are the mapper's alone; making the scans is not counted\n"
       "\n";
-  std::vector<CovarianceRow> covariances;
-  for (const SimulateRow& row : rows)
-    for (const CovarianceRow& covariance : covariances_of(row)) covariances.push_back(covariance);
   return text + table_of(map_columns(), rows).markdown() + '\n' + cost_table(rows).markdown() +
          "\nNormalised errors are squared errors divided by their covariances. With correct covariances they "
-         "follow "
-         "the chi-square distribution with three degrees of freedom. Mean and median are divided by those of "
-         "this "
-         "distribution and should be 1; 5 % of the errors should lie beyond its 95 % point. Larger values "
-         "mean that "
-         "the covariances are too small, smaller values that they are too large.\n\n" +
-         covariances_table(covariances).markdown();
+         "follow the chi-square distribution with three degrees of freedom. Mean and median are divided by "
+         "those of this distribution and should be 1; 5 % of the errors should lie beyond its 95 % point. "
+         "Larger values mean that the covariances are too small, smaller values that they are too "
+         "large.\n\n" +
+         covariances_table(rows).markdown();
 }
 
-Json json_of(const Rows& rows, const SimulateOptions& options, const std::string& machine) {
-  Json json = report_json("psi-slam-simulate-benchmark", machine);
-  json.update({{"seed", options.seed},
-               {"people_per_500_m", options.people},
-               {"glass_share", options.glass_share},
-               {"threads", options.threads},
-               {"drives", figures_table(rows).json()}});
-  return json;
-}
-
-/// A line of a plot and its value for each run.
-struct PlotLine {
-  std::string name;
-  std::function<double(const SimulateRow&)> value;
-};
-
-std::string growth_over_path(const Rows& rows, std::string title, std::string unit,
-                             const std::vector<PlotLine>& lines) {
-  GrowthPlot plot;
-  plot.title = std::move(title);
-  plot.unit = std::move(unit);
+/// `lines` are the names of the lines, each with its value for a run.
+std::string growth_over_path(
+    const Rows& rows, const std::string& title, const std::string& unit,
+    const std::vector<std::pair<std::string, std::function<double(const SimulateRow&)>>>& lines) {
+  GrowthPlot plot{title, unit, {}, {}};
   for (const SimulateRow& row : rows) plot.labels.push_back(metres_text(row.path_m));
   for (const auto& [name, value] : lines) {
     plot.lines.push_back({name, {}});
-    for (const SimulateRow& row : rows) plot.lines.back().values.push_back(value(row));
+    for (const SimulateRow& row : rows) plot.lines.back().values.push_back(spread_of({value(row)}));
   }
   return growth_svg(plot);
 }
@@ -191,8 +165,15 @@ std::string metres_text(double metres) {
 }
 
 BenchReport simulate_report(const Rows& rows, const SimulateOptions& options, const std::string& machine) {
-  return {"simulate.md", markdown_of(rows, options, machine), json_file_text(json_of(rows, options, machine)),
-          figures_table(rows).csv(), plots_of(rows)};
+  const ReportTable figures = figures_table(rows);
+  return {"simulate.md", markdown_of(rows, options, machine),
+          json_file_text(report_json("psi-slam-simulate-benchmark", machine,
+                                     {{"seed", options.seed},
+                                      {"people_per_500_m", options.people},
+                                      {"glass_share", options.glass_share},
+                                      {"threads", options.threads},
+                                      {"drives", figures.json()}})),
+          figures.csv(), plots_of(rows)};
 }
 
 }  // namespace psi_slam

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a simulated run as a log file with its truth.
+// Writes a simulated run as a log file with its truth, and draws its floor plan.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "simulation/simulated_log.h"
+#include "trajectory/trajectory_file.h"
 
 namespace psi_slam {
 
@@ -15,5 +17,8 @@ void check_simulated_log_file(const std::filesystem::path& log);
 /// NAME.relations, true relations between random pairs of scans, and NAME.tum, the true path. Throws
 /// SystemFailure when a file cannot be written.
 void write_simulated_log(const std::filesystem::path& log, const SimulatedLogOptions& run);
+
+/// The floor plan with the true path of the robot, as SVG.
+std::string plan_svg(const FloorPlan& plan, const Trajectory& truth);
 
 }  // namespace psi_slam

@@ -18,27 +18,6 @@ struct Opening {
   double to = 0;
 };
 
-/// Drawing operations for a floor plan.
-class PlanDrawing {
- public:
-  explicit PlanDrawing(FloorPlan& plan) : plan_(plan) {}
-
-  /// Outline of a box between two corners.
-  void box(double x0, double y0, double x1, double y1, Material material);
-
-  /// A wall along x at `y`, or along y at `x`, with openings sorted along the wall.
-  void wall_along_x(double x0, double x1, double y, const std::vector<Opening>& openings = {});
-  void wall_along_y(double y0, double y1, double x, const std::vector<Opening>& openings = {});
-
-  void line(double x0, double y0, double x1, double y1, Material material);
-
-  std::size_t place(double x, double y, Place::Kind kind);
-  void passage(std::size_t from, std::size_t to) { plan_.passages.push_back({from, to}); }
-
- private:
-  FloorPlan& plan_;
-};
-
 constexpr double kHalfWall_m = kWallThickness_m / 2;
 
 /// The parts of [from, to] outside the openings, which must be sorted.
@@ -52,31 +31,41 @@ std::vector<Opening> solid_parts(double from, double to, const std::vector<Openi
   return parts;
 }
 
-void PlanDrawing::line(double x0, double y0, double x1, double y1, Material material) {
-  plan_.segments.push_back({{x0, y0}, {x1, y1}, material});
-}
+/// Drawing operations for a floor plan.
+class PlanDrawing {
+ public:
+  explicit PlanDrawing(FloorPlan& plan) : plan_(plan) {}
 
-void PlanDrawing::box(double x0, double y0, double x1, double y1, Material material) {
-  line(x0, y0, x1, y0, material);
-  line(x1, y0, x1, y1, material);
-  line(x1, y1, x0, y1, material);
-  line(x0, y1, x0, y0, material);
-}
+  void line(double x0, double y0, double x1, double y1, Material material) {
+    plan_.segments.push_back({{x0, y0}, {x1, y1}, material});
+  }
 
-void PlanDrawing::wall_along_x(double x0, double x1, double y, const std::vector<Opening>& openings) {
-  for (const Opening& part : solid_parts(x0, x1, openings))
-    box(part.from, y - kHalfWall_m, part.to, y + kHalfWall_m, Material::kWall);
-}
+  /// Outline of a box between two corners.
+  void box(double x0, double y0, double x1, double y1, Material material) {
+    line(x0, y0, x1, y0, material);
+    line(x1, y0, x1, y1, material);
+    line(x1, y1, x0, y1, material);
+    line(x0, y1, x0, y0, material);
+  }
 
-void PlanDrawing::wall_along_y(double y0, double y1, double x, const std::vector<Opening>& openings) {
-  for (const Opening& part : solid_parts(y0, y1, openings))
-    box(x - kHalfWall_m, part.from, x + kHalfWall_m, part.to, Material::kWall);
-}
+  /// A wall along x at `y`, with openings sorted along the wall.
+  void wall_along_x(double x0, double x1, double y, const std::vector<Opening>& openings = {}) {
+    for (const Opening& part : solid_parts(x0, x1, openings))
+      box(part.from, y - kHalfWall_m, part.to, y + kHalfWall_m, Material::kWall);
+  }
+  void wall_along_y(double y0, double y1, double x) {
+    box(x - kHalfWall_m, y0, x + kHalfWall_m, y1, Material::kWall);
+  }
 
-std::size_t PlanDrawing::place(double x, double y, Place::Kind kind) {
-  plan_.places.push_back({{x, y}, kind});
-  return plan_.places.size() - 1;
-}
+  std::size_t place(double x, double y, Place::Kind kind) {
+    plan_.places.push_back({{x, y}, kind});
+    return plan_.places.size() - 1;
+  }
+  void passage(std::size_t from, std::size_t to) { plan_.passages.push_back({from, to}); }
+
+ private:
+  FloorPlan& plan_;
+};
 
 constexpr double kDoor_m = 1.1;
 constexpr double kHallDoor_m = 1.8;
@@ -276,44 +265,30 @@ class Draughtsman {
 
   void draw_outer_wall() {
     for (std::size_t i = 0; i < x_.blocks(); ++i)
-      for (const std::size_t j : {std::size_t{0}, y_.blocks()}) {
-        const double y = j == 0 ? y_.begin() - kHalfWall_m : y_.end() + kHalfWall_m;
-        const double x0 = i == 0 ? x_.begin() : x_.middle(i);
-        const double x1 = i + 1 == x_.blocks() ? x_.end() : x_.middle(i + 1);
-        draw_panes(x0, x1, stretch(i, j).bare, j == 0 ? 1 : -1,
-                   [&](double from, double along0, double to, double along1, Material material) {
-                     draw_stroke(along0, y + from, along1, y + to, material);
-                   });
-      }
-    for (const double x : {x_.begin() - kHalfWall_m, x_.end() + kHalfWall_m})
-      draw_panes(y_.begin(), y_.end(), false, x < x_.begin() ? 1 : -1,
-                 [&](double from, double along0, double to, double along1, Material material) {
-                   draw_stroke(x + from, along0, x + to, along1, material);
-                 });
+      for (const std::size_t j : {std::size_t{0}, y_.blocks()})
+        draw_panes(true, i == 0 ? x_.begin() : x_.middle(i),
+                   i + 1 == x_.blocks() ? x_.end() : x_.middle(i + 1), j == 0, stretch(i, j).bare);
+    for (const bool low : {true, false}) draw_panes(false, y_.begin(), y_.end(), low, false);
   }
 
-  void draw_stroke(double x0, double y0, double x1, double y1, Material material) {
-    if (material == Material::kPillar) {
-      draw_.box(x0, y0, x1, y1, material);
-    } else {
-      draw_.line(x0, y0, x1, y1, material);
-    }
-  }
-
-  /// Panes of wall or glass with pilasters between them, from one end of a wall to the other; a bare wall has
-  /// one pane. `stroke` gets the coordinates of both ends of each stroke, across and along the wall.
-  /// `inwards` is 1 if the building lies on the side of larger coordinates, otherwise -1.
-  template <class Stroke>
-  void draw_panes(double begin, double end, bool bare, double inwards, const Stroke& stroke) {
+  /// Panes of wall or glass with pilasters between them, from `begin` to `end` along the x axis (`along_x`)
+  /// or the y axis; a bare wall has one pane. `low`: the wall is at the low end of the other axis.
+  void draw_panes(bool along_x, double begin, double end, bool low, bool bare) {
+    const Axis& across = along_x ? y_ : x_;
+    const double inwards = low ? 1 : -1;
+    const double wall = low ? across.begin() - kHalfWall_m : across.end() + kHalfWall_m;
+    const double face = wall + inwards * kHalfWall_m;
     for (double at = begin; at < end;) {
       double next = bare ? end : at + random_.between(2.5, 6);
       if (end - next < 2) next = end;
       const bool glass = !bare && random_.happens(options_.glass_share);
-      const double face = inwards * kHalfWall_m;
-      stroke(face, at, face, next, glass ? Material::kGlass : Material::kWall);
-      if (!bare && next < end && random_.happens(0.7))
-        stroke(face, next - 0.12, face + inwards * random_.between(0.08, 0.25), next + 0.12,
-               Material::kPillar);
+      const Material material = glass ? Material::kGlass : Material::kWall;
+      along_x ? draw_.line(at, face, next, face, material) : draw_.line(face, at, face, next, material);
+      if (!bare && next < end && random_.happens(0.7)) {
+        const double front = wall + (inwards * kHalfWall_m + inwards * random_.between(0.08, 0.25));
+        along_x ? draw_.box(next - 0.12, face, next + 0.12, front, Material::kPillar)
+                : draw_.box(face, next - 0.12, front, next + 0.12, Material::kPillar);
+      }
       at = next;
     }
   }

@@ -28,10 +28,31 @@ constexpr double kEnteringRoom = 2.0;
 class Route {
  public:
   /// Starts at a crossing. The plan must outlive the route.
-  Route(const FloorPlan& plan, std::uint64_t seed);
+  Route(const FloorPlan& plan, std::uint64_t seed)
+      : plan_(plan), random_(seed, SimulationRandom::Stream::kRoute), ways_(plan.places.size()) {
+    for (const Passage& passage : plan.passages) {
+      std::vector<Way>& from = ways_[passage.from];
+      std::vector<Way>& to = ways_[passage.to];
+      from.push_back({passage.to, to.size(), 0});
+      to.push_back({passage.from, from.size() - 1, 0});
+    }
+    while (plan.places[here_].kind != Place::Kind::kCrossing) ++here_;
+    before_ = here_;
+  }
 
-  /// Returns the first place, then the next place at each call. A passage links successive places.
-  std::size_t next();
+  std::size_t here() const { return here_; }
+
+  /// Goes to the next place, along a passage, and returns it.
+  std::size_t next() {
+    std::vector<Way>& ways = ways_[here_];
+    std::vector<double> reluctances;
+    for (const Way& way : ways) reluctances.push_back(reluctance(way));
+    Way& way = ways[static_cast<std::size_t>(std::min_element(reluctances.begin(), reluctances.end()) -
+                                             reluctances.begin())];
+    ++way.taken;
+    before_ = here_;
+    return here_ = way.to;
+  }
 
  private:
   struct Way {
@@ -40,51 +61,20 @@ class Route {
     double taken = 0;      ///< how often
   };
 
-  double reluctance(const Way& way);
+  double reluctance(const Way& way) {
+    double reluctance = way.taken + kTakenTheOtherWay * ways_[way.to][way.back].taken + 0.3 * random_.share();
+    const bool into_room = plan_.places[way.to].kind == Place::Kind::kRoom;
+    if (into_room && random_.happens(kPassedDoors)) reluctance += kEnteringRoom;
+    if (way.to == before_) reluctance += kTurningBack;
+    return reluctance;
+  }
 
   const FloorPlan& plan_;
   SimulationRandom random_;
   std::vector<std::vector<Way>> ways_;  ///< by start place
   std::size_t here_ = 0;
   std::size_t before_ = 0;
-  bool started_ = false;
 };
-
-Route::Route(const FloorPlan& plan, std::uint64_t seed)
-    : plan_(plan), random_(seed, SimulationRandom::Stream::kRoute), ways_(plan.places.size()) {
-  for (const Passage& passage : plan.passages) {
-    std::vector<Way>& from = ways_[passage.from];
-    std::vector<Way>& to = ways_[passage.to];
-    from.push_back({passage.to, to.size(), 0});
-    to.push_back({passage.from, from.size() - 1, 0});
-  }
-  while (plan.places[here_].kind != Place::Kind::kCrossing) ++here_;
-  before_ = here_;
-}
-
-double Route::reluctance(const Way& way) {
-  double reluctance = way.taken + kTakenTheOtherWay * ways_[way.to][way.back].taken + 0.3 * random_.share();
-  const bool into_room = plan_.places[way.to].kind == Place::Kind::kRoom;
-  if (into_room && random_.happens(kPassedDoors)) reluctance += kEnteringRoom;
-  if (way.to == before_) reluctance += kTurningBack;
-  return reluctance;
-}
-
-std::size_t Route::next() {
-  if (!started_) {
-    started_ = true;
-    return here_;
-  }
-  std::vector<Way>& ways = ways_[here_];
-  std::vector<double> reluctances;
-  for (const Way& way : ways) reluctances.push_back(reluctance(way));
-  Way& way = ways[static_cast<std::size_t>(std::min_element(reluctances.begin(), reluctances.end()) -
-                                           reluctances.begin())];
-  ++way.taken;
-  before_ = here_;
-  here_ = way.to;
-  return here_;
-}
 
 double distance_m(const TPoint2D& a, const TPoint2D& b) {
   return std::hypot(b.x - a.x, b.y - a.y);
@@ -99,7 +89,7 @@ class RobotPath::Carrot {
       : plan_(plan), route_(plan, options.seed), weave_m_(options.weave_m) {
     SimulationRandom random(options.seed, SimulationRandom::Stream::kRoute, 1);
     for (double& phase : phases_) phase = random.between(0, 2 * M_PI);
-    from_ = plan_.places[route_.next()].at;
+    from_ = plan_.places[route_.here()].at;
     to_ = plan_.places[route_.next()].at;
   }
 

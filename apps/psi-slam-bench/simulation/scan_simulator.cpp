@@ -8,8 +8,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "simulation/walking_people.h"
-
 namespace psi_slam {
 namespace {
 

@@ -16,6 +16,8 @@
 
 namespace psi_slam {
 
+inline constexpr double kPersonRadius_m = 0.2;
+
 struct ScanSimulatorOptions {
   std::uint64_t seed = 1;
   std::size_t beams = 181;

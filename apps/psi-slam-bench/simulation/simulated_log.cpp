@@ -7,14 +7,61 @@
 #include <utility>
 
 #include "frames/pose_operations.h"
+#include "simulation/simulation_random.h"
 
 namespace psi_slam {
 namespace {
+
+constexpr double kSlowest_m_s = 0.7;
+constexpr double kFastest_m_s = 1.5;
+constexpr double kFromWall_m = 0.3;  // between the wall and a person
 
 constexpr double kVisits = 3;  // of each place
 constexpr TimeUs kStart_us = 1'000'000'000;
 
 }  // namespace
+
+WalkingPeople::WalkingPeople(const FloorPlan& plan, std::size_t count, std::uint64_t seed) {
+  SimulationRandom random(seed, SimulationRandom::Stream::kPeople);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Corridor& corridor = plan.corridors[random.index(plan.corridors.size())];
+    const mrpt::math::TPoint2D way = corridor.to - corridor.from;
+    const double length = std::hypot(way.x, way.y);
+    const double aside =
+        random.between(-1, 1) * std::max(0.0, corridor.width_m / 2 - kFromWall_m - kPersonRadius_m);
+    const mrpt::math::TPoint2D off(-aside * way.y / length, aside * way.x / length);
+    const double speed = random.between(kSlowest_m_s, kFastest_m_s);
+    people_.push_back({corridor.from + off, corridor.to + off, speed, random.between(0, 2 * length)});
+  }
+}
+
+std::vector<mrpt::math::TPoint2D> WalkingPeople::at(double time_s) const {
+  std::vector<mrpt::math::TPoint2D> points;
+  for (const Person& person : people_) {
+    const mrpt::math::TPoint2D way = person.to - person.from;
+    const double length = std::hypot(way.x, way.y);
+    const double gone = std::fmod(person.start_m + person.speed_m_s * time_s, 2 * length);
+    const double share = std::min(gone, 2 * length - gone) / length;
+    points.push_back(person.from + way * share);
+  }
+  return points;
+}
+
+mrpt::math::TPose2D WheelOdometry::move(const mrpt::math::TPose2D& before_T_now) {
+  const double way_m = std::hypot(before_T_now.x, before_T_now.y);
+  const double turned_rad = std::abs(before_T_now.phi);
+  const double root_m = std::sqrt(way_m);
+  const double length_error_m = options_.sigma_m_per_root_m * root_m * random_.normal();
+  const double drift_rad = options_.sigma_rad_per_root_m * root_m * random_.normal();
+  const double turn_error_rad = options_.sigma_rad_per_root_rad * std::sqrt(turned_rad) * random_.normal();
+  const double longer_m = (options_.length_scale - 1) * way_m + length_error_m;
+  const double stretch = way_m > 0 ? 1 + longer_m / way_m : 1;
+  const double turn = options_.turn_scale * before_T_now.phi + drift_rad + turn_error_rad;
+  odom_T_robot_ =
+      odom_T_robot_ + mrpt::math::TPose2D(stretch * before_T_now.x, stretch * before_T_now.y, turn);
+  odom_T_robot_.normalizePhi();
+  return odom_T_robot_;
+}
 
 SimulatedLogOptions simulated_log_options(double path_m, std::uint64_t seed) {
   SimulatedLogOptions options;

@@ -2,21 +2,67 @@
 // A log of a robot in a simulated building, computed scan by scan, with the true pose of each scan.
 #pragma once
 
+#include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <vector>
 
+#include "base/degrees.h"
 #include "psi_slam/frame_source.h"
 #include "simulation/floor_plan.h"
 #include "simulation/robot_path.h"
 #include "simulation/scan_simulator.h"
-#include "simulation/walking_people.h"
-#include "simulation/wheel_odometry.h"
+#include "simulation/simulation_random.h"
 
 namespace psi_slam {
+
+/// People who walk up and down the corridors. Their positions depend only on the time.
+class WalkingPeople {
+ public:
+  WalkingPeople(const FloorPlan& plan, std::size_t count, std::uint64_t seed);
+
+  /// Centres of the people in the plan, in metres.
+  std::vector<mrpt::math::TPoint2D> at(double time_s) const;
+
+ private:
+  /// Walks between two points, back and forth.
+  struct Person {
+    mrpt::math::TPoint2D from;
+    mrpt::math::TPoint2D to;
+    double speed_m_s = 1;
+    double start_m = 0;  ///< distance along the way at time 0
+  };
+  std::vector<Person> people_;
+};
+
+struct WheelOdometryOptions {
+  std::uint64_t seed = 1;
+  double length_scale = 1.01;        ///< factor of distances; above 1 for wheels smaller than assumed
+  double turn_scale = 1.01;          ///< factor of rotations; above 1 for wheels farther apart than assumed
+  double sigma_m_per_root_m = 0.01;  ///< of the distance, after 1 m; twice that after 4 m
+  double sigma_rad_per_root_m = radians_from_degrees(0.4L);    ///< of the heading, after 1 m
+  double sigma_rad_per_root_rad = radians_from_degrees(1.0L);  ///< of the heading, after 1 rad
+};
+
+/// Simulated wheel odometry. Random errors are random walks: their variances grow in proportion to distance
+/// and rotation, independent of the step size. Scale errors are constant.
+class WheelOdometry {
+ public:
+  explicit WheelOdometry(const WheelOdometryOptions& options)
+      : options_(options), random_(options.seed, SimulationRandom::Stream::kOdometry) {}
+
+  /// Odometry of the robot after a motion by `before_T_now` since the last call. Starts at the origin.
+  mrpt::math::TPose2D move(const mrpt::math::TPose2D& before_T_now);
+
+ private:
+  WheelOdometryOptions options_;
+  SimulationRandom random_;
+  mrpt::math::TPose2D odom_T_robot_{0, 0, 0};
+};
 
 /// A further laser, which scans at the same rate with a delay.
 struct FurtherLaser {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "freiburg/baseline_run.h"
+#include "freiburg/baselines.h"
 
+#include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/io/CFileOutputStream.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
+#include <unistd.h>
 
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -15,18 +18,42 @@
 #include "batch/child_process.h"
 #include "batch/kept_run.h"
 #include "common/bench_report.h"
-#include "config/settings_text.h"
-#include "freiburg/freiburg_run.h"
+#include "freiburg/freiburg_benchmark.h"
 #include "observations/mrpt_objects.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
 
 namespace psi_slam {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
-constexpr const char* kPathFile = "log_estimated_path.txt";
+constexpr const char* kSection = "MappingApplication";
+constexpr double kVersionLimit_s = 30;
+
+std::optional<fs::path> find_program(const std::string& name, const std::string& search_path) {
+  std::istringstream folders(search_path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path program = fs::path(folder.empty() ? "." : folder) / name;
+    std::error_code failed;
+    if (fs::is_regular_file(program, failed) && ::access(program.c_str(), X_OK) == 0)
+      return fs::canonical(program);
+  }
+  return std::nullopt;
+}
+
+/// Version in the program's first output; there is no option for it.
+std::string version_of(const fs::path& program) {
+  constexpr std::string_view kBefore = "MRPT C++ Library: ";
+  const ChildEnd end = run_child({{program.string()}, kVersionLimit_s});
+  const std::string words = end.out + end.err;
+  const std::size_t begin = words.find(kBefore);
+  if (begin == std::string::npos) return "unknown version";
+  const std::size_t first = begin + kBefore.size();
+  return words.substr(first, words.find_first_of("\r\n", first) - first);
+}
 
 /// Reason of a failure: MRPT's programs print it in a line that starts with "Message:".
 std::string failure_of(const ChildEnd& end) {
@@ -37,39 +64,6 @@ std::string failure_of(const ChildEnd& end) {
   return first == std::string::npos ? end.failure()
                                     : end.err.substr(first, end.err.find('\n', first) - first);
 }
-
-/// The files of a run. The destructor deletes the log, which is large.
-class BaselineFiles {
- public:
-  explicit BaselineFiles(const fs::path& folder)
-      : log(folder / "log.rawlog"), settings(folder / "settings.ini"), output(folder / "output") {
-    std::error_code failed;
-    fs::remove_all(output, failed);
-    if (failed) throw SystemFailure("cannot remove " + output.string() + ": " + failed.message());
-    fs::create_directories(folder, failed);
-    if (failed) throw SystemFailure("cannot create the folder " + folder.string() + ": " + failed.message());
-  }
-  ~BaselineFiles() {
-    std::error_code ignored;
-    fs::remove(log, ignored);
-  }
-  BaselineFiles(const BaselineFiles&) = delete;
-  BaselineFiles& operator=(const BaselineFiles&) = delete;
-
-  const fs::path log;
-  const fs::path settings;
-  const fs::path output;
-};
-
-RunFigures figures_of(const BaselineRun& run, const BaselineFiles& files, const ChildEnd& end,
-                      const std::vector<TimeUs>& times) {
-  const Trajectory path = read_baseline_path(files.output / kPathFile, run.baseline.kind.yaw_column, times);
-  RunFigures figures = evaluate_path(path, read_relations(run.log.relations.value()));
-  set_effort(figures, end);
-  return figures;
-}
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kUnfinished = "not_finished_in_s";
 
@@ -84,30 +78,25 @@ struct Task {
 /// Includes the settings of our reader, which provides the input. Does not include the checksum of this
 /// program, so that a new build does not repeat the runs.
 std::string key_of(const BaselineRun& run) {
-  std::string text = machine_text() + '\n' + sha256_of_file(run.log.log) + '\n' +
-                     sha256_of_file(run.log.relations.value()) + '\n' + program_version() + '\n' +
-                     settings_text(benchmark_settings(run.log.ini));
-  text +=
-      run.baseline.version + '\n' + run.baseline.sha256 + '\n' + baseline_settings(run.baseline, "output");
-  return sha256_of_text(text);
+  return sha256_of_text(machine_text() + '\n' + sha256_of_file(run.log.log) + '\n' +
+                        sha256_of_file(run.log.relations.value()) + "\n" PSI_SLAM_VERSION "\n" +
+                        settings_text(benchmark_settings(run.log.ini)) + run.baseline.version + '\n' +
+                        run.baseline.sha256 + '\n' + baseline_settings(run.baseline, "output"));
 }
 
 /// Reads a kept result. Returns false if the run must be made.
-bool read_kept(const Task& task, BaselineResult& result) {
+bool read_kept(const Task& task) {
   const std::optional<Json> kept = kept_run(task.file, task.key);
   if (!kept) return false;
+  BaselineResult& result = *task.result;
   try {
-    if (kept->contains("figures")) {
+    if (kept->contains("figures"))
       result.figures = read_run_figures(kept->at("figures"));
-      return true;
-    }
-    const double limit_s = kept->at(kUnfinished).get<double>();
-    if (limit_s < task.run.time_limit_s) return false;
-    result.not_finished_in_s = limit_s;
-    return true;
-  } catch (const Json::exception&) {
-    return false;
+    else if (const auto limit_s = kept->at(kUnfinished).get<double>(); limit_s >= task.run.time_limit_s)
+      result.not_finished_in_s = limit_s;
+  } catch (const Json::exception&) {  // the run is repeated
   }
+  return result.figures || result.not_finished_in_s;
 }
 
 /// Keeps a result. A failure is not kept, so that the run is repeated.
@@ -135,19 +124,75 @@ std::vector<Task> tasks_of(const std::vector<BaselineProgram>& baselines,
     for (const BaselineProgram& baseline : baselines) {
       const std::string name = log.name + '-' + baseline.kind.name;
       Task task;
-      task.run = {baseline, log, options.output / "rivals" / name, options.time_limit_s};
+      task.run = {baseline, log, options.output / "baselines" / name, options.time_limit_s};
       task.file = options.output / "runs" / (name + ".json");
       task.key = {key_of(task.run), options.processes};
       task.work = static_cast<double>(fs::file_size(log.log));
       task.result = &*result++;
       task.result->log = log.name;
       task.result->baseline = baseline.kind.name;
-      if (!read_kept(task, *task.result)) tasks.push_back(std::move(task));
+      if (!read_kept(task)) tasks.push_back(std::move(task));
     }
   return tasks;
 }
 
 }  // namespace
+
+const std::vector<BaselineKind>& baseline_kinds() {
+  constexpr std::size_t kPlaneYaw = 3;
+  constexpr std::size_t kSpaceYaw = 4;  // after z
+  static const std::vector<BaselineKind> kKinds{
+      {"icp-slam",
+       "icp-slam/icp-slam_demo_classic.ini",
+       {{"SHOW_PROGRESS_3D_REAL_TIME", "0"}, {"SAVE_3D_SCENE", "0"}},
+       "Tiny changes of the input decide where it loses track, so other runs give other figures. Started "
+       "one, two or three scans later, it reaches 0.68, 0.42 and 1.96 m on MIT CSAIL.",
+       kPlaneYaw},
+      {"rbpf-slam",
+       "rbpf-slam/gridmapping_RBPF_grid_ICPbased_malaga.ini",
+       {{"SHOW_PROGRESS_IN_WINDOW", "0"},
+        {"SAVE_3D_SCENE", "0"},
+        {"SAVE_MAP_IMAGES", "0"},
+        {"RANDOM_SEED", "1"}},
+       "Its path consists of its estimates at the time of each scan. It is not the path of the best "
+       "particle.",
+       kSpaceYaw}};
+  return kKinds;
+}
+
+FoundBaselines find_baselines(const std::string& search_path) {
+  FoundBaselines found;
+  for (const BaselineKind& kind : baseline_kinds()) {
+    const auto program = find_program(kind.name, search_path);
+    if (!program) {
+      found.missing.push_back(kind.name + " is not on PATH");
+      continue;
+    }
+    const fs::path config = program->parent_path().parent_path() / "share/mrpt/config_files" / kind.config;
+    if (!fs::exists(config)) {
+      found.missing.push_back(program->string() + " has no settings: expected " + config.string());
+      continue;
+    }
+    found.programs.push_back({kind, *program, config, version_of(*program), sha256_of_file(*program)});
+  }
+  return found;
+}
+
+std::string baseline_settings(const BaselineProgram& baseline, const fs::path& output) {
+  std::ifstream file(baseline.config, std::ios::binary);
+  const std::string shipped(std::istreambuf_iterator<char>(file), {});
+  if (!file) throw UserError(baseline.config.string() + " cannot be read");
+  mrpt::config::CConfigFileMemory settings(shipped);
+  for (const auto& [key, value] : baseline.kind.changes) settings.write(kSection, key, value);
+  settings.write(kSection, "logOutput_dir", output.string());
+  return settings.getContent();
+}
+
+std::string changes_text(const BaselineKind& kind) {
+  std::string text;
+  for (const auto& [key, value] : kind.changes) text += (text.empty() ? "" : ", ") + key + " = " + value;
+  return text;
+}
 
 std::vector<TimeUs> write_baseline_log(FrameSource& source, const std::filesystem::path& path,
                                        const std::function<bool()>& stop) {
@@ -197,19 +242,31 @@ BaselineResult run_baseline(const BaselineRun& run, const std::function<bool()>&
   result.log = run.log.name;
   result.baseline = run.baseline.kind.name;
   result.made = true;
-  const BaselineFiles files(fs::absolute(run.folder));
+  const fs::path folder = fs::absolute(run.folder);
+  const fs::path settings = folder / "settings.ini";
+  const fs::path output = folder / "output";
+  std::error_code failed;
+  fs::remove_all(output, failed);
+  if (failed) throw SystemFailure("cannot remove " + output.string() + ": " + failed.message());
+  fs::create_directories(folder, failed);
+  if (failed) throw SystemFailure("cannot create the folder " + folder.string() + ": " + failed.message());
+  const ScratchFile log(folder / "log.rawlog");
   try {
     const auto source = open_log(run.log.log, log_options(benchmark_settings(run.log.ini)));
-    const std::vector<TimeUs> times = write_baseline_log(*source, files.log, stop);
-    write_text_atomically(files.settings, baseline_settings(run.baseline, files.output));
-    ChildProcess child;
-    child.words = {run.baseline.program.string(), files.settings.string(), files.log.string()};
-    child.time_limit_s = run.time_limit_s;
-    child.stop = stop;
-    const ChildEnd end = run_child(child);
-    if (end.over_time) result.not_finished_in_s = run.time_limit_s;
-    if (!end.over_time) result.failure = end.failure().empty() ? "" : failure_of(end);
-    if (end.failure().empty()) result.figures = figures_of(run, files, end, times);
+    const std::vector<TimeUs> times = write_baseline_log(*source, log.path, stop);
+    write_text_atomically(settings, baseline_settings(run.baseline, output));
+    const ChildEnd end = run_child(
+        {{run.baseline.program.string(), settings.string(), log.path.string()}, run.time_limit_s, stop});
+    if (end.over_time) {
+      result.not_finished_in_s = run.time_limit_s;
+    } else if (!end.failure().empty()) {
+      result.failure = failure_of(end);
+    } else {
+      const Trajectory path =
+          read_baseline_path(output / "log_estimated_path.txt", run.baseline.kind.yaw_column, times);
+      result.figures = evaluate_path(path, read_relations(run.log.relations.value()));
+      set_effort(*result.figures, end);
+    }
   } catch (const UserError& error) {
     result.failure = error.what();
   } catch (const SystemFailure& failure) {

@@ -38,7 +38,7 @@ struct FalseLoopOptions {
   double reach_m = 10;  ///< largest distance of the wrong place from the anchor
   double nearby_m = 3;  ///< nearby loops are moved by min_error_m to this and rotated by up to min_error_rad
   double min_error_m = 1;  ///< a loop is false if it is at least this far off the truth
-  double min_error_rad = radians_from_degrees(20.0L);  ///< or rotated by at least this
+  double min_error_rad = radians_from_degrees(20.0L);  ///< or rotated by at least this angle
   std::uint64_t seed = 1;
 };
 

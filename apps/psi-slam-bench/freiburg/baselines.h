@@ -68,7 +68,7 @@ struct BaselineResult {
   std::optional<RunFigures> figures;
   std::optional<double> not_finished_in_s;  ///< the time limit that ended the run
   std::string failure;                      ///< another reason for missing figures
-  bool made = false;                        ///< now; otherwise kept from before
+  bool made = false;  ///< true: the run was made now; false: its result was kept from before
 };
 
 /// Runs the baseline to its end, or until `stop` returns true: then its failure is "interrupted". An error of

@@ -80,7 +80,7 @@ struct FreiburgResult {
   std::uint64_t seed = 1;
   std::optional<FreiburgFigures> figures;
   std::string failure;  ///< reason for missing figures
-  bool made = false;    ///< now; otherwise kept from before
+  bool made = false;    ///< true: the run was made now; false: its result was kept from before
 };
 
 /// One log with one matcher.

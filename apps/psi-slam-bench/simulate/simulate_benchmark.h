@@ -45,7 +45,7 @@ struct SimulateRow {
   double error_max_m = 0;
   double relation_mean_m = 0;  ///< relations metric over random pairs of scans
   double relation_mean_deg = 0;
-  double odometry_error_mean_m = 0;  ///< as error_mean_m, for odometry alone
+  double odometry_error_mean_m = 0;  ///< mean error of odometry alone, aligned like error_mean_m
 
   std::size_t loops = 0;        ///< in the finished graph
   std::size_t false_loops = 0;  ///< of these, loops that contradict the truth

@@ -27,7 +27,7 @@ struct ScanSimulatorOptions {
   double resolution_m = 0.02;       ///< of the occupancy grid
   double noise_m = 0.01;            ///< standard deviation of a range, not negative
   double dropout_share = 0.005;     ///< share of beams that get lost at random
-  double glass_return_share = 0.3;  ///< share of the beams at glass that it returns
+  double glass_return_share = 0.3;  ///< share of the beams at glass that the glass returns
   double glass_loss_share = 0.2;    ///< share of the beams at glass that get lost; the others pass
 };
 

@@ -22,7 +22,7 @@ namespace {
 struct EvalOptions {
   std::string trajectory;
   std::string relations;
-  double max_gap_s = RelationsMetricOptions().max_gap_s;
+  double max_gap_s = kMaxGap_s;
   std::string per_relation;
   bool force = false;
   bool json = false;
@@ -118,7 +118,7 @@ void evaluate(const EvalOptions& options, std::ostream& out) {
     throw UserError(options.per_relation +
                     ": the file exists. Name another file, or replace it with --force");
   const RelationsMetric metric = evaluate_relations(read_trajectory(options.trajectory),
-                                                    read_relations(options.relations), {options.max_gap_s});
+                                                    read_relations(options.relations), options.max_gap_s);
   if (!options.per_relation.empty()) write_text_atomically(options.per_relation, per_relation_csv(metric));
   if (options.json) {
     out << to_json(metric).dump(1) << '\n';

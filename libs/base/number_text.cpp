@@ -84,4 +84,8 @@ std::string trimmed_text(double value, int max_decimals) {
   return text == "-0" ? "0" : text;
 }
 
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
+}
+
 }  // namespace psi_slam

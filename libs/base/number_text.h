@@ -2,6 +2,7 @@
 // Converts numbers to text and back, independently of the locale.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,5 +32,8 @@ std::string exact_degrees_text(double radians);
 /// Returns `value` rounded to at most `max_decimals` decimals, without trailing zeros: trimmed_text(0.5, 4)
 /// == "0.5".
 std::string trimmed_text(double value, int max_decimals);
+
+/// Returns a count and its noun: "1 loop", "3 loops".
+std::string counted(std::size_t count, const std::string& noun);
 
 }  // namespace psi_slam

@@ -26,11 +26,6 @@ std::string percent(double share) {
   return fixed(100 * share, share < 0.01 ? 2 : 1) + " %";
 }
 
-/// "1 scan", "5 scans".
-std::string counted(std::size_t count, const std::string& one) {
-  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
-}
-
 double share_of(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/number_text.h"
 #include "frames/pose_operations.h"
 #include "psi_slam/user_error.h"
 #include "trajectory/text_lines.h"
@@ -68,7 +69,7 @@ std::vector<Relation> read_relations(const std::filesystem::path& path) {
   for_each_text_line(path, [&](const TextLine& line) {
     if (line.words.size() != kRelationWords)
       throw line.error("expected 'time1 time2 x y z roll pitch yaw', found " +
-                       std::to_string(line.words.size()) + (line.words.size() == 1 ? " word" : " words"));
+                       counted(line.words.size(), "word"));
     for (const std::size_t out_of_plane : {4, 5, 6}) line.finite_number(out_of_plane, "z, roll or pitch");
     relations.push_back({line.time(0),
                          line.time(1),
@@ -96,17 +97,16 @@ ErrorSummary summarize(std::vector<double> values) {
 }
 
 RelationsMetric evaluate_relations(Trajectory trajectory, const std::vector<Relation>& relations,
-                                   const RelationsMetricOptions& options) {
+                                   double max_gap_s) {
   if (trajectory.empty() || relations.empty())
     throw UserError("the metric needs a trajectory and relations, found " +
                     std::to_string(trajectory.size()) + " poses and " + std::to_string(relations.size()) +
-                    " relations");
+                    " relations. Give a trajectory with poses and a file with relations of the same log");
   constexpr double kLongest_s = 1e9;
-  if (!(options.max_gap_s >= 0))
-    throw std::invalid_argument("evaluate_relations: max_gap_s must not be negative");
+  if (!(max_gap_s >= 0)) throw std::invalid_argument("evaluate_relations: max_gap_s must not be negative");
   std::stable_sort(trajectory.begin(), trajectory.end(),
                    [](const StampedPose& a, const StampedPose& b) { return a.time_us < b.time_us; });
-  const TimeUs max_gap_us = std::llround(std::min(options.max_gap_s, kLongest_s) * 1e6);
+  const TimeUs max_gap_us = std::llround(std::min(max_gap_s, kLongest_s) * 1e6);
 
   RelationsMetric metric;
   for (const Relation& relation : relations) {

@@ -29,14 +29,12 @@ struct Relation {
 };
 
 /// Reads lines `time1 time2 x y z roll pitch yaw` (seconds, metres, radians) and projects them onto the
-/// plane.
-/// '#' starts a comment. Throws UserError ("file:line: expected ...") on a malformed line, and if the file
-/// has no relation.
+/// plane. '#' starts a comment. Throws UserError ("file:line: expected ...") on a malformed line, and if the
+/// file has no relation.
 std::vector<Relation> read_relations(const std::filesystem::path& path);
 
-struct RelationsMetricOptions {
-  double max_gap_s = 2.0;  ///< longest gap between two poses to interpolate in
-};
+/// Longest gap between two poses to interpolate in, by default.
+inline constexpr double kMaxGap_s = 2.0;
 
 /// The error of one relation.
 struct RelationError {
@@ -77,6 +75,6 @@ struct RelationsMetric {
 /// trajectory by time first; poses of equal time keep their order. Throws UserError if no relation can be
 /// used, std::invalid_argument if the longest gap is negative or not a number.
 RelationsMetric evaluate_relations(Trajectory trajectory, const std::vector<Relation>& relations,
-                                   const RelationsMetricOptions& options = {});
+                                   double max_gap_s = kMaxGap_s);
 
 }  // namespace psi_slam

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectory/text_lines.h"
 
+#include <algorithm>
 #include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <fstream>
+
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {
@@ -41,14 +42,11 @@ UserError TextLine::error(const std::string& complaint) const {
 }
 
 double TextLine::finite_number(std::size_t i, const char* what) const {
-  std::string_view word = words.at(i);
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  double value = 0;
-  const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (failure != std::errc{} || end != word.data() + word.size() || !std::isfinite(value))
+  const std::optional<double> value = parse_number(words.at(i));
+  if (!value)
     throw error("expected " + std::string(what) + ", a finite number, as word " + std::to_string(i + 1) +
                 ", found " + quoted(words[i]));
-  return value;
+  return *value;
 }
 
 TimeUs TextLine::time(std::size_t i) const {

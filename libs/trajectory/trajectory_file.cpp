@@ -20,10 +20,6 @@ constexpr std::size_t kPlaneWords = 4;
 constexpr std::size_t kTumWords = 8;
 constexpr TimeUs kSameTimeUs = 100;  // exclusive
 
-bool is_message_name(std::string_view word) {
-  return word[0] >= 'A' && word[0] <= 'Z';
-}
-
 /// Reads x, y and theta from three words in a row.
 StampedPose plane_pose(const TextLine& line, std::size_t stamp, std::size_t x) {
   return {line.time(stamp),
@@ -77,7 +73,8 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   bool first = true;
   bool carmen = false;
   for_each_text_line(path, [&](const TextLine& line) {
-    if (first) carmen = is_message_name(line.words[0]);
+    const char letter = line.words[0][0];
+    if (first) carmen = letter >= 'A' && letter <= 'Z';  // the name of a message
     first = false;
     if (carmen) {
       if (line.words[0] == "FLASER") trajectory.push_back(flaser_pose(line));
@@ -87,7 +84,7 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
       trajectory.push_back(plane_pose(line, 0, 1));
     } else {
       throw line.error("expected 'timestamp x y theta' or 'timestamp tx ty tz qx qy qz qw', found " +
-                       std::to_string(line.words.size()) + (line.words.size() == 1 ? " word" : " words"));
+                       counted(line.words.size(), "word"));
     }
   });
   if (trajectory.empty())

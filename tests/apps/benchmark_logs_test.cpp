@@ -50,7 +50,7 @@ TEST_P(BenchmarkLog, is_mapped_within_its_limits) {
   ASSERT_EQ(run.code, 0);
   EXPECT_EQ(run.out + run.err, "") << "quiet";
   const RelationsMetric metric = evaluate_relations(read_trajectory(output / "trajectory.tum"),
-                                                    read_relations(*relations), {benchmark.max_gap_s});
+                                                    read_relations(*relations), benchmark.max_gap_s);
   RecordProperty("mean_relation_error_m", std::to_string(metric.translation_abs_m.mean));
   EXPECT_EQ(metric.skipped, 0U);
   EXPECT_LE(metric.translation_abs_m.mean, benchmark.max_error_m);

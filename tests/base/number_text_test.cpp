@@ -104,5 +104,10 @@ TEST(ExactNumber, rejects_other_texts) {
   }
 }
 
+TEST(Counted, has_the_plural_unless_there_is_one) {
+  EXPECT_EQ(counted(1, "loop"), "1 loop");
+  EXPECT_EQ(counted(0, "loop"), "0 loops");
+}
+
 }  // namespace
 }  // namespace psi_slam

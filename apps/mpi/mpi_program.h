@@ -49,25 +49,22 @@ void hand_out(const std::vector<std::string>& orders, const WorkWatch<std::strin
 
 /// For rank 0 of several: workers that are the other ranks.
 template <class Order, class Outcome>
-Workers<Order, Outcome> rank_workers(std::string (*text_of)(const Order&),
-                                     Outcome (*outcome_of)(const std::string&)) {
-  return [=](const std::vector<Order>& orders, const WorkWatch<Outcome>& watch) {
+Workers<Order, Outcome> rank_workers() {
+  return [](const std::vector<Order>& orders, const WorkWatch<Outcome>& watch) {
     std::vector<std::string> texts;
-    for (const Order& order : orders) texts.push_back(text_of(order));
+    for (const Order& order : orders) texts.push_back(cbor_text(order));
     hand_out(texts, {watch.stop, watch.working, [&](std::size_t order, const std::string& text) {
-                       watch.finished(order, outcome_of(text));
+                       watch.finished(order, read_cbor<Outcome>(text));
                      }});
   };
 }
 
 /// For the other ranks: `make` with orders and outcomes as texts.
 template <class Order, class Outcome>
-MakeOrder text_maker(Order (*order_of)(const std::string&),
-                     std::optional<Outcome> (*make)(const Order&, const std::function<bool()>&),
-                     std::string (*text_of)(const Outcome&)) {
-  return [=](const std::string& order, const std::function<bool()>& stop) {
-    const std::optional<Outcome> outcome = make(order_of(order), stop);
-    return outcome ? std::optional(text_of(*outcome)) : std::nullopt;
+MakeOrder text_maker(std::optional<Outcome> (*make)(const Order&, const std::function<bool()>&)) {
+  return [make](const std::string& order, const std::function<bool()>& stop) {
+    const std::optional<Outcome> outcome = make(read_cbor<Order>(order), stop);
+    return outcome ? std::optional(cbor_text(*outcome)) : std::nullopt;
   };
 }
 

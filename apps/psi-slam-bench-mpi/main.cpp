@@ -20,7 +20,7 @@ std::function<int()> define(CLI::App& app, int ranks, const Streams& streams) {
   if (ranks > 0) options.program = program_beside("psi-slam-bench", kName);
   options.processes = std::max(1, ranks - 1);
   // Rank 0 does the work itself if it is alone.
-  options.workers = ranks < 2 ? local_child_workers(1) : rank_workers(child_words_text, read_child_end);
+  options.workers = ranks < 2 ? local_child_workers(1) : rank_workers<ChildWords, ChildEnd>();
   add_freiburg_command(app, streams, options, ranks == 0);
   app.require_subcommand(1);
   return [] { return kExitDone; };
@@ -37,5 +37,5 @@ int main(int argc, char** argv) {
        "Maps the logs of the Freiburg benchmark on the ranks of an MPI job and compares with other systems.",
        "\nExamples:\n"
        "  mpirun -n 9 psi-slam-bench-mpi freiburg --data benchmark-logs --seeds 10 -o out/freiburg\n",
-       define, text_maker(read_child_words, run_to_end, child_end_text)});
+       define, text_maker(run_to_end)});
 }

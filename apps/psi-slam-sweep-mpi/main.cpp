@@ -22,7 +22,7 @@ std::function<int()> define(CLI::App& app, int ranks, const Streams& streams) {
   return [=, &app, &streams] {
     if (const std::vector<std::string> unknown = app.remaining(); !unknown.empty())
       throw UserError(unknown_argument_text(unknown.front(), app, kName));
-    const SweepWorkers workers = ranks == 1 ? local_workers(1) : rank_workers(order_text, read_outcome);
+    const SweepWorkers workers = ranks == 1 ? local_workers(1) : rank_workers<SweepOrder, SweepOutcome>();
     return run_sweep_command(*sweep, workers, program_beside("psi-slam", kName), streams);
   };
 }
@@ -38,5 +38,5 @@ int main(int argc, char** argv) {
        "\nExamples:\n"
        "  mpirun -n 9 psi-slam-sweep-mpi my.log -o sweep --seeds 10\n"
        "  mpirun -n 9 psi-slam-sweep-mpi my.log -o sweep --set loop_closure.matcher=csm,ga\n",
-       define, text_maker(read_order, make_run, outcome_text), default_settings()});
+       define, text_maker(make_run), default_settings()});
 }

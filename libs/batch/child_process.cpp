@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -19,10 +18,9 @@
 namespace psi_slam {
 namespace {
 
-using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kBetweenLooks_ms = 200;
+constexpr int kPollTimeout_ms = 200;
 constexpr std::size_t kMostOut = std::size_t{16} << 20;
 constexpr std::size_t kMostErr = std::size_t{64} << 10;
 
@@ -41,16 +39,9 @@ bool take(Pipe& pipe, std::string& text, std::size_t most) {
   return more;
 }
 
-std::vector<char*> pointers_to(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 /// Starts the program in the new process, where only system calls are safe. The process ends with its parent
-/// and does not receive the terminal's Ctrl-C. Writes errno to `complaint` if the program cannot be started.
-[[noreturn]] void become(char* const* words, int out, int err, int complaint, pid_t parent) {
+/// and does not receive the terminal's Ctrl-C. Writes errno to `error_pipe` if the program cannot be started.
+[[noreturn]] void start_program(char* const* words, int out, int err, int error_pipe, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // the parent has already ended
   ::setpgid(0, 0);
@@ -59,54 +50,41 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
       ::dup2(err, STDERR_FILENO) >= 0)
     ::execv(words[0], words);
   const int error = errno;
-  const ssize_t told = ::write(complaint, &error, sizeof error);
-  ::_exit(told < 0 ? 1 : 127);
+  const ssize_t written = ::write(error_pipe, &error, sizeof error);
+  ::_exit(written < 0 ? 1 : 127);
 }
 
 pid_t start(const ChildProcess& child, const Pipe& out, const Pipe& err) {
   std::vector<std::string> words = child.words;
-  const std::vector<char*> pointers = pointers_to(words);
-  Pipe complaint;  // closes when the program starts
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  Pipe error_pipe;  // closes when the program starts
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
   if (pid < 0) fail("cannot start " + words.at(0), errno);
-  if (pid == 0) become(pointers.data(), out.writing(), err.writing(), complaint.writing(), parent);
-  complaint.close_writing();
-  std::string told;
-  while (complaint.read_to(told)) {
+  if (pid == 0) start_program(pointers.data(), out.writing(), err.writing(), error_pipe.writing(), parent);
+  error_pipe.close_writing();
+  std::string received;
+  while (error_pipe.read_to(received)) {
   }
   int error = 0;
-  if (told.size() < sizeof error) return pid;
-  std::memcpy(&error, told.data(), sizeof error);
+  if (received.size() < sizeof error) return pid;
+  std::memcpy(&error, received.data(), sizeof error);
   ::waitpid(pid, nullptr, 0);
   fail("cannot start " + words[0], error);
 }
 
-/// The last line that is not blank.
+/// Last line of a text without the blanks and line ends after it.
 std::string last_line(std::string text) {
   while (!text.empty() && std::strchr(" \t\r\n", text.back()) != nullptr) text.pop_back();
   return text.substr(text.rfind('\n') + 1);  // npos + 1 is 0
 }
 
-/// Calls visit(name, member) for each member of a ChildEnd.
-template <class End, class Visit>
-void visit_members(End& end, const Visit& visit) {
-  visit("code", end.code);
-  visit("signal", end.signal);
-  visit("over_time", end.over_time);
-  visit("stopped", end.stopped);
-  visit("out", end.out);
-  visit("err", end.err);
-  visit("wall_s", end.wall_s);
-  visit("cpu_s", end.cpu_s);
-  visit("peak_memory_mib", end.peak_memory_mib);
-}
-
 }  // namespace
 
 Pipe::Pipe() {
-  if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
-    throw SystemFailure(std::string("cannot create a pipe: ") + std::strerror(errno));
+  if (::pipe2(ends_.data(), O_CLOEXEC) != 0) fail("cannot create a pipe", errno);
 }
 
 Pipe::~Pipe() {
@@ -142,8 +120,7 @@ EndedChild RunningChild::wait() {
   EndedChild end;
   rusage usage{};
   while (::wait4(pid_, &end.status, 0, &usage) < 0)
-    if (errno != EINTR)
-      throw SystemFailure(std::string("cannot wait for a child process: ") + std::strerror(errno));
+    if (errno != EINTR) fail("cannot wait for a child process", errno);
   pid_ = 0;
   end.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   end.peak_memory_mib = static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts kibibytes
@@ -175,7 +152,7 @@ ChildEnd run_child(const ChildProcess& child) {
   err.close_writing();
   std::array<pollfd, 2> ends{{{out.reading(), POLLIN, 0}, {err.reading(), POLLIN, 0}}};
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {
-    const int ready = ::poll(ends.data(), ends.size(), kBetweenLooks_ms);
+    const int ready = ::poll(ends.data(), ends.size(), kPollTimeout_ms);
     if (ready < 0 && errno != EINTR) fail("cannot wait for the output of " + child.words[0], errno);
     if (ready > 0) {  // otherwise revents is from the last call
       if (ends[0].revents != 0 && !take(out, end.out, kMostOut)) ends[0].fd = -1;  // poll() ignores it
@@ -209,27 +186,6 @@ std::optional<ChildEnd> run_to_end(const ChildWords& words, const std::function<
 
 ChildWorkers local_child_workers(int processes) {
   return thread_workers<ChildWords, ChildEnd>(processes, run_to_end);
-}
-
-std::string child_words_text(const ChildWords& words) {
-  return cbor_text(words);
-}
-
-ChildWords read_child_words(const std::string& text) {
-  return Json::from_cbor(text).get<ChildWords>();
-}
-
-std::string child_end_text(const ChildEnd& end) {
-  Json json;
-  visit_members(end, [&json](const char* name, const auto& value) { json[name] = value; });
-  return cbor_text(json);
-}
-
-ChildEnd read_child_end(const std::string& text) {
-  const Json json = Json::from_cbor(text);
-  ChildEnd end;
-  visit_members(end, [&json](const char* name, auto& value) { json.at(name).get_to(value); });
-  return end;
 }
 
 }  // namespace psi_slam

@@ -88,6 +88,8 @@ struct ChildEnd {
   /// failure() without `prefix` if it starts with that: with the "NAME: " of the program's own messages.
   std::string failure_without(const std::string& prefix) const;
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChildEnd, code, signal, over_time, stopped, out, err, wall_s, cpu_s,
+                                   peak_memory_mib)
 
 /// Runs a program to its end. Its standard input is empty. It has its own process group, so that Ctrl-C
 /// reaches only the caller, and ends when the calling thread ends. Throws SystemFailure when the program
@@ -103,11 +105,5 @@ using ChildWorkers = Workers<ChildWords, ChildEnd>;
 
 /// Runs at most `processes` programs at a time on this machine.
 ChildWorkers local_child_workers(int processes);
-
-/// Messages to and from workers in other processes.
-std::string child_words_text(const ChildWords& words);
-ChildWords read_child_words(const std::string& text);
-std::string child_end_text(const ChildEnd& end);
-ChildEnd read_child_end(const std::string& text);
 
 }  // namespace psi_slam

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/atomic_file.h"
+#include "base/number_text.h"
 
 namespace psi_slam {
 
@@ -54,7 +55,7 @@ std::string machine_text() {
     break;
   }
   const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
-  return model + ", " + std::to_string(processors) + (processors == 1 ? " processor" : " processors");
+  return model + ", " + counted(processors, "processor");
 }
 
 }  // namespace psi_slam

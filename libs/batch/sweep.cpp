@@ -5,8 +5,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
-
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -21,26 +19,10 @@ SweepOrder order_of(const SweepPlan& plan, const SweepRun& run, const SweepOptio
           options.keep};
 }
 
-std::size_t count(const SweepResult& result, bool (*is_one)(const std::optional<SweepOutcome>&)) {
-  return static_cast<std::size_t>(std::count_if(result.outcomes.begin(), result.outcomes.end(), is_one));
-}
-
 }  // namespace
 
 SweepWorkers local_workers(int processes) {
   return thread_workers<SweepOrder, SweepOutcome>(processes, make_run);
-}
-
-std::size_t SweepResult::to_go() const {
-  return count(*this, [](const auto& outcome) { return !outcome; });
-}
-
-std::size_t SweepResult::failed() const {
-  return count(*this, [](const auto& outcome) { return outcome && !outcome->figures; });
-}
-
-std::size_t SweepResult::made_now() const {
-  return count(*this, [](const auto& outcome) { return outcome && outcome->attempts > 0; });
 }
 
 SweepLock::SweepLock(const fs::path& folder) {

@@ -2,11 +2,11 @@
 // Runs a sweep: keeps finished runs and hands the others to workers.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "batch/sweep_plan.h"
@@ -31,9 +31,21 @@ SweepWorkers local_workers(int processes);
 struct SweepResult {
   std::vector<std::optional<SweepOutcome>> outcomes;  ///< by run of the plan; empty: not made yet
 
-  std::size_t to_go() const;
-  std::size_t failed() const;
-  std::size_t made_now() const;
+  std::size_t to_go() const {
+    return count([](const auto& outcome) { return !outcome; });
+  }
+  std::size_t failed() const {
+    return count([](const auto& outcome) { return outcome && !outcome->figures; });
+  }
+  std::size_t made_now() const {
+    return count([](const auto& outcome) { return outcome && outcome->attempts > 0; });
+  }
+
+ private:
+  template <class IsOne>
+  std::size_t count(const IsOne& is_one) const {
+    return static_cast<std::size_t>(std::count_if(outcomes.begin(), outcomes.end(), is_one));
+  }
 };
 
 /// Lock of an output folder: no other sweep writes to it during the lifetime of this object. Throws UserError

@@ -79,7 +79,8 @@ std::vector<SweepLog> logs_of(const SweepRequest& request) {
   if (!request.relations.empty() && request.logs.size() > 1)
     throw UserError("--relations works with one log only: for several, put NAME.relations beside each log");
   if (!request.ini_folder.empty() && !fs::is_directory(request.ini_folder))
-    throw UserError("--ini: " + request.ini_folder + " is not a folder");
+    throw UserError("--ini: " + request.ini_folder +
+                    " is not a folder, expected one with a file NAME.ini for each log");
   std::map<std::string, int> names;
   std::vector<SweepLog> logs;
   for (const std::string& argument : request.logs) {
@@ -133,7 +134,8 @@ std::vector<Choice> choices_of(const SweepRequest& request) {
 std::vector<std::vector<std::string>> combinations(const std::vector<Choice>& choices) {
   std::vector<std::vector<std::string>> all(1);
   for (const Choice& choice : choices) {
-    if (all.size() * choice.values.size() > kMostRuns) throw UserError("--set: too many combinations");
+    if (all.size() * choice.values.size() > kMostRuns)
+      throw UserError("--set: more than " + std::to_string(kMostRuns) + " combinations. Give fewer values");
     std::vector<std::vector<std::string>> longer;
     for (const std::vector<std::string>& values : all) {
       for (const std::string& value : choice.values) {
@@ -177,7 +179,7 @@ void require_all_different(const SweepPlan& plan) {
   for (const SweepRun& run : plan.runs)
     if (const auto [other, is_new] = known.emplace(run.key, &run); !is_new)
       throw UserError("two runs of the sweep would be equal: " + run_text(plan, *other->second) + " and " +
-                      run_text(plan, run));
+                      run_text(plan, run) + ". Remove one of the two");
 }
 
 /// Removes the columns of choices with a single value.
@@ -199,7 +201,8 @@ SweepPlan plan_sweep(const SweepRequest& request, const std::string& program_sha
   for (const Choice& choice : choices) plan.columns.push_back(choice.column);
   plan.logs = logs_of(request);
   if (settings.size() * plan.logs.size() > kMostRuns / request.seeds.count())
-    throw UserError("a sweep has at most " + std::to_string(kMostRuns) + " runs");
+    throw UserError("a sweep has at most " + std::to_string(kMostRuns) +
+                    " runs. Give fewer logs, values or seeds");
   for (std::size_t log = 0; log < plan.logs.size(); ++log) {
     for (const std::vector<std::string>& values : settings) {
       BoundSettings bound;

@@ -141,26 +141,6 @@ ReportTable by_setting(const std::vector<Measure>& measures, const SweepPlan& pl
   return table;
 }
 
-ReportTable results_table(const SweepPlan& plan, const SweepResult& result) {
-  const std::vector<Measure> measures{
-      {"translation [m]", [](const SweepFigures& f) { return f.errors.translation_abs_m.mean; }, 4, true},
-      {"rotation [deg]", [](const SweepFigures& f) { return f.errors.rotation_abs_deg.mean; }, 3, true},
-      {"nodes", [](const SweepFigures& f) { return static_cast<double>(f.nodes); }, 1},
-      {"loops", [](const SweepFigures& f) { return static_cast<double>(f.loops_accepted); }, 1},
-      {"refused", [](const SweepFigures& f) { return static_cast<double>(f.loops_refused); }, 1},
-      {"switched off", [](const SweepFigures& f) { return static_cast<double>(f.loops_switched_off); }, 1},
-      {"path [m]", [](const SweepFigures& f) { return f.path_length_m; }, 2}};
-  return by_setting(measures, plan, result);
-}
-
-ReportTable times_table(const SweepPlan& plan, const SweepResult& result) {
-  const std::vector<Measure> measures{
-      {"time [s]", [](const SweepFigures& f) { return f.wall_s; }, 2},
-      {"processor time [s]", [](const SweepFigures& f) { return f.cpu_s; }, 2},
-      {"memory [MiB]", [](const SweepFigures& f) { return f.peak_memory_mib; }, 0}};
-  return by_setting(measures, plan, result);
-}
-
 ReportTable failures_table(const SweepPlan& plan, const SweepResult& result) {
   ReportTable table{{{"run", {}, true}, {"attempts", {}, true}, {"reason", {}, true}}, {}};
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
@@ -172,16 +152,24 @@ ReportTable failures_table(const SweepPlan& plan, const SweepResult& result) {
   return table;
 }
 
-struct TitledTable {
-  std::string title;
-  ReportTable table;
-};
-
-std::vector<TitledTable> tables_of(const SweepPlan& plan, const SweepResult& result) {
-  std::vector<TitledTable> tables{{"By setting", results_table(plan, result)}};
+std::vector<std::pair<std::string, ReportTable>> titled_tables(const SweepPlan& plan,
+                                                               const SweepResult& result) {
+  using Figures = SweepFigures;
+  const std::vector<Measure> results{
+      {"translation [m]", [](const Figures& f) { return f.errors.translation_abs_m.mean; }, 4, true},
+      {"rotation [deg]", [](const Figures& f) { return f.errors.rotation_abs_deg.mean; }, 3, true},
+      {"nodes", [](const Figures& f) { return static_cast<double>(f.nodes); }, 1},
+      {"loops", [](const Figures& f) { return static_cast<double>(f.loops_accepted); }, 1},
+      {"refused", [](const Figures& f) { return static_cast<double>(f.loops_refused); }, 1},
+      {"switched off", [](const Figures& f) { return static_cast<double>(f.loops_switched_off); }, 1},
+      {"path [m]", [](const Figures& f) { return f.path_length_m; }, 2}};
+  const std::vector<Measure> times{{"time [s]", [](const Figures& f) { return f.wall_s; }, 2},
+                                   {"processor time [s]", [](const Figures& f) { return f.cpu_s; }, 2},
+                                   {"memory [MiB]", [](const Figures& f) { return f.peak_memory_mib; }, 0}};
+  std::vector<std::pair<std::string, ReportTable>> tables{{"By setting", by_setting(results, plan, result)}};
   ReportTable failures = failures_table(plan, result);
-  if (!failures.rows.empty()) tables.push_back({"Failed runs", std::move(failures)});
-  tables.push_back({"Times", times_table(plan, result)});
+  if (!failures.rows.empty()) tables.emplace_back("Failed runs", std::move(failures));
+  tables.emplace_back("Times", by_setting(times, plan, result));
   return tables;
 }
 
@@ -244,7 +232,7 @@ std::string sweep_json(const SweepPlan& plan, const SweepResult& result) {
 
 std::string sweep_markdown(const SweepPlan& plan, const SweepResult& result) {
   std::string text = "# Sweep\n\n" + account_text(plan, result) + '\n';
-  for (const auto& [title, table] : tables_of(plan, result))
+  for (const auto& [title, table] : titled_tables(plan, result))
     text += "\n## " + title + "\n\n" + table.markdown();
   return text;
 }
@@ -253,7 +241,7 @@ std::string sweep_html(const SweepPlan& plan, const SweepResult& result) {
   std::string text = std::string("<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"/>") +
                      "<title>Sweep – psi-slam</title>\n<style>" + kStyle + "</style></head>\n<body>\n" +
                      "<h1>Sweep</h1>\n<p>" + escape_html(account_text(plan, result)) + "</p>\n";
-  for (const auto& [title, table] : tables_of(plan, result))
+  for (const auto& [title, table] : titled_tables(plan, result))
     text += "<h2>" + title + "</h2>\n" + table.html();
   return text + "</body>\n</html>\n";
 }

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
 #include "base/exit_code.h"
 #include "batch/child_process.h"
 #include "batch/kept_run.h"
-#include "batch/workers.h"
 #include "psi_slam/user_error.h"
 #include "trajectory/trajectory_file.h"
 
@@ -78,44 +76,30 @@ void leave_only(const fs::path& folder, SweepKeep keep) {
   for (const fs::path& other : others) fs::remove_all(other);
 }
 
-struct Attempt {
-  SweepOutcome outcome;
-  bool once_more = false;  ///< another attempt may succeed
-  bool stopped = false;
-};
-
 /// Runs psi-slam once, with its results in `folder`.
-Attempt attempt(const SweepOrder& order, const fs::path& folder, const std::function<bool()>& stop) {
+ChildEnd run_psi_slam(const SweepOrder& order, const fs::path& folder, const std::function<bool()>& stop) {
   fs::remove_all(folder);
   fs::create_directories(folder);
-  write_text_atomically(folder / kSettings, order.settings);
-  ChildProcess child;
+  const std::string settings = (folder / kSettings).string();
+  write_text_atomically(settings, order.settings);
   // An absolute path cannot be mistaken for an option or a command.
-  child.words = {order.program.string(),
-                 "-c",
-                 (folder / kSettings).string(),
-                 "-o",
-                 folder.string(),
-                 "--force",
-                 "--quiet",
-                 fs::absolute(order.log).string()};
-  child.stop = stop;
-  const ChildEnd end = run_child(child);
-  Attempt made;
-  made.stopped = end.stopped;
-  made.outcome.failure = end.failure_without("psi-slam: ");
-  // Wrong input fails again.
-  made.once_more = !made.outcome.failure.empty() && end.code != kExitWrongUsageOrInput;
-  if (!made.outcome.failure.empty()) return made;
+  const std::string log = fs::absolute(order.log).string();
+  const ChildWords words{order.program.string(), "-c",      settings,  "-o",
+                         folder.string(),        "--force", "--quiet", log};
+  return run_child({words, 0, stop});
+}
+
+SweepOutcome outcome_of(const ChildEnd& end, const SweepOrder& order, const fs::path& folder) {
+  SweepOutcome outcome{{}, end.failure_without("psi-slam: "), 0};
+  if (!outcome.failure.empty()) return outcome;
   try {
     SweepFigures figures = figures_of(folder, order.relations);
     set_effort(figures, end);
-    made.outcome.figures = figures;
+    outcome.figures = figures;
   } catch (const SystemFailure& failure) {
-    made.outcome.failure = failure.what();
-    made.once_more = true;
+    outcome.failure = failure.what();
   }
-  return made;
+  return outcome;
 }
 
 /// Replaces the folder of the order with the finished result.
@@ -132,15 +116,16 @@ void put_in_place(const SweepOrder& order, const fs::path& made, const SweepOutc
 
 std::optional<SweepOutcome> make_or_throw(const SweepOrder& order, const fs::path& folder,
                                           const std::function<bool()>& stop) {
-  Attempt made;
+  SweepOutcome outcome;
   for (int attempts = 1; attempts <= kMostAttempts; ++attempts) {
-    made = attempt(order, folder, stop);
-    made.outcome.attempts = attempts;
-    if (made.stopped) return std::nullopt;
-    if (!made.once_more) break;
+    const ChildEnd end = run_psi_slam(order, folder, stop);
+    if (end.stopped) return std::nullopt;
+    outcome = outcome_of(end, order, folder);
+    outcome.attempts = attempts;
+    if (outcome.figures || end.code == kExitWrongUsageOrInput) break;  // wrong input fails again
   }
-  if (made.outcome.figures) put_in_place(order, folder, made.outcome);
-  return made.outcome;
+  if (outcome.figures) put_in_place(order, folder, outcome);
+  return outcome;
 }
 
 }  // namespace
@@ -173,38 +158,16 @@ std::optional<SweepOutcome> make_run(const SweepOrder& order, const std::functio
   return outcome;
 }
 
-std::string order_text(const SweepOrder& order) {
-  return cbor_text({order.program.string(), order.log.string(), order.relations.string(), order.settings,
-                    order.key, order.folder.string(), static_cast<int>(order.keep)});
+void to_json(nlohmann::json& json, const SweepOutcome& outcome) {
+  json = {{"figures", outcome.figures ? figures_json(*outcome.figures) : Json()},
+          {"failure", outcome.failure},
+          {"attempts", outcome.attempts}};
 }
 
-SweepOrder read_order(const std::string& text) {
-  const Json json = Json::from_cbor(text);
-  const auto word = [&](std::size_t index) { return json.at(index).get<std::string>(); };
-  constexpr std::size_t kKeep = 6;
-  return {word(0),
-          word(1),
-          word(2),
-          word(3),
-          word(4),
-          word(5),
-          static_cast<SweepKeep>(json.at(kKeep).get<int>())};
-}
-
-std::string outcome_text(const SweepOutcome& outcome) {
-  return Json{{"figures", outcome.figures ? figures_json(*outcome.figures) : Json(nullptr)},
-              {"failure", outcome.failure},
-              {"attempts", outcome.attempts}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-SweepOutcome read_outcome(const std::string& text) {
-  const Json json = Json::parse(text);
-  SweepOutcome outcome;
+void from_json(const nlohmann::json& json, SweepOutcome& outcome) {
   if (!json.at("figures").is_null()) outcome.figures = read_figures(json.at("figures"));
   json.at("failure").get_to(outcome.failure);
   json.at("attempts").get_to(outcome.attempts);
-  return outcome;
 }
 
 }  // namespace psi_slam

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -63,10 +64,9 @@ std::optional<SweepOutcome> kept_outcome(const SweepOrder& order);
 /// nothing and leaves no folder. Never throws for a failed run.
 std::optional<SweepOutcome> make_run(const SweepOrder& order, const std::function<bool()>& stop);
 
-/// Messages to and from workers in other processes. Reading other text throws nlohmann::json::exception.
-std::string order_text(const SweepOrder& order);
-SweepOrder read_order(const std::string& text);
-std::string outcome_text(const SweepOutcome& outcome);
-SweepOutcome read_outcome(const std::string& text);
+/// Conversions for messages to and from workers in other processes.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SweepOrder, program, log, relations, settings, key, folder, keep)
+void to_json(nlohmann::json& json, const SweepOutcome& outcome);
+void from_json(const nlohmann::json& json, SweepOutcome& outcome);
 
 }  // namespace psi_slam

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders carried out by workers: threads of this process, or ranks of an MPI job (see apps/mpi).
+// Orders carried out by workers: threads of this process, or ranks of an MPI job (see apps/mpi), which
+// exchange orders and outcomes as texts of cbor_text().
 #pragma once
 
 #include <algorithm>
@@ -83,6 +84,12 @@ inline std::string cbor_text(const nlohmann::json& json) {
   std::string text;
   nlohmann::json::to_cbor(json, text);
   return text;
+}
+
+/// Reads a text of cbor_text(). Throws nlohmann::json::exception for other text.
+template <class Value>
+Value read_cbor(const std::string& text) {
+  return nlohmann::json::from_cbor(text).get<Value>();
 }
 
 }  // namespace psi_slam

@@ -150,7 +150,7 @@ TEST_F(ChildWorkersTest, after_a_stop_no_program_starts_and_killed_ones_are_not_
 
 TEST(ChildTexts, restore_words_and_ends_with_any_bytes) {
   const ChildWords words{"/bin/a b", "caf\xe9", "", "--x=\"1\"\n"};
-  EXPECT_EQ(read_child_words(child_words_text(words)), words);
+  EXPECT_EQ(read_cbor<ChildWords>(cbor_text(words)), words);
   ChildEnd end;
   end.code = 3;
   end.signal = 9;
@@ -160,7 +160,7 @@ TEST(ChildTexts, restore_words_and_ends_with_any_bytes) {
   end.wall_s = 0.1;
   end.cpu_s = 1e-9;
   end.peak_memory_mib = 123.456;
-  const ChildEnd read = read_child_end(child_end_text(end));
+  const ChildEnd read = read_cbor<ChildEnd>(cbor_text(end));
   EXPECT_EQ(read.code, 3);
   EXPECT_EQ(read.signal, 9);
   EXPECT_TRUE(read.over_time);

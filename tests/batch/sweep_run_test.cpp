@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "batch/workers.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 
@@ -125,15 +126,15 @@ TEST_F(SweepRunTest, a_run_without_a_readable_summary_is_a_failure) {
 TEST_F(SweepRunTest, orders_and_outcomes_survive_as_text) {
   SweepOrder run = order(kGoodRun);
   run.keep = SweepKeep::kMaps;
-  EXPECT_EQ(order_text(read_order(order_text(run))), order_text(run));
-  EXPECT_EQ(read_order(order_text(run)).settings, run.settings);
+  EXPECT_EQ(cbor_text(read_cbor<SweepOrder>(cbor_text(run))), cbor_text(run));
+  EXPECT_EQ(read_cbor<SweepOrder>(cbor_text(run)).settings, run.settings);
   run.log = "b\xe2timent.log";  // Latin-1
-  EXPECT_EQ(read_order(order_text(run)).log, run.log);
+  EXPECT_EQ(read_cbor<SweepOrder>(cbor_text(run)).log, run.log);
   const SweepOutcome made = outcome(run);
-  EXPECT_EQ(outcome_text(read_outcome(outcome_text(made))), outcome_text(made));
+  EXPECT_EQ(cbor_text(read_cbor<SweepOutcome>(cbor_text(made))), cbor_text(made));
   const SweepOutcome failed{{}, "it broke", 2};
-  EXPECT_EQ(read_outcome(outcome_text(failed)).failure, "it broke");
-  EXPECT_FALSE(read_outcome(outcome_text(failed)).figures);
+  EXPECT_EQ(read_cbor<SweepOutcome>(cbor_text(failed)).failure, "it broke");
+  EXPECT_FALSE(read_cbor<SweepOutcome>(cbor_text(failed)).figures);
 }
 
 }  // namespace

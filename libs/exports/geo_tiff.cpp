@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "exports/geo_tiff.h"
-
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
@@ -18,6 +16,7 @@
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "exports/map_files.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "exports/map_drawing_files.h"
-
 #include <string_view>
 #include <utility>
 
 #include "base/number_text.h"
+#include "exports/map_files.h"
 #include "rendering/picture_ink.h"
 
 namespace psi_slam {

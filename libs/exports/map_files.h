@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All files of a map: for people, robots, MRPT's programs, CAD programs and geographic information systems.
+// All files are written atomically. Writing throws SystemFailure if a file cannot be written.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimpleMap.h>
 
 #include <filesystem>
+#include <string>
 
-#include "exports/geo_tiff.h"
 #include "psi_slam/mapping_result.h"
 #include "rendering/map_drawing.h"
 
 namespace psi_slam {
+
+/// Pose of the map's frame in a projected coordinate system.
+struct GeoReference {
+  int epsg = 0;  ///< number of the coordinate system; 0 for a local system in metres
+  double easting_m = 0;
+  double northing_m = 0;
+  double heading_rad = 0;  ///< of the map's x axis, counter-clockwise from east
+};
 
 /// Which files to write, and how.
 struct MapFileOptions {
@@ -22,14 +32,51 @@ struct MapFileOptions {
   bool print = false;        ///< map_print.png, true to scale
   bool geotiff = false;      ///< map.tif
   double print_scale = 100;  ///< of map_print.png and map.svg: 1:100
-  int print_dpi = 300;       ///< of map_print.png
+  int print_dpi = 300;       ///< of map_print.png: pixels per inch of paper
   MapDrawingOptions lines;   ///< of map.svg and map.dxf
   GeoReference earth;        ///< of map.tif, and of north in map_print.png
 };
 
-/// Writes the files asked for, each atomically, and deletes the others, which would show an older map. `grid`
-/// is the map of `result` by draw_grid_map. Throws SystemFailure if a file cannot be written.
+/// Writes the files asked for and deletes the others, which would show an older map. `grid` is the map of
+/// `result` by draw_grid_map.
 void write_map_files(const std::filesystem::path& folder, const MappingResult& result,
                      const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options = {});
+
+/// Writes NAME.pgm (binary P5, row 0 on top; 0 occupied, 254 free, 205 unknown) and NAME.yaml (mode trinary,
+/// origin at the lower left corner, in metres in the map) for `yaml_path` NAME.yaml, as map_server of ROS 1
+/// and nav2 read them. Writes the image first, so the pair is complete once the YAML file exists.
+void write_map_server_pair(const std::filesystem::path& yaml_path,
+                           const mrpt::maps::COccupancyGridMap2D& grid);
+
+/// Returns the nodes of the graph with their scans. Each pose has the covariance (1 mm)^2, (1 mrad)^2 as a
+/// placeholder that MRPT can invert, because the marginals of the graph are not computed.
+mrpt::maps::CSimpleMap simple_map(const MappingResult& result);
+
+/// Writes a simple map or a grid map, serialised and gzipped, as MRPT's programs and
+/// CSimpleMap::loadFromFile read it. Equal maps give equal bytes.
+void write_mrpt_map(const std::filesystem::path& path, const mrpt::serialization::CSerializable& map);
+
+/// Returns the drawing as DXF release 12, which every CAD program reads, in metres in the map's frame: closed
+/// polylines on layer WALLS, open ones on layer TRAJECTORY. Outlines of two points become lines.
+std::string map_dxf(const MapDrawing& drawing);
+
+/// Returns the drawing as SVG that prints at 1:`scale`, with scale bar and axes below the map. The unit is
+/// one metre, and groups "walls" and "trajectory" use map coordinates; width and height are millimetres of
+/// paper.
+std::string map_svg(const MapDrawing& drawing, double scale);
+
+/// Returns map_print.png: the part of the grid that was seen, true to scale (the file states its pixels per
+/// metre of paper), and below it a strip with scale bar, axes and, if `options.earth` has a coordinate
+/// system, north. A picture of more than 150 million pixels gets fewer pixels per inch. Equal grids give
+/// equal bytes. Throws SystemFailure if the picture cannot be encoded.
+std::string print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options);
+
+/// Throws UserError unless `epsg` is 0 or the number of a projected coordinate system in metres.
+void check_epsg(int epsg);
+
+/// Writes a GeoTIFF file with one band of bytes: the probability of occupied space in percent, 255 where
+/// nothing was seen. Throws UserError as check_epsg().
+void write_geo_tiff(const std::filesystem::path& path, const mrpt::maps::COccupancyGridMap2D& grid,
+                    const GeoReference& reference = {});
 
 }  // namespace psi_slam

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "exports/map_print.h"
-
 #include <zlib.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/number_text.h"
+#include "exports/map_files.h"
 #include "rendering/map_image.h"
 #include "rendering/picture_ink.h"
 
@@ -16,7 +15,8 @@ namespace psi_slam {
 namespace {
 
 constexpr double kMetresPerInch = 0.0254;
-constexpr double kFooter_mm = 14;  // of paper, height of the strip below the map
+constexpr double kFooter_mm = 14;     // of paper, height of the strip below the map
+constexpr double kMaxPixels = 150e6;  // so that the picture does not exhaust the memory
 
 std::string big_endian(std::uint32_t number) {
   std::string bytes;
@@ -34,12 +34,12 @@ std::string with_resolution(std::string png, double pixels_per_metre) {
   return png.insert(kHeaderEnd, big_endian(9) + chunk + big_endian(checksum));
 }
 
-/// The dots per inch asked for, or fewer if the picture would exceed max_pixels.
-int dpi_that_fits(const MapRaster& raster, const MapPrintOptions& options) {
+/// The dots per inch asked for, or fewer if the picture would exceed kMaxPixels.
+int dpi_that_fits(const MapRaster& raster, const MapFileOptions& options) {
   const double area_m2 = raster.width_px * raster.resolution_m * raster.height_px * raster.resolution_m;
-  const double inches = area_m2 / std::pow(options.scale * kMetresPerInch, 2);
-  const double dpi = std::sqrt(static_cast<double>(options.max_pixels) / inches);
-  return std::max(1, static_cast<int>(std::min<double>(options.dpi, dpi)));
+  const double inches = area_m2 / std::pow(options.print_scale * kMetresPerInch, 2);
+  const double dpi = std::sqrt(kMaxPixels / inches);
+  return std::max(1, static_cast<int>(std::min<double>(options.print_dpi, dpi)));
 }
 
 /// Draws an arrow in a direction counter-clockwise from the x axis, with its name at the tip.
@@ -58,34 +58,33 @@ void draw_arrow(cv::Mat& image, const cv::Point2d& from, double length, double d
 }
 
 /// Adds the strip below the map: scale bar on the left, north and axes on the right.
-void add_footer(cv::Mat& image, const MapPrintOptions& options, double pixels_a_m, double px_per_mm) {
+void add_footer(cv::Mat& image, const MapFileOptions& options, double pixels_a_m, double px_per_mm) {
   const int top = image.rows;
   cv::copyMakeBorder(image, image, 0, static_cast<int>(std::lround(kFooter_mm * px_per_mm)), 0, 0,
                      cv::BORDER_CONSTANT, kUnknownInk);
   const int unit = std::max(4, static_cast<int>(std::lround(2.5 * px_per_mm)));
   const int middle = top + static_cast<int>(kFooter_mm / 2 * px_per_mm);
   draw_scale_bar(image, {unit, middle, unit}, scale_bar_m(image.cols / pixels_a_m, 1 / pixels_a_m),
-                 1 / pixels_a_m, "  1:" + shortest_text(static_cast<float>(options.scale)));
+                 1 / pixels_a_m, "  1:" + shortest_text(static_cast<float>(options.print_scale)));
   const cv::Point2d corner(image.cols - 12 * px_per_mm, top + 11 * px_per_mm);
   draw_arrow(image, corner, 6 * px_per_mm, 0, "x", px_per_mm);
   draw_arrow(image, corner, 6 * px_per_mm, M_PI / 2, "y", px_per_mm);
-  if (options.north_rad) {
-    const double length = 5 * px_per_mm;
-    const cv::Point2d half(std::cos(*options.north_rad) * length / 2,
-                           -std::sin(*options.north_rad) * length / 2);
-    const cv::Point2d centre(image.cols - 24 * px_per_mm, top + 7 * px_per_mm);
-    draw_arrow(image, centre - half, length, *options.north_rad, "N", px_per_mm);
-  }
+  if (options.earth.epsg == 0) return;
+  const double north_rad = M_PI / 2 - options.earth.heading_rad;
+  const double length = 5 * px_per_mm;
+  const cv::Point2d half(std::cos(north_rad) * length / 2, -std::sin(north_rad) * length / 2);
+  const cv::Point2d centre(image.cols - 24 * px_per_mm, top + 7 * px_per_mm);
+  draw_arrow(image, centre - half, length, north_rad, "N", px_per_mm);
 }
 
 }  // namespace
 
-std::string print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapPrintOptions& options) {
+std::string print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options) {
   MapPictureOptions whole;
   whole.max_side_px = std::numeric_limits<int>::max() / 2;
   MapRaster raster = map_raster(grid, whole);
   const double paper_pixels_a_m = dpi_that_fits(raster, options) / kMetresPerInch;
-  const double pixels_a_m = paper_pixels_a_m / options.scale;
+  const double pixels_a_m = paper_pixels_a_m / options.print_scale;
   const auto pixels = [&](int cells) {
     return std::max(1, static_cast<int>(std::lround(cells * raster.resolution_m * pixels_a_m)));
   };

@@ -27,4 +27,13 @@ inline std::vector<mrpt::math::TPose2D> mapped_poses(const MappingResult& result
   return poses;
 }
 
+/// Returns mapped_poses() of each run.
+inline std::vector<std::vector<mrpt::math::TPose2D>> paths_of_runs(const MappingResult& result) {
+  const std::vector<mrpt::math::TPose2D> poses = mapped_poses(result);
+  const auto at = [&](std::size_t i) { return poses.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::vector<std::vector<mrpt::math::TPose2D>> paths;
+  for (const FrameSpan& run : runs_of(result)) paths.emplace_back(at(run.begin), at(run.end));
+  return paths;
+}
+
 }  // namespace psi_slam

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/number_text.h"
-#include "rendering/map_drawing.h"
+#include "exports/mapped_trajectory.h"
 
 namespace psi_slam {
 namespace {
@@ -90,14 +90,8 @@ LoopCounts loop_counts(const MappingResult& result) {
 
 MapExtent map_extent(const mrpt::maps::COccupancyGridMap2D& grid, double asked_resolution_m) {
   const SeenCells seen = seen_cells(grid);
-  const MapRectangle part = seen_extent(grid, seen);
   const auto cell_m = static_cast<double>(grid.getResolution());
-  return {part.x_min_m,
-          part.y_min_m,
-          part.x_max_m,
-          part.y_max_m,
-          cell_m,
-          asked_resolution_m,
+  return {seen_extent(grid, seen), cell_m, asked_resolution_m,
           static_cast<double>(seen.free) * cell_m * cell_m};
 }
 
@@ -220,11 +214,7 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
   for (const auto& [kind, matcher] : result.loop_matchers)
     summary.evaluations += matcher.final_search_effort.evaluations;
   if (matched > 0) summary.mean_response /= static_cast<double>(matched);
-  for (const FrameSpan& run : summary.runs) {
-    std::vector<TPose2D> poses;
-    for (std::size_t i = run.begin; i < run.end; ++i) poses.push_back(result.frames[i].map_T_robot);
-    summary.path_length_m += path_length_m(poses);
-  }
+  for (const auto& path : paths_of_runs(result)) summary.path_length_m += path_length_m(path);
   summary.nodes = result.graph.num_nodes();
   summary.edges = result.graph.num_enabled_constraints();
   summary.local_maps = result.local_maps.size();

@@ -14,6 +14,7 @@
 #include "psi_slam/grid_map.h"
 #include "psi_slam/mapping_result.h"
 #include "psi_slam/time_stamp.h"
+#include "rendering/map_drawing.h"
 
 namespace psi_slam {
 
@@ -61,11 +62,7 @@ struct LoopCounts {
 };
 
 /// Extent of the part of the map that was seen.
-struct MapExtent {
-  double x_min_m = 0;
-  double y_min_m = 0;
-  double x_max_m = 0;
-  double y_max_m = 0;
+struct MapExtent : DrawingExtent {
   double resolution_m = 0;
   double asked_resolution_m = 0;  ///< by the settings
   double free_m2 = 0;             ///< area of free space

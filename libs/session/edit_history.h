@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "psi_slam/loop_record.h"
@@ -21,12 +22,22 @@ class EditHistory {
 
   /// Notes an edit that the user made. `before` is the edit of the same loop that was in force, `later` are
   /// its planned edits. Nothing can be redone afterwards.
-  void note(const LoopEdit& made, const std::optional<LoopEdit>& before, std::vector<TimedEdit> later = {});
+  void note(const LoopEdit& made, const std::optional<LoopEdit>& before, std::vector<TimedEdit> later = {}) {
+    const LoopEdit restore{LoopEdit::Kind::kRestore, made.frame, made.local_map};
+    made_.push_back({made, {before.value_or(restore), std::move(later)}});
+    undone_.clear();
+  }
 
   /// The edit that undoes the newest one; empty if there is nothing to undo.
-  std::optional<Reversal> undo();
+  std::optional<Reversal> undo() {
+    if (!move_last(made_, undone_)) return std::nullopt;
+    return undone_.back().back;
+  }
   /// The edit that was undone last; empty if there is nothing to redo.
-  std::optional<LoopEdit> redo();
+  std::optional<LoopEdit> redo() {
+    if (!move_last(undone_, made_)) return std::nullopt;
+    return made_.back().made;
+  }
 
   /// Texts of the edits that undo() and redo() would undo and repeat; empty if there are none.
   std::string undo_text() const { return text_of_last(made_); }
@@ -37,6 +48,12 @@ class EditHistory {
     LoopEdit made;
     Reversal back;  ///< undoes `made`
   };
+  static bool move_last(std::vector<Step>& from, std::vector<Step>& to) {
+    if (from.empty()) return false;
+    to.push_back(std::move(from.back()));
+    from.pop_back();
+    return true;
+  }
   static std::string text_of_last(const std::vector<Step>& steps) {
     return steps.empty() ? "" : text_of(steps.back().made);
   }

@@ -21,7 +21,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "psi_slam/loop_record.h"
@@ -37,8 +37,11 @@ struct EditTime {
   };
   Kind kind = Kind::kBegin;
   std::size_t scan = 0;
+
+  bool operator<(const EditTime& other) const {
+    return std::tie(kind, scan) < std::tie(other.kind, other.scan);
+  }
 };
-bool operator<(const EditTime& a, const EditTime& b);
 
 struct TimedEdit {
   LoopEdit edit;
@@ -87,11 +90,5 @@ class EditJournal {
   std::vector<TimedEdit> edits_;
   std::size_t taken_ = 0;
 };
-
-/// Text of an edit in the file, without line end.
-std::string edit_line(const TimedEdit& edit);
-
-/// Parses a line of the file, without comment. Throws UserError, without file and line, if it is no edit.
-TimedEdit parse_edit_line(std::string_view line);
 
 }  // namespace psi_slam

@@ -56,6 +56,30 @@ class WorkClock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Limits the facts to the first scans. All scans beyond those of the earlier logs belong to the last log.
+/// Drops logs and runs that were not reached, and the edits of their scans.
+void keep_first(std::size_t scans, SessionFacts& facts) {
+  std::size_t left = scans;
+  for (std::size_t i = 0; i < facts.logs.size(); ++i) {
+    RecordedLog& log = facts.logs[i];
+    const std::size_t taken = i + 1 < facts.logs.size() ? std::min(log.scans, left) : left;
+    if (taken < log.scans) {
+      log.broken_off.reset();
+      log.scans_left = true;
+    }
+    log.scans = taken;
+    left -= log.scans;
+    if (left == 0) facts.logs.resize(i + 1);
+  }
+  const auto lost = std::find_if(facts.runs.begin(), facts.runs.end(),
+                                 [&](const RecordedRun& run) { return run.scan >= scans; });
+  if (lost == facts.runs.end()) return;
+  const EditJournal edits = std::exchange(facts.edits, {});
+  for (const TimedEdit& edit : edits.edits())
+    if (edit.edit.frame < lost->scan) facts.edits.add(edit);
+  facts.runs.erase(lost, facts.runs.end());
+}
+
 }  // namespace
 
 struct MappingSession::Members {
@@ -106,10 +130,7 @@ MappingSession::MappingSession(const fs::path& log, const Configuration& configu
     : MappingSession(SessionInput(log), configuration, configuration.warnings()) {}
 
 MappingSession::MappingSession(const fs::path& log, const Settings& settings)
-    : MappingSession(SessionInput(log), settings, {}) {}
-
-MappingSession::MappingSession(const SessionInput& input, const Settings& settings)
-    : MappingSession(input, settings, {}) {}
+    : MappingSession(SessionInput(log), settings) {}
 
 MappingSession::MappingSession(const SessionInput& input, const Settings& settings,
                                std::vector<std::string> settings_warnings)
@@ -178,7 +199,8 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
     throw UserError((m.log_path.empty() ? names_of(m.logs) : m.log_path.string()) + ": " +
                     (m.scans == 0 ? "no scan was read, there is nothing to map"
                                   : "none of its " + std::to_string(m.scans) +
-                                        " scans has a return between log.min_range_m and log.max_range_m"));
+                                        " scans has a return between log.min_range_m and log.max_range_m. "
+                                        "Correct these two options"));
   if (m.state == Members::State::kReading) {
     bool& scans_left = m.logs.back().scans_left;
     scans_left = scans_left || m.read().has_value();
@@ -371,24 +393,19 @@ SavedSession MappingSession::save(const fs::path& file) const {
 SessionFacts MappingSession::Members::facts() const {
   SessionFacts facts;
   const bool is_replaying = recording && scans < recording->frames.size();
-  if (is_replaying)
-    facts = recording->facts;
-  else
-    facts.logs = logs;
-  facts.runs = later_runs;
-  facts.edits = edits;
-  if (!is_replaying) {
-    keep_first(scans, facts);
-    RecordedLog& last = facts.logs.back();
-    if (facts.logs.size() == logs.size()) {
-      if (last.sha256.empty()) last.sha256 = checksum_of_log();
-      last.skipped = source->skipped_lines();
-      last.broken_off = broken_off;
-      last.scans_left = logs.back().scans_left || state == State::kReading;
-    }
-  }
   facts.program_version = PSI_SLAM_VERSION;
+  facts.logs = is_replaying ? recording->facts.logs : logs;
+  facts.runs = later_runs;
   facts.settings = settings_file_text(settings);
+  facts.edits = edits;
+  if (is_replaying) return facts;
+  keep_first(scans, facts);
+  if (facts.logs.size() < logs.size()) return facts;
+  RecordedLog& last = facts.logs.back();
+  if (last.sha256.empty()) last.sha256 = checksum_of_log();
+  last.skipped = source->skipped_lines();
+  last.broken_off = broken_off;
+  last.scans_left = logs.back().scans_left || state == State::kReading;
   return facts;
 }
 
@@ -473,12 +490,8 @@ void MappingSession::Members::begin(SessionProgress::Phase new_phase) {
 
 void MappingSession::Members::report(double share) const {
   if (!observer) return;
-  SessionProgress progress;
-  progress.phase = phase;
-  progress.share = share;
-  progress.scans = scans;
-  progress.elapsed_s = work_s;
-  if (work_s > 0) progress.scans_per_s = static_cast<double>(scans) / work_s;
+  const double scans_per_s = work_s > 0 ? static_cast<double>(scans) / work_s : 0;
+  SessionProgress progress{phase, share, scans, scans_per_s, work_s, {}};
   if (share > 0) progress.remaining_s = (work_s - phase_began_s) * (1 - share) / share;
   observer(progress);
 }

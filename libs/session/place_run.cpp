@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "frames/pose_operations.h"
 #include "local_maps/front_end.h"
@@ -15,7 +14,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Travel for which the robot is followed before the place that was found is believed.
+// Travel over which the robot must be tracked before its place in the map counts as found.
 constexpr double kFollowed_m = 2.0;
 
 /// Last scan that fitted the map: its pose in the map, and relative to the first scan.
@@ -38,41 +37,21 @@ RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& see
   return start;
 }
 
-/// Frames of the first run of an input, up to its end or to damage.
-class FirstRun {
- public:
-  FirstRun(const SessionInput& input, const Settings& settings) : frames_(open_input(input, settings)) {
-    if (input.recording() && !input.recording()->facts.runs.empty())
-      end_ = input.recording()->facts.runs.front().scan;
-  }
-
-  double progress() const { return frames_->progress(); }
-
-  std::optional<Frame> next() {
-    if (read_ == end_) return std::nullopt;
-    try {
-      std::optional<Frame> frame = frames_->next();
-      if (frame) ++read_;
-      return frame;
-    } catch (const UserError&) {
-      if (read_ == 0) throw;
-      return std::nullopt;  // reported when the run is mapped
-    }
-  }
-
- private:
-  std::unique_ptr<FrameSource> frames_;
-  std::size_t end_ = std::numeric_limits<std::size_t>::max();
-  std::size_t read_ = 0;
-};
-
-/// Follows the robot until its pose is certain. Sets `why_not` to the last objection.
-std::optional<Sighting> find(FirstRun& frames, Localizer& localizer, FrontEnd& way, bool start_is_known,
-                             const std::atomic<bool>& stop, const std::function<void(double share)>& progress,
-                             std::string& why_not) {
+/// Follows the robot until its pose is certain, at most for `end` frames. Sets `why_not` to the last
+/// objection.
+std::optional<Sighting> find(FrameSource& frames, std::size_t end, Localizer& localizer, FrontEnd& way,
+                             bool start_is_known, const std::atomic<bool>& stop,
+                             const std::function<void(double share)>& progress, std::string& why_not) {
   std::optional<Sighting> seen;
   double followed_m = 0;
-  while (std::optional<Frame> frame = frames.next()) {
+  for (std::size_t read = 0; read != end; ++read) {
+    std::optional<Frame> frame;
+    try {
+      frame = frames.next();
+    } catch (const UserError&) {
+      if (read == 0) throw;  // later damage is reported when the run is mapped
+    }
+    if (!frame) break;
     if (stop) throw SystemFailure("interrupted before a run was placed in the map. Nothing was merged");
     if (progress) progress(frames.progress());
     const LocalizationStep step = localizer.add(*frame);
@@ -88,7 +67,7 @@ std::optional<Sighting> find(FirstRun& frames, Localizer& localizer, FrontEnd& w
     if (step.fits) seen = Sighting{step.map_T_robot, start_T_robot};
     if (step.fits && followed_m >= kFollowed_m) return seen;
   }
-  return seen;  // the run ended before kFollowed_m
+  return seen;  // the run ended before kFollowed_m of travel
 }
 
 }  // namespace
@@ -100,13 +79,21 @@ RunStart place_run(const MappingResult& mapped, const mrpt::maps::COccupancyGrid
   Localizer localizer(grid, localizer_options(settings));
   if (map_T_start) localizer.start_at(*map_T_start);
   FrontEnd way(settings.mapper.front_end);
-  FirstRun frames(run, settings);
+  const auto frames = open_input(run, settings);
+  const auto& recording = run.recording();
+  const bool has_later_runs = recording && !recording->facts.runs.empty();
+  const std::size_t end =
+      has_later_runs ? recording->facts.runs.front().scan : std::numeric_limits<std::size_t>::max();
   std::string why_not = "it is too short for a search";
-  const auto seen = find(frames, localizer, way, map_T_start.has_value(), stop, progress, why_not);
+  const auto seen = find(*frames, end, localizer, way, map_T_start.has_value(), stop, progress, why_not);
   if (seen) return seen_from_nearest_node(mapped, *seen);
   const std::string name = names_of(run.logs());
-  if (map_T_start) throw UserError(name + " does not begin near --start: its scans do not fit the map there");
-  throw UserError(name + " cannot be placed in the map of the runs before it: " + why_not);
+  if (map_T_start)
+    throw UserError(name +
+                    " does not begin near --start: its scans do not fit the map there. Correct --start, " +
+                    "or leave it out to search the whole map");
+  throw UserError(name + " cannot be placed in the map of the runs before it: " + why_not +
+                  ". State roughly where it begins with --start X,Y,YAW_DEG");
 }
 
 }  // namespace psi_slam

@@ -9,7 +9,6 @@
 #include <atomic>
 #include <functional>
 #include <optional>
-#include <string>
 
 #include "psi_slam/mapping_result.h"
 #include "session/session_input.h"

@@ -21,8 +21,6 @@ class ReadAhead : public FrameSource {
   /// Holds up to `capacity` frames, at least 1.
   explicit ReadAhead(std::unique_ptr<FrameSource> source, std::size_t capacity = 256);
   ~ReadAhead() override;
-  ReadAhead(const ReadAhead&) = delete;
-  ReadAhead& operator=(const ReadAhead&) = delete;
 
   /// Throws what the source threw, after the frames before the error.
   std::optional<Frame> next() override;

@@ -10,8 +10,19 @@
 namespace psi_slam {
 namespace {
 
-bool is_kept(const Option& option) {
-  return option.section != "map" && option.section != "localization" && option.name() != "run.threads";
+struct ChangedSetting {
+  std::string name;
+  std::string before;
+  std::string now;
+};
+
+/// The settings of `kept` that have another value in `table`, sorted by name.
+std::vector<ChangedSetting> changed_settings(const std::map<std::string, std::string>& kept,
+                                             const OptionTable& table) {
+  std::vector<ChangedSetting> changed;
+  for (const auto& [name, text] : kept_settings(table))
+    if (const std::string& before = kept.at(name); text != before) changed.push_back({name, before, text});
+  return changed;
 }
 
 }  // namespace
@@ -40,16 +51,9 @@ std::map<std::string, std::string> kept_settings(const OptionTable& table) {
   std::map<std::string, std::string> kept;
   for (const OptionSection& section : table.sections())
     for (const Option& option : section.options)
-      if (is_kept(option)) kept[option.name()] = option.text();
+      if (section.name != "map" && section.name != "localization" && option.name() != "run.threads")
+        kept[option.name()] = option.text();
   return kept;
-}
-
-std::vector<ChangedSetting> changed_settings(const std::map<std::string, std::string>& kept,
-                                             const OptionTable& table) {
-  std::vector<ChangedSetting> changed;
-  for (const auto& [name, text] : kept_settings(table))
-    if (const std::string& before = kept.at(name); text != before) changed.push_back({name, before, text});
-  return changed;
 }
 
 std::optional<std::string> changed_settings_text(const std::filesystem::path& file, const SessionFacts& facts,

@@ -14,9 +14,9 @@
 
 namespace psi_slam {
 
-/// Takes all settings of a recording that was read from `file`. Ignores obsolete options and returns a warning
-/// for each, a sentence without full stop. Accepts old names of options without warning. Throws UserError for
-/// a value that is not accepted.
+/// Takes all settings of a recording that was read from `file`. Ignores obsolete options and returns a
+/// warning for each, a sentence without full stop. Accepts old names of options without warning. Throws
+/// UserError for a value that is not accepted.
 std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
                                        const std::filesystem::path& file);
 
@@ -26,16 +26,6 @@ std::optional<std::string> other_version_text(const std::filesystem::path& file,
 /// Values of the options that a resumed session cannot change, by name: all but [map], [localization] and
 /// run.threads.
 std::map<std::string, std::string> kept_settings(const OptionTable& table);
-
-struct ChangedSetting {
-  std::string name;
-  std::string before;
-  std::string now;
-};
-
-/// The settings of `kept` that have another value in `table`, sorted by name.
-std::vector<ChangedSetting> changed_settings(const std::map<std::string, std::string>& kept,
-                                             const OptionTable& table);
 
 /// Warning if a session is mapped with other settings than its own: a sentence without full stop that names
 /// the first of them. Empty if all settings that shape the map are equal.

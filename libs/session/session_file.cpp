@@ -3,35 +3,202 @@
 
 #include <zstd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
 
 #include "base/atomic_file.h"
+#include "base/byte_cursor.h"
 #include "base/file_checksum.h"
 #include "compression/compression.h"
 #include "psi_slam/user_error.h"
-#include "session/frame_bytes.h"
 
 namespace psi_slam {
 namespace {
 
 namespace fs = std::filesystem;
+using mrpt::math::TPose2D;
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kMagic = "psi-slam session";
 constexpr std::size_t kHeadBytes = kMagic.size() + sizeof(std::uint32_t) + 2 * sizeof(std::uint64_t);
 constexpr std::size_t kChecksumBytes = 64;
 constexpr int kCompressionLevel = 9;
+constexpr const char* kUseACopy = "Use a copy of it, or map the log again.";
 constexpr std::uint32_t kFactsOfEachLog = 3;  // the first version with the faults of every log
 
-Json pose_json(const mrpt::math::TPose2D& pose) {
+// The bytes of frames: little-endian, every number to the last bit.
+
+constexpr std::uint32_t kSeveralLasers = 2;  // the first version with several lasers
+// Limits for damaged files: the mapper's memory grows with both.
+constexpr std::uint32_t kMostLasers = 64;
+constexpr double kFarthest_m = 1e7;
+
+enum Flags : std::uint8_t {
+  kHasOdometry = 1,
+  kOtherSensor = 2,    ///< the sensor differs from the previous frame's and is described
+  kHasCompanions = 4,  ///< the number of companions and their scans follow
+};
+constexpr std::uint8_t kAllFlags = kHasOdometry | kOtherSensor | kHasCompanions;
+
+/// Appends the bytes of a number to `bytes`.
+template <class Number>
+void append_number(std::string& bytes, Number number) {
+  char raw[sizeof(Number)];
+  std::memcpy(raw, &number, sizeof raw);
+  if (__BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__)
+    for (std::size_t i = 0; i < sizeof raw / 2; ++i) std::swap(raw[i], raw[sizeof raw - 1 - i]);
+  bytes.append(raw, sizeof raw);
+}
+
+void append_pose(std::string& bytes, const TPose2D& pose) {
+  for (const double value : {pose.x, pose.y, pose.phi}) append_number(bytes, value);
+}
+
+/// Whether a pose can be that of a robot or a laser: finite and at most 10,000 km from the origin.
+bool is_possible(const TPose2D& pose) {
+  return std::abs(pose.x) <= kFarthest_m && std::abs(pose.y) <= kFarthest_m && std::isfinite(pose.phi);
+}
+
+/// Throws MalformedBytes unless the pose can be one of a robot or a laser.
+TPose2D read_pose(ByteCursor& bytes) {
+  TPose2D pose;
+  for (double* const value : {&pose.x, &pose.y, &pose.phi}) *value = bytes.number<double>();
+  if (!is_possible(pose)) throw MalformedBytes("invalid pose");
+  return pose;
+}
+
+void append_floats(std::string& bytes, const std::vector<float>& values) {
+  append_number(bytes, static_cast<std::uint32_t>(values.size()));
+  for (const float value : values) append_number(bytes, value);
+}
+
+std::vector<float> read_floats(ByteCursor& bytes) {
+  const auto count = bytes.number<std::uint32_t>();
+  ByteCursor raw(bytes.take(std::size_t{count} * sizeof(float)));
+  std::vector<float> values(count);
+  for (float& value : values) value = raw.number<float>();
+  return values;
+}
+
+/// Bytes of what all scans of one sensor share.
+std::string sensor_bytes(const LaserScan& scan) {
+  std::string bytes;
+  append_floats(bytes, scan.bearings_rad ? *scan.bearings_rad : std::vector<float>());
+  append_number(bytes, scan.max_range_m);
+  append_pose(bytes, scan.robot_T_laser);
+  append_number(bytes, scan.sweep_time_s);
+  append_number(bytes, static_cast<std::uint32_t>(scan.laser));
+  return bytes;
+}
+
+LaserScan read_sensor(ByteCursor& bytes, std::uint32_t version) {
+  LaserScan sensor;
+  std::vector<float> bearings_rad = read_floats(bytes);
+  if (!std::all_of(bearings_rad.begin(), bearings_rad.end(), [](float rad) { return std::isfinite(rad); }))
+    throw MalformedBytes("beam bearing is not finite");
+  sensor.bearings_rad = std::make_shared<const std::vector<float>>(std::move(bearings_rad));
+  sensor.max_range_m = bytes.number<float>();
+  sensor.robot_T_laser = read_pose(bytes);
+  sensor.sweep_time_s = bytes.number<float>();
+  if (version >= kSeveralLasers) sensor.laser = bytes.number<std::uint32_t>();
+  if (sensor.laser >= kMostLasers) throw MalformedBytes("the number of a laser is too high");
+  return sensor;
+}
+
+void read_ranges(ByteCursor& bytes, LaserScan& scan) {
+  scan.ranges_m = read_floats(bytes);
+  if (scan.ranges_m.size() != scan.bearings_rad->size())
+    throw MalformedBytes("a scan has another number of beams than its sensor");
+}
+
+/// Appends a scan, with the description of its sensor if that differs from `last_sensor`.
+void append_scan(std::string& bytes, int flags, TimeUs time_us, const TPose2D& pose, const LaserScan& scan,
+                 std::string& last_sensor) {
+  const std::string sensor = sensor_bytes(scan);
+  const bool other = std::exchange(last_sensor, sensor) != sensor;
+  append_number(bytes, static_cast<std::uint8_t>(flags | (other ? kOtherSensor : 0)));
+  append_number(bytes, time_us);
+  append_pose(bytes, pose);
+  if (other) bytes += sensor;
+  append_floats(bytes, scan.ranges_m);
+}
+
+/// The last sensors, by the index of their scan in a frame.
+template <class Sensor>
+using LastSensors = std::map<std::size_t, Sensor>;
+
+std::vector<CompanionScan> read_companions(ByteCursor& bytes, std::uint32_t version, std::size_t first_laser,
+                                           LastSensors<LaserScan>& sensors) {
+  std::vector<CompanionScan> companions;
+  const auto count = bytes.number<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    CompanionScan companion;
+    const auto flags = bytes.number<std::uint8_t>();
+    if ((flags & ~kOtherSensor) != 0) throw MalformedBytes("a scan has an unknown flag");
+    companion.time_us = bytes.number<TimeUs>();
+    companion.frame_T_robot = read_pose(bytes);
+    LaserScan& sensor = sensors[i + 1];
+    if (flags != 0) sensor = read_sensor(bytes, version);
+    if (!sensor.bearings_rad) throw MalformedBytes("the first scan of a laser has no sensor description");
+    companion.scan = sensor;
+    if (sensor.laser <= (companions.empty() ? first_laser : companions.back().scan.laser))
+      throw MalformedBytes("the lasers of a frame are out of order");
+    read_ranges(bytes, companion.scan);
+    companions.push_back(std::move(companion));
+  }
+  return companions;
+}
+
+void append_frames(std::string& bytes, const std::vector<Frame>& frames) {
+  append_number(bytes, std::uint64_t{frames.size()});
+  LastSensors<std::string> sensors;
+  for (const Frame& frame : frames) {
+    append_scan(bytes,
+                (frame.has_odometry ? kHasOdometry : 0) | (frame.companions.empty() ? 0 : kHasCompanions),
+                frame.time_us, frame.odom_T_robot, frame.scan, sensors[0]);
+    if (frame.companions.empty()) continue;
+    append_number(bytes, static_cast<std::uint32_t>(frame.companions.size()));
+    for (std::size_t i = 0; i < frame.companions.size(); ++i) {
+      const CompanionScan& companion = frame.companions[i];
+      append_scan(bytes, 0, companion.time_us, companion.frame_T_robot, companion.scan, sensors[i + 1]);
+    }
+  }
+}
+
+/// Reads frames of a file of this `version` and numbers them from 0. Throws MalformedBytes.
+std::vector<Frame> read_frames(ByteCursor& bytes, std::uint32_t version) {
+  const auto count = bytes.number<std::uint64_t>();
+  std::vector<Frame> frames;
+  LastSensors<LaserScan> sensors;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    Frame frame;
+    frame.index = frames.size();
+    const auto flags = bytes.number<std::uint8_t>();
+    if ((flags & ~kAllFlags) != 0) throw MalformedBytes("a scan has an unknown flag");
+    frame.has_odometry = (flags & kHasOdometry) != 0;
+    frame.time_us = bytes.number<TimeUs>();
+    frame.odom_T_robot = read_pose(bytes);
+    LaserScan& sensor = sensors[0];
+    if ((flags & kOtherSensor) != 0) sensor = read_sensor(bytes, version);
+    if (!sensor.bearings_rad) throw MalformedBytes("the first scan has no sensor description");
+    frame.scan = sensor;
+    read_ranges(bytes, frame.scan);
+    if ((flags & kHasCompanions) != 0)
+      frame.companions = read_companions(bytes, version, frame.scan.laser, sensors);
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+Json pose_json(const TPose2D& pose) {
   return Json::array({pose.x, pose.y, pose.phi});
 }
 
-mrpt::math::TPose2D pose_of(const Json& json) {
+TPose2D pose_of(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
@@ -114,17 +281,16 @@ void require_whole(const fs::path& path, std::string_view bytes) {
   if (bytes.substr(0, kMagic.size()) != kMagic)
     throw UserError(path.string() + " is not a session of psi-slam, expected a file of --save-session");
   if (bytes.size() < kHeadBytes + kChecksumBytes)
-    throw UserError(path.string() + " is cut off: it has only " + std::to_string(bytes.size()) +
-                    " bytes. Use a copy of it, or map the log again.");
+    throw UserError(path.string() + " is cut off: it has only " + std::to_string(bytes.size()) + " bytes. " +
+                    kUseACopy);
   const std::size_t end = bytes.size() - kChecksumBytes;
   if (bytes.substr(end) == sha256_of_text(bytes.substr(0, end))) return;
   ByteCursor head(bytes.substr(kMagic.size() + sizeof(std::uint32_t)));
   const std::uint64_t expected = kHeadBytes + head.number<std::uint64_t>() + kChecksumBytes;
   if (bytes.size() < expected)
     throw UserError(path.string() + " is cut off: it has " + std::to_string(bytes.size()) + " of " +
-                    std::to_string(expected) + " bytes. Use a copy of it, or map the log again.");
-  throw UserError(path.string() +
-                  " is damaged: its checksum does not match. Use a copy of it, or map the log again.");
+                    std::to_string(expected) + " bytes. " + kUseACopy);
+  throw UserError(path.string() + " is damaged: its checksum does not match. " + kUseACopy);
 }
 
 void require_consistent(const SessionRecording& recording) {
@@ -178,7 +344,7 @@ SessionRecording read_session_file(const fs::path& path) {
   if (version == 0 || version > kSessionVersion)
     throw UserError(path.string() + " is a session of version " + std::to_string(version) +
                     ", made by a newer psi-slam. This one reads versions up to " +
-                    std::to_string(kSessionVersion));
+                    std::to_string(kSessionVersion) + ". Install the newer psi-slam");
   try {
     const auto packed_size = head.number<std::uint64_t>();
     const auto size = head.number<std::uint64_t>();
@@ -192,9 +358,9 @@ SessionRecording read_session_file(const fs::path& path) {
     require_consistent(recording);
     return recording;
   } catch (const MalformedBytes& error) {
-    throw UserError(path.string() + " is damaged: " + error.what());
+    throw UserError(path.string() + " is damaged: " + error.what() + ". " + kUseACopy);
   } catch (const Json::exception&) {
-    throw UserError(path.string() + " is damaged: its description is not valid JSON");
+    throw UserError(path.string() + " is damaged: its description is not valid JSON. " + kUseACopy);
   }
 }
 

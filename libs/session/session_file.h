@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Session files; share/doc/sessions.md describes the format. In every version the first 20 bytes are the
-// magic word and the version, and the last 64 bytes are the checksum of all bytes before.
+// magic word and the version, and the last 64 bytes are the checksum of all bytes before. A new member of
+// Frame must be written and read here, with a new kSessionVersion.
 #pragma once
 
 #include <cstdint>

@@ -5,11 +5,10 @@
 #include <utility>
 
 #include "base/file_checksum.h"
-#include "exports/geo_tiff.h"
+#include "exports/map_files.h"
 #include "psi_slam/open_log.h"
 #include "psi_slam/user_error.h"
 #include "session/read_ahead.h"
-#include "session/recorded_source.h"
 #include "session/session_file.h"
 #include "session/settings.h"
 
@@ -20,6 +19,76 @@ namespace {
 std::string name_of(const std::filesystem::path& log) {
   return (log.has_filename() ? log : log.parent_path()).filename().string();
 }
+
+/// Recorded frames, followed by those of a log. skipped_lines() is only about the last log, since the
+/// recording has that of the logs before.
+class RecordedSource : public FrameSource {
+ public:
+  /// `log` is at its beginning; `path` is its path. If it is the last log of the recording, its rest follows
+  /// the recorded frames, else all of it. Without `log` the frames end as they did when they were recorded:
+  /// at the end of the last log or with its damage. Throws UserError if another log begins before the
+  /// recording ends.
+  RecordedSource(std::shared_ptr<const SessionRecording> recording, std::unique_ptr<FrameSource> log,
+                 bool is_last, std::filesystem::path path)
+      : recording_(std::move(recording)), log_(std::move(log)), is_last_(is_last), path_(std::move(path)) {
+    if (!log_ || is_last_) return;
+    first_ = log_->next();
+    const std::vector<Frame>& frames = recording_->frames;
+    if (!first_ || frames.empty() || first_->time_us > frames.back().time_us) return;
+    const char* const why =
+        recording_->facts.logs.back().sha256.empty()
+            ? " cannot be compared with the log of the session (which was unreadable when it was saved)"
+            : " is not the log of the session (their checksums differ)";
+    throw UserError(path_.string() + why + " and does not continue it: its first scan is at " +
+                    format_seconds(first_->time_us) + " s, the session's last scan at " +
+                    format_seconds(frames.back().time_us) + " s");
+  }
+
+  std::optional<Frame> next() override {
+    const std::vector<Frame>& frames = recording_->frames;
+    if (next_ < frames.size()) {
+      if (log_ && is_last_) skip_recorded();
+      return frames[next_++];
+    }
+    if (!log_) {
+      if (const auto& broken_off = recording_->facts.logs.back().broken_off) throw UserError(*broken_off);
+      return std::nullopt;
+    }
+    std::optional<Frame> frame = first_ ? std::exchange(first_, std::nullopt) : log_->next();
+    if (frame) frame->index = next_++;
+    return frame;
+  }
+
+  // The length of the next log is unknown, so the recording counts as half of the total.
+  double progress() const override {
+    if (log_ && is_last_) return log_->progress();
+    const std::size_t recorded = recording_->frames.size();
+    const double share = recorded == 0 ? 1 : static_cast<double>(next_) / static_cast<double>(recorded);
+    if (!log_) return share;
+    return next_ < recorded ? 0.5 * share : 0.5 + 0.5 * log_->progress();
+  }
+
+  SkippedLines skipped_lines() const override {
+    return log_ ? log_->skipped_lines() : recording_->facts.logs.back().skipped;
+  }
+
+ private:
+  // Reads the log along with its recorded frames, so that its progress and skipped lines are right.
+  void skip_recorded() {
+    const std::size_t of_logs_before = recording_->frames.size() - recording_->facts.logs.back().scans;
+    if (next_ >= of_logs_before && !log_->next())
+      throw UserError(
+          path_.string() +
+          " holds fewer scans than the session recorded from it. Resume with the log that was recorded.");
+  }
+
+  std::shared_ptr<const SessionRecording> recording_;
+  std::unique_ptr<FrameSource> log_;  ///< null if there is none
+  bool is_last_;                      ///< log_ is the last log of the recording
+  std::filesystem::path path_;
+  std::optional<Frame> first_;  ///< of the next log; empty once it was returned
+  std::size_t next_ = 0;
+};
 
 }  // namespace
 
@@ -41,7 +110,8 @@ SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, st
   }
   if (std::any_of(logs_.begin(), logs_.end(),
                   [&](const RecordedLog& known) { return known.sha256 == sha256; }))
-    throw UserError(log_.string() + " is already in the session, before " + logs_.back().name);
+    throw UserError(log_.string() + " is already in the session, before " + logs_.back().name +
+                    ". Resume with " + logs_.back().name + " or with a log that follows it");
   logs_.push_back({name_of(log_), sha256, 0});
 }
 
@@ -59,9 +129,8 @@ SessionInput SessionInput::with_edits(EditJournal edits) const {
 
 std::unique_ptr<FrameSource> SessionInput::open(const LogOptions& options) const {
   if (!recording_) return open_log(log_, options);
-  if (log_.empty()) return std::make_unique<RecordedSource>(recording_);
-  const auto kind = same_log_ ? RecordedSource::Log::kLast : RecordedSource::Log::kNext;
-  return std::make_unique<RecordedSource>(recording_, kind, open_log(log_, options), log_);
+  return std::make_unique<RecordedSource>(recording_, log_.empty() ? nullptr : open_log(log_, options),
+                                          same_log_, log_);
 }
 
 void check(const Settings& settings) {

@@ -44,8 +44,4 @@ struct SessionRecording {
   std::vector<Frame> frames;
 };
 
-/// Limits the facts to the first scans. All scans beyond those of the earlier logs belong to the last log.
-/// Drops logs and runs that were not reached, and the edits of their scans.
-void keep_first(std::size_t scans, SessionFacts& facts);
-
 }  // namespace psi_slam

@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/settings.h"
 
-#include <string>
+#include <algorithm>
+#include <limits>
+#include <thread>
 #include <utility>
-#include <vector>
 
+#include "base/number_text.h"
 #include "config/ini_file.h"
 #include "config/settings_text.h"
 #include "frames/laser_readings.h"
+#include "psi_slam/user_error.h"
 #include "psi_slam/version.h"
-#include "session/settings_parts.h"
 
 namespace psi_slam {
-
-void describe_refinement(OptionTable& table, RefinementOptions& refinement) {
-  table
-      .integer("refine_max_iterations", refinement.max_iterations, between(0, 1000), "iterations",
-               "Largest number of Levenberg-Marquardt iterations that refine a match below the cell size. 0 "
-               "keeps the best pose of the grid search.")
-      .number("refine_score_sigma", refinement.score_sigma, above(0).at_most(100), "",
-              "Standard deviation of a point's score in the refinement of a match. A larger value trusts the "
-              "scan less.")
-      .number("refine_converged_step_m", refinement.converged_step_m, above(0).at_most(1), "m",
-              "The refinement of a match ends when its step is shorter than this.")
-      .number(
-          "refine_max_shift_m", refinement.max_shift_m, above(0).at_most(10), "m",
-          "A refinement that moves the match farther than this has reached another peak and is discarded.");
-}
 
 namespace {
 
@@ -79,97 +66,6 @@ void describe_log(OptionTable& table, Settings& settings) {
                "Maps only every n-th scan: 1 maps every scan, 2 every second one.");
 }
 
-void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
-  table.section("front_end", "Matching each scan with the active local map")
-      .number("min_range_m", front_end.scan.min_range_m, at_least(0), "m",
-              "Returns nearer than this are not matched.")
-      .number("max_range_m", front_end.scan.max_range_m, above(0), "m",
-              "Returns farther than this are not matched.")
-      .number("point_spacing_m", front_end.scan.spacing_m, at_least(0).at_most(10), "m",
-              "Least distance between neighbouring points of a scan. Nearer points are dropped.")
-      .number("window_m", front_end.window_m, above(0).at_most(20), "m",
-              "Half-width of the search window along x and y when the robot stands still.")
-      .angle_deg("window_theta_deg", front_end.window_rad, above(0).at_most(180),
-                 "Half-width of the search window in heading when the robot stands still.")
-      .number("window_per_metre", front_end.window_per_metre, at_least(0).at_most(100), "",
-              "Metres added to window_m for each metre that the robot moved since the last scan.")
-      .number("window_theta_per_turn", front_end.window_per_radian, at_least(0).at_most(100), "",
-              "Degrees added to window_theta_deg for each degree that the robot turned since the last scan.")
-      .angle_deg("window_theta_per_metre_deg", front_end.window_rad_per_metre, at_least(0).at_most(180),
-                 "Angle added to window_theta_deg for each metre that the robot moved since the last scan.")
-      .number("max_window_m", front_end.max_window_m, above(0).at_most(20), "m",
-              "Largest half-width of the search window along x and y.")
-      .angle_deg("max_window_theta_deg", front_end.max_window_rad, above(0).at_most(180),
-                 "Largest half-width of the search window in heading.")
-      .number("min_response", front_end.min_response, between(0, 1), "",
-              "Least response of a match. A scan that matches worse keeps its predicted pose.")
-      .number("prior_sigma_m", front_end.prior_sigma_m, above(0).at_most(100), "m",
-              "Standard deviation of the predicted position. The prediction fixes the pose where the scan "
-              "does not, as along a corridor.")
-      .angle_deg("prior_sigma_theta_deg", front_end.prior_sigma_rad, above(0).at_most(180),
-                 "Standard deviation of the predicted heading. The prediction fixes the heading where the "
-                 "scan does not.")
-      .number("prior_per_metre", front_end.prior_per_metre, at_least(0).at_most(100), "",
-              "Metres added to prior_sigma_m for each metre that the robot moved since the last scan.")
-      .number(
-          "prior_theta_per_turn", front_end.prior_per_radian, at_least(0).at_most(100), "",
-          "Degrees added to prior_sigma_theta_deg for each degree that the robot turned since the last scan.")
-      .number("prior_per_surprise", front_end.prior_per_surprise, at_least(0).at_most(100), "",
-              "Growth of prior_sigma_m and prior_sigma_theta_deg for each metre or degree by which odometry "
-              "differs from the robot's last motion.")
-      .number("prediction_share", front_end.prediction_share, between(0, 1), "",
-              "The refined prediction is preferred to the searched pose if it reaches this share of its "
-              "response.")
-      .number("held_share", front_end.held_share, between(0, 1), "",
-              "A correction is doubtful if the pose predicted by odometry reaches this share of the matched "
-              "pose's response.")
-      .number("max_doubtful_correction_m", front_end.max_doubtful_correction_m, at_least(0).at_most(100), "m",
-              "Largest sum of doubtful corrections, as a person walking ahead causes them. A correction "
-              "beyond it "
-              "is not applied.")
-      .number("doubtful_correction_travel_m", front_end.doubtful_correction_travel_m, above(0).at_most(1000),
-              "m", "Travel over which the sum of doubtful corrections decays to 37 %.")
-      .number("odometry_sigma_m", front_end.odometry_sigma_m, above(0).at_most(10), "m",
-              "Standard deviation of odometry's position from scan to scan. It enters the covariance of the "
-              "poses.")
-      .angle_deg("odometry_sigma_theta_deg", front_end.odometry_sigma_rad, above(0).at_most(180),
-                 "Standard deviation of odometry's heading from scan to scan. It enters the covariance of "
-                 "the poses.")
-      .number("odometry_sigma_per_metre", front_end.odometry_sigma_per_metre, at_least(0).at_most(10), "",
-              "Metres added to odometry_sigma_m for each metre moved.")
-      .number("odometry_sigma_theta_per_turn", front_end.odometry_sigma_per_radian, at_least(0).at_most(10),
-              "", "Degrees added to odometry_sigma_theta_deg for each degree turned.")
-      .number("node_distance_m", front_end.node_distance_m, at_least(0).at_most(100), "m",
-              "A scan becomes a node of the graph when the robot has moved this far since the last node.")
-      .angle_deg(
-          "node_rotation_deg", front_end.node_rotation_rad, at_least(0).at_most(180),
-          "A scan becomes a node of the graph when the robot has turned this much since the last node.");
-  describe_refinement(table, front_end.refinement);
-}
-
-void describe_local_maps(OptionTable& table, FrontEndOptions& front_end) {
-  LocalMapOptions& local_map = front_end.local_map;
-  table.section("local_maps", "Local maps: the occupancy grids that scans are matched with")
-      .number("resolution_m", local_map.resolution_m, between(0.005, 1), "m",
-              "Side length of a cell of a local map.")
-      .number("hit_probability", local_map.hit_probability, above(0.5).below(1), "",
-              "Probability that a cell is occupied if a beam ended in it.")
-      .number("miss_probability", local_map.miss_probability, above(0).below(0.5), "",
-              "Probability that a cell is occupied if a beam passed through it.")
-      .number(
-          "smoothing_sigma_m", local_map.smoothing_sigma_m, above(0).at_most(5), "m",
-          "Standard deviation of the blur that spreads a wall's score. It covers range noise and cell size.")
-      .number("max_insert_range_m", local_map.max_insert_range_m, above(0), "m",
-              "Longer beams are cut at this range and mark only free space in local maps.")
-      .integer("nodes", front_end.nodes_per_local_map, between(2, 60000), "nodes",
-               "A local map is finished after this many nodes. The next one begins at half of them.")
-      .number("travel_m", front_end.local_map_travel_m, above(0), "m",
-              "A local map is finished when the robot has travelled this far in it.")
-      .number("max_unmatched_travel_m", front_end.max_unmatched_travel_m, above(0), "m",
-              "Travel without a match, over at least two scans, after which all local maps are finished. A "
-              "covered laser causes this.");
-}
-
 void describe_map(OptionTable& table, GridMapOptions& map) {
   table.section("map", "The map and its output files")
       .number("resolution_m", map.resolution_m, between(0.005, 10), "m", "Side length of a cell of the map.")
@@ -208,58 +104,6 @@ void describe_map_files(OptionTable& table, MapFileOptions& files) {
                  "Direction of the map's x axis in map.tif, counter-clockwise from east.");
 }
 
-void describe_localization(OptionTable& table, LocalizerOptions& localization) {
-  GlobalSearchOptions& search = localization.search;
-  table.section("localization", "psi-slam localize: finding and tracking a robot in a finished map")
-      .choice("matcher", search.matcher, matcher_choices<MatcherKind>(),
-              "Matcher that searches the whole map while the robot is lost.")
-      .number("search_resolution_m", search.resolution_m, between(0.005, 10), "m",
-              "Cell size for searching the whole map. Larger cells of the map itself are kept.")
-      .number("search_travel_m", localization.search_travel_m, above(0), "m",
-              "While lost: travel from one search of the whole map to the next.")
-      .number("context_travel_m", search.context.travel_m, at_least(0), "m",
-              "The whole map is searched with all scans of this much travel.")
-      .number("context_node_spacing_m", search.context.node_spacing_m, at_least(0), "m",
-              "Search of the whole map: least travel between the scans that are searched together.")
-      .number("context_point_spacing_m", search.context.point_spacing_m, above(0), "m",
-              "Search of the whole map: one point is kept in each square of this side length.")
-      .number("min_search_response", search.min_response, between(0, 1), "",
-              "Search of the whole map: least response of a place.")
-      .number("max_ambiguity", search.max_ambiguity, between(0, 1), "",
-              "Search of the whole map: largest response of another place, as a share of the best. A higher "
-              "value needs more searches to agree.")
-      .number("min_search_observed_share", search.min_observed_share, between(0, 1), "",
-              "Search of the whole map: least share of the points that lie in observed space.")
-      .number("min_search_agree", search.min_agree, between(0, 1), "",
-              "Search of the whole map: least share of the points in observed space that lie on walls.")
-      .number("min_clear_share", search.min_clear_share, between(0, 1), "",
-              "Search of the whole map: least share of the beams that pass through no wall.")
-      .number("min_response", localization.min_response, between(0, 1), "",
-              "Tracking: least response of a scan.")
-      .number("min_agree", localization.min_agree, between(0, 1), "",
-              "Tracking: least share of a scan's points in observed space that lie on walls.")
-      .number("min_observed_share", localization.min_observed_share, between(0, 1), "",
-              "Tracking: least share of a scan's points that lie in observed space.")
-      .number("window_m", localization.window_m, above(0).at_most(100), "m",
-              "Tracking: half-width of the search window along x and y.")
-      .angle_deg("window_theta_deg", localization.window_rad, above(0).at_most(180),
-                 "Tracking: half-width of the search window in heading.")
-      .number("prior_sigma_m", localization.prior_sigma_m, above(0).at_most(100), "m",
-              "Tracking: standard deviation of the predicted position. The prediction fixes the pose where "
-              "the scan does not.")
-      .angle_deg("prior_sigma_theta_deg", localization.prior_sigma_rad, above(0).at_most(180),
-                 "Tracking: standard deviation of the predicted heading. The prediction fixes the heading "
-                 "where the scan does not.")
-      .number("start_window_m", localization.start_window_m, above(0).at_most(100), "m",
-              "Half-width along x and y of the first search window, centred on --start.")
-      .angle_deg("start_window_theta_deg", localization.start_window_rad, above(0).at_most(180),
-                 "Half-width in heading of the first search window, centred on --start.")
-      .number("max_misfit_m", localization.max_misfit_m, at_least(0), "m",
-              "The robot counts as lost after more than this much travel without a fitting scan.")
-      .number("max_misfit_s", localization.max_misfit_s, at_least(0), "s",
-              "The robot counts as lost after more than this time without a fitting scan.");
-}
-
 void describe_run(OptionTable& table, RunOptions& run) {
   table.section("run", "How the program runs")
       .integer("seed", run.seed, any_number(), "", "Seed of all random numbers. Equal seeds give equal maps.")
@@ -267,13 +111,32 @@ void describe_run(OptionTable& table, RunOptions& run) {
                "Number of threads. 0: one for each processor. The results do not depend on it.");
 }
 
+/// Value and name of an option.
+struct Named {
+  const char* name;
+  double value;
+  bool is_angle = false;
+
+  std::string words() const {
+    return std::string(name) + " = " + (is_angle ? exact_degrees_text(value) : exact_text(value));
+  }
+};
+
+void require_below(const Named& smaller, const Named& larger) {
+  if (!(smaller.value < larger.value))
+    throw UserError(smaller.words() + " must be less than " + larger.words());
+}
+
+void require_at_most(const Named& smaller, const Named& larger) {
+  if (!(smaller.value <= larger.value))
+    throw UserError(smaller.words() + " must not be more than " + larger.words());
+}
+
 }  // namespace
 
 void describe(OptionTable& table, Settings& settings) {
   describe_log(table, settings);
-  describe_front_end(table, settings.mapper.front_end);
-  describe_local_maps(table, settings.mapper.front_end);
-  describe_loops(table, settings.mapper);
+  describe_mapper(table, settings.mapper);
   describe_map(table, settings.map);
   describe_map_files(table, settings.map_files);
   describe_localization(table, settings.localization);
@@ -300,6 +163,69 @@ std::string settings_file_text(const Settings& settings) {
   BoundSettings bound;
   bound.settings = settings;
   return settings_file_text(bound.table);
+}
+
+void check_values(const Settings& settings) {
+  const Named log_min{"log.min_range_m", settings.log.min_range_m};
+  const Named log_max{"log.max_range_m",
+                      settings.log.max_range_m.value_or(std::numeric_limits<double>::infinity())};
+  const FrontEndOptions& front_end = settings.mapper.front_end;
+  const Named matched_min{"front_end.min_range_m", front_end.scan.min_range_m};
+  const Named matched_max{"front_end.max_range_m", front_end.scan.max_range_m};
+  require_below(log_min, log_max);
+  require_below(matched_min, matched_max);
+  require_below(log_min, matched_max);
+  require_below(matched_min, log_max);
+  require_at_most({"front_end.window_m", front_end.window_m},
+                  {"front_end.max_window_m", front_end.max_window_m});
+  require_at_most({"front_end.window_theta_deg", front_end.window_rad, true},
+                  {"front_end.max_window_theta_deg", front_end.max_window_rad, true});
+  const BackEndOptions& back_end = settings.mapper.back_end;
+  const LoopCandidateOptions& loops = back_end.loop_closure.candidates;
+  require_at_most({"loop_closure.min_window_m", loops.min_window_m},
+                  {"loop_closure.window_x_m", loops.max_window.x_m});
+  require_at_most({"loop_closure.min_window_m", loops.min_window_m},
+                  {"loop_closure.window_y_m", loops.max_window.y_m});
+  require_at_most({"loop_closure.min_window_theta_deg", loops.min_window_rad, true},
+                  {"loop_closure.window_theta_deg", loops.max_window.theta_rad, true});
+  require_at_most({"final_search.window_m", back_end.final_search.window_m},
+                  {"verification.wide_window_m", back_end.loop_closure.verification.wide_window_m});
+  require_at_most({"loop_closure.min_sigma_m", back_end.loop_matcher.min_sigma_m},
+                  {"loop_closure.max_sigma_m", back_end.loop_matcher.max_sigma_m});
+  require_below({"psi.psi_1", back_end.psi.psi_1}, {"psi.psi_2", back_end.psi.psi_2});
+  check_log_options(log_options(settings));
+}
+
+LogOptions log_options(const Settings& settings) {
+  LogOptions options = settings.log;
+  const LaserMount& mount = settings.laser_mount;
+  if (mount.x_m || mount.y_m || mount.yaw_rad)
+    options.robot_T_laser =
+        mrpt::math::TPose2D(mount.x_m.value_or(0), mount.y_m.value_or(0), mount.yaw_rad.value_or(0));
+  return options;
+}
+
+MapperOptions mapper_options(const Settings& settings) {
+  MapperOptions options = settings.mapper;
+  options.back_end.seed = settings.run.seed;
+  options.back_end.threads = worker_threads(settings.run);
+  return options;
+}
+
+LocalizerOptions localizer_options(const Settings& settings) {
+  LocalizerOptions options = settings.localization;
+  options.front_end = settings.mapper.front_end;
+  options.consensus = settings.mapper.back_end.loop_consensus;
+  options.search.genetic = settings.mapper.back_end.genetic;
+  options.search.match = settings.mapper.back_end.loop_matcher;
+  options.search.smoothing_sigma_m = settings.mapper.front_end.local_map.smoothing_sigma_m;
+  options.seed = settings.run.seed;
+  return options;
+}
+
+int worker_threads(const RunOptions& run) {
+  if (run.threads > 0) return run.threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 }  // namespace psi_slam

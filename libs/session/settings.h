@@ -12,9 +12,9 @@
 #include "config/option_table.h"
 #include "exports/map_files.h"
 #include "localization/localizer_options.h"
+#include "mapping/mapper_options.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/log_options.h"
-#include "mapping/mapper_options.h"
 
 namespace psi_slam {
 
@@ -44,6 +44,10 @@ struct Settings {
 /// `settings` must hold its defaults and outlive the table. Angles are in degrees in the table, in radians in
 /// the members.
 void describe(OptionTable& table, Settings& settings);
+
+/// Parts of describe(): the sections from [front_end] to [joint_refinement], and [localization].
+void describe_mapper(OptionTable& table, MapperOptions& mapper);
+void describe_localization(OptionTable& table, LocalizerOptions& localization);
 
 /// Settings together with the table that is bound to them.
 struct BoundSettings {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "exports/mrpt_maps.h"
+#include "exports/map_files.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/io/CFileGZInputStream.h>

@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "compression/compressed_file.h"
-#include "exports/map_server_pair.h"
-#include "exports/mrpt_maps.h"
+#include "exports/map_files.h"
 #include "temporary_folder.h"
 #include "test_files.h"
 

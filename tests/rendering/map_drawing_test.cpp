@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "exports/map_drawing_files.h"
+#include "exports/map_files.h"
 
 namespace psi_slam {
 namespace {

@@ -71,8 +71,10 @@ class MappingSession {
   MappingSession(const std::filesystem::path& log, const Configuration& configuration);
   /// Opens a log. Throws UserError if it is unreadable or if settings contradict each other.
   MappingSession(const std::filesystem::path& log, const Settings& settings);
-  /// Opens a log or a recorded session. Throws UserError as the constructor for logs.
-  MappingSession(const SessionInput& input, const Settings& settings);
+  /// Opens a log or a recorded session. Throws UserError as the constructor for logs. warnings() begins with
+  /// `settings_warnings`.
+  MappingSession(const SessionInput& input, const Settings& settings,
+                 std::vector<std::string> settings_warnings = {});
   ~MappingSession();
   MappingSession(const MappingSession&) = delete;
   MappingSession& operator=(const MappingSession&) = delete;
@@ -157,9 +159,6 @@ class MappingSession {
   RunInfo run_info() const;
 
  private:
-  MappingSession(const SessionInput& input, const Settings& settings,
-                 std::vector<std::string> settings_warnings);
-
   struct Members;
   std::unique_ptr<Members> m_;
 };

@@ -11,6 +11,13 @@
 
 namespace psi_slam {
 
+/// Adds an option or argument for `member`; `type` names its value in the documents, such as "FILE".
+template <class Member>
+CLI::Option* add_value(CLI::App& app, const std::string& names, Member& member, const std::string& help,
+                       const std::string& type) {
+  return app.add_option(names, member, help)->type_name(type);
+}
+
 /// Adds the hidden options --man-page, --bash-completion and, if `settings` are given, --settings-man-page.
 /// Each prints its document and ends the program, as --version does. `app` must outlive the parsing.
 void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings = nullptr);

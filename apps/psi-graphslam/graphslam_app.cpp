@@ -2,17 +2,20 @@
 #include "graphslam_app.h"
 
 #include <atomic>
-#include <filesystem>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
 #include "base/atomic_file.h"
 #include "base/exit_code.h"
+#include "batch/kept_run.h"
 #include "closing_text.h"
-#include "graphslam_command_line.h"
+#include "document_options.h"
 #include "interrupt_signals.h"
+#include "mrpt/graphslam_run.h"
 #include "mrpt/graphslam_settings.h"
 #include "psi_slam/user_error.h"
+#include "psi_slam/version.h"
 #include "run_program.h"
 
 namespace psi_slam {
@@ -22,6 +25,89 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kName = "psi-graphslam";
+constexpr const char* kExamples =
+    "\nExamples:\n"
+    "  psi-graphslam -i graphslam.ini -r my.rawlog            use psi-slam's deciders and optimizer\n"
+    "  psi-graphslam -i graphslam.ini -r my.rawlog -n CFixedIntervalsNRD -e CLoopCloserERD -o CPsiSpaGSO\n"
+    "  psi-graphslam --list-deciders                          list all deciders and optimizers\n";
+
+struct GraphSlamCommandLine {
+  GraphSlamSetup setup;
+  std::string output;  ///< empty: output_dir_fname of the settings file
+  bool force = false;
+  bool plane = false;
+  bool space = false;
+  bool disable_visuals = false;
+  bool list_node_deciders = false;
+  bool list_edge_deciders = false;
+  bool list_optimizers = false;
+  bool list_regs = false;  ///< node and edge deciders
+  bool list_all = false;
+  bool dump_options = false;
+
+  bool lists() const { return list_node_deciders || list_edge_deciders || list_optimizers; }
+};
+
+bool has_display() {
+  const char* const display = std::getenv("DISPLAY");
+  return display != nullptr && *display != '\0';
+}
+
+void add_inputs(CLI::App& app, GraphSlamSetup& setup) {
+  add_value(app, "-i,--ini-file,--ini", setup.ini, "Settings file, as for MRPT's graphslam-engine", "INI");
+  add_value(app, "-r,--rawlog", setup.log,
+            "Log: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag", "LOG");
+  add_value(app, "-g,--ground-truth", setup.ground_truth, "True poses, in the format of GridMapNavSimul",
+            "FILE");
+  const auto add_name = [&](const char* names, std::string& name, const char* help) {
+    add_value(app, names, name, help, "NAME")->capture_default_str();
+  };
+  add_name("-n,--node-reg", setup.node_decider, "Node registration decider");
+  add_name("-e,--edge-reg", setup.edge_decider, "Edge registration decider");
+  add_name("-o,--optimizer", setup.optimizer, "Optimizer of the graph");
+}
+
+void add_switches(CLI::App& app, GraphSlamCommandLine& line) {
+  add_value(app, "--output-dir", line.output,
+            "Folder for the results. Default: output_dir_fname of the settings", "DIR");
+  app.add_flag("--force", line.force, "Replace results in a folder that is not empty");
+  app.add_flag("--disable-visuals", line.disable_visuals, "Do not open MRPT's window");
+  app.add_flag("--2d", line.plane, "Make a 2-D map (the default)");
+  app.add_flag("--3d", line.space, "Not supported: use MRPT's graphslam-engine");
+  app.add_flag("--list-node-regs", line.list_node_deciders, "List the node registration deciders and exit");
+  app.add_flag("--list-edge-regs", line.list_edge_deciders, "List the edge registration deciders and exit");
+  app.add_flag("--list-regs", line.list_regs, "List node and edge registration deciders and exit");
+  app.add_flag("--list-optimizers", line.list_optimizers, "List the optimizers and exit");
+  app.add_flag("--list-deciders", line.list_all, "List all deciders and optimizers and exit");
+  app.add_flag("--dump-options", line.dump_options,
+               "Print all options of psi-slam's deciders and optimizer as a settings file and exit");
+  app.set_version_flag("--version", "psi-graphslam " PSI_SLAM_VERSION, "Print the version and exit");
+  app.footer(kExamples);
+  add_document_options(app);
+}
+
+void check_inputs(const GraphSlamCommandLine& line) {
+  const std::string see_help = " (see psi-graphslam --help)";
+  if (line.space) throw UserError("--3d: psi-graphslam makes only 2-D maps. Use MRPT's graphslam-engine");
+  if (line.setup.ini.empty()) throw UserError("name the settings file: -i INI" + see_help);
+  if (line.setup.log.empty()) throw UserError("name the log: -r LOG" + see_help);
+}
+
+/// Parses the arguments, without the program's name. Throws CLI::ParseError for wrong usage, --help and
+/// --version, and UserError for missing arguments and for --3d.
+GraphSlamCommandLine parse(const std::vector<std::string>& arguments, CLI::App& app) {
+  GraphSlamCommandLine line;
+  add_inputs(app, line.setup);
+  add_switches(app, line);
+  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+  line.list_node_deciders |= line.list_regs || line.list_all;
+  line.list_edge_deciders |= line.list_regs || line.list_all;
+  line.list_optimizers |= line.list_all;
+  if (line.lists() || line.dump_options) return line;
+  check_inputs(line);
+  line.setup.visuals = !line.disable_visuals && has_display();
+  return line;
+}
 
 std::string decider_listing(const std::string& heading, const std::vector<DeciderDescription>& deciders) {
   std::string text = heading + "\n";
@@ -94,8 +180,7 @@ void map_and_write(GraphSlamRun& run, const GraphSlamSetup& setup, const fs::pat
   const OutputFolder folder = OutputFolder::prepare(output, force);
   make_map(run, signals.came(), err);
   run.write(folder);
-  write_text_atomically(folder.path() / "summary.json",
-                        summary_of(run, setup).dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
+  write_text_atomically(folder.path() / "summary.json", json_file_text(summary_of(run, setup)));
   out << run.scans() << " scans, " << run.graph().nodes.size() << " nodes, " << run.graph().edges.size()
       << " edges; results in " << folder.path().string() << std::endl;
   print_warnings_of_log(run, err);
@@ -106,20 +191,20 @@ int map(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) 
   BoundSettings bound;
   load_graphslam_settings(line.setup.ini, bound);
   for (const std::string& warning : bound.table.take_warnings()) err << kName << ": " << warning << '\n';
-  const auto owned_run = make_graphslam_run(line.setup, DeciderCatalogue());
-  GraphSlamRun& run = *owned_run;
-  map_and_write(run, line.setup, line.output.empty() ? general.output_dir_fname : line.output, line.force,
+  const auto run = make_graphslam_run(line.setup, DeciderCatalogue());
+  map_and_write(*run, line.setup, line.output.empty() ? general.output_dir_fname : line.output, line.force,
                 out, err);
-  if (!run.interrupted()) run.wait_for_window();
-  return run.broken_off() ? kExitWrongUsageOrInput : kExitDone;
+  if (!run->interrupted()) run->wait_for_window();
+  return run->broken_off() ? kExitWrongUsageOrInput : kExitDone;
 }
 
 int run(const GraphSlamCommandLine& line, std::ostream& out, std::ostream& err) {
-  if (!line.lists() && !line.dump_options) return map(line, out, err);
   if (line.lists())
     list_deciders(line, out);
-  else
+  else if (line.dump_options)
     dump_options(out);
+  else
+    return map(line, out, err);
   return kExitDone;
 }
 
@@ -129,8 +214,7 @@ int run_graphslam_app(const std::vector<std::string>& arguments, std::ostream& o
                       std::ostream& err) noexcept {
   CLI::App app("psi-graphslam runs MRPT's graph-slam engine with the deciders of MRPT and of psi-slam.",
                kName);
-  return run_program(app, out, err,
-                     [&] { return run(parse_graphslam_command_line(arguments, app), out, err); });
+  return run_program(app, out, err, [&] { return run(parse(arguments, app), out, err); });
 }
 
 }  // namespace psi_slam

@@ -13,6 +13,7 @@
 #include "icons.h"
 #include "main_menu.h"
 #include "progress_line.h"
+#include "report/html_text.h"
 
 namespace psi_slam {
 namespace {

@@ -6,17 +6,10 @@
 #include <filesystem>
 #include <system_error>
 
-#include "progress_line.h"
+#include "base/number_text.h"
+#include "report/html_text.h"
 
 namespace psi_slam {
-namespace {
-
-std::string counted(std::size_t count, const std::string& one) {
-  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
-}
-
-}  // namespace
-
 std::string closing_text(const RunSummary& summary, const std::string& log_name, const OutputFolder& folder) {
   const std::filesystem::path picture = folder.path() / "map.png";
   const std::string report = (folder.path() / "report.html").string();

@@ -19,9 +19,7 @@ namespace psi_slam {
 namespace {
 
 constexpr const char* kSeeHelp = " (see psi-slam --help)";
-constexpr const char* kLogHelp = "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag";
 constexpr const char* kFolderHelp = "Folder for the results, new or empty";
-constexpr const char* kStartType = "X,Y,YAW_DEG";
 constexpr const char* kExamples =
     "\nExamples:\n"
     "  psi-slam check my.log                    show what a log holds and what is wrong with it\n"
@@ -42,10 +40,6 @@ bool is_option(const std::string& argument) {
   return argument.size() > 1 && argument.front() == '-';
 }
 
-void add_text(CLI::App& app, const char* names, std::string& text, const char* help, const char* type) {
-  app.add_option(names, text, help)->type_name(type);
-}
-
 /// Options of all commands that read logs and write a folder.
 void add_run_options(CLI::App& command, CommandLine& line) {
   add_settings_options(command, line.config, line.settings);
@@ -58,7 +52,7 @@ CLI::App* add_check(CLI::App& app, CommandLine& line) {
   CLI::App* const check = app.add_subcommand(
       "check",
       "Show what a log holds, what looks wrong and how to fix it (exit code 2 if the log is damaged)");
-  add_text(*check, "LOG", line.log, "Log to check", "");
+  add_value(*check, "LOG", line.log, "Log to check", "");
   add_settings_options(*check, line.config, line.settings);
   check->add_flag("--json", line.json, "Print the findings as JSON");
   return check;
@@ -69,12 +63,12 @@ CLI::App* add_localize(CLI::App& app, CommandLine& line) {
       "localize",
       "Find and track a robot in a finished map, without start pose (exit code 1 if it is not localized at "
       "the end)");
-  add_text(*localize, "MAP", line.map, "Map written by psi-slam: map.yaml or map.gridmap.gz", "");
-  add_text(*localize, "LOG", line.log, "Log of a robot in that building", "");
-  add_text(*localize, "-o,--output", line.output,
-           "Folder for localization.csv and trajectory.tum, new or empty", "DIR");
-  add_text(*localize, "--start", line.start, "Rough start of the robot: metres and degrees in the map",
-           kStartType);
+  add_value(*localize, "MAP", line.map, "Map written by psi-slam: map.yaml or map.gridmap.gz", "");
+  add_value(*localize, "LOG", line.log, "Log of a robot in that building", "");
+  add_value(*localize, "-o,--output", line.output,
+            "Folder for localization.csv and trajectory.tum, new or empty", "DIR");
+  add_value(*localize, "--start", line.start, "Rough start of the robot: metres and degrees in the map",
+            "X,Y,YAW_DEG");
   add_run_options(*localize, line);
   return localize;
 }
@@ -82,12 +76,12 @@ CLI::App* add_localize(CLI::App& app, CommandLine& line) {
 CLI::App* add_merge(CLI::App& app, CommandLine& line) {
   CLI::App* const merge = app.add_subcommand(
       "merge", "Make one map of several runs through a building (exit code 2 if a run cannot be placed)");
-  merge->add_option("INPUT", line.inputs, "Logs, or sessions saved by --save-session")->type_name("");
-  add_text(*merge, "-o,--output", line.output, kFolderHelp, "DIR");
-  add_text(*merge, "--start", line.start,
-           "Rough start of the second run: metres and degrees in the map of the first run", kStartType);
-  add_text(*merge, "--save-session", line.save_session, "Save the merged runs to this file, for --resume",
-           "FILE");
+  add_value(*merge, "INPUT", line.inputs, "Logs, or sessions saved by --save-session", "");
+  add_value(*merge, "-o,--output", line.output, kFolderHelp, "DIR");
+  add_value(*merge, "--start", line.start,
+            "Rough start of the second run: metres and degrees in the map of the first run", "X,Y,YAW_DEG");
+  add_value(*merge, "--save-session", line.save_session, "Save the merged runs to this file, for --resume",
+            "FILE");
   add_run_options(*merge, line);
   return merge;
 }
@@ -172,7 +166,7 @@ std::shared_ptr<const OptionTable> default_settings() {
 }
 
 void add_settings_options(CLI::App& app, std::string& config, std::vector<std::string>& settings) {
-  app.add_option("-c,--config", config, "Settings file. Default: the built-in settings")->type_name("INI");
+  add_value(app, "-c,--config", config, "Settings file. Default: the built-in settings", "INI");
   app.add_option_function<std::vector<std::string>>(
          "--set",
          [&settings](const std::vector<std::string>& given) {
@@ -199,17 +193,18 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   CommandLine line;
   std::string log_to_map;
   bool dump_config = false;
-  add_text(app, "LOG", log_to_map, kLogHelp, "");
-  add_text(app, "-o,--output", line.output, kFolderHelp, "DIR");
+  add_value(app, "LOG", log_to_map,
+            "Log to map: an MRPT rawlog or a CARMEN log, plain or gzipped, or a ROS bag", "");
+  add_value(app, "-o,--output", line.output, kFolderHelp, "DIR");
   add_run_options(app, line);
-  add_text(app, "--edits", line.edits, "File with edits of loops, as psi-slam-gui saves it", "FILE");
-  add_text(app, "--save-session", line.save_session,
-           "Save the run to this file, even if it is interrupted, for --resume", "FILE");
-  add_text(app, "--resume", line.resume,
-           "Resume a saved run: with the rest of its LOG, with a LOG that continues it, or without LOG",
-           "FILE");
-  app.add_option("--seed", line.seed, "Short for --set run.seed=N")->type_name("N");
-  app.add_option("--threads", line.threads, "Short for --set run.threads=N")->type_name("N");
+  add_value(app, "--edits", line.edits, "File with edits of loops, as psi-slam-gui saves it", "FILE");
+  add_value(app, "--save-session", line.save_session,
+            "Save the run to this file, even if it is interrupted, for --resume", "FILE");
+  add_value(app, "--resume", line.resume,
+            "Resume a saved run: with the rest of its LOG, with a LOG that continues it, or without LOG",
+            "FILE");
+  add_value(app, "--seed", line.seed, "Short for --set run.seed=N", "N");
+  add_value(app, "--threads", line.threads, "Short for --set run.threads=N", "N");
   app.add_flag("-v,--verbose", line.verbose, "Also print the changed settings and the times of all stages");
   app.add_flag("--dump-config", dump_config, "Print a settings file with all options and exit");
   app.set_version_flag("--version", "psi-slam " PSI_SLAM_VERSION, "Print the version and exit");

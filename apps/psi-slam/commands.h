@@ -2,15 +2,12 @@
 // The commands of psi-slam that read logs. Each returns the exit code and throws UserError for invalid input.
 #pragma once
 
-#include <filesystem>
-#include <iosfwd>
 #include <optional>
 #include <string>
 
 #include "command_line.h"
 #include "interrupt_signals.h"
 #include "progress_line.h"
-#include "psi_slam/log_options.h"
 #include "psi_slam/mapping_session.h"
 #include "psi_slam_app.h"
 #include "report/output_folder.h"
@@ -28,11 +25,9 @@ int merge_runs(const CommandLine& line, const Streams& streams);
 /// localized at the end of the log, 1 if it is not, 2 if the log is damaged.
 int localize(const CommandLine& line, const Streams& streams);
 
-/// psi-slam check: prints what the log holds and what looks wrong, as sentences or as JSON. Returns the
-/// damage that ends the log early, a sentence; empty if the log is whole. Throws UserError if nothing of the
-/// log is readable.
-std::string check_log(const std::filesystem::path& log, const LogOptions& options, bool as_json,
-                      std::ostream& out);
+/// psi-slam check: prints what the log holds and what looks wrong, as sentences or as JSON. The exit code is
+/// 2 if damage ends the log early.
+int check_log(const CommandLine& line, const Streams& streams);
 
 // Steps that map_log() and merge_runs() share.
 

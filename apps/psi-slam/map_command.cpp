@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "base/exit_code.h"
+#include "batch/kept_run.h"
 #include "closing_text.h"
 #include "commands.h"
 #include "doctor/input_doctor.h"
@@ -41,20 +42,6 @@ SessionInput input_of(const CommandLine& line, BoundSettings& bound, const Strea
   load_settings(line, bound, streams);
   require_kept(kept, bound.table, line.resume);
   return SessionInput(recording, line.log);
-}
-
-struct SavingOutcome {
-  std::exception_ptr failure;
-  std::string remark;  ///< what the session lacks
-  bool is_whole() const { return !failure && remark.empty(); }
-};
-
-SavingOutcome save_session(const MappingSession& session, const std::string& file) {
-  try {
-    return {nullptr, session.save(file).remark};
-  } catch (...) {
-    return {std::current_exception(), ""};
-  }
 }
 
 void print_result(const MappingSession& session, const RunSummary& summary, const OutputFolder& folder,
@@ -110,11 +97,17 @@ void watch(MappingSession& session, const InterruptSignals& signals, const Comma
 int save_and_export(MappingSession& session, const OutputFolder& folder, const CommandLine& line,
                     const Streams& streams, std::optional<ProgressLine>& progress_line) {
   const bool to_save = !line.save_session.empty();
-  const SavingOutcome saved = to_save ? save_session(session, line.save_session) : SavingOutcome();
+  SavedSession saved;
+  std::exception_ptr failure;
+  try {
+    if (to_save) saved = session.save(line.save_session);
+  } catch (...) {
+    failure = std::current_exception();
+  }
   const RunSummary summary = session.export_to(folder);
   progress_line.reset();
   session.set_observer({});
-  print_result(session, summary, folder, line, streams, to_save && saved.is_whole());
+  print_result(session, summary, folder, line, streams, to_save && !failure && saved.remark.empty());
   const auto warn = [&](const std::string& sentence) { streams.err << "psi-slam: " << sentence << '\n'; };
   if (!saved.remark.empty()) warn(saved.remark);
   if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
@@ -123,7 +116,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   if (const auto coarser = coarser_cells_text(summary.map)) warn(*coarser);
   for (const std::string& warning : session.warnings_of_logs_before()) warn(warning);
   if (session.broken_off()) warn(broken_off_text(*session.broken_off(), session.result().frames.size()));
-  if (saved.failure) std::rethrow_exception(saved.failure);
+  if (failure) std::rethrow_exception(failure);
   return session.breaks_off() ? kExitWrongUsageOrInput : kExitDone;
 }
 
@@ -142,16 +135,18 @@ int map_log(const CommandLine& line, const Streams& streams) {
   return save_and_export(session, folder, line, streams, progress_line);
 }
 
-std::string check_log(const std::filesystem::path& log, const LogOptions& options, bool as_json,
-                      std::ostream& out) {
-  const LogDiagnosis diagnosis = diagnose(log, options);
-  if (as_json) {
-    using Json = nlohmann::ordered_json;
-    out << to_json(diagnosis).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
-  } else {
-    for (const std::string& line : describe(diagnosis)) out << line << '\n';
-  }
-  return diagnosis.facts.broken_off;
+int check_log(const CommandLine& line, const Streams& streams) {
+  BoundSettings bound;
+  load_settings(line, bound, streams);
+  const LogDiagnosis diagnosis = diagnose(line.log, log_options(bound.settings));
+  if (line.json)
+    streams.out << json_file_text(to_json(diagnosis));
+  else
+    for (const std::string& sentence : describe(diagnosis)) streams.out << sentence << '\n';
+  const std::string& broken_off = diagnosis.facts.broken_off;
+  if (broken_off.empty()) return kExitDone;
+  streams.err << "psi-slam: " << broken_off << '\n';
+  return kExitWrongUsageOrInput;
 }
 
 }  // namespace psi_slam

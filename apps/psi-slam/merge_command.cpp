@@ -41,7 +41,9 @@ void require_joined(const MappingSession& session, const std::vector<std::string
   if (signals.came())
     throw SystemFailure("interrupted before a loop joined " + inputs[*run] +
                         " to the other runs. Nothing was merged");
-  throw UserError(inputs[*run] + " cannot be merged: no loop joins it to the other runs");
+  throw UserError(inputs[*run] +
+                  " cannot be merged: no loop joins it to the other runs. Leave it out, "
+                  "or check that it passes through the same building");
 }
 
 void add_run(MappingSession& session, const SessionInput& input, const CommandLine& line,

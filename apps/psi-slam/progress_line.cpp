@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "progress_line.h"
 
-#include <cmath>
-#include <cstdio>
+#include <mrpt/core/format.h>
+
 #include <ostream>
+
+#include "report/html_text.h"
 
 namespace psi_slam {
 namespace {
@@ -16,34 +18,19 @@ constexpr double kEarlyShare = 0.01;  // before it an estimate of the time left 
 
 }  // namespace
 
-std::string minutes_text(double seconds) {
-  const auto whole = static_cast<long long>(std::llround(seconds));
-  char text[64];
-  if (whole < 3600)
-    std::snprintf(text, sizeof text, "%lld:%02lld", whole / 60, whole % 60);
-  else
-    std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
-  return text;
-}
-
 std::string progress_text(const SessionProgress& progress) {
   using Phase = SessionProgress::Phase;
   if (progress.phase == Phase::kWriting) return "drawing the map and writing the results";
-  char text[128];
-  if (progress.phase == Phase::kMapping)
-    std::snprintf(text, sizeof text, "%3.0f %%   %zu scans   %.0f scans/s", 100 * progress.share,
-                  progress.scans, progress.scans_per_s);
-  else
-    std::snprintf(text, sizeof text, "%3.0f %%   final loop search", 100 * progress.share);
-  std::string line = text;
+  std::string line = mrpt::format("%3.0f %%   ", 100 * progress.share);
+  line += progress.phase == Phase::kFinalSearch
+              ? "final loop search"
+              : mrpt::format("%zu scans   %.0f scans/s", progress.scans, progress.scans_per_s);
   if (progress.remaining_s) line += "   " + minutes_text(*progress.remaining_s) + " left";
   return line;
 }
 
 std::string work_progress_text(const std::string& doing, double share, double elapsed_s) {
-  char percent[32];
-  std::snprintf(percent, sizeof percent, "   %3.0f %%", 100 * share);
-  std::string line = doing + percent;
+  std::string line = doing + mrpt::format("   %3.0f %%", 100 * share);
   if (share >= kEarlyShare) line += "   " + minutes_text(elapsed_s * (1 - share) / share) + " left";
   return line;
 }

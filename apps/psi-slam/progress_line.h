@@ -18,9 +18,6 @@ std::string progress_text(const SessionProgress& progress);
 /// "intel, cases   34 %   12:30 left", without the time left in the first percent of the work.
 std::string work_progress_text(const std::string& doing, double share, double elapsed_s);
 
-/// "0:07", "12:30", "1:02:03".
-std::string minutes_text(double seconds);
-
 /// A line of a terminal that is overwritten, and erased at the end of its scope. Without a terminal nothing
 /// is written.
 class OverwrittenLine {

@@ -11,21 +11,6 @@
 namespace psi_slam {
 namespace {
 
-int run_check(const CommandLine& line, const Streams& streams) {
-  BoundSettings bound;
-  load_settings(line, bound, streams);
-  const std::string broken_off = check_log(line.log, log_options(bound.settings), line.json, streams.out);
-  if (broken_off.empty()) return kExitDone;
-  streams.err << "psi-slam: " << broken_off << '\n';
-  return kExitWrongUsageOrInput;
-}
-
-int explain_options(const CommandLine& line, const Streams& streams) {
-  const BoundSettings bound;
-  streams.out << (line.markdown ? markdown_reference(bound.table) : help_text(bound.table));
-  return kExitDone;
-}
-
 int dump_config(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
   load_settings(line, bound, streams);
@@ -38,13 +23,14 @@ int run(const CommandLine& line, const Streams& streams) {
     case CommandLine::Command::kMap:
       return map_log(line, streams);
     case CommandLine::Command::kCheck:
-      return run_check(line, streams);
+      return check_log(line, streams);
     case CommandLine::Command::kLocalize:
       return localize(line, streams);
     case CommandLine::Command::kMerge:
       return merge_runs(line, streams);
     case CommandLine::Command::kOptions:
-      return explain_options(line, streams);
+      streams.out << (line.markdown ? markdown_reference : help_text)(*default_settings());
+      return kExitDone;
     case CommandLine::Command::kDumpConfig:
       return dump_config(line, streams);
     case CommandLine::Command::kSweep:

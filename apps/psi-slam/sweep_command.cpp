@@ -5,7 +5,9 @@
 #include <ostream>
 
 #include "base/file_checksum.h"
+#include "base/number_text.h"
 #include "batch/sweep_report.h"
+#include "document_options.h"
 #include "interrupt_signals.h"
 #include "progress_line.h"
 #include "psi_slam/user_error.h"
@@ -18,16 +20,9 @@ namespace fs = std::filesystem;
 constexpr int kMostThreads = 1024;
 
 /// An option that may be repeated, with one text each time.
-CLI::Option* add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& texts,
-                          const std::string& help) {
-  return command.add_option(name, texts, help + ". May be repeated")->allow_extra_args(false);
-}
-
-void prepare(const fs::path& folder) {
-  if (folder.empty()) throw UserError("name the folder for the results: -o DIR (see psi-slam sweep --help)");
-  std::error_code failed;
-  fs::create_directories(folder / "runs", failed);
-  if (failed) throw UserError("cannot make the folder " + folder.string() + ": " + failed.message());
+void add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& texts,
+                  const std::string& help, const std::string& type) {
+  add_value(command, name, texts, help + ". May be repeated", type)->allow_extra_args(false);
 }
 
 std::string closing_text(const SweepResult& result, const fs::path& folder) {
@@ -42,24 +37,16 @@ std::string closing_text(const SweepResult& result, const fs::path& folder) {
 
 void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
   SweepRequest& request = arguments.request;
-  command.add_option("LOG", request.logs, "Logs to map. LOG@INI gives a log its own settings")->type_name("");
-  command
-      .add_option("-o,--output", arguments.output,
-                  "Folder for runs and report. Runs that it already holds are not repeated")
-      ->type_name("DIR");
-  command
-      .add_option("--ini", request.ini_folder,
-                  "Folder with the settings NAME.ini of each log. Default: the folder of the log")
-      ->type_name("DIR");
-  command
-      .add_option("--relations", request.relations,
-                  "True relations of the only log. Default: NAME.relations in the folder of each log")
-      ->type_name("FILE");
+  add_value(command, "LOG", request.logs, "Logs to map. LOG@INI gives a log its own settings", "");
+  add_value(command, "-o,--output", arguments.output,
+            "Folder for runs and report. Runs that it already holds are not repeated", "DIR");
+  add_value(command, "--ini", request.ini_folder,
+            "Folder with the settings NAME.ini of each log. Default: the folder of the log", "DIR");
+  add_value(command, "--relations", request.relations,
+            "True relations of the only log. Default: NAME.relations in the folder of each log", "FILE");
   add_repeated(command, "-c,--config", request.configs,
-               "Settings file to compare; overrides the settings of the log")
-      ->type_name("INI");
-  add_repeated(command, "--set", request.choices, "Values of an option to compare")
-      ->type_name("SECTION.KEY=VALUE,...");
+               "Settings file to compare; overrides the settings of the log", "INI");
+  add_repeated(command, "--set", request.choices, "Values of an option to compare", "SECTION.KEY=VALUE,...");
   command
       .add_option_function<std::string>(
           "--seeds", [&request](const std::string& text) { request.seeds = parse_seeds(text); },
@@ -68,13 +55,12 @@ void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
       ->type_name("SEEDS");
   static const std::map<std::string, SweepKeep> kKeeps{
       {"none", SweepKeep::kNone}, {"paths", SweepKeep::kPaths}, {"maps", SweepKeep::kMaps}};
-  command
-      .add_option("--keep", arguments.keep,
-                  "What to keep of each run: none (only summary and settings), paths (also tables), maps "
-                  "(everything)")
+  add_value(
+      command, "--keep", arguments.keep,
+      "What to keep of each run: none (only summary and settings), paths (also tables), maps (everything)",
+      "WHAT")
       ->transform(CLI::Transformer(kKeeps))
-      ->default_str("none")
-      ->type_name("WHAT");
+      ->default_str("none");
   command.add_option("--threads", request.threads, "Threads of each run")
       ->check(CLI::Range(1, kMostThreads))
       ->capture_default_str();
@@ -91,10 +77,13 @@ void add_processes_option(CLI::App& command, SweepArguments& arguments) {
 
 int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& workers, const fs::path& program,
                       const Streams& streams) {
-  prepare(arguments.output);
+  const fs::path folder = arguments.output;
+  if (folder.empty()) throw UserError("name the folder for the results: -o DIR (see psi-slam sweep --help)");
+  std::error_code failed;
+  fs::create_directories(folder / "runs", failed);
+  if (failed) throw UserError("cannot make the folder " + folder.string() + ": " + failed.message());
   const SweepPlan plan = plan_sweep(arguments.request, sha256_of_file(program));
   for (const std::string& warning : plan.warnings) streams.err << "psi-slam: " << warning << '\n';
-  const fs::path folder = arguments.output;
   const SweepLock lock(folder);
   const InterruptSignals signals;
   SweepResult result;
@@ -110,8 +99,8 @@ int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& worke
     throw SystemFailure("interrupted with " + std::to_string(result.to_go()) +
                         " runs left. The same command resumes the sweep");
   if (result.failed() > 0)
-    throw SystemFailure(std::to_string(result.failed()) + (result.failed() == 1 ? " run" : " runs") +
-                        " failed. " + (folder / "report.html").string() + " lists them with the reasons");
+    throw SystemFailure(counted(result.failed(), "run") + " failed. " + (folder / "report.html").string() +
+                        " lists them with the reasons");
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/number_text.h"
@@ -94,13 +95,10 @@ std::vector<Tick> decade_ticks(const Axes& axes, const std::function<std::string
 }
 
 std::vector<Tick> time_ticks(double last_s) {
-  double step = 86400;
-  for (const double candidate : {0.1, 0.2, 0.5, 1., 2., 5., 10., 20., 30., 60., 120., 300., 600., 1200.,
-                                 1800., 3600., 7200., 18000., 36000.})
-    if (last_s / candidate <= 10) {
-      step = candidate;
-      break;
-    }
+  constexpr std::array kSteps_s{0.1,  0.2,  0.5,  1.,    2.,    5.,    10.,   20.,    30.,    60.,
+                                120., 300., 600., 1200., 1800., 3600., 7200., 18000., 36000., 86400.};
+  const double step = *std::find_if(kSteps_s.begin(), kSteps_s.end() - 1,
+                                    [&](double step_s) { return last_s / step_s <= 10; });
   std::vector<Tick> ticks;
   for (int i = 0; i * step <= last_s * (1 + 1e-9); ++i) {
     const double time_s = i * step;
@@ -143,24 +141,19 @@ std::string band_and_mean(const Series& series, const Axes& axes) {
   const std::vector<Bin> bins = binned(series);
   std::string band;
   std::string line;
+  std::string upper;  // of the band's part since the last gap
+  std::string lower;
   const double step = axes.last_s / static_cast<double>(bins.size());
-  for (std::size_t begin = 0; begin < bins.size();) {
-    if (bins[begin].count == 0) {
-      ++begin;
-      continue;
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    if (bins[i].count > 0) {
+      const double x = axes.x((static_cast<double>(i) + 0.5) * step);
+      const char command = upper.empty() ? 'M' : 'L';
+      upper += command + point(x, axes.y(bins[i].most));
+      lower = 'L' + point(x, axes.y(bins[i].least)) + lower;
+      line += command + point(x, axes.y(bins[i].sum / bins[i].count));
     }
-    std::size_t end = begin;
-    std::string upper;
-    std::string lower;
-    for (; end < bins.size() && bins[end].count > 0; ++end) {
-      const double x = axes.x((static_cast<double>(end) + 0.5) * step);
-      upper += 'L' + point(x, axes.y(bins[end].most));
-      lower = 'L' + point(x, axes.y(bins[end].least)) + lower;
-      line += (end == begin ? 'M' : 'L') + point(x, axes.y(bins[end].sum / bins[end].count));
-    }
-    upper[0] = 'M';
-    band += upper + lower + 'Z';
-    begin = end;
+    if (upper.empty() || (i + 1 < bins.size() && bins[i + 1].count > 0)) continue;
+    band += std::exchange(upper, {}) + std::exchange(lower, {}) + 'Z';
   }
   return "<path class=\"band\" d=\"" + band + "\"/><path class=\"mean\" d=\"" + line + "\"/>\n";
 }
@@ -173,11 +166,6 @@ std::string level(const Axes& axes, double value, const std::string& line_class,
          fixed_text(kWidth - kRight, 0) + "\"/><text class=\"" + label_class + "\" x=\"" +
          fixed_text(label_x, 0) + "\" y=\"" + y + "\" dy=\"" + std::to_string(label_dy) + "\">" +
          escape_html(label) + "</text>\n";
-}
-
-std::string limit_line(const Axes& axes, double value, const std::string& label, bool label_at_start) {
-  return label_at_start ? level(axes, value, "limit", label, "limit early", kLeft + 4, -5)
-                        : level(axes, value, "limit", label, "limit", kWidth - kRight - 4, -5);
 }
 
 /// Grid, labels of both axes, and the series.
@@ -207,8 +195,10 @@ std::string duration_plot(const std::string& label, const Series& series, double
   const auto ticks = decade_ticks(axes, [](double value) {
     return value >= 999 ? fixed_text(value / 1000, 0) + " s" : power_text(value) + " ms";
   });
-  return figure(label, plot_of(series, axes, ticks) +
-                           (limit_ms > 0 ? limit_line(axes, limit_ms, limit_text, false) : ""));
+  return figure(
+      label,
+      plot_of(series, axes, ticks) +
+          (limit_ms > 0 ? level(axes, limit_ms, "limit", limit_text, "limit", kWidth - kRight - 4, -5) : ""));
 }
 
 /// The strip below the plot: for each stretch of time, the share of nodes for which each matcher was in use.
@@ -281,7 +271,8 @@ std::string psi_plot(const MappingResult& result) {
   ticks.front().label = "≤ " + ticks.front().label;
   std::string svg = plot_of(series, axes, ticks);
   for (const auto& [name, threshold] : {std::pair("Ψ₁ = ", result.psi.psi_1), {"Ψ₂ = ", result.psi.psi_2}})
-    if (threshold > 0) svg += limit_line(axes, threshold, name + trimmed_text(threshold, 2), true);
+    if (threshold > 0)
+      svg += level(axes, threshold, "limit", name + trimmed_text(threshold, 2), "limit early", kLeft + 4, -5);
   return figure("The factor Ψ over time", svg + matcher_strip(result.frames, series, axes));
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "base/number_text.h"
 #include "report/html_text.h"
@@ -20,14 +19,6 @@ std::string degrees(double radians) {
 /// "5 cm", "2.5 cm", "10 cm".
 std::string centimetres(double metres) {
   return trimmed_text(std::round(metres * 1000) / 10, 1) + " cm";
-}
-
-/// "44:51", "2:07:57".
-std::string clock_text(double duration_s) {
-  const auto all = static_cast<std::int64_t>(std::llround(duration_s));
-  const auto two = [](std::int64_t value) { return (value < 10 ? "0" : "") + std::to_string(value); };
-  return all < 3600 ? std::to_string(all / 60) + ':' + two(all % 60)
-                    : std::to_string(all / 3600) + ':' + two(all / 60 % 60) + ':' + two(all % 60);
 }
 
 std::string tile(const std::string& name, const std::string& value, const std::string& unit,
@@ -87,14 +78,14 @@ std::string key_figures(const RunSummary& summary) {
   const double factor = summary.real_time_factor;
   const std::string speed = factor > 0 ? fixed_text(factor, factor < 10 ? 1 : 0) + "×" : "–";
   std::string html = "<section class=\"tiles\">\n";
-  html += tile("Duration", clock_text(log.duration_s), log.duration_s < 3600 ? "min" : "h",
+  html += tile("Duration", minutes_text(log.duration_s), log.duration_s < 3600 ? "min" : "h",
                fixed_text(rate_hz, 1) + " scans per second");
   html += tile("Scans", grouped(log.scans), "", grouped(log.beams) + " beams per scan");
   html += tile("Path", grouped(summary.path_length_m, 0), "m",
                "odometry: " + grouped(log.odometry_length_m, 0) + " m");
   html += tile("Free space", grouped(map.free_m2, 0), "m²",
-               fixed_text(map.x_max_m - map.x_min_m, 0) + " × " + fixed_text(map.y_max_m - map.y_min_m, 0) +
-                   " m, cells of " + centimetres(map.resolution_m));
+               fixed_text(map.width_m(), 0) + " × " + fixed_text(map.height_m(), 0) + " m, cells of " +
+                   centimetres(map.resolution_m));
   html += tile("Graph", grouped(summary.nodes), "nodes",
                counted(summary.edges, "edge", "edges") + ", " +
                    counted(summary.local_maps, "local map", "local maps"));

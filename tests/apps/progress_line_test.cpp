@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "report/html_text.h"
+
 namespace psi_slam {
 namespace {
 

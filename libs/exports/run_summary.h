@@ -62,7 +62,7 @@ struct LoopCounts {
 };
 
 /// Extent of the part of the map that was seen.
-struct MapExtent : DrawingExtent {
+struct MapExtent : MapRectangle {
   double resolution_m = 0;
   double asked_resolution_m = 0;  ///< by the settings
   double free_m2 = 0;             ///< area of free space

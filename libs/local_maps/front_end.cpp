@@ -26,7 +26,9 @@ MatcherOptions matcher_options(const FrontEndOptions& options) {
   return matcher;
 }
 
-constexpr double kSteadyTime_s = 0.5;  // after this time, confidence in constant velocity is one half
+constexpr double kResponseWeight = 0.2;  // of a scan in the expected response
+constexpr double kWiderBy = 1.5;         // a wide search is worth its cost if its window is so much wider
+constexpr double kSteadyTime_s = 0.5;    // after this time, confidence in constant velocity is one half
 
 }  // namespace
 
@@ -110,37 +112,78 @@ PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const Motion& motion) cons
   return prior;
 }
 
+// Odometry may be wrong by as much as the whole motion, as when it counts a reversal as forward motion.
+SearchExtent FrontEnd::wide_extent(const Motion& motion) const {
+  const double half_m =
+      std::min(options_.max_wide_window_m,
+               options_.window_m + options_.wide_window_per_motion * motion.length_m + motion.surprise_m);
+  const double half_rad =
+      std::min(options_.max_wide_window_rad,
+               options_.window_rad + motion.surprise_rad +
+                   options_.wide_window_per_motion *
+                       (motion.turn_rad + options_.window_rad_per_metre * motion.length_m));
+  return {half_m, half_m, half_rad};
+}
+
+MatchResult FrontEnd::search(FrontEndStep& step, const ScoreGrid& grid, const PosePrior& prior,
+                             const SearchExtent& window, double min_response) const {
+  MatchProblem problem{grid, *step.points, prior.map_T_robot, window};
+  problem.min_response = min_response;
+  problem.prior = prior;
+  const MatchResult match = matcher_.match(problem);
+  step.evaluations += match.evaluations;
+  return match;
+}
+
+/// The match in the wide window, if the window is wider than before and the match better than poor.
+std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Motion& motion,
+                                                   double poor_response) {
+  const SearchExtent wide = wide_extent(motion);
+  if (wide.x_m <= kWiderBy * step.window.x_m) return {};
+  const PlacedLocalMap& older = active_.front();
+  PosePrior unknown;
+  unknown.map_T_robot = last_local_T_robot_ + motion.odometry - older.local_T_map;
+  const double needed = std::max(options_.poor_response_share * expected_response_,
+                                 options_.wide_response_gain * poor_response);
+  const MatchResult match = search(step, older.map->scores_with_pyramid(), unknown, wide, needed);
+  if (!match.found) return {};
+  step.window = wide;
+  return match;
+}
+
 void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const PlacedLocalMap& older = active_.front();
+  const ScoreGrid& grid = older.map->scores();
   std::vector<TPose2D> hypotheses = {motion.odometry};
   if (motion.surprise_m > options_.max_window_m || motion.surprise_rad > options_.max_window_rad)
     hypotheses.push_back(last_motion_);
-  std::optional<MatchResult> best;
+  MatchResult best;
   PosePrior best_prior;
   for (const TPose2D& hypothesis : hypotheses) {
     const PosePrior prior = this->prior(last_local_T_robot_ + hypothesis - older.local_T_map, motion);
-    MatchProblem problem{older.map->scores(), *step.points, prior.map_T_robot, step.window};
-    problem.min_response = options_.min_response;
-    problem.prior = prior;
-    const MatchResult match = matcher_.match(problem);
-    step.evaluations += match.evaluations;
-    if (!match.found || (best && match.response <= best->response)) continue;
+    const MatchResult match =
+        search(step, grid, prior, step.window, options_.min_response_share * expected_response_);
+    if (!match.found || (best.found && match.response <= best.response)) continue;
     best = match;
     best_prior = prior;
   }
-  if (!best) return;
-  step.matched = true;
-  step.response = best->response;
-  step.information = best->information;
-  step.local_T_robot = older.local_T_map + best->map_T_robot;
+  std::optional<MatchResult> wide;
+  if (best.response < options_.poor_response_share * expected_response_)
+    wide = search_widely(step, motion, best.response);
+  if (wide) best = *wide;
+  expected_response_ += kResponseWeight * (best.response - expected_response_);
+  if (!best.found) return;
 
-  RefinedPose chosen = {best->map_T_robot, best->refined_response, best->information, 0};
-  const RefinedPose predicted =
-      refine(older.map->scores(), *step.points, best_prior.map_T_robot, options_.refinement, best_prior);
-  if (predicted.mean_score >= options_.prediction_share * best->refined_response) chosen = predicted;
-  if (motion.measured && motion.length_m > 0)  // zero motion may mean a stalled encoder
-    if (const auto held = held_to_odometry(older.map->scores(), *step.points, chosen, best_prior))
-      chosen = *held;
+  RefinedPose chosen = {best.map_T_robot, best.refined_response, best.information, 0};
+  if (!wide) {
+    const RefinedPose predicted =
+        refine(grid, *step.points, best_prior.map_T_robot, options_.refinement, best_prior);
+    if (predicted.mean_score >= options_.prediction_share * best.refined_response) chosen = predicted;
+    if (motion.measured && motion.length_m > 0)  // zero motion may mean a stalled encoder
+      if (const auto held = held_to_odometry(grid, *step.points, chosen, best_prior)) chosen = *held;
+  }
+  step.matched = true;
+  step.response = best.response;
   step.information = chosen.information;
   step.local_T_robot = older.local_T_map + chosen.map_T_robot;
 }

@@ -38,7 +38,18 @@ struct FrontEndOptions {
   double window_rad_per_metre = radians_from_degrees(8.5L);
   double max_window_m = 1.0;
   double max_window_rad = radians_from_degrees(35.0L);
-  double min_response = 0.25;  ///< below this response, the prediction is kept instead of the match
+
+  // The response that a match can reach depends on the place: on the overlap with the local map, on how much
+  // of it are smooth walls, on the spacing of the beams. So matches are judged by the response expected here,
+  // a decaying mean of those of the last scans.
+  double min_response_share = 0.3;  ///< below this share, the prediction is kept instead of the match
+  /// A match below this share is poor: odometry may be wrong by more than the window holds. The scan is
+  /// searched again in a wide window, whose match must exceed this share, and the poor match by a factor.
+  double poor_response_share = 0.75;
+  double wide_response_gain = 1.3;      ///< that factor
+  double wide_window_per_motion = 2.0;  ///< growth of the wide window with the motion by odometry
+  double max_wide_window_m = 2.5;
+  double max_wide_window_rad = radians_from_degrees(60.0L);
 
   // Standard deviations of the prediction, which holds the pose where the scan does not (along corridors):
   // for a robot at rest, and their growth with the motion and with its difference from constant velocity.
@@ -139,7 +150,11 @@ class FrontEnd {
   Motion constant_velocity_motion(TimeUs time_us) const;
   SearchExtent search_extent(const Motion& motion) const;
   PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
+  SearchExtent wide_extent(const Motion& motion) const;
   void match(FrontEndStep& step, const Motion& motion);
+  MatchResult search(FrontEndStep& step, const ScoreGrid& grid, const PosePrior& prior,
+                     const SearchExtent& window, double min_response) const;
+  std::optional<MatchResult> search_widely(FrontEndStep& step, const Motion& motion, double poor_response);
   /// Updates the sum of doubtful corrections. If the sum would be too large (see FrontEndOptions), returns
   /// the pose held to the prediction in the direction of the correction, with no information in that
   /// direction. Otherwise empty: the match is kept.
@@ -161,6 +176,7 @@ class FrontEnd {
   mrpt::math::TPose2D last_local_T_robot_;
   mrpt::math::TPose2D last_motion_;
   Eigen::Vector2d doubtful_correction_m_ = Eigen::Vector2d::Zero();  ///< decaying sum, in the robot's axes
+  double expected_response_ = 0.5;                                   ///< decaying mean of the last responses
   int misses_ = 0;                                                   ///< successive scans without a match
   double unmatched_travel_m_ = 0;  ///< path since the last match, or since the newest local map began
   mrpt::math::TPose2D last_node_local_T_robot_;

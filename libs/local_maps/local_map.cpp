@@ -76,6 +76,15 @@ void LocalMap::draw_hit(int x, int y) {
                                  static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MIN + hit));
 }
 
+// The cells between two beam ends on one surface.
+void LocalMap::draw_surface(int x0, int y0, int x1, int y1) {
+  const int steps = std::max(std::abs(x1 - x0), std::abs(y1 - y0));
+  for (int i = 1; i < steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    draw_hit(x0 + floor_to_int((x1 - x0) * share + 0.5), y0 + floor_to_int((y1 - y0) * share + 0.5));
+  }
+}
+
 // Bresenham's line, without its last cell.
 void LocalMap::draw_way(int x0, int y0, int x1, int y1) {
   const Grid::cellType miss = Grid::p2l(static_cast<float>(1 - options_.miss_probability));
@@ -126,6 +135,10 @@ void LocalMap::draw_hits(const Beams& beams, std::vector<Way>& ways) {
     touched.x_end = std::max(touched.x_end, x + 1);
     touched.y_end = std::max(touched.y_end, y + 1);
     if (beams.hits[i]) draw_hit(x, y);
+    if (i < beams.joined.size() && beams.joined[i]) {
+      const Way& before = ways[ways.size() - 2];
+      draw_surface(before.to_x, before.to_y, x, y);
+    }
   }
   add_to_dirty(touched);
 }
@@ -147,7 +160,14 @@ const ScoreGrid& LocalMap::scores() {
                   std::min(width, dirty_.x_end + reach), std::min(height, dirty_.y_end + reach),
                   scores_.finest());
     dirty_ = {};
+    scores_.drop_pyramid();
   }
+  return scores_;
+}
+
+const ScoreGrid& LocalMap::scores_with_pyramid() {
+  scores();
+  if (!scores_.has_pyramid()) scores_.build_pyramid();
   return scores_;
 }
 

@@ -36,6 +36,8 @@ struct Beams {
   mrpt::math::TPoint2D origin;
   std::vector<mrpt::math::TPoint2D> ends;
   std::vector<bool> hits;  ///< false: the beam was cut at the largest range
+  /// Whether an end lies on one surface with the end before it; empty: no end does.
+  std::vector<bool> joined{};
 };
 
 class LocalMap {
@@ -45,8 +47,9 @@ class LocalMap {
   /// Makes a finished map from an occupancy grid, in the frame and with the resolution of the grid.
   LocalMap(const LocalMapOptions& options, const mrpt::maps::COccupancyGridMap2D& drawn);
 
-  /// Draws a scan: cells at beam ends become more occupied, cells along the beams less. A scan changes a cell
-  /// at most once, and ends take precedence. Must not be called after finish().
+  /// Draws a scan: cells at beam ends, and between ends on one surface, become more occupied; cells along the
+  /// beams less. A scan changes a cell at most once, and surfaces take precedence. Must not be called after
+  /// finish().
   void insert(const Beams& beams) { insert(std::vector<Beams>{beams}); }
 
   /// Draws simultaneous scans of several lasers as one scan, so that no beam of one laser erases the beam
@@ -56,8 +59,10 @@ class LocalMap {
   /// Occupancy of all inserted scans; empty once the map is finished.
   const std::optional<mrpt::maps::COccupancyGridMap2D>& occupancy() const { return grid_; }
 
-  /// Score grid of all inserted scans.
+  /// Score grid of all inserted scans, without a pyramid until the map is finished.
   const ScoreGrid& scores();
+  /// Score grid with its pyramid, for a search in a wide window.
+  const ScoreGrid& scores_with_pyramid();
   const ScoreGrid& scores() const { return scores_; }  ///< of a finished map
 
   /// Ends the insertion of scans: builds the pyramid and frees the occupancy grid.
@@ -102,6 +107,7 @@ class LocalMap {
   bool observed(int x, int y) const;
   void draw_hits(const Beams& beams, std::vector<Way>& ways);
   void draw_hit(int x, int y);
+  void draw_surface(int x0, int y0, int x1, int y1);
   void draw_way(int x0, int y0, int x1, int y1);
 
   LocalMapOptions options_;

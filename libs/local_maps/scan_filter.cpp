@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "local_maps/seen_surfaces.h"
 
 namespace psi_slam {
 namespace {
@@ -107,14 +110,18 @@ Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, double mi
   Beams beams;
   const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
   beams.origin = {map_T_laser.x, map_T_laser.y};
+  const std::vector<bool> joined = ends_on_one_surface(scan, max_range_m);
+  bool drew_last = false;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    if (!(range >= min_range_m)) continue;
+    const bool drew_before = std::exchange(drew_last, range >= min_range_m);
+    if (!drew_last) continue;
     const double drawn = std::min(range, max_range_m);
     const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + map_T_laser.phi;
     beams.ends.emplace_back(map_T_laser.x + drawn * std::cos(bearing),
                             map_T_laser.y + drawn * std::sin(bearing));
     beams.hits.push_back(range <= max_range_m);
+    beams.joined.push_back(drew_before && joined[i]);
   }
   return beams;
 }

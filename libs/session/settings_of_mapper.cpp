@@ -50,8 +50,25 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
               "Largest half-width of the search window along x and y.")
       .angle_deg("max_window_theta_deg", front_end.max_window_rad, above(0).at_most(180),
                  "Largest half-width of the search window in heading.")
-      .number("min_response", front_end.min_response, between(0, 1), "",
-              "Least response of a match. A scan that matches worse keeps its predicted pose.")
+      .number(
+          "min_response_share", front_end.min_response_share, between(0, 1), "",
+          "Least response of a match, as a share of the mean response of the last scans. A scan that matches "
+          "worse keeps its predicted pose.")
+      .number("poor_response_share", front_end.poor_response_share, between(0, 1), "",
+              "A scan whose response is below this share of the mean response of the last scans is searched "
+              "again "
+              "in a wide window.")
+      .number(
+          "wide_response_gain", front_end.wide_response_gain, at_least(1), "",
+          "A match in the wide window is kept if its response exceeds that of the poor match by this factor.")
+      .number(
+          "wide_window_per_motion", front_end.wide_window_per_motion, between(0, 100), "",
+          "Metres and degrees added to the wide window for each metre and degree of motion since the last "
+          "scan.")
+      .number("max_wide_window_m", front_end.max_wide_window_m, above(0).at_most(20), "m",
+              "Largest half-width of the wide window along x and y.")
+      .angle_deg("max_wide_window_theta_deg", front_end.max_wide_window_rad, above(0).at_most(180),
+                 "Largest half-width of the wide window in heading.")
       .number("prior_sigma_m", front_end.prior_sigma_m, above(0).at_most(100), "m",
               "Standard deviation of the predicted position. The prediction fixes the pose where the scan "
               "does not, as along a corridor.")

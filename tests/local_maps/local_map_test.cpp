@@ -99,6 +99,32 @@ TEST(LocalMap, a_beam_that_was_cut_has_nothing_at_its_end) {
   EXPECT_EQ(observed(map, middle(39, 0)), 1U);
 }
 
+TEST(LocalMap, the_surface_between_joined_ends_is_occupied) {
+  Beams beams;
+  beams.origin = middle(0, 0);
+  for (const int y : {-30, -10, 10, 30}) {
+    beams.ends.push_back(middle(100, y));
+    beams.hits.push_back(true);
+  }
+  beams.joined = {false, true, false, true};
+  LocalMap map(without_smoothing());
+  map.insert(beams);
+  for (int y = -30; y <= 30; ++y)
+    EXPECT_EQ(score_at(map.scores(), middle(100, y)) > 0, y <= -10 || y >= 10) << y;
+}
+
+TEST(LocalMap, the_pyramid_of_an_active_map_follows_what_is_drawn) {
+  LocalMap map(without_smoothing());
+  map.insert(beam(middle(0, 0), middle(40, 0)));
+  EXPECT_TRUE(map.scores_with_pyramid().has_pyramid());
+  map.insert(beam(middle(0, 0), middle(0, 40)));
+  EXPECT_FALSE(map.scores().has_pyramid()) << "it would be out of date";
+  const ScoreGrid& scores = map.scores_with_pyramid();
+  const int x = static_cast<int>(std::floor((middle(0, 40).x - scores.origin_x_m()) / scores.resolution_m()));
+  const int y = static_cast<int>(std::floor((middle(0, 40).y - scores.origin_y_m()) / scores.resolution_m()));
+  EXPECT_GT(scores.pyramid(0).at(x / 2, y / 2), 0);
+}
+
 TEST(LocalMap, every_beam_is_a_line_without_holes_to_beside_its_end) {
   std::mt19937_64 random(2);
   std::uniform_int_distribution<int> cell(-60, 60);

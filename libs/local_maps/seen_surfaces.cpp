@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "local_maps/seen_surfaces.h"
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace psi_slam {
+namespace {
+
+using mrpt::math::TPoint2D;
+
+constexpr double kMinGap_m = 0.05;         // nearer ends leave no cell between them
+constexpr double kMaxGap_m = 2.0;          // of any surface, however far away
+constexpr double kMaxGapPerSpacing = 5;    // distance of the ends over that on a wall seen head-on
+constexpr double kMaxOffset_m = 0.06;      // of the third end from the line through the two ...
+constexpr double kMaxOffsetPerGap = 0.15;  // ... or this share of their distance
+
+double gap_m(const TPoint2D& a, const TPoint2D& b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+bool in_line(const TPoint2D& a, const TPoint2D& b, const TPoint2D& third) {
+  const double gap = gap_m(a, b);
+  const double offset = std::abs((third.x - b.x) * (b.y - a.y) - (third.y - b.y) * (b.x - a.x)) / gap;
+  return offset <= std::max(kMaxOffset_m, kMaxOffsetPerGap * gap);
+}
+
+}  // namespace
+
+std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m) {
+  const std::size_t beams = scan.ranges_m.size();
+  const auto range = [&](std::size_t i) { return static_cast<double>(scan.ranges_m[i]); };
+  const auto bearing = [&](std::size_t i) { return static_cast<double>((*scan.bearings_rad)[i]); };
+  std::vector<TPoint2D> ends;
+  ends.reserve(beams);
+  for (std::size_t i = 0; i < beams; ++i)
+    ends.emplace_back(range(i) * std::cos(bearing(i)), range(i) * std::sin(bearing(i)));
+
+  const auto hit = [&](std::size_t i) { return i < beams && range(i) <= max_range_m; };  // false for NaN
+  std::vector<bool> joined(beams, false);
+  for (std::size_t i = 1; i < beams; ++i) {
+    if (!hit(i - 1) || !hit(i)) continue;
+    const double gap = gap_m(ends[i - 1], ends[i]);
+    const double spacing = std::abs(bearing(i) - bearing(i - 1)) * std::min(range(i - 1), range(i));
+    if (gap < kMinGap_m || gap > kMaxGap_m || gap > kMaxGapPerSpacing * spacing) continue;
+    joined[i] = (i >= 2 && hit(i - 2) && in_line(ends[i - 1], ends[i], ends[i - 2])) ||
+                (hit(i + 1) && in_line(ends[i - 1], ends[i], ends[i + 1]));
+  }
+  return joined;
+}
+
+}  // namespace psi_slam

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "local_maps/seen_surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "simulated_drive.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr double kMaxRange_m = 40;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// A scan of 181 beams, one degree apart, of what `range_at` returns for a bearing.
+template <class RangeAt>
+LaserScan scan_of(RangeAt range_at) {
+  LaserScan scan;
+  scan.bearings_rad = even_bearings(-M_PI / 2, M_PI / 2, 181);
+  for (const float bearing : *scan.bearings_rad)
+    scan.ranges_m.push_back(static_cast<float>(range_at(static_cast<double>(bearing))));
+  scan.max_range_m = 80;
+  return scan;
+}
+
+// Range to a wall across the robot's way at `x_m`; NaN beyond 60 m.
+double wall_across(double x_m, double bearing_rad) {
+  const double range = x_m / std::cos(bearing_rad);
+  return range > 0 && range < 60 ? range : kNan;
+}
+
+std::size_t beam_at(double bearing_deg) {
+  return static_cast<std::size_t>(std::lround(bearing_deg + 90));
+}
+
+TEST(SeenSurfaces, join_all_ends_on_a_far_wall_seen_head_on) {
+  for (const double x_m : {5.0, 10.0, 20.0, 35.0}) {
+    const auto joined = ends_on_one_surface(scan_of([&](double b) { return wall_across(x_m, b); }), 40);
+    for (int deg = -25; deg <= 25; ++deg) EXPECT_TRUE(joined[beam_at(deg)]) << x_m << " m, " << deg;
+  }
+}
+
+TEST(SeenSurfaces, join_the_ends_on_a_wall_despite_range_noise) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0, 0.02);
+  const auto joined =
+      ends_on_one_surface(scan_of([&](double b) { return wall_across(20, b) + noise(random); }), kMaxRange_m);
+  const auto count = std::count(joined.begin() + 70, joined.begin() + 111, true);
+  EXPECT_GE(count, 39);
+}
+
+TEST(SeenSurfaces, need_no_join_where_beams_hit_every_cell) {
+  const auto joined = ends_on_one_surface(scan_of([](double b) { return wall_across(2, b); }), kMaxRange_m);
+  for (int deg = -20; deg <= 20; ++deg) EXPECT_FALSE(joined[beam_at(deg)]) << deg;
+}
+
+TEST(SeenSurfaces, do_not_join_across_an_open_door) {
+  // The door lets the beams between 2 and 6 degrees pass to a wall 5 m behind.
+  const auto joined = ends_on_one_surface(scan_of([](double b) {
+                                            const double deg = b * 180 / M_PI;
+                                            return wall_across(deg > 1.5 && deg < 6.5 ? 15 : 10, b);
+                                          }),
+                                          kMaxRange_m);
+  EXPECT_TRUE(joined[beam_at(1)]);
+  EXPECT_FALSE(joined[beam_at(2)]);
+  EXPECT_TRUE(joined[beam_at(4)]) << "the wall behind";
+  EXPECT_FALSE(joined[beam_at(7)]);
+  EXPECT_TRUE(joined[beam_at(8)]);
+}
+
+TEST(SeenSurfaces, do_not_join_beams_on_scattered_objects) {
+  // Trunks and legs: no two neighbouring ends continue straight to a third.
+  const auto joined = ends_on_one_surface(
+      scan_of([](double b) { return 15 + 4 * std::cos(40 * b) * std::cos(17 * b); }), kMaxRange_m);
+  EXPECT_LE(std::count(joined.begin(), joined.end(), true), 36) << "a fifth of them by chance";
+}
+
+TEST(SeenSurfaces, do_not_join_along_a_wall_at_a_grazing_angle) {
+  // A corridor wall 1 m beside the robot: 20 m ahead, the beams are 7 m apart along it.
+  const auto joined =
+      ends_on_one_surface(scan_of([](double b) { return b > 0.01 ? 1 / std::sin(b) : kNan; }), kMaxRange_m);
+  for (int deg = 2; deg <= 10; ++deg) EXPECT_FALSE(joined[beam_at(deg)]) << deg;
+  EXPECT_TRUE(joined[beam_at(20)]);
+}
+
+TEST(SeenSurfaces, join_no_ends_without_return_or_beyond_the_range) {
+  const auto far = ends_on_one_surface(scan_of([](double b) { return wall_across(20, b); }), 19);
+  EXPECT_EQ(std::count(far.begin(), far.end(), true), 0);
+  const auto gap = ends_on_one_surface(
+      scan_of([](double b) { return std::lround(b * 180 / M_PI) == 3 ? kNan : wall_across(20, b); }),
+      kMaxRange_m);
+  EXPECT_FALSE(gap[beam_at(3)]);
+  EXPECT_FALSE(gap[beam_at(4)]);
+  EXPECT_TRUE(gap[beam_at(5)]);
+}
+
+TEST(SeenSurfaces, of_scans_with_few_beams_are_none) {
+  for (int beams = 0; beams < 3; ++beams) {
+    LaserScan scan;
+    std::vector<float> bearings;
+    for (int i = 0; i < beams; ++i) bearings.push_back(0.02F * static_cast<float>(i));
+    scan.bearings_rad = std::make_shared<const std::vector<float>>(bearings);
+    scan.ranges_m.assign(static_cast<std::size_t>(beams), 10);
+    const auto joined = ends_on_one_surface(scan, kMaxRange_m);
+    EXPECT_EQ(std::count(joined.begin(), joined.end(), true), 0) << beams;
+  }
+}
+
+}  // namespace
+}  // namespace psi_slam

@@ -59,17 +59,23 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
 
 FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   Motion motion;
-  motion.sigma_m = options_.odometry_sigma_m;
-  motion.sigma_rad = options_.odometry_sigma_rad;
   if (!last_) return motion;
   if (!frame.has_odometry || !last_->has_odometry) return constant_velocity_motion(frame.time_us);
   motion.odometry = frame.odom_T_robot - last_->odom_T_robot;
   motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
   motion.turn_rad = std::abs(mrpt::math::wrapToPi(motion.odometry.phi));
-  motion.sigma_m += options_.odometry_sigma_per_metre * motion.length_m;
-  motion.sigma_rad += options_.odometry_sigma_per_radian * motion.turn_rad;
-  const double passed_s = std::max(0.0, seconds(frame.time_us - last_->time_us)) / kSteadyTime_s;
-  const double belief = 1 / (1 + passed_s * passed_s);
+  const double passed_s = std::max(0.0, seconds(frame.time_us - last_->time_us));
+  // Independent errors add up by their variances, so that the sum does not depend on the rate of scans.
+  const auto variance = [&](double rest, double per_metre, double per_radian) {
+    return rest * rest * passed_s + per_metre * per_metre * motion.length_m +
+           per_radian * per_radian * motion.turn_rad;
+  };
+  motion.sigma_m = std::sqrt(variance(options_.odometry_sigma_m, options_.odometry_sigma_per_metre,
+                                      options_.odometry_sigma_per_radian));
+  motion.sigma_rad = std::sqrt(variance(options_.odometry_sigma_rad, options_.odometry_sigma_rad_per_metre,
+                                        options_.odometry_sigma_rad_per_radian));
+  const double steadiness = passed_s / kSteadyTime_s;
+  const double belief = 1 / (1 + steadiness * steadiness);
   motion.surprise_m =
       belief * std::hypot(motion.odometry.x - last_motion_.x, motion.odometry.y - last_motion_.y);
   motion.surprise_rad = belief * std::abs(mrpt::math::wrapToPi(motion.odometry.phi - last_motion_.phi));
@@ -85,8 +91,8 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(TimeUs time_us) const {
   motion.turn_rad = std::abs(motion.odometry.phi);
   motion.surprise_m = predicted.sigma_m;
   motion.surprise_rad = predicted.sigma_rad;
-  motion.sigma_m = options_.odometry_sigma_m + predicted.sigma_m;
-  motion.sigma_rad = options_.odometry_sigma_rad + predicted.sigma_rad;
+  motion.sigma_m = predicted.sigma_m;
+  motion.sigma_rad = predicted.sigma_rad;
   return motion;
 }
 

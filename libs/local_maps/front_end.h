@@ -73,12 +73,14 @@ struct FrontEndOptions {
   double max_doubtful_correction_m = 0.2;
   double doubtful_correction_travel_m = 3.0;
 
-  // Noise of odometry per step, for the covariance of the poses. It matters where scans do not determine the
-  // pose.
-  double odometry_sigma_m = 0.01;
-  double odometry_sigma_rad = radians_from_degrees(0.3L);
-  double odometry_sigma_per_metre = 0.05;
-  double odometry_sigma_per_radian = 0.05;
+  // Noise of odometry, for the covariance of the poses. It matters where scans do not determine the pose. Its
+  // variance grows with time, path and turns, whatever the rate of scans.
+  double odometry_sigma_m = 0.005;          ///< after one second at rest
+  double odometry_sigma_per_metre = 0.055;  ///< after one metre
+  double odometry_sigma_per_radian = 0.02;  ///< after a turn of one radian
+  double odometry_sigma_rad = radians_from_degrees(0.2L);
+  double odometry_sigma_rad_per_metre = radians_from_degrees(1.3L);
+  double odometry_sigma_rad_per_radian = radians_from_degrees(2.0L);
 
   double node_distance_m = 0.15;  ///< a scan becomes a node if the robot moved this far since the last node
   double node_rotation_rad = radians_from_degrees(6.0L);  ///< or if it turned by this angle since then

@@ -67,4 +67,36 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore
   return candidates;
 }
 
+std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore& keyframes,
+                                          const PoseGraph& graph, double since_loop_m,
+                                          const LoopCandidateOptions& options) {
+  const double drift_m = options.drift_per_metre * since_loop_m;
+  std::vector<LoopCandidate> candidates;
+  if (drift_m <= std::max(options.max_window.x_m, options.max_window.y_m)) return candidates;
+  const mrpt::math::TPose2D& map_T_node = graph.pose(node);
+  for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
+    const PlacedLocalMap& local_map = keyframes.local_maps[m];
+    if (travel_between_m(node, local_map, keyframes) < options.min_travel_m) continue;
+    const double distance_m = nearest_node_m(local_map, map_T_node, graph);
+    if (distance_m > drift_m + options.reach_m) continue;
+    const mrpt::math::TPose2D& map_T_anchor = graph.pose(local_map.anchor);
+    double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
+    for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other) {
+      const mrpt::math::TPose2D anchor_T_other = graph.pose(other) - map_T_anchor;
+      x_min = std::min(x_min, anchor_T_other.x);
+      x_max = std::max(x_max, anchor_T_other.x);
+      y_min = std::min(y_min, anchor_T_other.y);
+      y_max = std::max(y_max, anchor_T_other.y);
+    }
+    LoopCandidate candidate;
+    candidate.local_map = m;
+    candidate.anchor_T_node = {0.5 * (x_min + x_max), 0.5 * (y_min + y_max), (map_T_node - map_T_anchor).phi};
+    candidate.extent = {0.5 * (x_max - x_min) + options.reach_m, 0.5 * (y_max - y_min) + options.reach_m,
+                        options.max_window.theta_rad};
+    candidate.distance_m = distance_m;
+    candidates.push_back(candidate);
+  }
+  return candidates;
+}
+
 }  // namespace psi_slam

@@ -25,6 +25,9 @@ struct LoopCandidateOptions {
   double reach_m = 5.0;        ///< largest distance between the window and a node of the local map
   /// Shortest path between the node and the local map's nearest node. Nearer local maps share scans with it.
   double min_travel_m = 10.0;
+  /// Drift of the position per metre of path without a loop that the largest window may not hold: local maps
+  /// within this drift are searched as a whole, whatever the graph's uncertainty says.
+  double drift_per_metre = 0.02;
 };
 
 struct LoopCandidate {
@@ -48,5 +51,12 @@ using SigmasOfAnchors = std::function<std::vector<PositionSigma>(const std::vect
 std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& keyframes,
                                            const PoseGraph& graph, const LoopCandidateOptions& options,
                                            const SigmasOfAnchors& sigmas_of_anchors);
+
+/// Local maps that drift may have moved out of the reach of loop_candidates(): those within
+/// `options.drift_per_metre` x `since_loop_m`, the path of the robot since its last loop. The window is the
+/// whole local map: the robot may be within reach of any of its nodes.
+std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore& keyframes,
+                                          const PoseGraph& graph, double since_loop_m,
+                                          const LoopCandidateOptions& options);
 
 }  // namespace psi_slam

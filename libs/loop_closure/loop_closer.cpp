@@ -34,15 +34,41 @@ std::vector<PositionSigma> sigmas_of_anchors(std::size_t node, const std::vector
 
 }  // namespace
 
+// All candidates in narrow windows, and of those in wide windows as many as a node may search.
+std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const KeyframeStore& keyframes,
+                                                  const PoseGraph& graph) {
+  std::vector<LoopCandidate> chosen =
+      loop_candidates(node, keyframes, graph, options_.candidates, [&](const std::vector<std::size_t>& near) {
+        return sigmas_of_anchors(node, near, keyframes, graph, search_);
+      });
+  const auto first_wide = std::stable_partition(chosen.begin(), chosen.end(), [&](const LoopCandidate& one) {
+    return !is_wide(one.extent, options_.verification);
+  });
+  const std::vector<LoopCandidate> wide(first_wide, chosen.end());
+  chosen.erase(first_wide, chosen.end());
+  const bool unseen = chosen.empty();  // no local map is known to be near
+  for (const LoopCandidate& one : schedule_.choose(wide, options_.wide_searches)) chosen.push_back(one);
+  if (unseen && wide.size() < options_.wide_searches) {
+    std::vector<LoopCandidate> far = far_candidates(
+        node, keyframes, graph, keyframes.nodes[node].travelled_m - last_loop_m_, options_.candidates);
+    const auto is_chosen = [&](const LoopCandidate& one) {
+      return std::any_of(chosen.begin(), chosen.end(),
+                         [&](const LoopCandidate& other) { return other.local_map == one.local_map; });
+    };
+    far.erase(std::remove_if(far.begin(), far.end(), is_chosen), far.end());
+    for (const LoopCandidate& one : schedule_.choose(std::move(far), 1)) chosen.push_back(one);
+  }
+  std::sort(chosen.begin(), chosen.end(),
+            [](const LoopCandidate& a, const LoopCandidate& b) { return a.local_map < b.local_map; });
+  return chosen;
+}
+
 LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& keyframes,
                                       const PoseGraph& graph, const ChosenMatcher& matcher,
                                       WorkerPool& pool) {
   Outcome outcome;
   if (!begins_stretch(node, keyframes.nodes, options_.attempt_distance_m)) return outcome;
-  const std::vector<LoopCandidate> candidates =
-      loop_candidates(node, keyframes, graph, options_.candidates, [&](const std::vector<std::size_t>& near) {
-        return sigmas_of_anchors(node, near, keyframes, graph, search_);
-      });
+  const std::vector<LoopCandidate> candidates = this->candidates(node, keyframes, graph);
   std::vector<std::size_t> local_maps;
   for (const LoopCandidate& candidate : candidates) local_maps.push_back(candidate.local_map);
   unpack_local_maps(keyframes, local_maps, pool);
@@ -60,6 +86,8 @@ LoopCloser::Outcome LoopCloser::close(std::size_t node, const KeyframeStore& key
                              options_.verification, run_seed_);
        })) {
     outcome.effort += attempt.effort;
+    if (attempt.loop && is_wide(attempt.loop->window, options_.verification))
+      schedule_.searched(attempt.loop->local_map, attempt.loop->verdict == LoopVerdict::kPending);
     if (attempt.loop) outcome.loops.push_back(*std::move(attempt.loop));
   }
   return outcome;

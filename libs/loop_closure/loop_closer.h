@@ -12,6 +12,7 @@
 #include "loop_closure/loop_verification.h"
 #include "loop_closure/matcher_policy.h"
 #include "loop_closure/scan_context.h"
+#include "loop_closure/wide_search_schedule.h"
 #include "pose_graph/path_covariance.h"
 #include "psi_slam/loop_record.h"
 #include "psi_slam/pose_graph.h"
@@ -23,6 +24,7 @@ struct LoopClosureOptions {
   LoopVerificationOptions verification;
   ScanContextOptions context;
   double attempt_distance_m = 0.5;  ///< searches for loops once in this much travel
+  std::size_t wide_searches = 3;    ///< most searches of one node in wide windows
 };
 
 class LoopCloser {
@@ -39,6 +41,11 @@ class LoopCloser {
   Outcome close(std::size_t node, const KeyframeStore& keyframes, const PoseGraph& graph,
                 const ChosenMatcher& matcher, WorkerPool& pool);
 
+  /// Tells that a loop was closed at `node`: the position is known there.
+  void closed(std::size_t node, const KeyframeStore& keyframes) {
+    last_loop_m_ = keyframes.nodes[node].travelled_m;
+  }
+
   /// Matches `node` with one local map in a given window, and verifies the match. None if the scan has no
   /// points to match.
   std::optional<LoopRecord> match(std::size_t node, const LoopCandidate& candidate,
@@ -46,9 +53,14 @@ class LoopCloser {
                                   WorkerPool& pool) const;
 
  private:
+  std::vector<LoopCandidate> candidates(std::size_t node, const KeyframeStore& keyframes,
+                                        const PoseGraph& graph);
+
   LoopClosureOptions options_;
   std::uint64_t run_seed_;
   PathCovarianceSearch search_;
+  WideSearchSchedule schedule_;
+  double last_loop_m_ = 0;  ///< path of the robot up to the last closed loop
 };
 
 }  // namespace psi_slam

@@ -95,16 +95,25 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
               "is not applied.")
       .number("doubtful_correction_travel_m", front_end.doubtful_correction_travel_m, above(0).at_most(1000),
               "m", "Travel over which the sum of doubtful corrections decays to 37 %.")
-      .number("odometry_sigma_m", front_end.odometry_sigma_m, above(0).at_most(10), "m",
-              "Standard deviation of odometry's position from scan to scan. It enters the covariance of the "
-              "poses.")
-      .angle_deg("odometry_sigma_theta_deg", front_end.odometry_sigma_rad, above(0).at_most(180),
-                 "Standard deviation of odometry's heading from scan to scan. It enters the covariance of "
-                 "the poses.")
-      .number("odometry_sigma_per_metre", front_end.odometry_sigma_per_metre, at_least(0).at_most(10), "",
-              "Metres added to odometry_sigma_m for each metre moved.")
-      .number("odometry_sigma_theta_per_turn", front_end.odometry_sigma_per_radian, at_least(0).at_most(10),
-              "", "Degrees added to odometry_sigma_theta_deg for each degree turned.")
+      .number(
+          "odometry_sigma_m", front_end.odometry_sigma_m, at_least(0).at_most(10), "m",
+          "Standard deviation of odometry's position after one second at rest. It grows with the square root "
+          "of the time and enters the covariance of the poses.")
+      .number(
+          "odometry_sigma_per_metre", front_end.odometry_sigma_per_metre, at_least(0).at_most(10), "m",
+          "Standard deviation of odometry's position after one metre. It grows with the square root of the "
+          "path.")
+      .number(
+          "odometry_sigma_per_radian", front_end.odometry_sigma_per_radian, at_least(0).at_most(10), "m",
+          "Standard deviation of odometry's position after a turn of one radian. It grows with the square "
+          "root of the turns.")
+      .angle_deg("odometry_sigma_theta_deg", front_end.odometry_sigma_rad, at_least(0).at_most(180),
+                 "Standard deviation of odometry's heading after one second at rest.")
+      .angle_deg("odometry_sigma_theta_per_metre_deg", front_end.odometry_sigma_rad_per_metre,
+                 at_least(0).at_most(180), "Standard deviation of odometry's heading after one metre.")
+      .angle_deg("odometry_sigma_theta_per_radian_deg", front_end.odometry_sigma_rad_per_radian,
+                 at_least(0).at_most(180),
+                 "Standard deviation of odometry's heading after a turn of one radian.")
       .number("node_distance_m", front_end.node_distance_m, at_least(0).at_most(100), "m",
               "A scan becomes a node of the graph when the robot has moved this far since the last node.")
       .angle_deg(
@@ -166,6 +175,10 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
       .number("min_travel_m", candidates.min_travel_m, at_least(0), "m",
               "Least travel since the last node of a local map before it is searched for loops. Nearer nodes "
               "share scans with it.")
+      .number(
+          "drift_per_metre", candidates.drift_per_metre, at_least(0).at_most(1), "",
+          "Drift of the position for each metre travelled without a loop. Where it may exceed the largest "
+          "window, local maps this far away are searched as a whole.")
       .number("attempt_distance_m", loops.attempt_distance_m, at_least(0), "m",
               "Travel from one search for loops to the next.")
       .number("context_travel_m", loops.context.travel_m, at_least(0).at_most(1000), "m",

@@ -151,7 +151,7 @@ AlignableScan::AlignableScan(const LaserScan& scan, double max_range_m, std::siz
   points_.reserve(beams / step + 1);
   for (std::size_t i = 0; i < beams; i += step) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    if (!(range <= max_range_m)) continue;  // NaN too
+    if (!(range <= max_range_m)) continue;  // also without return
     const double bearing = mrpt::math::wrapToPi(static_cast<double>((*scan.bearings_rad)[i]));
     points_.push_back(
         {range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)), Eigen::Vector2d::Zero(), bearing});

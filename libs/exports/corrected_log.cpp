@@ -83,7 +83,7 @@ std::string scan_line(const LaserScan& scan, TimeUs time_us, const TPose2D& map_
   if (runs_clockwise(scan)) std::reverse(ranges_m.begin(), ranges_m.end());
   std::string line = std::string(kMessages[scan.laser]) + ' ' + std::to_string(ranges_m.size());
   for (const float range_m : ranges_m)
-    line += ' ' + shortest_text(std::isfinite(range_m) ? range_m : scan.max_range_m);
+    line += std::isnan(range_m) ? " 0" : ' ' + shortest_text(std::min(range_m, scan.max_range_m));
   append_pose(line, map_T_robot);
   append_pose(line, odom_T_robot);
   const std::string stamp = format_seconds(time_us);

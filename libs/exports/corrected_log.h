@@ -5,10 +5,10 @@
 //     FLASER n r1..rn  x y theta  odom_x odom_y odom_theta  timestamp host logger_timestamp
 //
 // Both poses are the robot's: first in the map, then raw odometry. A beam without return is written as the
-// sensor's maximum range. The format has no room for bearings and mount: PARAM lines at the top give the
-// mount and the beam spacing, a comment the bearings. Ranges are always counter-clockwise, so log.mirrored
-// must not be set for this file. A second laser gets RLASER lines with the poses of its own time. CARMEN has
-// no message with poses for a third laser, so its scans are left out.
+// sensor's maximum range, an invalid reading as 0. The format has no room for bearings and mount: PARAM lines
+// at the top give the mount and the beam spacing, a comment the bearings. Ranges are always
+// counter-clockwise, so log.mirrored must not be set for this file. A second laser gets RLASER lines with the
+// poses of its own time. CARMEN has no message with poses for a third laser, so its scans are left out.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

@@ -96,8 +96,11 @@ void mark_no_returns(std::vector<float>& ranges_m, double min_range_m, double ma
   const auto min_range = static_cast<float>(min_range_m);
   const auto max_range = static_cast<float>(max_range_m);
   for (float& range : ranges_m) {
-    const bool is_return = range > 0 && range >= min_range && range < max_range;
-    if (!is_return) range = std::numeric_limits<float>::quiet_NaN();
+    const bool is_valid = range > 0 && range >= min_range;
+    if (!is_valid)
+      range = std::numeric_limits<float>::quiet_NaN();
+    else if (range >= max_range)
+      range = std::numeric_limits<float>::infinity();
   }
 }
 

@@ -50,8 +50,8 @@ FloorMount floor_mount(const mrpt::poses::CPose3D& robot_T_laser, const std::str
 /// Reverses the sign of all bearings.
 void mirror(std::vector<float>& bearings_rad);
 
-/// Replaces each range, metres, that is no return with NaN: not finite, zero or negative, below
-/// `min_range_m`, at or beyond `max_range_m`.
+/// Replaces each range, metres, that is no return: by infinity at or beyond `max_range_m`, by NaN if it is
+/// zero, negative, below `min_range_m` or not a number.
 void mark_no_returns(std::vector<float>& ranges_m, double min_range_m, double max_range_m);
 
 /// Sets the maximum range of a scan and marks its readings without a return. The user's options override the

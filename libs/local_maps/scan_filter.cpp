@@ -67,7 +67,7 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
   double farthest_squared = 0;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;  // also for NaN
+    if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;  // also without return
     const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + robot_T_laser.phi;
     const double x = robot_T_laser.x + range * std::cos(bearing);
     const double y = robot_T_laser.y + range * std::sin(bearing);
@@ -114,7 +114,7 @@ Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, double mi
   bool drew_last = false;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    const bool drew_before = std::exchange(drew_last, range >= min_range_m);
+    const bool drew_before = std::exchange(drew_last, range >= min_range_m && std::isfinite(range));
     if (!drew_last) continue;
     const double drawn = std::min(range, max_range_m);
     const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + map_T_laser.phi;

@@ -39,7 +39,9 @@ std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m)
   for (std::size_t i = 0; i < beams; ++i)
     ends.emplace_back(range(i) * std::cos(bearing(i)), range(i) * std::sin(bearing(i)));
 
-  const auto hit = [&](std::size_t i) { return i < beams && range(i) <= max_range_m; };  // false for NaN
+  const auto hit = [&](std::size_t i) {
+    return i < beams && range(i) <= max_range_m;
+  };  // false without return
   std::vector<bool> joined(beams, false);
   for (std::size_t i = 1; i < beams; ++i) {
     if (!hit(i - 1) || !hit(i)) continue;

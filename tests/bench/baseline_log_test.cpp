@@ -39,8 +39,8 @@ TEST(BaselineLog, is_read_back_as_the_same_log) {
     ASSERT_EQ(same.scan.robot_T_laser, frame.scan.robot_T_laser);
     ASSERT_EQ(same.scan.ranges_m.size(), frame.scan.ranges_m.size());
     for (std::size_t beam = 0; beam < frame.scan.ranges_m.size(); ++beam) {
-      ASSERT_EQ(std::isnan(same.scan.ranges_m[beam]), std::isnan(frame.scan.ranges_m[beam]));
-      if (!std::isnan(frame.scan.ranges_m[beam])) {
+      ASSERT_EQ(std::isfinite(same.scan.ranges_m[beam]), std::isfinite(frame.scan.ranges_m[beam]));
+      if (std::isfinite(frame.scan.ranges_m[beam])) {
         ASSERT_EQ(same.scan.ranges_m[beam], frame.scan.ranges_m[beam]);
       }
       ASSERT_NEAR((*same.scan.bearings_rad)[beam], (*frame.scan.bearings_rad)[beam], 1e-5);

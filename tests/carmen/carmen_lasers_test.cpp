@@ -126,7 +126,7 @@ TEST_F(CarmenLaserTest, maximum_range_comes_from_user_then_message_then_paramete
   CarmenLaser stated("FLASER", options);
   const auto short_sighted = scan(stated, 180, message);
   EXPECT_EQ(short_sighted.max_range_m, 0.5F);
-  EXPECT_TRUE(std::isnan(short_sighted.ranges_m[0])) << "1 m is beyond";
+  EXPECT_TRUE(std::isinf(short_sighted.ranges_m[0])) << "1 m is beyond";
 }
 
 TEST_F(CarmenLaserTest, rejects_invalid_parameters) {

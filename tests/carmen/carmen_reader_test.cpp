@@ -138,8 +138,8 @@ TEST_F(CarmenReaderTest, uses_parameters_before_and_between_scans) {
            flaser("FLASER", "0 0 0", "0 0 0", "2"));
   EXPECT_EQ(frames.at(0).scan.robot_T_laser.x, 0.25);
   EXPECT_EQ(frames.at(0).scan.max_range_m, 5);
-  EXPECT_TRUE(std::isnan(frames.at(0).scan.ranges_m[5])) << "6.5 m is no return";
-  EXPECT_FALSE(std::isnan(frames.at(0).scan.ranges_m[1]));
+  EXPECT_TRUE(std::isinf(frames.at(0).scan.ranges_m[5])) << "6.5 m is no return";
+  EXPECT_TRUE(std::isfinite(frames.at(0).scan.ranges_m[1]));
   EXPECT_EQ(frames.at(1).scan.robot_T_laser.x, 0.5);
 }
 

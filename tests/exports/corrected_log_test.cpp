@@ -17,7 +17,8 @@
 namespace psi_slam {
 namespace {
 
-constexpr float kNoReturn = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoReturn = std::numeric_limits<float>::infinity();
+constexpr float kInvalid = std::numeric_limits<float>::quiet_NaN();
 
 Frame frame(TimeUs time_us, const mrpt::math::TPose2D& odom_T_robot, std::vector<float> ranges_m) {
   Frame made;
@@ -41,15 +42,16 @@ std::vector<std::string> lines(const std::filesystem::path& path, const std::str
 TEST(CorrectedLog, writes_scans_in_order_with_both_poses_and_their_time) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "trajectory.carmen";
-  write_corrected_log(
-      path,
-      {frame(2'000'001, {7, 8, 0.5}, {1.25F, kNoReturn, 0.01F}), frame(1'500'000, {9, 8, 0.5}, {1, 2, 3})},
-      {{1, 2, -0.25}, {3, 4, M_PI}});
+  write_corrected_log(path,
+                      {frame(2'000'001, {7, 8, 0.5}, {1.25F, kNoReturn, 0.01F}),
+                       frame(1'500'000, {9, 8, 0.5}, {1, kInvalid, 3})},
+                      {{1, 2, -0.25}, {3, 4, M_PI}});
   const auto scans = lines(path, "FLASER");
   ASSERT_EQ(scans.size(), 2u);
   EXPECT_EQ(scans[0],
             "FLASER 3 1.25 81.83 0.01 1.000000000 2.000000000 -0.250000000"
             " 7.000000000 8.000000000 0.500000000 2.000001 psi-slam 2.000001");
+  EXPECT_EQ(scans[1].rfind("FLASER 3 1 0 3 ", 0), 0U) << scans[1];
   EXPECT_EQ(lines(path, "PARAM robot_frontlaser_offset 0.25").size(), 1u);
   EXPECT_EQ(lines(path, "PARAM laser_front_laser_resolution 28.6479").size(), 1u);
   EXPECT_EQ(lines(path, "# beams: 3, from -28.6479 to 28.6479 degrees").size(), 1u);

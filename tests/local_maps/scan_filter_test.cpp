@@ -199,7 +199,7 @@ TEST(DrawingBeams, start_at_the_laser_and_end_at_the_returns) {
 }
 
 TEST(DrawingBeams, are_cut_at_the_largest_range_and_dropped_below_the_smallest) {
-  const Beams beams = drawing_beams(scan_of({0.2F, 5, 6, 7, kNan}), {0, 0, 0}, 0.3, 6);
+  const Beams beams = drawing_beams(scan_of({0.2F, 5, 6, 7, kNan, kInfinity}), {0, 0, 0}, 0.3, 6);
   ASSERT_EQ(beams.ends.size(), 3U);
   EXPECT_EQ(beams.hits, (std::vector<bool>{true, true, false}));
   EXPECT_NEAR(beams.ends[2].norm(), 6, 1e-6);

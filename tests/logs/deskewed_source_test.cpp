@@ -88,11 +88,11 @@ TEST(Deskewed, a_sweep_while_turning_on_the_spot_equals_a_scan_at_rest) {
 
 TEST(Deskewed, a_beam_without_return_turns_with_the_robot) {
   LaserScan scan;
-  scan.ranges_m = {1, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN()};
+  scan.ranges_m = {1, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()};
   scan.bearings_rad = std::make_shared<const std::vector<float>>(std::vector<float>{-1, 0, 1});
   const LaserScan still = deskewed(scan, {0.1, 0, 0.2});
   EXPECT_EQ(still.ranges_m[0], 1.0F);
-  EXPECT_TRUE(std::isnan(still.ranges_m[1]) && std::isnan(still.ranges_m[2]));
+  EXPECT_TRUE(std::isnan(still.ranges_m[1]) && std::isinf(still.ranges_m[2]));
   EXPECT_THAT(*still.bearings_rad, testing::Pointwise(testing::FloatNear(1e-6F), {-1.0F, 0.1F, 1.2F}));
 }
 

@@ -87,9 +87,13 @@ TEST(RangeObservation, uneven_beams_are_approximated) {
 TEST(RangeObservation, beams_without_return_are_invalid_and_the_time_is_exact) {
   Frame frame = frame_with(even_bearings(-1, 1, 3));
   frame.scan.ranges_m[1] = std::numeric_limits<float>::quiet_NaN();
+  frame.scan.ranges_m[2] = std::numeric_limits<float>::infinity();
   const auto observation = range_observation(frame);
   EXPECT_TRUE(observation->getScanRangeValidity(0));
-  EXPECT_FALSE(observation->getScanRangeValidity(1));
+  for (const std::size_t beam : {1, 2}) {
+    EXPECT_FALSE(observation->getScanRangeValidity(beam));
+    EXPECT_EQ(observation->getScanRange(beam), frame.scan.max_range_m);
+  }
   EXPECT_EQ(observation->timestamp - mrpt::Clock::fromDouble(976052905), std::chrono::microseconds(167303));
 }
 

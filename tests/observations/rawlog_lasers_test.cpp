@@ -62,11 +62,13 @@ TEST(RawlogLaser, rejects_a_tilted_laser) {
 }
 
 TEST(RawlogLaser, marks_readings_without_a_return) {
-  const auto observation = range_scan(1, "LASER", {1, -1, 0, 30, std::nanf(""), 2});
+  const auto observation = range_scan(1, "LASER", {1, -1, 0, std::nanf(""), 2, 30, 30});
+  observation->setScanRangeValidity(4, false);
   observation->setScanRangeValidity(5, false);
   const auto ranges_m = scan_of(*observation).ranges_m;
   EXPECT_EQ(ranges_m[0], 1);
-  for (std::size_t i = 1; i < ranges_m.size(); ++i) EXPECT_TRUE(std::isnan(ranges_m[i])) << i;
+  for (std::size_t i = 1; i < 6; ++i) EXPECT_TRUE(std::isnan(ranges_m[i])) << i;
+  EXPECT_TRUE(std::isinf(ranges_m[6])) << "valid, and at the maximum range";
 }
 
 TEST(RawlogLaser, options_override_the_log) {

@@ -272,7 +272,7 @@ TEST_F(RosbagReaderTest, requires_a_stated_mount_if_the_bag_has_none) {
   EXPECT_EQ(read(recording, options).front().scan.robot_T_laser, TPose2D(0, 0, 0));
 }
 
-TEST_F(RosbagReaderTest, readings_without_a_return_are_nan_and_scans_may_change_their_shape) {
+TEST_F(RosbagReaderTest, readings_without_a_return_are_marked_and_scans_may_change_their_shape) {
   const float inf = std::numeric_limits<float>::infinity();
   RecordedScan first = scan_at();
   first.ranges_m = {inf, -inf, std::nanf(""), 0.05F, 0, -1, 30, 29.5F, 1000};
@@ -286,7 +286,10 @@ TEST_F(RosbagReaderTest, readings_without_a_return_are_nan_and_scans_may_change_
   const auto frames = read(recording);
   ASSERT_EQ(frames.size(), 2U) << "an empty scan is skipped";
   ASSERT_EQ(frames[0].scan.ranges_m.size(), 9U);
-  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(std::isfinite(frames[0].scan.ranges_m[i]), i == 7) << i;
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_EQ(std::isfinite(frames[0].scan.ranges_m[i]), i == 7) << i;
+    EXPECT_EQ(std::isinf(frames[0].scan.ranges_m[i]), i == 0 || i == 6 || i == 8) << i;
+  }
   EXPECT_THAT(*frames[1].scan.bearings_rad, testing::ElementsAre(-1.0F, -1.25F));
 }
 

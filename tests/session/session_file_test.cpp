@@ -52,7 +52,7 @@ SessionRecording small_recording() {
     frame.index = i;
     frame.time_us = 1'000'000'000'000'007 - static_cast<TimeUs>(i);  // stamps may run backwards
     frame.odom_T_robot = {1.0 / 3, -0.0, std::nextafter(M_PI, 0)};
-    frame.scan = i < 2 ? scan_of({1.1F, nan, 3.3F}, 80) : scan_of({0.1F}, 30);
+    frame.scan = i < 2 ? scan_of({1.1F, nan, INFINITY, 3.3F}, 80) : scan_of({0.1F}, 30);
     frame.has_odometry = i != 3;
     if (i > 0) frame.companions = companions_of(i);
     recording.frames.push_back(frame);

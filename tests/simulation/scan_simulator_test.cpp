@@ -104,9 +104,9 @@ TEST(ScanSimulator, glass_returns_some_beams_loses_some_and_lets_the_others_pass
       const double range = static_cast<double>(scan.ranges_m[beam]);
       const double x = range * std::cos(static_cast<double>((*scan.bearings_rad)[beam]));
       ++all;
-      lost += std::isnan(range) ? 1 : 0;
+      lost += std::isinf(range) ? 1 : 0;
       at_glass += std::abs(x - 3) < 0.05 ? 1 : 0;
-      EXPECT_TRUE(std::isnan(range) || std::abs(x - 3) < 0.05 || std::abs(x - 5) < 0.05) << x;
+      EXPECT_TRUE(std::isinf(range) || std::abs(x - 3) < 0.05 || std::abs(x - 5) < 0.05) << x;
     }
   }
   const double bound = 5 * std::sqrt(0.25 / all);
@@ -143,7 +143,7 @@ TEST(ScanSimulator, has_the_requested_noise_and_dropouts) {
     const LaserScan scan = simulator.scan({0, 0, 0}, {}, index);
     for (std::size_t beam = 0; beam < options.beams; ++beam) {
       ++all;
-      if (std::isnan(scan.ranges_m[beam])) {
+      if (std::isinf(scan.ranges_m[beam])) {
         ++lost;
       } else {
         sum2 += std::pow(static_cast<double>(scan.ranges_m[beam] - truth.ranges_m[beam]), 2);

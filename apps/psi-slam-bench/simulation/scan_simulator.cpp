@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "frames/laser_readings.h"
+
 namespace psi_slam {
 namespace {
 
@@ -163,9 +165,10 @@ LaserScan ScanSimulator::scan(const TPose2D& world_T_robot, const std::vector<TP
     for (const TPoint2D& person : people)
       range = std::min(range, range_to_circle_m(ray, person, kPersonRadius_m));
     range += options_.noise_m * random.normal();
-    const bool lost = random.happens(options_.dropout_share) || !(range > 0 && range < options_.max_range_m);
-    scan.ranges_m.push_back(lost ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(range));
+    if (random.happens(options_.dropout_share)) range = std::numeric_limits<double>::infinity();
+    scan.ranges_m.push_back(static_cast<float>(range));
   }
+  mark_no_returns(scan.ranges_m, 0, options_.max_range_m);
   return scan;
 }
 

@@ -38,7 +38,7 @@ class ScanSimulator {
   /// and infinite values.
   ScanSimulator(const FloorPlan& plan, const ScanSimulatorOptions& options);
 
-  /// Scan at a pose; `index` seeds its noise. The range of a beam without return is NaN.
+  /// Scan at a pose; `index` seeds its noise. The range of a beam without return is infinite.
   LaserScan scan(const mrpt::math::TPose2D& world_T_robot, const std::vector<mrpt::math::TPoint2D>& people,
                  std::uint64_t index);
 

@@ -22,10 +22,12 @@ namespace psi_slam {
 /// the same order. All scans of one laser share them.
 using BeamBearings = std::shared_ptr<const std::vector<float>>;
 
-/// One planar range scan. `ranges_m[i]`, metres, was measured along `(*bearings_rad)[i]`. A reading without a
-/// return is NaN: at or beyond the maximum range, zero, negative, not finite or flagged as invalid.
+/// One planar range scan. `ranges_m[i]`, metres, was measured along `(*bearings_rad)[i]`. Only returns are
+/// finite. +infinity is no return: the reading was at or beyond the maximum range, so the beam met nothing up
+/// to there. NaN is an invalid reading, which says nothing: zero, negative, below the minimum range or
+/// flagged as invalid.
 struct LaserScan {
-  std::vector<float> ranges_m;  ///< one range for each beam, metres; NaN without return
+  std::vector<float> ranges_m;  ///< one range for each beam, metres; infinity: no return; NaN: invalid
   BeamBearings bearings_rad;    ///< one bearing for each beam
   float max_range_m = 0;        ///< maximum range of the sensor, metres: readings from here on are no returns
   mrpt::math::TPose2D robot_T_laser;  ///< pose of the laser on the robot

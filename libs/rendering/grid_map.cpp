@@ -26,7 +26,7 @@ constexpr int kLogOddsOfOnePass = 24;
 
 using Point = mrpt::math::TPoint2D;
 
-/// End of a beam with a return, in the map, and whether an obstacle is there.
+/// End of a beam, in the map, and whether an obstacle is there.
 struct Ray {
   Point end;
   bool hit = false;
@@ -43,7 +43,7 @@ struct Fan {
 /// Turns scans into rays in the map's frame. Keeps the directions of each laser's beams from scan to scan.
 class RayMaker {
  public:
-  explicit RayMaker(double max_range_m) : max_range_m_(max_range_m) {}
+  explicit RayMaker(const GridMapOptions& options) : options_(options) {}
 
   /// Returns the rays of all scans of a frame, valid until the next call.
   const std::vector<const Fan*>& fans(const Frame& frame, const TPose2D& map_T_robot) {
@@ -75,27 +75,28 @@ class RayMaker {
       throw std::invalid_argument("draw_grid_map: a pose is not finite");
     const double c = std::cos(map_T_laser.phi);
     const double s = std::sin(map_T_laser.phi);
+    const double clear_m = std::min(options_.no_return_clears_m, static_cast<double>(scan.max_range_m));
     fan.start = {map_T_laser.x, map_T_laser.y};
     fan.rays.clear();
     for (std::size_t i = 0; i < beams; ++i) {
       const double range_m = static_cast<double>(scan.ranges_m[i]);
-      if (!std::isfinite(range_m)) continue;
-      const double length = std::min(range_m, max_range_m_);
+      if (std::isnan(range_m)) continue;
+      const double length = std::min(std::isinf(range_m) ? clear_m : range_m, options_.max_range_m);
       const Point& direction = fan.directions[i];
       fan.rays.push_back({{fan.start.x + length * (c * direction.x - s * direction.y),
                            fan.start.y + length * (s * direction.x + c * direction.y)},
-                          range_m <= max_range_m_});
+                          range_m <= options_.max_range_m});
     }
   }
 
-  double max_range_m_;
+  GridMapOptions options_;
   std::deque<Fan> lasers_;  // by laser; a deque, so that pointers to fans stay valid
   std::vector<const Fan*> fans_;
 };
 
 TBoundingBox bounds_of(const std::vector<Frame>& log, const std::vector<TPose2D>& map_T_robot,
-                       double max_range_m) {
-  RayMaker maker(max_range_m);
+                       const GridMapOptions& options) {
+  RayMaker maker(options);
   TBoundingBox bounds = TBoundingBox::PlusMinusInfinity();
   const auto include = [&](const Point& point) { bounds.updateWithPoint({point.x, point.y, 0}); };
   for (std::size_t i = 0; i < log.size(); ++i)
@@ -239,11 +240,13 @@ COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log, const std:
   if (log.size() != map_T_robot.size())
     throw std::invalid_argument("draw_grid_map: " + std::to_string(log.size()) + " scans but " +
                                 std::to_string(map_T_robot.size()) + " poses");
-  if (!(options.resolution_m > 0) || !(options.max_range_m > 0) || !(options.margin_m >= 0))
+  if (!(options.resolution_m > 0) || !(options.max_range_m > 0) || !(options.no_return_clears_m >= 0) ||
+      !(options.margin_m >= 0))
     throw std::invalid_argument(
-        "draw_grid_map: resolution_m and max_range_m must be positive, margin_m must not be negative");
-  Evidence evidence(layout_for(bounds_of(log, map_T_robot, options.max_range_m), options));
-  RayMaker maker(options.max_range_m);
+        "draw_grid_map: resolution_m and max_range_m must be positive, no_return_clears_m and margin_m must "
+        "not be negative");
+  Evidence evidence(layout_for(bounds_of(log, map_T_robot, options), options));
+  RayMaker maker(options);
   for (std::size_t i = 0; i < log.size(); ++i) evidence.add_frame(maker.fans(log[i], map_T_robot[i]));
   return evidence.grid();
 }

@@ -71,6 +71,10 @@ void describe_map(OptionTable& table, GridMapOptions& map) {
       .number("resolution_m", map.resolution_m, between(0.005, 10), "m", "Side length of a cell of the map.")
       .number("max_range_m", map.max_range_m, above(0), "m",
               "Longer beams are cut at this range and mark only free space in the map.")
+      .number(
+          "no_return_clears_m", map.no_return_clears_m, at_least(0), "m",
+          "Beams without return mark free space up to this length, but not beyond the maximum range of the "
+          "sensor. 0: they mark nothing. Glass and black surfaces give no return either.")
       .number("margin_m", map.margin_m, at_least(0).at_most(1000), "m",
               "Width of the unknown space around everything that was observed.")
       .integer("max_cells", map.max_cells, between(10'000, 1'000'000'000), "cells",

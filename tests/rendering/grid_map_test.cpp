@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "simulated_room.h"
@@ -14,6 +16,9 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPose2D;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 bool is_free(const COccupancyGridMap2D& grid, double x, double y) {
   return grid.getPos(static_cast<float>(x), static_cast<float>(y)) > 0.75F;
@@ -73,10 +78,12 @@ TEST(GridMap, rays_follow_the_true_line) {
   for (int trial = 0; trial < 100; ++trial) {
     Frame frame;
     frame.scan.bearings_rad = std::make_shared<const std::vector<float>>(std::vector<float>{angle(random)});
-    frame.scan.ranges_m = std::vector<float>{range(random)};
-    const auto grid = draw_grid_map({frame}, {{0.013, -0.021, 0}}, {0.1, 30, 0.5, 1'000'000});
+    const bool no_return = trial % 2 == 0;
+    frame.scan.ranges_m = {no_return ? kInfinity : range(random)};
+    frame.scan.max_range_m = 30;
+    const auto grid = draw_grid_map({frame}, {{0.013, -0.021, 0}}, {0.1, 30, 3, 0.5, 1'000'000});
     const auto bearing = static_cast<double>(frame.scan.bearings_rad->front());
-    const auto length = static_cast<double>(frame.scan.ranges_m[0]);
+    const double length = no_return ? 3 : static_cast<double>(frame.scan.ranges_m[0]);
     int free_cells = 0;
     for (unsigned y = 0; y < grid->getSizeY(); ++y) {
       for (unsigned x = 0; x < grid->getSizeX(); ++x) {
@@ -93,15 +100,52 @@ TEST(GridMap, rays_follow_the_true_line) {
   }
 }
 
-TEST(GridMap, ignores_beams_without_return_and_draws_long_beams_as_free_space) {
+TEST(GridMap, ignores_invalid_readings_and_draws_long_beams_as_free_space) {
   Frame frame;
   frame.scan.bearings_rad = even_bearings(0, M_PI / 2, 2);
-  frame.scan.ranges_m = std::vector<float>{std::numeric_limits<float>::quiet_NaN(), 20};
-  const auto grid = draw_grid_map({frame}, {{0.01, 0.01, 0}}, {0.05, 10, 0.5, 1'000'000});
+  frame.scan.ranges_m = std::vector<float>{kNan, 20};
+  const auto grid = draw_grid_map({frame}, {{0.01, 0.01, 0}}, {0.05, 10, 0, 0.5, 1'000'000});
   EXPECT_TRUE(is_unknown(*grid, 0.31, 0.01));
   EXPECT_TRUE(is_free(*grid, 0.01, 9.9));
   EXPECT_LT(grid->getYMax(), 11);
   for (double y = 0.1; y < 10.5; y += 0.05) EXPECT_FALSE(is_wall(*grid, 0.01, y));
+}
+
+TEST(GridMap, beams_without_return_clear_as_much_as_returns_that_are_cut_there) {
+  const std::vector<TPose2D> poses = {{0.01, 0.02, 0}, {1.3, -0.7, 2}, {-0.4, 1.1, -1}};
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<float> near(0.2F, 3.9F);
+  std::vector<Frame> log(poses.size());
+  std::vector<Frame> cut(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    log[i].scan.bearings_rad = even_bearings(-M_PI, M_PI, 90);
+    log[i].scan.max_range_m = 30;
+    cut[i].scan.bearings_rad = log[i].scan.bearings_rad;
+    for (int beam = 0; beam < 90; ++beam) {
+      const std::array<float, 3> readings{near(random), kInfinity, kNan};
+      log[i].scan.ranges_m.push_back(readings[random() % 3]);
+      cut[i].scan.ranges_m.push_back(std::isinf(log[i].scan.ranges_m.back()) ? 20
+                                                                             : log[i].scan.ranges_m.back());
+    }
+  }
+  const auto expected = draw_grid_map(cut, poses, {0.05, 4, 0, 0.5, 1'000'000})->getRawMap();
+  EXPECT_EQ(draw_grid_map(log, poses, {0.05, 30, 4, 0.5, 1'000'000})->getRawMap(), expected);
+  EXPECT_EQ(draw_grid_map(log, poses, {0.05, 4, 10, 0.5, 1'000'000})->getRawMap(), expected)
+      << "not beyond the range of the map";
+  for (Frame& frame : log) frame.scan.max_range_m = 4;
+  EXPECT_EQ(draw_grid_map(log, poses, {0.05, 30, 10, 0.5, 1'000'000})->getRawMap(), expected)
+      << "not beyond the range of the sensor";
+}
+
+TEST(GridMap, a_length_of_0_ignores_beams_without_return) {
+  Frame frame;
+  frame.scan.bearings_rad = even_bearings(0, M_PI / 2, 2);
+  frame.scan.max_range_m = 30;
+  const auto drawn = [&](float second_m) {
+    frame.scan.ranges_m = {3, second_m};
+    return draw_grid_map({frame}, {{0.01, 0.01, 0}}, {0.05, 30, 0, 0.5, 1'000'000})->getRawMap();
+  };
+  EXPECT_EQ(drawn(kInfinity), drawn(kNan));
 }
 
 TEST(GridMap, a_wall_remains_if_few_scans_pass_through_it) {
@@ -144,7 +188,7 @@ TEST(GridMap, a_huge_site_gets_a_coarser_map) {
   Frame frame;
   frame.scan.bearings_rad = even_bearings(0, 0.5, 2);
   frame.scan.ranges_m = std::vector<float>{1, 1};
-  const auto grid = draw_grid_map({frame, frame}, {{0, 0, 0}, {100, 100, 0}}, {0.05, 30, 0.5, 1'000'000});
+  const auto grid = draw_grid_map({frame, frame}, {{0, 0, 0}, {100, 100, 0}}, {0.05, 30, 5, 0.5, 1'000'000});
   EXPECT_FLOAT_EQ(grid->getResolution(), 0.2F);
   EXPECT_LE(grid->getSizeX() * grid->getSizeY(), 1'000'000U);
 }
@@ -152,7 +196,8 @@ TEST(GridMap, a_huge_site_gets_a_coarser_map) {
 TEST(GridMap, draws_an_empty_log_and_rejects_wrong_input) {
   EXPECT_GT(draw_grid_map({}, {})->getSizeX(), 0U);
   EXPECT_THROW(draw_grid_map({Frame()}, {}), std::invalid_argument);
-  EXPECT_THROW(draw_grid_map({}, {}, {0, 30, 0.5, 1000}), std::invalid_argument);
+  EXPECT_THROW(draw_grid_map({}, {}, {0, 30, 5, 0.5, 1000}), std::invalid_argument);
+  EXPECT_THROW(draw_grid_map({}, {}, {0.05, 30, -1, 0.5, 1000}), std::invalid_argument);
   EXPECT_THROW(draw_grid_map({Frame()}, {{std::nan(""), 0, 0}}), std::invalid_argument);
 }
 

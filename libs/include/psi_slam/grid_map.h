@@ -25,7 +25,11 @@ namespace psi_slam {
 struct GridMapOptions {
   double resolution_m = 0.05;  ///< side of a cell
   double max_range_m = 30;     ///< longer beams are drawn as free space up to this range
-  double margin_m = 0.5;       ///< width of the unknown border around all observed cells
+  /// Beams without return are drawn as free space up to this length, but not beyond the sensor's maximum
+  /// range. 0: not drawn. Glass and black surfaces give no return either, so a large value clears what stands
+  /// there.
+  double no_return_clears_m = 5;
+  double margin_m = 0.5;  ///< width of the unknown border around all observed cells
   /// The cell size is doubled until the map has at most this many cells. A cell takes four bytes while
   /// drawing and one byte afterwards. The limit keeps a map that fell apart from exhausting the memory.
   std::size_t max_cells = 100'000'000;
@@ -33,7 +37,7 @@ struct GridMapOptions {
 
 /// Draws the scans of `log`, each at the robot pose with the same index. Cells are 0 if occupied, 0.5 if
 /// never observed and 1 if free. The corners of the map lie on multiples of the resolution and include the
-/// margin. Beams without a return draw nothing. Throws std::invalid_argument if the numbers of scans and
+/// margin. Invalid readings draw nothing. Throws std::invalid_argument if the numbers of scans and
 /// poses differ, or if an option or a pose is not finite or out of range.
 mrpt::maps::COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log,
                                                    const std::vector<mrpt::math::TPose2D>& map_T_robot,

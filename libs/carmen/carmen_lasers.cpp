@@ -31,6 +31,8 @@ constexpr double kEnoughPath_m = 3.0;
 constexpr double kEnoughTurn_rad = 1.0;
 constexpr double kSameMount_m = 0.002;  // logs are rounded to a micrometre or a millimetre
 constexpr double kSameMount_rad = 0.002;
+constexpr double kBelowNoReturn = 0.97;    // below 81.83 if the largest code for no return is 81.91
+constexpr float kLargestReading_m = 1000;  // a larger one is damaged or in another unit
 
 Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) {
   LineReader lines(path);
@@ -55,9 +57,9 @@ bool same_mount(const TPose2D& a, const TPose2D& b) {
          std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= kSameMount_rad;
 }
 
-std::optional<CarmenLaserMessage> readable_robotlaser(CarmenFields& fields) {
+std::optional<CarmenLaserMessage> readable_laser(CarmenFields& fields) {
   try {
-    return read_robotlaser(fields);
+    return read_laser(fields);
   } catch (const MalformedLine&) {  // reported when the log is read
     return std::nullopt;
   }
@@ -112,7 +114,7 @@ void CarmenLaser::take_parameter(CarmenFields& fields) {
   } else if (name == "robot_" + position_ + "_laser_max") {
     const double max_range_m = fields.number("the laser's maximum range in metres");
     if (max_range_m <= 0) fields.fail("the laser's maximum range is not positive, expected metres");
-    stated_max_range_m_ = max_range_m;
+    max_range_m_ = max_range_m;
   } else if (name == "laser_" + position_ + "_laser_resolution") {
     const double resolution_deg = fields.number("the laser's resolution in degrees");
     if (resolution_deg <= 0) fields.fail("the laser's resolution is not positive, expected degrees");
@@ -178,7 +180,7 @@ LaserScan CarmenLaser::scan(CarmenLaserMessage message, const CarmenFields& fiel
   scan.robot_T_laser = robot_T_laser();
   scan.bearings_rad = bearings_;
   scan.ranges_m = std::move(message.ranges_m);
-  limit_ranges(scan, options_, message.max_range_m > 0 ? message.max_range_m : stated_max_range_m_);
+  limit_ranges(scan, options_, message.max_range_m > 0 ? message.max_range_m : max_range_m_);
   return scan;
 }
 
@@ -192,7 +194,7 @@ std::optional<TPose2D> mount_by_robotlaser(const std::filesystem::path& path, st
   while (path_m < kEnoughPath_m && turn_rad < kEnoughTurn_rad && lines.next_readable(line)) {
     CarmenFields fields(line, lines);
     if (fields.message() != message) continue;
-    const auto laser = readable_robotlaser(fields);
+    const auto laser = readable_laser(fields);
     if (!laser) continue;
     const TPose2D robot_T_laser = laser->odom_T_laser - laser->odom_T_robot;
     if (mount && !same_mount(*mount, robot_T_laser)) return std::nullopt;
@@ -204,6 +206,21 @@ std::optional<TPose2D> mount_by_robotlaser(const std::filesystem::path& path, st
     last_robot = laser->odom_T_robot;
   }
   return mount;
+}
+
+double max_range_by_readings_m(const std::filesystem::path& path, std::string_view message) {
+  LineReader lines(path);
+  float largest_m = 0;
+  std::string_view line;
+  for (std::size_t i = 0; i < kLinesOfHead && lines.next_readable(line); ++i) {
+    CarmenFields fields(line, lines);
+    if (fields.message() != message) continue;
+    const auto laser = readable_laser(fields);
+    if (!laser) continue;
+    for (const float range_m : laser->ranges_m)
+      if (range_m > largest_m && range_m <= kLargestReading_m) largest_m = range_m;
+  }
+  return std::max(kUnstatedMaxRange_m, kBelowNoReturn * static_cast<double>(largest_m));
 }
 
 CarmenLasers::CarmenLasers(const std::filesystem::path& path, const LogOptions& options)
@@ -227,6 +244,7 @@ void CarmenLasers::choose(Slot& slot, const std::string& message) {
   slot.laser = Laser{CarmenLaser(message, options_), number, parameters_.size(), false};
   if (starts_with(message, "ROBOTLASER"))
     if (const auto mount = mount_by_robotlaser(path_, message)) slot.laser->laser.set_mount_by_poses(*mount);
+  if (!options_.max_range_m) slot.laser->laser.set_max_range(max_range_by_readings_m(path_, message));
 }
 
 void CarmenLasers::require_all(const LaserChoice& choice) const {

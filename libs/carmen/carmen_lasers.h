@@ -31,6 +31,12 @@ std::vector<std::string> carmen_laser_messages(const std::string& laser,
 std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const std::filesystem::path& path,
                                                        std::string_view message);
 
+/// Maximum range, metres, of a laser whose log states none, from the messages with this name in the first
+/// lines of the log. Lasers write codes from 50 m on for "no return", which differ between logs and settings
+/// of the laser: 50.00, 51.06, 81.83, 81.91. The range ends at 0.97 times the largest reading, below all of
+/// them, but not before kUnstatedMaxRange_m. Skips malformed lines and readings beyond 1000 m.
+double max_range_by_readings_m(const std::filesystem::path& path, std::string_view message);
+
 /// Turns the messages of one laser into scans. The user's options override PARAM lines and messages.
 class CarmenLaser {
  public:
@@ -49,6 +55,9 @@ class CarmenLaser {
   /// Sets the mount that applies if neither the user nor a PARAM line states one.
   void set_mount_by_poses(const mrpt::math::TPose2D& robot_T_laser) { mount_by_poses_ = robot_T_laser; }
 
+  /// Sets the maximum range that applies if neither the user, a PARAM line nor a message states one.
+  void set_max_range(double max_range_m) { max_range_m_ = max_range_m; }
+
   /// Throws MalformedLine at the place of `fields` if the bearings are unknown.
   LaserScan scan(CarmenLaserMessage message, const CarmenFields& fields);
 
@@ -66,7 +75,7 @@ class CarmenLaser {
   std::optional<double> side_offset_m_;
   std::optional<double> angular_offset_rad_;
   std::optional<mrpt::math::TPose2D> mount_by_poses_;
-  double stated_max_range_m_ = 0;  // 0: not stated
+  double max_range_m_ = 0;  // 0: unknown
   std::optional<double> stated_resolution_rad_;
   Geometry geometry_;  // of bearings_
   BeamBearings bearings_;

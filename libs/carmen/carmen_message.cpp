@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/text_parts.h"
+
 namespace psi_slam {
 namespace {
 
@@ -158,6 +160,12 @@ CarmenLaserMessage read_robotlaser(CarmenFields& fields) {
     fields.number(what);
   message.time_us = fields.stamps();
   return message;
+}
+
+CarmenLaserMessage read_laser(CarmenFields& fields) {
+  if (starts_with(fields.message(), "RAWLASER")) return read_rawlaser(fields);
+  if (starts_with(fields.message(), "ROBOTLASER")) return read_robotlaser(fields);
+  return read_flaser(fields);
 }
 
 CarmenOdometryMessage read_odometry(CarmenFields& fields) {

@@ -76,6 +76,7 @@ struct CarmenOdometryMessage {
 CarmenLaserMessage read_flaser(CarmenFields& fields);      ///< also RLASER
 CarmenLaserMessage read_rawlaser(CarmenFields& fields);    ///< without poses
 CarmenLaserMessage read_robotlaser(CarmenFields& fields);  ///< the robot's pose is odometry
+CarmenLaserMessage read_laser(CarmenFields& fields);       ///< any of these, by its name
 CarmenOdometryMessage read_odometry(CarmenFields& fields);
 
 }  // namespace psi_slam

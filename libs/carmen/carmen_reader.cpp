@@ -115,9 +115,7 @@ class CarmenReader : public LogReader {
     if (!std::exchange(laser.began, true)) begin(laser);
     const bool is_raw = starts_with(fields.message(), "RAWLASER");
     const bool is_robotlaser = starts_with(fields.message(), "ROBOTLASER");
-    CarmenLaserMessage message = is_raw          ? read_rawlaser(fields)
-                                 : is_robotlaser ? read_robotlaser(fields)
-                                                 : read_flaser(fields);
+    CarmenLaserMessage message = read_laser(fields);
     if (!is_raw && !is_robotlaser && !(message.odom_T_laser == message.odom_T_robot))
       ++contents_.scans_with_two_poses;
     Frame frame;

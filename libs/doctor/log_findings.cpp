@@ -18,6 +18,8 @@ using mrpt::DEG2RAD;
 using mrpt::RAD2DEG;
 using mrpt::math::TPose2D;
 
+constexpr double kFarMedian_m = 100;  // beyond the median return of any 2D lidar
+
 std::string fixed(double value, int decimals) {
   return fixed_text(value + 0.0, decimals);  // 0 for -0
 }
@@ -109,11 +111,15 @@ class Judge {
                                  "first scan, which has " +
                                  std::to_string(facts_.beams));
     }
-    if (returns < 0.2 && ranges.largest_reading_m > 500) {
+    const auto median_m = static_cast<double>(ranges.median_return_m);
+    const bool few = returns < 0.2;
+    if ((few || median_m > kFarMedian_m) && ranges.largest_reading_m > 500) {
       warn("range_unit",
-           "readings go up to " + fixed(static_cast<double>(ranges.largest_reading_m), 0) + " and only " +
-               percent(returns) + " of them are below the maximum of " + fixed(max_range_m, 2) +
-               " m: they look like millimetres or centimetres",
+           "readings go up to " + fixed(static_cast<double>(ranges.largest_reading_m), 0) + " and " +
+               (few ? "only " + percent(returns) + " of them are below the maximum of " +
+                          fixed(max_range_m, 2) + " m"
+                    : "the median return is " + fixed(median_m, 0) + " m") +
+               ": they look like millimetres or centimetres",
            "write the ranges in metres");
       return;
     }

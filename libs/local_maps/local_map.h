@@ -25,10 +25,10 @@ namespace psi_slam {
 
 struct LocalMapOptions {
   double resolution_m = 0.05;
-  double hit_probability = 0.65;     ///< of occupancy, given a scan point in the cell
-  double miss_probability = 0.48;    ///< of occupancy, given a beam through the cell
-  double smoothing_sigma_m = 0.03;   ///< of the Gaussian from occupancy to scores: range noise, cell size
-  double max_insert_range_m = 40.0;  ///< longer beams are cut there
+  double hit_probability = 0.65;      ///< of occupancy, given a scan point in the cell
+  double miss_probability = 0.48;     ///< of occupancy, given a beam through the cell
+  double smoothing_sigma_m = 0.03;    ///< of the Gaussian from occupancy to scores: range noise, cell size
+  double max_insert_range_m = 200.0;  ///< longer beams are cut there; the default is beyond usual 2D lidars
 };
 
 /// One scan for drawing: beams from `origin` to each of `ends`, in the local map's frame, metres.

@@ -14,8 +14,10 @@ namespace psi_slam {
 
 struct ScanFilterOptions {
   double min_range_m = 0.1;
-  double max_range_m = 40.0;  ///< longer returns are not matched
-  double spacing_m = 0.03;    ///< smallest distance between successive points
+  /// Longer returns are not matched. Usual 2D lidars end before the default, which then leaves the limit to
+  /// the sensor's own maximum and only bounds memory and time for a damaged reading.
+  double max_range_m = 200.0;
+  double spacing_m = 0.03;  ///< smallest distance between successive points
 };
 
 /// Returns the points of a scan in the robot's frame, thinned so that near surfaces do not outweigh far ones.

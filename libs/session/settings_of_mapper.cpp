@@ -33,7 +33,7 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
       .number("min_range_m", front_end.scan.min_range_m, at_least(0), "m",
               "Returns nearer than this are not matched.")
       .number("max_range_m", front_end.scan.max_range_m, above(0), "m",
-              "Returns farther than this are not matched.")
+              "Returns farther than this are not matched. The default is no limit for usual 2D lidars.")
       .number("point_spacing_m", front_end.scan.spacing_m, at_least(0).at_most(10), "m",
               "Least distance between neighbouring points of a scan. Nearer points are dropped.")
       .number("window_m", front_end.window_m, above(0).at_most(20), "m",
@@ -135,7 +135,8 @@ void describe_local_maps(OptionTable& table, FrontEndOptions& front_end) {
           "smoothing_sigma_m", local_map.smoothing_sigma_m, above(0).at_most(5), "m",
           "Standard deviation of the blur that spreads a wall's score. It covers range noise and cell size.")
       .number("max_insert_range_m", local_map.max_insert_range_m, above(0), "m",
-              "Longer beams are cut at this range and mark only free space in local maps.")
+              "Longer beams are cut at this range and mark only free space in local maps. The default is no "
+              "limit for usual 2D lidars.")
       .integer("nodes", front_end.nodes_per_local_map, between(2, 60000), "nodes",
                "A local map is finished after this many nodes. The next one begins at half of them.")
       .number("travel_m", front_end.local_map_travel_m, above(0), "m",

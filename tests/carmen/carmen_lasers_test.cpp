@@ -129,6 +129,26 @@ TEST_F(CarmenLaserTest, maximum_range_comes_from_user_then_message_then_paramete
   EXPECT_TRUE(std::isinf(short_sighted.ranges_m[0])) << "1 m is beyond";
 }
 
+TEST_F(CarmenLaserTest, maximum_range_follows_the_largest_reading_of_the_first_lines) {
+  const auto with_readings = [&](const std::string& readings, const std::string& before = "") {
+    const auto path = folder_.path() / "readings.clf";
+    write_file(path, before + "RLASER 1 300 0 0 0 0 0 0 1 host 1\nFLASER 1 cut off\nFLASER 3 " + readings +
+                         " 0 0 0 0 0 0 1 host 1\n");
+    return max_range_by_readings_m(path, "FLASER");
+  };
+  EXPECT_EQ(with_readings("1 8 7.5"), 50) << "not less than before";
+  EXPECT_EQ(with_readings("1 51.26 50.00"), 50);
+  for (const std::string largest : {"81.83", "81.91", "120"})
+    EXPECT_NEAR(with_readings("79 " + largest + " 60"), 0.97 * std::stod(largest), 1e-5);
+  EXPECT_LT(with_readings("81.91 81.83 81.87"), 81.83) << "all codes for no return are beyond";
+  EXPECT_NEAR(with_readings("81.91 8191 nan"), 79.4527, 1e-5) << "a damaged reading";
+  EXPECT_EQ(with_readings("inf nan -1"), 50);
+  std::string head;
+  for (int i = 0; i < 498; ++i) head += "# a comment\n";
+  EXPECT_GT(with_readings("81.91 1 1", head.substr(0, head.size() - 12)), 79);
+  EXPECT_EQ(with_readings("81.91 1 1", head), 50) << "after the first 500 lines";
+}
+
 TEST_F(CarmenLaserTest, rejects_invalid_parameters) {
   CarmenLaser laser("FLASER", {});
   EXPECT_EQ(sentence_of([&] { give_parameter(laser, "robot_front_laser_max 0"); }),

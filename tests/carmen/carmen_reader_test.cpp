@@ -143,6 +143,17 @@ TEST_F(CarmenReaderTest, uses_parameters_before_and_between_scans) {
   EXPECT_EQ(frames.at(1).scan.robot_T_laser.x, 0.5);
 }
 
+TEST_F(CarmenReaderTest, a_log_that_states_no_maximum_range_has_one_below_its_largest_readings) {
+  const std::string log = "FLASER 3 81.83 79 1 0 0 0 0 0 0 1 host 1\n";
+  const auto frames = read(log);
+  EXPECT_NEAR(frames.at(0).scan.max_range_m, 0.97 * 81.83, 1e-4);
+  EXPECT_THAT(frames.at(0).scan.ranges_m, testing::ElementsAre(INFINITY, 79, 1));
+  EXPECT_EQ(read("PARAM robot_front_laser_max 60 host 1\n" + log).at(0).scan.max_range_m, 60);
+  LogOptions options;
+  options.max_range_m = 70;
+  EXPECT_EQ(read(log, options).at(0).scan.max_range_m, 70);
+}
+
 TEST_F(CarmenReaderTest, finds_a_laser_that_starts_late) {
   std::string log = "PARAM robot_frontlaser_offset 0.25 host 1\n";
   for (int i = 0; i < 600; ++i) log += odom("0 0 0", std::to_string(i));

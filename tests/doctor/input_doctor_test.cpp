@@ -222,17 +222,23 @@ TEST_F(InputDoctorTest, detects_the_code_for_no_return) {
   EXPECT_THAT(warnings_of(diagnose_text(log, mended)), testing::IsEmpty());
 }
 
-TEST_F(InputDoctorTest, detects_ranges_in_millimetres) {
+TEST_F(InputDoctorTest, detects_ranges_in_millimetres_or_centimetres) {
   const SimulatedRun run = round_trips(1);
-  std::string log = "PARAM robot_front_laser_max 80 host 0\n";
-  for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    log += "FLASER 180";
-    for (const float range : run.ranges_m(i)) log += " " + std::to_string(std::lround(range * 1000));
-    const std::string pose = " " + std::to_string(run.odometry[i].x) + " " +
-                             std::to_string(run.odometry[i].y) + " " + std::to_string(run.odometry[i].phi);
-    log += pose + pose + " " + std::to_string(i) + " host 0\n";
+  for (const std::string maximum : {"PARAM robot_front_laser_max 80 host 0\n", ""}) {
+    for (const float units_per_m : {1000.0F, 100.0F}) {
+      std::string log = maximum;
+      for (std::size_t i = 0; i < run.truth.size(); ++i) {
+        log += "FLASER 180";
+        for (const float range : run.ranges_m(i))
+          log += " " + std::to_string(std::lround(range * units_per_m));
+        const std::string pose = " " + std::to_string(run.odometry[i].x) + " " +
+                                 std::to_string(run.odometry[i].y) + " " +
+                                 std::to_string(run.odometry[i].phi);
+        log += pose + pose + " " + std::to_string(i) + " host 0\n";
+      }
+      EXPECT_THAT(warnings_of(diagnose_text(log)), testing::Contains("range_unit")) << maximum << units_per_m;
+    }
   }
-  EXPECT_THAT(warnings_of(diagnose_text(log)), testing::Contains("range_unit"));
 }
 
 TEST_F(InputDoctorTest, detects_a_maximum_range_that_is_too_small) {

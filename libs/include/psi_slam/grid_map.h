@@ -24,7 +24,7 @@ namespace psi_slam {
 /// Options of draw_grid_map(): section [map] of settings files.
 struct GridMapOptions {
   double resolution_m = 0.05;  ///< side of a cell
-  double max_range_m = 30;     ///< longer beams are drawn as free space up to this range
+  double max_range_m = 200;    ///< longer beams are drawn as free space up to this range
   /// Beams without return are drawn as free space up to this length, but not beyond the sensor's maximum
   /// range. 0: not drawn. Glass and black surfaces give no return either, so a large value clears what stands
   /// there.

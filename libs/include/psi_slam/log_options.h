@@ -37,11 +37,11 @@ struct LogOptions {
   /// for the number of beams.
   std::optional<double> field_of_view_rad;
 
-  /// Maximum range, metres: readings at or beyond it are no returns. Default: as the log states, otherwise
-  /// `kUnstatedMaxRange_m`.
+  /// Maximum range, metres: readings at or beyond it are no returns. Default: as the log states. If it states
+  /// none, `kUnstatedMaxRange_m`; for CARMEN logs more if their readings go farther, see carmen_lasers.h.
   std::optional<double> max_range_m;
 
-  /// Minimum range, metres: readings below it are no returns, for a robot that sees its own bumper.
+  /// Minimum range, metres: readings below it are invalid, for a robot that sees its own bumper.
   double min_range_m = 0;
 
   /// The readings run clockwise: a laser is mounted upside down and the log does not say so.
@@ -83,8 +83,7 @@ struct LogOptions {
   std::size_t every_nth_scan = 1;
 };
 
-/// Maximum range, metres, for CARMEN logs that state none. Their indoor lasers report 50 m or more for "no
-/// return", with codes that differ between logs (50.00, 51.06, 81.83, 81.91).
+/// Smallest maximum range, metres, for logs that state none.
 inline constexpr double kUnstatedMaxRange_m = 50.0;
 
 /// Throws UserError that names the first option with an invalid value.

@@ -26,10 +26,11 @@ constexpr int kLogOddsOfOnePass = 24;
 
 using Point = mrpt::math::TPoint2D;
 
-/// End of a beam, in the map, and whether an obstacle is there.
+/// End of a beam, in the map, and what it says about its cells.
 struct Ray {
   Point end;
-  bool hit = false;
+  bool hit = false;       // an obstacle is at the end
+  bool returned = false;  // else the beam may have crossed glass or ended on a black surface
 };
 
 /// The rays of one scan, which start at its laser.
@@ -85,7 +86,8 @@ class RayMaker {
       const Point& direction = fan.directions[i];
       fan.rays.push_back({{fan.start.x + length * (c * direction.x - s * direction.y),
                            fan.start.y + length * (s * direction.x + c * direction.y)},
-                          range_m <= options_.max_range_m});
+                          range_m <= options_.max_range_m,
+                          std::isfinite(range_m)});
     }
   }
 
@@ -131,11 +133,14 @@ Layout layout_for(const TBoundingBox& bounds, const GridMapOptions& options) {
   }
 }
 
-/// Evidence of all scans for each cell: hits count up, passes count down.
+/// Evidence of all scans for each cell: hits count up, passes count down. Beams without return count for
+/// nothing but clear the cells without other evidence.
 class Evidence {
  public:
   explicit Evidence(const Layout& layout)
-      : layout_(layout), cells_(static_cast<std::size_t>(layout.width * layout.height)) {}
+      : layout_(layout),
+        cells_(static_cast<std::size_t>(layout.width * layout.height)),
+        cleared_(cells_.size()) {}
 
   /// Counts all lasers of a frame once per cell. Hits take precedence over passes.
   void add_frame(const std::vector<const Fan*>& fans) {
@@ -144,7 +149,13 @@ class Evidence {
       for (const Ray& ray : fan->rays)
         if (ray.hit) count(index_of(ray.end), kHitEvidence);
     for (const Fan* fan : fans)
-      for (const Ray& ray : fan->rays) pass(in_cells(fan->start), in_cells(ray.end));
+      for (const Ray& ray : fan->rays)
+        pass(in_cells(fan->start), in_cells(ray.end), [&](std::int64_t index) {
+          if (ray.returned)
+            count(index, kPassEvidence);
+          else
+            cleared_[static_cast<std::size_t>(index)] = true;
+        });
   }
 
   COccupancyGridMap2D::Ptr grid() const {
@@ -158,7 +169,9 @@ class Evidence {
     for (std::int64_t y = 0; y < layout_.height; ++y) {
       auto* row = grid->getRow(static_cast<int>(y));
       for (std::int64_t x = 0; x < layout_.width; ++x) {
-        const int evidence = cells_[static_cast<std::size_t>(y * layout_.width + x)].evidence;
+        const auto index = static_cast<std::size_t>(y * layout_.width + x);
+        int evidence = cells_[index].evidence;
+        if (evidence == 0 && cleared_[index]) evidence = kPassEvidence;
         row[x] = static_cast<COccupancyGridMap2D::cellType>(
             std::clamp<int>(-evidence * kLogOddsOfOnePass, COccupancyGridMap2D::OCCGRID_CELLTYPE_MIN,
                             COccupancyGridMap2D::OCCGRID_CELLTYPE_MAX));
@@ -199,18 +212,21 @@ class Evidence {
     return static_cast<std::int64_t>(cell.y) * layout_.width + static_cast<std::int64_t>(cell.x);
   }
 
-  /// Counts a pass in each cell of the digital line except the last, which holds the hit. Units are cells.
-  void pass(const Point& start, const Point& end) {
+  /// Calls `visit` with the index of each cell of the digital line except the last, which holds the hit.
+  /// Units are cells.
+  template <class Visit>
+  void pass(const Point& start, const Point& end, Visit visit) {
     if (std::abs(end.x - start.x) >= std::abs(end.y - start.y))
-      walk(start.x, start.y, end.x, end.y, 1, layout_.width);
+      walk(start.x, start.y, end.x, end.y, 1, layout_.width, visit);
     else
-      walk(start.y, start.x, end.y, end.x, layout_.width, 1);
+      walk(start.y, start.x, end.y, end.x, layout_.width, 1, visit);
   }
 
   /// Steps along the longer axis of the line and evaluates `across` at the middle of each step, in fixed
   /// point so that all machines choose the same cells.
-  void walk(double along0, double across0, double along1, double across1, std::int64_t along_stride,
-            std::int64_t across_stride) {
+  template <class Visit>
+  static void walk(double along0, double across0, double along1, double across1, std::int64_t along_stride,
+                   std::int64_t across_stride, Visit visit) {
     constexpr int kFractionBits = 32;
     constexpr double kOne = 4294967296.0;
     const auto first = static_cast<std::int64_t>(along0);
@@ -222,7 +238,7 @@ class Evidence {
         std::llround((across0 + (static_cast<double>(first) + 0.5 - along0) * slope) * kOne);
     std::int64_t index = first * along_stride;
     for (std::int64_t i = std::abs(last - first); i > 0; --i) {
-      count(index + (across >> kFractionBits) * across_stride, kPassEvidence);
+      visit(index + (across >> kFractionBits) * across_stride);
       index += step * along_stride;
       across += across_step;
     }
@@ -230,6 +246,7 @@ class Evidence {
 
   Layout layout_;
   std::vector<Cell> cells_;
+  std::vector<bool> cleared_;  // a beam without return passed the cell
   std::uint16_t scan_ = 0;
 };
 

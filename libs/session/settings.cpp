@@ -76,10 +76,9 @@ void describe_map(OptionTable& table, GridMapOptions& map) {
           "max_range_m", map.max_range_m, above(0), "m",
           "Longer beams are cut at this range and mark only free space in the map. The default is no limit "
           "for usual 2D lidars.")
-      .number(
-          "no_return_clears_m", map.no_return_clears_m, at_least(0), "m",
-          "Beams without return mark free space up to this length, but not beyond the maximum range of the "
-          "sensor. 0: they mark nothing. Glass and black surfaces give no return either.")
+      .number("no_return_clears_m", map.no_return_clears_m, at_least(0), "m",
+              "Beams without return turn unknown space into free space up to this length, but not beyond the "
+              "maximum range of the sensor. They remove no obstacles. 0: they mark nothing.")
       .number("margin_m", map.margin_m, at_least(0).at_most(1000), "m",
               "Width of the unknown space around everything that was observed.")
       .integer("max_cells", map.max_cells, between(10'000, 1'000'000'000), "cells",

@@ -83,7 +83,7 @@ TEST(RawlogLaser, options_override_the_log) {
   EXPECT_EQ(scan.robot_T_laser, (TPose2D{1, 2, 0.5}));
   EXPECT_EQ(scan.max_range_m, 4.5F);
   EXPECT_TRUE(std::isnan(scan.ranges_m[0]));
-  EXPECT_TRUE(std::isnan(scan.ranges_m[4]));
+  EXPECT_TRUE(std::isinf(scan.ranges_m[4]));
   EXPECT_THAT(*scan.bearings_rad, ElementsAre(1.25F, 0.75F, 0.25F, -0.25F, -0.75F));
 }
 

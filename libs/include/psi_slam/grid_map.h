@@ -25,9 +25,9 @@ namespace psi_slam {
 struct GridMapOptions {
   double resolution_m = 0.05;  ///< side of a cell
   double max_range_m = 200;    ///< longer beams are drawn as free space up to this range
-  /// Beams without return are drawn as free space up to this length, but not beyond the sensor's maximum
-  /// range. 0: not drawn. Glass and black surfaces give no return either, so a large value clears what stands
-  /// there.
+  /// Beams without return make unknown cells free up to this length, but not beyond the sensor's maximum
+  /// range. Glass and black surfaces give no return either, so such beams never outvote a hit. 0: they draw
+  /// nothing.
   double no_return_clears_m = 5;
   double margin_m = 0.5;  ///< width of the unknown border around all observed cells
   /// The cell size is doubled until the map has at most this many cells. A cell takes four bytes while

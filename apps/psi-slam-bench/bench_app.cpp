@@ -19,6 +19,7 @@
 #include "run_program.h"
 #include "simulate/simulate_benchmark.h"
 #include "simulate/simulated_log_file.h"
+#include "sparse/sparse_benchmark.h"
 
 namespace psi_slam {
 namespace {
@@ -171,6 +172,50 @@ void add_simulate_command(CLI::App& app, const Streams& streams) {
   simulate.callback([arguments, &streams] { run_simulate(*arguments, streams); });
 }
 
+/// The logs of the benchmark, after a check of their settings; none if no part needs logs. Prints warnings
+/// about the settings of the logs.
+SparseLogs sparse_logs(const Arguments<SparseOptions>& arguments, const Streams& streams) {
+  const SparseOptions& options = arguments.options;
+  benchmark_settings({}, options.assignments);
+  if (!options.needs_logs()) return {};
+  if (arguments.data.empty()) throw UserError("name the folder of the logs with --data DIR");
+  SparseLogs logs = find_sparse_logs(arguments.data, ini_folder_of(arguments), arguments.names);
+  std::vector<std::string> warnings;
+  for (const auto* some : {&logs.dense, &logs.sparse})
+    for (const BenchmarkLog& log : *some) benchmark_settings(log.ini, options.assignments, &warnings);
+  for (const std::string& warning : warnings) streams.err << "psi-slam-bench: " << warning << '\n';
+  return logs;
+}
+
+void add_sparse_command(CLI::App& app, const Streams& streams) {
+  const auto arguments = std::make_shared<Arguments<SparseOptions>>();
+  SparseOptions& options = arguments->options;
+  options.sensors.threads = worker_threads({});
+  CLI::App& command = *app.add_subcommand(
+      "sparse", "Map logs and simulated runs with few scans or few beams and measure errors and costs");
+  add_data_options(command, *arguments);
+  command.get_option("--data")->required(false);
+  add_logs_option(command, *arguments);
+  command
+      .add_option("--parts", options.parts,
+                  "Parts to run, of thinned, every-nth, sparse and simulated; default: all. All parts but "
+                  "simulated need --data")
+      ->delimiter(',')
+      ->check(CLI::IsMember(SparseOptions().parts))
+      ->type_name("NAMES");
+  add_seeds_option(command, options.seeds, "Seeds of the runs");
+  command
+      .add_option("--set", options.assignments,
+                  "Change one option for all logs and simulated runs. May be repeated")
+      ->type_name("SECTION.KEY=VALUE")
+      ->allow_extra_args(false);
+  run_on_logs(
+      command, arguments, streams, [&](const auto& data) { return sparse_logs(data, streams); },
+      [](const SparseLogs& logs, const auto& how, const ProgressObserver& progress) {
+        return sparse_report(run_sparse_benchmark(logs, how, progress), how, machine_text());
+      });
+}
+
 /// The arguments in the order that CLI11 expects, last first. Old names of options are replaced.
 std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {
   constexpr std::string_view kOld = "--rival";
@@ -191,6 +236,7 @@ int run_bench_app(const std::vector<std::string>& arguments, const Streams& stre
     add_simulate_command(app, streams);
     add_false_loops_command(app, streams);
     add_robustness_command(app, streams);
+    add_sparse_command(app, streams);
     app.require_subcommand(1);
     app.set_version_flag("--version", "psi-slam-bench " PSI_SLAM_VERSION, "Print the version and exit");
     add_document_options(app);

@@ -87,7 +87,7 @@ TEST(FalseLoopBenchmark, is_reported_as_page_json_csv_and_plots) {
   EXPECT_EQ(json["logs"][0]["without_loops"]["translation_error_m"], 0.3);
   EXPECT_THAT(report.csv, HasSubstr("\noffice,groups,50.0,1 2,0,20,7.0,0.0,7.0,7.0,"));
   ASSERT_EQ(report.plots.size(), 3U);
-  const std::string& plot = report.plots[1].svg;
+  const std::string& plot = report.plots[1].content;
   EXPECT_EQ(report.plots[1].file, "false-loops-groups.svg");
   EXPECT_THAT(plot, testing::AllOf(HasSubstr(">50 %<"), HasSubstr(">office<"), HasSubstr("10 m<"),
                                    HasSubstr("class=\"spread\"")));

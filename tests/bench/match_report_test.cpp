@@ -104,10 +104,10 @@ TEST(MatchReport, sizes_have_tables_and_plots) {
   EXPECT_EQ(json["windows"][1]["window_m"], 4.0);
   EXPECT_EQ(json["windows"][1]["matchers"][0]["time_ms"]["mean"], 40.0);
   EXPECT_EQ(json["local_maps"][0]["nodes_per_local_map"], FrontEndOptions().nodes_per_local_map);
-  const std::string& svg = report.plots[0].svg;
+  const std::string& svg = report.plots[0].content;
   EXPECT_THAT(svg, AllOf(HasSubstr("±2 m</text>"), HasSubstr(">csm</text>"), HasSubstr(">ga</text>"),
                          HasSubstr("0.1 ms"), HasSubstr("100 ms"), Not(HasSubstr("nan"))));
-  EXPECT_THAT(report.plots[1].svg, Not(HasSubstr("nan"))) << "a single place";
+  EXPECT_THAT(report.plots[1].content, Not(HasSubstr("nan"))) << "a single place";
 }
 
 }  // namespace

@@ -94,13 +94,13 @@ TEST(RobustnessReport, draws_a_plot_for_each_series_with_a_line_for_each_log) {
   EXPECT_EQ(plots[0].file, "robustness-scans-kept.svg");
   EXPECT_EQ(plots[1].file, "robustness-field-of-view.svg");
   for (const BenchReport::Plot& plot : plots) {
-    EXPECT_EQ(complaint_about(plot.svg), "");
-    EXPECT_THAT(plot.svg,
+    EXPECT_EQ(complaint_about(plot.content), "");
+    EXPECT_THAT(plot.content,
                 testing::AllOf(HasSubstr(">aces<"), HasSubstr(">&lt;intel&gt;<"), HasSubstr(" m<")));
   }
-  EXPECT_THAT(plots[0].svg, HasSubstr(">1 of 2<"));
-  EXPECT_THAT(plots[0].svg, HasSubstr("class=\"spread\"")) << "two seeds";
-  EXPECT_THAT(plots[1].svg, testing::Not(HasSubstr("class=\"spread\""))) << "one seed";
+  EXPECT_THAT(plots[0].content, HasSubstr(">1 of 2<"));
+  EXPECT_THAT(plots[0].content, HasSubstr("class=\"spread\"")) << "two seeds";
+  EXPECT_THAT(plots[1].content, testing::Not(HasSubstr("class=\"spread\""))) << "one seed";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <vector>
 
 #include "plan_geometry.h"
@@ -49,6 +50,24 @@ std::size_t reachable(const FloorPlan& plan) {
 TEST(FloorPlan, depends_on_the_seed_alone) {
   EXPECT_TRUE(same(plan_of(3), plan_of(3)));
   EXPECT_FALSE(same(plan_of(3), plan_of(4)));
+}
+
+TEST(FloorPlan, scale_enlarges_rooms_and_corridors_but_not_the_requested_size) {
+  FloorPlanOptions options;
+  options.corridors_m = 300;
+  const FloorPlan plan = draw_floor_plan(options);
+  options.corridors_m = 900;
+  options.scale = 3;
+  const FloorPlan large = draw_floor_plan(options);
+  EXPECT_GE(large.corridors_m(), 900);
+  EXPECT_EQ(large.rooms(), plan.rooms());
+  ASSERT_EQ(large.segments.size(), plan.segments.size());
+  EXPECT_EQ(large.segments.back().to, plan.segments.back().to * 3);
+  EXPECT_EQ(large.places.back().at, plan.places.back().at * 3);
+  EXPECT_EQ(large.corridors.back().from, plan.corridors.back().from * 3);
+  EXPECT_EQ(large.corridors.back().width_m, plan.corridors.back().width_m * 3);
+  options.scale = 0.5;
+  EXPECT_THROW(draw_floor_plan(options), std::invalid_argument);
 }
 
 TEST(FloorPlan, has_the_requested_size) {

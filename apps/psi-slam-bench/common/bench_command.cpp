@@ -31,11 +31,15 @@ void add_logs_option(CLI::App& command, BenchArguments& arguments) {
       ->type_name("NAMES");
 }
 
-std::vector<BenchmarkLog> logs_of(const BenchArguments& arguments) {
-  if (!arguments.ini.empty()) return find_benchmark_logs(arguments.data, arguments.ini);
-  if (const auto shipped = shipped_ini_folder()) return find_benchmark_logs(arguments.data, *shipped);
+fs::path ini_folder_of(const BenchArguments& arguments) {
+  if (!arguments.ini.empty()) return arguments.ini;
+  if (const auto shipped = shipped_ini_folder()) return *shipped;
   throw UserError(
       "the settings of the logs were not found beside the program: name their folder with --ini DIR");
+}
+
+std::vector<BenchmarkLog> logs_of(const BenchArguments& arguments) {
+  return find_benchmark_logs(arguments.data, ini_folder_of(arguments));
 }
 
 ChosenLogs chosen_logs(const BenchArguments& arguments, const Streams& streams) {
@@ -88,7 +92,8 @@ void write_report(const BenchReport& report, const BenchArguments& arguments, co
   if (!arguments.csv.empty()) write_text_atomically(arguments.csv, report.csv);
   if (const fs::path folder = arguments.output; !folder.empty()) {
     write_text_atomically(folder / report.page, report.markdown);
-    for (const BenchReport::Plot& plot : report.plots) write_text_atomically(folder / plot.file, plot.svg);
+    for (const BenchReport::Plot& plot : report.plots)
+      write_text_atomically(folder / plot.file, plot.content);
   }
   streams.out << report.markdown << std::flush;
   if (!streams.out) throw SystemFailure("cannot write to standard output");

@@ -18,8 +18,8 @@ struct BenchReport {
   std::string csv;  ///< the main table
 
   struct Plot {
-    std::string file;  ///< "robustness-scans-kept.svg"
-    std::string svg;
+    std::string file;     ///< "robustness-scans-kept.svg"
+    std::string content;  ///< of the file
   };
   std::vector<Plot> plots;
 };

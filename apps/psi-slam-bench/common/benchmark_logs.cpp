@@ -13,7 +13,7 @@ namespace psi_slam {
 
 namespace fs = std::filesystem;
 
-std::vector<BenchmarkLog> find_benchmark_logs(const fs::path& data, const fs::path& ini) {
+std::vector<BenchmarkLog> logs_in_folder(const fs::path& data, const fs::path& ini) {
   if (!fs::is_directory(data)) throw UserError(data.string() + " is not a folder");
   std::map<std::string, fs::path> files;
   for (const auto& entry : fs::directory_iterator(data)) {
@@ -22,19 +22,26 @@ std::vector<BenchmarkLog> find_benchmark_logs(const fs::path& data, const fs::pa
     fs::path& file = files[*name];
     if (file.empty() || entry.path() < file) file = entry.path();
   }
-  if (files.empty())
-    throw UserError("there is no log in " + data.string() +
-                    ": expected NAME.clf.gz, NAME.log or NAME.rawlog with NAME.relations beside it");
   std::vector<BenchmarkLog> logs;
   for (const auto& [name, file] : files) {
     BenchmarkLog log{name, file, ini / (name + ".ini"), {}};
-    if (!fs::exists(log.ini))
-      throw UserError(file.string() + " has no settings: expected " + log.ini.string() +
-                      " with the parameters of its sensor");
+    if (!fs::exists(log.ini)) log.ini.clear();
     const fs::path relations = data / (name + ".relations");
     if (fs::exists(relations)) log.relations = relations;
     logs.push_back(std::move(log));
   }
+  return logs;
+}
+
+std::vector<BenchmarkLog> find_benchmark_logs(const fs::path& data, const fs::path& ini) {
+  std::vector<BenchmarkLog> logs = logs_in_folder(data, ini);
+  if (logs.empty())
+    throw UserError("there is no log in " + data.string() +
+                    ": expected NAME.clf.gz, NAME.log or NAME.rawlog with NAME.relations beside it");
+  for (const BenchmarkLog& log : logs)
+    if (log.ini.empty())
+      throw UserError(log.log.string() + " has no settings: expected " +
+                      (ini / (log.name + ".ini")).string() + " with the parameters of its sensor");
   return logs;
 }
 
@@ -73,6 +80,12 @@ std::size_t loops_accepted(const MappingResult& result) {
   return static_cast<std::size_t>(
       std::count_if(result.loops.begin(), result.loops.end(),
                     [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
+}
+
+std::size_t unmatched_scans(const std::vector<FrameRecord>& frames) {
+  return static_cast<std::size_t>(
+      std::count_if(frames.begin() + (frames.empty() ? 0 : 1), frames.end(),
+                    [](const FrameRecord& frame) { return !(frame.response > 0); }));
 }
 
 RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations) {

@@ -26,8 +26,10 @@ struct BenchmarkLog {
 };
 
 /// Logs in the folder `data`, by name. A log is NAME.clf, NAME.log or NAME.rawlog, gzipped or not, or a ROS
-/// bag. Throws UserError when `data` is not a folder or holds no log, and for a log without NAME.ini in
-/// `ini`.
+/// bag. BenchmarkLog::ini is empty without NAME.ini in `ini`. Throws UserError when `data` is not a folder.
+std::vector<BenchmarkLog> logs_in_folder(const std::filesystem::path& data, const std::filesystem::path& ini);
+
+/// logs_in_folder(), if it holds a log and all logs have settings. Throws UserError otherwise.
 std::vector<BenchmarkLog> find_benchmark_logs(const std::filesystem::path& data,
                                               const std::filesystem::path& ini);
 
@@ -35,9 +37,9 @@ std::vector<BenchmarkLog> find_benchmark_logs(const std::filesystem::path& data,
 /// the folder of the program.
 std::optional<std::filesystem::path> shipped_ini_folder();
 
-/// Settings of a log: the defaults, overridden by the file `ini` and by assignments "section.key=value".
-/// Appends a sentence to `warnings` for each renamed option in the file. Throws UserError for settings that
-/// psi-slam refuses.
+/// Settings of a log: the defaults, overridden by the file `ini` unless it is empty, and by assignments
+/// "section.key=value". Appends a sentence to `warnings` for each renamed option in the file. Throws
+/// UserError for settings that psi-slam refuses.
 Settings benchmark_settings(const std::filesystem::path& ini,
                             const std::vector<std::string>& assignments = {},
                             std::vector<std::string>* warnings = nullptr);
@@ -61,6 +63,9 @@ struct ScratchFile {
 
 /// Number of loops in the finished graph.
 std::size_t loops_accepted(const MappingResult& result);
+
+/// Number of scans that the front end could not match, except the first.
+std::size_t unmatched_scans(const std::vector<FrameRecord>& frames);
 
 /// Errors of the mapped poses of the frames.
 RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations);

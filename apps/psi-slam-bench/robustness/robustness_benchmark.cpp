@@ -102,8 +102,7 @@ RobustnessRow row_of(const MappingResult& result, const std::vector<Relation>& r
   row.rotation_error_deg = metric.rotation_abs_deg.mean;
   row.relations = metric.exact + metric.interpolated;
   row.scans = result.frames.size();
-  for (std::size_t i = 1; i < result.frames.size(); ++i)
-    row.unmatched += result.frames[i].response > 0 ? 0 : 1;
+  row.unmatched = unmatched_scans(result.frames);
   const LoopJudgement judgement = judge_loops(result, relations);
   row.loops = judgement.judged.size() + judgement.unjudged;
   row.loop_precision = judgement.precision();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "simulation/simulation_random.h"
@@ -329,6 +330,19 @@ class Draughtsman {
   std::vector<Stretch> stretches_;  ///< of the corridors along x, by corridor
 };
 
+void enlarge(FloorPlan& plan, double scale) {
+  for (PlanSegment& segment : plan.segments) {
+    segment.from *= scale;
+    segment.to *= scale;
+  }
+  for (Place& place : plan.places) place.at *= scale;
+  for (Corridor& corridor : plan.corridors) {
+    corridor.from *= scale;
+    corridor.to *= scale;
+    corridor.width_m *= scale;
+  }
+}
+
 }  // namespace
 
 double FloorPlan::corridors_m() const {
@@ -344,7 +358,12 @@ std::size_t FloorPlan::rooms() const {
 }
 
 FloorPlan draw_floor_plan(const FloorPlanOptions& options) {
-  return Draughtsman(options).draw();
+  if (!(options.scale >= 1)) throw std::invalid_argument("draw_floor_plan: the scale is below 1");
+  FloorPlanOptions unscaled = options;
+  unscaled.corridors_m /= options.scale;
+  FloorPlan plan = Draughtsman(unscaled).draw();
+  enlarge(plan, options.scale);
+  return plan;
 }
 
 }  // namespace psi_slam

@@ -56,10 +56,11 @@ struct FloorPlanOptions {
   double glass_share = 0.1;  ///< share of glass in front walls and the outer wall, in [0, 1]
   double bare_share = 0.25;  ///< share of corridor parts between crossings without doors and furniture
   double hall_share = 0.15;  ///< share of blocks that are one hall
+  double scale = 1;          ///< factor of all lengths, at least 1: larger rooms and wider corridors
 };
 
 /// Draws the plan; the same options give the same plan. Passages keep the distance kPlanClearance_m from all
-/// segments.
+/// segments. Throws std::invalid_argument for a scale below 1.
 FloorPlan draw_floor_plan(const FloorPlanOptions& options);
 
 inline constexpr double kPlanClearance_m = 0.45;

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sparse/sparse_benchmark.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <memory>
+#include <utility>
+
+#include "base/number_text.h"
+#include "exports/mapped_trajectory.h"
+#include "psi_slam/grid_map.h"
+#include "psi_slam/open_log.h"
+#include "rendering/map_image.h"
+
+namespace psi_slam {
+namespace {
+
+constexpr std::array<const char*, 2> kEveryNthLogs = {"fr079", "mit-csail"};
+constexpr std::array<std::size_t, 2> kEveryNth = {3, 5};
+constexpr int kPictureSide_px = 1200;
+
+/// Processor time of this process.
+double cpu_s() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// A map and what it cost.
+struct MeasuredMap {
+  MappingResult result;
+  std::vector<double> add_ms;  ///< processor time by frame
+  double wall_s = 0;
+  double cpu_s = 0;
+};
+
+MeasuredMap map_measured(FrameSource& source, const Settings& settings) {
+  MeasuredMap map;
+  const auto begin = std::chrono::steady_clock::now();
+  const double cpu_begin_s = cpu_s();
+  Mapper mapper(mapper_options(settings));
+  while (std::optional<Frame> frame = source.next()) {
+    const double before_s = cpu_s();
+    mapper.add(*std::move(frame));
+    map.add_ms.push_back(1e3 * (cpu_s() - before_s));
+  }
+  map.result = mapper.finish();
+  map.cpu_s = cpu_s() - cpu_begin_s;
+  map.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return map;
+}
+
+/// `path` are the poses to evaluate.
+SparseRow row_of(const BenchmarkLog& log, const Settings& settings, const MeasuredMap& map,
+                 const Trajectory& path) {
+  SparseRow row;
+  row.log = log.name;
+  row.seed = settings.run.seed;
+  row.figures = evaluate_path(path, read_relations(log.relations.value()));
+  row.figures.scans = map.result.frames.size();
+  row.figures.wall_s = map.wall_s;
+  row.figures.cpu_s = map.cpu_s;
+  row.nodes = map.result.node_frames.size();
+  row.unmatched = unmatched_scans(map.result.frames);
+  row.loops = loops_accepted(map.result);
+  row.costs = node_costs(map.result.frames, map.add_ms);
+  return row;
+}
+
+std::string step_text(const ThinningStep& step) {
+  return trimmed_text(step.distance_m, 2) + " m / " + trimmed_text(step.turn_rad, 2) + " rad";
+}
+
+std::string picture_of(const MappingResult& result, const Settings& settings) {
+  MapPictureOptions picture;
+  picture.max_side_px = picture.min_side_px = kPictureSide_px;
+  return map_picture(*draw_grid_map(result.log, mapped_poses(result), settings.map), picture).png;
+}
+
+/// Runs the parts one after the other and reports their progress.
+class Benchmark {
+ public:
+  Benchmark(const SparseLogs& logs, const SparseOptions& options, const ProgressObserver& observer)
+      : logs_(logs), options_(options), observer_(observer) {
+    const auto seeds = static_cast<double>(options.seeds.count());
+    if (options.has(kThinnedPart)) all_ += static_cast<double>(logs.dense.size()) * (seeds + 1);
+    if (options.has(kEveryNthPart)) all_ += static_cast<double>(every_nth_logs().size()) * 2 * seeds;
+    if (options.has(kSparsePart)) all_ += static_cast<double>(logs.sparse.size()) * seeds;
+  }
+
+  SparseBenchmark run() {
+    if (options_.has(kThinnedPart))
+      for (const BenchmarkLog& log : logs_.dense) run_thinned_log(log);
+    if (options_.has(kEveryNthPart))
+      for (const BenchmarkLog& log : every_nth_logs())
+        for (const std::size_t nth : kEveryNth) run_as_read(log, nth, "1 of " + std::to_string(nth), false);
+    if (options_.has(kSparsePart))
+      for (const BenchmarkLog& log : logs_.sparse) run_as_read(log, 1, "all", true);
+    return std::move(benchmark_);
+  }
+
+ private:
+  std::vector<BenchmarkLog> every_nth_logs() const {
+    std::vector<BenchmarkLog> logs;
+    for (const BenchmarkLog& log : logs_.dense)
+      if (std::find(kEveryNthLogs.begin(), kEveryNthLogs.end(), log.name) != kEveryNthLogs.end())
+        logs.push_back(log);
+    return logs;
+  }
+
+  void show(const std::string& doing) { observer_(doing, done_++, all_); }
+
+  void run_thinned_log(const BenchmarkLog& log) {
+    const ThinningStep step;
+    show(log.name + ", all scans");
+    const double floor_m = thinned_floor_m(log, sparse_settings(log, options_, options_.seeds.first), step);
+    for (const std::uint64_t seed : options_.seeds.all()) {
+      show(log.name + ", " + step_text(step));
+      benchmark_.rows.push_back(run_thinned(log, sparse_settings(log, options_, seed), step));
+      benchmark_.rows.back().floor_m = floor_m;
+    }
+  }
+
+  void run_as_read(const BenchmarkLog& log, std::size_t every_nth, const std::string& kept, bool draw) {
+    for (const std::uint64_t seed : options_.seeds.all()) {
+      show(log.name + ", " + kept);
+      const Settings settings = sparse_settings(log, options_, seed, every_nth);
+      const MeasuredMap map = map_measured(*open_log(log.log, log_options(settings)), settings);
+      SparseRow row = row_of(log, settings, map, trajectory_of(map.result.frames));
+      row.kept = kept;
+      benchmark_.rows.push_back(std::move(row));
+      if (draw && seed == options_.seeds.first)
+        benchmark_.pictures.push_back({log.name, picture_of(map.result, settings)});
+    }
+  }
+
+  const SparseLogs& logs_;
+  const SparseOptions& options_;
+  const ProgressObserver& observer_;
+  double all_ = 0;  ///< number of runs
+  double done_ = 0;
+  SparseBenchmark benchmark_;
+};
+
+}  // namespace
+
+bool SparseOptions::has(const std::string& part) const {
+  return std::find(parts.begin(), parts.end(), part) != parts.end();
+}
+
+Settings sparse_settings(const BenchmarkLog& log, const SparseOptions& options, std::uint64_t seed,
+                         std::size_t every_nth) {
+  std::vector<std::string> assignments{"run.threads=1", "run.seed=" + std::to_string(seed),
+                                       "log.every_nth_scan=" + std::to_string(every_nth)};
+  assignments.insert(assignments.end(), options.assignments.begin(), options.assignments.end());
+  return benchmark_settings(log.ini, assignments);
+}
+
+SparseRow run_thinned(const BenchmarkLog& log, const Settings& settings, const ThinningStep& step) {
+  StepThinnedSource source(open_log(log.log, log_options(settings)), step);
+  const MeasuredMap map = map_measured(source, settings);
+  SparseRow row = row_of(log, settings, map, put_poses_back(source.scans(), mapped_poses(map.result)));
+  row.kept = step_text(step);
+  return row;
+}
+
+double thinned_floor_m(const BenchmarkLog& log, const Settings& settings, const ThinningStep& step) {
+  StepThinnedSource thinned(open_log(log.log, log_options(settings)), step);
+  while (thinned.next()) {
+  }
+  const MappingResult all =
+      map_source(*open_log(log.log, log_options(settings)), mapper_options(settings), [](double) {});
+  const Trajectory path = put_poses_back(thinned.scans(), poses_of_kept(thinned.scans(), mapped_poses(all)));
+  return evaluate_path(path, read_relations(log.relations.value())).errors.translation_abs_m.mean;
+}
+
+SparseBenchmark run_sparse_benchmark(const SparseLogs& logs, const SparseOptions& options,
+                                     const ProgressObserver& observer) {
+  SparseBenchmark benchmark = Benchmark(logs, options, observer).run();
+  for (const auto* some : {&logs.dense, &logs.sparse})
+    for (LogIdentity& identity : identities_of(*some)) benchmark.identities.push_back(std::move(identity));
+  benchmark.without_relations = logs.without_relations;
+  if (options.has(kSimulatedPart)) {
+    SensorSweepOptions sensors = options.sensors;
+    sensors.seed = options.seeds.first;
+    benchmark.sensors = run_sensor_sweep(sensors, benchmark_settings({}, options.assignments), observer);
+  }
+  return benchmark;
+}
+
+}  // namespace psi_slam

@@ -45,8 +45,8 @@ void add_output_options(CLI::App& command, BenchArguments& arguments, const std:
 /// Adds --seeds; `purpose` says what the seeds are for.
 void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose);
 
-/// Folder of the settings of the logs: --ini, or the one that comes with psi-slam. Throws UserError if there
-/// is none.
+/// Folder of the settings of the logs: --ini, or the one that comes with psi-slam. Throws UserError if
+/// neither exists.
 std::filesystem::path ini_folder_of(const BenchArguments& arguments);
 
 /// All logs of the folder; see find_benchmark_logs().

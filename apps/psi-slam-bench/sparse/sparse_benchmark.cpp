@@ -26,7 +26,7 @@ double cpu_s() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// A map and what it cost.
+/// A map with the time that mapping took.
 struct MeasuredMap {
   MappingResult result;
   std::vector<double> add_ms;  ///< processor time by frame
@@ -86,6 +86,8 @@ class Benchmark {
     if (options.has(kThinnedPart)) all_ += static_cast<double>(logs.dense.size()) * (seeds + 1);
     if (options.has(kEveryNthPart)) all_ += static_cast<double>(every_nth_logs().size()) * 2 * seeds;
     if (options.has(kSparsePart)) all_ += static_cast<double>(logs.sparse.size()) * seeds;
+    if (options.has(kSimulatedPart))
+      all_ += static_cast<double>(options.sensors.max_ranges_m.size() * options.sensors.spacings_deg.size());
   }
 
   SparseBenchmark run() {
@@ -96,6 +98,7 @@ class Benchmark {
         for (const std::size_t nth : kEveryNth) run_as_read(log, nth, "1 of " + std::to_string(nth), false);
     if (options_.has(kSparsePart))
       for (const BenchmarkLog& log : logs_.sparse) run_as_read(log, 1, "all", true);
+    if (options_.has(kSimulatedPart)) run_simulated();
     return std::move(benchmark_);
   }
 
@@ -134,10 +137,18 @@ class Benchmark {
     }
   }
 
+  void run_simulated() {
+    SensorSweepOptions sensors = options_.sensors;
+    sensors.seed = options_.seeds.first;
+    benchmark_.sensors = run_sensor_sweep(
+        sensors, benchmark_settings({}, options_.assignments),
+        [&](const std::string& doing, double done, double) { observer_(doing, done_ + done, all_); });
+  }
+
   const SparseLogs& logs_;
   const SparseOptions& options_;
   const ProgressObserver& observer_;
-  double all_ = 0;  ///< number of runs
+  double all_ = 0;  ///< number of runs and of simulated sensors
   double done_ = 0;
   SparseBenchmark benchmark_;
 };
@@ -180,11 +191,6 @@ SparseBenchmark run_sparse_benchmark(const SparseLogs& logs, const SparseOptions
   for (const auto* some : {&logs.dense, &logs.sparse})
     for (LogIdentity& identity : identities_of(*some)) benchmark.identities.push_back(std::move(identity));
   benchmark.without_relations = logs.without_relations;
-  if (options.has(kSimulatedPart)) {
-    SensorSweepOptions sensors = options.sensors;
-    sensors.seed = options.seeds.first;
-    benchmark.sensors = run_sensor_sweep(sensors, benchmark_settings({}, options.assignments), observer);
-  }
   return benchmark;
 }
 

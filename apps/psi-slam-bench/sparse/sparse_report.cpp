@@ -204,11 +204,10 @@ std::string markdown_of(const SparseBenchmark& benchmark, const SparseOptions& o
   text += runs_section(benchmark) + pictures_section(benchmark) + sensors_section(benchmark);
   text +=
       "## Measure it again\n\n"
-      "<!-- not run with the other commands: all simulated sensors take minutes; tests/bench has its tests "
-      "-->\n"
+      "<!-- not run with the other commands: all parts take minutes; tests/bench has its tests -->\n"
       "```console\npsi-slam-bench sparse --data benchmark-logs -o out/sparse\n```\n\n"
       "writes this page, its pictures and its plots into `out/sparse`. Sparse logs are expected in "
-      "`benchmark-logs/sparse`.\n";
+      "`benchmark-logs/sparse`, with relations beside them.\n";
   if (!benchmark.identities.empty())
     text += '\n' + logs_section(benchmark.identities, benchmark.without_relations);
   return text;

@@ -194,7 +194,8 @@ void add_sparse_command(CLI::App& app, const Streams& streams) {
   CLI::App& command = *app.add_subcommand(
       "sparse", "Map logs and simulated runs with few scans or few beams and measure errors and costs");
   add_data_options(command, *arguments);
-  command.get_option("--data")->required(false);
+  command.get_option("--data")->required(false)->description(
+      "Folder of the logs NAME.clf.gz with NAME.relations, and of the folder sparse with more logs");
   add_logs_option(command, *arguments);
   command
       .add_option("--parts", options.parts,

@@ -151,7 +151,8 @@ std::string runs_section(const SparseBenchmark& benchmark) {
   std::string text =
       "## Real logs\n\n"
       "- scans kept, 1 m / 0.5 rad: a dense log of the Freiburg benchmark, thinned to steps of odometry. The "
-      "other scans get their poses back: the pose of the last kept scan, composed with odometry since\n"
+      "other scans get their poses back: the pose of the last kept scan, composed with odometry since. "
+      "Scans are told apart by their number, because some logs repeat time stamps\n"
       "- scans kept, 1 of n: a dense log, every nth scan. Relations at the times of removed scans use "
       "interpolated poses\n"
       "- scans kept, all: a log that is sparse as recorded. Its relations come from the result of another "

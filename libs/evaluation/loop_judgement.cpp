@@ -74,7 +74,7 @@ struct PlacedLoop {
   PathPoint anchor;
   double map_begin_m = 0;  ///< travelled distance at the first node of the local map
   double map_end_m = 0;    ///< travelled distance at its last node
-  TPose2D anchor_T_node;   ///< as matched
+  TPose2D anchor_T_node;   ///< pose of the node in the frame of the anchor, as matched
 };
 
 /// Both directions of each relation, one after the other.

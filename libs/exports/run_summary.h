@@ -53,7 +53,7 @@ struct ReasonCount {
 struct LoopCounts {
   std::size_t tried = 0;     ///< search windows, whether anything was found or not
   std::size_t found = 0;     ///< of the windows tried, those with a match
-  std::size_t accepted = 0;  ///< of the matches found, as the next three
+  std::size_t accepted = 0;  ///< of the matches found; likewise the next three counts
   std::size_t accepted_in_final_search = 0;
   std::size_t refused = 0;  ///< includes loops still pending when the run was stopped
   std::size_t switched_off = 0;

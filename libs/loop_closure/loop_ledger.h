@@ -59,7 +59,7 @@ class LoopLedger {
   bool force(const LoopPair& pair, bool of_final_search, PoseGraph& graph);
   /// Replaces earlier attempts of the pair by `loop`, a match by hand.
   void replace(LoopRecord loop, PoseGraph& graph);
-  /// Takes back the other three. False if there was no change.
+  /// Undoes remove(), force() and replace() of the pair. False if there was no change.
   bool restore(const LoopPair& pair, PoseGraph& graph);
 
   /// Forced pairs without an accepted loop.

@@ -125,7 +125,7 @@ struct LoopEdit {
     kDelete,   ///< removes the loop, whatever its match says
     kForce,    ///< makes the match, refused or not, a constraint that nothing switches off
     kMatch,    ///< matches again as given here; a verified match is accepted, in wide windows too
-    kRestore,  ///< takes back the other kinds
+    kRestore,  ///< undoes the changes of the other kinds
   };
 
   Kind kind = Kind::kDelete;  ///< what to do with the loop

@@ -54,7 +54,7 @@ struct SharedMap {
   GraphMirror mirror;
   KeyframeStore keyframes;                     ///< filled by the node decider
   std::vector<double> odometry_m;              ///< by node: path length of odometry up to the node
-  std::optional<SparsePoseAdjustment> solver;  ///< set by CPsiSpaGSO; then the mirror's poses count
+  std::optional<SparsePoseAdjustment> solver;  ///< set by CPsiSpaGSO; then `mirror` holds the current poses
 };
 
 }  // namespace psi_slam

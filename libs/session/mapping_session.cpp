@@ -105,7 +105,7 @@ struct MappingSession::Members {
   std::shared_ptr<const SessionRecording> recording;  ///< null if nothing was recorded
   fs::path log_path;                                  ///< the log that is read; empty if there is none
   mutable std::string log_sha256;                     ///< cache of checksum_of_log()
-  std::vector<RecordedLog> logs;  ///< scans_left of the last: readable scans are known to be left in it
+  std::vector<RecordedLog> logs;  ///< in the last, scans_left means that readable scans are known to remain
   std::vector<RecordedRun> later_runs;
   Settings settings;
   std::vector<std::string> settings_warnings;

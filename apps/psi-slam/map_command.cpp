@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "doctor/input_doctor.h"
 #include "exports/run_summary.h"
+#include "exports/unmatched_scans.h"
 #include "psi_slam/frame_source.h"
 #include "psi_slam/user_error.h"
 #include "report/output_folder.h"
@@ -114,6 +115,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
     warn(skipped.sentence());
   for (const std::string& unmet : session.unmet_edits()) warn("an edit was not made: " + unmet);
   if (const auto coarser = coarser_cells_text(summary.map)) warn(*coarser);
+  if (const auto unmatched = unmatched_scans_text(session.result())) warn(*unmatched);
   for (const std::string& warning : session.warnings_of_logs_before()) warn(warning);
   if (session.broken_off()) warn(broken_off_text(*session.broken_off(), session.result().frames.size()));
   if (failure) std::rethrow_exception(failure);

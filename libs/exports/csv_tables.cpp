@@ -13,7 +13,7 @@ constexpr const char* kFramesHeader =
     "frame,time_s,odom_x_m,odom_y_m,odom_theta_rad,front_end_x_m,front_end_y_m,front_end_theta_rad,"
     "map_x_m,map_y_m,map_theta_rad,node,response,window_x_m,window_y_m,window_theta_rad,"
     "psi,eta,mean_loops,loops_tried,loops_accepted,matcher,loop_evaluations,evaluations,front_end_ms,"
-    "loop_matching_ms,loop_closing_ms,pose_graph_ms\n";
+    "loop_matching_ms,loop_closing_ms,pose_graph_ms,matched\n";
 constexpr const char* kLoopsHeader =
     "frame,node,local_map,anchor,verdict,reason,matcher,in_last_pass,by_hand,x_m,y_m,theta_rad,std_x_m,"
     "std_y_m,std_theta_rad,window_x_m,window_y_m,window_theta_rad,response,ambiguity,observed_share,"
@@ -30,6 +30,10 @@ std::string values(const mrpt::math::TPose2D& pose) {
   return values({pose.x, pose.y, pose.phi}, 6);
 }
 
+const char* matched_text(ScanMatch match) {
+  return match == ScanMatch::kNoMap ? "" : match == ScanMatch::kMatched ? "1" : "0";
+}
+
 std::string frame_row(std::size_t index, const FrameRecord& frame) {
   return std::to_string(index) + ',' + format_seconds(frame.time_us) + values(frame.odom_T_robot) +
          values(frame.front_end_T_robot) + values(frame.map_T_robot) + ',' +
@@ -41,7 +45,7 @@ std::string frame_row(std::size_t index, const FrameRecord& frame) {
          (frame.matcher ? name(*frame.matcher) : "") + ',' + std::to_string(frame.loop_evaluations) + ',' +
          std::to_string(frame.evaluations) +
          values({frame.front_end_ms, frame.loop_matching_ms, frame.loop_closing_ms, frame.pose_graph_ms}, 4) +
-         '\n';
+         ',' + matched_text(frame.match) + '\n';
 }
 
 std::string loop_row(const LoopRecord& loop) {

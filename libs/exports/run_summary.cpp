@@ -158,6 +158,17 @@ Json loop_matchers_json(const std::map<MatcherKind, LoopMatcherRecord>& matchers
   return list;
 }
 
+Json unmatched_json(const UnmatchedScans& unmatched) {
+  Json stretches = Json::array();
+  for (const UnmatchedStretch& stretch : unmatched.stretches)
+    stretches.push_back({{"first_scan", stretch.first_frame},
+                         {"last_scan", stretch.last_frame},
+                         {"first_time_s", format_seconds(stretch.first_time_us)},
+                         {"last_time_s", format_seconds(stretch.last_time_us)},
+                         {"odometry_length_m", number(stretch.odometry_length_m, 3)}});
+  return {{"count", unmatched.count}, {"stretches", std::move(stretches)}};
+}
+
 Json stages_json(const std::vector<StageTiming>& stages) {
   Json list = Json::array();
   for (const StageTiming& stage : stages)
@@ -209,11 +220,12 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
   for (const FrameRecord& frame : result.frames) {
     summary.evaluations += frame.evaluations;
     summary.mean_response += frame.response;
-    matched += frame.response > 0 ? 1 : 0;
+    matched += frame.match == ScanMatch::kMatched ? 1 : 0;
   }
   for (const auto& [kind, matcher] : result.loop_matchers)
     summary.evaluations += matcher.final_search_effort.evaluations;
   if (matched > 0) summary.mean_response /= static_cast<double>(matched);
+  summary.unmatched = unmatched_scans(result.frames, summary.runs);
   for (const auto& path : paths_of_runs(result)) summary.path_length_m += path_length_m(path);
   summary.nodes = result.graph.num_nodes();
   summary.edges = result.graph.num_enabled_constraints();
@@ -251,6 +263,7 @@ std::string summary_json(const MappingResult& result, const RunInfo& info, const
                {"edges", summary.edges},
                {"local_maps", summary.local_maps},
                {"mean_response", number(summary.mean_response, 4)},
+               {"unmatched_scans", unmatched_json(summary.unmatched)},
                {"evaluations", summary.evaluations},
                {"map", map_json(summary.map)},
                {"wall_s", number(summary.wall_s)},

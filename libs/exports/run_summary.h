@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "exports/unmatched_scans.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/mapping_result.h"
 #include "psi_slam/time_stamp.h"
@@ -23,7 +24,7 @@ struct RunInfo {
   std::string program_version;                  ///< "0.1.0"
   std::string log_name;                         ///< for people: "intel.clf.gz"
   std::map<std::string, std::string> settings;  ///< "section.key" -> value
-  std::vector<std::string> warnings{};          ///< about the log, one sentence each
+  std::vector<std::string> warnings{};          ///< about log and map, a sentence each
 };
 
 /// The log as it was read. Beams, bearings, maximum range and mount are those of the first scan.
@@ -76,6 +77,7 @@ struct RunSummary {
   std::size_t edges = 0;
   std::size_t local_maps = 0;
   LoopCounts loops;
+  UnmatchedScans unmatched;
   double mean_response = 0;      ///< over the matched frames
   std::int64_t evaluations = 0;  ///< poses scored, including the final search
   MapExtent map;

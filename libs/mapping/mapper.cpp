@@ -56,11 +56,13 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   FrameRecord record;
   record.time_us = frame.time_us;
 
+  const bool has_map = !front_end_.active().empty();
   FrontEndStep step;
   record.front_end_ms = front_end_clock_.time([&] { step = front_end_.add(frame); });
   record.odom_T_robot = frame.has_odometry ? frame.odom_T_robot : step.local_T_robot;
   rebase_odometry(record);
   record.front_end_T_robot = step.local_T_robot;
+  if (has_map) record.match = step.matched ? ScanMatch::kMatched : ScanMatch::kUnmatched;
   record.response = step.response;
   record.window = step.window;
   record.evaluations = step.evaluations;

@@ -6,13 +6,17 @@
 
 namespace psi_slam {
 
-std::vector<FrameSpan> runs_of(const MappingResult& result) {
-  std::vector<FrameSpan> runs{{0, result.frames.size()}};
-  for (const std::size_t begin : result.later_run_frames) {
+std::vector<FrameSpan> runs_of(std::size_t frames, const std::vector<std::size_t>& later_run_frames) {
+  std::vector<FrameSpan> runs{{0, frames}};
+  for (const std::size_t begin : later_run_frames) {
     runs.back().end = begin;
-    runs.push_back({begin, result.frames.size()});
+    runs.push_back({begin, frames});
   }
   return runs;
+}
+
+std::vector<FrameSpan> runs_of(const MappingResult& result) {
+  return runs_of(result.frames.size(), result.later_run_frames);
 }
 
 std::optional<std::size_t> unjoined_run(const MappingResult& result) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/file_checksum.h"
+#include "exports/unmatched_scans.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/configuration.h"
 #include "psi_slam/frame_source.h"
@@ -460,6 +461,7 @@ std::vector<std::string> MappingSession::warnings() const {
   if (m_->broken_off) warnings.push_back(*m_->broken_off);
   if (const SkippedLines skipped = skipped_lines(); skipped.count > 0) warnings.push_back(skipped.sentence());
   for (const std::string& complaint : unmet_edits()) warnings.push_back("an edit was not made: " + complaint);
+  if (const auto unmatched = unmatched_scans_text(m_->result)) warnings.push_back(*unmatched);
   return warnings;
 }
 

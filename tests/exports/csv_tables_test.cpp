@@ -18,6 +18,7 @@ std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields;
   std::istringstream stream(line);
   for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+  if (!line.empty() && line.back() == ',') fields.emplace_back();
   return fields;
 }
 
@@ -46,8 +47,21 @@ TEST(FramesCsv, has_one_row_per_scan_below_the_header) {
     EXPECT_NEAR(std::stod(row[column("eta")]), frame.eta, 1e-4);
     EXPECT_NEAR(std::stod(row[column("mean_loops")]), frame.mean_loops, 1e-4);
     EXPECT_NEAR(std::stod(row[column("loop_matching_ms")]), frame.loop_matching_ms, 1e-4);
+    EXPECT_EQ(row[column("matched")], &frame == &result.frames.front() ? "" : "1");
   }
   EXPECT_FALSE(std::getline(text, line));
+}
+
+TEST(FramesCsv, tells_unmatched_scans_from_those_without_a_map_to_match_with) {
+  std::vector<FrameRecord> frames(3);
+  frames[1].match = ScanMatch::kMatched;
+  frames[2].match = ScanMatch::kUnmatched;
+  std::istringstream text(frames_csv(frames));
+  std::string line;
+  for (const char* expected : {",matched", ",", ",1", ",0"}) {
+    ASSERT_TRUE(std::getline(text, line));
+    EXPECT_EQ(line.substr(line.rfind(',')), expected);
+  }
 }
 
 TEST(LoopsCsv, has_one_row_per_attempt_with_verdict_and_reason) {

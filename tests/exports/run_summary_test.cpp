@@ -172,6 +172,24 @@ TEST(SummaryJson, has_schema_and_figures) {
   EXPECT_EQ(json["stages"][0]["calls"], 50);
 }
 
+TEST(SummaryJson, lists_the_stretches_of_unmatched_scans) {
+  MappingResult result = walk_around_the_room();
+  const auto summary_json_of = [&] {
+    return nlohmann::json::parse(summary_json(result, {}, summary_of(result)))["unmatched_scans"];
+  };
+  EXPECT_EQ(summary_json_of(), nlohmann::json::parse(R"({"count": 0, "stretches": []})"));
+  result.frames[10].match = result.frames[11].match = result.frames[20].match = ScanMatch::kUnmatched;
+  const auto unmatched = summary_json_of();
+  EXPECT_EQ(unmatched["count"], 3);
+  ASSERT_EQ(unmatched["stretches"].size(), 2U);
+  const auto& stretch = unmatched["stretches"][0];
+  EXPECT_EQ(stretch["first_scan"], 10);
+  EXPECT_EQ(stretch["last_scan"], 11);
+  EXPECT_EQ(stretch["first_time_s"], "976052907.167303");
+  EXPECT_EQ(stretch["last_time_s"], "976052907.367303");
+  EXPECT_NEAR(stretch["odometry_length_m"].get<double>(), 0.4, 0.1);
+}
+
 TEST(SummaryJson, replaces_values_that_are_not_finite_or_not_utf8) {
   RunSummary summary = some_figures();
   summary.mean_response = std::numeric_limits<double>::quiet_NaN();

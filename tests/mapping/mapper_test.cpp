@@ -363,6 +363,11 @@ TEST(Mapper, loops_correct_the_error_of_a_blind_stretch) {
   const double lost_m = error_m(map_of(drive.frames, open));
   const MappingResult result = map_of(drive.frames);
   expect_consistent(result, drive.frames.size());
+  EXPECT_EQ(result.frames[0].match, ScanMatch::kNoMap);
+  for (std::size_t i = 1; i < result.frames.size(); ++i) {
+    const bool blind = i >= 190 && i <= 250;  // scan 250 finds a local map of blind scans only
+    EXPECT_EQ(result.frames[i].match, blind ? ScanMatch::kUnmatched : ScanMatch::kMatched) << "frame " << i;
+  }
   EXPECT_GT(lost_m, 0.5) << "the front end alone has this error";
   EXPECT_LT(error_m(result), 0.15);
   EXPECT_GT(accepted_loops(result), 0U);

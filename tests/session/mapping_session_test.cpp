@@ -11,14 +11,15 @@
 #include <thread>
 
 #include "exports/run_summary.h"
-#include "psi_slam/frame_source.h"
 #include "pose_graph/g2o_file.h"
+#include "psi_slam/frame_source.h"
 #include "psi_slam/grid_map.h"
 #include "report/output_folder.h"
 #include "report/report_html.h"
 #include "room_log.h"
 #include "same_results.h"
 #include "session/edit_journal.h"
+#include "session/session_input.h"
 #include "session/settings.h"
 #include "temporary_folder.h"
 #include "test_files.h"
@@ -227,6 +228,27 @@ TEST_F(MappingSessionTest, accepts_single_scans_without_return) {
   const auto end = session.result().frames[58].map_T_robot - session.result().frames[2].map_T_robot;
   const auto truth = room_pose(2 * M_PI * 58 / 100) - room_pose(2 * M_PI * 2 / 100);
   EXPECT_LT(std::hypot(end.x - truth.x, end.y - truth.y), 0.1);
+}
+
+TEST_F(MappingSessionTest, warns_of_unmatched_scans_when_finished_and_resumed) {
+  auto lines = room_log_lines(60);
+  for (const std::size_t blind : {0U, 30U, 31U, 32U})
+    lines[blind] = with_ranges(lines[blind], 0, kRoomBeams, "nan");
+  MappingSession session(log(lines), settings_);
+  while (session.step()) {
+  }
+  EXPECT_THAT(session.warnings(), IsEmpty());
+  session.finish();
+  const auto warns = ElementsAre(HasSubstr("of 60 scans matched no local map and were placed by odometry"));
+  EXPECT_THAT(session.warnings(), warns);
+  EXPECT_THAT(session.run_info().warnings, warns);
+  const auto file = folder_.path() / "room.session";
+  session.save(file);
+  MappingSession resumed(SessionInput::of_file(file), settings_);
+  resumed.run(go_on_);
+  EXPECT_EQ(resumed.warnings(), session.warnings());
+  for (std::size_t i = 0; i < 60; ++i)
+    EXPECT_EQ(resumed.result().frames[i].match, session.result().frames[i].match) << "frame " << i;
 }
 
 TEST_F(MappingSessionTest, checks_settings_and_log_before_mapping) {

@@ -72,6 +72,7 @@ inline MappingResult walk_around_the_room(int scans = 50) {
     record.odom_T_robot = frame.odom_T_robot;
     record.front_end_T_robot = map_T_robot;
     record.map_T_robot = map_T_robot;
+    record.match = i == 0 ? ScanMatch::kNoMap : ScanMatch::kMatched;
     record.response = i == 0 ? 0 : 0.8 + 0.1 * std::sin(i);
     record.window = {0.3, 0.3, 0.35};
     record.evaluations = 1000 + i;

@@ -82,12 +82,6 @@ std::size_t loops_accepted(const MappingResult& result) {
                     [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
 }
 
-std::size_t unmatched_scans(const std::vector<FrameRecord>& frames) {
-  return static_cast<std::size_t>(
-      std::count_if(frames.begin() + (frames.empty() ? 0 : 1), frames.end(),
-                    [](const FrameRecord& frame) { return !(frame.response > 0); }));
-}
-
 RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations) {
   return evaluate_relations(trajectory_of(frames), relations);
 }

@@ -64,9 +64,6 @@ struct ScratchFile {
 /// Number of loops in the finished graph.
 std::size_t loops_accepted(const MappingResult& result);
 
-/// Number of scans that the front end could not match, except the first.
-std::size_t unmatched_scans(const std::vector<FrameRecord>& frames);
-
 /// Errors of the mapped poses of the frames.
 RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations);
 

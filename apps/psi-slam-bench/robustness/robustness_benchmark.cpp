@@ -13,6 +13,7 @@
 #include "base/degrees.h"
 #include "base/number_text.h"
 #include "evaluation/loop_judgement.h"
+#include "exports/unmatched_scans.h"
 #include "psi_slam/open_log.h"
 
 namespace psi_slam {
@@ -102,7 +103,7 @@ RobustnessRow row_of(const MappingResult& result, const std::vector<Relation>& r
   row.rotation_error_deg = metric.rotation_abs_deg.mean;
   row.relations = metric.exact + metric.interpolated;
   row.scans = result.frames.size();
-  row.unmatched = unmatched_scans(result.frames);
+  row.unmatched = unmatched_scans(result.frames, runs_of(result)).count;
   const LoopJudgement judgement = judge_loops(result, relations);
   row.loops = judgement.judged.size() + judgement.unjudged;
   row.loop_precision = judgement.precision();

@@ -9,6 +9,7 @@
 #include "base/number_text.h"
 #include "base/worker_pool.h"
 #include "common/benchmark_logs.h"
+#include "exports/unmatched_scans.h"
 #include "simulate/simulate_benchmark.h"
 #include "sparse/step_thinned_source.h"
 
@@ -74,7 +75,7 @@ SensorSweepRow map_with_step(const SimulatedScans& simulated, const ThinningStep
   SensorSweepRow row;
   row.path_m = simulated.path_m;
   row.scans = truth.size();
-  row.unmatched = unmatched_scans(result.frames);
+  row.unmatched = unmatched_scans(result.frames, runs_of(result)).count;
   row.error_m = error.translation_abs_m.mean;
   row.error_deg = error.rotation_abs_deg.mean;
   row.loops = loops_accepted(result);

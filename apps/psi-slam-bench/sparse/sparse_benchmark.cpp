@@ -10,6 +10,7 @@
 
 #include "base/number_text.h"
 #include "exports/mapped_trajectory.h"
+#include "exports/unmatched_scans.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/open_log.h"
 #include "rendering/map_image.h"
@@ -61,7 +62,7 @@ SparseRow row_of(const BenchmarkLog& log, const Settings& settings, const Measur
   row.figures.wall_s = map.wall_s;
   row.figures.cpu_s = map.cpu_s;
   row.nodes = map.result.node_frames.size();
-  row.unmatched = unmatched_scans(map.result.frames);
+  row.unmatched = unmatched_scans(map.result.frames, runs_of(map.result)).count;
   row.loops = loops_accepted(map.result);
   row.costs = node_costs(map.result.frames, map.add_ms);
   return row;

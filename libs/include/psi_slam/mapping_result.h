@@ -19,6 +19,13 @@
 
 namespace psi_slam {
 
+/// Whether the front end matched a scan with a local map.
+enum class ScanMatch {
+  kNoMap,      ///< there was nothing to match with: the first scan of a run
+  kMatched,    ///< the match gives the pose
+  kUnmatched,  ///< odometry, or constant velocity without odometry, gives the pose
+};
+
 /// What happened to one scan of the log.
 struct FrameRecord {
   TimeUs time_us = 0;  ///< time of the scan, microseconds
@@ -30,7 +37,9 @@ struct FrameRecord {
   mrpt::math::TPose2D map_T_robot;
   std::optional<std::size_t> node;  ///< its node in the graph, if it became one
 
-  double response = 0;    ///< of the front end's match, in [0, 1]; 0 if there was nothing to match with
+  ScanMatch match = ScanMatch::kNoMap;
+
+  double response = 0;    ///< of the front end's match, in [0, 1]; 0 if it was not matched
   SearchExtent window;    ///< the front end's search window (half-widths)
   double psi = 0;         ///< equation 13, before the loops of this frame
   double eta = 0;         ///< equation 14
@@ -109,6 +118,8 @@ struct FrameSpan {
 
 /// The frames of each run: one span unless several runs were merged.
 std::vector<FrameSpan> runs_of(const MappingResult& result);
+/// The frames of each run among the first `frames`. `later_run_frames` is as in MappingResult.
+std::vector<FrameSpan> runs_of(std::size_t frames, const std::vector<std::size_t>& later_run_frames);
 
 /// The number of the first run that no chain of loops joins to run 0; none if all are joined.
 std::optional<std::size_t> unjoined_run(const MappingResult& result);

@@ -108,8 +108,8 @@ class MappingSession {
   /// Edits that could not be made, a sentence each. Complete after finish().
   std::vector<std::string> unmet_edits() const;
 
-  /// All warnings about this run, a sentence each: renamed settings, damaged logs, skipped lines and edits
-  /// that could not be made.
+  /// All warnings about this run, a sentence each: renamed settings, damaged logs, skipped lines, edits that
+  /// could not be made and, after finish(), scans that matched no local map.
   std::vector<std::string> warnings() const;
 
   /// Number of runs through the building: this one and those merged before.

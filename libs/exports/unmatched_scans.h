@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scans that matched no local map. Odometry alone places them, so the map may be wrong there.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "psi_slam/mapping_result.h"
+#include "psi_slam/time_stamp.h"
+
+namespace psi_slam {
+
+/// Successive unmatched scans of one run.
+struct UnmatchedStretch {
+  std::size_t run = 0;          ///< number of the run, from 0
+  std::size_t first_frame = 0;  ///< not the first of the run, which has no local map to match with
+  std::size_t last_frame = 0;
+  TimeUs first_time_us = 0;      ///< time of the first scan
+  TimeUs last_time_us = 0;       ///< time of the last scan
+  TimeUs run_start_us = 0;       ///< time of the first scan of the run
+  double odometry_length_m = 0;  ///< path by odometry, from the scan before the stretch to the last scan
+
+  std::size_t scans() const { return last_frame - first_frame + 1; }
+};
+
+/// All unmatched scans.
+struct UnmatchedScans {
+  std::size_t count = 0;                    ///< scans of all stretches
+  std::vector<UnmatchedStretch> stretches;  ///< in the order of the log
+};
+
+/// Finds the unmatched scans of each run, see runs_of().
+UnmatchedScans unmatched_scans(const std::vector<FrameRecord>& frames, const std::vector<FrameSpan>& runs);
+
+/// Warns of the unmatched scans of a result, in a sentence without full stop that lists the stretches with
+/// the longest paths. Empty if there are none.
+std::optional<std::string> unmatched_scans_text(const MappingResult& result);
+
+}  // namespace psi_slam

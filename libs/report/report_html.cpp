@@ -72,6 +72,7 @@ std::string response_key(const RunSummary& summary) {
   std::string key = fixed_text(summary.mean_response, 2) + " on average" + kKey;
   if (summary.loops.accepted > summary.loops.accepted_in_final_search)
     key += "<span class=\"key loops\"></span>a loop was closed";
+  if (summary.unmatched.count > 0) key += "<span class=\"key unmatched\"></span>scans not matched";
   return key;
 }
 
@@ -102,8 +103,9 @@ std::string report_html(const MappingResult& result, const RunInfo& info, const 
   if (const auto coarser = coarser_cells_text(summary.map)) html += banner(*coarser + '.');
   for (const std::string& warning : info.warnings) html += banner(escape_html(warning) + '.');
   html += key_figures(summary);
-  html += card("Map", "", report_map(result, grid));
-  html += card("Response of the front end", response_key(summary), response_plot(result));
+  html += card("Map", "", report_map(result, summary.unmatched, grid));
+  html += card("Response of the front end", response_key(summary),
+               response_plot(result, summary.unmatched) + unmatched_table(summary.unmatched));
   html += card("The factor Ψ and the matcher in use", psi_key(result), psi_plot(result));
   html += card("Loop matching time per node", kKey, loop_matching_plot(result));
   html += card("Time per stage", "", stages_table(result.stages, result.wall_s));

@@ -31,20 +31,23 @@ std::string text(const Pixel& pixel) {
   return fixed_text(pixel.x, 1) + ',' + fixed_text(pixel.y, 1);
 }
 
-/// Paths of the poses of one frame of reference, with points at least 1.5 pixels apart. Each run is moved to
-/// its start in the map, so that drift shows.
-Paths paths_of(const MappingResult& result, TPose2D FrameRecord::*pose, const MapPicture& picture) {
+/// Adds a point that is at least 1.5 pixels from the last point, or the end of the path.
+void extend(Path& path, const Pixel& point, bool is_end) {
   constexpr double kStep_px = 1.5;
+  if (path.empty() || is_end || std::hypot(point.x - path.back().x, point.y - path.back().y) >= kStep_px)
+    path.push_back(point);
+}
+
+/// Paths of the poses of one frame of reference. Each run is moved to its start in the map, so that drift
+/// shows.
+Paths paths_of(const MappingResult& result, TPose2D FrameRecord::*pose, const MapPicture& picture) {
   Paths paths;
   for (const FrameSpan& run : runs_of(result)) {
     const FrameRecord& first = result.frames[run.begin];
     Path path;
-    for (std::size_t i = run.begin; i < run.end; ++i) {
-      const Pixel point = pixel_of(first.map_T_robot + (result.frames[i].*pose - first.*pose), picture);
-      if (path.empty() || i + 1 == run.end ||
-          std::hypot(point.x - path.back().x, point.y - path.back().y) >= kStep_px)
-        path.push_back(point);
-    }
+    for (std::size_t i = run.begin; i < run.end; ++i)
+      extend(path, pixel_of(first.map_T_robot + (result.frames[i].*pose - first.*pose), picture),
+             i + 1 == run.end);
     paths.push_back(std::move(path));
   }
   return paths;
@@ -110,6 +113,20 @@ std::string trajectory_layer(const Paths& paths) {
     if (!path.empty()) dots += dot("start", path.front()) + dot("end", path.back());
   }
   return layer("trajectory", lines + dots);
+}
+
+/// The path along each stretch of unmatched scans, from the last matched scan.
+std::string unmatched_layer(const MappingResult& result, const UnmatchedScans& unmatched,
+                            const MapPicture& picture) {
+  std::string svg;
+  for (const UnmatchedStretch& stretch : unmatched.stretches) {
+    Path path;
+    for (std::size_t i = stretch.first_frame - 1; i <= stretch.last_frame; ++i)
+      extend(path, pixel_of(result.frames[i].map_T_robot, picture), i == stretch.last_frame);
+    svg += "<path d=\"" + path_data(path.begin(), path.end()) + "\"><title>" +
+           counted(stretch.scans(), "scan", "scans") + " not matched</title></path>\n";
+  }
+  return layer("unmatched", svg);
 }
 
 std::string loop_title(const LoopRecord& loop) {
@@ -184,7 +201,8 @@ std::string toggle(const char* name, const std::string& label, bool shown, const
 
 }  // namespace
 
-std::string report_map(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid) {
+std::string report_map(const MappingResult& result, const UnmatchedScans& unmatched,
+                       const mrpt::maps::COccupancyGridMap2D& grid) {
   MapPictureOptions options;
   options.max_side_px = kImageSide_px;
   options.min_side_px = 1;
@@ -206,6 +224,8 @@ std::string report_map(const MappingResult& result, const mrpt::maps::COccupancy
     loops = loop_layer(name, result, verdict, picture) + loops;
   };
   toggles += toggle("grid", "map", true) + toggle("trajectory", "trajectory", true);
+  if (unmatched.count > 0)
+    toggles += toggle("unmatched", "unmatched scans (" + grouped(unmatched.count) + ')', true);
   add_loops("accepted", "closed loops", LoopVerdict::kAccepted);
   add_loops("switched-off", "switched-off loops", LoopVerdict::kSwitchedOff);
   add_loops("refused", "refused loops", LoopVerdict::kRefused);
@@ -218,6 +238,7 @@ std::string report_map(const MappingResult& result, const mrpt::maps::COccupancy
          "width=\"" +
          width + "\" height=\"" + height + "\" href=\"data:image/png;base64," + base64(picture.png) +
          "\"/>\n" + path_layer("odometry", odometry) + path_layer("front-end", front_end) + loops +
+         unmatched_layer(result, unmatched, picture) +
          trajectory_layer(paths_of(result, &FrameRecord::map_T_robot, picture)) + scale_bar(picture) +
          "</svg>\n</div>\n<p class=\"legend\"><span class=\"ramp\"></span> trajectory from <b>start</b> to "
          "<b>end</b>. " +

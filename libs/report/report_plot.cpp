@@ -238,13 +238,27 @@ std::string matcher_strip(const std::vector<FrameRecord>& frames, const Series& 
   return svg;
 }
 
+/// A band over the whole height for each stretch of unmatched scans.
+std::string unmatched_bands(const UnmatchedScans& unmatched, const Series& series, const Axes& axes) {
+  constexpr double kLeastWidth = 2;
+  std::string bands;
+  for (const UnmatchedStretch& stretch : unmatched.stretches) {
+    const double x = axes.x(series.since_first(stretch.first_time_us));
+    const double end = axes.x(series.since_first(stretch.last_time_us));
+    bands += 'M' + point(std::min(x, end) - kLeastWidth / 2, kTop) + 'h' +
+             fixed_text(std::abs(end - x) + kLeastWidth, 1) + 'V' + fixed_text(kHeight - kBottom, 0) + 'H' +
+             fixed_text(std::min(x, end) - kLeastWidth / 2, 1) + 'z';
+  }
+  return bands.empty() ? "" : "<path class=\"unmatched\" d=\"" + bands + "\"/>\n";
+}
+
 std::optional<double> if_positive(double value) {
   return value > 0 ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace
 
-std::string response_plot(const MappingResult& result) {
+std::string response_plot(const MappingResult& result, const UnmatchedScans& unmatched) {
   const Series series(result.frames, [](const FrameRecord& frame) { return if_positive(frame.response); });
   const Axes axes{series.length_s, 0, 1, false};
   std::string closed;
@@ -253,9 +267,11 @@ std::string response_plot(const MappingResult& result) {
       closed += 'M' +
                 point(axes.x(series.since_first(result.frames.at(loop.frame).time_us)), kHeight - kBottom) +
                 "v-10";
-  return figure("Response of the front end over time",
-                plot_of(series, axes, {{0, "0"}, {0.25, "0.25"}, {0.5, "0.5"}, {0.75, "0.75"}, {1, "1"}}) +
-                    "<path class=\"closed\" d=\"" + closed + "\"/>\n");
+  return figure(
+      "Response of the front end over time",
+      unmatched_bands(unmatched, series, axes) +
+          plot_of(series, axes, {{0, "0"}, {0.25, "0.25"}, {0.5, "0.5"}, {0.75, "0.75"}, {1, "1"}}) +
+          "<path class=\"closed\" d=\"" + closed + "\"/>\n");
 }
 
 std::string psi_plot(const MappingResult& result) {

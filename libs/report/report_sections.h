@@ -18,11 +18,15 @@ extern const char* const kReportStyle;   ///< CSS of the page
 extern const char* const kReportScript;  ///< zooms and moves the map; the page works without it
 
 /// The map as an image, with layers that checkboxes show or hide without any script: trajectory coloured by
-/// time, odometry, path of the front end, and loops of each verdict.
-std::string report_map(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid);
+/// time, unmatched scans, odometry, path of the front end, and loops of each verdict.
+std::string report_map(const MappingResult& result, const UnmatchedScans& unmatched,
+                       const mrpt::maps::COccupancyGridMap2D& grid);
 
-/// The front end's response over time: mean and range of each stretch, and when loops were closed.
-std::string response_plot(const MappingResult& result);
+/// The front end's response over time: mean and range of each stretch, unmatched scans, and when loops were
+/// closed.
+std::string response_plot(const MappingResult& result, const UnmatchedScans& unmatched);
+/// The stretches of unmatched scans, folded away; empty if there are none.
+std::string unmatched_table(const UnmatchedScans& unmatched);
 /// The factor Psi over time with its thresholds, logarithmic, and below it the matcher in use.
 std::string psi_plot(const MappingResult& result);
 /// The colours of the matchers that were used.

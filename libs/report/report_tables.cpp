@@ -80,7 +80,10 @@ std::string key_figures(const RunSummary& summary) {
   std::string html = "<section class=\"tiles\">\n";
   html += tile("Duration", minutes_text(log.duration_s), log.duration_s < 3600 ? "min" : "h",
                fixed_text(rate_hz, 1) + " scans per second");
-  html += tile("Scans", grouped(log.scans), "", grouped(log.beams) + " beams per scan");
+  html +=
+      tile("Scans", grouped(log.scans), "",
+           grouped(log.beams) + " beams per scan" +
+               (summary.unmatched.count > 0 ? ", " + grouped(summary.unmatched.count) + " not matched" : ""));
   html += tile("Path", grouped(summary.path_length_m, 0), "m",
                "odometry: " + grouped(log.odometry_length_m, 0) + " m");
   html += tile("Free space", grouped(map.free_m2, 0), "m²",
@@ -119,6 +122,21 @@ std::string log_table(const MappedLogFacts& log, const std::string& name) {
                                   "; scans stay in file order");
   html += fact("Odometry", grouped(log.odometry_length_m, 1) + " m");
   return html + "</table>\n";
+}
+
+std::string unmatched_table(const UnmatchedScans& unmatched) {
+  if (unmatched.count == 0) return {};
+  std::string rows;
+  for (const UnmatchedStretch& stretch : unmatched.stretches)
+    rows += "<tr>" +
+            cells({grouped(stretch.first_frame) + " to " + grouped(stretch.last_frame),
+                   format_seconds(stretch.first_time_us), format_seconds(stretch.last_time_us),
+                   fixed_text(stretch.odometry_length_m, 2)}) +
+            "</tr>\n";
+  return "<details><summary>" + counted(unmatched.count, "scan", "scans") + " not matched, in " +
+         counted(unmatched.stretches.size(), "stretch", "stretches") + "</summary>" +
+         table_begin("wide tall", {"Scans", "from, s", "to, s", "path by odometry, m"}) + rows + kTableEnd +
+         "</details>\n";
 }
 
 std::string reasons_table(const LoopCounts& loops) {

@@ -107,6 +107,20 @@ TEST(ReportHtml, shows_the_factor_and_the_matchers) {
   EXPECT_THAT(of_one, Not(HasSubstr("key matcher csm\"")));
 }
 
+TEST(ReportHtml, shows_unmatched_scans_in_figures_map_and_plot) {
+  MappingResult result = walk_around_the_room();
+  const std::string without = without_style_and_script(report_of(result, {}));
+  EXPECT_THAT(without, Not(HasSubstr("not matched")));
+  EXPECT_THAT(without, Not(HasSubstr("show-unmatched")));
+  result.frames[10].match = result.frames[11].match = result.frames[20].match = ScanMatch::kUnmatched;
+  const std::string html = without_style_and_script(report_of(result, {}));
+  EXPECT_EQ(complaint_about(html), "");
+  for (const char* shown :
+       {"181 beams per scan, 3 not matched", "unmatched scans (3)", "<title>2 scans not matched</title>",
+        "<path class=\"unmatched\" d=\"M", "3 scans not matched, in 2 stretches", "<td>10 to 11</td>"})
+    EXPECT_THAT(html, HasSubstr(shown));
+}
+
 TEST(ReportHtml, escapes_texts_of_the_user) {
   const std::string nasty = "<script>alert('&\"')</script>\x01";
   MappingResult result = walk_around_the_room();

@@ -15,10 +15,12 @@ namespace psi_slam {
 namespace {
 
 constexpr int kStrips = 4;
+constexpr int kResponse = 1;  // index of the plot with unmatched scans
 const wxColour kFrontEnd(31, 97, 171);
 const wxColour kLoops(0, 145, 90);
 const wxColour kGraph(200, 80, 20);
 const wxColour kThreshold(200, 30, 40);
+const wxColour kUnmatched(colour_of(palette::kUnmatched));
 
 struct Curve {
   wxString name;
@@ -83,6 +85,18 @@ struct PlotPainter {
     if (value < 0 || value > top) return;
     context.SetPen(wxPen(kThreshold, window.FromDIP(1), wxPENSTYLE_SHORT_DASH));
     context.StrokeLine(area.x, y_of(value), area.x + area.width, y_of(value));
+  }
+
+  /// Draws a band over the whole height for each column with unmatched scans.
+  void draw_unmatched() {
+    context.SetPen(*wxTRANSPARENT_PEN);
+    context.SetBrush(wxBrush(kUnmatched));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (!columns[i].unmatched) continue;
+      const double x = x_of(columns[i].first_frame);
+      const double end = i + 1 < columns.size() ? x_of(columns[i + 1].first_frame) : area.x + area.width;
+      context.DrawRectangle(x, area.y, std::max<double>(window.FromDIP(2), end - x), area.height);
+    }
   }
 
   /// Draws a band at the bottom in the colours of the matchers.
@@ -160,6 +174,7 @@ void add(PlotColumn& column, const FrameRecord& frame) {
   column.front_end_ms += frame.front_end_ms;
   column.loops_ms += frame.loop_closing_ms;
   column.graph_ms += frame.pose_graph_ms;
+  column.unmatched = column.unmatched || frame.match == ScanMatch::kUnmatched;
   if (frame.matcher) column.matcher = frame.matcher;
 }
 
@@ -244,8 +259,11 @@ void PlotPanel::paint() {
   for (int i = 0; i < kStrips; ++i) {
     painters.push_back({*context, *this, strip(i), columns, snapshot_->frames.size()});
     const Plot& plot = kPlots[static_cast<std::size_t>(i)];
+    if (i == kResponse) painters.back().draw_unmatched();
     painters.back().draw(plot, i == 0 ? snapshot_->psi.psi_2 : 0);
-    if (i > 0) painters.back().draw_legend(plot.curves);
+    std::vector<Curve> curves = plot.curves;
+    if (i == kResponse && snapshot_->unmatched->count > 0) curves.push_back({"not matched", kUnmatched});
+    if (i > 0) painters.back().draw_legend(curves);
   }
   for (const double threshold : {snapshot_->psi.psi_1, snapshot_->psi.psi_2})
     painters[0].draw_line_at(threshold);

@@ -23,6 +23,7 @@ struct PlotColumn {
   double front_end_ms = 0;    ///< times are means over the scans
   double loops_ms = 0;
   double graph_ms = 0;
+  bool unmatched = false;              ///< one of the scans matched no local map
   std::optional<MatcherKind> matcher;  ///< of the last node up to this column
 };
 
@@ -32,8 +33,8 @@ std::vector<PlotColumn> plot_columns(const HistoryView<FrameRecord>& frames, std
 /// The least number of 1, 2 or 5 times a power of ten that is not below `value`; the upper end of an axis.
 double round_up(double value);
 
-/// Curves of a run while it is mapped: factor Psi with its thresholds and the matchers in use, response,
-/// number of loops, and time per scan by stage. A click selects the scan at that place.
+/// Curves of a run while it is mapped: factor Psi with its thresholds and the matchers in use, response
+/// with unmatched scans, number of loops, and time per scan by stage. A click selects the scan at that place.
 class PlotPanel : public wxPanel {
  public:
   PlotPanel(wxWindow* parent, std::function<void(std::size_t)> go_to);

@@ -114,7 +114,10 @@ double replay_time_left_s(const std::vector<TimeUs>& stamps_us, std::size_t mapp
 }
 
 std::string progress_words(const ReplaySnapshot& snapshot, double waiting_left_s) {
-  const std::string scans = std::to_string(snapshot.frames.size()) + " scans";
+  const std::string unmatched = std::to_string(snapshot.unmatched->count) + " not matched";
+  const bool all_matched = snapshot.unmatched->count == 0;
+  const std::string scans =
+      std::to_string(snapshot.frames.size()) + " scans" + (all_matched ? "" : ", " + unmatched);
   switch (snapshot.phase) {
     case ReplayPhase::kOpening:
       return "Opening the log";
@@ -124,7 +127,7 @@ std::string progress_words(const ReplaySnapshot& snapshot, double waiting_left_s
       SessionProgress progress = snapshot.progress;
       if (waiting_left_s > 0)
         progress.remaining_s = std::max(waiting_left_s, progress.remaining_s.value_or(0));
-      return "Mapping: " + progress_text(progress);
+      return "Mapping: " + progress_text(progress) + (all_matched ? "" : "   " + unmatched);
     }
     case ReplayPhase::kFinalSearch:
       return (snapshot.final_search_held ? "Finishing, paused: " : "Finishing: ") +

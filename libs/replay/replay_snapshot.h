@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "exports/run_summary.h"
+#include "exports/unmatched_scans.h"
 #include "loop_closure/keyframe_store.h"
 #include "psi_slam/frame.h"
 #include "psi_slam/mapping_result.h"
@@ -70,6 +70,8 @@ struct ReplaySnapshot {
 
   HistoryView<Frame> log;  ///< the scans mapped so far
   HistoryView<FrameRecord> frames;
+  /// Of `frames`; never null.
+  std::shared_ptr<const UnmatchedScans> unmatched = std::make_shared<UnmatchedScans>();
   std::vector<std::size_t> later_run_frames;  ///< the first frame of each run except the first run
   HistoryView<double> shares;                 ///< share of the log read at each scan, in [0, 1]
   HistoryView<NodeScan> nodes;

@@ -45,6 +45,8 @@ void SnapshotMaker::follow(const Mapper& mapper, ActiveMaps active) {
   append_new(log_, mapper.log());
   append_new(frames_, mapper.frames());
   now.later_run_frames = mapper.later_run_frames();
+  now.unmatched = std::make_shared<UnmatchedScans>(
+      unmatched_scans(mapper.frames(), runs_of(mapper.frames().size(), mapper.later_run_frames())));
   append_new(nodes_, mapper.keyframes().nodes);
   follow_local_maps(mapper);
   now.map_T_robot = mapper.map_T_robot();
@@ -91,6 +93,7 @@ void SnapshotMaker::take(const MappingResult& result) {
   finished_ = true;
   frames_ = {};
   append_new(frames_, result.frames);
+  now.unmatched = std::make_shared<UnmatchedScans>(unmatched_scans(result.frames, runs_of(result)));
   std::vector<mrpt::math::TPose2D> poses;
   for (const std::size_t frame : result.node_frames) poses.push_back(result.frames[frame].map_T_robot);
   now.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(std::move(poses));

@@ -216,6 +216,12 @@ void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot) {
   }
   if (!snapshot.frames.empty()) extend(*lines, last, snapshot.map_T_robot, height_m::kTrajectory);
   layer.insert(lines);
+
+  std::vector<TPoint3D> unmatched;
+  for (const UnmatchedStretch& stretch : snapshot.unmatched->stretches)
+    for (std::size_t i = stretch.first_frame; i <= stretch.last_frame; ++i)
+      unmatched.push_back(raised(map_T_frame(snapshot, i), height_m::kUnmatched));
+  if (!unmatched.empty()) layer.insert(dots_of(unmatched, palette::kUnmatched, 9));
 }
 
 void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot) {

@@ -22,6 +22,7 @@ inline constexpr double kOdometry = 0.01;
 inline constexpr double kConstraints = 0.015;
 inline constexpr double kLoops = 0.02;
 inline constexpr double kTrajectory = 0.025;
+inline constexpr double kUnmatched = 0.0275;
 inline constexpr double kNodes = 0.03;
 inline constexpr double kScan = 0.035;
 inline constexpr double kWindows = 0.04;
@@ -38,6 +39,7 @@ void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
 
 /// Draws the path by odometry alone, from the first pose in the map.
 void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot);
+/// Draws the corrected path, with dots at unmatched scans.
 void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot);
 
 void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot);

@@ -12,6 +12,7 @@ namespace psi_slam {
 namespace palette {
 inline constexpr mrpt::img::TColor kBackground{236, 238, 241};
 inline constexpr mrpt::img::TColor kCorrected{31, 97, 171};
+inline constexpr mrpt::img::TColor kUnmatched{214, 30, 40, 150};
 inline constexpr mrpt::img::TColor kOdometry{196, 132, 52, 170};
 inline constexpr mrpt::img::TColor kNode{31, 97, 171};
 inline constexpr mrpt::img::TColor kConstraint{120, 132, 150, 130};

@@ -116,6 +116,19 @@ TEST_F(MainFrameTest, shows_details_and_a_picture_of_the_selected_loop) {
   EXPECT_EQ(gui_.run({room_log()}), 0);
 }
 
+TEST_F(MainFrameTest, shows_unmatched_scans) {
+  auto lines = room_log_lines(80);
+  for (std::size_t blind = 40; blind < 50; ++blind)
+    lines[blind] = with_ranges(lines[blind], 0, kRoomBeams, "nan");
+  const std::string log = write_lines(gui_.folder() / "room.log", lines).string();
+  gui_.when_phase(ReplayPhase::kPaused).command(kPlayOrPause).when_phase(ReplayPhase::kFinished);
+  when_says("10 of 80 scans matched no local map").screenshot("unmatched").then([](MainFrame& frame) {
+    EXPECT_EQ(frame.replay()->snapshot()->unmatched->count, 10U);
+    EXPECT_NE(wxWindow::FindWindowByLabel("Map finished: 80 scans, 10 not matched", &frame), nullptr);
+  });
+  EXPECT_EQ(gui_.run({log}), 0);
+}
+
 TEST_F(MainFrameTest, all_columns_of_the_loop_table_fit_into_a_small_window) {
   std::size_t refused = 0;
   gui_.then([](MainFrame& frame) { frame.SetSize(frame.FromDIP(wxSize(1280, 800))); })

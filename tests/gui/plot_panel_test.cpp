@@ -12,6 +12,7 @@ HistoryView<FrameRecord> frames(std::size_t count) {
     FrameRecord frame;
     frame.psi = static_cast<double>(i);
     frame.response = i % 2 == 0 ? 0.8 : 0.4;
+    frame.match = i == 25 ? ScanMatch::kUnmatched : ScanMatch::kMatched;
     frame.loops_tried = 2;
     frame.loops_accepted = 1;
     frame.front_end_ms = 3;
@@ -39,6 +40,8 @@ TEST(PlotColumns, combines_scans_if_there_is_no_room) {
   EXPECT_EQ(columns[1].response_min, 0.4);
   EXPECT_EQ(columns[1].response_max, 0.8);
   EXPECT_EQ(columns[1].front_end_ms, 3) << "the mean";
+  EXPECT_FALSE(columns[1].unmatched);
+  EXPECT_TRUE(columns[2].unmatched) << "one of its scans";
   EXPECT_EQ(columns[99].loops_tried, 2000);
 }
 

@@ -36,5 +36,16 @@ TEST(TransportBar, shows_the_longer_time_of_work_and_waiting) {
   EXPECT_THAT(progress_words(snapshot, 119), Not(HasSubstr("1:59"))) << "the final search does not wait";
 }
 
+TEST(TransportBar, counts_unmatched_scans) {
+  ReplaySnapshot snapshot;
+  for (const ReplayPhase phase : {ReplayPhase::kPlaying, ReplayPhase::kFinished}) {
+    snapshot.phase = phase;
+    snapshot.unmatched = std::make_shared<UnmatchedScans>();
+    EXPECT_THAT(progress_words(snapshot, 0), Not(HasSubstr("not matched")));
+    snapshot.unmatched = std::make_shared<UnmatchedScans>(UnmatchedScans{12, {}});
+    EXPECT_THAT(progress_words(snapshot, 0), HasSubstr("12 not matched"));
+  }
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -54,6 +54,22 @@ TEST_F(MapSceneTest, draws_a_finished_run) {
   EXPECT_EQ(objects(MapLayer::kLocalMaps), 0U) << "no local map is active after the end";
 }
 
+TEST_F(MapSceneTest, marks_unmatched_scans_on_the_path) {
+  scene_.show(finished_, map_);
+  EXPECT_EQ(objects(MapLayer::kTrajectory), 1U) << "the path alone";
+  auto snapshot = std::make_shared<ReplaySnapshot>(*finished_);
+  UnmatchedStretch stretch;
+  stretch.first_frame = 20;
+  stretch.last_frame = 22;
+  snapshot->unmatched = std::make_shared<UnmatchedScans>(UnmatchedScans{3, {stretch}});
+  MapScene scene;
+  scene.show(snapshot, map_);
+  const auto dots = std::dynamic_pointer_cast<mrpt::opengl::CPointCloud>(
+      *std::next(scene.layer(MapLayer::kTrajectory).begin()));
+  ASSERT_EQ(dots->size(), 3U);
+  EXPECT_NEAR(static_cast<double>(dots->getPoint3Df(0).x), snapshot->frames[20].map_T_robot.x, 1e-4);
+}
+
 TEST_F(MapSceneTest, draws_the_active_local_maps_of_a_run_in_progress) {
   scene_.show(paused_, nullptr);
   EXPECT_EQ(objects(MapLayer::kLocalMaps), 0U) << "the layer is hidden";

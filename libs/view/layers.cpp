@@ -297,7 +297,7 @@ void draw_scan(SceneLayer& layer, const Frame& frame, const TPose2D& map_T_robot
   std::vector<TPoint3D> points;
   for (const mrpt::math::TPoint2Df& point : matching_points(frame, all).points)
     points.push_back(raised(map_T_robot.composePoint(point), height_m::kScan));
-  layer.insert(dots_of(points, palette::kScan, 3));
+  if (!points.empty()) layer.insert(dots_of(points, palette::kScan, 3));  // MRPT cannot draw zero points
 }
 
 void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t frame) {

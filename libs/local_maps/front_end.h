@@ -46,7 +46,7 @@ struct FrontEndOptions {
   /// A match below this share is poor: odometry may be wrong by more than the window holds. The scan is
   /// searched again in a wide window, whose match must exceed this share, and the poor match by a factor.
   double poor_response_share = 0.75;
-  double wide_response_gain = 1.3;      ///< that factor
+  double wide_response_gain = 1.6;      ///< that factor
   double wide_window_per_motion = 2.0;  ///< growth of the wide window with the motion by odometry
   double max_wide_window_m = 2.5;
   double max_wide_window_rad = radians_from_degrees(60.0L);

@@ -94,20 +94,16 @@ TEST(FrontEnd, follows_a_robot_whose_scans_are_far_apart) {
 
 // A hall of 70 m by 50 m and a robot that scans once a metre. 20 to 40 m away, the beams hit the walls 20 to
 // 60 cm apart: each scan's hits fall between those of the last.
-SimulatedDrive through_a_hall(const OdometryErrors& errors) {
+TEST(FrontEnd, follows_a_robot_through_a_large_hall_with_one_scan_a_metre) {
   SimulatedWalls hall;
   hall.add_box(-35, -25, 35, 25);
-  for (double x = -30; x < 34; x += 11)  // booths
-    for (double y = -21; y < 24; y += 11) hall.add_box(x, y, x + 0.1 * (x + 45), y + 0.1 * (y + 35));
-  return drive_along(hall, path_along({{-32, -23}, {32, -23}, {32, 22.5}, {-32, 22.5}}, 1.0, 0.5), errors,
-                     12);
-}
-
-TEST(FrontEnd, follows_a_robot_through_a_large_hall_with_one_scan_a_metre) {
+  hall.add_box(-10, -2, -8, 2);
+  hall.add_box(12, 5, 18, 7);
   OdometryErrors errors;
   errors.length_share = 0.05;
   errors.turn_share = 0.1;
-  const SimulatedDrive drive = through_a_hall(errors);
+  const SimulatedDrive drive =
+      drive_along(hall, path_along({{-20, -15}, {20, -15}, {20, 15}, {-20, 15}}, 1.0, 0.5), errors, 12);
   const Outcome outcome = follow(drive);
   EXPECT_LT(errors_of(outcome, drive).largest_m, 0.2);
   for (std::size_t i = 1; i < outcome.steps.size(); ++i) {
@@ -117,16 +113,20 @@ TEST(FrontEnd, follows_a_robot_through_a_large_hall_with_one_scan_a_metre) {
 }
 
 TEST(FrontEnd, finds_the_robot_again_where_odometry_is_wrong_by_a_whole_step) {
-  SimulatedDrive drive = through_a_hall({});
+  SimulatedWalls room;
+  room.add_box(-3, -6, 25, 7);
+  for (double x = -2; x < 24; x += 2.7)  // shelves of different depths on both sides
+    room.add_box(x, 5.5 - 0.11 * x, x + 1.1, 7), room.add_box(x + 0.9, -6, x + 1.6, -5 + 0.09 * x);
+  SimulatedDrive drive = drive_along(room, path_along({{0, 0}, {20, 0.5}}, 0.9, 0.4), {}, 13);
   TPose2D odom_T_robot = drive.frames.front().odom_T_robot;
   for (std::size_t i = 1; i < drive.frames.size(); ++i) {
     TPose2D motion = drive.map_T_robot[i] - drive.map_T_robot[i - 1];
-    if (i % 10 == 5) motion = {-motion.x, -motion.y, motion.phi};  // odometry reports a step backwards
+    if (i % 8 == 5) motion = {-motion.x, -motion.y, motion.phi};  // odometry reports a step backwards
     odom_T_robot = odom_T_robot + motion;
     drive.frames[i].odom_T_robot = odom_T_robot;
     drive.frames[i].time_us = static_cast<TimeUs>(i) * 2'000'000;  // the last motion tells little after 2 s
   }
-  EXPECT_GT(errors_of_odometry(drive).largest_m, 5);
+  EXPECT_GT(errors_of_odometry(drive).largest_m, 3);
   EXPECT_LT(errors_of(follow(drive), drive).largest_m, 0.3);
   FrontEndOptions narrow;
   narrow.poor_response_share = 0;
@@ -276,6 +276,32 @@ TEST(FrontEnd, a_person_who_walks_ahead_along_a_bare_corridor_does_not_hold_the_
     EXPECT_GT(errors_of(follow(drive, options), drive).largest_m, 4)
         << "without the limit, the robot is held back";
   }
+}
+
+// Without returns, the covariance is that of odometry. It must not depend on the rate of scans.
+TEST(FrontEnd, the_same_way_is_as_uncertain_at_every_rate_of_scans) {
+  const auto covariance_after = [](int scans) {
+    FrontEndOptions options;
+    options.max_unmatched_travel_m = 100;
+    FrontEnd front_end(options);
+    Eigen::Matrix3d last = Eigen::Matrix3d::Zero();
+    for (int i = 0; i <= scans; ++i) {
+      const double share = static_cast<double>(i) / scans;  // of 10 m in 20 s
+      Frame frame;
+      frame.index = static_cast<std::size_t>(i);
+      frame.time_us = static_cast<TimeUs>(20'000'000 * share);
+      frame.odom_T_robot = {10 * share, 0, 0};
+      frame.scan.bearings_rad = even_bearings(-1, 1, 3);
+      frame.scan.ranges_m.assign(3, kNan);
+      front_end.add(frame);
+      if (!front_end.active().empty()) last = front_end.active().front().covariance;
+    }
+    return last;
+  };
+  const Eigen::Matrix3d slow = covariance_after(200);
+  const Eigen::Matrix3d fast = covariance_after(800);
+  EXPECT_GT(slow.trace(), 0);
+  EXPECT_NEAR((fast - slow).norm(), 0, 0.15 * slow.norm());
 }
 
 TEST(FrontEnd, scans_without_returns_are_placed_by_odometry) {

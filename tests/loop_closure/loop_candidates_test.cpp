@@ -167,5 +167,44 @@ TEST(LoopCandidates, predicts_from_the_graph) {
   EXPECT_NEAR(candidates[0].distance_m, std::hypot(1, 3), 1e-9) << "the local map's node moved to (1, 2)";
 }
 
+TEST(FarCandidates, are_searched_only_once_drift_may_exceed_the_largest_window) {
+  const ThereAndBack drive;
+  LoopCandidateOptions options;
+  options.drift_per_metre = 0.02;
+  EXPECT_TRUE(far_candidates(59, drive.keyframes, drive.graph, 399, options).empty());  // 8 m
+  EXPECT_FALSE(far_candidates(59, drive.keyframes, drive.graph, 401, options).empty());
+}
+
+TEST(FarCandidates, are_the_local_maps_within_drift_and_reach) {
+  const ThereAndBack drive;
+  LoopCandidateOptions options;
+  options.drift_per_metre = 0.02;
+  options.reach_m = 2;
+  const auto maps = [&](double since_loop_m) {
+    Maps result;
+    for (const LoopCandidate& far : far_candidates(59, drive.keyframes, drive.graph, since_loop_m, options))
+      result.push_back(far.local_map);
+    return result;
+  };
+  // Node 59 is at x = 0, y = 1. The maps 0, 1 and 2 begin at x = 0, 10 and 20, y = 0; 4 ends at x = 10, y
+  // = 1.
+  EXPECT_EQ(maps(401), Maps({0, 4}));
+  EXPECT_EQ(maps(1000), Maps({0, 1, 2, 3, 4}));
+}
+
+TEST(FarCandidates, have_windows_that_hold_all_places_near_the_local_map) {
+  const ThereAndBack drive;
+  const LoopCandidateOptions options;
+  for (const LoopCandidate& far : far_candidates(59, drive.keyframes, drive.graph, 5000, options)) {
+    const PlacedLocalMap& local_map = drive.keyframes.local_maps[far.local_map];
+    for (std::size_t node = local_map.first_node; node <= local_map.last_node; ++node) {
+      const TPose2D anchor_T_node = drive.graph.pose(node) - drive.graph.pose(local_map.anchor);
+      EXPECT_LE(std::abs(anchor_T_node.x - far.anchor_T_node.x) + options.reach_m, far.extent.x_m + 1e-9);
+      EXPECT_LE(std::abs(anchor_T_node.y - far.anchor_T_node.y) + options.reach_m, far.extent.y_m + 1e-9);
+    }
+    EXPECT_EQ(far.extent.theta_rad, options.max_window.theta_rad);
+  }
+}
+
 }  // namespace
 }  // namespace psi_slam

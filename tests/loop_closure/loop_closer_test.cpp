@@ -14,6 +14,8 @@
 namespace psi_slam {
 namespace {
 
+using mrpt::math::TPose2D;
+
 // Finds nothing, and records the questions.
 class AskedMatcher : public Matcher {
  public:
@@ -128,6 +130,50 @@ TEST(LoopCloser, searches_an_unconnected_node_in_the_largest_window) {
     EXPECT_GT(question.points, two_rounds().keyframes.nodes[two_rounds().node].points->points.size())
         << "wide windows use the context";
   }
+}
+
+TEST(LoopCloser, a_node_searches_few_wide_windows_and_the_next_nodes_the_others) {
+  PoseGraph graph = two_rounds().graph();
+  for (const std::uint32_t constraint : graph.constraints_of(two_rounds().node))
+    graph.set_enabled(constraint, false);
+  LoopClosureOptions options = near_maps_too();
+  options.wide_searches = 1;
+  LoopCloser closer(options, 5);
+  WorkerPool pool(1);
+  const AskedMatcher matcher;
+  std::set<std::size_t> searched;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    const LoopCloser::Outcome outcome =
+        closer.close(two_rounds().node, two_rounds().keyframes, graph, {MatcherKind::kCsm, matcher}, pool);
+    ASSERT_EQ(outcome.loops.size(), 1U);
+    EXPECT_TRUE(searched.insert(outcome.loops.front().local_map).second) << "in turn";
+  }
+}
+
+// Drift has carried the node farther than the largest window from where it was before.
+TEST(LoopCloser, finds_a_place_that_drift_has_moved_out_of_the_largest_window) {
+  PoseGraph graph = two_rounds().graph();
+  const std::size_t node = two_rounds().node;
+  const TPose2D truth = graph.pose(node);
+  graph.set_pose(node, {truth.x + 20, truth.y - 15, truth.phi});
+  KeyframeStore keyframes = two_rounds().keyframes;
+  keyframes.nodes[node].travelled_m += 2000;  // without a loop
+  const CorrelativeMatcher matcher({});
+  LoopClosureOptions options = near_maps_too();
+  LoopCloser closer(options, 5);
+  WorkerPool pool(1);
+  bool found = false;
+  for (int attempt = 0; attempt < 8 && !found; ++attempt) {
+    for (const LoopRecord& loop :
+         closer.close(node, keyframes, graph, {MatcherKind::kCsm, matcher}, pool).loops) {
+      if (loop.verdict != LoopVerdict::kPending) continue;
+      const TPose2D pose = graph.pose(loop.anchor) + loop.anchor_T_node;
+      EXPECT_NEAR(pose.x, truth.x, 0.3);
+      EXPECT_NEAR(pose.y, truth.y, 0.3);
+      found = true;
+    }
+  }
+  EXPECT_TRUE(found);
 }
 
 TEST(LoopCloser, finds_the_same_loops_with_any_number_of_threads) {

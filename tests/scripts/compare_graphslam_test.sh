@@ -34,7 +34,7 @@ if [ -d "$demos" ]; then
   error_mm=$(error_with simul "")
   [ -n "$error_mm" ] && [ "$error_mm" -lt 100 ] ||
     fail "simul: the error is ${error_mm:-unknown} mm, expected less than 100 mm"
-  error_mm=$(error_with range_030_bearing_015 "front_end.min_response=0.05 local_maps.smoothing_sigma_m=0.3")
+  error_mm=$(error_with range_030_bearing_015 "front_end.min_response_share=0.1 local_maps.smoothing_sigma_m=0.3")
   [ -n "$error_mm" ] && [ "$error_mm" -lt 600 ] ||
     fail "range_030_bearing_015: the error is ${error_mm:-unknown} mm, expected less than 600 mm"
 fi

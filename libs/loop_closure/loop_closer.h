@@ -24,7 +24,7 @@ struct LoopClosureOptions {
   LoopVerificationOptions verification;
   ScanContextOptions context;
   double attempt_distance_m = 0.5;  ///< searches for loops once in this much travel
-  std::size_t wide_searches = 3;    ///< most searches of one node in wide windows
+  std::size_t wide_searches = 1;    ///< most searches of one node in wide windows
 };
 
 class LoopCloser {

@@ -180,6 +180,8 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
           "drift_per_metre", candidates.drift_per_metre, at_least(0).at_most(1), "",
           "Drift of the position for each metre travelled without a loop. Where it may exceed the largest "
           "window, local maps this far away are searched as a whole.")
+      .integer("wide_searches", loops.wide_searches, between(1, 1000), "windows",
+               "Largest number of wide windows that a node searches. The next nodes search the others.")
       .number("attempt_distance_m", loops.attempt_distance_m, at_least(0), "m",
               "Travel from one search for loops to the next.")
       .number("context_travel_m", loops.context.travel_m, at_least(0).at_most(1000), "m",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scans that matched no local map. Odometry alone places them, so the map may be wrong there.
+// The scans that matched no local map. Odometry, or the constant-velocity model, places them, so the map may
+// be wrong there.
 #pragma once
 
 #include <cstddef>

@@ -27,6 +27,7 @@ MatcherOptions matcher_options(const FrontEndOptions& options) {
 }
 
 constexpr double kResponseWeight = 0.2;  // of a scan in the expected response
+constexpr double kLeastExpected = 0.25;  // misses lower the expected response, but no further than this
 constexpr double kWiderBy = 1.5;         // a wide search is worth its cost if its window is so much wider
 constexpr double kSteadyTime_s = 0.5;    // after this time, confidence in constant velocity is one half
 
@@ -145,7 +146,7 @@ MatchResult FrontEnd::search(FrontEndStep& step, const ScoreGrid& grid, const Po
 std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Motion& motion,
                                                    double poor_response) {
   const SearchExtent wide = wide_extent(motion);
-  if (wide.x_m <= kWiderBy * step.window.x_m) return {};
+  if (wide.x_m <= kWiderBy * step.window.x_m && wide.theta_rad <= kWiderBy * step.window.theta_rad) return {};
   const PlacedLocalMap& older = active_.front();
   PosePrior unknown;
   unknown.map_T_robot = last_local_T_robot_ + motion.odometry - older.local_T_map;
@@ -177,7 +178,8 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   if (best.response < options_.poor_response_share * expected_response_)
     wide = search_widely(step, motion, best.response);
   if (wide) best = *wide;
-  expected_response_ += kResponseWeight * (best.response - expected_response_);
+  expected_response_ =
+      std::max(kLeastExpected, expected_response_ + kResponseWeight * (best.response - expected_response_));
   if (!best.found) return;
 
   RefinedPose chosen = {best.map_T_robot, best.refined_response, best.information, 0};

@@ -40,13 +40,13 @@ struct FrontEndOptions {
   double max_window_rad = radians_from_degrees(35.0L);
 
   // The response that a match can reach depends on the place: on the overlap with the local map, on how much
-  // of it are smooth walls, on the spacing of the beams. So matches are judged by the response expected here,
-  // a decaying mean of those of the last scans.
+  // of it are smooth walls, on the spacing of the beams. So matches are judged by the response expected here:
+  // a decaying mean of those of the last scans, where a scan without a match counts as 0, and at least 0.25.
   double min_response_share = 0.3;  ///< below this share, the prediction is kept instead of the match
   /// A match below this share is poor: odometry may be wrong by more than the window holds. The scan is
-  /// searched again in a wide window, whose match must exceed this share, and the poor match by a factor.
+  /// searched again in a wide window, whose match must exceed this share.
   double poor_response_share = 0.75;
-  double wide_response_gain = 1.6;      ///< that factor
+  double wide_response_gain = 1.6;  ///< factor by which the match in the wide window must exceed the poor one
   double wide_window_per_motion = 2.0;  ///< growth of the wide window with the motion by odometry
   double max_wide_window_m = 2.5;
   double max_wide_window_rad = radians_from_degrees(60.0L);

@@ -12,8 +12,8 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kMinGap_m = 0.1;          // nearer ends leave at most one cell between them
-constexpr double kMaxGap_m = 2.0;          // of any surface, however far away
+constexpr double kMinGap_m = 0.05;         // nearer ends leave no cell between them
+constexpr double kMaxGap_m = 2.0;          // largest distance of joined ends
 constexpr double kMaxGapPerSpacing = 5;    // distance of the ends over that on a wall seen head-on
 constexpr double kMaxOffset_m = 0.06;      // of the third end from the line through the two ...
 constexpr double kMaxOffsetPerGap = 0.15;  // ... or this share of their distance

@@ -41,7 +41,7 @@ class LoopCloser {
   Outcome close(std::size_t node, const KeyframeStore& keyframes, const PoseGraph& graph,
                 const ChosenMatcher& matcher, WorkerPool& pool);
 
-  /// Tells that a loop was closed at `node`: the position is known there.
+  /// Tells that a loop was closed at `node`. The path since then bounds the drift, see far_candidates().
   void closed(std::size_t node, const KeyframeStore& keyframes) {
     last_loop_m_ = keyframes.nodes[node].travelled_m;
   }

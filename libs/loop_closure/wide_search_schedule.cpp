@@ -11,7 +11,8 @@ std::vector<LoopCandidate> WideSearchSchedule::choose(std::vector<LoopCandidate>
   if (candidates.size() > count) {
     const auto rank = [&](const LoopCandidate& candidate) {
       const Search search = last(candidate.local_map);
-      return std::tuple(!search.found, search.number, candidate.distance_m, candidate.local_map);
+      const bool promising = search.found && search.number != searches_;
+      return std::tuple(!promising, search.number, candidate.distance_m, candidate.local_map);
     };
     std::sort(candidates.begin(), candidates.end(),
               [&](const LoopCandidate& a, const LoopCandidate& b) { return rank(a) < rank(b); });

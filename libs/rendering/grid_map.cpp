@@ -171,7 +171,7 @@ class Evidence {
       for (std::int64_t x = 0; x < layout_.width; ++x) {
         const auto index = static_cast<std::size_t>(y * layout_.width + x);
         int evidence = cells_[index].evidence;
-        if (evidence == 0 && cleared_[index]) evidence = kPassEvidence;
+        if (cells_[index].last_scan == 0 && cleared_[index]) evidence = kPassEvidence;
         row[x] = static_cast<COccupancyGridMap2D::cellType>(
             std::clamp<int>(-evidence * kLogOddsOfOnePass, COccupancyGridMap2D::OCCGRID_CELLTYPE_MIN,
                             COccupancyGridMap2D::OCCGRID_CELLTYPE_MAX));
@@ -183,13 +183,13 @@ class Evidence {
  private:
   struct Cell {
     std::int16_t evidence = 0;
-    std::uint16_t last_scan = 0;
+    std::uint16_t last_scan = 0;  ///< that counted here; 0: none
   };
 
   void next_scan() {
     if (scan_ == std::numeric_limits<std::uint16_t>::max()) {
-      for (Cell& cell : cells_) cell.last_scan = 0;
-      scan_ = 0;
+      for (Cell& cell : cells_) cell.last_scan = cell.last_scan == 0 ? 0 : 1;
+      scan_ = 1;
     }
     ++scan_;
   }

@@ -56,19 +56,18 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
           "worse keeps its predicted pose.")
       .number("poor_response_share", front_end.poor_response_share, between(0, 1), "",
               "A scan whose response is below this share of the mean response of the last scans is searched "
-              "again "
-              "in a wide window.")
+              "again in a wide window, unless that is hardly wider. The match there must exceed the share.")
       .number(
           "wide_response_gain", front_end.wide_response_gain, at_least(1), "",
-          "A match in the wide window is kept if its response exceeds that of the poor match by this factor.")
-      .number(
-          "wide_window_per_motion", front_end.wide_window_per_motion, between(0, 100), "",
-          "Metres and degrees added to the wide window for each metre and degree of motion since the last "
-          "scan.")
+          "A match in the wide window of a scan must exceed the response of the poor match by this factor.")
+      .number("wide_window_per_motion", front_end.wide_window_per_motion, between(0, 100), "",
+              "Growth of the wide window of a scan: metres added to window_m for each metre moved, degrees "
+              "added to "
+              "window_theta_deg for each degree turned, and a factor on window_theta_per_metre_deg.")
       .number("max_wide_window_m", front_end.max_wide_window_m, above(0).at_most(20), "m",
-              "Largest half-width of the wide window along x and y.")
+              "Largest half-width of the wide window of a scan along x and y.")
       .angle_deg("max_wide_window_theta_deg", front_end.max_wide_window_rad, above(0).at_most(180),
-                 "Largest half-width of the wide window in heading.")
+                 "Largest half-width of the wide window of a scan in heading.")
       .number("prior_sigma_m", front_end.prior_sigma_m, above(0).at_most(100), "m",
               "Standard deviation of the predicted position. The prediction fixes the pose where the scan "
               "does not, as along a corridor.")

@@ -38,7 +38,7 @@ std::size_t beam_at(double bearing_deg) {
 }
 
 TEST(SeenSurfaces, join_all_ends_on_a_far_wall_seen_head_on) {
-  for (const double x_m : {7.0, 10.0, 20.0, 35.0}) {
+  for (const double x_m : {5.0, 10.0, 20.0, 35.0}) {
     const auto joined = ends_on_one_surface(scan_of([&](double b) { return wall_across(x_m, b); }), 40);
     for (int deg = -25; deg <= 25; ++deg) EXPECT_TRUE(joined[beam_at(deg)]) << x_m << " m, " << deg;
   }

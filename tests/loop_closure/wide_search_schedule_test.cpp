@@ -55,6 +55,8 @@ TEST(WideSearchSchedule, searches_again_where_it_found_a_match) {
   schedule.searched(1, true);
   schedule.searched(6, false);
   EXPECT_EQ(choose(schedule, 8, 2), Maps({1, 7}));
+  schedule.searched(1, true);
+  EXPECT_EQ(choose(schedule, 8, 1), Maps({7})) << "others in between";
   schedule.searched(1, false);
   EXPECT_EQ(choose(schedule, 8, 2), Maps({5, 7})) << "no longer promising";
 }

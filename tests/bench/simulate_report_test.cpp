@@ -63,9 +63,9 @@ TEST(SimulateReport, markdown_has_the_figures) {
 
 TEST(SimulateReport, plots_have_their_unit) {
   const std::vector<BenchReport::Plot> plots = simulate_report({row()}, {}, "a machine").plots;
-  EXPECT_THAT(plots.at(0).svg, HasSubstr("0.1 m<"));
-  EXPECT_THAT(plots.at(1).svg, HasSubstr("1 ms<"));
-  EXPECT_THAT(plots.at(2).svg, HasSubstr("100 MiB<"));
+  EXPECT_THAT(plots.at(0).content, HasSubstr("0.1 m<"));
+  EXPECT_THAT(plots.at(1).content, HasSubstr("1 ms<"));
+  EXPECT_THAT(plots.at(2).content, HasSubstr("100 MiB<"));
 }
 
 TEST(SimulateReport, lengths_are_text) {

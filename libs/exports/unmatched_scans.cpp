@@ -38,6 +38,8 @@ std::size_t keep_longest(std::vector<UnmatchedStretch>& stretches) {
   return dropped;
 }
 
+constexpr double kNegligiblePath_m = 0.1;  // a robot at rest is where it was, matched or not
+
 }  // namespace
 
 UnmatchedScans unmatched_scans(const std::vector<FrameRecord>& frames, const std::vector<FrameSpan>& runs) {
@@ -67,7 +69,9 @@ UnmatchedScans unmatched_scans(const std::vector<FrameRecord>& frames, const std
 
 std::optional<std::string> unmatched_scans_text(const MappingResult& result) {
   UnmatchedScans unmatched = unmatched_scans(result.frames, runs_of(result));
-  if (unmatched.count == 0) return std::nullopt;
+  double path_m = 0;
+  for (const UnmatchedStretch& stretch : unmatched.stretches) path_m += stretch.odometry_length_m;
+  if (path_m < kNegligiblePath_m) return std::nullopt;
   const bool has_odometry = std::all_of(result.log.begin(), result.log.end(),
                                         [](const Frame& frame) { return frame.has_odometry; });
   const std::size_t dropped = keep_longest(unmatched.stretches);

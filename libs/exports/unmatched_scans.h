@@ -36,7 +36,7 @@ struct UnmatchedScans {
 UnmatchedScans unmatched_scans(const std::vector<FrameRecord>& frames, const std::vector<FrameSpan>& runs);
 
 /// Warns of the unmatched scans of a result, in a sentence without full stop that lists the stretches with
-/// the longest paths. Empty if there are none.
+/// the longest paths. Empty if there are none, or if the robot moved less than 0.1 m meanwhile.
 std::optional<std::string> unmatched_scans_text(const MappingResult& result);
 
 }  // namespace psi_slam

@@ -38,7 +38,7 @@ assert picture.getpixel((0, 0)) == (255, 255, 255), "the background is not white
 half = width * 9 // 20  # nearly all of each half
 for name, box, strongest in (("odometry", (0, 60, half, height), 0), ("map", (width - half, 60, width, height), 2)):
     part = list(picture.crop(box).getdata())
-    assert sum(max(pixel) < 100 for pixel in part) > 200, f"no walls in the half of the {name}"
+    assert sum(max(pixel) < 100 for pixel in part) > 50, f"no walls in the half of the {name}"
     path = [pixel for pixel in part if pixel[strongest] == max(pixel) and pixel[strongest] - min(pixel) > 100]
     assert len(path) > 50, f"no path in the half of the {name}"
 PYTHON

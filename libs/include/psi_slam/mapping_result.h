@@ -37,7 +37,7 @@ struct FrameRecord {
   mrpt::math::TPose2D map_T_robot;
   std::optional<std::size_t> node;  ///< its node in the graph, if it became one
 
-  ScanMatch match = ScanMatch::kNoMap;
+  ScanMatch match = ScanMatch::kNoMap;  ///< whether the scan was matched with a local map
 
   double response = 0;    ///< of the front end's match, in [0, 1]; 0 if it was not matched
   SearchExtent window;    ///< the front end's search window (half-widths)

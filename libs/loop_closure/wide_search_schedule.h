@@ -14,8 +14,9 @@ namespace psi_slam {
 
 class WideSearchSchedule {
  public:
-  /// At most `count` of these candidates, by ascending local map: first those whose last search found a
-  /// match, because others must agree with it; then those not searched for longest; then the nearest.
+  /// At most `count` of these candidates, by ascending local map. Prefers those whose last search found a
+  /// match, because others must agree with it, but not the one searched last of all, so that other places get
+  /// their turn; then those not searched for longest; then the nearest.
   std::vector<LoopCandidate> choose(std::vector<LoopCandidate> candidates, std::size_t count) const;
 
   /// Tells the outcome of a search with a local map.

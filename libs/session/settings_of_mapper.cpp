@@ -62,8 +62,7 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
           "A match in the wide window of a scan must exceed the response of the poor match by this factor.")
       .number("wide_window_per_motion", front_end.wide_window_per_motion, between(0, 100), "",
               "Growth of the wide window of a scan: metres added to window_m for each metre moved, degrees "
-              "added to "
-              "window_theta_deg for each degree turned, and a factor on window_theta_per_metre_deg.")
+              "added to window_theta_deg for each degree turned, and a factor on window_theta_per_metre_deg.")
       .number("max_wide_window_m", front_end.max_wide_window_m, above(0).at_most(20), "m",
               "Largest half-width of the wide window of a scan along x and y.")
       .angle_deg("max_wide_window_theta_deg", front_end.max_wide_window_rad, above(0).at_most(180),
@@ -175,10 +174,9 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
       .number("min_travel_m", candidates.min_travel_m, at_least(0), "m",
               "Least travel since the last node of a local map before it is searched for loops. Nearer nodes "
               "share scans with it.")
-      .number(
-          "drift_per_metre", candidates.drift_per_metre, at_least(0).at_most(1), "",
-          "Drift of the position for each metre travelled without a loop. Where it may exceed the largest "
-          "window, local maps this far away are searched as a whole.")
+      .number("drift_per_metre", candidates.drift_per_metre, at_least(0).at_most(1), "",
+              "Drift of the position for each metre travelled without a loop. If the drift may exceed the "
+              "largest window, a node with no local map nearby searches one within the drift as a whole.")
       .integer("wide_searches", loops.wide_searches, between(1, 1000), "windows",
                "Largest number of wide windows that a node searches. The next nodes search the others.")
       .number("attempt_distance_m", loops.attempt_distance_m, at_least(0), "m",

@@ -152,7 +152,7 @@ std::string runs_section(const SparseBenchmark& benchmark) {
       "## Real logs\n\n"
       "- scans kept, 1 m / 0.5 rad: a dense log of the Freiburg benchmark, thinned to steps of odometry. The "
       "other scans get their poses back: the pose of the last kept scan, composed with odometry since. "
-      "Scans are told apart by their number, because some logs repeat time stamps\n"
+      "Scans are distinguished by their number, because some logs repeat time stamps\n"
       "- scans kept, 1 of n: a dense log, every nth scan. Relations at the times of removed scans use "
       "interpolated poses\n"
       "- scans kept, all: a log that is sparse as recorded. Its relations come from the result of another "
@@ -184,8 +184,8 @@ std::string sensors_section(const SparseBenchmark& benchmark) {
       "## Simulated sensors\n\nEach run goes through a simulated building with rooms, corridors and glass, "
       "with a field of view of 180 degrees. All lengths of the building grow with the square root of the "
       "maximum range. Scans are one step or 0.5 rad of odometry apart; the shortest step keeps all scans. "
-      "The "
-      "error is the mean of the relations metric over random pairs of scans, against the exact truth.\n\n";
+      "The error is the mean of the relations metric over random pairs of scans, against the exact "
+      "truth.\n\n";
   for (const double max_range_m : values_of(benchmark.sensors, &SensorSweepRow::max_range_m))
     text += "![error for a maximum range of " + range_text(max_range_m) + "](" + sweep_file(max_range_m) +
             ")\n\n";

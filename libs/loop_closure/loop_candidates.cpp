@@ -36,6 +36,28 @@ SearchExtent window_of(const PositionSigma& sigma, const LoopCandidateOptions& o
           half_width(sigma.radians, options.min_window_rad, options.max_window.theta_rad)};
 }
 
+// The window holds all poses within reach of the local map's nodes.
+LoopCandidate whole_local_map(std::size_t m, const mrpt::math::TPose2D& map_T_node,
+                              const KeyframeStore& keyframes, const PoseGraph& graph,
+                              const LoopCandidateOptions& options) {
+  const PlacedLocalMap& local_map = keyframes.local_maps[m];
+  const mrpt::math::TPose2D& map_T_anchor = graph.pose(local_map.anchor);
+  double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
+  for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other) {
+    const mrpt::math::TPose2D anchor_T_other = graph.pose(other) - map_T_anchor;
+    x_min = std::min(x_min, anchor_T_other.x);
+    x_max = std::max(x_max, anchor_T_other.x);
+    y_min = std::min(y_min, anchor_T_other.y);
+    y_max = std::max(y_max, anchor_T_other.y);
+  }
+  LoopCandidate candidate;
+  candidate.local_map = m;
+  candidate.anchor_T_node = {0.5 * (x_min + x_max), 0.5 * (y_min + y_max), (map_T_node - map_T_anchor).phi};
+  candidate.extent = {0.5 * (x_max - x_min) + options.reach_m, 0.5 * (y_max - y_min) + options.reach_m,
+                      options.max_window.theta_rad};
+  return candidate;
+}
+
 }  // namespace
 
 std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& keyframes,
@@ -68,34 +90,31 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore
 }
 
 std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore& keyframes,
-                                          const PoseGraph& graph, double since_loop_m,
-                                          const LoopCandidateOptions& options) {
-  const double drift_m = options.drift_per_metre * since_loop_m;
-  std::vector<LoopCandidate> candidates;
-  if (drift_m <= std::max(options.max_window.x_m, options.max_window.y_m)) return candidates;
+                                          const PoseGraph& graph, const LoopCandidateOptions& options,
+                                          const ChainsToAnchors& chains_to_anchors) {
   const mrpt::math::TPose2D& map_T_node = graph.pose(node);
+  const double largest_window_m = std::max(options.max_window.x_m, options.max_window.y_m);
+  const auto may_have_drifted = [&](double path_m, double distance_m) {
+    const double drift_m = options.drift_per_metre * path_m;
+    return drift_m > largest_window_m && distance_m <= drift_m + options.reach_m;
+  };
+  std::vector<LoopCandidate> in_reach;
+  std::vector<std::size_t> local_maps;
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
-    const PlacedLocalMap& local_map = keyframes.local_maps[m];
-    if (travel_between_m(node, local_map, keyframes) < options.min_travel_m) continue;
-    const double distance_m = nearest_node_m(local_map, map_T_node, graph);
-    if (distance_m > drift_m + options.reach_m) continue;
-    const mrpt::math::TPose2D& map_T_anchor = graph.pose(local_map.anchor);
-    double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
-    for (std::size_t other = local_map.first_node; other <= local_map.last_node; ++other) {
-      const mrpt::math::TPose2D anchor_T_other = graph.pose(other) - map_T_anchor;
-      x_min = std::min(x_min, anchor_T_other.x);
-      x_max = std::max(x_max, anchor_T_other.x);
-      y_min = std::min(y_min, anchor_T_other.y);
-      y_max = std::max(y_max, anchor_T_other.y);
-    }
-    LoopCandidate candidate;
-    candidate.local_map = m;
-    candidate.anchor_T_node = {0.5 * (x_min + x_max), 0.5 * (y_min + y_max), (map_T_node - map_T_anchor).phi};
-    candidate.extent = {0.5 * (x_max - x_min) + options.reach_m, 0.5 * (y_max - y_min) + options.reach_m,
-                        options.max_window.theta_rad};
-    candidate.distance_m = distance_m;
-    candidates.push_back(candidate);
+    const double travel_m = travel_between_m(node, keyframes.local_maps[m], keyframes);
+    if (travel_m < options.min_travel_m) continue;
+    const double distance_m = nearest_node_m(keyframes.local_maps[m], map_T_node, graph);
+    if (!may_have_drifted(travel_m, distance_m)) continue;
+    in_reach.push_back(whole_local_map(m, map_T_node, keyframes, graph, options));
+    in_reach.back().distance_m = distance_m;
+    local_maps.push_back(m);
   }
+  if (in_reach.empty()) return {};
+
+  const std::vector<double> chains_m = chains_to_anchors(local_maps);
+  std::vector<LoopCandidate> candidates;
+  for (std::size_t i = 0; i < in_reach.size(); ++i)
+    if (may_have_drifted(chains_m[i], in_reach[i].distance_m)) candidates.push_back(in_reach[i]);
   return candidates;
 }
 

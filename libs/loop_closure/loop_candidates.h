@@ -25,8 +25,8 @@ struct LoopCandidateOptions {
   double reach_m = 5.0;        ///< largest distance between the window and a node of the local map
   /// Shortest path between the node and the local map's nearest node. Nearer local maps share scans with it.
   double min_travel_m = 10.0;
-  /// Drift of the position per metre of path without a loop that the largest window may not hold: local maps
-  /// within this drift are searched as a whole, whatever the graph's uncertainty says.
+  /// Drift of the position for each metre of the shortest chain of constraints to a local map. Local maps
+  /// that this drift may have moved out of the largest window are searched as a whole.
   double drift_per_metre = 0.02;
 };
 
@@ -52,11 +52,16 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore
                                            const PoseGraph& graph, const LoopCandidateOptions& options,
                                            const SigmasOfAnchors& sigmas_of_anchors);
 
-/// Local maps that drift may have moved out of the reach of loop_candidates(): those within
-/// `options.drift_per_metre` x `since_loop_m`, the path of the robot since its last loop. The window is the
-/// whole local map: the robot may be within reach of any of its nodes.
+/// Returns the lengths in metres of chains of constraints from the node to the anchors of these local maps,
+/// in their order. Infinite where there is no chain.
+using ChainsToAnchors = std::function<std::vector<double>(const std::vector<std::size_t>& local_maps)>;
+
+/// Local maps that drift may have moved out of the reach of loop_candidates(): the drift over the chain of
+/// constraints to the local map exceeds the largest window and reaches the node. Their windows are the whole
+/// local maps, because the robot may be at any of the nodes. Calls `chains_to_anchors` at most once, and only
+/// for local maps that the robot's whole path since then may have moved as far.
 std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore& keyframes,
-                                          const PoseGraph& graph, double since_loop_m,
-                                          const LoopCandidateOptions& options);
+                                          const PoseGraph& graph, const LoopCandidateOptions& options,
+                                          const ChainsToAnchors& chains_to_anchors);
 
 }  // namespace psi_slam

@@ -32,6 +32,21 @@ std::vector<PositionSigma> sigmas_of_anchors(std::size_t node, const std::vector
   return sigmas;
 }
 
+// Lengths of the chains of constraints from the node to the local maps' anchors.
+std::vector<double> chains_to_anchors(std::size_t node, const std::vector<std::size_t>& local_maps,
+                                      const KeyframeStore& keyframes, const PoseGraph& graph,
+                                      PathCovarianceSearch& search) {
+  PathCovarianceOptions to_anchors;
+  for (const std::size_t m : local_maps) to_anchors.targets.push_back(keyframes.local_maps[m].anchor);
+  search.run(graph, node, to_anchors);
+  std::vector<double> chains_m;
+  for (const std::size_t anchor : to_anchors.targets) {
+    const RelativeUncertainty uncertainty = search.of(anchor);
+    chains_m.push_back(uncertainty.reached ? uncertainty.chain_m : std::numeric_limits<double>::infinity());
+  }
+  return chains_m;
+}
+
 }  // namespace
 
 // All candidates in narrow windows, and of those in wide windows as many as a node may search.
@@ -50,7 +65,9 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const Keyfra
   for (const LoopCandidate& one : schedule_.choose(wide, options_.wide_searches)) chosen.push_back(one);
   if (unseen && wide.size() < options_.wide_searches) {
     std::vector<LoopCandidate> far = far_candidates(
-        node, keyframes, graph, keyframes.nodes[node].travelled_m - last_loop_m_, options_.candidates);
+        node, keyframes, graph, options_.candidates, [&](const std::vector<std::size_t>& local_maps) {
+          return chains_to_anchors(node, local_maps, keyframes, graph, search_);
+        });
     const auto is_chosen = [&](const LoopCandidate& one) {
       return std::any_of(chosen.begin(), chosen.end(),
                          [&](const LoopCandidate& other) { return other.local_map == one.local_map; });

@@ -41,11 +41,6 @@ class LoopCloser {
   Outcome close(std::size_t node, const KeyframeStore& keyframes, const PoseGraph& graph,
                 const ChosenMatcher& matcher, WorkerPool& pool);
 
-  /// Tells that a loop was closed at `node`. The path since then bounds the drift, see far_candidates().
-  void closed(std::size_t node, const KeyframeStore& keyframes) {
-    last_loop_m_ = keyframes.nodes[node].travelled_m;
-  }
-
   /// Matches `node` with one local map in a given window, and verifies the match. None if the scan has no
   /// points to match.
   std::optional<LoopRecord> match(std::size_t node, const LoopCandidate& candidate,
@@ -60,7 +55,6 @@ class LoopCloser {
   std::uint64_t run_seed_;
   PathCovarianceSearch search_;
   WideSearchSchedule schedule_;
-  double last_loop_m_ = 0;  ///< path of the robot up to the last closed loop
 };
 
 }  // namespace psi_slam

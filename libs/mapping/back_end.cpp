@@ -40,7 +40,6 @@ NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& keyframes, Pose
       schedule_.add_residual(waits ? std::max(*residual, OptimizationSchedule::kUrgentResidual) : *residual);
     }
   }
-  if (loops.accepted > 0) closer_.closed(node, keyframes);
   factor_.add_frame(loops.accepted);
   return loops;
 }

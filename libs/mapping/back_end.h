@@ -89,9 +89,6 @@ class BackEnd {
   /// of earlier nodes included.
   NodeLoops close(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
 
-  /// Tells that the place of `node` in the map is known, as by a loop.
-  void found_place(std::size_t node, const KeyframeStore& keyframes) { closer_.closed(node, keyframes); }
-
   /// Optimises the graph if new loops make it necessary, see OptimizationSchedule. Returns the time in
   /// milliseconds; 0 if the graph was left alone.
   double optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver);

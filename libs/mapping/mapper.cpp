@@ -146,7 +146,6 @@ void Mapper::Implementation::join_run() {
   constraint.information = information_of(*run_start_);
   constraint.kind = Constraint::Kind::kRunStart;
   graph_.add_constraint(constraint);
-  back_end_.found_place(first, keyframes_);
   run_start_.reset();
 }
 

@@ -93,6 +93,7 @@ void PathCovarianceSearch::settle(const PoseGraph& graph, std::uint32_t here) {
   const Node& previous = nodes_[node.previous];
   const GraphLink& link = graph.links()[node.constraint];
   node.covariance = extended(previous.covariance, link, previous.pose, node.pose, link.to == here);
+  node.chain_m = previous.chain_m + std::hypot(node.pose.x - previous.pose.x, node.pose.y - previous.pose.y);
 }
 
 void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t here, double lever2,
@@ -154,6 +155,7 @@ RelativeUncertainty PathCovarianceSearch::of(std::size_t index) const {
   uncertainty.reached = true;
   uncertainty.previous = node.previous;
   uncertainty.constraint = node.constraint;
+  uncertainty.chain_m = node.chain_m;
   uncertainty.covariance << own.xx, own.xy, own.xt, own.xy, own.yy, own.yt, own.xt, own.yt, own.tt;
   return uncertainty;
 }

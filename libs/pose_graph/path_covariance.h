@@ -34,6 +34,7 @@ struct RelativeUncertainty {
   bool reached = false;
   std::size_t previous = 0;    ///< previous node on the chain from the source; for the source, itself
   std::size_t constraint = 0;  ///< between the previous node and this one; undefined for the source
+  double chain_m = 0;          ///< length of the chain from the source, from node to node
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, theta): m^2, m rad, rad^2
 
   /// Largest standard deviation of the position over all directions.
@@ -63,6 +64,7 @@ class PathCovarianceSearch {
     double cost = std::numeric_limits<double>::infinity();
     std::uint32_t constraint = 0;
     std::uint32_t previous = 0;
+    double chain_m = 0;
     bool settled = false;
     bool wanted = false;
     PoseCovariance covariance;  // in the axes of the map

@@ -174,9 +174,11 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
       .number("min_travel_m", candidates.min_travel_m, at_least(0), "m",
               "Least travel since the last node of a local map before it is searched for loops. Nearer nodes "
               "share scans with it.")
-      .number("drift_per_metre", candidates.drift_per_metre, at_least(0).at_most(1), "",
-              "Drift of the position for each metre travelled without a loop. If the drift may exceed the "
-              "largest window, a node with no local map nearby searches one within the drift as a whole.")
+      .number(
+          "drift_per_metre", candidates.drift_per_metre, at_least(0).at_most(1), "",
+          "Drift of the position for each metre of the shortest chain of constraints to a local map. Local "
+          "maps that this drift may have moved out of the largest window are searched as a whole by nodes "
+          "with no local map nearby.")
       .integer("wide_searches", loops.wide_searches, between(1, 1000), "windows",
                "Largest number of wide windows that a node searches. The next nodes search the others.")
       .number("attempt_distance_m", loops.attempt_distance_m, at_least(0), "m",

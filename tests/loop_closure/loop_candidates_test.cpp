@@ -167,35 +167,60 @@ TEST(LoopCandidates, predicts_from_the_graph) {
   EXPECT_NEAR(candidates[0].distance_m, std::hypot(1, 3), 1e-9) << "the local map's node moved to (1, 2)";
 }
 
+// The same places, but the robot travelled 100 m from node to node. All chains of constraints have one
+// length.
+std::vector<LoopCandidate> far_of_node_59(double chain_m, const LoopCandidateOptions& options) {
+  ThereAndBack drive;
+  for (NodeScan& node : drive.keyframes.nodes) node.travelled_m *= 100;
+  return far_candidates(59, drive.keyframes, drive.graph, options, [&](const Maps& local_maps) {
+    return std::vector<double>(local_maps.size(), chain_m);
+  });
+}
+
+Maps far_maps_of_node_59(double chain_m, const LoopCandidateOptions& options) {
+  Maps result;
+  for (const LoopCandidate& far : far_of_node_59(chain_m, options)) result.push_back(far.local_map);
+  return result;
+}
+
 TEST(FarCandidates, are_searched_only_once_drift_may_exceed_the_largest_window) {
-  const ThereAndBack drive;
   LoopCandidateOptions options;
   options.drift_per_metre = 0.02;
-  EXPECT_TRUE(far_candidates(59, drive.keyframes, drive.graph, 399, options).empty());  // 8 m
-  EXPECT_FALSE(far_candidates(59, drive.keyframes, drive.graph, 401, options).empty());
+  EXPECT_TRUE(far_of_node_59(399, options).empty());  // 8 m
+  EXPECT_FALSE(far_of_node_59(401, options).empty());
 }
 
 TEST(FarCandidates, are_the_local_maps_within_drift_and_reach) {
-  const ThereAndBack drive;
   LoopCandidateOptions options;
   options.drift_per_metre = 0.02;
   options.reach_m = 2;
-  const auto maps = [&](double since_loop_m) {
-    Maps result;
-    for (const LoopCandidate& far : far_candidates(59, drive.keyframes, drive.graph, since_loop_m, options))
-      result.push_back(far.local_map);
-    return result;
-  };
   // Node 59 is at x = 0, y = 1. The maps 0, 1 and 2 begin at x = 0, 10 and 20, y = 0; 4 ends at x = 10, y
   // = 1.
-  EXPECT_EQ(maps(401), Maps({0, 4}));
-  EXPECT_EQ(maps(1000), Maps({0, 1, 2, 3, 4}));
+  EXPECT_EQ(far_maps_of_node_59(401, options), Maps({0, 4}));
+  EXPECT_EQ(far_maps_of_node_59(1000, options), Maps({0, 1, 2, 3, 4}));
+  EXPECT_EQ(far_maps_of_node_59(std::numeric_limits<double>::infinity(), options), Maps({0, 1, 2, 3, 4}));
+}
+
+TEST(FarCandidates, ask_for_chains_to_the_local_maps_within_the_drift_of_the_whole_path_only) {
+  ThereAndBack drive;
+  for (NodeScan& node : drive.keyframes.nodes) node.travelled_m *= 10;
+  LoopCandidateOptions options;
+  options.drift_per_metre = 0.02;
+  Maps asked;
+  far_candidates(59, drive.keyframes, drive.graph, options, [&](const Maps& local_maps) {
+    EXPECT_TRUE(asked.empty()) << "asks once";
+    asked = local_maps;
+    return std::vector<double>(local_maps.size());
+  });
+  EXPECT_EQ(asked, Maps({0})) << "map 1 ends 400 m before node 59, map 0 500 m";
 }
 
 TEST(FarCandidates, have_windows_that_hold_all_places_near_the_local_map) {
   const ThereAndBack drive;
   const LoopCandidateOptions options;
-  for (const LoopCandidate& far : far_candidates(59, drive.keyframes, drive.graph, 5000, options)) {
+  const std::vector<LoopCandidate> candidates = far_of_node_59(5000, options);
+  ASSERT_FALSE(candidates.empty());
+  for (const LoopCandidate& far : candidates) {
     const PlacedLocalMap& local_map = drive.keyframes.local_maps[far.local_map];
     for (std::size_t node = local_map.first_node; node <= local_map.last_node; ++node) {
       const TPose2D anchor_T_node = drive.graph.pose(node) - drive.graph.pose(local_map.anchor);

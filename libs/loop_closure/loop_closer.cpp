@@ -49,7 +49,8 @@ std::vector<double> chains_to_anchors(std::size_t node, const std::vector<std::s
 
 }  // namespace
 
-// All candidates in narrow windows, and of those in wide windows as many as a node may search.
+// All candidates in narrow windows, and of the others as many as a node may search. A node without a
+// candidate in a narrow window may be anywhere within its drift.
 std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const KeyframeStore& keyframes,
                                                   const PoseGraph& graph) {
   std::vector<LoopCandidate> chosen =
@@ -59,22 +60,22 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const Keyfra
   const auto first_wide = std::stable_partition(chosen.begin(), chosen.end(), [&](const LoopCandidate& one) {
     return !is_wide(one.extent, options_.verification);
   });
-  const std::vector<LoopCandidate> wide(first_wide, chosen.end());
+  std::vector<LoopCandidate> wide(first_wide, chosen.end());
   chosen.erase(first_wide, chosen.end());
-  const bool unseen = chosen.empty();  // no local map is known to be near
-  for (const LoopCandidate& one : schedule_.choose(wide, options_.wide_searches)) chosen.push_back(one);
-  if (unseen && wide.size() < options_.wide_searches) {
-    std::vector<LoopCandidate> far = far_candidates(
+  if (chosen.empty()) {
+    const std::vector<LoopCandidate> far = far_candidates(
         node, keyframes, graph, options_.candidates, [&](const std::vector<std::size_t>& local_maps) {
           return chains_to_anchors(node, local_maps, keyframes, graph, search_);
         });
-    const auto is_chosen = [&](const LoopCandidate& one) {
-      return std::any_of(chosen.begin(), chosen.end(),
+    const auto is_far = [&](const LoopCandidate& one) {
+      return std::any_of(far.begin(), far.end(),
                          [&](const LoopCandidate& other) { return other.local_map == one.local_map; });
     };
-    far.erase(std::remove_if(far.begin(), far.end(), is_chosen), far.end());
-    for (const LoopCandidate& one : schedule_.choose(std::move(far), 1)) chosen.push_back(one);
+    wide.erase(std::remove_if(wide.begin(), wide.end(), is_far), wide.end());
+    wide.insert(wide.end(), far.begin(), far.end());
   }
+  for (const LoopCandidate& one : schedule_.choose(std::move(wide), options_.wide_searches))
+    chosen.push_back(one);
   std::sort(chosen.begin(), chosen.end(),
             [](const LoopCandidate& a, const LoopCandidate& b) { return a.local_map < b.local_map; });
   return chosen;

@@ -25,12 +25,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPartial = ".partial-";
 
-// Name for temporary folders of this process.
+// ".partial-PID" with the id of this process: the name of its temporary folders and the start of its
+// temporary file names.
 std::string partial_name() {
   return std::string(kPartial) + std::to_string(::getpid());
 }
 
-// The process that writes under this name; empty for other names.
+// Process id in the name of a temporary file or folder. Empty for other names.
 std::optional<pid_t> writer_of(std::string_view name) {
   if (!starts_with(name, kPartial)) return std::nullopt;
   name.remove_prefix(kPartial.size());
@@ -52,7 +53,7 @@ bool has_ended(pid_t process) {
   return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
-// Young leftovers are kept: in a shared folder, their writer may run on another machine.
+// Leftovers younger than an hour are kept: another machine that shares the folder may still write them.
 bool is_old(const fs::path& path) {
   std::error_code error;
   const auto written = fs::last_write_time(path, error);
@@ -92,7 +93,9 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     fs::remove(temporary, error);
     throw;
   }
-  if (!fs::exists(temporary, error)) throw cannot_write(path, "its folder is missing, read-only or full");
+  if (!fs::exists(temporary, error))
+    throw cannot_write(
+        path, "its folder is missing, read-only or full. Choose a folder that exists and is writable");
   fs::rename(temporary, path, error);
   if (error) {
     const std::string why = error.message();
@@ -107,7 +110,7 @@ void write_text_atomically(const fs::path& path, std::string_view text) {
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
     file.write(text.data(), static_cast<std::streamsize>(text.size()));
     file.close();
-    if (!file) throw cannot_write(path, errno != 0 ? std::strerror(errno) : "the disk did not take it");
+    if (!file) throw cannot_write(path, errno != 0 ? std::strerror(errno) : "the disk may be full");
   });
 }
 

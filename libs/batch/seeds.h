@@ -23,14 +23,14 @@ struct SeedRange {
 /// seeds.
 SeedRange parse_seeds(const std::string& text);
 
-/// "seed 4", "seeds 4 to 6".
+/// Text for messages: "seed 4", "seeds 4 to 6".
 std::string seeds_text(const SeedRange& seeds);
 
 /// Statistics of one figure over several runs. All members are 0 without values.
 struct SeedSpread {
   std::size_t count = 0;  ///< number of values
   double mean = 0;
-  double std = 0;  ///< of the sample: divided by n - 1; 0 for a single value
+  double std = 0;  ///< standard deviation of the sample, divided by n - 1; 0 for a single value
   double min = 0;
   double max = 0;
 };
@@ -52,7 +52,8 @@ std::string spread_text(const SeedSpread& spread, int decimals);
 /// {"mean": ..., "std": ..., "min": ..., "max": ...}; null without values.
 nlohmann::ordered_json spread_json(const SeedSpread& spread);
 
-/// Groups consecutive rows for which `same` is true: rows of one case that differ only in their seed.
+/// Groups consecutive rows: a row joins a group if `same(first row of the group, row)` is true. The rows of a
+/// group belong to one case and differ only in their seed.
 template <class Row, class Same>
 std::vector<std::vector<Row>> by_case(const std::vector<Row>& rows, const Same& same) {
   std::vector<std::vector<Row>> cases;

@@ -2,9 +2,8 @@
 // Estimates the bearings of the beams for a log that does not state them: compares all conventions on scans
 // between which the robot turned. There are three kinds of evidence:
 //
-// - The distance of points to walls after alignment. It reveals a wrong kSkipZero, which bends the scan at
-// its
-//   middle. It does not reveal a wrong step between beams, which scales bearings and turns alike.
+// - The distance of points to walls after alignment. It reveals a wrong kSkipZero, which bends the scan in
+//   its middle. It does not reveal a wrong step between beams, which scales bearings and turns alike.
 // - A full turn on the spot, whose alignments must sum to 360 degrees. Only full turns measure the step.
 // - The direction of driving. A shift of all bearings acts like a rotated laser, and only driving straight
 //   shows the heading of the laser. The study chooses, among the conventions that the other evidence does not

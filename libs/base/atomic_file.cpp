@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPartial = ".partial-";
 
-// ".partial-PID" with the id of this process: the name of its temporary folders and the start of its
-// temporary file names.
+// The name ".partial-PID" with the id of this process. Temporary folders have this name; names of temporary
+// files begin with it.
 std::string partial_name() {
   return std::string(kPartial) + std::to_string(::getpid());
 }
@@ -53,19 +53,20 @@ bool has_ended(pid_t process) {
   return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
-// Leftovers younger than an hour are kept: another machine that shares the folder may still write them.
+// Returns whether a leftover is older than an hour. Younger leftovers are kept: a process on another machine
+// that shares the folder may still write them.
 bool is_old(const fs::path& path) {
   std::error_code error;
   const auto written = fs::last_write_time(path, error);
   return !error && fs::file_time_type::clock::now() - written > std::chrono::hours(1);
 }
 
-// A folder that is removed with its contents at the end of the scope.
+// A folder that the constructor creates and the destructor removes with its contents.
 class ScopedFolder {
  public:
   explicit ScopedFolder(fs::path path) : path_(std::move(path)) {
     std::error_code error;
-    fs::remove_all(path_, error);  // left by an ended process with the same id
+    fs::remove_all(path_, error);  // an ended process with the same id may have left it
     fs::create_directory(path_, error);
     require(error, path_);
   }

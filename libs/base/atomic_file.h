@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes result files completely or not at all: under a temporary name first, renamed when complete.
-// Temporary names contain the writer's process id: ".partial-PID" for folders, ".partial-PID-NAME" for files.
+// Writes result files completely or not at all: writes them under temporary names and renames them when
+// complete. Temporary names contain the writer's process id: ".partial-PID" for folders, ".partial-PID-NAME"
+// for files.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +21,7 @@ void write_atomically(const std::filesystem::path& path,
 void write_text_atomically(const std::filesystem::path& path, std::string_view text);
 
 /// Writes one or more files whose names `write` chooses. Calls `write(temporary_folder)` with an empty folder
-/// within `folder`, then moves every file from it to `folder`, in the order of their names, replacing files
+/// within `folder`, then moves every file of the temporary folder to `folder`, sorted by name. Replaces files
 /// of the same names. If `write` throws, `folder` stays unchanged and the temporary folder is removed. Throws
 /// SystemFailure that names the file or folder that cannot be written.
 void write_files_atomically(const std::filesystem::path& folder,

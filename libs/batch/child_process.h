@@ -93,8 +93,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChildEnd, code, signal, over_time, stopped, o
                                    peak_memory_mib)
 
 /// Runs a program to its end, with empty standard input. The program has its own process group: Ctrl-C
-/// reaches only the caller. It is killed when the calling thread ends. Throws SystemFailure when the program
-/// cannot be started.
+/// reaches only the caller. The program is killed when the calling thread ends. Throws SystemFailure when the
+/// program cannot be started.
 ChildEnd run_child(const ChildProcess& child);
 
 /// Runs a program as run_child() does. If the program cannot be started, returns a failure with the reason in

@@ -19,8 +19,8 @@ struct SeedRange {
   std::vector<std::uint64_t> all() const;
 };
 
-/// Reads "10" as 1 to 10 and "4-6" as 4 to 6. Throws UserError for any other text and for more than a million
-/// seeds.
+/// Reads a range of seeds: "10" as 1 to 10, "4-6" as 4 to 6. Throws UserError for any other text and for more
+/// than a million seeds.
 SeedRange parse_seeds(const std::string& text);
 
 /// Text for messages: "seed 4", "seeds 4 to 6".
@@ -45,11 +45,11 @@ SeedSpread spread_over(const std::vector<Run>& runs, const ValueOf& value_of) {
   return spread_of(values);
 }
 
-/// "0.0412 ± 0.0010 [0.0431]": mean, standard deviation and greatest value. Only the mean for a single value;
-/// "–" without values.
+/// Text of the statistics, such as "0.0412 ± 0.0010 [0.0431]": mean, standard deviation and greatest value.
+/// Only the mean for a single value; "–" without values.
 std::string spread_text(const SeedSpread& spread, int decimals);
 
-/// {"mean": ..., "std": ..., "min": ..., "max": ...}; null without values.
+/// JSON object {"mean": ..., "std": ..., "min": ..., "max": ...}; null without values.
 nlohmann::ordered_json spread_json(const SeedSpread& spread);
 
 /// Groups consecutive rows: a row joins a group if `same(first row of the group, row)` is true. The rows of a

@@ -133,7 +133,7 @@ std::vector<Choice> choices_of(const SweepRequest& request) {
   return choices;
 }
 
-/// All combinations; the last choice varies fastest.
+/// All combinations of one value of each choice; the last choice varies fastest.
 std::vector<std::vector<std::string>> combinations(const std::vector<Choice>& choices) {
   std::vector<std::vector<std::string>> all(1);
   for (const Choice& choice : choices) {

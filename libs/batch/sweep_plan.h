@@ -33,7 +33,7 @@ struct SweepLog {
   std::optional<std::filesystem::path> relations;
   std::string sha256;
   std::uintmax_t bytes = 0;      ///< size of the log
-  std::string relations_sha256;  ///< empty: no relations
+  std::string relations_sha256;  ///< checksum of the relations; empty: no relations
 };
 
 struct SweepRun {

@@ -28,7 +28,8 @@ const char* state_of(const std::optional<SweepOutcome>& outcome) {
   return outcome->figures ? "done" : "failed";
 }
 
-/// CSV fields with the figures of a run, in the order of kFigureHeads. Empty fields without figures.
+/// CSV fields with the figures of a run, in the order of kFigureHeads. The fields are empty if the run has no
+/// figures.
 std::vector<std::string> figure_fields(const std::optional<SweepOutcome>& outcome) {
   if (!outcome || !outcome->figures) return std::vector<std::string>(11);
   const SweepFigures& figures = *outcome->figures;

@@ -24,7 +24,7 @@ enum class SweepKeep {
 struct SweepOrder {
   std::filesystem::path program;  ///< the psi-slam program
   std::filesystem::path log;
-  std::filesystem::path relations;  ///< empty: none
+  std::filesystem::path relations;  ///< file with the true relations; empty: none
   std::string settings;
   std::string key;
   std::filesystem::path folder;  ///< folder for the results

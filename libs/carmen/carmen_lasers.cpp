@@ -31,7 +31,8 @@ constexpr double kEnoughPath_m = 3.0;
 constexpr double kEnoughTurn_rad = 1.0;
 constexpr double kSameMount_m = 0.002;  // poses in logs are rounded to a micrometre or a millimetre
 constexpr double kSameMount_rad = 0.002;
-// Fraction of the largest code for no return, such as 81.91, that lies below all other codes.
+// Maximum range as a fraction of the largest reading. It lies below all codes for "no return" of a laser,
+// such as 81.83 and 81.91 m.
 constexpr double kBelowNoReturn = 0.97;
 constexpr float kLargestReading_m = 1000;  // a larger reading is damaged or in another unit
 

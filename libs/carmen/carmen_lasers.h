@@ -33,8 +33,8 @@ std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const std::filesystem::pa
 
 /// Estimates the maximum range, metres, of a laser whose log states none. Uses the messages with this name in
 /// the first 500 lines. Lasers write codes of 50 m or more for "no return", which differ between logs and
-/// settings of the laser: 50.00, 51.06, 81.83, 81.91. Returns 0.97 times the largest reading, which is below
-/// these codes, but at least kUnstatedMaxRange_m. Skips malformed lines and readings beyond 1000 m.
+/// settings of the laser: 50.00, 51.06, 81.83, 81.91. Returns 0.97 times the largest reading, to exclude such
+/// codes, but at least kUnstatedMaxRange_m. Skips malformed lines and readings beyond 1000 m.
 double max_range_by_readings_m(const std::filesystem::path& path, std::string_view message);
 
 /// Turns the messages of one laser into scans. The user's options override PARAM lines and messages.
@@ -90,7 +90,7 @@ class CarmenLasers {
  public:
   struct Laser {
     CarmenLaser laser;
-    std::size_t number = 0;            ///< see LaserScan::laser
+    std::size_t number = 0;            ///< number of the laser, see LaserScan::laser
     std::size_t early_parameters = 0;  ///< number of PARAM lines before the laser was known
     bool began = false;                ///< whether a scan of the laser has been reached
   };

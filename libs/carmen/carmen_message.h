@@ -57,7 +57,7 @@ class CarmenFields {
 /// One message of a laser as its line states it, without any filtering. Members that this kind of message
 /// lacks are zero.
 struct CarmenLaserMessage {
-  TimeUs time_us = 0;  ///< ipc_timestamp
+  TimeUs time_us = 0;  ///< time of the scan: ipc_timestamp
   std::vector<float> ranges_m;
   double start_angle_rad = 0;    ///< bearing of the first reading
   double field_of_view_rad = 0;  ///< 0: not stated

@@ -21,15 +21,15 @@ namespace psi_slam {
 /// Heading of a section in a file.
 struct IniSection {
   std::string name;
-  std::string where;  ///< "my.ini:12"
+  std::string where;  ///< file and line: "my.ini:12"
 };
 
 /// A value in a file, from a line "key = value".
 struct IniValue {
   std::string section;
   std::string key;
-  std::string text;   ///< without quotes
-  std::string where;  ///< "my.ini:12"
+  std::string text;   ///< value without quotes
+  std::string where;  ///< file and line: "my.ini:12"
 };
 
 /// Sections and values in the order in which they take effect: an included file comes before the file that

@@ -95,8 +95,8 @@ struct OptionSection {
 };
 
 /// All options of a program, by section. Functions that describe an option take its member by reference. The
-/// settings must outlive the table and have their default values when they are described. Throws
-/// std::logic_error that names the option for a contradictory description. Contradictions are a default
+/// settings must outlive the table and have their default values when they are described. These functions
+/// throw std::logic_error that names the option for a contradictory description. Contradictions are a default
 /// outside its range, a key described twice, a key with suffix "_deg" that is not an angle, and an angle
 /// without this suffix.
 class OptionTable {
@@ -126,7 +126,7 @@ class OptionTable {
   OptionTable& choice(std::string key, Enum& member, std::vector<std::pair<std::string, Enum>> choices,
                       std::string help);
 
-  /// Accepts any text of one line.
+  /// Describes an option that accepts any text of one line.
   OptionTable& text(std::string key, std::string& member, std::string help);
 
   /// Makes the table accept an old name of an option ("old_section.old_key", "section.key") or of a whole

@@ -53,7 +53,7 @@ struct LogDiagnosis {
 /// cannot be read.
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options = {});
 
-/// Derives findings from the measurements, warnings first. diagnose() calls it.
+/// Derives findings from the measurements, warnings first. diagnose() calls this function.
 std::vector<Finding> judge(const LogDiagnosis& diagnosis);
 
 /// Facts about the log, one per line.

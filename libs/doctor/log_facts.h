@@ -45,7 +45,7 @@ struct RangeFacts {
   /// Number of readings within 1 % of the largest reading, if they are far more than the readings just below.
   /// Such readings are the laser's code for "no return". Otherwise 0.
   std::size_t readings_at_ceiling = 0;
-  float ceiling_m = 0;  ///< smallest frequent value of these readings
+  float ceiling_m = 0;  ///< smallest frequent value of the readings at the ceiling; 0 if there are none
 
   double return_share() const {
     return readings == 0 ? 0 : static_cast<double>(returns) / static_cast<double>(readings);

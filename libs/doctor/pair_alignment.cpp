@@ -49,7 +49,7 @@ LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const S
     const double way_m = odometry.norm();
     if (way_m < kLeastMotion_m || way_m > kMaxMotion_m) continue;
     const double direction = std::atan2(odometry.y, odometry.x);
-    // Component of the motion by scans along the motion by odometry, as a fraction of the latter.
+    // Component of the motion by scans along the motion by odometry, divided by the motion by odometry.
     const auto share_along = [&](const ScanAlignment& alignment) {
       const TPose2D& motion = alignment.reference_T_scan;
       return (motion.x * odometry.x + motion.y * odometry.y) / (way_m * way_m);

@@ -30,7 +30,7 @@ std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const 
 struct LostReversals {
   double checked_m = 0;          ///< distance by odometry over all pairs whose motion the scans determine
   std::vector<FramePair> pairs;  ///< pairs with a reversed motion according to the scans
-  double reversed_m = 0;         ///< distance by scans over these pairs
+  double reversed_m = 0;         ///< distance by scans over the reversed pairs
 };
 
 /// Aligns every moving pair again with the opposite motion as the guess. A pair counts as reversed if both

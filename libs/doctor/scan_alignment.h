@@ -55,11 +55,11 @@ struct ScanAlignment {
   bool is_reliable(double max_cost_m = 0.05) const { return cost_m < max_cost_m && matched_share > 0.6; }
 };
 
-/// Aligns from a guess that is off by at most about 0.6 m and 10 degrees.
+/// Aligns two scans from a guess that is off by at most about 0.6 m and 10 degrees.
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
                           const mrpt::math::TPose2D& guess);
 
-/// Aligns from several guesses and returns the result with the lowest cost.
+/// Aligns two scans from several guesses and returns the result with the lowest cost.
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
                           const std::vector<mrpt::math::TPose2D>& guesses);
 

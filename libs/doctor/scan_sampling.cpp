@@ -126,7 +126,7 @@ std::vector<FramePair> pairs_by_turn(const std::vector<FrameMark>& marks, double
 std::vector<FramePair> revisiting_pairs(const std::vector<FrameMark>& marks, double distance, double turn_rad,
                                         double way_m, std::size_t most) {
   const std::vector<double> ways = ways_m(marks);
-  const double spacing_m = distance;  // path between two frames that are compared
+  const double spacing_m = distance;  // least path between two frames that are checked
   std::unordered_map<std::int64_t, std::vector<std::size_t>> visited;
   std::vector<FramePair> pairs;
   double last_way = -spacing_m;

@@ -26,7 +26,7 @@ struct LoopJudgementOptions {
   double max_error_rad = radians_from_degrees(5.0L);
   double drift_m_per_metre = 0.02;
   double drift_rad_per_metre = radians_from_degrees(0.2L);
-  double max_gap_s = 2.0;  ///< longest time between two scans to interpolate between
+  double max_gap_s = 2.0;  ///< longest gap between two scans that is interpolated
   /// A relation joins two passes of a place if its ends are at least `min_travel_m` apart along the path, and
   /// at most `max_distance_m` apart in truth.
   double min_travel_m = 10.0;

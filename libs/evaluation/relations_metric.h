@@ -34,7 +34,7 @@ struct Relation {
 /// file has no relation.
 std::vector<Relation> read_relations(const std::filesystem::path& path);
 
-/// Default of the longest time between two poses to interpolate between.
+/// Default of the longest gap between two poses that is interpolated.
 inline constexpr double kMaxGap_s = 2.0;
 
 /// The error of one relation.

@@ -24,7 +24,7 @@ using mrpt::maps::COccupancyGridMap2D;
 constexpr char kOccupied = '\0';
 constexpr char kFree = static_cast<char>(254);
 constexpr char kUnknown = static_cast<char>(205);
-constexpr float kOccupiedThreshold = 0.65F;  // smallest probability of an occupied cell
+constexpr float kOccupiedThreshold = 0.65F;  // cells with a larger probability are occupied
 constexpr float kFreeThreshold = 0.196F;
 
 std::string pgm_bytes(const COccupancyGridMap2D& grid) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostListed = 5;  // largest number of stretches in the warning
 
-/// "12.0-19.5 s (8 scans, 6.1 m)", with times since the start of the run.
+/// Text of a stretch: "12.0-19.5 s (8 scans, 6.1 m)", with times since the start of the run.
 std::string stretch_text(const UnmatchedStretch& stretch, bool of_several_runs) {
   const auto since_start = [&](TimeUs time_us) {
     return fixed_text(seconds(time_us - stretch.run_start_us), 1);

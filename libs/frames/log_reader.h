@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Base class of the readers of all log formats.
+// Base class of the readers of all log formats, and functions that open logs.
 #pragma once
 
 #include <filesystem>

@@ -70,7 +70,7 @@ TEST_F(OdometryCheckTest, distinguishes_a_mirrored_scan_from_clockwise_headings)
   EXPECT_EQ(scan.heading, HeadingRelation::kOpposite);
   EXPECT_LT(scan.odometry_slip_rad, 0.1);
   const OdometryAgreement heading = check([](TPose2D& pose) {
-    // Turned: along the axes, negated right angles would look like reversing.
+    // Turns the path by 0.7 rad. Along the axes, a negated right angle would look like reversing.
     pose = TPose2D{0, 0, 0.7} + pose;
     pose.phi = -pose.phi;
   });

@@ -39,14 +39,15 @@ class MetricTool : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     const char* tool = std::getenv("PSI_SLAM_METRIC_TOOL");
-    if (tool == nullptr) GTEST_SKIP() << "needs PSI_SLAM_METRIC_TOOL, a script of the relations metric";
+    if (tool == nullptr)
+      GTEST_SKIP() << "needs PSI_SLAM_METRIC_TOOL, the path of a script that computes the metric";
     tool_ = tool;
     log_ = shared_file(GetParam() + ".clf.gz");
     relations_ = shared_file(GetParam() + ".relations");
     if (!log_ || !relations_) GTEST_SKIP() << kNeedsData;
   }
 
-  /// Writes the odometry of every nth scan as 'timestamp x y theta', time counted from `origin_us`.
+  /// Writes the odometry of every nth scan as 'timestamp x y theta', with times counted from `origin_us`.
   void write_odometry(std::size_t nth, TimeUs origin_us) const {
     LogOptions options;
     options.every_nth_scan = nth;
@@ -59,7 +60,7 @@ class MetricTool : public testing::TestWithParam<std::string> {
     }
   }
 
-  /// Writes the relations with time counted from `origin_us`.
+  /// Writes the relations with times counted from `origin_us`.
   void write_relations(TimeUs origin_us) const {
     std::ifstream from(*relations_);
     std::ofstream to(moved_relations_);

@@ -96,8 +96,8 @@ TEST(RelationsMetric, a_pose_within_a_tenth_of_a_millisecond_is_exact) {
 TEST(RelationsMetric, skips_and_counts_relations_outside_or_in_a_long_gap) {
   const Trajectory trajectory = {{0, {}}, {1'000'000, {}}, {4'000'000, {}}};
   const std::vector<Relation> relations = {{0, 1'000'000, {}},           // used
-                                           {-1'000'000, 1'000'000, {}},  // before the beginning
-                                           {0, 4'000'101, {}},           // past the end
+                                           {-1'000'000, 1'000'000, {}},  // starts before the trajectory
+                                           {0, 4'000'101, {}},           // ends after the trajectory
                                            {0, 2'000'000, {}}};          // in a gap of 3 s
   EXPECT_EQ(evaluate_relations(trajectory, relations).skipped, 3u);
   EXPECT_EQ(evaluate_relations(trajectory, relations).exact, 1u);

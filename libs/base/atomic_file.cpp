@@ -25,12 +25,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPartial = ".partial-";
 
-// Name for temporary folders of this process.
+// The name ".partial-PID" with the id of this process. Temporary folders have this name; names of temporary
+// files begin with it.
 std::string partial_name() {
   return std::string(kPartial) + std::to_string(::getpid());
 }
 
-// The process that writes under this name; empty for other names.
+// Process id in the name of a temporary file or folder. Empty for other names.
 std::optional<pid_t> writer_of(std::string_view name) {
   if (!starts_with(name, kPartial)) return std::nullopt;
   name.remove_prefix(kPartial.size());
@@ -52,19 +53,20 @@ bool has_ended(pid_t process) {
   return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
-// Young leftovers are kept: in a shared folder, their writer may run on another machine.
+// Returns whether a leftover is older than an hour. Younger leftovers are kept: a process on another machine
+// that shares the folder may still write them.
 bool is_old(const fs::path& path) {
   std::error_code error;
   const auto written = fs::last_write_time(path, error);
   return !error && fs::file_time_type::clock::now() - written > std::chrono::hours(1);
 }
 
-// A folder that is removed with its contents at the end of the scope.
+// A folder that the constructor creates and the destructor removes with its contents.
 class ScopedFolder {
  public:
   explicit ScopedFolder(fs::path path) : path_(std::move(path)) {
     std::error_code error;
-    fs::remove_all(path_, error);  // left by an ended process with the same id
+    fs::remove_all(path_, error);  // an ended process with the same id may have left it
     fs::create_directory(path_, error);
     require(error, path_);
   }
@@ -92,7 +94,9 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     fs::remove(temporary, error);
     throw;
   }
-  if (!fs::exists(temporary, error)) throw cannot_write(path, "its folder is missing, read-only or full");
+  if (!fs::exists(temporary, error))
+    throw cannot_write(
+        path, "its folder is missing, read-only or full. Choose a folder that exists and is writable");
   fs::rename(temporary, path, error);
   if (error) {
     const std::string why = error.message();
@@ -107,7 +111,7 @@ void write_text_atomically(const fs::path& path, std::string_view text) {
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
     file.write(text.data(), static_cast<std::streamsize>(text.size()));
     file.close();
-    if (!file) throw cannot_write(path, errno != 0 ? std::strerror(errno) : "the disk did not take it");
+    if (!file) throw cannot_write(path, errno != 0 ? std::strerror(errno) : "the disk may be full");
   });
 }
 

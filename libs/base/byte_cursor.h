@@ -10,7 +10,8 @@
 
 namespace psi_slam {
 
-/// Malformed bytes. Callers that know the file convert it to a UserError with the place.
+/// Error for malformed bytes. Callers that know the file convert it to a UserError that names the file and
+/// the position.
 class MalformedBytes : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -18,8 +19,8 @@ class MalformedBytes : public std::runtime_error {
 
 enum class ByteOrder { kLittleEndian, kBigEndian };
 
-/// Reads numbers and pieces from bytes in memory, in order. Throws MalformedBytes if a read would pass the
-/// end, so that lengths stated in the bytes are checked.
+/// Reads numbers and byte strings one after the other from bytes in memory. Throws MalformedBytes if a read
+/// would pass the end, for instance because a length in the bytes is wrong.
 class ByteCursor {
  public:
   explicit ByteCursor(std::string_view bytes, ByteOrder order = ByteOrder::kLittleEndian)
@@ -31,8 +32,8 @@ class ByteCursor {
 
   std::string_view take(std::size_t size) {
     if (size > left())
-      throw MalformedBytes(std::to_string(size) + " bytes are announced but " + std::to_string(left()) +
-                           " are left");
+      throw MalformedBytes(std::to_string(size) + " more bytes are expected, but only " +
+                           std::to_string(left()) + " are left");
     const std::string_view piece = bytes_.substr(offset_, size);
     offset_ += size;
     return piece;

@@ -13,7 +13,7 @@
 namespace psi_slam {
 namespace {
 
-/// Computes a checksum piece by piece.
+/// Computes the SHA-256 checksum of bytes that are added piece by piece.
 class Sha256 {
  public:
   Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
@@ -56,7 +56,8 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   std::array<char, 1 << 16> block{};
   while (file.read(block.data(), block.size()) || file.gcount() > 0)
     checksum.add({block.data(), static_cast<std::size_t>(file.gcount())});
-  if (!file.eof()) throw UserError(path.string() + " is not readable");
+  if (!file.eof())
+    throw UserError(path.string() + " is not readable. Check that it is a file with read permission");
   return checksum.hexadecimal();
 }
 

@@ -11,8 +11,8 @@
 namespace psi_slam {
 namespace {
 
-// Not every double of radians is the product of a double of degrees. With 11 more bits, degrees in a long
-// double convert back to every double of radians.
+// Some doubles in radians cannot be written as a double in degrees. A long double in degrees has 11 more
+// bits, which suffice to restore every double in radians.
 static_assert(std::numeric_limits<long double>::digits >= std::numeric_limits<double>::digits + 11);
 
 constexpr long double kPi = 3.141592653589793238462643383279502884L;

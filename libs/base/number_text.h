@@ -9,24 +9,27 @@
 
 namespace psi_slam {
 
-/// `value` with `decimals` decimals, at most 20, never in scientific notation: fixed_text(0.5, 3) == "0.500".
-/// "nan", "inf" or "-inf" if it is not finite.
+/// Returns `value` with `decimals` decimals (at most 20) and never in scientific notation: fixed_text(0.5, 3)
+/// == "0.500". Returns "nan", "inf" or "-inf" if `value` is not finite.
 std::string fixed_text(double value, int decimals);
 
 /// The shortest decimal text without exponent that reads back as exactly this float.
 std::string shortest_text(float value);
 
-/// Reads a finite decimal number that fills the text. Empty for "12abc", "", "nan", "inf", "1e999", "0x10".
+/// Reads a text that is a finite decimal number and nothing else. Empty for "12abc", "", "nan", "inf",
+/// "1e999", "0x10".
 std::optional<double> parse_number(std::string_view text);
 
-/// The shortest decimal text that parse_number() reads as exactly `value`; "nan", "inf" or "-inf" if it is
-/// not finite.
+/// The shortest decimal text that parse_number() reads as exactly `value`. "nan", "inf" or "-inf" if `value`
+/// is not finite.
 std::string exact_text(double value);
 
-/// Reads an angle in degrees and returns the nearest double in radians; empty if parse_number() is.
+/// Reads an angle in degrees and returns the nearest double in radians. Empty for a text that parse_number()
+/// does not read.
 std::optional<double> parse_degrees(std::string_view text);
 
-/// The angle in degrees, with the fewest decimals that parse_degrees() reads as exactly `radians`.
+/// Text of an angle in degrees, with the fewest decimals from which parse_degrees() restores exactly
+/// `radians`.
 std::string exact_degrees_text(double radians);
 
 /// Returns `value` rounded to at most `max_decimals` decimals, without trailing zeros: trimmed_text(0.5, 4)

@@ -11,7 +11,8 @@
 
 namespace psi_slam {
 
-/// Finaliser of SplitMix64 (Steele et al. 2014): turns neighbouring numbers into unlike ones, for seeds.
+/// One step of SplitMix64 (Steele et al., 2014): maps neighbouring numbers to unrelated ones, for use as
+/// seeds.
 inline std::uint64_t mixed_bits(std::uint64_t number) {
   number += 0x9e3779b97f4a7c15;
   number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9;
@@ -21,7 +22,7 @@ inline std::uint64_t mixed_bits(std::uint64_t number) {
 
 class RandomDraws {
  public:
-  /// One stream of numbers per seed, name and part.
+  /// Each combination of seed, name and part gives its own stream of numbers.
   RandomDraws(std::uint64_t seed, std::string_view name, std::uint32_t part) {
     std::vector<std::uint32_t> words{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
                                      part};
@@ -30,15 +31,15 @@ class RandomDraws {
     random_.seed(sequence);
   }
 
-  /// In [0, 1).
+  /// Uniform random number in [0, 1).
   double share() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
-  /// In [-most, most).
+  /// Uniform random number in [-most, most).
   double plus_minus(double most) { return (2 * share() - 1) * most; }
-  /// In [0, count); `count` is not 0.
+  /// Uniform random index in [0, count); `count` must not be 0.
   std::size_t index(std::size_t count) {
     return static_cast<std::size_t>(share() * static_cast<double>(count));
   }
-  /// Normal distribution with mean 0 and standard deviation 1, by Box and Muller.
+  /// Normally distributed random number with mean 0 and standard deviation 1, by the Box-Muller transform.
   double normal() {
     const double radius = std::sqrt(-2 * std::log(1 - share()));
     return radius * std::cos(2 * M_PI * share());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of texts as views, and lists as texts.
+// Helpers for texts: beginnings, trimming and lists of names.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ inline std::string_view trimmed(std::string_view text, std::string_view space = 
   return text.substr(begin, text.find_last_not_of(space) - begin + 1);
 }
 
-/// Names for a message: "a, b".
+/// Joins names with commas, for a message: "a, b".
 inline std::string name_list(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;

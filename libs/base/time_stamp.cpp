@@ -10,7 +10,7 @@ namespace psi_slam {
 namespace {
 
 constexpr TimeUs kMicrosecondsPerSecond = 1'000'000;
-constexpr TimeUs kMaxSeconds = 9'000'000'000'000;  // microseconds still fit in 64 bits
+constexpr TimeUs kMaxSeconds = 9'000'000'000'000;  // this time in microseconds fits in 64 bits
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -49,7 +49,7 @@ std::optional<TimeUs> parse_seconds(std::string_view text) {
     TimeUs scale = kMicrosecondsPerSecond / 10;
     for (++i; i < text.size() && is_digit(text[i]); ++i, ++digits) {
       fraction += (text[i] - '0') * scale;
-      if (scale == 0 && text[i - 7] == '.' && text[i] >= '5') ++fraction;  // the seventh decimal rounds
+      if (scale == 0 && text[i - 7] == '.' && text[i] >= '5') ++fraction;  // rounds by the seventh decimal
       scale /= 10;
     }
   }

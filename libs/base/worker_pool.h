@@ -23,8 +23,8 @@ class WorkerPool {
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
   /// Calls task(0) .. task(count - 1) in parallel, in any order, and returns when all have ended. If tasks
-  /// throw, all others are still called, then the exception of the lowest index is thrown. Call it from one
-  /// thread at a time, and not within a task.
+  /// throw, the remaining tasks still run; then run() throws the exception of the lowest index. Call run()
+  /// from one thread at a time, and never from a task.
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
 
  private:
@@ -44,7 +44,7 @@ class WorkerPool {
   std::vector<std::thread> workers_;
 };
 
-/// Calls task(0) .. task(count - 1) in parallel and returns their results in this order.
+/// Calls task(0) .. task(count - 1) in parallel and returns their results in the order of the indices.
 template <class Result, class Task>
 std::vector<Result> map_in_parallel(WorkerPool& pool, std::size_t count, const Task& task) {
   std::vector<Result> results(count);

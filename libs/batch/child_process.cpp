@@ -32,15 +32,17 @@ double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// Appends the bytes in the pipe and keeps at least the last `most` of them. Returns false at the end.
+/// Appends the next bytes of the pipe to `text` and keeps at least the last `most` bytes of `text`. Returns
+/// false at the end of the data.
 bool take(Pipe& pipe, std::string& text, std::size_t most) {
   const bool more = pipe.read_to(text);
   if (text.size() > 2 * most) text.erase(0, text.size() - most);
   return more;
 }
 
-/// Starts the program in the new process, where only system calls are safe. The process ends with its parent
-/// and does not receive the terminal's Ctrl-C. Writes errno to `error_pipe` if the program cannot be started.
+/// Replaces the forked process by the program. Makes only system calls: nothing else is safe after fork().
+/// The process ends with its parent and does not receive the terminal's Ctrl-C. Writes errno to `error_pipe`
+/// if the program cannot be started.
 [[noreturn]] void start_program(char* const* words, int out, int err, int error_pipe, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // the parent has already ended
@@ -59,7 +61,7 @@ pid_t start(const ChildProcess& child, const Pipe& out, const Pipe& err) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  Pipe error_pipe;  // closes when the program starts
+  Pipe error_pipe;  // closes when the program starts; otherwise receives errno
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
   if (pid < 0) fail("cannot start " + words.at(0), errno);
@@ -75,7 +77,7 @@ pid_t start(const ChildProcess& child, const Pipe& out, const Pipe& err) {
   fail("cannot start " + words[0], error);
 }
 
-/// Last line of a text without the blanks and line ends after it.
+/// Last line of a text, without the white space at its end.
 std::string last_line(std::string text) {
   while (!text.empty() && std::strchr(" \t\r\n", text.back()) != nullptr) text.pop_back();
   return text.substr(text.rfind('\n') + 1);  // npos + 1 is 0
@@ -123,7 +125,7 @@ EndedChild RunningChild::wait() {
     if (errno != EINTR) fail("cannot wait for a child process", errno);
   pid_ = 0;
   end.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
-  end.peak_memory_mib = static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts kibibytes
+  end.peak_memory_mib = static_cast<double>(usage.ru_maxrss) / 1024;  // Linux states kibibytes
   return end;
 }
 
@@ -154,8 +156,9 @@ ChildEnd run_child(const ChildProcess& child) {
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {
     const int ready = ::poll(ends.data(), ends.size(), kPollTimeout_ms);
     if (ready < 0 && errno != EINTR) fail("cannot wait for the output of " + child.words[0], errno);
-    if (ready > 0) {  // otherwise revents is from the last call
-      if (ends[0].revents != 0 && !take(out, end.out, kMostOut)) ends[0].fd = -1;  // poll() ignores it
+    if (ready > 0) {  // otherwise poll() has not updated revents
+      // poll() ignores negative descriptors.
+      if (ends[0].revents != 0 && !take(out, end.out, kMostOut)) ends[0].fd = -1;
       if (ends[1].revents != 0 && !take(err, end.err, kMostErr)) ends[1].fd = -1;
     }
     if (end.over_time || end.stopped) continue;

@@ -15,7 +15,7 @@
 
 namespace psi_slam {
 
-/// A pipe that closes both ends in its destructor, and in every program started meanwhile.
+/// A pipe whose destructor closes both ends. Programs started while it exists do not inherit it.
 class Pipe {
  public:
   /// Throws SystemFailure when the system cannot create a pipe.
@@ -29,7 +29,8 @@ class Pipe {
   void close_reading() { close_end(0); }
   void close_writing() { close_end(1); }
 
-  /// Waits for bytes and appends them to `text`. Returns false at the end; a signal is not an end.
+  /// Waits for bytes and appends them to `text`. Returns false at the end of the data and after a read error,
+  /// true if a signal interrupts the wait.
   bool read_to(std::string& text);
 
  private:
@@ -40,12 +41,12 @@ class Pipe {
 
 /// Exit of a process, and the resources that the operating system counted for it.
 struct EndedChild {
-  int status = 0;  ///< as wait() returns it
+  int status = 0;  ///< as waitpid() reports it
   double cpu_s = 0;
   double peak_memory_mib = 0;
 };
 
-/// A child of this process. The destructor kills a child that has not been waited for.
+/// A child process. The destructor kills a child that has not been waited for.
 class RunningChild {
  public:
   explicit RunningChild(pid_t pid) : pid_(pid) {}
@@ -62,13 +63,13 @@ class RunningChild {
   pid_t pid_;
 };
 
-/// A program with its path, and its arguments.
+/// Path of a program, followed by its arguments.
 using ChildWords = std::vector<std::string>;
 
 struct ChildProcess {
   ChildWords words;
-  double time_limit_s = 0;       ///< kills the child after this time; 0: no limit
-  std::function<bool()> stop{};  ///< called a few times a second; true kills the child
+  double time_limit_s = 0;       ///< the child is killed after this time; 0: no limit
+  std::function<bool()> stop{};  ///< called a few times a second; if it returns true, the child is killed
 };
 
 struct ChildEnd {
@@ -76,34 +77,34 @@ struct ChildEnd {
   int signal = 0;          ///< signal that ended the child; 0: none
   bool over_time = false;  ///< killed at the time limit
   bool stopped = false;    ///< killed because `stop` returned true
-  std::string out;         ///< standard output; the last 16 MiB
-  std::string err;         ///< standard error; the last 64 KiB
+  std::string out;         ///< standard output, at least its last 16 MiB
+  std::string err;         ///< standard error, at least its last 64 KiB
   double wall_s = 0;
-  double cpu_s = 0;            ///< of all threads, in user and kernel mode
-  double peak_memory_mib = 0;  ///< largest resident set
+  double cpu_s = 0;            ///< processor time of all threads, in user and kernel mode
+  double peak_memory_mib = 0;  ///< largest resident set size
 
   /// Reason of the failure: the last line of standard error, or how the child ended. Empty on success.
   std::string failure() const;
 
-  /// failure() without `prefix` if it starts with that: with the "NAME: " of the program's own messages.
+  /// failure() without `prefix` at its start, such as the "NAME: " of the program's own messages.
   std::string failure_without(const std::string& prefix) const;
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChildEnd, code, signal, over_time, stopped, out, err, wall_s, cpu_s,
                                    peak_memory_mib)
 
-/// Runs a program to its end. Its standard input is empty. It has its own process group, so that Ctrl-C
-/// reaches only the caller, and ends when the calling thread ends. Throws SystemFailure when the program
-/// cannot be started.
+/// Runs a program to its end, with empty standard input. The program has its own process group: Ctrl-C
+/// reaches only the caller. The program is killed when the calling thread ends. Throws SystemFailure when the
+/// program cannot be started.
 ChildEnd run_child(const ChildProcess& child);
 
-/// Runs a program as run_child(). A program that cannot be started is a failed one, with the reason as its
-/// standard error. Empty if `stop` ended the program.
+/// Runs a program as run_child() does. If the program cannot be started, returns a failure with the reason in
+/// `err`. Returns nothing if `stop` ended the program.
 std::optional<ChildEnd> run_to_end(const ChildWords& words, const std::function<bool()>& stop);
 
 /// Workers that run programs with run_to_end().
 using ChildWorkers = Workers<ChildWords, ChildEnd>;
 
-/// Runs at most `processes` programs at a time on this machine.
+/// Workers that run at most `processes` programs at a time on this machine.
 ChildWorkers local_child_workers(int processes);
 
 }  // namespace psi_slam

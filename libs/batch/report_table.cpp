@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kNoValue = "–";
 
-/// A text in one cell of a Markdown table: in one line, without bars.
+/// Text for one cell of a Markdown table: line ends become spaces, bars become slashes.
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   std::replace(text.begin(), text.end(), '|', '/');
@@ -26,7 +26,7 @@ std::string scalar_text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-/// Adds the scalar values in `value`, each with its path. Nulls are left out.
+/// Adds each scalar value within `value` to `fields` under its path, and new paths to `paths`. Skips nulls.
 void add_fields(const std::string& path, const Json& value, std::map<std::string, std::string>& fields,
                 std::vector<std::string>& paths) {
   if (value.is_null() || value.is_discarded()) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table of a report that writes itself as Markdown, HTML, JSON and CSV.
+// A table of a report, with output as Markdown, HTML, JSON and CSV.
 #pragma once
 
 #include <cstddef>
@@ -13,50 +13,50 @@
 
 namespace psi_slam {
 
-/// One value: as text for Markdown and HTML, as data for JSON and CSV.
+/// One cell of a table: a text for Markdown and HTML, a value for JSON and CSV.
 struct ReportCell {
   std::string text;
-  nlohmann::ordered_json value;  ///< discarded: the row has no such member in JSON
-  bool best = false;             ///< bold
+  nlohmann::ordered_json value;  ///< a discarded value is left out of the JSON object of the row
+  bool best = false;             ///< shown in bold
 };
 
 ReportCell cell(const std::string& text);
 ReportCell cell(std::size_t count);
 ReportCell cell(double value, int decimals);
-/// Factor times the value as text, the value itself as data; "–" and null without a value.
+/// Cell with `factor` times the value as text and the value itself as data. Without a value: "–" and null.
 ReportCell cell(const std::optional<double>& value, int decimals, double factor = 1);
-/// spread_text() and spread_json().
+/// Cell with spread_text() as text and spread_json() as data.
 ReportCell cell(const SeedSpread& spread, int decimals);
-/// "–" as text and no data.
+/// Cell with "–" as text and no data.
 ReportCell empty_cell();
 
 struct ReportColumn {
   std::string head;      ///< head in Markdown and HTML; empty: the column is missing there
   std::string key{};     ///< name in JSON and CSV; empty: the column is missing there. "a.b" is member b of a
-  bool is_text = false;  ///< left-aligned
+  bool is_text = false;  ///< left-aligned, as texts are
 };
 
 struct ReportTable {
   std::vector<ReportColumn> columns;
-  std::vector<std::vector<ReportCell>> rows;  ///< a cell for each column
+  std::vector<std::vector<ReportCell>> rows;  ///< each row has a cell for each column
 
   std::string markdown() const;
   std::string html() const;
   /// An array with an object for each row.
   nlohmann::ordered_json json() const;
-  /// A head and a line for each row. Members of objects are columns of their own, named by their path:
+  /// A header line, then a line for each row. Each member of an object is a column, named by its path:
   /// "a.mean". Elements of arrays are separated by spaces.
   std::string csv() const;
 };
 
-/// A column and how its cell follows from a row.
+/// A column, and the function that makes its cell from a row.
 template <class Row>
 struct ColumnOf {
   ReportColumn column;
   std::function<ReportCell(const Row&)> cell_of;
 };
 
-/// Columns of a member of the rows: a text, a count, or a number with `decimals`.
+/// Column with one member of each row: a text, a count, or a number with `decimals` decimals.
 template <class Row>
 ColumnOf<Row> column(const std::string& head, const std::string& key, std::string Row::*text) {
   return {{head, key, true}, [=](const Row& row) { return cell(row.*text); }};

@@ -20,12 +20,12 @@ PathErrors path_errors(const RelationsMetric& metric) {
 double duration_s(const Trajectory& path) {
   const auto [first, last] =
       std::minmax_element(path.begin(), path.end(), [](const StampedPose& a, const StampedPose& b) {
-        return a.time_us < b.time_us;  // time stamps may go back
+        return a.time_us < b.time_us;  // the time stamps of a path may decrease
       });
   return first == path.end() ? 0 : seconds(last->time_us - first->time_us);
 }
 
-/// Calls visit(key, member) for each figure but the errors.
+/// Calls visit(key, member) for each figure except the errors.
 template <class Figures, class Visit>
 void visit_counts(Figures& figures, const Visit& visit) {
   visit("relations_used", figures.relations_used);

@@ -15,19 +15,19 @@ namespace psi_slam {
 
 struct MeanAndStd {
   double mean = 0;
-  double std = 0;  ///< of the population
+  double std = 0;  ///< standard deviation of the population
 };
 
-/// "0.0200 ± 0.0150".
+/// Mean and standard deviation with four decimals: "0.0200 ± 0.0150".
 std::string errors_text(const MeanAndStd& errors);
 
-/// Errors over the true relations.
+/// Errors of a path over the true relations, each with its square.
 struct PathErrors {
   MeanAndStd translation_abs_m;
   MeanAndStd translation_sq_m2;
   MeanAndStd rotation_abs_deg;
   MeanAndStd rotation_sq_deg2;
-  /// As Cartographer's tool defines the error: see relations_metric.h.
+  /// Translation error as Cartographer's evaluation tool defines it: see relations_metric.h.
   MeanAndStd cartographer_translation_abs_m;
 };
 
@@ -38,7 +38,7 @@ struct PathFigure {
   MeanAndStd PathErrors::*errors;
 };
 
-/// The four errors that the paper reports, in its order, then Cartographer's variant of the first.
+/// The four errors that the paper reports, in the paper's order, then Cartographer's variant of the first.
 inline constexpr std::size_t kPaperFigures = 4;
 inline constexpr std::array<PathFigure, kPaperFigures + 1> kPathFigures{
     {{"translation_abs_m", "translation [m]", &PathErrors::translation_abs_m},
@@ -55,27 +55,27 @@ struct RunFigures {
   std::size_t scans = 0;
   double duration_s = 0;  ///< length of the recording
 
-  // Of the whole process, from its start to its end; 0 until measured.
+  // Time and memory of the whole process, from its start to its end; 0 until measured.
   double wall_s = 0;
   double cpu_s = 0;
   double peak_memory_mib = 0;
 
-  /// Length of the recording over wall time.
+  /// Length of the recording divided by the wall time; 0 until measured.
   double real_time_factor() const { return wall_s > 0 ? duration_s / wall_s : 0; }
 };
 
-/// Evaluates a path against the true relations; times and memory stay 0. Throws UserError as
-/// evaluate_relations().
+/// Evaluates a path against the true relations. Wall time, processor time and memory stay 0. Throws UserError
+/// as evaluate_relations() does.
 RunFigures evaluate_path(const Trajectory& path, const std::vector<Relation>& relations);
 
-/// An object with a member for each figure.
+/// JSON object with a member for each figure.
 nlohmann::ordered_json run_figures_json(const RunFigures& figures);
 
-/// Reads an object of run_figures_json(); every figure is restored exactly. Throws nlohmann::json::exception
-/// for a missing figure.
+/// Reads a JSON object of run_figures_json() and restores every figure exactly. Throws
+/// nlohmann::json::exception for a missing figure.
 RunFigures read_run_figures(const nlohmann::ordered_json& json);
 
-/// Copies time and memory of a process, a ChildEnd, into the figures of its run.
+/// Copies the times and the memory of a process, such as a ChildEnd, to the figures of its run.
 template <class End>
 void set_effort(RunFigures& figures, const End& end) {
   figures.wall_s = end.wall_s;

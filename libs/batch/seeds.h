@@ -19,18 +19,18 @@ struct SeedRange {
   std::vector<std::uint64_t> all() const;
 };
 
-/// Reads "10" as 1 to 10 and "4-6" as 4 to 6. Throws UserError for any other text and for more than a million
-/// seeds.
+/// Reads a range of seeds: "10" as 1 to 10, "4-6" as 4 to 6. Throws UserError for any other text and for more
+/// than a million seeds.
 SeedRange parse_seeds(const std::string& text);
 
-/// "seed 4", "seeds 4 to 6".
+/// Text for messages: "seed 4", "seeds 4 to 6".
 std::string seeds_text(const SeedRange& seeds);
 
 /// Statistics of one figure over several runs. All members are 0 without values.
 struct SeedSpread {
   std::size_t count = 0;  ///< number of values
   double mean = 0;
-  double std = 0;  ///< of the sample: divided by n - 1; 0 for a single value
+  double std = 0;  ///< standard deviation of the sample, divided by n - 1; 0 for a single value
   double min = 0;
   double max = 0;
 };
@@ -45,14 +45,15 @@ SeedSpread spread_over(const std::vector<Run>& runs, const ValueOf& value_of) {
   return spread_of(values);
 }
 
-/// "0.0412 ± 0.0010 [0.0431]": mean, standard deviation and greatest value. Only the mean for a single value;
-/// "–" without values.
+/// Text of the statistics, such as "0.0412 ± 0.0010 [0.0431]": mean, standard deviation and greatest value.
+/// Only the mean for a single value; "–" without values.
 std::string spread_text(const SeedSpread& spread, int decimals);
 
-/// {"mean": ..., "std": ..., "min": ..., "max": ...}; null without values.
+/// JSON object {"mean": ..., "std": ..., "min": ..., "max": ...}; null without values.
 nlohmann::ordered_json spread_json(const SeedSpread& spread);
 
-/// Groups consecutive rows for which `same` is true: rows of one case that differ only in their seed.
+/// Groups consecutive rows: a row joins a group if `same(first row of the group, row)` is true. The rows of a
+/// group belong to one case and differ only in their seed.
 template <class Row, class Same>
 std::vector<std::vector<Row>> by_case(const std::vector<Row>& rows, const Same& same) {
   std::vector<std::vector<Row>> cases;

@@ -32,7 +32,7 @@ SweepLock::SweepLock(const fs::path& folder) {
   if (file_ < 0) throw UserError(path.string() + " cannot be written: choose another folder with -o");
   if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
   ::close(file_);
-  throw UserError("another sweep is at work in " + folder.string() +
+  throw UserError("another sweep is running in " + folder.string() +
                   ": wait until it ends, or choose another folder with -o");
 }
 
@@ -44,8 +44,8 @@ SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const 
                       const std::function<bool()>& stop, const ProgressObserver& progress) {
   SweepResult result;
   std::vector<SweepOrder> orders;
-  std::vector<std::size_t> runs;  // index of the run of each order
-  std::vector<double> work;       // of each order: bytes of its log
+  std::vector<std::size_t> runs;  // for each order: index of its run
+  std::vector<double> work;       // for each order: bytes of its log
   double all_work = 0;
   for (const SweepRun& run : plan.runs) {
     SweepOrder order = order_of(plan, run, options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a sweep: keeps finished runs and hands the others to workers.
+// Runs a sweep: reuses the results of finished runs and hands the remaining runs to workers.
 #pragma once
 
 #include <algorithm>
@@ -16,20 +16,20 @@
 namespace psi_slam {
 
 struct SweepOptions {
-  std::filesystem::path output;                      ///< folder of the sweep; runs are output/runs/NAME/
-  SweepKeep keep = SweepKeep::kNone;                 ///< files to keep of each run
-  std::filesystem::path program = "/proc/self/exe";  ///< psi-slam, which makes the runs
+  std::filesystem::path output;       ///< folder of the sweep; each run has a folder output/runs/NAME/
+  SweepKeep keep = SweepKeep::kNone;  ///< files to keep of each run
+  std::filesystem::path program = "/proc/self/exe";  ///< the psi-slam program that makes the runs
 };
 
 /// Workers that make the runs with make_run().
 using SweepWorkers = Workers<SweepOrder, SweepOutcome>;
 using SweepWatch = WorkWatch<SweepOutcome>;
 
-/// Makes at most `processes` runs at a time on this machine.
+/// Workers that make at most `processes` runs at a time on this machine.
 SweepWorkers local_workers(int processes);
 
 struct SweepResult {
-  std::vector<std::optional<SweepOutcome>> outcomes;  ///< by run of the plan; empty: not made yet
+  std::vector<std::optional<SweepOutcome>> outcomes;  ///< one for each run of the plan; empty: not made yet
 
   std::size_t to_go() const {
     return count([](const auto& outcome) { return !outcome; });
@@ -48,8 +48,9 @@ struct SweepResult {
   }
 };
 
-/// Lock of an output folder: no other sweep writes to it during the lifetime of this object. Throws UserError
-/// when another sweep holds the lock, on this machine or on one that shares its locks.
+/// Locks an output folder: no other sweep can write to it during the lifetime of this object. Throws
+/// UserError if the lock file cannot be written. Throws UserError also if another sweep holds the lock, on
+/// this machine or on one that shares its file locks.
 class SweepLock {
  public:
   explicit SweepLock(const std::filesystem::path& folder);
@@ -61,7 +62,8 @@ class SweepLock {
   int file_ = -1;
 };
 
-/// Calls `progress` from one thread at a time.
+/// Makes the runs of the plan that have no kept result. Runs that have not ended when `stop` returns true get
+/// no outcome. Calls `progress` from one thread at a time.
 SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const SweepWorkers& workers,
                       const std::function<bool()>& stop, const ProgressObserver& progress);
 

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostRuns = 1'000'000;
-constexpr std::size_t kFolderDigits = 16;  // of the key in a folder name
+constexpr std::size_t kFolderDigits = 16;  // number of digits of the key in a folder name
 
 /// One option that varies, and its values.
 struct Choice {
@@ -29,7 +29,7 @@ std::string stem_of(const fs::path& log) {
 }
 
 void require_file(const fs::path& path, const std::string& what) {
-  if (!fs::is_regular_file(path)) throw UserError(what + path.string() + " is not a file");
+  if (!fs::is_regular_file(path)) throw UserError(what + path.string() + " is not a file. Check the path");
 }
 
 void measure(SweepLog& log) {
@@ -42,7 +42,8 @@ void measure(SweepLog& log) {
     if (entry.is_regular_file()) log.bytes += entry.file_size();
 }
 
-/// The file NAME + `ending` in the folder, or beside the log without a folder; empty if it does not exist.
+/// Path of NAME + `ending` in `folder`, or beside the log if `folder` is empty. Empty if there is no such
+/// file.
 fs::path found(const fs::path& log, const std::string& folder, const char* ending) {
   const fs::path path = (folder.empty() ? log.parent_path() : fs::path(folder)) / (stem_of(log) + ending);
   return fs::is_regular_file(path) ? path : fs::path();
@@ -51,7 +52,8 @@ fs::path found(const fs::path& log, const std::string& folder, const char* endin
 SweepLog log_of(const std::string& argument, const SweepRequest& request) {
   SweepLog log;
   log.log = argument;
-  if (log.log.filename().empty()) log.log = log.log.parent_path();  // of "folder/"
+  // Removes the slash at the end of "folder/".
+  if (log.log.filename().empty()) log.log = log.log.parent_path();
   const std::size_t at = argument.rfind('@');
   if (at != std::string::npos && !fs::exists(log.log)) {  // a file name may contain @
     log.log = argument.substr(0, at);
@@ -75,12 +77,13 @@ SweepLog log_of(const std::string& argument, const SweepRequest& request) {
 }
 
 std::vector<SweepLog> logs_of(const SweepRequest& request) {
-  if (request.logs.empty()) throw UserError("name the logs: psi-slam sweep LOG... -o DIR");
+  if (request.logs.empty())
+    throw UserError("sweep: no log is given: name the logs, as in psi-slam sweep LOG... -o DIR");
   if (!request.relations.empty() && request.logs.size() > 1)
     throw UserError("--relations works with one log only: for several, put NAME.relations beside each log");
   if (!request.ini_folder.empty() && !fs::is_directory(request.ini_folder))
     throw UserError("--ini: " + request.ini_folder +
-                    " is not a folder, expected one with a file NAME.ini for each log");
+                    " is not a folder, expected a folder with a file NAME.ini for each log");
   std::map<std::string, int> names;
   std::vector<SweepLog> logs;
   for (const std::string& argument : request.logs) {
@@ -130,7 +133,7 @@ std::vector<Choice> choices_of(const SweepRequest& request) {
   return choices;
 }
 
-/// All combinations; the last choice varies fastest.
+/// All combinations of one value of each choice; the last choice varies fastest.
 std::vector<std::vector<std::string>> combinations(const std::vector<Choice>& choices) {
   std::vector<std::vector<std::string>> all(1);
   for (const Choice& choice : choices) {
@@ -148,7 +151,7 @@ std::vector<std::vector<std::string>> combinations(const std::vector<Choice>& ch
   return all;
 }
 
-/// Sets everything but the seed for the runs of a log with one combination of values.
+/// Sets all options except the seed, for the runs of a log with one combination of values.
 void set_up(BoundSettings& bound, const SweepLog& log, const std::vector<Choice>& choices,
             const std::vector<std::string>& values, int threads) {
   bound.load(log.ini, {});

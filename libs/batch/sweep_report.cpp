@@ -28,7 +28,8 @@ const char* state_of(const std::optional<SweepOutcome>& outcome) {
   return outcome->figures ? "done" : "failed";
 }
 
-/// Fields of a run between its state and its times, in the order of kFigureHeads.
+/// CSV fields with the figures of a run, in the order of kFigureHeads. The fields are empty if the run has no
+/// figures.
 std::vector<std::string> figure_fields(const std::optional<SweepOutcome>& outcome) {
   if (!outcome || !outcome->figures) return std::vector<std::string>(11);
   const SweepFigures& figures = *outcome->figures;
@@ -56,7 +57,7 @@ std::string time_fields(const std::optional<SweepOutcome>& outcome) {
          ',' + fixed_text(figures.peak_memory_mib, 1);
 }
 
-/// The sentences above the tables.
+/// Summary above the tables of the report.
 std::string account_text(const SweepPlan& plan, const SweepResult& result) {
   const auto runs = counted(plan.runs.size(), "run", "runs");
   const auto logs = counted(plan.logs.size(), "log", "logs");
@@ -86,7 +87,7 @@ std::vector<Group> groups_of(const SweepPlan& plan, const SweepResult& result) {
   return groups;
 }
 
-/// A column of numbers.
+/// A column of numbers in the report: one figure of the runs.
 struct Measure {
   const char* head;
   double (*value_of)(const SweepFigures&);
@@ -105,7 +106,7 @@ std::string mean_and_std(const SeedSpread& spread, int decimals) {
   return spread.count == 1 ? mean : mean + " ± " + fixed_text(spread.std, decimals);
 }
 
-/// True if several settings of the log have a mean and this one has the smallest.
+/// True if several groups of the log have a mean of the measure and this group has the smallest.
 bool is_best(const Measure& measure, const Group& group, const std::vector<Group>& groups) {
   const SeedSpread own = spread_of(measure, group);
   bool compared = false;

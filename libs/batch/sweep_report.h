@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of a finished or interrupted sweep. They show the results only: apart from times, they are equal
-// whether or not the sweep was interrupted, and whichever workers made the runs.
+// Report files of a finished or interrupted sweep. Apart from times and memory, they do not depend on
+// interruptions or on the workers that made the runs.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace psi_slam {
 
-/// A line for each run. Times and memory are the last columns.
+/// CSV with a line for each run. Times and memory are the last columns.
 std::string sweep_csv(const SweepPlan& plan, const SweepResult& result);
 
-/// All runs, with the checksums of the logs, the keys of the runs and all errors.
+/// JSON with all runs, the checksums of the logs, the keys of the runs and all errors.
 std::string sweep_json(const SweepPlan& plan, const SweepResult& result);
 
-/// Tables over the seeds, a row for each log and setting: errors and loops, failed runs, times and memory.
-/// The smallest error of each log is marked.
+/// Tables with statistics over the seeds in a row for each log and setting: errors and loops, failed runs,
+/// times and memory. The smallest error of each log is marked.
 std::string sweep_markdown(const SweepPlan& plan, const SweepResult& result);
 std::string sweep_html(const SweepPlan& plan, const SweepResult& result);
 

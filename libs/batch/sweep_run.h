@@ -13,21 +13,21 @@
 
 namespace psi_slam {
 
-/// Files to keep of a run besides summary.json and settings.ini, which suffice to repeat it.
+/// Files of a run to keep besides run.json, summary.json and settings.ini.
 enum class SweepKeep {
   kNone,
   kPaths,  ///< trajectories and tables
   kMaps,   ///< all files
 };
 
-/// All that a worker needs to make a run, on any machine.
+/// Everything that a worker on any machine needs to make a run.
 struct SweepOrder {
-  std::filesystem::path program;  ///< psi-slam
+  std::filesystem::path program;  ///< the psi-slam program
   std::filesystem::path log;
-  std::filesystem::path relations;  ///< empty: none
+  std::filesystem::path relations;  ///< file with the true relations; empty: none
   std::string settings;
   std::string key;
-  std::filesystem::path folder;  ///< for the results
+  std::filesystem::path folder;  ///< folder for the results
   SweepKeep keep = SweepKeep::kNone;
 };
 
@@ -52,19 +52,20 @@ struct SweepFigures : RunFigures {
 
 struct SweepOutcome {
   std::optional<SweepFigures> figures;
-  std::string failure;  ///< reason for missing figures
-  int attempts = 0;     ///< made now; 0: the result was kept from before
+  std::string failure;  ///< reason why there are no figures
+  int attempts = 0;     ///< attempts of this sweep; 0: the result was kept from an earlier sweep
 };
 
-/// The finished result in the order's folder, if it has the order's key and all files to keep.
+/// Finished result in the folder of the order, if it has the key of the order and all files to keep. Empty
+/// otherwise.
 std::optional<SweepOutcome> kept_outcome(const SweepOrder& order);
 
-/// Makes the run. The folder appears when the run is finished, and replaces an older one. Starts a process
-/// that is killed or crashes once more. Calls `stop` a few times a second; when that returns true, returns
-/// nothing and leaves no folder. Never throws for a failed run.
+/// Makes the run. The folder of the finished run replaces an older one. Starts the process a second time if
+/// it fails for a reason other than wrong input. Calls `stop` a few times a second. If `stop` returns true,
+/// returns nothing and leaves no unfinished folder. A failed run throws nothing.
 std::optional<SweepOutcome> make_run(const SweepOrder& order, const std::function<bool()>& stop);
 
-/// Conversions for messages to and from workers in other processes.
+/// JSON conversions for messages to and from workers in other processes.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SweepOrder, program, log, relations, settings, key, folder, keep)
 void to_json(nlohmann::json& json, const SweepOutcome& outcome);
 void from_json(const nlohmann::json& json, SweepOutcome& outcome);

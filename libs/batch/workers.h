@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders carried out by workers: threads of this process, or ranks of an MPI job (see apps/mpi), which
+// Workers that carry out orders: threads of this process, or ranks of an MPI job (see apps/mpi). MPI ranks
 // exchange orders and outcomes as texts of cbor_text().
 #pragma once
 
@@ -28,8 +28,8 @@ struct WorkWatch {
 template <class Order, class Outcome>
 using Workers = std::function<void(const std::vector<Order>&, const WorkWatch<Outcome>&)>;
 
-/// Workers that carry out at most `processes` orders at a time. `make(order, stop)` carries out one order. It
-/// calls `stop` a few times a second and returns no outcome if that ended the order.
+/// Workers that carry out at most `processes` orders at a time. `make(order, stop)` carries out one order.
+/// `make` calls `stop` a few times a second, and returns nothing if `stop` ended the order.
 template <class Order, class Outcome, class Make>
 Workers<Order, Outcome> thread_workers(int processes, Make make) {
   return [processes, make](const std::vector<Order>& orders, const WorkWatch<Outcome>& watch) {
@@ -45,10 +45,11 @@ Workers<Order, Outcome> thread_workers(int processes, Make make) {
   };
 }
 
-/// Receives the task at hand, the work done and all work, both in the same unit.
+/// Receives the name of the current task, the work done and the total work, both in the same unit.
 using ProgressObserver = std::function<void(const std::string& doing, double done, double all)>;
 
-/// Progress of several threads with a number of tasks. Calls the observer from one thread at a time.
+/// Progress of a number of tasks that several threads carry out. Calls the observer from one thread at a
+/// time.
 class TaskProgress {
  public:
   /// `observer` must outlive the object.
@@ -79,7 +80,7 @@ class TaskProgress {
   double done_ = 0;
 };
 
-/// CBOR bytes for a message to another process. Unlike JSON text it keeps file names of any encoding.
+/// CBOR bytes for a message to another process. Unlike JSON text, CBOR keeps file names in any encoding.
 inline std::string cbor_text(const nlohmann::json& json) {
   std::string text;
   nlohmann::json::to_cbor(json, text);

@@ -29,10 +29,12 @@ constexpr std::size_t kLinesOfHead = 500;
 constexpr std::size_t kAllLines = std::numeric_limits<std::size_t>::max();
 constexpr double kEnoughPath_m = 3.0;
 constexpr double kEnoughTurn_rad = 1.0;
-constexpr double kSameMount_m = 0.002;  // logs are rounded to a micrometre or a millimetre
+constexpr double kSameMount_m = 0.002;  // poses in logs are rounded to a micrometre or a millimetre
 constexpr double kSameMount_rad = 0.002;
-constexpr double kBelowNoReturn = 0.97;    // below 81.83 if the largest code for no return is 81.91
-constexpr float kLargestReading_m = 1000;  // a larger one is damaged or in another unit
+// Maximum range as a fraction of the largest reading. It lies below all codes for "no return" of a laser,
+// such as 81.83 and 81.91 m.
+constexpr double kBelowNoReturn = 0.97;
+constexpr float kLargestReading_m = 1000;  // a larger reading is damaged or in another unit
 
 Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) {
   LineReader lines(path);
@@ -45,7 +47,7 @@ Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) 
   return found;
 }
 
-/// First of the preferred messages that was found; empty if none was.
+/// First of the preferred messages that is among those found. Empty if none is.
 std::string first_of(const std::vector<std::string>& preferred, const Messages& found) {
   for (const std::string& name : preferred)
     if (found.count(name) != 0) return name;
@@ -60,13 +62,13 @@ bool same_mount(const TPose2D& a, const TPose2D& b) {
 std::optional<CarmenLaserMessage> readable_laser(CarmenFields& fields) {
   try {
     return read_laser(fields);
-  } catch (const MalformedLine&) {  // reported when the log is read
+  } catch (const MalformedLine&) {  // the reader reports this line later
     return std::nullopt;
   }
 }
 
-/// Candidate messages of each laser of a choice. "all" means the front laser, the rear laser and the others.
-/// A laser with several kinds of messages is thus read once.
+/// Names of the messages that may hold the scans of each chosen laser. "all" stands for the front laser, the
+/// rear laser, RAWLASER3 and RAWLASER4. A laser with several kinds of messages is thus read once.
 std::vector<std::vector<std::string>> messages_wanted(const LaserChoice& choice) {
   std::vector<std::vector<std::string>> wanted;
   if (choice.all) {

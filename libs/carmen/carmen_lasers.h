@@ -20,8 +20,8 @@
 
 namespace psi_slam {
 
-/// Names of the messages that can hold scans of a laser (`LogOptions::laser`), in order of preference. Throws
-/// UserError that names `option` for a laser that CARMEN does not have.
+/// Names of the messages that can hold scans of a laser (`LogOptions::laser`), in order of preference; of all
+/// lasers if the name is empty. Throws UserError that names `option` for a laser that CARMEN does not have.
 std::vector<std::string> carmen_laser_messages(const std::string& laser,
                                                const std::string& option = "log.laser");
 
@@ -31,10 +31,10 @@ std::vector<std::string> carmen_laser_messages(const std::string& laser,
 std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const std::filesystem::path& path,
                                                        std::string_view message);
 
-/// Maximum range, metres, of a laser whose log states none, from the messages with this name in the first
-/// lines of the log. Lasers write codes from 50 m on for "no return", which differ between logs and settings
-/// of the laser: 50.00, 51.06, 81.83, 81.91. The range ends at 0.97 times the largest reading, below all of
-/// them, but not before kUnstatedMaxRange_m. Skips malformed lines and readings beyond 1000 m.
+/// Estimates the maximum range, metres, of a laser whose log states none. Uses the messages with this name in
+/// the first 500 lines. Lasers write codes of 50 m or more for "no return", which differ between logs and
+/// settings of the laser: 50.00, 51.06, 81.83, 81.91. Returns 0.97 times the largest reading, to exclude such
+/// codes, but at least kUnstatedMaxRange_m. Skips malformed lines and readings beyond 1000 m.
 double max_range_by_readings_m(const std::filesystem::path& path, std::string_view message);
 
 /// Turns the messages of one laser into scans. The user's options override PARAM lines and messages.
@@ -48,8 +48,8 @@ class CarmenLaser {
   /// Returns whether the user or the log states the pose of the laser on the robot.
   bool knows_mount() const;
 
-  /// Takes name and value of a PARAM line, the fields after "PARAM". Other parameters are ignored. A
-  /// malformed line changes nothing.
+  /// Reads name and value of a PARAM line; `fields` begin after the word "PARAM". Ignores parameters that do
+  /// not describe this laser. Throws MalformedLine for an invalid value, and then changes nothing.
   void take_parameter(CarmenFields& fields);
 
   /// Sets the mount that applies if neither the user nor a PARAM line states one.
@@ -58,7 +58,8 @@ class CarmenLaser {
   /// Sets the maximum range that applies if neither the user, a PARAM line nor a message states one.
   void set_max_range(double max_range_m) { max_range_m_ = max_range_m; }
 
-  /// Throws MalformedLine at the place of `fields` if the bearings are unknown.
+  /// Makes a scan from a message of this laser. Throws MalformedLine, which names the line of `fields`, if
+  /// the bearings of the beams are unknown.
   LaserScan scan(CarmenLaserMessage message, const CarmenFields& fields);
 
  private:
@@ -66,7 +67,8 @@ class CarmenLaser {
   mrpt::math::TPose2D robot_T_laser() const;
   std::vector<float> bearings_rad(const CarmenLaserMessage& message, const CarmenFields& fields) const;
 
-  using Geometry = std::tuple<std::size_t, double, double, double>;  // beams, first bearing, view, step
+  // Number of beams, first bearing, field of view, step.
+  using Geometry = std::tuple<std::size_t, double, double, double>;
 
   std::string message_name_;
   std::string position_;
@@ -77,31 +79,33 @@ class CarmenLaser {
   std::optional<mrpt::math::TPose2D> mount_by_poses_;
   double max_range_m_ = 0;  // 0: unknown
   std::optional<double> stated_resolution_rad_;
-  Geometry geometry_;  // of bearings_
+  Geometry geometry_;  // geometry of the scans that bearings_ belongs to
   BeamBearings bearings_;
 };
 
-/// Lasers that are read. If several kinds of messages can hold the scans of a laser, the first lines of the
-/// log decide; if they have none, the first such message to appear.
+/// Lasers of a log that are read. If several kinds of messages can hold the scans of a laser, the first 500
+/// lines of the log decide. If these lines contain none of the messages, the first such message to appear
+/// decides.
 class CarmenLasers {
  public:
   struct Laser {
     CarmenLaser laser;
-    std::size_t number = 0;            ///< see LaserScan::laser
+    std::size_t number = 0;            ///< number of the laser, see LaserScan::laser
     std::size_t early_parameters = 0;  ///< number of PARAM lines before the laser was known
-    bool began = false;                ///< whether a scan has appeared
+    bool began = false;                ///< whether a scan of the laser has been reached
   };
 
-  /// Throws UserError if CARMEN does not have a selected laser, or if the log lacks one of several.
+  /// Throws UserError for a selected laser that CARMEN does not have. If several lasers are named, throws
+  /// UserError also if the log lacks one of them.
   CarmenLasers(const std::filesystem::path& path, const LogOptions& options);
 
-  /// Returns the laser whose scans are in messages with this name, or null if they are not read.
+  /// Returns the laser whose scans are in messages with this name, or null if these messages are not read.
   Laser* laser_of(std::string_view message);
 
   bool several() const { return slots_.size() > 1; }
   bool any_known() const;
   bool all_known() const;
-  bool any_needs_odometry() const;  ///< RAWLASER messages lack odometry
+  bool any_needs_odometry() const;  ///< RAWLASER messages do not state odometry
 
   template <class Do>
   void for_each(Do action) {
@@ -113,7 +117,7 @@ class CarmenLasers {
   void keep_parameter(std::string_view line) { parameters_.emplace_back(line); }
   const std::deque<std::string>& parameters() const { return parameters_; }
 
-  /// Names of all messages that may hold scans, in order of preference.
+  /// Names of all messages that may hold scans of the selected lasers, in order of preference.
   std::vector<std::string> candidates() const;
 
  private:

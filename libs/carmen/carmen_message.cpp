@@ -9,13 +9,13 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kMaxReadings = 100'000;  // a larger number is damaged
+constexpr std::size_t kMaxReadings = 100'000;  // a line that states more readings is damaged
 
 bool is_space(char c) {
   return c == ' ' || c == '\t';
 }
 
-/// Parses all of `field`. A number beyond the range of its type counts as infinite.
+/// Parses `field`, which must be a single number. A number beyond the range of its type becomes infinite.
 template <class Number>
 bool parse(std::string_view field, Number& value) {
   if (!field.empty() && field.front() == '+') field.remove_prefix(1);
@@ -31,7 +31,7 @@ std::vector<float> read_ranges(CarmenFields& fields) {
   return fields.ranges(readings);
 }
 
-/// type start_angle fov resolution max_range accuracy remission_mode  n r1..rn  m rem1..remm
+/// Fields: type start_angle fov resolution max_range accuracy remission_mode  n r1..rn  m rem1..remm
 CarmenLaserMessage read_configuration_and_ranges(CarmenFields& fields) {
   CarmenLaserMessage message;
   fields.number("the laser's type");
@@ -107,7 +107,7 @@ mrpt::math::TPose2D CarmenFields::pose(const char* what) {
   const double phi = number((std::string("theta of ") + what).c_str());
   mrpt::math::TPose2D pose{x, y, phi};
   const bool is_wrapped = phi > -M_PI && phi <= M_PI;
-  if (!is_wrapped) pose.normalizePhi();  // wrapping may change the last digit
+  if (!is_wrapped) pose.normalizePhi();  // only if necessary: wrapping may change the last digit
   return pose;
 }
 

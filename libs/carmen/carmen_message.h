@@ -15,14 +15,14 @@
 
 namespace psi_slam {
 
-/// A malformed line of a CARMEN log. The text names file, line, message and what was expected.
+/// Error for a malformed line of a CARMEN log. The text names file, line, message and what was expected.
 class MalformedLine : public UserError {
  public:
   using UserError::UserError;
 };
 
 /// Parses the fields of one line from left to right. Each call throws MalformedLine if the next field is
-/// missing or has another type. The error says so if the end of the file truncates the line.
+/// missing or has another type. If the file ends within the line, the error says that the file is cut off.
 class CarmenFields {
  public:
   /// Parses the name of the message, which is empty for a blank line.
@@ -54,16 +54,17 @@ class CarmenFields {
   const LineReader& lines_;
 };
 
-/// One message of a laser as its line states it, without any filtering. Members that its kind of message does
-/// not have are zero.
+/// One message of a laser as its line states it, without any filtering. Members that this kind of message
+/// lacks are zero.
 struct CarmenLaserMessage {
-  TimeUs time_us = 0;  ///< ipc_timestamp
+  TimeUs time_us = 0;  ///< time of the scan: ipc_timestamp
   std::vector<float> ranges_m;
-  double start_angle_rad = 0;        ///< bearing of the first reading
-  double field_of_view_rad = 0;      ///< 0: not stated
-  double resolution_rad = 0;         ///< step between readings; 0: not stated
-  double max_range_m = 0;            ///< 0: not stated
-  mrpt::math::TPose2D odom_T_laser;  ///< in a corrected log the result of a mapper, not odometry
+  double start_angle_rad = 0;    ///< bearing of the first reading
+  double field_of_view_rad = 0;  ///< 0: not stated
+  double resolution_rad = 0;     ///< step between readings; 0: not stated
+  double max_range_m = 0;        ///< 0: not stated
+  /// Pose of the laser; in a corrected log the result of a mapper, not odometry.
+  mrpt::math::TPose2D odom_T_laser;
   mrpt::math::TPose2D odom_T_robot;
 };
 
@@ -73,10 +74,11 @@ struct CarmenOdometryMessage {
 };
 
 // Each function parses the fields after the name of the message and throws MalformedLine.
-CarmenLaserMessage read_flaser(CarmenFields& fields);      ///< also RLASER
-CarmenLaserMessage read_rawlaser(CarmenFields& fields);    ///< without poses
-CarmenLaserMessage read_robotlaser(CarmenFields& fields);  ///< the robot's pose is odometry
-CarmenLaserMessage read_laser(CarmenFields& fields);       ///< any of these, by its name
+CarmenLaserMessage read_flaser(CarmenFields& fields);    ///< reads FLASER and RLASER lines
+CarmenLaserMessage read_rawlaser(CarmenFields& fields);  ///< reads RAWLASER lines, which have no poses
+/// Reads ROBOTLASER lines; odom_T_robot is odometry.
+CarmenLaserMessage read_robotlaser(CarmenFields& fields);
+CarmenLaserMessage read_laser(CarmenFields& fields);  ///< reads any laser line, by the name of its message
 CarmenOdometryMessage read_odometry(CarmenFields& fields);
 
 }  // namespace psi_slam

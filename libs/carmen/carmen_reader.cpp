@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // CARMEN logs: text, one message a line; '#' starts a comment.
 //
-// Scans of a laser come from one kind of message. By default this is the front laser's: ROBOTLASER1,
-// otherwise FLASER, otherwise RAWLASER1, as far as the first lines of the log have it. Without any of them it
-// is the rear laser's (ROBOTLASER2, RLASER, RAWLASER2), and finally RAWLASER3 and RAWLASER4. Messages of
-// other kinds are counted and otherwise ignored.
+// The scans of a laser come from one kind of message. By default the front laser is read: ROBOTLASER1, else
+// FLASER, else RAWLASER1, depending on the first 500 lines of the log. If these lines have none of the three,
+// the rear laser is read (ROBOTLASER2, RLASER, RAWLASER2), else RAWLASER3 or RAWLASER4. The reader counts all
+// messages, and ignores the scans of other lasers.
 //
-// The line of a scan states the odometry at its time, except RAWLASER lines: their odometry is interpolated
-// between ODOM lines. FLASER lines state a second pose, which a mapper may have corrected. It is never used.
+// A scan line states the odometry at the time of the scan, except RAWLASER lines: their odometry is
+// interpolated between ODOM lines. FLASER lines state a second pose, which a mapper may have corrected. It is
+// never taken as odometry.
 //
-// Malformed lines are skipped if they are few: one line, or at most 1 % of the lines that are needed. More of
-// them throw UserError, and so does a truncated last line.
+// The reader skips malformed lines if they are few: one line, or at most 1 % of the lines that it needs. It
+// throws UserError if there are more malformed lines, or if the last line is truncated.
 #include <algorithm>
 #include <utility>
 
@@ -23,7 +24,8 @@ namespace psi_slam {
 namespace {
 
 constexpr std::size_t kLinesForOneSkipped = 100;
-// Skipped lines allowed before the end of the log: damage may be local, so that their fraction sinks later.
+// Number of skipped lines that is allowed before the end of the log. Damage may be local: the fraction of
+// skipped lines can sink later.
 constexpr std::size_t kSkippedBeforeTheEnd = 100;
 
 class CarmenReader : public LogReader {
@@ -130,13 +132,14 @@ class CarmenReader : public LogReader {
     return std::nullopt;
   }
 
-  /// Called before a laser's first scan.
+  /// Prepares a laser for its first scan: applies the PARAM lines before it. Throws UserError if several
+  /// lasers are read and the mount of this laser is unknown.
   void begin(CarmenLasers::Laser& laser) {
     for (std::size_t i = 0; i < laser.early_parameters; ++i) {
       ++lines_needed_;
       try {
         parse_parameter(lasers_.parameters()[i], laser.laser);
-      } catch (const MalformedLine& error) {  // must not fail the scan whose line is being parsed
+      } catch (const MalformedLine& error) {  // a malformed parameter must not discard the scan
         skip(error);
       }
     }
@@ -158,7 +161,8 @@ class CarmenReader : public LogReader {
     throw UserError(
         lines_.path().string() + " is damaged: " + std::to_string(contents_.skipped.count) +
         " of its first " + std::to_string(lines_needed_) +
-        " messages do not parse, expected at most 1 %; the first one: " + contents_.skipped.first);
+        " messages do not parse, expected at most 1 %. Fetch the log again or repair it. The first one: " +
+        contents_.skipped.first);
   }
 
   [[noreturn]] void fail_without_odometry(const std::string& found) const {
@@ -182,14 +186,16 @@ class CarmenReader : public LogReader {
     for (const auto& [name, lines] : contents_.messages) found.push_back(std::to_string(lines) + " " + name);
     throw UserError(lines_.path().string() + " has no laser scans, expected lines of one of " +
                     name_list(lasers_.candidates()) + "; found " +
-                    (found.empty() ? "no messages" : name_list(found) + ". Select a laser with log.laser"));
+                    (found.empty() ? "no messages. Check that the file is a CARMEN log"
+                                   : name_list(found) + ". Select a laser with log.laser"));
   }
 
   CarmenLasers lasers_;
   LineReader lines_;
   OdometryInterpolator interpolator_;
-  std::vector<std::size_t*> scan_counts_;  // by laser; point into contents_.messages to avoid a search
-  std::size_t lines_needed_ = 0;           // lines parsed so far, malformed ones included
+  // By number of the laser; point into contents_.messages to avoid a search.
+  std::vector<std::size_t*> scan_counts_;
+  std::size_t lines_needed_ = 0;  // lines parsed so far, malformed ones included
   bool at_end_ = false;
 };
 

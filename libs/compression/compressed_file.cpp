@@ -24,8 +24,10 @@ CompressedFile::CompressedFile(fs::path path, const std::string& expected)
     : path_(std::move(path)), file_(nullptr, gzclose) {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
-  if (!fs::exists(status)) throw UserError(path_.string() + " does not exist, expected " + expected);
-  if (fs::is_directory(status)) throw UserError(path_.string() + " is a folder, expected " + expected);
+  if (!fs::exists(status))
+    throw UserError(path_.string() + " does not exist, expected " + expected + ". Check the path");
+  if (fs::is_directory(status))
+    throw UserError(path_.string() + " is a folder, expected " + expected + ". Name a file");
   errno = 0;
   file_.reset(gzopen(path_.c_str(), "rb"));
   if (!file_) throw UserError("cannot read " + path_.string() + ": " + std::strerror(errno));

@@ -10,19 +10,21 @@
 
 #include "psi_slam/user_error.h"
 
-struct gzFile_s;  // of zlib
+struct gzFile_s;  // file handle of zlib
 
 namespace psi_slam {
 
-/// Reads a file once from its beginning, plain or gzipped; its content decides. The constructor throws
-/// UserError if the file does not exist, is a folder or is not readable.
+/// Reads a plain or gzipped file once from its beginning. The content of the file, not its name, tells
+/// whether it is gzipped. The constructor throws UserError if the file does not exist, is a folder or is not
+/// readable.
 class CompressedFile {
  public:
-  /// `expected` ends the messages for a missing file and for a folder.
+  /// `expected` names the kind of file in the messages about a missing file and about a folder.
   explicit CompressedFile(std::filesystem::path path, const std::string& expected = "a log file");
 
-  /// Reads the next `size` decompressed bytes and returns their number. It is smaller only at the end and
-  /// before damaged or truncated data; then the next call throws UserError.
+  /// Reads the next `size` decompressed bytes and returns their number. The number is smaller than `size`
+  /// only at the end of the file and before damaged or truncated data. The call after that throws UserError
+  /// for such data.
   std::size_t read(char* bytes, std::size_t size);
 
   const std::filesystem::path& path() const { return path_; }
@@ -36,7 +38,7 @@ class CompressedFile {
   std::filesystem::path path_;
   std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
   std::uintmax_t bytes_on_disk_ = 0;
-  std::optional<UserError> failure_;  // met after bytes that were returned
+  std::optional<UserError> failure_;  // error for the next call of read()
 };
 
 }  // namespace psi_slam

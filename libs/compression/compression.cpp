@@ -25,15 +25,15 @@ constexpr std::size_t kFirstBytes = std::size_t{1} << 16;
   throw MalformedBytes("its " + std::string(name) + " data cannot be decompressed");
 }
 
-/// What one step of a decompression did.
+/// Result of one step of a decompression.
 struct Step {
   std::size_t written = 0;
-  std::size_t taken = 0;  ///< compressed bytes
+  std::size_t taken = 0;  ///< compressed bytes consumed
   bool at_end = false;
 };
 
-/// Calls `step(bytes, room)`, which writes up to `room` bytes, until the end of the data. Throws
-/// MalformedBytes if the data end early or decompress to more than `most` bytes.
+/// Decompresses data: calls `step(bytes, room)`, which writes up to `room` bytes, until the end of the data.
+/// Throws MalformedBytes if the data end early or decompress to more than `most` bytes.
 template <class TakeStep>
 std::string decompressed(std::string_view name, std::uint64_t most, const TakeStep& step) {
   std::string bytes;
@@ -121,7 +121,7 @@ std::string gzipped(const void* bytes, std::size_t count) {
   z_stream stream{};
   if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzipWindow, kMemoryLevel,
                    Z_DEFAULT_STRATEGY) != Z_OK)
-    throw SystemFailure("cannot compress data: out of memory");
+    throw SystemFailure("cannot compress data: out of memory. Close other programs");
   const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, deflateEnd);
 
   std::string result;
@@ -146,7 +146,7 @@ PackedBytes::PackedBytes(const std::vector<std::uint8_t>& bytes) : size_(bytes.s
   std::vector<std::uint8_t> room(compressBound(bytes.size()));
   uLongf used = room.size();
   if (compress2(room.data(), &used, bytes.data(), bytes.size(), Z_BEST_SPEED) != Z_OK)
-    throw SystemFailure("cannot compress a part of the map: out of memory");
+    throw SystemFailure("cannot compress a part of the map: out of memory. Close other programs");
   packed_.assign(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(used));
 }
 

@@ -25,7 +25,7 @@ bool LineReader::fill() {
   if (end_ == buffer_.size()) {
     if (buffer_.size() >= kMaxLineBytes) {
       throw UserError(file_.path().string() + ":" + std::to_string(line_number_ + 1) +
-                      ": the line is longer than 16 MB, expected text");
+                      ": the line is longer than 16 MB, expected a text file. Check that the file is a log");
     }
     buffer_.resize(buffer_.size() * 2);
   }

@@ -11,8 +11,8 @@
 
 namespace psi_slam {
 
-/// Reads the lines of a text file, plain or compressed, without their line ends ("\n" or "\r\n"). Throws
-/// UserError as CompressedFile does, and for a line of more than 16 MB.
+/// Reads the lines of a plain or gzipped text file without their line ends ("\n" or "\r\n"). Throws UserError
+/// as CompressedFile does, and for a line of 16 MiB or more.
 class LineReader {
  public:
   explicit LineReader(std::filesystem::path path);
@@ -20,7 +20,7 @@ class LineReader {
   /// Reads the next line; returns false at the end of the file. The view is valid until the next call.
   bool next(std::string_view& line);
 
-  /// Reads the next line as next() does, but treats a read error as the end of the file. For looking ahead.
+  /// Reads the next line as next() does, but treats a read error as the end of the file. Used to look ahead.
   bool next_readable(std::string_view& line);
 
   /// Number of the last line read, from 1.
@@ -40,7 +40,7 @@ class LineReader {
 
   CompressedFile file_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0;  // the unread bytes of the buffer
+  std::size_t begin_ = 0;  // unread bytes of the buffer: from begin_ to end_
   std::size_t end_ = 0;
   std::size_t line_number_ = 0;
   bool line_was_ended_ = true;

@@ -7,7 +7,7 @@
 
 namespace psi_slam {
 
-/// Bytes that are not needed for some time, compressed without loss at the fastest level.
+/// Bytes in memory, compressed without loss at the fastest level of zlib.
 class PackedBytes {
  public:
   PackedBytes() = default;

@@ -48,7 +48,7 @@ bool is_blank(std::string_view text) {
   return stripped(without_comment(text)).empty();
 }
 
-/// Reads a file; sets `failure` to the reason if it is not readable.
+/// Reads a file. Sets `failure` to the reason if the file is not readable.
 std::string contents(const fs::path& path, std::string& failure) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
@@ -62,14 +62,14 @@ std::string contents(const fs::path& path, std::string& failure) {
   return text;
 }
 
-/// Canonical path of a file, to compare different spellings.
+/// Canonical path of a file, to recognise the same file under different paths.
 fs::path identity(const fs::path& path) {
   std::error_code error;
   fs::path canonical = fs::weakly_canonical(path, error);
   return error ? path.lexically_normal() : canonical;
 }
 
-/// The value of a "key = value" line, unquoted. Throws UserError if its quotes do not match.
+/// Parses the value of a "key = value" line and removes its quotes. Throws UserError for malformed quotes.
 std::string parse_value(std::string_view text, const std::string& where) {
   text = stripped(text);
   if (text.empty() || text[0] != '"') return std::string(stripped(without_comment(text)));
@@ -89,7 +89,7 @@ std::string parse_value(std::string_view text, const std::string& where) {
   return value;
 }
 
-/// The name in "[name]", which a comment can follow.
+/// Parses the name in "[name]", which a comment can follow. Throws UserError for any other text.
 std::string parse_heading(std::string_view line, const std::string& where) {
   const std::size_t end = line.find(']');
   if (end == std::string_view::npos || stripped(line.substr(1, end - 1)).empty() ||
@@ -171,7 +171,7 @@ class Reader {
   }
 
   IniFile& result_;
-  std::vector<fs::path> open_files_;  ///< outermost first
+  std::vector<fs::path> open_files_;  ///< files that are being read, outermost first
 };
 
 }  // namespace

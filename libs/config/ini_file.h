@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads settings files:
 //
-//     include = usual.ini        ; before the first section: values of this file override those of that one
+//     include = usual.ini        ; before the first section; this file overrides values of usual.ini
 //     [front_end]
 //     window_m = 0.15            // a comment
 //     label = "a ; b \"c\" \\"  # quotes keep all characters; inside, \" means " and \\ means a backslash
@@ -21,19 +21,19 @@ namespace psi_slam {
 /// Heading of a section in a file.
 struct IniSection {
   std::string name;
-  std::string where;  ///< "my.ini:12"
+  std::string where;  ///< file and line: "my.ini:12"
 };
 
-/// A value in a file.
+/// A value in a file, from a line "key = value".
 struct IniValue {
   std::string section;
   std::string key;
-  std::string text;   ///< without quotes
-  std::string where;  ///< "my.ini:12"
+  std::string text;   ///< value without quotes
+  std::string where;  ///< file and line: "my.ini:12"
 };
 
-/// Sections and values in the order in which they take effect: those of an included file come before those of
-/// the file that includes it.
+/// Sections and values in the order in which they take effect: an included file comes before the file that
+/// includes it.
 struct IniFile {
   std::vector<IniSection> sections;
   std::vector<IniValue> values;
@@ -41,7 +41,7 @@ struct IniFile {
 
 /// Reads a settings file. Names of included files are relative to the folder of the including file. Throws
 /// UserError with file and line for a malformed line, a key given twice, and an included file that is not
-/// readable or includes itself; with the file name if `path` is not readable.
+/// readable or includes itself. Throws UserError with the file name if `path` is not readable.
 IniFile read_ini(const std::filesystem::path& path);
 
 /// Parses a text as the contents of a file called `path`. Throws as read_ini().

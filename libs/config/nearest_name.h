@@ -13,8 +13,8 @@ namespace psi_slam {
 /// case (optimal string alignment distance).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// Returns the first of the names with the smallest edit distance to a misspelt one. Empty if that distance
-/// is above one plus a quarter of the length.
+/// Returns the name with the smallest edit distance to `misspelt`, the first of several. Empty if this
+/// distance is above one plus a quarter of the length of `misspelt`.
 std::optional<std::string> nearest_name(std::string_view misspelt, const std::vector<std::string>& names);
 
 }  // namespace psi_slam

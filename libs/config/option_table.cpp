@@ -82,14 +82,14 @@ const Option* find(const OptionSection& section, std::string_view key) {
   return found == section.options.end() ? nullptr : &*found;
 }
 
-/// Section and key of "section.key"; no key if there is no dot.
+/// Section and key of "section.key". The key is empty if there is no dot.
 std::pair<std::string_view, std::string_view> parts(std::string_view name) {
   const std::size_t dot = name.find('.');
   if (dot == std::string_view::npos) return {name, {}};
   return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
-/// Proposal for an unknown key, as the end of a sentence; can be empty.
+/// Proposal for an unknown key, as the end of a sentence. Empty if no key is similar.
 std::string proposal(const std::vector<OptionSection>& sections, const OptionSection& here,
                      std::string_view key) {
   for (const OptionSection& section : sections)
@@ -170,7 +170,7 @@ OptionTable& OptionTable::add_bound(Option option) {
   return *this;
 }
 
-/// `Number` is double or std::optional<double>, which can be "auto".
+/// Adds a number or an angle. `Number` is double, or std::optional<double> for an option that can be "auto".
 template <class Number>
 OptionTable& OptionTable::add_number(Option option, Number& member, bool is_angle) {
   if (!is_angle && option.unit == "deg")

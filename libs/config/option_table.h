@@ -60,42 +60,45 @@ enum class OptionType { kFlag, kInteger, kNumber, kChoice, kText };
 /// One option, bound to a member of a settings struct. All code that shows, loads or saves the option uses
 /// this description.
 struct Option {
-  std::string key;  ///< ends in its unit if it has one: "window_x_m", "window_theta_deg"
+  std::string key;  ///< ends in the unit if the option has one: "window_x_m", "window_theta_deg"
   OptionType type = OptionType::kText;
-  std::string help{};                  ///< one line
-  std::string unit{};                  ///< of integers and numbers: "m", "deg", "scans"; "" for pure numbers
-  NumberRange range{};                 ///< of integers and numbers, in `unit`
-  bool may_be_auto = false;            ///< the text "auto" means the empty std::optional
-  std::vector<std::string> choices{};  ///< accepted texts of a choice
+  std::string help{};        ///< description in one line
+  std::string unit{};        ///< unit of an integer or number: "m", "deg", "scans"; "" for pure numbers
+  NumberRange range{};       ///< accepted values of an integer or number, in `unit`
+  bool may_be_auto = false;  ///< the text "auto" means the empty std::optional
+  std::vector<std::string> choices{};  ///< accepted texts of an option of type kChoice
   std::string section{};
   std::string default_text{};  ///< the member's value when the option was described
 
-  /// Returns the member's value as text. Assigning this text changes no bit.
+  /// Returns the member's value as text. Assigning this text restores the value bit for bit.
   std::function<std::string()> text{};
-  /// Whether the text is a value of this option's type and range.
+  /// Returns whether the text is a value of this option's type and range.
   std::function<bool(std::string_view text)> accepts{};
-  /// Sets the member to the value of the text. Returns false, and changes nothing, if it is not accepted.
+  /// Sets the member to the value of the text. Returns false, and changes nothing, if the text is not
+  /// accepted.
   std::function<bool(std::string_view text)> assign{};
 
   std::string name() const { return section + '.' + key; }
 
-  /// The accepted values in words, to follow "expected": "a number of metres between 0.01 and 20".
+  /// The accepted values in words, for a message after "expected": "a number of metres between 0.01 and 20".
   std::string expectation() const;
 
-  /// The accepted values in short, for listings: "m, between 0.01 and 20", "true or false", "one of csm, ga".
+  /// The accepted values in short form, for listings: "m, between 0.01 and 20", "true or false", "one of csm,
+  /// ga".
   std::string values() const;
 };
 
 struct OptionSection {
   std::string name;
-  std::string title;  ///< one line
+  std::string title;  ///< heading in one line
   std::vector<Option> options;
 };
 
-/// Describing functions take members by reference. The settings must outlive the table and have their default
-/// values while they are described. The functions throw std::logic_error that names the option if a
-/// description is contradictory: a default outside its range, a key described twice, a key with suffix "_deg"
-/// that is not an angle, or an angle without it.
+/// All options of a program, by section. Functions that describe an option take its member by reference. The
+/// settings must outlive the table and have their default values when they are described. These functions
+/// throw std::logic_error that names the option for a contradictory description. Contradictions are a default
+/// outside its range, a key described twice, a key with suffix "_deg" that is not an angle, and an angle
+/// without this suffix.
 class OptionTable {
  public:
   /// Begins a section; the options described next belong to it.
@@ -113,7 +116,7 @@ class OptionTable {
   /// The member is in radians; the text and the range are in degrees.
   OptionTable& angle_deg(std::string key, double& member_rad, NumberRange range_deg, std::string help);
 
-  /// A number that the program can choose itself: the text "auto" means the empty member.
+  /// Describes a number that the program can choose itself: the text "auto" makes the member empty.
   OptionTable& optional_number(std::string key, std::optional<double>& member, NumberRange range,
                                std::string unit, std::string help);
   OptionTable& optional_angle_deg(std::string key, std::optional<double>& member_rad, NumberRange range_deg,
@@ -123,20 +126,20 @@ class OptionTable {
   OptionTable& choice(std::string key, Enum& member, std::vector<std::pair<std::string, Enum>> choices,
                       std::string help);
 
-  /// Accepts any text of one line.
+  /// Describes an option that accepts any text of one line.
   OptionTable& text(std::string key, std::string& member, std::string help);
 
-  /// Accepts an old name: of an option ("old_section.old_key", "section.key") or of a whole section
-  /// ("old_section", "section"). Throws std::logic_error if the new name is not described yet, or if the old
-  /// name is in use.
+  /// Makes the table accept an old name of an option ("old_section.old_key", "section.key") or of a whole
+  /// section ("old_section", "section"). Throws std::logic_error if the new name is not described yet, or if
+  /// the old name is in use.
   OptionTable& alias(std::string old_name, std::string new_name);
 
   const std::vector<OptionSection>& sections() const { return sections_; }
 
-  /// Present name of the option that is or was called `name`; unknown names are returned unchanged.
+  /// Present name of the option that is or was called `name`. Returns an unknown name unchanged.
   std::string current_name(std::string_view name) const;
 
-  /// Whether an option is or was called `name`, "section.key".
+  /// Returns whether an option is or was called `name`, "section.key".
   bool knows(std::string_view name) const;
 
   /// The option that is or was called `name`, "section.key". Throws UserError that begins with `where`
@@ -149,12 +152,13 @@ class OptionTable {
   /// Throws UserError that begins with `where` if the option is unknown or does not accept the text.
   void check(std::string_view name, std::string_view text, std::string_view where) const;
 
-  /// Gives an option a new value. An old name adds a warning. Throws like check(), and then changes nothing.
+  /// Sets an option to the value of the text. Adds a warning if `name` is an old name. Throws UserError as
+  /// check() does, and then changes nothing.
   void set(std::string_view name, std::string_view text, std::string_view where);
 
-  /// Returns the warnings since the last call, and forgets them: one sentence without full stop for each old
-  /// name that set() met in one file, such as "my.ini:12: section [last_pass] was renamed; write
-  /// [final_search]".
+  /// Returns the warnings since the last call and clears them. Each file gets one warning, a sentence without
+  /// full stop, for each old name that set() received from it: "my.ini:12: section [last_pass] was renamed;
+  /// write [final_search]".
   std::vector<std::string> take_warnings();
 
  private:
@@ -167,9 +171,10 @@ class OptionTable {
   void warn_of_old_name(std::string_view old_name, const std::string& new_name, std::string_view where);
 
   std::vector<OptionSection> sections_;
-  std::map<std::string, std::string, std::less<>> aliases_;  ///< old to new; sections have no dot
+  /// Maps old names to new names; names of sections have no dot.
+  std::map<std::string, std::string, std::less<>> aliases_;
   std::vector<std::string> warnings_;
-  std::set<std::string> warned_;  ///< warnings without their lines
+  std::set<std::string> warned_;  ///< warnings without line numbers, to warn once per file
 };
 
 template <class T, class Parse, class Format>

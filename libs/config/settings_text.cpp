@@ -11,7 +11,7 @@
 namespace psi_slam {
 namespace {
 
-/// Throws UserError if one file gives an option by its old and by its new name.
+/// Throws UserError if one file sets an option by both its old and its new name.
 void require_one_name(const IniFile& file, const OptionTable& table) {
   std::map<std::pair<std::string, std::string>, const IniValue*> given;
   for (const IniValue& value : file.values) {

@@ -12,23 +12,25 @@
 namespace psi_slam {
 
 /// Sets every value of the file. Throws UserError with file and line for an unknown section or key (with the
-/// nearest name), for a value that the option does not accept, and for an option that one file gives by its
-/// old and its new name. Then no setting has changed. `table` collects a warning for each old name.
+/// nearest name), for a value that the option does not accept, and for an option that one file sets by both
+/// its old and its new name. If it throws, no setting has changed. `table` collects a warning for each old
+/// name.
 void apply(const IniFile& file, OptionTable& table);
 
 /// Sets one value as given on the command line: "section.key=value". Throws UserError that begins with
 /// "--set".
 void apply_override(std::string_view assignment, OptionTable& table);
 
-/// Returns an option, called `name`, as lines of a settings file: its help, range, default and current value.
+/// Returns an option as lines of a settings file, under the key `name`: its help, range, default and current
+/// value.
 std::string commented(const Option& option, const std::string& name);
 
-/// Returns a settings file with the help, range, default and current value of every option. Loading it
-/// restores the current values bit for bit. Throws std::logic_error if a member has a value that its option
-/// does not accept.
+/// Returns the text of a settings file with the help, range, default and current value of every option.
+/// Loading this file restores the current values bit for bit. Throws std::logic_error if a member has a value
+/// that its option does not accept.
 std::string dump(const OptionTable& table);
 
-/// Returns the options with their help, for a terminal.
+/// Returns all options with their help, range and default, for a terminal.
 std::string help_text(const OptionTable& table);
 
 /// Returns a Markdown page with a heading and a table for each section.

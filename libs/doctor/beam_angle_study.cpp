@@ -23,7 +23,7 @@ constexpr std::size_t kFewestPairs = 20;
 constexpr double kSight_m = 20;  // maximum range of the points used
 constexpr std::size_t kPoints = 400;
 // Walls rule out a convention if its distance exceeds the smallest one by more than both limits.
-constexpr double kWorseFraction = 0.004;  // of the smallest distance
+constexpr double kWorseFraction = 0.004;  // as a fraction of the smallest distance
 constexpr double kWorseErrors = 5;        // in standard errors
 const double kTurnError_rad = DEG2RAD(1.0);
 
@@ -49,8 +49,8 @@ AlignableScan with_bearings(LaserScan scan, const BeamBearings& bearings_rad) {
   return AlignableScan(scan, kSight_m, kPoints);
 }
 
-/// Returns [pair][convention]: the mean distance to walls. Skips pairs that some convention does not align
-/// reliably.
+/// Returns [pair][convention]: the mean distance from points to walls, metres. Skips pairs that some
+/// convention does not align reliably.
 std::vector<std::vector<double>> distances_m(const std::vector<FrameMark>& marks,
                                              const std::vector<FramePair>& pairs, const ScanLibrary& library,
                                              const std::vector<Convention>& conventions) {
@@ -95,7 +95,8 @@ void compare_distances(const std::vector<std::vector<double>>& rows, std::vector
   }
 }
 
-/// Returns by how much the alignments along a full turn exceed 360 degrees.
+/// Returns the excess over 360 degrees of the alignments along a full turn, radians. Empty if a pair of scans
+/// does not align.
 std::optional<double> turn_error_rad(const std::vector<FrameMark>& marks,
                                      const std::vector<double>& headings_rad,
                                      const std::vector<std::size_t>& frames, const ScanLibrary& library,
@@ -152,7 +153,7 @@ double mean(const std::vector<float>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Returns whether the step between beams is a multiple of 0.25 degrees, as is usual for lasers.
+/// Returns whether the step between beams is a multiple of 0.25 degrees, as for most lasers.
 bool has_usual_steps(const Convention& convention) {
   const std::vector<float>& bearings = *convention.bearings_rad;
   if (bearings.size() < 2) return true;

@@ -2,11 +2,12 @@
 // Estimates the bearings of the beams for a log that does not state them: compares all conventions on scans
 // between which the robot turned. There are three kinds of evidence:
 //
-// - The distance of points to walls after alignment. It shows the kink between the halves of the scan under a
-//   wrong kSkipZero. It does not show the size of the steps: a turn of stretched scans is stretched too.
-// - A full turn on the spot, which must sum to 360 degrees. Only this measures the size of the steps.
-// - The direction of driving. A shift of all bearings equals a rotated laser, which only driving ahead shows.
-//   Among the remaining conventions, the one whose laser heading is closest to the stated heading is chosen.
+// - The distance of points to walls after alignment. It reveals a wrong kSkipZero, which bends the scan in
+//   its middle. It does not reveal a wrong step between beams, which scales bearings and turns alike.
+// - A full turn on the spot, whose alignments must sum to 360 degrees. Only full turns measure the step.
+// - The direction of driving. A shift of all bearings acts like a rotated laser, and only driving straight
+//   shows the heading of the laser. The study chooses, among the conventions that the other evidence does not
+//   rule out, the one whose laser heading is closest to the stated heading.
 #pragma once
 
 #include <cstddef>
@@ -21,30 +22,30 @@ namespace psi_slam {
 /// One convention and its evidence.
 struct BeamAngleFit {
   BeamAngles angles = BeamAngles::kLeftOpen;
-  double mean_distance_m = 0;      ///< from points to walls, over all pairs
+  double mean_distance_m = 0;      ///< mean distance from points to walls, over all pairs of scans
   double worse_by_m = 0;           ///< mean_distance_m minus the smallest of all conventions
   double significance = 0;         ///< worse_by_m in standard errors
-  double full_turn_error_rad = 0;  ///< mean excess over 360 degrees; 0 without full turns
-  double laser_heading_rad = 0;    ///< laser heading minus the stated one; 0 if unknown
+  double full_turn_error_rad = 0;  ///< mean excess of full turns over 360 degrees; 0 without full turns
+  double laser_heading_rad = 0;    ///< laser heading under this convention minus the stated one; 0 if unknown
   bool ruled_out_by_walls = false;
   bool ruled_out_by_turns = false;
 };
 
 struct BeamAngleStudy {
-  std::size_t pairs = 0;  ///< pairs that every convention aligned reliably
+  std::size_t pairs = 0;  ///< pairs of scans that every convention aligned reliably
   std::size_t full_turns = 0;
   bool knows_heading = false;      ///< whether laser_heading_rad is set
-  std::vector<BeamAngleFit> fits;  ///< empty if there were too few pairs
+  std::vector<BeamAngleFit> fits;  ///< one for each convention; empty if there were fewer than 20 pairs
   BeamAngles best = BeamAngles::kAuto;
 };
 
 /// Frames that a study compares.
 struct BeamAngleEvidence {
-  std::vector<FramePair> turning_pairs;  ///< 10 to 45 degrees apart
+  std::vector<FramePair> turning_pairs;  ///< frames between which the robot turned by 10 to 45 degrees
   std::vector<std::vector<std::size_t>> full_turns;
 };
 
-/// Selects the frames by odometry, which must be sound.
+/// Selects the frames for a study by odometry, which must be sound.
 BeamAngleEvidence choose_beam_angle_evidence(const std::vector<FrameMark>& marks);
 
 /// Compares the conventions. `library` must hold the frames of `evidence`, read with the bearings `used_rad`.

@@ -20,11 +20,11 @@ constexpr double kPairDistance_m = 0.25;
 const double kPairTurn_rad = mrpt::DEG2RAD(12.0);
 constexpr double kUnlimited_m = 1e6;
 
-/// What the first pass over the log finds.
+/// Results of the first pass over the log.
 struct FirstPass {
   LogFacts facts;
   std::vector<FrameMark> marks;
-  std::vector<float> bearings_rad;  // of the first scan
+  std::vector<float> bearings_rad;  // bearings of the first scan
 };
 
 FirstPass read_once(const std::filesystem::path& path, const LogOptions& options) {
@@ -58,7 +58,7 @@ LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions 
   const LogFormat format = detect_log_format(path);
   if (!reads_several_lasers(options, format)) return options;
   if (!is_bag(format)) {
-    options.scan_topic.clear();  // applies to bags only
+    options.scan_topic.clear();  // the option applies to bags only
     const LaserChoice choice = laser_choice("log.laser", options.laser);
     if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
   } else {

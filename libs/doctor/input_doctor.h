@@ -38,28 +38,28 @@ struct LogDiagnosis {
   LogOptions options;                               ///< options used to read the log
   BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto if the log states its angles
   OdometryAgreement odometry;
-  bool odometry_is_sound = false;  ///< units and signs are right; otherwise the next five are not set
+  bool odometry_is_sound = false;  ///< units and signs are right; if not, the next five members are not set
   LostReversals reversals;
   OdometryJumps jumps;
   RevisitAgreement revisits;
   std::optional<LaserMountEstimate> mount;
   BeamAngleStudy beam_angles;
-  std::vector<FrameMark> marks;  ///< of all frames
+  std::vector<FrameMark> marks;  ///< time and odometry of every frame of the log
   std::vector<Finding> findings;
 };
 
-/// Reads the whole log and judges it. `options.every_nth_scan` and `sweep_time_s` are ignored. Of several
-/// lasers, the first is judged. A truncated or damaged log is judged up to that place. Throws UserError if
-/// its first scan cannot be read.
+/// Reads the whole log and judges it. Ignores `options.every_nth_scan` and `sweep_time_s`. Judges the first
+/// of several lasers. Judges a truncated or damaged log up to the damage. Throws UserError if the first scan
+/// cannot be read.
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options = {});
 
-/// Derives findings from the measurements, warnings first. diagnose() calls it.
+/// Derives findings from the measurements, warnings first. diagnose() calls this function.
 std::vector<Finding> judge(const LogDiagnosis& diagnosis);
 
 /// Facts about the log, one per line.
 std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis);
 
-/// Table of the beam angle study, one convention per line, the best marked. Empty without a study.
+/// Table of the beam angle study with one convention per line; the best is marked. Empty without a study.
 std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study);
 
 /// Facts, beam angles and findings with their remedies, as `psi-slam check` prints them.

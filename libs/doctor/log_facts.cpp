@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kLeastGap_s = 1.0;
 constexpr double kGapPeriods = 10.0;
-constexpr std::size_t kCentimetresKept = 1'000'000;  // 10 km: fits ranges in millimetres too
+// 10 km, which suffices for ranges that are millimetres by mistake.
+constexpr std::size_t kCentimetresKept = 1'000'000;
 
 bool same_readings(const std::vector<float>& a, const std::vector<float>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -61,7 +62,7 @@ OdometryFacts odometry_facts(const std::vector<FrameMark>& marks) {
   return facts;
 }
 
-/// Finds readings that pile up at the top of the histogram.
+/// Finds the code for "no return": readings that pile up at the top of the histogram.
 void find_ceiling(const std::vector<std::size_t>& readings_by_cm, RangeFacts& facts) {
   if (readings_by_cm.empty()) return;
   const std::size_t top_cm = readings_by_cm.size() - 1;

@@ -18,34 +18,34 @@ namespace psi_slam {
 struct TimeFacts {
   TimeUs first_us = 0;
   TimeUs last_us = 0;
-  double duration_s = 0;       ///< from the earliest to the latest scan
-  double median_period_s = 0;  ///< between consecutive scans
+  double duration_s = 0;       ///< time from the earliest to the latest scan
+  double median_period_s = 0;  ///< median time between consecutive scans
   std::size_t gaps = 0;        ///< periods above both 1 s and ten times the median
   double largest_gap_s = 0;
   std::size_t backward_steps = 0;  ///< scans that are earlier than the previous one
   double largest_backward_step_s = 0;
   std::size_t repeated_stamps = 0;  ///< scans with the time of the previous one
-  std::size_t repeated_scans = 0;   ///< of these, scans that also repeat all ranges
+  std::size_t repeated_scans = 0;   ///< scans that repeat the time and all ranges of the previous one
 };
 
 struct OdometryFacts {
   double path_length_m = 0;
-  double turned_rad = 0;  ///< sum of all turns in both directions
+  double turned_rad = 0;  ///< sum of the absolute turns between consecutive scans
   double largest_step_m = 0;
-  double largest_turn_rad = 0;  ///< between consecutive scans
+  double largest_turn_rad = 0;  ///< largest turn between consecutive scans
 };
 
 struct RangeFacts {
   std::size_t readings = 0;
   std::size_t returns = 0;
-  std::size_t empty_scans = 0;  ///< without any return
-  float max_range_m = 0;        ///< readings from here on are no returns
+  std::size_t empty_scans = 0;  ///< scans without any return
+  float max_range_m = 0;        ///< readings of at least this range are no returns
   float median_return_m = 0;
-  float largest_reading_m = 0;  ///< of all finite readings, including no returns; rounded to 1 cm
-  /// Number of readings within 1 % of the largest if far more pile up there than below: the laser's code for
-  /// "no return". Otherwise 0.
+  float largest_reading_m = 0;  ///< largest finite reading, including no returns; rounded to 1 cm
+  /// Number of readings within 1 % of the largest reading, if they are far more than the readings just below.
+  /// Such readings are the laser's code for "no return". Otherwise 0.
   std::size_t readings_at_ceiling = 0;
-  float ceiling_m = 0;  ///< smallest of these readings
+  float ceiling_m = 0;  ///< smallest frequent value of the readings at the ceiling; 0 if there are none
 
   double return_share() const {
     return readings == 0 ? 0 : static_cast<double>(returns) / static_cast<double>(readings);
@@ -55,9 +55,9 @@ struct RangeFacts {
 struct LogFacts {
   std::string broken_off;  ///< error after the last readable scan; empty for a complete log
   std::string format;      ///< "CARMEN", "MRPT rawlog", ...
-  LogContents contents;    ///< what the reader has found
+  LogContents contents;    ///< messages, lasers and skipped lines that the reader counted
   std::size_t scans = 0;
-  std::size_t beams = 0;  ///< of the first scan
+  std::size_t beams = 0;  ///< number of beams of the first scan
   double first_bearing_rad = 0;
   double last_bearing_rad = 0;
   std::size_t scans_of_other_shape = 0;  ///< scans whose number of beams differs from the first
@@ -75,12 +75,14 @@ struct FrameMark {
 
 class LogFactsCollector {
  public:
-  /// Adds a frame whose ranges were read with an unlimited maximum. `max_range_m` is the actual maximum.
+  /// Adds a frame whose ranges were read with an unlimited maximum. `max_range_m` is the maximum range of a
+  /// return.
   void add(const Frame& frame, float max_range_m);
 
   const std::vector<FrameMark>& marks() const { return marks_; }
 
-  /// Returns the facts of all frames so far, except those that only the reader knows.
+  /// Returns the facts of all frames so far. The caller sets the members that only the reader knows:
+  /// `broken_off`, `format` and `contents`.
   LogFacts facts() const;
 
  private:

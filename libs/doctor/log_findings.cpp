@@ -21,7 +21,7 @@ using mrpt::math::TPose2D;
 constexpr double kFarMedian_m = 100;  // beyond the median return of any 2D lidar
 
 std::string fixed(double value, int decimals) {
-  return fixed_text(value + 0.0, decimals);  // 0 for -0
+  return fixed_text(value + 0.0, decimals);  // adding 0.0 turns -0 into 0
 }
 
 std::string percent(double share) {
@@ -89,14 +89,15 @@ class Judge {
     }
     if (time.repeated_scans > 0) {
       warn("repeated_scans",
-           counted(time.repeated_scans, "scan") +
-               " repeat the time and ranges of the previous scan: the log was merged "
+           counted(time.repeated_scans, "scan") + (time.repeated_scans == 1 ? " repeats" : " repeat") +
+               " the time and ranges of the previous scan: the log was merged "
                "or converted incorrectly",
            "remove the repeated lines");
     }
     if (time.repeated_stamps > time.repeated_scans) {
       note("repeated_stamps", counted(time.repeated_stamps - time.repeated_scans, "scan") +
-                                  " have the time of the previous scan but other ranges");
+                                  (time.repeated_stamps - time.repeated_scans == 1 ? " has" : " have") +
+                                  " the time of the previous scan but other ranges");
     }
   }
 
@@ -107,7 +108,8 @@ class Judge {
     const auto ceiling_m = static_cast<double>(ranges.ceiling_m);
     if (facts_.scans_of_other_shape > 0) {
       note("changing_beams", counted(facts_.scans_of_other_shape, "scan") +
-                                 " have another number of beams than the "
+                                 (facts_.scans_of_other_shape == 1 ? " has" : " have") +
+                                 " another number of beams than the "
                                  "first scan, which has " +
                                  std::to_string(facts_.beams));
     }
@@ -137,7 +139,8 @@ class Judge {
            "check that log.max_range_m is the maximum range of the sensor");
     }
     if (ranges.empty_scans > 0) {
-      const std::string sentence = counted(ranges.empty_scans, "scan") + " have no returns";
+      const std::string sentence =
+          counted(ranges.empty_scans, "scan") + (ranges.empty_scans == 1 ? " has" : " have") + " no returns";
       if (share_of(ranges.empty_scans, facts_.scans) > 0.05) {
         warn("empty_scans", sentence,
              "check that log.max_range_m and log.min_range_m are the limits of the sensor");
@@ -243,11 +246,11 @@ class Judge {
     const bool many = reversals.pairs.size() >= 4 && reversals.reversed_m > 0.003 * reversals.checked_m;
     if (!many) return;
     warn("lost_reversals",
-         "odometry has lost the sign of reversing: at " + counted(reversals.pairs.size(), "place") + ", " +
-             fixed(reversals.reversed_m, 1) + " of the " + fixed(reversals.checked_m, 0) +
+         "odometry counts reversing as driving forwards: at " + counted(reversals.pairs.size(), "place") +
+             ", " + fixed(reversals.reversed_m, 1) + " of the " + fixed(reversals.checked_m, 0) +
              " m compared, the scans move backwards where odometry moves forwards, first " +
              moment(reversals.pairs.front().first),
-         "enlarge the search window of scan matching to twice a step, or repair the odometry");
+         "enlarge front_end.window_m to twice the step between scans, or repair the odometry");
   }
 
   void judge_jumps() {
@@ -279,10 +282,10 @@ class Judge {
          "odometry is accurate to " + fixed(100 * revisits.median_offset_m, 1) + " cm at " +
              std::to_string(revisits.agreeing) + " of " + counted(revisits.revisits, "revisit") +
              ", better than wheels allow: it looks corrected by a mapper or simulated",
-         "use the raw log, and compare no mappers on this one");
+         "use the raw log, and do not compare mappers on this log");
   }
 
-  /// Heading of the laser under the best beam angles, which shift it too.
+  /// Heading of the laser under the best beam angles, since other beam angles imply another heading.
   double laser_yaw_rad(const LaserMountEstimate& mount) const {
     const BeamAngleStudy& study = diagnosis_.beam_angles;
     for (const BeamAngleFit& fit : study.fits) {

@@ -44,7 +44,7 @@ struct Track {
   std::vector<Step> steps;
 };
 
-/// Guesses that do not assume any motion model: turned to either side, behind or ahead.
+/// Guesses around a pose that assume no motion model: turned to both sides, behind and ahead.
 std::vector<TPose2D> fan_of_guesses(const TPose2D& around) {
   std::vector<TPose2D> guesses;
   for (const double turn_deg : {-40.0, -27.0, -18.0, -9.0, 0.0, 9.0, 18.0, 27.0, 40.0})
@@ -116,14 +116,15 @@ void compare_lengths(const std::vector<Track>& tracks, OdometryAgreement& agreem
 }
 
 /// Returns whether odometry turned `factor` times as far as the scans. Turns of scans are accurate to about
-/// half a degree. Those of odometry are less accurate and may belong to another moment of a fast turn.
+/// half a degree. Turns of odometry are less accurate and may belong to another moment of a fast turn.
 bool fits(const Step& step, double factor) {
   const double tolerance_rad = DEG2RAD(0.6) + 0.35 * std::abs(step.scan_turn_rad * factor);
   return std::abs(wrapToPi(step.odometry_turn_rad - factor * step.scan_turn_rad)) <= tolerance_rad;
 }
 
-/// Returns how well the turns of odometry, in degrees but wrapped as radians, match those of the scans: 1 for
-/// perfect agreement, about 0 for unrelated turns. Tries small turns first, since errors are 57 times larger.
+/// Returns how well the turns of odometry match the turns of the scans if odometry is in degrees, wrapped as
+/// radians: 1 for perfect agreement, about 0 for unrelated turns. Tries small turns first: degrees enlarge
+/// the errors of turns 57 times.
 double degrees_resultant(const std::vector<Step>& steps, double factor) {
   for (const double most_rad : {DEG2RAD(2.5), DEG2RAD(6.0)}) {
     std::complex<double> sum = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares odometry with the scans without assuming that it is right: first aligns consecutive scans without
-// odometry, then compares the resulting motion with odometry.
+// Compares odometry with the scans without assuming that odometry is right: first aligns consecutive scans
+// without odometry, then compares the resulting motion with odometry.
 #pragma once
 
 #include <cstddef>
@@ -11,36 +11,39 @@
 
 namespace psi_slam {
 
-/// Relation of odometry's turns to those of the scans.
+/// Relation of the turns by odometry to the turns by scans.
 enum class HeadingRelation {
   kUnknown,          ///< too few turns
   kAgrees,           ///< equal turns
   kOpposite,         ///< odometry turns left where the scans turn right
   kDegrees,          ///< odometry's headings are in degrees instead of radians
-  kOppositeDegrees,  ///< both of the above
+  kOppositeDegrees,  ///< odometry's headings are in degrees and have the opposite sign
   kNone,             ///< odometry does not turn where the scans do
   kUnrelated,
 };
 
 struct OdometryAgreement {
   std::size_t tracks = 0;          ///< tracks whose scans could be aligned
-  double scan_path_m = 0;          ///< motion in all tracks by scans
-  double odometry_path_m = 0;      ///< motion in all tracks by odometry
-  std::size_t length_samples = 0;  ///< tracks with a translation that the scans determine
-  double length_ratio = 0;         ///< median of odometry's length divided by the scans'; 0 if unknown
+  double scan_path_m = 0;          ///< sum of the displacements of all tracks, by scans
+  double odometry_path_m = 0;      ///< sum of the displacements of all tracks, by odometry
+  std::size_t length_samples = 0;  ///< tracks with a displacement that the scans determine
+  double length_ratio = 0;  ///< median over tracks of displacement by odometry / by scans; 0 if unknown
   std::size_t turn_samples = 0;
   HeadingRelation heading = HeadingRelation::kUnknown;
-  double heading_share = 0;  ///< fraction of the turns with this relation; for degrees, its quality in [0, 1]
-  /// Direction of motion by scans minus that by odometry, both relative to the robot: the error of the
-  /// laser's stated heading. The concentration of the directions is in [0, 1].
+  /// Fraction of turns with this relation; for degrees, quality of the match in [0, 1].
+  double heading_share = 0;
+  /// Mean direction of motion by scans minus direction by odometry, both in the frame of the robot. It is the
+  /// error of the stated heading of the laser. The concentration is 1 if all tracks have the same difference,
+  /// and about 0 if the differences are random.
   double direction_offset_rad = 0;
   double direction_concentration = 0;
-  /// Median angle between odometry's motion and the robot's axis, in [0, pi/2]. Large if odometry's headings
-  /// do not match its positions.
+  /// Median angle between the motion by odometry and the axis of the robot, in [0, pi/2]. It is large if the
+  /// headings of odometry do not match its positions.
   double odometry_slip_rad = 0;
 };
 
-/// Returns the frames of the track from each start. The library of check_odometry() must hold them.
+/// Returns a track for each start: the indices of up to 15 consecutive frames. The library that is passed to
+/// check_odometry() must hold these frames.
 std::vector<std::vector<std::size_t>> tracks_from(const std::vector<std::size_t>& starts,
                                                   std::size_t frames_in_log);
 

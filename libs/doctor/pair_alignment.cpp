@@ -39,16 +39,17 @@ std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const 
 
 LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const ScanLibrary& library) {
   constexpr double kLeastMotion_m = 0.12;
-  constexpr double kMaxMotion_m = 0.8;  // the opposite guess of a larger motion is out of reach
+  constexpr double kMaxMotion_m = 0.8;  // for a larger motion, the opposite guess is too far off
   constexpr double kDetermined_m = 0.02;
-  constexpr double kClearlyBetter = 0.7;  // fraction of the cost with odometry's motion
+  // Largest cost, as a fraction of the cost with odometry's motion as the guess.
+  constexpr double kClearlyBetter = 0.7;
   LostReversals reversals;
   for (const AlignedPair& pair : pairs) {
     const TPose2D& odometry = pair.by_odometry;
     const double way_m = odometry.norm();
     if (way_m < kLeastMotion_m || way_m > kMaxMotion_m) continue;
     const double direction = std::atan2(odometry.y, odometry.x);
-    // Motion by scans along odometry's motion, as a fraction of it.
+    // Component of the motion by scans along the motion by odometry, divided by the motion by odometry.
     const auto share_along = [&](const ScanAlignment& alignment) {
       const TPose2D& motion = alignment.reference_T_scan;
       return (motion.x * odometry.x + motion.y * odometry.y) / (way_m * way_m);
@@ -80,7 +81,7 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
   // translations, (R_A - 1) t_X - s R_X t_B = -t_A with the scale s of odometry. This is linear in t_X and in
   // (s cos, s sin) of the mount's heading. Both sides use the turns of the scans, which are more accurate.
   constexpr std::size_t kFewestPairs = 40;
-  constexpr double kNoise_m = 0.02;  // of odometry between the frames of a pair
+  constexpr double kNoise_m = 0.02;  // noise of odometry between the frames of a pair
   constexpr int kIterations = 20;
   using Row = Eigen::Matrix<double, 2, 4>;
   struct Equation {

@@ -28,13 +28,13 @@ std::vector<AlignedPair> align_pairs(const std::vector<FrameMark>& marks, const 
 /// Odometry that counts reversing as driving forwards: the scans move backwards by about as much as odometry
 /// moves forwards.
 struct LostReversals {
-  double checked_m = 0;          ///< motion by odometry of the pairs whose motion the scans determine
+  double checked_m = 0;          ///< distance by odometry over all pairs whose motion the scans determine
   std::vector<FramePair> pairs;  ///< pairs with a reversed motion according to the scans
-  double reversed_m = 0;         ///< motion of these pairs by scans
+  double reversed_m = 0;         ///< distance by scans over the reversed pairs
 };
 
-/// Aligns every moving pair again with the opposite motion as the guess. A pair counts as reversed if that
-/// alignment is clearly better.
+/// Aligns every moving pair again with the opposite motion as the guess. A pair counts as reversed if both
+/// alignments move backwards, or if the second alignment does and is clearly better.
 LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const ScanLibrary& library);
 
 /// Pose of the laser on the robot that best explains the motions of scans and odometry (hand-eye
@@ -42,19 +42,19 @@ LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const S
 struct LaserMountEstimate {
   std::size_t pairs = 0;
   mrpt::math::TPose2D robot_T_laser;
-  double deviation_m = 0;       ///< standard deviation of x, and of y
+  double deviation_m = 0;       ///< standard deviation of x or y, whichever is larger
   double deviation_rad = 0;     ///< standard deviation of the heading
   double odometry_scale = 1.0;  ///< distance by odometry divided by distance by scans
 };
 
-/// Empty if too few pairs turn or too few move straight. `stated_mount` is the mount that the scans were read
-/// with.
+/// Estimates the mount from pairs of scans that were read with the mount `stated_mount`. Empty if fewer than
+/// 40 pairs turn or fewer than 40 pairs move straight.
 std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<AlignedPair>& pairs,
                                                        const mrpt::math::TPose2D& stated_mount);
 
 /// Returns pairs of consecutive frames between which odometry moves faster than a robot: above 3 m/s and 0.4
-/// m, or above 150 degrees/s and 30 degrees. At most `most` pairs, largest motion first. The median period is
-/// the lower limit of a pair's time, since stamps may run backwards.
+/// m, or above 150 degrees/s and 30 degrees. At most `most` pairs, largest motion first. The time between two
+/// frames counts as at least the median period, since time stamps may run backwards.
 std::vector<FramePair> suspected_jumps(const std::vector<FrameMark>& marks, double median_period_s,
                                        std::size_t most);
 
@@ -67,12 +67,12 @@ struct OdometryJumps {
 OdometryJumps confirm_jumps(const std::vector<FrameMark>& marks, const std::vector<FramePair>& suspects,
                             const ScanLibrary& library);
 
-/// How well odometry agrees with the scans at revisited places. Very good agreement shows that a mapper has
+/// Agreement of odometry with the scans at revisited places. Very good agreement shows that a mapper has
 /// corrected the odometry.
 struct RevisitAgreement {
   std::size_t revisits = 0;    ///< pairs that odometry puts in one place, far apart along the path
-  std::size_t agreeing = 0;    ///< of these, pairs that the scans confirm to 5 cm and 1 degree
-  double median_offset_m = 0;  ///< of the agreeing pairs
+  std::size_t agreeing = 0;    ///< revisits that the scans confirm to 5 cm and 1 degree
+  double median_offset_m = 0;  ///< median offset of odometry from the scans at the agreeing revisits
 };
 
 RevisitAgreement check_revisits(const std::vector<FrameMark>& marks, const std::vector<FramePair>& pairs,

@@ -16,17 +16,17 @@ namespace {
 
 using Point = AlignableScan::Point;
 
-constexpr double kFirstRadius_m = 0.6;  // of the search for the wall of a point
+constexpr double kFirstRadius_m = 0.6;  // first radius of the search for the wall near a point
 constexpr double kLastRadius_m = 0.15;
 constexpr int kIterations = 25;
 constexpr double kHuber_m = 0.03;
-constexpr double kLeastNoise_m = 0.01;  // of ranges, so that a perfect fit has a realistic covariance
-constexpr double kDamping_m = 1e-4;     // per matched point; holds the guess in directions without walls
+constexpr double kLeastNoise_m = 0.01;  // least noise of ranges: a perfect fit keeps a realistic covariance
+constexpr double kDamping_m = 1e-4;  // damping per matched point; holds the guess in directions without walls
 constexpr std::size_t kFewestMatches = 20;
-constexpr std::size_t kNeighbours = 2;  // on either side of a point, for the normal of the wall
+constexpr std::size_t kNeighbours = 2;  // points on either side of a point that define the normal of its wall
 
-/// Returns whether two neighbouring beams hit one surface: their distance is at most that on a surface whose
-/// normal is 75 degrees from the beam.
+/// Returns whether two neighbouring beams hit one surface. The distance of their points is limited to that on
+/// a surface whose normal is 75 degrees from the beams, plus 5 cm.
 bool on_one_surface(const Point& a, const Point& b) {
   const double range = std::min(a.position_m.norm(), b.position_m.norm());
   const double spacing = range * std::abs(b.bearing_rad - a.bearing_rad);
@@ -52,18 +52,19 @@ Eigen::Vector2d normal_at(const std::vector<Point>& points, std::size_t i) {
     xy += d.x() * d.y();
     yy += d.y() * d.y();
   }
-  const double along = 0.5 * std::atan2(2 * xy, xx - yy);  // direction of the largest spread
+  const double along = 0.5 * std::atan2(2 * xy, xx - yy);  // direction in which the points spread most
   return {-std::sin(along), std::cos(along)};
 }
 
 struct Match {
-  Eigen::Vector2d point;  // of the scan, in the frame of the reference
-  double distance = 0;    // signed, to the wall
+  Eigen::Vector2d point;  // point of the scan, in the frame of the reference's laser
+  double distance = 0;    // signed distance to the wall, metres
   const Point* wall = nullptr;
 };
 
-/// Returns the nearest point of the reference within a radius, or null if there is none or it has no normal.
-/// A point at range r is at least r sin(d) away from beams at an angle d, which limits the beams to search.
+/// Returns the nearest point of the reference within a radius. Returns null if there is no such point or if
+/// it has no normal. A point at range r is at least r sin(d) away from beams at an angle d, which limits the
+/// beams to search.
 const Point* nearest_wall(const std::vector<Point>& reference, const Eigen::Vector2d& p, double radius_m) {
   const double range = p.norm();
   const double bearing = std::atan2(p.y(), p.x());
@@ -136,7 +137,8 @@ void rate(const Matching& matching, double radius_m, const mrpt::math::TPose2D& 
   result.residual_m = matched > 0 ? sum / matched : radius_m;
   result.cost_m = visible > 0 ? (sum + (visible - matched) * radius_m) / visible : radius_m;
   result.matched_share = visible > 0 ? matched / visible : 0;
-  const double noise = std::max(kLeastNoise_m, 1.25 * result.residual_m);  // standard deviation from the mean
+  // Standard deviation of the ranges, estimated from the mean distance to walls.
+  const double noise = std::max(kLeastNoise_m, 1.25 * result.residual_m);
   Eigen::Matrix3d information = normal_equations(matching.matches, laser_pose).hessian;
   information.diagonal().array() += 1e-6;
   result.covariance = noise * noise * information.inverse();
@@ -151,7 +153,7 @@ AlignableScan::AlignableScan(const LaserScan& scan, double max_range_m, std::siz
   points_.reserve(beams / step + 1);
   for (std::size_t i = 0; i < beams; i += step) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    if (!(range <= max_range_m)) continue;  // also without return
+    if (!(range <= max_range_m)) continue;  // true also for a beam without return
     const double bearing = mrpt::math::wrapToPi(static_cast<double>((*scan.bearings_rad)[i]));
     points_.push_back(
         {range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)), Eigen::Vector2d::Zero(), bearing});
@@ -172,7 +174,7 @@ double ScanAlignment::heading_deviation_rad() const {
 
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
                           const mrpt::math::TPose2D& guess) {
-  // Pose of the laser relative to the reference's laser; converted to poses of the robot at the end.
+  // Pose of the scan's laser relative to the reference's laser; converted to a pose of the robot at the end.
   mrpt::math::TPose2D pose = (guess + scan.robot_T_laser()) - reference.robot_T_laser();
   double radius_m = kFirstRadius_m;
   for (int i = 0; i < kIterations; ++i) {

@@ -39,8 +39,8 @@ class AlignableScan {
 /// Pose of the robot at one scan relative to its pose at another, the reference.
 struct ScanAlignment {
   mrpt::math::TPose2D reference_T_scan;
-  /// Mean distance from the visible points to walls. Each distance is limited to 0.15 m, which also counts
-  /// for unmatched points.
+  /// Mean distance from the visible points to walls. Each distance is limited to 0.15 m. Each unmatched point
+  /// counts as 0.15 m.
   double cost_m = 0;
   double residual_m = 0;     ///< mean distance from the matched points to walls
   double matched_share = 0;  ///< fraction of the points visible from the reference that match, in [0, 1]
@@ -51,15 +51,15 @@ struct ScanAlignment {
   double deviation_along_m(double heading_rad) const;
   double heading_deviation_rad() const;
 
-  /// Whether most points are matched and close to walls.
+  /// Returns whether more than 60 % of the visible points match and their cost is below `max_cost_m`.
   bool is_reliable(double max_cost_m = 0.05) const { return cost_m < max_cost_m && matched_share > 0.6; }
 };
 
-/// Aligns from a guess that is off by at most about 0.6 m and 10 degrees.
+/// Aligns two scans from a guess that is off by at most about 0.6 m and 10 degrees.
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
                           const mrpt::math::TPose2D& guess);
 
-/// Aligns from several guesses and returns the result with the lowest cost.
+/// Aligns two scans from several guesses and returns the result with the lowest cost.
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
                           const std::vector<mrpt::math::TPose2D>& guesses);
 

@@ -38,7 +38,7 @@ std::vector<double> ways_m(const std::vector<FrameMark>& marks) {
   return ways;
 }
 
-/// Returns the next frame with another position or heading, so that a waiting robot counts once.
+/// Returns the next frame at another position or heading. A waiting robot thus counts once.
 std::size_t next_elsewhere(const std::vector<FrameMark>& marks, const std::vector<double>& headings_rad,
                            std::size_t frame) {
   std::size_t next = frame + 1;
@@ -126,7 +126,7 @@ std::vector<FramePair> pairs_by_turn(const std::vector<FrameMark>& marks, double
 std::vector<FramePair> revisiting_pairs(const std::vector<FrameMark>& marks, double distance, double turn_rad,
                                         double way_m, std::size_t most) {
   const std::vector<double> ways = ways_m(marks);
-  const double spacing_m = distance;  // between the frames considered
+  const double spacing_m = distance;  // least path between two frames that are checked
   std::unordered_map<std::int64_t, std::vector<std::size_t>> visited;
   std::vector<FramePair> pairs;
   double last_way = -spacing_m;

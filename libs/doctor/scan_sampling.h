@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Selects scans of a log to compare with each other, by odometry alone, and reads them in a second pass.
+// Selects scans of a log that are compared with each other. The selection uses odometry alone; a second pass
+// over the log reads the selected scans.
 #pragma once
 
 #include <cstddef>
@@ -25,30 +26,31 @@ mrpt::math::TPose2D odometry_between(const std::vector<FrameMark>& marks, const 
 /// Returns the sum of turns by odometry from frame 0 to each frame, radians, not wrapped.
 std::vector<double> unwrapped_headings(const std::vector<FrameMark>& marks);
 
-/// Returns up to `count` frames, spread evenly over all motion by odometry, in whatever unit. If odometry
-/// never moves, the frames are spread evenly over the log.
+/// Returns up to `count` frames, spread evenly over all motion by odometry; its unit of length does not
+/// matter. If odometry never moves, the frames are spread evenly over the log.
 std::vector<std::size_t> frames_in_motion(const std::vector<FrameMark>& marks, std::size_t count);
 
-/// Returns consecutive pairs, each at least `distance_m` or `turn_rad` apart, evenly thinned to `most`.
+/// Returns consecutive pairs of frames, each at least `distance_m` or `turn_rad` apart. Selects `most` of
+/// them evenly if there are more.
 std::vector<FramePair> pairs_by_motion(const std::vector<FrameMark>& marks, double distance_m,
                                        double turn_rad, std::size_t most);
 
-/// Returns pairs that turn by `min_turn_rad` to `max_turn_rad` and move at most `distance_m`, evenly thinned
-/// to `most`.
+/// Returns pairs of frames between which the robot turns by `min_turn_rad` to `max_turn_rad` and moves at
+/// most `distance_m`. Selects `most` of them evenly if there are more.
 std::vector<FramePair> pairs_by_turn(const std::vector<FrameMark>& marks, double min_turn_rad,
                                      double max_turn_rad, double distance_m, std::size_t most);
 
-/// Returns pairs whose poses by odometry are within `distance_m` and `turn_rad` after a path of at least
-/// `way_m`, evenly thinned to `most`.
+/// Returns pairs of frames whose poses by odometry are within `distance_m` and `turn_rad`, after a path of at
+/// least `way_m`. Selects `most` of them evenly if there are more.
 std::vector<FramePair> revisiting_pairs(const std::vector<FrameMark>& marks, double distance_m,
                                         double turn_rad, double way_m, std::size_t most);
 
-/// Returns sequences of frames that make one full turn within `distance_m`, in steps of about `step_rad`. The
-/// first and last headings differ by at most 20 degrees.
+/// Returns the first `most` sequences of frames that make one full turn within `distance_m`, in steps of
+/// about `step_rad`. The first and last headings differ by at most 20 degrees.
 std::vector<std::vector<std::size_t>> full_turns(const std::vector<FrameMark>& marks, double step_rad,
                                                  double distance_m, std::size_t most);
 
-/// Selected scans of a log, by index.
+/// Selected scans of a log, by the index of their frame.
 class ScanLibrary {
  public:
   void want(std::size_t index) { scans_[index]; }

@@ -62,9 +62,9 @@ class FrontEndPath {
 /// A relation on the path, in one of the two directions in which a loop can match it.
 struct PlacedRelation {
   std::size_t relation = 0;
-  PathPoint node_end;          ///< matched with the loop's node
-  PathPoint map_end;           ///< matched with the loop's local map
-  TPose2D map_end_T_node_end;  ///< true pose
+  PathPoint node_end;          ///< end of the relation that corresponds to the loop's node
+  PathPoint map_end;           ///< end that corresponds to the loop's local map
+  TPose2D map_end_T_node_end;  ///< true pose of the node end in the frame of the map end
 };
 
 /// A loop and its places on the path.
@@ -73,11 +73,12 @@ struct PlacedLoop {
   PathPoint node;
   PathPoint anchor;
   double map_begin_m = 0;  ///< travelled distance at the first node of the local map
-  double map_end_m = 0;    ///< travelled distance at its last node
+  double map_end_m = 0;    ///< travelled distance at the last node of the local map
   TPose2D anchor_T_node;   ///< pose of the node in the frame of the anchor, as matched
 };
 
-/// Both directions of each relation, one after the other.
+/// Places each relation on the path in both directions, one after the other. Skips relations with times
+/// outside the path.
 std::vector<PlacedRelation> place(const std::vector<Relation>& relations, const FrontEndPath& path) {
   std::vector<PlacedRelation> placed;
   for (std::size_t i = 0; i < relations.size(); ++i) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Judges the loops of a run as true or false, by relations known to be true.
 //
-// A relation can judge a loop if one of its ends lies on the robot's path near the loop's node, and its other
-// end near the nodes of the loop's local map. The loop as it was matched and the front end's motion from node
-// and anchor to the relation's ends predict the relation. The optimised graph plays no part. Distances are
-// along the path, where the front end's motion is accurate.
+// A relation can judge a loop if one of its ends lies near the loop's node on the robot's path, and its other
+// end near the nodes of the loop's local map. The relation is predicted from the loop as it was matched, and
+// from the front end's motion between the loop and the ends of the relation. The optimised graph is not used.
+// Distances are measured along the path: the front end is accurate over short paths.
 #pragma once
 
 #include <cstddef>
@@ -20,38 +20,39 @@ namespace psi_slam {
 struct LoopJudgementOptions {
   /// Largest distance along the path from a relation's end to the loop's node or local map.
   double near_m = 1.0;
-  /// A loop is false if it predicts the relation with a larger error than these limits, which grow with the
-  /// distance along the path in between.
+  /// A loop is false if its error exceeds one of these limits. They grow with the distance along the path
+  /// between the loop and the ends of the relation.
   double max_error_m = 0.5;
   double max_error_rad = radians_from_degrees(5.0L);
   double drift_m_per_metre = 0.02;
   double drift_rad_per_metre = radians_from_degrees(0.2L);
-  double max_gap_s = 2.0;  ///< longest gap between two scans to interpolate in
-  /// A relation joins two passes of a place if its ends are at least this far apart along the path ...
+  double max_gap_s = 2.0;  ///< longest gap between two scans that is interpolated
+  /// A relation joins two passes of a place if its ends are at least `min_travel_m` apart along the path, and
+  /// at most `max_distance_m` apart in truth.
   double min_travel_m = 10.0;
-  double max_distance_m = 2.0;  ///< ... and at most this far apart in truth
+  double max_distance_m = 2.0;  ///< largest true distance between two passes of a place
 };
 
-/// A loop and the relation that judges it: of all that can, the one nearest along the path.
+/// A loop and the relation that judges it: the nearest along the path of all relations that can.
 struct JudgedLoop {
   std::size_t loop = 0;      ///< index in MappingResult::loops
   std::size_t relation = 0;  ///< index in the relations
-  double error_m = 0;        ///< of the relation as the loop predicts it
+  double error_m = 0;        ///< translational error of the relation that the loop predicts
   double error_rad = 0;
-  double way_m = 0;  ///< along the path from the relation's ends to the loop's node and to the anchor
+  double way_m = 0;  ///< distance along the path from the ends of the relation to the loop's node and anchor
   bool is_false = false;
 };
 
 struct LoopJudgement {
   std::vector<JudgedLoop> judged;      ///< in the order of the loops
-  std::vector<JudgedLoop> false_ones;  ///< the false loops among them
+  std::vector<JudgedLoop> false_ones;  ///< the false loops among `judged`
   std::size_t unjudged = 0;            ///< loops that no relation can judge
   std::size_t passes = 0;              ///< relations that join two passes of a place
-  std::size_t joined = 0;              ///< of these, the ones whose two places a loop joins
+  std::size_t joined = 0;  ///< relations counted in `passes` whose two places an accepted loop joins
 
-  /// Returns 1 - false / judged, or nothing if no loop was judged.
+  /// Returns the fraction of judged loops that are true, or nothing if no loop was judged.
   std::optional<double> precision() const;
-  /// Returns joined / passes, or nothing if no relation joins two passes.
+  /// Returns joined / passes, or nothing if no relation joins two passes of a place.
   std::optional<double> recall() const;
 };
 

@@ -6,8 +6,9 @@
 //   d*^-1 * d. Its length is the translational error, its angle the rotational error. The metric does not
 //   depend on the map's frame.
 //
-// Cartographer's tool uses d * d*^-1 instead: the same angle but another length, which grows with |d*| times
-// the angle. The metric has both, so that they compare with published figures of either kind.
+// Cartographer's tool uses d * d*^-1 instead. This error has the same angle but another length, which grows
+// with |d*| times the angle. The metric has both lengths, for comparison with published figures of either
+// kind.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -21,7 +22,7 @@
 
 namespace psi_slam {
 
-/// The true pose of the robot at time 2 in its frame of time 1.
+/// True pose of the robot at time 2 in the frame of the robot at time 1.
 struct Relation {
   TimeUs time1_us = 0;
   TimeUs time2_us = 0;
@@ -33,13 +34,13 @@ struct Relation {
 /// file has no relation.
 std::vector<Relation> read_relations(const std::filesystem::path& path);
 
-/// Longest gap between two poses to interpolate in, by default.
+/// Default of the longest gap between two poses that is interpolated.
 inline constexpr double kMaxGap_s = 2.0;
 
 /// The error of one relation.
 struct RelationError {
   Relation relation;
-  bool interpolated = false;  ///< at least one of its two poses
+  bool interpolated = false;  ///< at least one of the two poses is interpolated
   double translation_m = 0;
   double rotation_deg = 0;
   double cartographer_translation_m = 0;
@@ -47,8 +48,8 @@ struct RelationError {
 
 struct ErrorSummary {
   double mean = 0;
-  double std = 0;     ///< of the population (divided by n)
-  double median = 0;  ///< the upper one of two
+  double std = 0;     ///< standard deviation of the population (divided by n)
+  double median = 0;  ///< the upper of two middle values
   double p95 = 0;     ///< value at rank floor(0.95 n), counted from 0
   double max = 0;
 };
@@ -68,12 +69,12 @@ struct RelationsMetric {
   ErrorSummary cartographer_translation_abs_m;
   ErrorSummary cartographer_translation_sq_m2;
 
-  std::vector<RelationError> errors;  ///< of the relations used, in their order
+  std::vector<RelationError> errors;  ///< errors of the relations used, in the order of the relations
 };
 
 /// Computes the metric over all relations with both times in the trajectory; see pose_at_time(). Sorts the
 /// trajectory by time first; poses of equal time keep their order. Throws UserError if no relation can be
-/// used, std::invalid_argument if the longest gap is negative or not a number.
+/// used, std::invalid_argument if `max_gap_s` is negative or not a number.
 RelationsMetric evaluate_relations(Trajectory trajectory, const std::vector<Relation>& relations,
                                    double max_gap_s = kMaxGap_s);
 

@@ -23,7 +23,8 @@ using mrpt::math::TPose2D;
 
 constexpr const char* kHost = "psi-slam";
 
-/// True for a laser mounted upside down. FLASER has no bearings: its ranges are counter-clockwise.
+/// Returns whether the beams run clockwise, as those of a laser mounted upside down. FLASER lines state no
+/// bearings: their ranges are counter-clockwise.
 bool runs_clockwise(const LaserScan& scan) {
   return scan.bearings_rad && scan.bearings_rad->size() > 1 &&
          scan.bearings_rad->front() > scan.bearings_rad->back();
@@ -33,7 +34,7 @@ bool runs_clockwise(const LaserScan& scan) {
 constexpr std::array<const char*, 2> kMessages{"FLASER", "RLASER"};
 constexpr std::array<const char*, 2> kPositions{"front", "rear"};
 
-/// Mount and bearings, which the messages of a laser cannot hold.
+/// PARAM lines and comments with the mount and the bearings of a laser, which its scan lines cannot hold.
 std::string parameters(const LaserScan& scan) {
   const auto& mount = scan.robot_T_laser;
   const std::string position = kPositions.at(scan.laser);
@@ -115,7 +116,7 @@ void write_corrected_log(const fs::path& path, const std::vector<Frame>& log,
     file.close();
     if (!file)
       throw SystemFailure("cannot write " + path.string() + ": " +
-                          (errno != 0 ? std::strerror(errno) : "writing failed"));
+                          (errno != 0 ? std::strerror(errno) : "the disk may be full"));
   });
 }
 

@@ -6,9 +6,10 @@
 //
 // Both poses are the robot's: first in the map, then raw odometry. A beam without return is written as the
 // sensor's maximum range, an invalid reading as 0. The format has no room for bearings and mount: PARAM lines
-// at the top give the mount and the beam spacing, a comment the bearings. Ranges are always
-// counter-clockwise, so log.mirrored must not be set for this file. A second laser gets RLASER lines with the
-// poses of its own time. CARMEN has no message with poses for a third laser, so its scans are left out.
+// at the top state the mount and the beam spacing, and a comment states the bearings. Ranges are always
+// counter-clockwise, so log.mirrored must not be set for this file. RLASER lines hold the scans of a second
+// laser, with the poses at their own time. CARMEN has no message with poses for a third laser, so the scans
+// of further lasers are left out.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

@@ -26,7 +26,7 @@ using mrpt::maps::COccupancyGridMap2D;
 
 constexpr std::uint8_t kNotSeen = 255;
 
-/// Name and contents of a file in memory, deleted at the end of its scope.
+/// A file in the memory of GDAL, deleted by the destructor.
 class MemoryFile {
  public:
   MemoryFile()
@@ -63,7 +63,7 @@ OGRSpatialReference spatial_reference(int epsg) {
   return system;
 }
 
-/// The precision of map.yaml, since MRPT stores lengths as floats.
+/// Rounds a length to the precision of map.yaml, 0.1 mm. MRPT stores lengths as floats.
 double to_tenth_of_a_millimetre(float length_m) {
   return std::round(static_cast<double>(length_m) * 1e4) / 1e4;
 }

@@ -83,7 +83,7 @@ std::string path_data(const MapLine& line, std::string_view end) {
   return data + std::string(end);
 }
 
-/// A group, marked as a layer for Inkscape.
+/// Returns an SVG group that Inkscape shows as a layer.
 std::string layer(const std::string& id, const std::string& style, const std::string& content) {
   return "<g id=\"" + id + "\" inkscape:label=\"" + id + "\" inkscape:groupmode=\"layer\" " + style +
          " transform=\"scale(1,-1)\">\n" + content + "</g>\n";
@@ -98,8 +98,8 @@ std::string text_at(double x, double y, double height, const std::string& conten
          " font-family=\"sans-serif\" stroke=\"none\">" + content + "</text>\n";
 }
 
-/// Scale bar and axes below the map. (x, y) is the upper left corner of the footer; `mm` is the length in the
-/// map, in metres, of one millimetre of paper.
+/// Returns the scale bar and the axes below the map. (x, y) is the upper left corner of the footer in SVG
+/// coordinates. `mm` is the length in the map, in metres, of one millimetre of paper.
 std::string footer(double x, double y, double width_m, double mm, double scale) {
   const auto go = [](const char* command, double dx, double dy) {
     return command + number(dx) + ' ' + number(dy);

@@ -24,7 +24,7 @@ using mrpt::maps::COccupancyGridMap2D;
 constexpr char kOccupied = '\0';
 constexpr char kFree = static_cast<char>(254);
 constexpr char kUnknown = static_cast<char>(205);
-constexpr float kOccupiedThreshold = 0.65F;  // probability that the cell is occupied
+constexpr float kOccupiedThreshold = 0.65F;  // cells with a larger probability are occupied
 constexpr float kFreeThreshold = 0.196F;
 
 std::string pgm_bytes(const COccupancyGridMap2D& grid) {
@@ -44,7 +44,8 @@ std::string pgm_bytes(const COccupancyGridMap2D& grid) {
   return bytes;
 }
 
-/// MRPT stores lengths as floats, which resolve a tenth of a millimetre in a map of one kilometre.
+/// Text of a length in metres with up to four decimals. MRPT stores lengths as floats, which resolve 0.1 mm
+/// in a map of 1 km.
 std::string metres(float length) {
   const std::string text = trimmed_text(static_cast<double>(length), 4);
   return text.find('.') == std::string::npos ? text + ".0" : text;

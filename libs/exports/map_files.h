@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All files of a map: for people, robots, MRPT's programs, CAD programs and geographic information systems.
-// All files are written atomically. Writing throws SystemFailure if a file cannot be written.
+// Writes the files of a map: for people, robots, MRPT's programs, CAD programs and geographic information
+// systems. All files are written atomically. Each function throws SystemFailure if a file cannot be written.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -16,13 +16,13 @@ namespace psi_slam {
 
 /// Pose of the map's frame in a projected coordinate system.
 struct GeoReference {
-  int epsg = 0;  ///< number of the coordinate system; 0 for a local system in metres
+  int epsg = 0;  ///< EPSG number of the coordinate system; 0 for a local system in metres
   double easting_m = 0;
   double northing_m = 0;
-  double heading_rad = 0;  ///< of the map's x axis, counter-clockwise from east
+  double heading_rad = 0;  ///< heading of the map's x axis, counter-clockwise from east
 };
 
-/// Which files to write, and how.
+/// Selects the files to write, and sets their scale, lines and place on the earth.
 struct MapFileOptions {
   bool png = true;           ///< map.png
   bool ros = true;           ///< map.yaml and map.pgm, for map_server
@@ -31,14 +31,14 @@ struct MapFileOptions {
   bool dxf = true;           ///< map.dxf: walls and path as lines, for CAD programs
   bool print = false;        ///< map_print.png, true to scale
   bool geotiff = false;      ///< map.tif
-  double print_scale = 100;  ///< of map_print.png and map.svg: 1:100
-  int print_dpi = 300;       ///< of map_print.png: pixels per inch of paper
-  MapDrawingOptions lines;   ///< of map.svg and map.dxf
-  GeoReference earth;        ///< of map.tif, and of north in map_print.png
+  double print_scale = 100;  ///< scale of map_print.png and map.svg: 1:100
+  int print_dpi = 300;       ///< resolution of map_print.png, pixels per inch of paper
+  MapDrawingOptions lines;   ///< lines of map.svg and map.dxf
+  GeoReference earth;        ///< place of map.tif on the earth, and direction of north in map_print.png
 };
 
-/// Writes the files asked for and deletes the others, which would show an older map. `grid` is the map of
-/// `result` by draw_grid_map.
+/// Writes the selected files. Deletes map files that are not selected, since they would show an older map.
+/// `grid` is the grid map of `result` by draw_grid_map().
 void write_map_files(const std::filesystem::path& folder, const MappingResult& result,
                      const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options = {});
 
@@ -48,8 +48,8 @@ void write_map_files(const std::filesystem::path& folder, const MappingResult& r
 void write_map_server_pair(const std::filesystem::path& yaml_path,
                            const mrpt::maps::COccupancyGridMap2D& grid);
 
-/// Returns the nodes of the graph with their scans. Each pose has the covariance (1 mm)^2, (1 mrad)^2 as a
-/// placeholder that MRPT can invert, because the marginals of the graph are not computed.
+/// Returns MRPT's simple map: the nodes of the graph with their scans. Each pose has the covariance (1 mm)^2,
+/// (1 mrad)^2 as a placeholder that MRPT can invert, because the marginals of the graph are not computed.
 mrpt::maps::CSimpleMap simple_map(const MappingResult& result);
 
 /// Writes a simple map or a grid map, serialised and gzipped, as MRPT's programs and
@@ -57,7 +57,7 @@ mrpt::maps::CSimpleMap simple_map(const MappingResult& result);
 void write_mrpt_map(const std::filesystem::path& path, const mrpt::serialization::CSerializable& map);
 
 /// Returns the drawing as DXF release 12, which every CAD program reads, in metres in the map's frame: closed
-/// polylines on layer WALLS, open ones on layer TRAJECTORY. Outlines of two points become lines.
+/// polylines on layer WALLS, open polylines on layer TRAJECTORY. Outlines of two points become lines.
 std::string map_dxf(const MapDrawing& drawing);
 
 /// Returns the drawing as SVG that prints at 1:`scale`, with scale bar and axes below the map. The unit is

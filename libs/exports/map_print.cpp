@@ -15,8 +15,8 @@ namespace psi_slam {
 namespace {
 
 constexpr double kMetresPerInch = 0.0254;
-constexpr double kFooter_mm = 14;     // of paper, height of the strip below the map
-constexpr double kMaxPixels = 150e6;  // so that the picture does not exhaust the memory
+constexpr double kFooter_mm = 14;     // height of the strip below the map, millimetres of paper
+constexpr double kMaxPixels = 150e6;  // limits the memory that the picture needs
 
 std::string big_endian(std::uint32_t number) {
   std::string bytes;
@@ -34,7 +34,7 @@ std::string with_resolution(std::string png, double pixels_per_metre) {
   return png.insert(kHeaderEnd, big_endian(9) + chunk + big_endian(checksum));
 }
 
-/// The dots per inch asked for, or fewer if the picture would exceed kMaxPixels.
+/// Returns the pixels per inch of the options, or fewer if the picture would exceed kMaxPixels.
 int dpi_that_fits(const MapRaster& raster, const MapFileOptions& options) {
   const double area_m2 = raster.width_px * raster.resolution_m * raster.height_px * raster.resolution_m;
   const double inches = area_m2 / std::pow(options.print_scale * kMetresPerInch, 2);
@@ -42,7 +42,7 @@ int dpi_that_fits(const MapRaster& raster, const MapFileOptions& options) {
   return std::max(1, static_cast<int>(std::min<double>(options.print_dpi, dpi)));
 }
 
-/// Draws an arrow in a direction counter-clockwise from the x axis, with its name at the tip.
+/// Draws an arrow from `from` in a direction counter-clockwise from the x axis, with `name` at the tip.
 void draw_arrow(cv::Mat& image, const cv::Point2d& from, double length, double direction_rad,
                 const std::string& name, double px_per_mm) {
   const cv::Scalar ink = kWallInk;
@@ -88,7 +88,8 @@ std::string print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapFile
   const auto pixels = [&](int cells) {
     return std::max(1, static_cast<int>(std::lround(cells * raster.resolution_m * pixels_a_m)));
   };
-  if (pixels_a_m * raster.resolution_m < 1) {  // reduced by map_raster, walls of one cell stay visible
+  // In a reduced picture, map_raster() keeps walls of one cell visible.
+  if (pixels_a_m * raster.resolution_m < 1) {
     whole.max_side_px = pixels(std::max(raster.width_px, raster.height_px));
     raster = map_raster(grid, whole);
   }

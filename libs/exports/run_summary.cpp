@@ -95,7 +95,7 @@ MapExtent map_extent(const mrpt::maps::COccupancyGridMap2D& grid, double asked_r
           static_cast<double>(seen.free) * cell_m * cell_m};
 }
 
-/// Rounds to a readable number of decimals. Null if the value is not finite.
+/// Rounds a value for JSON to `decimals` decimals. Null if the value is not finite.
 Json number(double value, int decimals = 6) {
   if (!std::isfinite(value)) return nullptr;
   const double scale = std::pow(10.0, decimals);
@@ -194,7 +194,7 @@ Json runs_json(const std::vector<FrameSpan>& runs) {
 double peak_memory_mib() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts kibibytes
+  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux states kibibytes
 }
 
 double path_length_m(const std::vector<TPose2D>& poses) {
@@ -243,7 +243,7 @@ RunSummary summarize_run(const MappingResult& result, const mrpt::maps::COccupan
 
 std::optional<std::string> coarser_cells_text(const MapExtent& map) {
   if (map.resolution_m < 1.5 * map.asked_resolution_m)
-    return std::nullopt;  // larger cells are at least twice as large
+    return std::nullopt;  // if map.max_cells enlarges cells, it doubles their size or more
   const auto metres = [](double value) { return shortest_text(static_cast<float>(value)) + " m"; };
   return "map.max_cells limits the map to cells of " + metres(map.resolution_m) + " instead of " +
          metres(map.asked_resolution_m);

@@ -21,10 +21,10 @@ namespace psi_slam {
 
 /// Facts about a run that are not part of its result.
 struct RunInfo {
-  std::string program_version;                  ///< "0.1.0"
-  std::string log_name;                         ///< for people: "intel.clf.gz"
-  std::map<std::string, std::string> settings;  ///< "section.key" -> value
-  std::vector<std::string> warnings{};          ///< about log and map, a sentence each
+  std::string program_version;                  ///< version of the program: "0.1.0"
+  std::string log_name;                         ///< name of the log for display: "intel.clf.gz"
+  std::map<std::string, std::string> settings;  ///< value of each option by its name "section.key"
+  std::vector<std::string> warnings{};          ///< warnings about log and map, a sentence each
 };
 
 /// The log as it was read. Beams, bearings, maximum range and mount are those of the first scan.
@@ -40,8 +40,8 @@ struct MappedLogFacts {
   std::size_t spare_scans = 0;      ///< scans of further lasers in no frame; set by the caller
   TimeUs first_time_us = 0;
   TimeUs last_time_us = 0;
-  double duration_s = 0;        ///< sum over all runs
-  std::size_t stamps_back = 0;  ///< scans with an earlier time than the scan before
+  double duration_s = 0;        ///< duration of all runs together
+  std::size_t stamps_back = 0;  ///< scans with an earlier time than the previous scan
   double odometry_length_m = 0;
 };
 
@@ -52,38 +52,39 @@ struct ReasonCount {
 };
 
 struct LoopCounts {
-  std::size_t tried = 0;     ///< search windows, whether anything was found or not
-  std::size_t found = 0;     ///< of the windows tried, those with a match
-  std::size_t accepted = 0;  ///< of the matches found; likewise the next three counts
+  std::size_t tried = 0;     ///< search windows tried, with or without a match
+  std::size_t found = 0;     ///< search windows in which a match was found
+  std::size_t accepted = 0;  ///< matches that were accepted
   std::size_t accepted_in_final_search = 0;
-  std::size_t refused = 0;  ///< includes loops still pending when the run was stopped
+  /// Matches that were refused, including loops still pending when the run was stopped.
+  std::size_t refused = 0;
   std::size_t switched_off = 0;
-  std::size_t by_hand = 0;           ///< deleted, forced or matched again by a person
-  std::vector<ReasonCount> reasons;  ///< of loops refused or switched off, the most frequent first
+  std::size_t by_hand = 0;           ///< loops that a person deleted, forced or matched again
+  std::vector<ReasonCount> reasons;  ///< reasons of loops refused or switched off, the most frequent first
 };
 
 /// Extent of the part of the map that was seen.
 struct MapExtent : MapRectangle {
   double resolution_m = 0;
-  double asked_resolution_m = 0;  ///< by the settings
+  double asked_resolution_m = 0;  ///< size of a cell that the settings ask for
   double free_m2 = 0;             ///< area of free space
 };
 
 struct RunSummary {
   MappedLogFacts log;
-  std::vector<FrameSpan> runs;  ///< more than one if runs were merged
-  double path_length_m = 0;     ///< of the mapped trajectory
+  std::vector<FrameSpan> runs;  ///< all runs in the result; more than one if runs were merged
+  double path_length_m = 0;     ///< length of the mapped trajectory
   std::size_t nodes = 0;
   std::size_t edges = 0;
   std::size_t local_maps = 0;
   LoopCounts loops;
   UnmatchedScans unmatched;
-  double mean_response = 0;      ///< over the matched frames
+  double mean_response = 0;      ///< mean response of the matched frames
   std::int64_t evaluations = 0;  ///< poses scored, including the final search
   MapExtent map;
   double wall_s = 0;
   double real_time_factor = 0;  ///< seconds of the log per second of work; 0 if unknown
-  double peak_memory_mib = 0;   ///< of this process so far
+  double peak_memory_mib = 0;   ///< largest memory of this process so far
   bool interrupted = false;
   bool final_search_cut_short = false;
   std::optional<std::string> broken_off;  ///< why the log cannot be read after its last scan
@@ -100,13 +101,14 @@ inline constexpr int kSummarySchemaVersion = 1;
 /// finite become null, bytes that are not UTF-8 are replaced.
 std::string summary_json(const MappingResult& result, const RunInfo& info, const RunSummary& summary);
 
-/// Returns a sentence without full stop if the cells of the map are larger than asked for.
+/// Returns a warning, a sentence without full stop, if the cells of the map are larger than asked for. Empty
+/// otherwise.
 std::optional<std::string> coarser_cells_text(const MapExtent& map);
 
 /// Returns the largest memory of this process so far, in MiB.
 double peak_memory_mib();
 
-/// Returns the length of a path, measured in steps of at least 0.1 m so that the jitter of a robot at rest
+/// Returns the length of a path, metres. Measures in steps of at least 0.1 m: the jitter of a robot at rest
 /// does not add up.
 double path_length_m(const std::vector<mrpt::math::TPose2D>& poses);
 

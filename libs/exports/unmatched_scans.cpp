@@ -10,9 +10,9 @@
 namespace psi_slam {
 namespace {
 
-constexpr std::size_t kMostListed = 5;  // stretches in the warning
+constexpr std::size_t kMostListed = 5;  // largest number of stretches in the warning
 
-/// "12.0-19.5 s (8 scans, 6.1 m)", with times since the start of the run.
+/// Text of a stretch: "12.0-19.5 s (8 scans, 6.1 m)", with times since the start of the run.
 std::string stretch_text(const UnmatchedStretch& stretch, bool of_several_runs) {
   const auto since_start = [&](TimeUs time_us) {
     return fixed_text(seconds(time_us - stretch.run_start_us), 1);
@@ -38,7 +38,7 @@ std::size_t keep_longest(std::vector<UnmatchedStretch>& stretches) {
   return dropped;
 }
 
-constexpr double kNegligiblePath_m = 0.1;  // a robot at rest is where it was, matched or not
+constexpr double kNegligiblePath_m = 0.1;  // without a match, the position of a robot at rest is still known
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scans that matched no local map. Odometry, or the constant-velocity model, places them, so the map may
-// be wrong there.
+// Scans that matched no local map. Odometry, or the constant-velocity model, places these scans: the map may
+// be wrong where they are.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace psi_slam {
 /// Successive unmatched scans of one run.
 struct UnmatchedStretch {
   std::size_t run = 0;          ///< number of the run, from 0
-  std::size_t first_frame = 0;  ///< not the first of the run, which has no local map to match with
+  std::size_t first_frame = 0;  ///< never the first scan of the run, which has no local map to match with
   std::size_t last_frame = 0;
   TimeUs first_time_us = 0;      ///< time of the first scan
   TimeUs last_time_us = 0;       ///< time of the last scan
@@ -26,17 +26,18 @@ struct UnmatchedStretch {
   std::size_t scans() const { return last_frame - first_frame + 1; }
 };
 
-/// All unmatched scans.
+/// Unmatched scans of all runs.
 struct UnmatchedScans {
   std::size_t count = 0;                    ///< scans of all stretches
   std::vector<UnmatchedStretch> stretches;  ///< in the order of the log
 };
 
-/// Finds the unmatched scans of each run, see runs_of().
+/// Finds the unmatched scans of each run. runs_of() returns the runs of a result.
 UnmatchedScans unmatched_scans(const std::vector<FrameRecord>& frames, const std::vector<FrameSpan>& runs);
 
-/// Warns of the unmatched scans of a result, in a sentence without full stop that lists the stretches with
-/// the longest paths. Empty if there are none, or if the robot moved less than 0.1 m meanwhile.
+/// Returns a warning about the unmatched scans of a result: a sentence without full stop that lists the
+/// stretches with the longest paths. Empty if there are no unmatched scans, or if the robot moved less than
+/// 0.1 m during all of them.
 std::optional<std::string> unmatched_scans_text(const MappingResult& result);
 
 }  // namespace psi_slam

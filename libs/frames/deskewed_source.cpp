@@ -38,7 +38,8 @@ LaserScan deskewed(const LaserScan& scan, const TPose2D& motion) {
       const double x = first_T_laser.x + range * std::cos(bearing + first_T_laser.phi);
       const double y = first_T_laser.y + range * std::sin(bearing + first_T_laser.phi);
       still.ranges_m[i] = static_cast<float>(std::hypot(x, y));
-      turned = mrpt::math::wrapToPi(std::atan2(y, x) - bearing);  // bearings may exceed pi
+      // Wraps only the turn: bearings may exceed pi.
+      turned = mrpt::math::wrapToPi(std::atan2(y, x) - bearing);
     }
     bearings[i] = static_cast<float>(bearing + turned);
   }
@@ -65,7 +66,7 @@ DeskewedSource::Marks DeskewedSource::marks_of(const Frame& frame) {
   return marks;
 }
 
-/// Mark of the same laser; if there is none, the first mark of the frame.
+/// Returns the mark that has the same laser as `mark`, or the first of `marks` if there is none.
 const DeskewedSource::Mark& DeskewedSource::mark_like(const Mark& mark, const Marks& marks) {
   const auto same =
       std::find_if(marks.begin(), marks.end(), [&](const Mark& other) { return other.laser == mark.laser; });

@@ -12,17 +12,19 @@ namespace psi_slam {
 
 /// Returns the scan that the laser would have measured from its pose at the first beam if the robot had stood
 /// still. `motion` is the robot's pose at the last beam relative to its pose at the first; the beams are
-/// evenly spread over this motion. Each beam keeps its place in the order and gets the range and bearing of
-/// its point. A beam without a return turns with the robot. All beams then start at the laser's first
-/// position, so the free space they show is a few centimetres off.
+/// evenly spread over this motion. Each beam keeps its index and gets the range and bearing of its point. The
+/// bearing of a beam without a return turns with the robot. All beams of the result start at the laser's
+/// first position. The free space along them is therefore a few centimetres off.
 LaserScan deskewed(const LaserScan& scan, const mrpt::math::TPose2D& motion);
 
-/// Removes the robot's motion during a sweep from the scans of another source. The motion is that between the
-/// odometry of a scan and of the same laser's next scan, or of its previous scan if there is no next one. If
-/// both are more than one second away, the scan is unchanged. Scans without odometry are unchanged too.
+/// Removes the robot's motion during a sweep from the scans of another source. Takes the motion from odometry
+/// between a scan and the next scan of the same laser, else from the previous scan to this scan. Leaves scans
+/// without odometry unchanged. Ignores a neighbouring scan that is more than one second away, or less than
+/// two thirds of the sweep time.
 class DeskewedSource : public FrameSource {
  public:
-  /// Without `sweep_time_s`, the sweep time of each scan applies.
+  /// `sweep_time_s`, seconds, replaces the sweep time of all scans. If it is empty, the sweep time of each
+  /// scan applies.
   DeskewedSource(std::unique_ptr<FrameSource> source, std::optional<double> sweep_time_s);
 
   std::optional<Frame> next() override;
@@ -50,7 +52,7 @@ class DeskewedSource : public FrameSource {
   bool started_ = false;
   Marks last_marks_;
   std::optional<Frame> ahead_;
-  std::exception_ptr failure_;  // met while reading ahead; thrown after the last frame before it
+  std::exception_ptr failure_;  // error of reading ahead; thrown after the last frame before the error
 };
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which lasers of a log the user selects, and where the user says they are mounted.
+// Lasers of a log that the user selects, and mounts of lasers that the user states.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -16,16 +16,16 @@
 
 namespace psi_slam {
 
-/// Value of an option such as `log.laser`: the format's usual laser, one laser by name, several names
+/// Value of an option such as `log.laser`: the usual laser of the format, one laser by name, several names
 /// separated by commas, or "all". Scans of the first of several lasers open frames.
 struct LaserChoice {
   bool all = false;
-  std::vector<std::string> names;  ///< empty: all lasers, or the usual one
+  std::vector<std::string> names;  ///< names of the selected lasers; empty: all lasers, or the usual one
 
   bool several() const { return all || names.size() > 1; }
 };
 
-/// Throws UserError that names the option if a name is empty or repeated.
+/// Parses the value of an option. Throws UserError that names the option if a name is empty or repeated.
 LaserChoice laser_choice(std::string_view option, std::string_view value);
 
 /// Returns whether frames of a log of this format may hold scans of several lasers. `scan_topic` overrides
@@ -34,8 +34,8 @@ LaserChoice laser_choice(std::string_view option, std::string_view value);
 bool reads_several_lasers(const LogOptions& options, LogFormat format);
 
 /// Numbers the lasers of a log in which each scan names its laser; see LaserScan::laser. Listed lasers have
-/// the order of the user's list. "all" has the order of their first scans. Otherwise only the first laser is
-/// read.
+/// the order of the user's list. With "all", lasers have the order of their first scans. Otherwise only the
+/// first laser of the log is read.
 class ChosenLasers {
  public:
   explicit ChosenLasers(LaserChoice choice) : choice_(std::move(choice)) {}
@@ -43,7 +43,8 @@ class ChosenLasers {
   /// Returns the number of a laser, or nothing if it is not read. The call may add a new laser.
   std::optional<std::size_t> number_of(const std::string& name);
 
-  /// Names of the lasers that are read: the listed ones, otherwise those that have appeared.
+  /// Names of the lasers that are read: all listed lasers, or without a list the lasers that have appeared so
+  /// far.
   std::vector<std::string> names() const;
 
  private:
@@ -61,12 +62,13 @@ struct StatedMount {
 /// Parses `LogOptions::laser_mounts`. Throws UserError that says what was expected.
 std::vector<StatedMount> stated_mounts(const LogOptions& options);
 
-/// Options for the laser that has any of these names, with its stated mount if there is one.
+/// Returns the options of a laser that any of these names denotes, including its stated mount if there is
+/// one.
 LogOptions options_of_laser(const LogOptions& options, const std::vector<std::string>& names);
 
 bool contains(const std::vector<std::string>& names, const std::string& name);
 
-/// Names for a message: "a", "b".
+/// Quotes names and joins them with commas, for a message: "a", "b".
 std::string quoted_list(const std::vector<std::string>& names);
 
 }  // namespace psi_slam

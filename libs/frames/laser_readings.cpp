@@ -92,7 +92,8 @@ void mirror(std::vector<float>& bearings_rad) {
 }
 
 void mark_no_returns(std::vector<float>& ranges_m, double min_range_m, double max_range_m) {
-  // Both sides are single precision: a reading written as "50.00" must equal a maximum of 50.00.
+  // Both sides of the comparison have single precision: a reading written as "50.00" must equal a maximum of
+  // 50.00.
   const auto min_range = static_cast<float>(min_range_m);
   const auto max_range = static_cast<float>(max_range_m);
   for (float& range : ranges_m) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Steps that the readers of all formats share when they turn a message of a laser into a LaserScan.
 //
-// Bearings of beams for logs that do not state them. FLASER lines of CARMEN carry only a number of beams, and
-// public readers disagree about half of the numbers. An error of one degree bends every turn of the map, so
-// the user chooses the convention. `psi-slam check` measures which one fits: see beam_angle_study.h.
+// Some logs do not state the bearings of the beams: FLASER lines of CARMEN state only the number of beams.
+// For about half of the usual numbers, public readers disagree on the bearings. An error of one degree bends
+// the map at every turn. The user therefore chooses the convention, and `psi-slam check` measures which one
+// fits: see beam_angle_study.h.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -19,15 +20,15 @@
 
 namespace psi_slam {
 
-/// All conventions except kAuto.
+/// All conventions of beam angles except kAuto.
 const std::vector<BeamAngles>& stated_beam_angles();
 
-/// Name in configuration files: "auto", "centred_step_inclusive", "centred_half_step", "left_open",
-/// "skip_zero".
+/// Name of a convention in settings files: "auto", "centred_step_inclusive", "centred_half_step",
+/// "left_open", "skip_zero".
 std::string_view name_of(BeamAngles angles);
 
 /// Usual field of view for a number of beams, radians. 180, 181, 360 and 361 beams: 180 degrees; 540 and 541:
-/// 270 degrees; 682, 683 and 769: steps of 360/1024 degrees. Nothing for other numbers.
+/// 270 degrees; 682, 683 and 769: steps of 360/1024 degrees. Empty for other numbers.
 std::optional<double> usual_field_of_view_rad(std::size_t beams);
 
 /// Convention that kAuto selects if the log states no angles. 180, 360 and 540 beams: kLeftOpen, since one
@@ -44,18 +45,20 @@ struct FloorMount {
   bool upside_down = false;  ///< seen from above, the laser counts its beams in the opposite direction
 };
 
-/// Throws UserError that starts with `place` if the laser is tilted by more than 15 degrees.
+/// Projects the pose of a laser to the floor. Throws UserError that starts with `place` if the laser is
+/// tilted by more than 15 degrees.
 FloorMount floor_mount(const mrpt::poses::CPose3D& robot_T_laser, const std::string& place);
 
 /// Reverses the sign of all bearings.
 void mirror(std::vector<float>& bearings_rad);
 
-/// Replaces each range, metres, that is no return: by infinity at or beyond `max_range_m`, by NaN if it is
+/// Replaces ranges, metres, that are no returns: by infinity at or beyond `max_range_m`; by NaN if they are
 /// zero, negative, below `min_range_m` or not a number.
 void mark_no_returns(std::vector<float>& ranges_m, double min_range_m, double max_range_m);
 
 /// Sets the maximum range of a scan and marks its readings without a return. The user's options override the
-/// maximum that the log states; `stated_max_range_m` is 0 if it states none. The larger minimum applies.
+/// maximum that the log states; `stated_max_range_m` is 0 if it states none. The larger of
+/// `stated_min_range_m` and the minimum in `options` applies.
 void limit_ranges(LaserScan& scan, const LogOptions& options, double stated_max_range_m,
                   double stated_min_range_m = 0);
 

@@ -25,8 +25,8 @@ constexpr const char* kExpected =
     "folder of a ROS 2 bag)";
 constexpr std::size_t kHeadBytes = std::size_t{256} * 1024;
 
-/// An MRPT archive starts with an object: one byte with the length of its class name and the highest bit set,
-/// followed by the class name.
+/// Returns whether the bytes start like an MRPT archive, with an object: one byte with the length of its
+/// class name and the highest bit set, followed by the class name.
 bool is_mrpt_archive(std::string_view head) {
   if (head.empty()) return false;
   const auto first = static_cast<unsigned char>(head[0]);
@@ -78,8 +78,10 @@ std::vector<fs::path> files_listed(const fs::path& metadata) {
       files.push_back(fs::exists(beside) ? beside : metadata.parent_path() / name.filename());
     }
   } catch (const std::exception&) {
-    throw UserError(metadata.string() +
-                    " is damaged, expected rosbag2_bagfile_information with relative_file_paths");
+    throw UserError(
+        metadata.string() +
+        " is damaged, expected rosbag2_bagfile_information with relative_file_paths. Fetch it again, or "
+        "delete it to read the bag files by their names");
   }
   return files;
 }
@@ -109,15 +111,16 @@ std::vector<fs::path> files_of_bag_folder(const fs::path& folder) {
 
 LogFormat detect_log_format(const fs::path& path) {
   std::error_code ignored;
-  if (!fs::exists(path, ignored)) throw UserError(path.string() + " does not exist" + kExpected);
+  if (!fs::exists(path, ignored))
+    throw UserError(path.string() + " does not exist" + kExpected + ". Check the path");
   if (fs::is_directory(path, ignored)) {
     if (!files_of_bag_folder(path).empty()) return LogFormat::kRos2Folder;
-    throw UserError(path.string() + " is a folder" + kExpected);
+    throw UserError(path.string() + " is a folder" + kExpected + ". Name a log file");
   }
   CompressedFile file(path);
   std::string head(kHeadBytes, '\0');
   head.resize(file.read(head.data(), head.size()));
-  if (head.empty()) throw UserError(path.string() + " is empty" + kExpected);
+  if (head.empty()) throw UserError(path.string() + " is empty" + kExpected + ". Fetch or record it again");
   if (starts_with(head, "#ROSBAG")) return LogFormat::kRos1Bag;
   if (starts_with(head, "\x89MCAP")) return LogFormat::kRos2Mcap;
   if (starts_with(head, std::string_view("SQLite format 3\0", 16))) return LogFormat::kRos2Sqlite;
@@ -125,7 +128,7 @@ LogFormat detect_log_format(const fs::path& path) {
   if (is_carmen(head)) return LogFormat::kCarmen;
   if (is_zstd(head))
     throw UserError(path.string() + " is compressed by zstd, which is not supported. Unpack it with zstd -d");
-  throw UserError(path.string() + " has an unknown format" + kExpected);
+  throw UserError(path.string() + " has an unknown format" + kExpected + ". Convert it first");
 }
 
 }  // namespace psi_slam

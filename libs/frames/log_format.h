@@ -20,9 +20,9 @@ bool is_bag(LogFormat format);
 /// formats.
 LogFormat detect_log_format(const std::filesystem::path& path);
 
-/// Files of a ROS 2 bag's folder in their order, as its metadata.yaml lists them. If the recorder was killed
-/// before it wrote metadata.yaml: the .db3 and .mcap files, ordered by the numbers in their names. Empty if
-/// the folder has neither.
+/// Files in the folder of a ROS 2 bag, in the order of its metadata.yaml. If there is no metadata.yaml, since
+/// the recorder was killed: the .db3 and .mcap files in the order of the numbers in their names. Empty if the
+/// folder has no such files.
 std::vector<std::filesystem::path> files_of_bag_folder(const std::filesystem::path& folder);
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the readers of all formats have in common.
+// Base class of the readers of all log formats, and functions that open logs.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace psi_slam {
 
-/// What a reader has found in a log so far, besides the frames.
+/// Facts that a reader has found in a log so far, besides the frames.
 struct LogContents {
   /// Source of the scans: CARMEN messages, a sensor label or a topic; several separated by commas. Empty in a
   /// CARMEN log before the first scan, and in a rawlog whose label is empty.
@@ -47,12 +47,13 @@ class LogReader : public FrameSource {
   std::size_t frames_given_ = 0;
 };
 
-/// Opens a log of any format with the reader of its format: each frame is a scan of one laser as recorded,
-/// and `every_nth_scan` and `sweep_time_s` are not applied. Throws UserError as open_log() does.
+/// Opens a log of any format with the reader of this format. Each frame is a scan of one laser as recorded;
+/// `every_nth_scan` and `sweep_time_s` do not apply. Throws UserError as open_log() does.
 std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options);
 
-// Each opens a log of one format. Throws UserError if a selected laser does not exist; open_rawlog() and
-// open_bag_log() also if scans, odometry or a frame is missing, since they read until all have appeared.
+// Each function opens a log of one format. It throws UserError if a selected laser does not exist.
+// open_rawlog() and open_bag_log() read until scans, odometry and, in a bag, coordinate frames have appeared.
+// They throw UserError if one of these is missing.
 std::unique_ptr<LogReader> open_carmen_log(const std::filesystem::path& path, const LogOptions& options);
 std::unique_ptr<LogReader> open_rawlog(const std::filesystem::path& path, const LogOptions& options);
 std::unique_ptr<LogReader> open_bag_log(const std::filesystem::path& path, const LogOptions& options);

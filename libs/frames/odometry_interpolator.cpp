@@ -52,7 +52,7 @@ void OdometryInterpolator::place(Scan& scan) const {
 }
 
 bool OdometryInterpolator::place_between_messages(Frame& frame) const {
-  // The search starts at the newest message: if stamps run backwards, the latest match in the file counts.
+  // The search starts at the newest message, which is usually the nearest in time.
   for (std::size_t i = odometry_.size(); i-- > 1;) {
     const Odometry& before = odometry_[i - 1];
     const Odometry& after = odometry_[i];

@@ -12,16 +12,17 @@
 namespace psi_slam {
 
 /// Finds odometry at the time of each scan, for logs with odometry and scans in separate messages. A scan
-/// waits until odometry of its time or later has arrived. Its pose is interpolated between that message and
-/// the message before. A scan whose time lies between no two messages gets the pose of the message next to it
-/// in the log, before or after, that is nearer in time. Scans leave in the order in which they arrived.
+/// waits until odometry of its time or later has arrived. Its pose is interpolated between the messages
+/// before and after its time. A scan whose time lies between no two messages gets the pose of a neighbour in
+/// the log: the odometry message before or after it, whichever is nearer in time. take() returns scans in the
+/// order of the log.
 ///
-/// If the time of odometry steps back, the clock was set, and all earlier odometry is forgotten. Scans near
-/// that place belong to the clock of the neighbouring message that is nearer in time. A scan whose time steps
-/// back therefore waits for the next odometry message.
+/// If the time of odometry steps back, the clock was set; all earlier odometry is forgotten. A scan near the
+/// step has the same clock as its neighbour in the log that is nearer in time. A scan whose time steps back
+/// therefore waits for the next odometry message.
 class OdometryInterpolator {
  public:
-  /// At most this number of scans wait for odometry. If more arrive, odometry has stopped.
+  /// Largest number of scans that wait for odometry. If more scans arrive, odometry is taken to have stopped.
   static constexpr std::size_t kMaxWaiting = 1000;
 
   void add_odometry(TimeUs time_us, const mrpt::math::TPose2D& odom_T_robot);
@@ -45,8 +46,8 @@ class OdometryInterpolator {
     Frame frame;
     std::optional<Odometry> before;
     std::optional<Odometry> after;
-    bool steps_back = false;  // earlier than the scan or the oldest odometry before it
-    bool is_placed = false;   // its odometry is final
+    bool steps_back = false;  // earlier than the previous scan or than the oldest odometry
+    bool is_placed = false;   // the odometry of the scan is final
   };
 
   static bool belongs_to_next_message(const Scan& scan);
@@ -54,7 +55,8 @@ class OdometryInterpolator {
   void place(Scan& scan) const;
   bool place_between_messages(Frame& frame) const;
 
-  std::deque<Odometry> odometry_;  // since time last stepped back; never empty after the first message
+  // Messages since time last stepped back; never empty after the first message.
+  std::deque<Odometry> odometry_;
   std::deque<Scan> scans_;
   std::optional<TimeUs> last_scan_us_;
   bool ended_ = false;

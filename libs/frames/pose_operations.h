@@ -7,7 +7,7 @@
 
 namespace psi_slam {
 
-/// Returns b_T_a.
+/// Returns the inverse b_T_a of the pose a_T_b.
 inline mrpt::math::TPose2D inverse(const mrpt::math::TPose2D& a_T_b) {
   return mrpt::math::TPose2D(0, 0, 0) - a_T_b;
 }

@@ -15,14 +15,15 @@ namespace {
 
 constexpr auto kMaxApart_us = static_cast<TimeUs>(ScanSynchronizer::kMaxApart_s * 1e6);
 constexpr auto kMaxDetour_us = static_cast<TimeUs>(ScanSynchronizer::kMaxDetour_s * 1e6);
-/// A scan may join the next frame only if that is at most this many times as far as the nearest frame.
+/// A scan may join the next frame only if this frame is at most this many times as far in time as the nearest
+/// frame.
 constexpr TimeUs kFarther = 2;
 constexpr auto kClockWasSet_us = static_cast<TimeUs>(ScanSynchronizer::kClockWasSet_s * 1e6);
-/// Scans of a frame are at most kMaxApart_us from it, and other frames that these scans may join at most
-/// twice that. The third part allows for different delays of the lasers' messages.
+/// Scans of a frame are at most kMaxApart_us from its opener. Other frames that these scans may join are at
+/// most 2 * kMaxApart_us from it. The third kMaxApart_us allows for different delays of the lasers' messages.
 constexpr TimeUs kWait_us = 3 * kMaxApart_us;
 
-/// Distance in time; if equal, the distance in the log decides.
+/// Distance of two scans in time; if two distances are equal, the distance in the log decides.
 template <class Scan>
 std::pair<TimeUs, std::size_t> distance(const Scan& a, const Scan& b) {
   return {std::abs(a.frame.time_us - b.frame.time_us),
@@ -61,8 +62,8 @@ bool ScanSynchronizer::opens(const Scan& scan) const {
                       [&](const Scan& other) { return may_join(scan, other) && opens(other); });
 }
 
-/// Scan that opens the nearest frame which `scan` may join, except the frame of `excluded`; null if there is
-/// none.
+/// Returns the scan that opens the nearest frame which `scan` may join, except the frame that `excluded`
+/// opens. Returns null if there is no such frame.
 const ScanSynchronizer::Scan* ScanSynchronizer::frame_of(const Scan& scan, const Scan* excluded) const {
   const Scan* nearest = nullptr;
   for (const Scan& other : scans_) {
@@ -74,8 +75,8 @@ const ScanSynchronizer::Scan* ScanSynchronizer::frame_of(const Scan& scan, const
   return nearest;
 }
 
-/// Chooses the scan that joins the frame of `opener` among one laser's scans whose nearest frame it is. Adds
-/// the places of all scans to `used`, except those passed on to the next frame.
+/// Chooses which of `claimants` joins the frame of `opener`. Claimants are scans of one laser whose nearest
+/// frame this is. Adds the places of all claimants to `used`, except those passed on to the next frame.
 const ScanSynchronizer::Scan& ScanSynchronizer::choose(const std::vector<const Scan*>& claimants,
                                                        const Scan& opener, std::vector<std::size_t>& used) {
   const auto nearest_of = [&](const std::vector<const Scan*>& scans) {
@@ -83,7 +84,7 @@ const ScanSynchronizer::Scan& ScanSynchronizer::choose(const std::vector<const S
       return distance(*a, opener) < distance(*b, opener);
     });
   };
-  std::map<const Scan*, TimeUs> passed_on;  // with the extra time distance
+  std::map<const Scan*, TimeUs> passed_on;  // scans passed on, with their extra time distances
   TimeUs& detours_us = detours_us_[claimants.front()->frame.scan.laser];
   std::vector<const Scan*> others;
   for (const Scan* scan : claimants) {
@@ -112,7 +113,7 @@ std::optional<Frame> ScanSynchronizer::take() {
   const auto opener =
       std::find_if(scans_.begin(), scans_.end(), [this](const Scan& scan) { return opens(scan); });
   if (must_wait(*opener)) return std::nullopt;
-  std::map<std::size_t, std::vector<const Scan*>> claimants;  // by laser
+  std::map<std::size_t, std::vector<const Scan*>> claimants;  // claimants by laser
   for (const Scan& scan : scans_)
     if (may_join(scan, *opener) && frame_of(scan) == &*opener)
       claimants[scan.frame.scan.laser].push_back(&scan);

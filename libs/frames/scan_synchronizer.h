@@ -5,13 +5,15 @@
 // `kMaxApart_s` away in time. Odometry at both times gives the robot's motion in between. If the motion
 // exceeds `kMaxMotion_m` or `kMaxTurn_rad`, odometry has jumped, and the scan is dropped.
 //
-// A scan belongs to the frame nearest in time. If that frame has several scans of one laser, which is usual
-// if lasers scan half a period apart, the nearest scan joins it. Scans about half-way to the next frame are
-// passed on to that frame, until these detours sum to `kMaxDetour_s`. The other scans are dropped, such as
-// the surplus scans of a laser that is faster than the first.
+// A scan belongs to the frame nearest in time. Several scans of one laser may belong to one frame; this is
+// usual if lasers scan half a period apart. Those about half-way to the next frame are then passed on to the
+// next frame, until the extra time distances of passed-on scans sum to `kMaxDetour_s`. The nearest of the
+// remaining scans joins the frame. The other remaining scans are dropped, such as the surplus scans of a
+// laser that is faster than the first.
 //
-// A scan without any scan of an earlier laser within `kMaxApart_s` opens a frame itself. If the first laser
-// falls silent, the others continue without it. Lasers that hardly ever scan together take turns.
+// A scan opens a frame itself if no scan of a laser with a smaller number is within `kMaxApart_s`. If the
+// first laser stops, the other lasers continue without it. Lasers that rarely scan together open frames in
+// turn.
 #pragma once
 
 #include <cmath>
@@ -30,14 +32,16 @@ namespace psi_slam {
 class ScanSynchronizer {
  public:
   static constexpr double kMaxApart_s = 0.15;
-  /// Largest sum of the extra time distances by which consecutive scans of a laser join a later frame.
+  /// Largest sum of the extra time distances, seconds, by which consecutive scans of a laser join a frame
+  /// later than the nearest one.
   static constexpr double kMaxDetour_s = 0.15;
   static constexpr double kMaxMotion_m = 1.0;
   static constexpr double kMaxTurn_rad = M_PI / 3;
-  /// A stamp that is earlier than the latest by more than this shows that the clock was set. Scans before and
-  /// after that moment never share a frame.
+  /// A time stamp that is earlier than the latest one by more than this, seconds, shows that the clock was
+  /// set. Scans before and after the change of the clock never share a frame.
   static constexpr double kClockWasSet_s = 1.0;
-  /// At most this number of scans wait for later ones. If more arrive, their time stamps are meaningless.
+  /// Largest number of scans that wait for later scans. If more scans arrive, time stamps no longer delay
+  /// frames.
   static constexpr std::size_t kMaxWaiting = 300;
 
   /// Adds one scan with odometry of its own time, in the order of the log. `scan.laser` must be set.
@@ -53,8 +57,8 @@ class ScanSynchronizer {
  private:
   struct Scan {
     Frame frame;
-    std::size_t place = 0;  // in the log
-    std::size_t clock = 0;  // how often the clock was set before
+    std::size_t place = 0;  // position in the log
+    std::size_t clock = 0;  // number of clock changes before the scan
   };
 
   static bool may_join(const Scan& scan, const Scan& opener);
@@ -69,18 +73,18 @@ class ScanSynchronizer {
   std::size_t places_ = 0;
   std::size_t clock_ = 0;
   std::size_t spare_scans_ = 0;
-  std::map<std::size_t, TimeUs>
-      detours_us_;  // by laser, since one of its scans last joined the nearest frame
+  // Sum of the extra time distances of each laser since it last passed on no scan.
+  std::map<std::size_t, TimeUs> detours_us_;
   bool ended_ = false;
 };
 
-/// Combines the frames of another source, each a scan of one laser, into frames of all lasers. An error of
-/// the source is thrown after the last frame before it.
+/// Combines the frames of another source, each a scan of one laser, into frames of all lasers. Throws an
+/// error of the source after the last frame before the error.
 class SynchronizedSource : public FrameSource {
  public:
   explicit SynchronizedSource(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
 
-  /// The index of each frame counts the combined frames.
+  /// Returns the next combined frame. Its index counts combined frames.
   std::optional<Frame> next() override;
   double progress() const override { return source_->progress(); }
   SkippedLines skipped_lines() const override;

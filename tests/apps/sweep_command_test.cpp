@@ -185,7 +185,7 @@ TEST_F(SweepCommand, two_sweeps_do_not_work_in_one_folder) {
   ASSERT_TRUE(wait_for([&] { return !children_of(process.pid()).empty(); }));
   const AppRun other = run_app(words("out"));
   EXPECT_EQ(other.code, 2);
-  EXPECT_THAT(other.err, HasSubstr("another sweep is at work"));
+  EXPECT_THAT(other.err, HasSubstr("another sweep is running"));
   EXPECT_EQ(process.finish().code, 0);
 }
 

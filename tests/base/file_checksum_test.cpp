@@ -16,7 +16,7 @@ TEST(FileChecksum, equals_the_examples_of_the_standard) {
 
 TEST(FileChecksum, of_a_file_equals_that_of_its_bytes) {
   const TemporaryFolder folder;
-  const std::string bytes(200'001, '\0');  // more than one block
+  const std::string bytes(200'001, '\0');  // longer than the block that is read at once
   write_file(folder.path() / "zeros", bytes);
   EXPECT_EQ(sha256_of_file(folder.path() / "zeros"), sha256_of_text(bytes));
   EXPECT_NE(sha256_of_text(bytes), sha256_of_text(bytes + '\0'));

@@ -67,8 +67,8 @@ TEST(ExactNumber, keeps_every_bit_of_an_angle) {
     ASSERT_EQ(bits(parse_degrees(exact_degrees_text(radians)).value()), bits(radians));
   }
   for (int i = 0; i < 2'000; ++i) {
-    const double radians =
-        any_finite(random) / 64;  // the largest doubles in degrees exceed the range of a double
+    // Without the division, the largest angles would exceed the range of a double in degrees.
+    const double radians = any_finite(random) / 64;
     ASSERT_EQ(bits(parse_degrees(exact_degrees_text(radians)).value()), bits(radians))
         << exact_degrees_text(radians);
   }

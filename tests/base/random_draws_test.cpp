@@ -42,7 +42,7 @@ TEST(RandomDraws, shares_and_indices_stay_in_their_bounds) {
   }
 }
 
-TEST(MixedBits, equal_the_numbers_of_split_mix_64) {  // the first two published numbers of seed 0
+TEST(MixedBits, equal_the_numbers_of_split_mix_64) {  // the first two numbers published for seed 0
   EXPECT_EQ(mixed_bits(0), 0xe220a8397b1dcdafU);
   EXPECT_EQ(mixed_bits(0x9e3779b97f4a7c15), 0x6e789e6aa1b965f4U);
 }

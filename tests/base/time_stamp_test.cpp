@@ -21,8 +21,8 @@ TEST(TimeStamp, reads_what_logs_contain) {
   EXPECT_EQ(parse_seconds("976052905.167303"), 976052905167303);
   EXPECT_EQ(parse_seconds("90.2396"), 90239600);
   EXPECT_EQ(parse_seconds("12"), 12000000);
-  EXPECT_EQ(parse_seconds("0.1234567"), 123457) << "the seventh decimal rounds";
-  EXPECT_EQ(parse_seconds("0.12345649"), 123456) << "later decimals do not";
+  EXPECT_EQ(parse_seconds("0.1234567"), 123457) << "rounded by the seventh decimal";
+  EXPECT_EQ(parse_seconds("0.12345649"), 123456) << "the eighth decimal has no effect";
   EXPECT_EQ(parse_seconds("-0.25"), -250000);
   EXPECT_EQ(parse_seconds("1.5e3"), 1500000000);
 }

@@ -40,7 +40,7 @@ TEST(WorkerPool, several_threads_work_at_a_time) {
   WorkerPool pool(3);
   EXPECT_EQ(pool.threads(), 3);
   std::atomic<int> waiting{0};
-  // Each task waits for the two others, so this needs three threads.
+  // Each task waits until all three have started, which takes three threads.
   pool.run(3, [&](std::size_t) {
     ++waiting;
     const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
@@ -75,7 +75,7 @@ TEST(WorkerPool, the_exception_of_the_lowest_index_reaches_the_caller_after_all_
     }
     int calls = 0;
     pool.run(1, [&](std::size_t) { ++calls; });
-    EXPECT_EQ(calls, 1) << "the pool still works";
+    EXPECT_EQ(calls, 1) << "the pool still works after an exception";
   }
 }
 

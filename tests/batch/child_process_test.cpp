@@ -40,7 +40,7 @@ TEST(ChildProcess, keeps_the_end_of_long_output) {
       run_child(shell("head -c 3000000 /dev/zero; head -c 3000000 /dev/zero >&2; echo end >&2"));
   EXPECT_EQ(end.out.size(), 3'000'000U);
   EXPECT_LT(end.err.size(), 1'000'000U);
-  EXPECT_EQ(end.err.substr(end.err.size() - 4), "end\n") << "the end is kept";
+  EXPECT_EQ(end.err.substr(end.err.size() - 4), "end\n") << "the last bytes are kept";
 }
 
 TEST(ChildProcess, reports_the_reason_of_a_failure) {
@@ -62,9 +62,9 @@ TEST(ChildProcess, is_killed_at_its_time_limit_and_on_request) {
 }
 
 TEST(ChildProcess, ignores_signals_to_the_caller) {
-  static volatile std::sig_atomic_t came = 0;
+  static volatile std::sig_atomic_t received = 0;
   struct sigaction count {};
-  count.sa_handler = [](int) { came = came + 1; };  // without SA_RESTART, so that poll() returns with EINTR
+  count.sa_handler = [](int) { received = received + 1; };  // no SA_RESTART: poll() returns with EINTR
   struct sigaction before {};
   ASSERT_EQ(sigaction(SIGUSR1, &count, &before), 0);
   EXPECT_EQ(run_child(shell("echo first; sleep 0.05; kill -USR1 $PPID; sleep 0.05; echo last")).out,
@@ -73,7 +73,7 @@ TEST(ChildProcess, ignores_signals_to_the_caller) {
   slow.time_limit_s = 0.3;
   EXPECT_TRUE(run_child(slow).over_time) << "the time limit still applies";
   sigaction(SIGUSR1, &before, nullptr);
-  EXPECT_GE(came, 1);
+  EXPECT_GE(received, 1);
 }
 
 TEST(ChildProcess, a_missing_program_is_a_system_failure) {
@@ -119,7 +119,7 @@ class ChildWorkersTest : public testing::Test {
     local_child_workers(processes)(children, {[this] { return stop_.load(); }, [](std::size_t) {},
                                               [this](std::size_t child, ChildEnd end) {
                                                 const std::lock_guard lock(mutex_);
-                                                EXPECT_EQ(ends_.count(child), 0U) << "once";
+                                                EXPECT_EQ(ends_.count(child), 0U) << "each program ends once";
                                                 ends_[child] = std::move(end);
                                               }});
   }

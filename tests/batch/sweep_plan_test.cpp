@@ -40,7 +40,7 @@ TEST_F(SweepPlanTest, crosses_logs_settings_and_seeds) {
   asked.seeds = {4, 6};
   const SweepPlan plan = plan_sweep(asked, "program");
   EXPECT_THAT(plan.columns, ElementsAre("map.resolution_m", "loop_closure.matcher"))
-      << "what has one value does not vary";
+      << "an option with one value does not vary";
   ASSERT_EQ(plan.runs.size(), 2U * 4 * 3);
   EXPECT_EQ(plan.logs[1].name, "b");
   EXPECT_THAT(plan.runs.front().values, ElementsAre("0.05", "csm"));

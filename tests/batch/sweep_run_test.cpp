@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program that does the runs is a script here: what becomes of a run that crashes, hangs or lies.
+// A shell script takes the place of psi-slam, to test runs that crash, hang or write wrong files.
 #include "batch/sweep_run.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
-/// Leaves what psi-slam leaves; -o is its fourth argument.
+/// Script that writes the files of a successful run. Its fourth argument is the output folder.
 constexpr const char* kGoodRun =
     "for f in graph.g2o frames.csv loops.csv trajectory.carmen map.png; do echo $f > \"$4/$f\"; done\n"
     "printf '0 0 0 0 0 0 0 1\\n1 1 0 0 0 0 0 1\\n' > \"$4/trajectory.tum\"\n"
@@ -62,9 +62,9 @@ TEST_F(SweepRunTest, keeps_the_requested_files_and_is_not_repeated) {
   EXPECT_EQ(read_file(run.folder / "settings.ini"), run.settings);
   ASSERT_TRUE(kept_outcome(run));
   EXPECT_EQ(kept_outcome(run)->attempts, 0);
-  EXPECT_EQ(kept_outcome(run)->figures->wall_s, made.figures->wall_s) << "to the last bit";
+  EXPECT_EQ(kept_outcome(run)->figures->wall_s, made.figures->wall_s) << "restored to the last bit";
   run.keep = SweepKeep::kPaths;
-  EXPECT_FALSE(kept_outcome(run)) << "less was kept than is asked for now";
+  EXPECT_FALSE(kept_outcome(run)) << "the kept result lacks files that are requested now";
   outcome(run);
   EXPECT_TRUE(fs::exists(run.folder / "trajectory.tum"));
   EXPECT_FALSE(fs::exists(run.folder / "map.png"));
@@ -73,7 +73,7 @@ TEST_F(SweepRunTest, keeps_the_requested_files_and_is_not_repeated) {
   outcome(run);
   EXPECT_TRUE(fs::exists(run.folder / "map.png"));
   run.keep = SweepKeep::kNone;
-  EXPECT_TRUE(kept_outcome(run)) << "more is as good";
+  EXPECT_TRUE(kept_outcome(run)) << "a kept result may have more files than requested";
   run.key = "other";
   EXPECT_FALSE(kept_outcome(run));
 }
@@ -86,7 +86,7 @@ TEST_F(SweepRunTest, evaluates_the_path_by_the_relations) {
   EXPECT_TRUE(figures.has_errors);
   EXPECT_DOUBLE_EQ(figures.errors.translation_abs_m.mean, 0.25);
   write_file(run.relations, "100 101 1 0 0 0 0 0\n");
-  EXPECT_NE(outcome(run).failure, "") << "no relation is of this log";
+  EXPECT_NE(outcome(run).failure, "") << "no relation lies within the time of the log";
 }
 
 TEST_F(SweepRunTest, a_run_that_is_killed_once_succeeds_in_the_second_attempt) {
@@ -128,7 +128,7 @@ TEST_F(SweepRunTest, orders_and_outcomes_survive_as_text) {
   run.keep = SweepKeep::kMaps;
   EXPECT_EQ(cbor_text(read_cbor<SweepOrder>(cbor_text(run))), cbor_text(run));
   EXPECT_EQ(read_cbor<SweepOrder>(cbor_text(run)).settings, run.settings);
-  run.log = "b\xe2timent.log";  // Latin-1
+  run.log = "b\xe2timent.log";  // a file name in Latin-1
   EXPECT_EQ(read_cbor<SweepOrder>(cbor_text(run)).log, run.log);
   const SweepOutcome made = outcome(run);
   EXPECT_EQ(cbor_text(read_cbor<SweepOutcome>(cbor_text(made))), cbor_text(made));

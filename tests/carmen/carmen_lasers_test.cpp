@@ -124,9 +124,9 @@ TEST_F(CarmenLaserTest, maximum_range_comes_from_user_then_message_then_paramete
   LogOptions options;
   options.max_range_m = 0.5;
   CarmenLaser stated("FLASER", options);
-  const auto short_sighted = scan(stated, 180, message);
-  EXPECT_EQ(short_sighted.max_range_m, 0.5F);
-  EXPECT_TRUE(std::isinf(short_sighted.ranges_m[0])) << "1 m is beyond";
+  const auto limited = scan(stated, 180, message);
+  EXPECT_EQ(limited.max_range_m, 0.5F);
+  EXPECT_TRUE(std::isinf(limited.ranges_m[0])) << "1 m is beyond the maximum range";
 }
 
 TEST_F(CarmenLaserTest, maximum_range_follows_the_largest_reading_of_the_first_lines) {
@@ -136,17 +136,17 @@ TEST_F(CarmenLaserTest, maximum_range_follows_the_largest_reading_of_the_first_l
                          " 0 0 0 0 0 0 1 host 1\n");
     return max_range_by_readings_m(path, "FLASER");
   };
-  EXPECT_EQ(with_readings("1 8 7.5"), 50) << "not less than before";
+  EXPECT_EQ(with_readings("1 8 7.5"), 50) << "at least the range for logs that state none";
   EXPECT_EQ(with_readings("1 51.26 50.00"), 50);
   for (const std::string largest : {"81.83", "81.91", "120"})
     EXPECT_NEAR(with_readings("79 " + largest + " 60"), 0.97 * std::stod(largest), 1e-5);
-  EXPECT_LT(with_readings("81.91 81.83 81.87"), 81.83) << "all codes for no return are beyond";
-  EXPECT_NEAR(with_readings("81.91 8191 nan"), 79.4527, 1e-5) << "a damaged reading";
+  EXPECT_LT(with_readings("81.91 81.83 81.87"), 81.83) << "all codes for no return are beyond the range";
+  EXPECT_NEAR(with_readings("81.91 8191 nan"), 79.4527, 1e-5) << "8191 m is a damaged reading";
   EXPECT_EQ(with_readings("inf nan -1"), 50);
   std::string head;
   for (int i = 0; i < 498; ++i) head += "# a comment\n";
   EXPECT_GT(with_readings("81.91 1 1", head.substr(0, head.size() - 12)), 79);
-  EXPECT_EQ(with_readings("81.91 1 1", head), 50) << "after the first 500 lines";
+  EXPECT_EQ(with_readings("81.91 1 1", head), 50) << "readings after the first 500 lines do not count";
 }
 
 TEST_F(CarmenLaserTest, rejects_invalid_parameters) {
@@ -180,7 +180,8 @@ std::string robotlaser(const TPose2D& laser, const TPose2D& robot) {
   return text;
 }
 
-/// A robot on a curve. The laser's pose departs from odometry by `drift` at each step.
+/// Log of a robot that drives a curve. At each step, the laser's pose departs from odometry by a further
+/// `drift`.
 std::string log_with_drift(const TPose2D& robot_T_laser, const TPose2D& drift) {
   std::string text = "# comment\n";
   TPose2D robot{10, 20, 2};

@@ -16,7 +16,7 @@ using testing::ElementsAre;
 
 class CarmenFieldsTest : public testing::Test {
  protected:
-  /// Calls `take` with the only line of a file.
+  /// Writes a file with the line `text` and calls `take` with the fields of this line.
   template <class Take>
   void with_line(const std::string& text, Take take) {
     write_file(path_, text);

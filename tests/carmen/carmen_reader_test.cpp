@@ -68,7 +68,8 @@ TEST_F(CarmenReaderTest, flaser_has_the_odometry_of_its_line) {
   EXPECT_EQ(frames[0].scan.ranges_m.size(), 181U);
   EXPECT_EQ(frames[0].scan.ranges_m[3], 4.5F);
   EXPECT_NEAR(frames[0].scan.bearings_rad->front(), -M_PI / 2, 1e-6);
-  EXPECT_EQ(frames[0].scan.robot_T_laser, (TPose2D{0, 0, 0})) << "never derived from the poses";
+  EXPECT_EQ(frames[0].scan.robot_T_laser, (TPose2D{0, 0, 0}))
+      << "the mount is never derived from the poses of FLASER lines";
   EXPECT_EQ(frames[1].index, 1U);
   EXPECT_EQ(frames[1].time_us, 976052905400000);
   EXPECT_EQ(contents_.scans_with_two_poses, 2U);
@@ -138,7 +139,7 @@ TEST_F(CarmenReaderTest, uses_parameters_before_and_between_scans) {
            flaser("FLASER", "0 0 0", "0 0 0", "2"));
   EXPECT_EQ(frames.at(0).scan.robot_T_laser.x, 0.25);
   EXPECT_EQ(frames.at(0).scan.max_range_m, 5);
-  EXPECT_TRUE(std::isinf(frames.at(0).scan.ranges_m[5])) << "6.5 m is no return";
+  EXPECT_TRUE(std::isinf(frames.at(0).scan.ranges_m[5])) << "6.5 m is beyond the maximum range";
   EXPECT_TRUE(std::isfinite(frames.at(0).scan.ranges_m[1]));
   EXPECT_EQ(frames.at(1).scan.robot_T_laser.x, 0.5);
 }
@@ -198,7 +199,8 @@ TEST_F(CarmenReaderTest, reports_missing_scans) {
             path_.string() +
                 " has no laser scans, expected lines of one of ROBOTLASER2, RLASER, RAWLASER2; found 1 "
                 "FLASER. Select a laser with log.laser");
-  EXPECT_THAT(sentence_about("# nothing\n"), testing::EndsWith("found no messages"));
+  EXPECT_THAT(sentence_about("# nothing\n"),
+              testing::EndsWith("found no messages. Check that the file is a CARMEN log"));
 }
 
 TEST_F(CarmenReaderTest, skips_and_reports_a_malformed_line) {
@@ -210,7 +212,7 @@ TEST_F(CarmenReaderTest, skips_and_reports_a_malformed_line) {
   EXPECT_EQ(contents_.skipped.count, 1U);
   EXPECT_EQ(contents_.skipped.first,
             path_.string() + ":3: FLASER: found \"abc\", expected reading 2 of 181 in metres");
-  EXPECT_EQ(read("FLASER x\n" + good).size(), 1U) << "the first line may be malformed too";
+  EXPECT_EQ(read("FLASER x\n" + good).size(), 1U) << "the first line of a log may be malformed, too";
 }
 
 TEST_F(CarmenReaderTest, skips_malformed_odometry_and_parameters) {
@@ -258,7 +260,8 @@ TEST_F(CarmenReaderTest, rejects_a_log_with_more_than_one_percent_malformed_line
   EXPECT_EQ(
       sentence_about(log_of(296, 3)),
       path_.string() +
-          " is damaged: 3 of its first 299 messages do not parse, expected at most 1 %; the first one: " +
+          " is damaged: 3 of its first 299 messages do not parse, expected at most 1 %. Fetch the log again "
+          "or repair it. The first one: " +
           path_.string() + ":2: FLASER: the line ends, expected reading 2 of 181 in metres");
   write_file(path_, log_of(150, 150));
   const auto reader = open_carmen_log(path_, {});
@@ -267,7 +270,7 @@ TEST_F(CarmenReaderTest, rejects_a_log_with_more_than_one_percent_malformed_line
                 while (reader->next()) ++frames;
               }),
               testing::HasSubstr("101 of its first 202 messages"))
-      << "a hopeless log is not read to its end";
+      << "reading stops after 101 malformed lines";
   EXPECT_EQ(frames, 101);
 }
 

@@ -83,9 +83,9 @@ TEST(CompressedFile, reports_damaged_data) {
 TEST(CompressedFile, reports_missing_files_and_folders) {
   const TemporaryFolder folder;
   EXPECT_EQ(sentence_of([&] { CompressedFile{folder.path()}; }),
-            folder.path().string() + " is a folder, expected a log file");
+            folder.path().string() + " is a folder, expected a log file. Name a file");
   EXPECT_EQ(sentence_of([&] { CompressedFile{folder.path() / "no"}; }),
-            (folder.path() / "no").string() + " does not exist, expected a log file");
+            (folder.path() / "no").string() + " does not exist, expected a log file. Check the path");
 }
 
 }  // namespace

@@ -64,7 +64,8 @@ TEST_F(LineReaderTest, names_the_place_as_editors_take_it) {
 
 TEST_F(LineReaderTest, refuses_what_is_no_text) {
   EXPECT_EQ(sentence_of([&] { lines_of("x\n" + std::string(17 * 1024 * 1024, 'z')); }),
-            path_.string() + ":2: the line is longer than 16 MB, expected text");
+            path_.string() +
+                ":2: the line is longer than 16 MB, expected a text file. Check that the file is a log");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ TEST(PackedBytes, come_back_as_they_were) {
     const PackedBytes packed(bytes);
     EXPECT_EQ(packed.size(), bytes.size());
     EXPECT_EQ(packed.unpacked(), bytes);
-    EXPECT_EQ(packed.unpacked(), bytes) << "more than once";
+    EXPECT_EQ(packed.unpacked(), bytes) << "bytes can be unpacked more than once";
   }
   EXPECT_EQ(PackedBytes().unpacked(), Bytes());
 }

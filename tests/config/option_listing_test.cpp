@@ -113,7 +113,7 @@ TEST(OptionListing, the_reference_and_the_help_name_every_option) {
   EXPECT_THAT(
       page,
       HasSubstr("| `window_x_m` | m, between 0.01 and 20 | `0.15` | half-width of the search window |"));
-  EXPECT_THAT(page, HasSubstr(R"(global passes \| at the end)")) << "a bar would end the cell";
+  EXPECT_THAT(page, HasSubstr(R"(global passes \| at the end)")) << "an unescaped bar would end the cell";
 }
 
 }  // namespace

@@ -125,8 +125,9 @@ TEST(OptionTable, rejects_contradictory_descriptions) {
   table.section("a", "");
   EXPECT_THROW(table.section("a", ""), std::logic_error);
   EXPECT_THROW(table.number("x_m", number, between(0, 20), "m", ""), std::logic_error)
-      << "default out of range";
-  EXPECT_THROW(table.angle_deg("x_deg", number, between(0, 360), ""), std::logic_error) << "30 radians";
+      << "the default is out of range";
+  EXPECT_THROW(table.angle_deg("x_deg", number, between(0, 360), ""), std::logic_error)
+      << "the default is 30 radians";
   EXPECT_THROW(table.integer("n", integer, any_number().below(3), "", ""), std::logic_error);
   EXPECT_THROW(table.number("x_deg", number, any_number(), "", ""), std::logic_error)
       << "an angle described as a number";
@@ -136,7 +137,8 @@ TEST(OptionTable, rejects_contradictory_descriptions) {
   EXPECT_THROW(table.number("x_m", number, any_number(), "m", ""), std::logic_error);
   number = 1;
   table.number("x_m", number, any_number(), "m", "");
-  EXPECT_THROW(table.number("x_m", number, any_number(), "m", ""), std::logic_error) << "twice";
+  EXPECT_THROW(table.number("x_m", number, any_number(), "m", ""), std::logic_error)
+      << "the key is described twice";
 }
 
 TEST_F(OptionTableTest, finds_options_by_their_old_names) {

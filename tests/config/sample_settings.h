@@ -36,17 +36,17 @@ inline OptionTable describe(SampleSettings& settings) {
       .angle_deg("window_theta_deg", settings.window_theta_rad, above(0).at_most(180),
                  "half-width in heading")
       .choice("matcher", settings.matcher, {{"csm", SampleMatcher::kCsm}, {"ga", SampleMatcher::kGa}},
-              "how to search it")
+              "search method")
       .flag("close_loops", settings.close_loops, "whether loops are closed")
       .integer("passes", settings.passes, between(-5, 5), "", "global passes | at the end")
       .integer("nodes", settings.nodes, at_least(1), "nodes", "size of a local map");
   table.section("log", "Reading the log")
-      .integer("seed", settings.seed, any_number(), "", "of the random numbers")
-      .optional_number("max_range_m", settings.max_range_m, above(0), "m", "readings beyond are no returns")
+      .integer("seed", settings.seed, any_number(), "", "seed of the random numbers")
+      .optional_number("max_range_m", settings.max_range_m, above(0), "m", "maximum range")
       .optional_angle_deg("field_of_view_deg", settings.field_of_view_rad, above(0).at_most(360),
-                          "of the laser")
-      .text("label", settings.label, "which laser");
-  table.section("psi", "The factor of equation 20")
+                          "field of view of the laser")
+      .text("label", settings.label, "name of the laser");
+  table.section("psi", "Loop closure factor of equation 13")
       .number("psi_1", settings.psi_1, any_number(), "", "weight");
   return table;
 }

@@ -262,7 +262,7 @@ TEST_F(InputDoctorTest, reports_malformed_lines) {
   const std::string log = carmen_log(round_trips(1));
   const LogDiagnosis diagnosis = diagnose_text("FLASER 3 1.0\n" + log);
   EXPECT_EQ(diagnosis.facts.contents.skipped.count, 1U);
-  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty()) << "one line is harmless";
+  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty()) << "one malformed line is no warning";
   EXPECT_THAT(finding_of(diagnosis, "skipped_lines").sentence,
               testing::AllOf(testing::StartsWith("1 message of the log"), testing::HasSubstr(":1: FLASER")));
 }
@@ -320,7 +320,8 @@ TEST_F(InputDoctorTest, passes_on_the_error_of_an_unreadable_log) {
 
 // ---- The benchmark logs, unchanged and with faults ----
 
-/// Copies a log and changes the ranges and the odometry pose (x, y, heading) of every scan.
+/// Copies the first `scans` FLASER lines of a log. `change` modifies the ranges and the odometry pose (x, y,
+/// heading) of each line.
 void rewrite(const std::filesystem::path& from, const std::filesystem::path& to, std::size_t scans,
              const std::function<void(std::vector<std::string>& ranges, TPose2D& odometry)>& change) {
   gzFile file = gzopen(from.c_str(), "rb");
@@ -377,7 +378,7 @@ TEST_P(InputDoctorOnKnownLogs, raises_no_false_alarm) {
   EXPECT_LT(diagnosis.mount->robot_T_laser.norm(), 0.15);
   if (std::string(GetParam()) == "fr079") {
     EXPECT_THAT(warnings_of(diagnosis), testing::ElementsAre("lost_reversals"));
-    EXPECT_GT(diagnosis.reversals.reversed_m, 3.0) << "of 9.6 m";
+    EXPECT_GT(diagnosis.reversals.reversed_m, 3.0) << "the log reverses by 9.6 m";
     EXPECT_LT(diagnosis.reversals.reversed_m, 10.0);
   } else {
     EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());

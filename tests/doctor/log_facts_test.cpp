@@ -33,7 +33,7 @@ TEST(LogFacts, measure_time_in_the_order_of_the_file) {
   std::vector<Frame> frames;
   for (int i = 0; i < 20; ++i) frames.push_back(frame_at(10 + 0.2 * i));
   frames.push_back(frame_at(17));     // gap of 3.2 s
-  frames.push_back(frame_at(16.25));  // backwards
+  frames.push_back(frame_at(16.25));  // time runs backwards
   frames.push_back(frame_at(16.25));  // repeats the previous scan
   frames.push_back(frame_at(16.25, {0, 0, 0}, {1, 2, 4}));
   const TimeFacts time = facts_of(frames).time;

@@ -12,7 +12,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// Checks a run whose odometry `change` modifies; optionally mirrors the scans or turns the laser.
+/// Checks a simulated run after `change` has modified each odometry pose. `options` can mirror the scans or
+/// turn the laser.
 class OdometryCheckTest : public testing::Test {
  protected:
   OdometryAgreement check(const std::function<void(TPose2D&)>& change, const LogOptions& options = {}) {
@@ -69,7 +70,8 @@ TEST_F(OdometryCheckTest, distinguishes_a_mirrored_scan_from_clockwise_headings)
   EXPECT_EQ(scan.heading, HeadingRelation::kOpposite);
   EXPECT_LT(scan.odometry_slip_rad, 0.1);
   const OdometryAgreement heading = check([](TPose2D& pose) {
-    pose = TPose2D{0, 0, 0.7} + pose;  // parallel to walls, a negated right angle looks like reversing
+    // Turns the path by 0.7 rad. Along the axes, a negated right angle would look like reversing.
+    pose = TPose2D{0, 0, 0.7} + pose;
     pose.phi = -pose.phi;
   });
   EXPECT_EQ(heading.heading, HeadingRelation::kOpposite);

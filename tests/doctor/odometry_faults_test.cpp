@@ -33,7 +33,7 @@ class OdometryFaultsTest : public testing::Test {
   std::vector<FrameMark> marks_;
 };
 
-/// Moves all odometry since frame `from`, relative to the robot.
+/// Moves the odometry of frame `from` and all later frames by the pose `by`, relative to the robot.
 void jump(SimulatedRun& run, std::size_t from, const TPose2D& by) {
   const TPose2D old = run.odometry[from];
   const TPose2D moved = old + by;
@@ -58,7 +58,7 @@ TEST_F(OdometryFaultsTest, include_jumps_that_the_scans_do_not_confirm) {
 
 TEST_F(OdometryFaultsTest, exclude_real_motion) {
   SimulatedRun run = simulated_run({{0.08, 0, 30}});
-  run.truth.push_back(run.truth.back() + TPose2D{0.6, 0, 0.1});  // lost messages
+  run.truth.push_back(run.truth.back() + TPose2D{0.6, 0, 0.1});  // large step after lost messages
   run.odometry.push_back(run.odometry.back() + TPose2D{0.62, 0, 0.1});
   take(run);
   const auto suspects = suspected_jumps(marks_, 0.2, 10);

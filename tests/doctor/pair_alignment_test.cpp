@@ -28,7 +28,7 @@ class PairAlignmentTest : public testing::Test {
   ScanLibrary library_;
 };
 
-/// Simulates wheels that count without a sign: reversing is added as driving forwards.
+/// Simulates wheel encoders without a sign: reversing counts as driving forwards.
 void lose_the_sign_of_reversing(SimulatedRun& run) {
   std::vector<TPose2D> odometry{run.odometry.front()};
   for (std::size_t i = 1; i < run.odometry.size(); ++i) {

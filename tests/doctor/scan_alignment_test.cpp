@@ -53,7 +53,7 @@ TEST(ScanAlignment, uses_the_best_of_several_guesses) {
   const TPose2D motion{0.1, 0, DEG2RAD(60.0)};
   const TwoScans scans = two_scans(motion);
   EXPECT_GT(align_scans(scans.reference, scans.scan, TPose2D{0, 0, 0}).cost_m, 0.05)
-      << "too far from the guess";
+      << "the motion is too far from the guess";
   const std::vector<TPose2D> guesses{{0, 0, 0}, {0, 0, DEG2RAD(-55.0)}, {0, 0, DEG2RAD(55.0)}, {2, 0, 0}};
   const ScanAlignment best = align_scans(scans.reference, scans.scan, guesses);
   EXPECT_NEAR(best.reference_T_scan.phi, motion.phi, DEG2RAD(0.3));
@@ -75,8 +75,8 @@ TEST(ScanAlignment, has_a_large_deviation_along_a_corridor) {
   const AlignableScan scan(corridor);
   const ScanAlignment alignment = align_scans(scan, scan, TPose2D{0.1, 0, 0});
   EXPECT_GT(alignment.deviation_along_m(0), 0.1) << "along the corridor";
-  EXPECT_LT(alignment.deviation_along_m(M_PI / 2), 0.005) << "across";
-  EXPECT_NEAR(alignment.reference_T_scan.x, 0.1, 0.02) << "the guess is kept";
+  EXPECT_LT(alignment.deviation_along_m(M_PI / 2), 0.005) << "across the corridor";
+  EXPECT_NEAR(alignment.reference_T_scan.x, 0.1, 0.02) << "no wall determines x, so the guess is kept";
 
   const TwoScans room = two_scans({0.1, 0, 0});
   const ScanAlignment in_room = align_scans(room.reference, room.scan, TPose2D{0, 0, 0});

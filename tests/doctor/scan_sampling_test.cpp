@@ -50,7 +50,7 @@ TEST(ScanSampling, pairs_frames_by_distance_or_turn) {
   EXPECT_EQ(pairs[0].first, 0U);
   EXPECT_EQ(pairs[0].second, 3U);
   EXPECT_EQ(pairs[1].first, 3U);
-  EXPECT_EQ(pairs.back().second - pairs.back().first, 4U) << "12 degrees";
+  EXPECT_EQ(pairs.back().second - pairs.back().first, 4U) << "four steps of 3 degrees";
   EXPECT_EQ(pairs_by_motion(marks_of_run({{0.1, 0, 1000}}), 0.25, 1, 7).size(), 7U);
 }
 
@@ -75,7 +75,7 @@ TEST(ScanSampling, finds_places_that_odometry_revisits) {
   EXPECT_TRUE(revisiting_pairs(there_and_back, 0.5, 0.5, 50, 100).empty());
   EXPECT_TRUE(
       revisiting_pairs(marks_of_run({{0.1, 0, 200}, {0, 3, 60}, {0.1, 0, 200}}), 0.5, 0.5, 10, 100).empty())
-      << "opposite heading";
+      << "the headings are opposite";
 }
 
 TEST(ScanSampling, finds_full_turns_in_both_directions) {
@@ -88,8 +88,8 @@ TEST(ScanSampling, finds_full_turns_in_both_directions) {
     const double turned_rad = headings_rad[turns[0].back()] - headings_rad[turns[0].front()];
     EXPECT_NEAR(std::abs(turned_rad), 2 * M_PI, 0.05);
   }
-  EXPECT_TRUE(full_turns(marks_of_run({{0, 5, 60}}), 0.4, 1.5, 10).empty()) << "300 degrees";
-  EXPECT_TRUE(full_turns(marks_of_run({{0.1, 5, 80}}), 0.4, 1.0, 10).empty()) << "too wide";
+  EXPECT_TRUE(full_turns(marks_of_run({{0, 5, 60}}), 0.4, 1.5, 10).empty()) << "300 degrees are no full turn";
+  EXPECT_TRUE(full_turns(marks_of_run({{0.1, 5, 80}}), 0.4, 1.0, 10).empty()) << "the turn is wider than 1 m";
 }
 
 TEST(ScanSampling, fetches_the_wanted_scans) {

@@ -83,8 +83,8 @@ TEST_F(EvalApp, writes_one_row_a_relation_and_never_replaces_a_file_unasked) {
   std::ofstream(csv_) << "precious";
   EXPECT_EQ(run({"--per-relation", csv_}), 2);
   EXPECT_EQ(contents(csv_), "precious");
-  EXPECT_EQ(err_.str(), "psi-slam-eval: " + csv_ +
-                            ": the file exists. Name another file, or replace it with --force\n");
+  EXPECT_EQ(err_.str(),
+            "psi-slam-eval: " + csv_ + ": the file exists. Name another file, or replace it with --force\n");
   EXPECT_EQ(run({"--per-relation", csv_, "--force"}), 0);
   EXPECT_THAT(contents(csv_), HasSubstr("time1,time2"));
 }
@@ -107,7 +107,7 @@ TEST_F(EvalApp, relations_that_match_nothing_are_told_in_one_sentence) {
   EXPECT_EQ(run({"--per-relation", csv_}), 2);
   EXPECT_EQ(out_.str(), "");
   EXPECT_THAT(err_.str(), MatchesRegex("psi-slam-eval: [^\n]+\n"));
-  EXPECT_THAT(err_.str(), AllOf(HasSubstr("101"), HasSubstr("104"))) << "their span of time";
+  EXPECT_THAT(err_.str(), AllOf(HasSubstr("101"), HasSubstr("104"))) << "the time span of the relations";
   EXPECT_FALSE(std::filesystem::exists(csv_));
 }
 

@@ -28,8 +28,8 @@ TPose2D truth(std::size_t frame) {
   return frame <= 40 ? TPose2D(along_m, 0, 0) : TPose2D(40.5 - along_m, 0.4, M_PI);
 }
 
-/// A run along the true path: each scan is a node, one local map has nodes 4 to 12. The front end turns too
-/// far.
+/// A run along the true path. Each scan is a node; one local map has nodes 4 to 12. The front end turns 0.001
+/// rad too far in each step.
 MappingResult run() {
   MappingResult result;
   TPose2D front_end_T_robot;
@@ -81,7 +81,8 @@ TEST(LoopJudgement, judges_a_true_loop_true) {
 }
 
 TEST(LoopJudgement, a_loop_is_false_beyond_the_limits_and_the_drift) {
-  const std::vector<Relation> relations{relation(4, 71)};  // no distance in between, so no drift
+  // The relation ends at node and anchor of the loop: no drift.
+  const std::vector<Relation> relations{relation(4, 71)};
   const auto is_false = [&](const TPose2D& moved) {
     MappingResult result = run();
     add_loop(result, 71, moved);
@@ -121,7 +122,8 @@ TEST(LoopJudgement, uses_the_nearest_relation) {
 TEST(LoopJudgement, ignores_relations_elsewhere_on_the_path) {
   MappingResult result = run();
   add_loop(result, 71);
-  // Three nodes off the local map, off the node, within the local map only, and off the local map again.
+  // The relations end three nodes after the local map, three nodes after the loop's node, only within the
+  // local map, and three nodes before the local map.
   const LoopJudgement judgement =
       judge_loops(result, {relation(15, 71), relation(8, 74), relation(4, 12), relation(1, 71)});
   EXPECT_TRUE(judgement.judged.empty());
@@ -144,7 +146,8 @@ TEST(LoopJudgement, judges_accepted_loops_only) {
 TEST(LoopJudgement, recall_counts_relations_between_two_passes) {
   MappingResult result = run();
   add_loop(result, 71);
-  // Joined, too near along the path, too far apart, not joined.
+  // Relations that a loop joins, with ends too near along the path, with ends too far apart, and that no loop
+  // joins.
   const LoopJudgement judgement =
       judge_loops(result, {relation(10, 71), relation(10, 20), relation(0, 40), relation(30, 51)});
   EXPECT_EQ(judgement.passes, 2U);

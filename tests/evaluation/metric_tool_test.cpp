@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam-eval against an independent implementation of the same metric: a script that takes a trajectory,
-// relations and --json, and that the environment variable PSI_SLAM_METRIC_TOOL names.
+// Compares psi-slam-eval with an independent implementation of the same metric. The environment variable
+// PSI_SLAM_METRIC_TOOL names a script that takes a trajectory, relations and --json.
 #include <gtest/gtest.h>
 #include <stdio.h>  // popen
 
@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/number_text.h"
 #include "eval_app.h"
 #include "psi_slam/open_log.h"
-#include "base/number_text.h"
 #include "shared_logs.h"
 #include "temporary_folder.h"
 
@@ -39,14 +39,15 @@ class MetricTool : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     const char* tool = std::getenv("PSI_SLAM_METRIC_TOOL");
-    if (tool == nullptr) GTEST_SKIP() << "needs PSI_SLAM_METRIC_TOOL, a script of the relations metric";
+    if (tool == nullptr)
+      GTEST_SKIP() << "needs PSI_SLAM_METRIC_TOOL, the path of a script that computes the metric";
     tool_ = tool;
     log_ = shared_file(GetParam() + ".clf.gz");
     relations_ = shared_file(GetParam() + ".relations");
     if (!log_ || !relations_) GTEST_SKIP() << kNeedsData;
   }
 
-  /// Writes the odometry of every nth scan as 'timestamp x y theta', time counted from `origin_us`.
+  /// Writes the odometry of every nth scan as 'timestamp x y theta', with times counted from `origin_us`.
   void write_odometry(std::size_t nth, TimeUs origin_us) const {
     LogOptions options;
     options.every_nth_scan = nth;
@@ -59,7 +60,7 @@ class MetricTool : public testing::TestWithParam<std::string> {
     }
   }
 
-  /// Writes the relations with time counted from `origin_us`.
+  /// Writes the relations with times counted from `origin_us`.
   void write_relations(TimeUs origin_us) const {
     std::ifstream from(*relations_);
     std::ofstream to(moved_relations_);
@@ -72,7 +73,7 @@ class MetricTool : public testing::TestWithParam<std::string> {
     }
   }
 
-  /// Compares all that the tool prints; returns how many figures these are.
+  /// Compares all figures that the tool prints and returns their number.
   std::size_t compare(const std::string& relations, const std::string& max_gap) const {
     const Json theirs = Json::parse(output_of("python3 " + quoted(tool_) + ' ' + quoted(trajectory_) + ' ' +
                                               quoted(relations) + " --json --max-gap " + max_gap));
@@ -111,8 +112,8 @@ TEST_P(MetricTool, finds_the_same_in_every_figure) {
   EXPECT_GE(compare(relations_->string(), "2"), kFigures);
 }
 
-// The tool holds time in doubles, which resolve today's only to 0.1 us: too coarse to interpolate quick turns
-// to 1e-6.
+// The tool holds times in doubles, which resolve the times of these logs only to 0.1 us. That is too coarse
+// to interpolate quick turns to 1e-6, so times are counted from the first scan.
 TEST_P(MetricTool, finds_the_same_where_poses_are_interpolated_and_skipped) {
   const TimeUs origin_us = open_log(*log_)->next()->time_us;
   write_odometry(3, origin_us);

@@ -62,7 +62,8 @@ TEST(RelationsMetric, summarises_the_population) {
 }
 
 TEST(RelationsMetric, interpolates_by_time_and_along_the_shorter_arc) {
-  // From 170 to -170 degrees the robot turns by 20, not by -340; a quarter of the way it heads 175.
+  // From 170 to -170 degrees the robot turns by 20 degrees, not by -340. After a quarter of the turn its
+  // heading is 175 degrees.
   const double degree = M_PI / 180;
   const Trajectory trajectory = {
       {0, {0, 0, 0}}, {1'000'000, {0, 0, 170 * degree}}, {2'000'000, {4, 8, -170 * degree}}};
@@ -95,8 +96,8 @@ TEST(RelationsMetric, a_pose_within_a_tenth_of_a_millisecond_is_exact) {
 TEST(RelationsMetric, skips_and_counts_relations_outside_or_in_a_long_gap) {
   const Trajectory trajectory = {{0, {}}, {1'000'000, {}}, {4'000'000, {}}};
   const std::vector<Relation> relations = {{0, 1'000'000, {}},           // used
-                                           {-1'000'000, 1'000'000, {}},  // before the beginning
-                                           {0, 4'000'101, {}},           // past the end
+                                           {-1'000'000, 1'000'000, {}},  // starts before the trajectory
+                                           {0, 4'000'101, {}},           // ends after the trajectory
                                            {0, 2'000'000, {}}};          // in a gap of 3 s
   EXPECT_EQ(evaluate_relations(trajectory, relations).skipped, 3u);
   EXPECT_EQ(evaluate_relations(trajectory, relations).exact, 1u);
@@ -112,8 +113,9 @@ TEST(RelationsMetric, sorts_by_time_and_keeps_the_order_of_equal_times) {
       {2'000'000, {2, 0, 0}}, {0, {0, 0, 0}}, {1'000'000, {1, 0, 0}}, {1'000'000, {7, 0, 0}}};
   const RelationsMetric metric =
       evaluate_relations(trajectory, {{0, 1'000'000, {1, 0, 0}}, {0, 1'500'000, {4.5, 0, 0}}});
-  EXPECT_NEAR(metric.errors[0].translation_m, 0, kTolerance) << "the first of that time";
-  EXPECT_NEAR(metric.errors[1].translation_m, 0, kTolerance) << "interpolated from the last of that time";
+  EXPECT_NEAR(metric.errors[0].translation_m, 0, kTolerance) << "uses the first of two poses of equal time";
+  EXPECT_NEAR(metric.errors[1].translation_m, 0, kTolerance)
+      << "interpolates from the last of two poses of equal time";
 }
 
 TEST(RelationsMetric, names_both_spans_of_time_if_nothing_matches) {
@@ -149,7 +151,7 @@ TEST(RelationsMetric, reads_relations_and_names_file_and_line_of_errors) {
   EXPECT_THAT(complaint("#\n"), HasSubstr("no relation found"));
 }
 
-// The metric again, computed slowly by other means: homogeneous matrices, linear searches.
+// Errors of a relation, computed independently with homogeneous matrices and linear searches.
 struct SlowErrors {
   double translation_m;
   double rotation_deg;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens each file of the map with a foreign program, which measures a room of 6 m x 4 m in it.
+// Opens each map file with a program of another project and measures a room of 6 m x 4 m in it.
 #include "exports/map_files.h"
 
 #include <gmock/gmock.h>
@@ -92,7 +92,7 @@ TEST_F(MapFiles, svg_is_true_to_scale) {
   MEASURE_OR_SKIP(run, write("map.svg"));
   const std::vector<double> numbers = run.numbers();
   ASSERT_EQ(numbers.size(), 7U) << run.out;
-  expect_room(numbers, 1.5 * kCell_m);  // half a line's width more
+  expect_room(numbers, 1.5 * kCell_m);  // lines extend half their width beyond the walls
   EXPECT_NEAR(numbers[4], 60 + 2 * 5, 2) << "millimetres of paper including margins of 5 mm";
   EXPECT_NEAR(numbers[5], numbers[4] * 10, 1) << "pixels at 254 dpi";
 }

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Opens a file of a map with a program or library that is not ours, and measures the outer walls in it.
+"""Opens a map file with a program or library of another project and measures the outer walls in the map.
 
     measure_map.py FILE
 
-prints one line: x_min x_max y_min y_max of what is occupied, in metres of the map (of the coordinate
-system for .tif), and what else the file says of itself. Exit code 77 when what reads the file is not
-installed.
+prints one line: x_min x_max y_min y_max of the occupied area, in metres of the map (of the coordinate
+system for .tif), then further facts about the file. Exit code 77 means that the program or library that
+reads the file is not installed.
 """
 import shutil
 import subprocess
@@ -19,13 +19,13 @@ def report(x_min, x_max, y_min, y_max, *facts):
 
 
 def dark_box(image, below):
-    """The first and last columns and rows with a dark pixel in the part above row `below`, ends exclusive."""
+    """Returns the first and last columns and rows with a dark pixel above row `below`, ends exclusive."""
     grey = image.crop((0, 0, image.width, below)).convert("L")
     return grey.point(lambda value: 255 if value < 100 else 0).getbbox()
 
 
 def measure_png(path):
-    """Sizes only, since a picture does not say where the map's origin is; metres by its own resolution at 1:100."""
+    """Measures sizes only, in metres by the dpi of the picture and 1:100: a picture does not state its origin."""
     from PIL import Image
 
     image = Image.open(path)
@@ -36,7 +36,7 @@ def measure_png(path):
 
 
 def measure_svg(path):
-    """Drawn by librsvg at 10 pixels a millimetre of paper: at 1:100, a hundred a metre."""
+    """Measures the drawing as librsvg draws it, with 10 pixels per millimetre of paper."""
     from PIL import Image
     import xml.etree.ElementTree as tree
 

@@ -69,7 +69,7 @@ TEST(RunSummary, counts_attempts_that_found_nothing) {
   EXPECT_EQ(summary.loops.found, 2U);
   std::int64_t of_frames = 0;
   for (const FrameRecord& frame : result.frames) of_frames += frame.evaluations;
-  EXPECT_EQ(summary.evaluations, of_frames + 200) << "plus those of the final search";
+  EXPECT_EQ(summary.evaluations, of_frames + 200) << "plus 200 evaluations of the final search";
 }
 
 TEST(RunSummary, counts_pending_loops_of_a_stopped_run_as_refused) {

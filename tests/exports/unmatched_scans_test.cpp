@@ -6,8 +6,8 @@
 namespace psi_slam {
 namespace {
 
-/// A robot that drives 0.5 m between two scans, two scans a second. '+' is a matched scan, '-' an unmatched
-/// one, '|' the first scan of a run.
+/// Result of a robot that drives 0.5 m between two scans, with two scans a second. '+' is a matched scan, '-'
+/// an unmatched scan, '|' the first scan of a run.
 MappingResult drive(const std::string& scans) {
   MappingResult result;
   for (std::size_t i = 0; i < scans.size(); ++i) {
@@ -38,7 +38,7 @@ TEST(UnmatchedScans, are_joined_to_stretches) {
   EXPECT_EQ(first.last_frame, 5U);
   EXPECT_EQ(first.first_time_us, 976052906'500000);
   EXPECT_EQ(first.last_time_us, 976052907'500000);
-  EXPECT_NEAR(first.odometry_length_m, 1.5, 1e-9) << "from the last matched scan on";
+  EXPECT_NEAR(first.odometry_length_m, 1.5, 1e-9) << "the path starts at the last matched scan";
   EXPECT_EQ(unmatched.stretches[1].scans(), 1U) << "the last scan of the log";
   EXPECT_EQ(unmatched.stretches[1].first_frame, 7U);
 }
@@ -58,7 +58,7 @@ TEST(UnmatchedScans, of_two_runs_are_two_stretches) {
   EXPECT_EQ(unmatched.stretches[1].run_start_us, 976052907'000000);
 }
 
-/// Every scan is in a stretch or not, as one look at it tells.
+/// Compares stretches with all patterns of eight matched and unmatched scans.
 TEST(UnmatchedScans, cover_exactly_the_unmatched_scans) {
   for (int pattern = 0; pattern < 256; ++pattern) {
     std::string scans = "|";

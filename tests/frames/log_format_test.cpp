@@ -56,22 +56,29 @@ TEST_F(LogFormatTest, detects_bags_by_their_first_bytes_and_folders_by_their_fil
 
 TEST_F(LogFormatTest, reports_empty_files_and_unknown_formats) {
   const std::string file = path_.string();
-  EXPECT_EQ(sentence_about(""), file + " is empty" + expected_);
-  EXPECT_EQ(sentence_about("hello\nworld\n"), file + " has an unknown format" + expected_);
-  EXPECT_EQ(sentence_about(std::string("FLASER 1\0", 9)), file + " has an unknown format" + expected_);
-  EXPECT_EQ(sentence_about("\x89PNG\r\n"), file + " has an unknown format" + expected_);
+  EXPECT_EQ(sentence_about(""), file + " is empty" + expected_ + ". Fetch or record it again");
+  EXPECT_EQ(sentence_about("hello\nworld\n"),
+            file + " has an unknown format" + expected_ + ". Convert it first");
+  EXPECT_EQ(sentence_about(std::string("FLASER 1\0", 9)),
+            file + " has an unknown format" + expected_ + ". Convert it first");
+  EXPECT_EQ(sentence_about("\x89PNG\r\n"),
+            file + " has an unknown format" + expected_ + ". Convert it first");
   write_gzipped(path_, "");
-  EXPECT_EQ(sentence_of([&] { detect_log_format(path_); }), file + " is empty" + expected_);
+  EXPECT_EQ(sentence_of([&] { detect_log_format(path_); }),
+            file + " is empty" + expected_ + ". Fetch or record it again");
 }
 
 TEST_F(LogFormatTest, reports_missing_files_and_folders_without_a_bag) {
-  EXPECT_EQ(sentence_of([&] { detect_log_format(path_); }), path_.string() + " does not exist" + expected_);
+  EXPECT_EQ(sentence_of([&] { detect_log_format(path_); }),
+            path_.string() + " does not exist" + expected_ + ". Check the path");
   EXPECT_EQ(sentence_of([&] { detect_log_format(folder_.path()); }),
-            folder_.path().string() + " is a folder" + expected_);
+            folder_.path().string() + " is a folder" + expected_ + ". Name a log file");
   write_file(folder_.path() / "metadata.yaml", "rosbag2_bagfile_information:\n");
-  EXPECT_EQ(sentence_of([&] { detect_log_format(folder_.path()); }),
-            (folder_.path() / "metadata.yaml").string() +
-                " is damaged, expected rosbag2_bagfile_information with relative_file_paths");
+  EXPECT_EQ(
+      sentence_of([&] { detect_log_format(folder_.path()); }),
+      (folder_.path() / "metadata.yaml").string() +
+          " is damaged, expected rosbag2_bagfile_information with relative_file_paths. Fetch it again, or "
+          "delete it to read the bag files by their names");
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ TEST(OdometryInterpolator, waits_for_odometry_of_the_scans_time_or_later) {
   interpolator.add_scan(scan_at(1'250'000));
   EXPECT_FALSE(interpolator.take());
   interpolator.add_odometry(1'200'000, {2, 0, 0});
-  EXPECT_FALSE(interpolator.take()) << "still earlier than the scan";
+  EXPECT_FALSE(interpolator.take()) << "the newest odometry is still earlier than the scan";
   interpolator.add_odometry(1'400'000, {6, 0, 0.4});
   const auto frame = interpolator.take();
   ASSERT_TRUE(frame);
@@ -113,7 +113,8 @@ TEST(OdometryInterpolator, a_scan_outside_all_times_gets_a_neighbour_in_the_log)
     interpolator.add_odometry(i * kSecond, {1.0 * i, 0, 0});
     if (i == 1050) interpolator.add_scan(scan_at(7 * kSecond));
   }
-  EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{1050})) << "not the oldest message of all";
+  EXPECT_EQ(poses_taken(interpolator), (std::vector<double>{1050}))
+      << "the neighbour in the log, not the oldest message";
 }
 
 TEST(OdometryInterpolator, stops_waiting_if_odometry_has_stopped) {
@@ -121,7 +122,7 @@ TEST(OdometryInterpolator, stops_waiting_if_odometry_has_stopped) {
   interpolator.add_odometry(0, {7, 0, 0});
   for (std::size_t i = 0; i <= OdometryInterpolator::kMaxWaiting; ++i) interpolator.add_scan(scan_at(100));
   EXPECT_EQ(interpolator.take()->odom_T_robot.x, 7);
-  EXPECT_FALSE(interpolator.take()) << "the others may still get theirs";
+  EXPECT_FALSE(interpolator.take()) << "later scans may still get odometry";
 }
 
 }  // namespace

@@ -109,7 +109,8 @@ TEST(ScanSynchronizer, a_faster_laser_has_scans_to_spare) {
   EXPECT_EQ(spare, 3U);
 }
 
-/// Ten scans a second of each laser, the second laser half a period later. Stamps are off by up to 8 ms.
+/// Ten scans a second of each laser, the second laser half a period after the first. Time stamps deviate by
+/// up to 8 ms.
 std::vector<Stamp> half_a_period_apart(unsigned seed) {
   std::vector<Stamp> stamps;
   std::mt19937 random(seed);
@@ -126,7 +127,7 @@ TEST(ScanSynchronizer, lasers_half_a_period_apart_lose_at_most_one_scan) {
     std::size_t spare = 0;
     const auto frames = synchronized(half_a_period_apart(seed), &spare);
     EXPECT_LE(spare, 1U);
-    EXPECT_EQ(frames.size(), 400U) << "one for each scan of the first laser";
+    EXPECT_EQ(frames.size(), 400U) << "one frame for each scan of the first laser";
     std::size_t alone = 0;
     for (const std::string& frame : frames) alone += frame.find(" 1@") == std::string::npos ? 1 : 0;
     EXPECT_LE(alone, 1U);
@@ -134,13 +135,13 @@ TEST(ScanSynchronizer, lasers_half_a_period_apart_lose_at_most_one_scan) {
 }
 
 TEST(ScanSynchronizer, detours_end_without_a_frame_that_lacks_a_scan) {
-  std::vector<Stamp> stamps{{1, -50}};  // the first frame has a nearer scan
+  std::vector<Stamp> stamps{{1, -50}};  // the scan at 40 ms is nearer to the first frame
   for (int i = 0; i < 30; ++i) stamps.insert(stamps.end(), {{0, 100 * i}, {1, 100 * i + 40}});
   std::size_t spare = 0;
   const auto frames = synchronized(stamps, &spare);
   EXPECT_EQ(spare, 1U);
   EXPECT_EQ(frames[0], "0@0 1@-50");
-  EXPECT_EQ(frames[3], "0@300 1@240") << "20 ms farther than the nearest";
+  EXPECT_EQ(frames[3], "0@300 1@240") << "the scan at 240 ms is 20 ms farther than the scan at 340 ms";
   EXPECT_EQ(frames[20], "0@2000 1@2040");
 }
 

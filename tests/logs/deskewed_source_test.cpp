@@ -18,8 +18,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// Scan of the furnished room whose beams are measured one after the other while the robot moves from
-/// `start`.
+/// Scan of the furnished room. Its beams are measured one after the other while the robot moves from `start`
+/// by `motion`.
 LaserScan sweep(const TPose2D& start, const TPose2D& motion, const TPose2D& mount, bool clockwise = false) {
   const std::vector<Wall> walls = furnished_room();
   std::vector<float> bearings = make_bearings_rad(BeamAngles::kLeftOpen, 720, 2 * M_PI);
@@ -38,8 +38,8 @@ LaserScan sweep(const TPose2D& start, const TPose2D& motion, const TPose2D& moun
   return scan;
 }
 
-/// Largest distance of a beam's end from the nearest wall, with all beams at the robot's pose at the first
-/// beam.
+/// Largest distance of a beam's end from the nearest wall, if all beams start at the robot's pose at the
+/// first beam, `world_T_robot`.
 double farthest_from_walls_m(const LaserScan& scan, const TPose2D& world_T_robot) {
   const std::vector<Wall> walls = furnished_room();
   double farthest = 0;
@@ -70,9 +70,11 @@ TEST(Deskewed, a_sweep_of_a_moving_robot_ends_on_the_walls) {
     const LaserScan moving = sweep(start, motion, mount, i % 2 == 1);
     const LaserScan still = deskewed(moving, motion);
     EXPECT_LT(farthest_from_walls_m(still, start), 1e-5) << i;
-    EXPECT_GT(farthest_from_walls_m(moving, start), 1e-3) << "else the test shows nothing";
+    EXPECT_GT(farthest_from_walls_m(moving, start), 1e-3)
+        << "without an effect of the motion the test would show nothing";
     for (std::size_t k = 0; k < still.ranges_m.size(); ++k)
-      EXPECT_LT(std::abs((*still.bearings_rad)[k] - (*moving.bearings_rad)[k]), M_PI) << "no jump by a turn";
+      EXPECT_LT(std::abs((*still.bearings_rad)[k] - (*moving.bearings_rad)[k]), M_PI)
+          << "no bearing jumps by a full turn";
   }
 }
 
@@ -98,8 +100,8 @@ TEST(Deskewed, a_beam_without_return_turns_with_the_robot) {
 
 // ---- Whole logs ----
 
-/// A robot that turns at 1 rad/s in a room that looks the same on all sides. A straightened scan differs only
-/// in its bearings.
+/// Recording of a robot that turns at 1 rad/s in a room that looks the same on all sides. De-skewing changes
+/// only the bearings of its scans.
 Recording turning_robot(float time_increment_s) {
   Recording recording{static_mount("laser", {0, 0, 0, 0, 0, 0})};
   constexpr TimeUs kStart = 1'600'000'000'000'000;
@@ -125,7 +127,7 @@ std::vector<Frame> frames_from(const Recording& recording, const LogOptions& opt
 TEST(DeskewedLog, removes_the_motion_during_the_sweep_that_the_bag_states) {
   const auto frames = frames_from(turning_robot(0.02F));
   ASSERT_EQ(frames.size(), 6U);
-  for (const Frame& frame : frames)  // the last one uses the motion before it
+  for (const Frame& frame : frames)  // the last frame uses the motion before it
     EXPECT_THAT(*frame.scan.bearings_rad,
                 testing::Pointwise(testing::FloatNear(1e-5F), {-1.0F, -0.48F, 0.04F, 0.56F, 1.08F}));
 }

@@ -136,8 +136,8 @@ TEST_P(LogOfTwoLasers, continues_if_either_laser_is_silent) {
       ++(frame.scan.laser == 0 ? front : rear);
   }
   // The first rear scan in the gap of the front laser is near a front scan that has a nearer rear scan. The
-  // last one joins the first front scan after the gap. The following rear scans join the next front scans
-  // until the rear laser falls silent.
+  // last rear scan in the gap joins the first front scan after the gap. The following rear scans join the
+  // next front scans until the rear laser stops.
   EXPECT_EQ(both, 12U);
   EXPECT_EQ(front, 2U);
   EXPECT_EQ(rear, 4U);

@@ -100,7 +100,7 @@ TEST(RawlogLaser, shares_bearings_until_the_sensor_changes) {
 
 TEST(RawlogLaser, rejects_a_scan_without_rays) {
   EXPECT_EQ(sentence_of([] { scan_of(*range_scan(1, "LASER", {})); }),
-            "log: object 1: the scan has 0 rays, expected 1 or more");
+            "log: object 1: the scan has 0 rays, expected 1 or more. Remove the scan from the log");
 }
 
 }  // namespace

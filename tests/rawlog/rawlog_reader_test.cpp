@@ -129,8 +129,10 @@ TEST_F(RawlogReaderTest, rounds_time_to_the_nearest_microsecond) {
 }
 
 TEST_F(RawlogReaderTest, reports_missing_scans_odometry_and_time_stamps) {
-  EXPECT_EQ(sentence_about({movement({1, 0, 0}), sensory_frame({})}),
-            path_.string() + " has no laser scans, expected observations of class CObservation2DRangeScan");
+  EXPECT_EQ(
+      sentence_about({movement({1, 0, 0}), sensory_frame({})}),
+      path_.string() +
+          " has no laser scans, expected observations of class CObservation2DRangeScan. Choose another log");
   EXPECT_EQ(sentence_about({range_scan(kStart), range_scan(kStart)}),
             path_.string() +
                 " has no odometry, expected actions of class CActionRobotMovement2D or observations of class "

@@ -165,7 +165,7 @@ TEST(G2oFile, says_what_is_wrong_and_where) {
       testing::AllOf(HasSubstr("graph.g2o:3: "), HasSubstr("'zero' is not a finite number"),
                      HasSubstr("expected \"EDGE_SE2 from to dx dy dtheta Ixx Ixy Ixt Iyy Iyt Itt\"")));
   EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 0 0 0 1 0 0 1 0\n"), HasSubstr(":3: '' is not a finite number"));
-  EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 0 0 0 1 0 0 1 0 1 7\n"), HasSubstr("'7' is one field too many"));
+  EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 0 0 0 1 0 0 1 0 1 7\n"), HasSubstr("'7' is an extra field"));
   EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 nan 0 0 1 0 0 1 0 1\n"),
               HasSubstr("'nan' is not a finite number"));
   EXPECT_THAT(error_of(two + "EDGE_SE2 0 1.5 0 0 0 1 0 0 1 0 1\n"), HasSubstr("'1.5' is not a vertex id"));

@@ -315,7 +315,7 @@ TEST_F(RosbagReaderTest, reports_missing_scans_and_odometry) {
   EXPECT_EQ(sentence_about(without("/scan")),
             path_.string() +
                 " has no laser scans, expected a topic of type sensor_msgs/LaserScan; found /tf_static "
-                "(tf2_msgs/TFMessage), /odom (nav_msgs/Odometry)");
+                "(tf2_msgs/TFMessage), /odom (nav_msgs/Odometry). Record the scans with the bag");
   EXPECT_THAT(
       sentence_about(without("/odom")),
       HasSubstr("has no odometry, expected a topic of type nav_msgs/Odometry or a transform from a frame "
@@ -371,7 +371,7 @@ TEST_F(RosbagReaderTest, reports_the_place_of_a_scan_with_invalid_angles) {
       sentence_about(one_scan(scan)),
       path_.string() +
           ": byte 33, byte 1148 of the chunk: the scan's angles start at -1.000000 in steps of 0.000000 "
-          "radians, expected finite angles and a step other than 0");
+          "radians, expected finite angles and a step other than 0. Correct the laser's driver");
 }
 
 }  // namespace

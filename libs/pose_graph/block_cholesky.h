@@ -34,7 +34,7 @@ std::vector<std::uint32_t> fill_reducing_order(
 
 class BlockCholesky {
  public:
-  /// Symbolic factorisation: computes what depends on `column_begin` and `rows` alone.
+  /// Symbolic factorisation: computes everything that depends only on `column_begin` and `rows`.
   void analyze(const SymmetricBlockMatrix& matrix);
 
   /// Numeric factorisation of A + D, where D is lambda times the diagonal of A (the scaling of Marquardt

@@ -15,8 +15,9 @@
 namespace psi_slam {
 
 struct GraduatedOptions {
-  double inlier_width = 3.37;  ///< in standard deviations: root of the 99 % quantile of chi-square, 3 dof
-  double narrowing = 1.2;      ///< factor, > 1, by which the squared width falls per round
+  /// Width of the final kernel in standard deviations: root of the 99 % quantile of chi-square, 3 dof.
+  double inlier_width = 3.37;
+  double narrowing = 1.2;  ///< factor, > 1, by which the squared width falls per round
   int max_rounds = 200;
   int first_iterations = 10;  ///< iterations of the solve with the widest kernel
   int iterations_per_round = 2;

@@ -80,9 +80,9 @@ class NormalEquations {
   bool restructured_ = false;
 
   SymmetricBlockMatrix hessian_;
-  Eigen::VectorXd gradient_;  // g
+  Eigen::VectorXd gradient_;  // g of the normal equations
   BlockCholesky factor_;
-  std::vector<std::uint32_t> component_;  // scratch
+  std::vector<std::uint32_t> component_;  // scratch of check_connected(): a parent of each node
 };
 
 }  // namespace psi_slam

@@ -36,7 +36,7 @@ struct RelativeUncertainty {
   std::size_t constraint = 0;  ///< between the previous node and this node; undefined for the source
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, theta): m^2, m rad, rad^2
 
-  /// Largest standard deviation of the position over all directions.
+  /// Largest standard deviation of the position over all directions, in metres.
   double position_sigma_m() const;
 };
 

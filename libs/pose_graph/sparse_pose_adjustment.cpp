@@ -139,7 +139,7 @@ bool SparsePoseAdjustment::solve_headings_first(const PoseGraph& graph, State& r
 // Accepts or rejects trial_. Returns true if the optimisation has converged.
 bool SparsePoseAdjustment::judge(const Attempt& attempt, PoseAdjustmentReport& report) {
   const bool may_converge = attempt.from_current && uphill_steps_ == 0 && lambda_ <= kMaxLambdaOfConvergence;
-  if (trial_.robust_sum <= lowest_) {  // false for NaN
+  if (trial_.robust_sum <= lowest_) {  // the comparison is false for NaN
     const bool converged = may_converge && lowest_ - trial_.robust_sum <= negligible();
     std::swap(current_, trial_);
     lowest_ = current_.robust_sum;

@@ -37,13 +37,14 @@ struct ConstraintFit {
   double weight = 1;  ///< weight by the robust kernel, in [0, 1]; 0 if disabled
 };
 
+/// Result of an optimisation. chi2 sums run over the enabled constraints; "final" means after the last step.
 struct PoseAdjustmentReport {
   int iterations = 0;
   int rejected_steps = 0;  ///< steps that did not lower E, or could not be computed
   bool converged = false;
-  double initial_chi2 = 0;  ///< plain sum of e^T Omega e
+  double initial_chi2 = 0;  ///< sum of e^T Omega e before the first step, without kernels
   double final_chi2 = 0;
-  double initial_robust_chi2 = 0;  ///< E, with the kernels
+  double initial_robust_chi2 = 0;  ///< E before the first step, with the kernels
   double final_robust_chi2 = 0;
   double max_gradient = 0;  ///< largest |dE/dx| at the last linearisation
   double milliseconds = 0;

@@ -9,7 +9,7 @@
 
 namespace psi_slam {
 
-/// Times at which the scans of a log are due when it is replayed at a multiple of its recorded speed.
+/// Times at which the scans of a log are due when the log is replayed at a multiple of its recorded speed.
 class LogPace {
  public:
   using Clock = std::chrono::steady_clock;

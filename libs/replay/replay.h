@@ -222,7 +222,7 @@ class Replay {
   std::optional<std::filesystem::path> save_;
   std::size_t scans_ = 0;  // number of scans mapped so far
 
-  std::atomic<bool> stop_final_search_{false};  // to end the final loop search, or to repeat it after edits
+  std::atomic<bool> stop_final_search_{false};  // ends the final loop search, also to repeat it after edits
   std::atomic<int> edits_asked_{0};
   std::future<void> thread_;
 };

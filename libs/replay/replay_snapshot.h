@@ -26,7 +26,7 @@ enum class ReplayPhase {
   kOpening,
   kPaused,       ///< waits for Replay::play()
   kPlaying,      ///< maps scans
-  kFinalSearch,  ///< the final loop search
+  kFinalSearch,  ///< runs the final loop search
   kFinished,     ///< the map is ready for export
   kExporting,
   kFailed,  ///< see ReplaySnapshot::failure; the run has ended
@@ -47,7 +47,7 @@ struct WrittenWork {
 
 /// Outcome of exporting results or saving a session.
 struct WriteOutcome {
-  int number = 0;              ///< counts exports, or saved sessions, from 1
+  int number = 0;              ///< number of the export or of the saved session, from 1
   std::filesystem::path path;  ///< the folder of an export, the file of a session
   std::string failure;         ///< why writing failed, as a sentence; empty after success
   std::string remark;          ///< what a session file lacks; empty if it is complete
@@ -56,7 +56,7 @@ struct WriteOutcome {
 
 /// Outcome of an edit.
 struct EditOutcome {
-  int number = 0;  ///< counts edits from 1
+  int number = 0;  ///< number of the edit, from 1
   LoopEdit edit;
   LoopEditOutcome outcome;
 };

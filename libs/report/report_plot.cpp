@@ -24,7 +24,7 @@ constexpr double kTop = 12;
 constexpr double kBottom = 34;
 
 struct Sample {
-  double time_s = 0;  // since the first scan
+  double time_s = 0;  // time since the first scan
   double value = 0;
 };
 

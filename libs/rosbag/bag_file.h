@@ -26,7 +26,7 @@ struct BagTopic {
   }
 };
 
-/// Removes the "/msg" that ROS 2 inserts into type names.
+/// Returns the ROS 1 name of a type: removes the "/msg" that ROS 2 inserts.
 std::string ros1_type_name(std::string_view type);
 
 /// Appends a topic unless the list contains it.

@@ -63,8 +63,9 @@ bool is_transforms(const BagTopic& topic);
 /// Returns the options for the laser of a topic, with its stated mount.
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic);
 
-/// Finds the topics by their types, or by the names that the user states. Then reads until all frames are
-/// known. Throws UserError if something is missing, or if several topics match and the user names none.
+/// Plans how to read a bag. Finds the topics by their types, or by the names that the user states. Then reads
+/// until all frames are known. Throws UserError if something is missing, or if several topics match and the
+/// user names none.
 BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options);
 
 }  // namespace psi_slam

@@ -94,7 +94,7 @@ class RosLaser {
   }
 
   LogOptions options_;
-  Geometry geometry_;  // of bearings_
+  Geometry geometry_;  // geometry of bearings_
   BeamBearings bearings_;
 };
 

@@ -87,7 +87,7 @@ struct MappingSession::Members {
   enum class State {
     kReading,   ///< the log may have more scans
     kRead,      ///< all scans are taken: the log ended, is damaged, or finish() was called
-    kFinished,  ///< the map is made
+    kFinished,  ///< the map is finished
   };
 
   /// Changes the state. Allowed: kReading -> kRead when the log ends and in finish(), kRead -> kFinished in

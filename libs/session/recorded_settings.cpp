@@ -37,7 +37,7 @@ std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts&
     else
       unknown.push_back(file.string() + ": " + name + " is obsolete and is ignored");
   }
-  bound.table.take_warnings();  // users cannot edit the names inside a session
+  bound.table.take_warnings();  // drops warnings about old names, which users cannot edit in a session
   return unknown;
 }
 

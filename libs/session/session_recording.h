@@ -25,7 +25,7 @@ struct RecordedLog {
   bool scans_left = false;                  ///< whether the log is known to have more scans
 };
 
-/// A run after the first one; see RunStart.
+/// A merged run other than the first one; see RunStart.
 struct RecordedRun {
   std::size_t scan = 0;  ///< the run's first scan, in the order of all frames
   RunStart start;

@@ -74,7 +74,7 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   bool carmen = false;
   for_each_text_line(path, [&](const TextLine& line) {
     const char letter = line.words[0][0];
-    if (first) carmen = letter >= 'A' && letter <= 'Z';  // the name of a message
+    if (first) carmen = letter >= 'A' && letter <= 'Z';  // messages of CARMEN begin with a capital letter
     first = false;
     if (carmen) {
       if (line.words[0] == "FLASER") trajectory.push_back(flaser_pose(line));

@@ -34,10 +34,10 @@ std::string tum_text(const Trajectory& trajectory);
 /// Writes the text of tum_text() atomically. Throws SystemFailure if the file cannot be written.
 void write_tum(const std::filesystem::path& path, const Trajectory& trajectory);
 
-/// Reads a file in any of the three formats above; the first line that is not a comment decides which. '#'
-/// starts a comment. Projects TUM poses onto the plane. Takes the first pose of each FLASER line of a CARMEN
-/// log and ignores its other messages. Throws UserError ("file:line: expected ...") for a malformed line, and
-/// if the file has no pose.
+/// Reads a file in any of the three formats above; the first line that is not a comment decides which one.
+/// '#' starts a comment. Projects TUM poses onto the plane. Takes the first pose of each FLASER line of a
+/// CARMEN log and ignores its other messages. Throws UserError ("file:line: expected ...") for a malformed
+/// line, and if the file has no pose.
 Trajectory read_trajectory(const std::filesystem::path& path);
 
 struct PoseAtTime {

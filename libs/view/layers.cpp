@@ -101,8 +101,8 @@ void insert_line_with_ends(SceneLayer& layer, const Planar& a, const Planar& b, 
 // local maps.
 constexpr float kFarBelow_m = -1000;
 
-constexpr double kWallOpacity = 200;  // out of 255
-constexpr double kFreeOpacity = 70;
+constexpr double kWallOpacity = 200;  // opacity of a certain wall, out of 255
+constexpr double kFreeOpacity = 70;   // opacity of certain free space, out of 255
 
 /// Returns a raster with walls in the tint and free space in a paler tint. The opacity of a cell grows with
 /// its certainty.
@@ -117,7 +117,7 @@ MapRaster tinted_raster(const COccupancyGridMap2D& grid, const mrpt::img::TColor
   for (int y = raster.height_px - 1; y >= 0; --y) {
     const COccupancyGridMap2D::cellType* row = grid.getRow(y);
     for (int x = 0; x < raster.width_px; ++x) {
-      const double free = 2 * static_cast<double>(COccupancyGridMap2D::l2p(row[x])) - 1;  // -1 wall .. 1 free
+      const double free = 2 * static_cast<double>(COccupancyGridMap2D::l2p(row[x])) - 1;  // -1: wall, 1: free
       const double opaque = free < 0 ? -free * kWallOpacity : free * kFreeOpacity;
       for (const std::uint8_t channel : {tint.B, tint.G, tint.R}) raster.pixels.push_back(channel);
       raster.pixels.push_back(static_cast<std::uint8_t>(std::lround(opaque)));

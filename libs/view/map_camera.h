@@ -14,9 +14,9 @@ namespace psi_slam {
 
 struct MapCamera {
   mrpt::math::TPoint2D target;    ///< place on the ground in the middle of the image
-  double distance_m = 40;         ///< from the target to the eye
-  double azimuth_deg = -90;       ///< of the eye, seen from the target; at -90, y points up
-  double elevation_deg = 90;      ///< of the eye; 90 looks straight down
+  double distance_m = 40;         ///< distance from the target to the eye
+  double azimuth_deg = -90;       ///< azimuth of the eye, seen from the target; at -90, y points up
+  double elevation_deg = 90;      ///< elevation of the eye; 90 looks straight down
   double field_of_view_deg = 30;  ///< vertical: from the lower to the upper edge of the image
 };
 

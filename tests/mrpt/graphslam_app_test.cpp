@@ -57,8 +57,7 @@ TEST(GraphSlamApp, deciders_that_do_not_go_together_are_wrong_usage) {
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(run.err,
             "psi-graphslam: the edge decider CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD. "
-            "Choose that "
-            "as the node decider, or another edge decider.\n");
+            "Choose it as the node decider, or choose another edge decider.\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));
 }
 

@@ -21,7 +21,8 @@ namespace {
 using mrpt::graphslam::apps::TOptimizerProps;
 using mrpt::graphslam::apps::TRegistrationDeciderProps;
 
-/// MRPT 2.5.8 leaves CEmptyGSO abstract, and creates a CLevMarqGSO under its name.
+/// An optimizer that does nothing. MRPT 2.5.8 leaves CEmptyGSO abstract, and creates a CLevMarqGSO under that
+/// name.
 class EmptyOptimizer : public mrpt::graphslam::optimizers::CEmptyGSO<MrptGraph> {
  protected:
   void optimizeGraph() override {}

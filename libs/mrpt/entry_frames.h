@@ -11,29 +11,31 @@
 namespace psi_slam {
 
 /// Makes frames from the entries that MRPT's programs pass on: an action with a sensory frame, or a single
-/// observation. Frames hold the scan of one laser, or those of several lasers combined by ScanSynchronizer.
+/// observation. A frame holds the scan of one laser, or the scans of several lasers combined by
+/// ScanSynchronizer.
 class EntryFrames {
  public:
-  /// Errors start with `speaker`. Throws UserError if an option is invalid.
+  /// Error messages start with `speaker`. Throws UserError if an option is invalid.
   explicit EntryFrames(const LogOptions& options, std::string speaker = "entries");
 
-  /// Any of the three may be null. Throws UserError if a scan has no time stamp or no rays, its laser is
-  /// tilted, or odometry is missing.
+  /// Takes one entry; each argument may be null. Throws UserError if a scan has no time stamp or no rays, its
+  /// laser is tilted, or odometry is missing.
   void take(const mrpt::obs::CActionCollection::Ptr& action,
             const mrpt::obs::CSensoryFrame::Ptr& observations,
             const mrpt::obs::CObservation::Ptr& observation);
 
-  /// The next complete frame.
+  /// Returns the next complete frame, or nothing if it needs further entries.
   std::optional<Frame> next();
 
   /// Number of scans taken.
   std::size_t scans() const { return scans_.scans(); }
 
-  /// Number of the scan, counted from 0, that began the frame returned last by next(). The numbers increase.
+  /// Index of the scan, counted from 0, that began the frame last returned by next(). It increases from frame
+  /// to frame.
   std::size_t opened_by() const { return opened_by_; }
 
-  /// Lets next() return the scans that still wait. Throws UserError if there are such scans and no odometry
-  /// came.
+  /// Lets next() return the scans that still wait for odometry or for scans of other lasers. Throws UserError
+  /// if scans wait and the log has no odometry.
   void end_of_log();
 
  private:

@@ -27,7 +27,7 @@ struct CPsiFrontEndNRD::State {
   bool log_options_set = false;
   std::unique_ptr<EntryFrames> entries;
   std::unique_ptr<FrontEnd> front_end;
-  FrontEndStep step;  ///< of the last scan
+  FrontEndStep step;  ///< result for the last scan
   std::vector<FrameRecord> frames;
   std::vector<std::size_t> node_frames;
   double odometry_m = 0;
@@ -63,7 +63,7 @@ bool CPsiFrontEndNRD::updateState(mrpt::obs::CActionCollection::Ptr action,
                                   mrpt::obs::CSensoryFrame::Ptr observations,
                                   mrpt::obs::CObservation::Ptr observation) {
   return through_engine([&] {
-    // The engine moves all nodes after each new node, and other deciders may add edges.
+    // The engine resets the poses of all nodes after each new node, and other deciders may add edges.
     map_->mirror.read(*m_graph);
     if (map_->solver)
       map_->mirror.write_poses(*m_graph);
@@ -136,7 +136,7 @@ std::vector<FrameRecord> CPsiFrontEndNRD::frames() const {
   if (state_->node_frames.empty()) return {};
   std::vector<TPose2D> map_T_node;
   for (std::size_t node = 0; node < state_->node_frames.size(); ++node) {
-    const auto in_graph = m_graph->nodes.find(node);  // a robot that never moves has no node in MRPT's graph
+    const auto in_graph = m_graph->nodes.find(node);  // MRPT's graph lacks node 0 if the robot never moved
     map_T_node.push_back(in_graph == m_graph->nodes.end() ? map_->mirror.graph().pose(node)
                                                           : in_graph->second.asTPose());
   }

@@ -64,7 +64,8 @@ void GraphMirror::add_nodes_of(const MrptGraph& network) {
     const auto node = network.nodes.find(id);
     if (node == network.nodes.end())
       throw UserError("the pose graph has no node " + std::to_string(id) + ": its " +
-                      std::to_string(network.nodes.size()) + " nodes must be numbered from 0 without a gap");
+                      std::to_string(network.nodes.size()) +
+                      " nodes must be numbered from 0 without a gap. Choose another node decider");
     // MRPT's deciders may register the root with another pose, but the engine keeps it at the origin.
     TPose2D pose = id == network.root ? TPose2D(0, 0, 0) : node->second.asTPose();
     for (const auto& [ends, edge] : network.edges) {

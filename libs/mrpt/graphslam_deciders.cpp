@@ -10,8 +10,8 @@ void connect_deciders(NodeDecider& node_decider, EdgeDecider& edge_decider, Grap
   auto* const solver = dynamic_cast<CPsiSpaGSO*>(&optimizer);
   if (loop_closer != nullptr && front_end == nullptr)
     throw UserError(
-        "the edge decider CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD. Choose that as the node "
-        "decider, or another edge decider.");
+        "the edge decider CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD. Choose it as the node "
+        "decider, or choose another edge decider.");
   if (front_end == nullptr) return;
   if (loop_closer != nullptr) loop_closer->share(front_end->shared_map());
   if (solver != nullptr) solver->share(front_end->shared_map());

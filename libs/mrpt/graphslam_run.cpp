@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 using mrpt::graphs::TNodeID;
 using mrpt::math::TPose2D;
 
-/// Redirects standard input to /dev/null for its lifetime. MRPT 2.5.8's engine warns that it does not
+/// Redirects standard input to /dev/null while the object exists. MRPT 2.5.8's engine warns that it does not
 /// recognise the class of its own graph, and would wait for a key.
 class NoStandardInput {
  public:
@@ -67,7 +67,7 @@ class GraphSlamWindow {
     const char* const display = std::getenv("DISPLAY");
     if (display == nullptr || *display == '\0')
       throw UserError(
-          "no display for the window: DISPLAY is not set. Run without window by --disable-visuals.");
+          "no display for the window: DISPLAY is not set. Run without a window: --disable-visuals.");
     window_ = std::make_unique<mrpt::gui::CDisplayWindow3D>("psi-graphslam", kWidth_px, kHeight_px);
     observer_.observeBegin(*window_);
     observer_.observeBegin(*window_->get3DSceneAndLock()->getViewport("main"));
@@ -100,7 +100,7 @@ class Engine : public mrpt::graphslam::CGraphSlamEngine<MrptGraph> {
  public:
   template <class... Arguments>
   explicit Engine(Arguments&&... arguments) : CGraphSlamEngine(std::forward<Arguments>(arguments)...) {
-    m_time_logger.setMinLoggingLevel(getMinLoggingLevel());  // for the timings printed at its end
+    m_time_logger.setMinLoggingLevel(getMinLoggingLevel());  // m_time_logger prints when destroyed
   }
 
   /// Draws the map at the graph's current poses. Removes nodes registered before the first scan, for which
@@ -114,15 +114,15 @@ class Engine : public mrpt::graphslam::CGraphSlamEngine<MrptGraph> {
     return map;
   }
 
-  /// Writes the reports of the engine and the deciders, and closes the files, which MRPT would keep open.
+  /// Writes the reports of the engine and the deciders, and closes the log files that MRPT would keep open.
   void write_reports(const fs::path& folder) {
     generateReportFiles(folder.string());
     m_out_streams.clear();
   }
 };
 
-/// Returns the result of `work` in MRPT's engine. Passes UserError on, and throws SystemFailure for errors of
-/// MRPT.
+/// Returns the result of `work`, which calls MRPT's engine. Passes UserError on, and throws SystemFailure for
+/// errors of MRPT.
 template <class Work>
 auto in_engine(const Work& work) {
   try {
@@ -135,11 +135,13 @@ auto in_engine(const Work& work) {
   }
 }
 
-/// Checks the format, which MRPT does not. Returns the number of poses.
+/// Checks the format of a ground truth file, because MRPT does not. Returns the number of poses. Throws
+/// UserError for a line without four numbers.
 std::size_t check_ground_truth(const fs::path& path) {
   constexpr std::size_t kWords = 4;
   std::ifstream file(path);
-  if (!file) throw UserError(path.string() + " cannot be read");
+  if (!file)
+    throw UserError(path.string() + " cannot be read, expected a ground truth file. Correct the path");
   std::size_t lines = 0;
   for (std::string line; std::getline(file, line);) {
     ++lines;
@@ -147,26 +149,27 @@ std::size_t check_ground_truth(const fs::path& path) {
     std::vector<double> values;
     for (double value = 0; words >> value;) values.push_back(value);
     if (values.size() != kWords || !words.eof())
-      throw UserError(path.string() + ':' + std::to_string(lines) + ": expected \"time x y theta\"");
+      throw UserError(path.string() + ':' + std::to_string(lines) +
+                      ": expected \"time x y theta\", the true pose at a time. Correct the line");
   }
   return lines;
 }
 
-/// Calls a writer of MRPT, which may add suffixes to the name, so that its files appear complete or not at
-/// all.
+/// Calls a writer of MRPT, which may add suffixes to the file name. Its files appear complete or not at all.
 void write_named(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   write_files_atomically(path.parent_path(),
                          [&](const fs::path& temporary) { write(temporary / path.filename()); });
 }
 
-/// Throws SystemFailure, naming `path`, if the file is missing or lacks the final chunk of a PNG file.
+/// Throws SystemFailure, naming `path`, if the file `png` is missing or lacks the final chunk of a PNG file.
 void require_whole_png(const fs::path& png, const fs::path& path) {
   constexpr std::string_view kEnd("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
   std::ifstream file(png, std::ios::binary);
   std::string end(kEnd.size(), ' ');
   file.seekg(-static_cast<std::streamoff>(kEnd.size()), std::ios::end);
   if (!file.read(end.data(), static_cast<std::streamsize>(end.size())) || end != kEnd)
-    throw SystemFailure("cannot write " + path.string() + ": the file is incomplete, the disk may be full");
+    throw SystemFailure("cannot write " + path.string() +
+                        ": the file is incomplete. Check whether the disk is full");
 }
 
 mrpt::obs::CObservation2DRangeScan::Ptr scan_of(const LogEntry& entry) {
@@ -215,7 +218,8 @@ class EngineRun : public GraphSlamRun {
 
   void finish(const std::function<bool(double)>& progress) override {
     if (front_end_ != nullptr && scans_ == 0)
-      throw UserError(log_.string() + ": no scan was read, so there is nothing to map");
+      throw UserError(log_.string() +
+                      ": no scan was read, so there is nothing to map. Choose a log with 2D laser scans");
     interrupted_ = !at_end_ && !broken_off_;
     finish_deciders(*node_decider_, *edge_decider_, *optimizer_, [&](double share) {
       if (!progress || progress(share)) return true;
@@ -247,8 +251,8 @@ class EngineRun : public GraphSlamRun {
 
   std::size_t unmatched_scans() const override { return front_end_ != nullptr ? front_end_->unmatched() : 0; }
 
-  // MRPT does not report a full disk. Therefore psi-slam writes what it can itself, and checks the end of the
-  // map's picture.
+  // MRPT does not report a full disk. Therefore psi-slam writes the trajectory and the graph itself, and
+  // checks that the image of the map is complete.
   void write(const OutputFolder& folder) override {
     write_tum(folder.path() / "trajectory.tum", trajectory());
     if (general_.save_graph) {
@@ -292,7 +296,7 @@ class EngineRun : public GraphSlamRun {
     if (!entry) return false;
     if (true_poses_ && steps_ >= *true_poses_)
       throw UserError("the ground truth file ends after " + std::to_string(*true_poses_) +
-                      " poses, before the log does");
+                      " poses, before the log does. Give one pose for each entry of the log");
     const auto scan = scan_of(*entry);
     const bool go_on = in_engine([&] {
       return engine_->_execGraphSlamStep(entry->action, entry->observations, entry->observation, steps_);
@@ -319,7 +323,7 @@ class EngineRun : public GraphSlamRun {
   std::unique_ptr<NodeDecider> node_decider_;
   std::unique_ptr<EdgeDecider> edge_decider_;
   std::unique_ptr<GraphOptimizer> optimizer_;
-  CPsiFrontEndNRD* front_end_ = nullptr;  // null unless the node decider is of psi-slam
+  CPsiFrontEndNRD* front_end_ = nullptr;  // null if the node decider is MRPT's
   std::unique_ptr<LogEntries> entries_;
   std::optional<std::size_t> true_poses_;
   std::unique_ptr<GraphSlamWindow> window_;
@@ -329,7 +333,7 @@ class EngineRun : public GraphSlamRun {
   bool at_end_ = false;
   std::optional<std::string> broken_off_;
   bool interrupted_ = false;
-  std::vector<PathPose> path_;  // filled with node deciders of MRPT
+  std::vector<PathPose> path_;  // filled only with MRPT's node deciders
 };
 
 }  // namespace

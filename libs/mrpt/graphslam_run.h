@@ -25,12 +25,12 @@ namespace psi_slam {
 struct DeciderDescription {
   std::string name;
   std::string description;
-  std::string rawlog_format{};              ///< "Both", "#2 - Observation-only"; empty for optimizers
-  std::vector<std::string> observations{};  ///< used by the decider
+  std::string rawlog_format{};  ///< MRPT's name for the rawlog format, such as "Both"; empty for optimizers
+  std::vector<std::string> observations{};  ///< classes of observations that the decider uses
   bool is_ours = false;
 };
 
-/// The deciders and optimizers by name: those of MRPT for 2-D maps, and those of psi-slam.
+/// The deciders and optimizers by name: those of MRPT for 2D maps, and those of psi-slam.
 class DeciderCatalogue {
  public:
   DeciderCatalogue();
@@ -42,13 +42,13 @@ class DeciderCatalogue {
   const std::vector<DeciderDescription>& edge_deciders() const { return edge_deciders_; }
   const std::vector<DeciderDescription>& optimizers() const { return optimizers_; }
 
-  /// Throw UserError if the name is unknown.
+  /// Creates the decider or optimizer of this name. Throws UserError if the name is unknown.
   std::unique_ptr<NodeDecider> make_node_decider(const std::string& name) const;
   std::unique_ptr<EdgeDecider> make_edge_decider(const std::string& name) const;
   std::unique_ptr<GraphOptimizer> make_optimizer(const std::string& name) const;
 
  private:
-  class Checker;  // MRPT's table, extended by psi-slam's classes
+  class Checker;  // MRPT's table of deciders and optimizers, with those of psi-slam added
   std::unique_ptr<Checker> checker_;
   std::vector<DeciderDescription> node_deciders_;
   std::vector<DeciderDescription> edge_deciders_;
@@ -58,41 +58,42 @@ class DeciderCatalogue {
 struct GraphSlamSetup {
   std::filesystem::path ini;
   std::filesystem::path log;
-  std::filesystem::path ground_truth;  ///< empty: none
+  std::filesystem::path ground_truth;  ///< empty if there is no ground truth
   std::string node_decider = "CPsiFrontEndNRD";
   std::string edge_decider = "CPsiLoopCloserERD";
   std::string optimizer = "CPsiSpaGSO";
-  bool visuals = false;  ///< MRPT's window; needs a display
+  bool visuals = false;  ///< whether to open MRPT's window, which needs a display
 };
 
 class GraphSlamRun {
  public:
   virtual ~GraphSlamRun() = default;
 
-  /// Passes the next entry to the engine. False at the end of the log, at damage (see broken_off()), and when
-  /// the user stops the run in the window. Throws UserError if the log is damaged before its first scan, and
-  /// SystemFailure if MRPT's engine fails.
+  /// Passes the next entry to the engine. Returns false at the end of the log, if the log is damaged (see
+  /// broken_off()), and when the user stops the run in the window. Throws UserError if the log is damaged
+  /// before its first scan, and SystemFailure if MRPT's engine fails.
   virtual bool step() = 0;
   virtual double progress() const = 0;
 
-  /// What is wrong with the log or the ground truth after the last mapped entry, as a sentence.
+  /// What is wrong with the log or the ground truth after the last mapped entry, as a sentence. Empty if
+  /// nothing is wrong.
   virtual const std::optional<std::string>& broken_off() const = 0;
 
-  /// Finishes the map, see finish_deciders(). Call once after the last step. Throws UserError if
-  /// CPsiFrontEndNRD got no scan.
+  /// Finishes the map, see finish_deciders(). Call once after the last step(). Throws UserError if no scan
+  /// was read for CPsiFrontEndNRD.
   virtual void finish(const std::function<bool(double)>& progress = {}) = 0;
 
   /// After finish(): whether the run stopped before the end of the log, or finish() was cut short.
   virtual bool interrupted() const = 0;
 
-  /// Pose of the robot at each scan. With node deciders of MRPT it is the motion since the newest node at
-  /// that time, applied to that node's present pose.
+  /// Pose of the robot at each scan. With MRPT's node deciders, it is the current pose of the node that was
+  /// newest then, plus the motion since that node.
   virtual Trajectory trajectory() const = 0;
   virtual const MrptGraph& graph() const = 0;
   virtual std::size_t scans() const = 0;
-  /// Scans that could not be matched, whose poses come from odometry. 0 with node deciders of MRPT.
+  /// Number of scans that could not be matched, whose poses come from odometry. 0 with MRPT's node deciders.
   virtual std::size_t unmatched_scans() const = 0;
-  /// Numbers of edges by type, as the edge decider names them; MRPT calls loops "LC".
+  /// Number of edges of each type, as the edge decider names the types; MRPT calls loops "LC".
   virtual std::map<std::string, int> edge_counts() const = 0;
 
   /// Writes trajectory.tum and the files that the settings request, as MRPT's graphslam-engine does. Each
@@ -103,8 +104,8 @@ class GraphSlamRun {
   virtual void wait_for_window() = 0;
 };
 
-/// Throws UserError if a file cannot be read, a setting is wrong, or a decider is unknown or does not work
-/// with the others; SystemFailure if MRPT's engine fails.
+/// Throws UserError if a file cannot be read, a setting is wrong, or a decider is unknown or cannot be
+/// combined with the other deciders; SystemFailure if MRPT's engine fails.
 std::unique_ptr<GraphSlamRun> make_graphslam_run(const GraphSlamSetup& setup,
                                                  const DeciderCatalogue& catalogue);
 

@@ -14,7 +14,7 @@ namespace {
 
 struct Owner {
   const char* section;
-  std::vector<std::string> options;  ///< sections of psi-slam, or single options
+  std::vector<std::string> options;  ///< names of psi-slam's sections or of single options
 };
 
 const std::array<Owner, 3> kOwners{
@@ -27,7 +27,8 @@ const std::array<Owner, 3> kOwners{
        "pose_graph.max_loop_chi"}},
      {kOptimizerSection, {"pose_graph"}}}};
 
-/// Options without effect in the engine: it reads every scan, and the edge decider decides on loop closing.
+/// Whether an option has no effect in the engine, which reads every scan and draws its own map. The choice of
+/// the edge decider replaces loop_closure.enabled.
 bool has_no_effect(const std::string& option) {
   return option == "log.every_nth_scan" || option == "loop_closure.enabled" || option.rfind("map.", 0) == 0;
 }
@@ -35,7 +36,7 @@ bool has_no_effect(const std::string& option) {
 void require_own_section(const IniValue& value, const std::string& option) {
   const std::string section = graphslam_section_of(option);
   if (section.empty())
-    throw UserError(value.where + ": " + value.key + " has no effect in MRPT's graph-slam engine");
+    throw UserError(value.where + ": " + value.key + " has no effect in MRPT's graph-slam engine. Remove it");
   if (section != value.section)
     throw UserError(value.where + ": " + value.key + " belongs in section [" + section + "], not in [" +
                     value.section + "]");
@@ -96,7 +97,7 @@ DeciderParams read_decider_params(const std::filesystem::path& ini, const std::s
 
 GraphSlamGeneral read_graphslam_general(const std::filesystem::path& ini) {
   GraphSlamGeneral general;
-  // Keys of MRPT itself, read by it or contained in its example files.
+  // Keys that psi-slam does not use, but MRPT reads or its example files contain.
   bool user_decides_about_output_dir = false;
   std::string ground_truth_file_format = "NavSimul";
   int least_difference_of_nodes = 0;
@@ -104,19 +105,19 @@ GraphSlamGeneral read_graphslam_general(const std::filesystem::path& ini) {
   OptionTable table;
   table.section(kGeneralSection, "Output files")
       .text("output_dir_fname", general.output_dir_fname, "folder for the results")
-      .flag("save_graph", general.save_graph, "write the graph")
-      .text("save_graph_fname", general.save_graph_fname, "name of its file")
-      .flag("save_map", general.save_map, "write the map")
-      .text("save_map_fname", general.save_map_fname, "prefix of the names of its files")
-      .flag("save_3DScene", general.save_3DScene, "write the scene of the window, if there is one")
-      .text("save_3DScene_fname", general.save_3DScene_fname, "name of its file")
+      .flag("save_graph", general.save_graph, "writes the graph")
+      .text("save_graph_fname", general.save_graph_fname, "name of the graph file")
+      .flag("save_map", general.save_map, "writes the map")
+      .text("save_map_fname", general.save_map_fname, "prefix of the names of the map files")
+      .flag("save_3DScene", general.save_3DScene, "writes the scene of the window, if there is a window")
+      .text("save_3DScene_fname", general.save_3DScene_fname, "name of the scene file")
       .flag("user_decides_about_output_dir", user_decides_about_output_dir,
             "no effect: only --force overwrites files")
       .text("ground_truth_file_format", ground_truth_file_format, "format of the ground truth file")
       .integer("LC_min_nodeid_diff", least_difference_of_nodes, any_number(), "nodes",
                "smallest difference of node numbers for loops; read by MRPT's deciders")
       .integer("class_verbosity", class_verbosity, between(0, 4), "",
-               "least level of the engine's messages to print");
+               "least severe level of the engine's messages to print");
   for (const IniValue& value : read_ini(ini).values)
     if (value.section == kGeneralSection) table.set(value.section + '.' + value.key, value.text, value.where);
   if (ground_truth_file_format != "NavSimul")

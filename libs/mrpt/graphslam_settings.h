@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Options of psi-slam's deciders and optimizer in the settings files of MRPT's graphslam-engine. A key with a
-// dot is an option of psi-slam by its full name, in the section of the class that it belongs to:
+// dot is the full name of a psi-slam option. It stands in the section of the decider or optimizer that reads
+// it:
 //
 //     [NodeRegistrationDeciderParameters]
 //     front_end.node_distance_m = 0.15
@@ -22,8 +23,8 @@ inline constexpr const char* kNodeDeciderSection = "NodeRegistrationDeciderParam
 inline constexpr const char* kEdgeDeciderSection = "EdgeRegistrationDeciderParameters";
 inline constexpr const char* kOptimizerSection = "OptimizerParameters";
 
-/// The section that holds an option such as "front_end.window_m". Empty for options without effect in the
-/// engine, such as how the map is drawn.
+/// The section of an option such as "front_end.window_m". Empty for options without effect in the engine,
+/// such as those of the map's drawing.
 std::string graphslam_section_of(const std::string& option);
 
 /// Reads all options of psi-slam in the file. Throws UserError, with file and line, for an option that is
@@ -35,11 +36,11 @@ Settings read_graphslam_settings(const std::filesystem::path& ini);
 /// The options of one section, each with its help and current value, as lines of a settings file.
 std::string graphslam_options_text(const OptionTable& table, const std::string& section);
 
-/// What a decider or optimizer reads in loadParams().
+/// The settings that a decider or optimizer reads in loadParams().
 struct DeciderParams {
   Settings settings;
   std::string text;                        ///< see graphslam_options_text()
-  mrpt::system::VerbosityLevel verbosity;  ///< messages from this level on are printed
+  mrpt::system::VerbosityLevel verbosity;  ///< least severe level of messages to print
 };
 /// Throws PassedUserError for the errors of load_graphslam_settings().
 DeciderParams read_decider_params(const std::filesystem::path& ini, const std::string& section);
@@ -52,7 +53,7 @@ class PassedUserError : public UserError, public mrpt::ExceptionWithCallBackBase
       : UserError(error), mrpt::ExceptionWithCallBackBase(error.what(), mrpt::TCallStackBackTrace()) {}
 };
 
-/// Returns the result of `work`. Throws its UserError in a form that passes through MRPT's engine.
+/// Returns the result of `work`. Converts a UserError of `work` into a PassedUserError.
 template <class Work>
 auto through_engine(const Work& work) {
   try {

@@ -22,7 +22,8 @@ using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
 
-/// An action without movement, for sensory frames without one. MRPT's engine needs its time stamp.
+/// Returns an action without movement, for a sensory frame that no action precedes. MRPT's engine needs the
+/// action's time stamp.
 CActionCollection::Ptr no_movement(const CSensoryFrame& frame) {
   constexpr double kVariance = 1e-6;  // positive, because MRPT's deciders invert the covariance
   mrpt::obs::CActionRobotMovement3D action;
@@ -33,13 +34,14 @@ CActionCollection::Ptr no_movement(const CSensoryFrame& frame) {
   return collection;
 }
 
-/// The entries of a rawlog with the scans of one laser. MRPT's engine and deciders do not tell lasers apart.
+/// The entries of a rawlog with the scans of one laser only. MRPT's engine and deciders do not distinguish
+/// lasers.
 class RawlogEntries : public LogEntries {
  public:
   RawlogEntries(const std::filesystem::path& rawlog, const LogOptions& options)
       : archive_(rawlog), lasers_(laser_choice("log.laser", options.laser)), laser_(options.laser) {}
 
-  // Skips other objects, such as comments.
+  // Skips objects that are neither actions, sensory frames nor observations.
   std::optional<LogEntry> next() override {
     LogEntry entry;
     while (const auto object = archive_.next()) {

@@ -24,19 +24,20 @@ struct LogEntry {
 class LogEntries {
  public:
   virtual ~LogEntries() = default;
-  /// The next entry, or none at the end. Throws UserError if the log is damaged.
+  /// Returns the next entry, or nothing at the end of the log. Throws UserError if the log is damaged.
   virtual std::optional<LogEntry> next() = 0;
   /// Share of the log read so far, in [0, 1].
   virtual double progress() const = 0;
-  /// Whether the entries are made from frames. Then the log options are applied already and must not be
-  /// applied again.
+  /// Whether the entries are made from frames. The log options have then been applied and must not be applied
+  /// again.
   virtual bool are_made() const = 0;
 };
 
-/// Opens a log. Entries of a rawlog are unchanged, except that scans of other lasers than log.laser, or the
-/// first laser, are left out. For other formats, and for several lasers, there is an entry per frame: the
-/// movement and the scans of all lasers, the main laser first, since MRPT's deciders take the first scan.
-/// Throws UserError if the log cannot be opened; next() throws it if no laser has the label of log.laser.
+/// Opens a log. If one laser of a rawlog is read, entries are unchanged, but scans of other lasers are left
+/// out. That laser is log.laser, or the first one if log.laser is empty. In all other cases each frame
+/// becomes an entry with the movement and the scans of all lasers that are read. The main laser comes first,
+/// because MRPT's deciders take the first scan. Throws UserError if the log cannot be opened; next() throws
+/// it if no laser has the label of log.laser.
 std::unique_ptr<LogEntries> open_log_entries(const std::filesystem::path& log, const LogOptions& options);
 
 }  // namespace psi_slam

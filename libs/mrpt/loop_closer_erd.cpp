@@ -12,7 +12,7 @@ namespace psi_slam {
 struct CPsiLoopCloserERD::State {
   std::unique_ptr<BackEnd> back_end;
   std::size_t handled_nodes = 0;
-  double odometry_m = 0;  ///< at the node handled last
+  double odometry_m = 0;  ///< path length by odometry at the last handled node
   std::string params_text;
 };
 
@@ -33,7 +33,7 @@ void CPsiLoopCloserERD::loadParams(const std::string& source_fname) {
 SharedMap& CPsiLoopCloserERD::map() const {
   if (!map_)
     throw UserError(
-        "CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD. Choose that as the node decider.");
+        "CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD. Choose it as the node decider.");
   return *map_;
 }
 
@@ -46,7 +46,7 @@ bool CPsiLoopCloserERD::updateState(mrpt::obs::CActionCollection::Ptr /*action*/
   return true;
 }
 
-// The engine takes the first two nodes together, so the first waits for the second.
+// The engine registers the first two nodes together, so the first node waits for the second.
 std::size_t CPsiLoopCloserERD::close_loops_of_new_nodes() {
   SharedMap& map = this->map();
   if (map.keyframes.nodes.size() < 2) return 0;

@@ -32,7 +32,8 @@ using mrpt::obs::CSensoryFrame;
 using mrpt::poses::CPose2D;
 using mrpt::poses::CPosePDFGaussian;
 
-// The observations taken with a frame's first scan, and the scans of other lasers that came separately.
+// Returns the observations that arrived with the frame's first scan, plus the scans of other lasers that
+// arrived separately.
 CSensoryFrame::Ptr with_all_scans(const CSensoryFrame::Ptr& kept, const Frame& frame) {
   const auto came = std::count_if(kept->begin(), kept->end(), [](const CObservation::Ptr& observation) {
     return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation) != nullptr;
@@ -116,7 +117,8 @@ struct CMetricMapBuilderPsi::Implementation {
   const std::vector<FrameRecord>& frames() const { return finished_ ? frames_ : mapper_->frames(); }
   const PoseGraph& graph() const { return finished_ ? graph_ : mapper_->graph(); }
 
-  // Covariance of the newest node. The graph changes only with its nodes and constraints, and in finish().
+  // Covariance of the newest node, in a cache. The graph changes only when it gets nodes or constraints, and
+  // in finish().
   const Eigen::Matrix3d& newest_marginal() const {
     const std::pair<std::size_t, std::size_t> state(graph().num_nodes(), graph().num_constraints());
     if (!newest_marginal_ || marginal_state_ != state) {
@@ -143,7 +145,8 @@ struct CMetricMapBuilderPsi::Implementation {
     return estimate;
   }
 
-  // Pose of each scan: after finish() its own, before that relative to the previous node.
+  // Pose of each scan. After finish() it is the result's pose; before, it follows from the last node's pose
+  // and the front end's motion since that node.
   std::vector<TPose2D> poses() const {
     std::vector<TPose2D> poses;
     std::size_t node = 0;
@@ -158,7 +161,7 @@ struct CMetricMapBuilderPsi::Implementation {
     return poses;
   }
 
-  // Draws a new object instead of changing the last grid, which others may be reading.
+  // Draws a new grid object if needed. The last grid is never changed, because callers may be reading it.
   COccupancyGridMap2D::Ptr up_to_date_grid() const {
     const bool drawn = drawn_grid_ && drawn_scans_ == log().size() && drawn_finished_ == finished_;
     if (!drawn) {
@@ -186,7 +189,8 @@ struct CMetricMapBuilderPsi::Implementation {
   CPosePDFGaussian start_;
   std::unique_ptr<Mapper> mapper_;  // null after finish()
   std::optional<EntryFrames> entries_;
-  std::deque<std::pair<std::size_t, CSensoryFrame::Ptr>> waiting_observations_;  // by number of the scan
+  // Observations that are not mapped yet, with the index of the scan that they arrived with.
+  std::deque<std::pair<std::size_t, CSensoryFrame::Ptr>> waiting_observations_;
 
   std::vector<std::size_t> node_frames_;
   std::vector<CSensoryFrame::Ptr> node_observations_;
@@ -197,7 +201,8 @@ struct CMetricMapBuilderPsi::Implementation {
 
   mutable MarginalCovariance marginals_;
   mutable std::optional<Eigen::Matrix3d> newest_marginal_;
-  mutable std::pair<std::size_t, std::size_t> marginal_state_;  // numbers of nodes and constraints
+  // Numbers of nodes and constraints at newest_marginal_.
+  mutable std::pair<std::size_t, std::size_t> marginal_state_;
   mutable COccupancyGridMap2D::Ptr drawn_grid_;
   mutable std::size_t drawn_scans_ = 0;
   mutable bool drawn_finished_ = false;

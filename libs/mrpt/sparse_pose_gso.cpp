@@ -14,14 +14,14 @@ namespace psi_slam {
 struct CPsiSpaGSO::State {
   OptimizationSchedule schedule;
   std::size_t seen_edges = 0;
-  std::size_t optimized_edges = 0;  ///< at the last optimisation
-  std::size_t nodes_in_graph = 0;   ///< at the last call
-  bool stale = false;               ///< the engine has reset the poses since the last call
+  std::size_t optimized_edges = 0;  ///< number of edges at the last optimisation
+  std::size_t nodes_in_graph = 0;   ///< number of nodes at the last updateState()
+  bool stale = false;               ///< the engine has reset the poses since the last updateState()
   bool just_optimized = false;
   std::size_t optimizations = 0;
   std::string params_text;
 
-  /// Tells the schedule by how many standard deviations the graph contradicts the new edges.
+  /// Reports the residuals of the new edges to the schedule, in standard deviations.
   void note_new_edges(const PoseGraph& graph) {
     for (; seen_edges < graph.num_constraints(); ++seen_edges) {
       const Constraint& edge = graph.constraint(seen_edges);

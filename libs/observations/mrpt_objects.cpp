@@ -25,9 +25,10 @@ constexpr std::int64_t kTicksPerMicrosecond = 10;
 struct EvenRays {
   std::size_t count = 0;
   std::vector<std::size_t> ray_of_beam;
-  double worst_rad = 0;  ///< largest distance of a beam from its ray
+  double worst_rad = 0;  ///< largest angle between a beam and its ray
 };
 
+/// Assigns each beam to the nearest of `count` even rays from the first to the last bearing.
 EvenRays spread(const std::vector<float>& bearings, std::size_t count) {
   const auto first = static_cast<double>(bearings.front());
   const double step = (static_cast<double>(bearings.back()) - first) / static_cast<double>(count - 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conversions between our data and MRPT's observations and actions, for its files and programs.
+// Conversions between psi-slam's frames and MRPT's observations and actions, for MRPT's files and programs.
 #pragma once
 
 #include <mrpt/core/Clock.h>
@@ -16,26 +16,29 @@
 
 namespace psi_slam {
 
+/// Converts Unix time in microseconds to MRPT's clock.
 mrpt::Clock::time_point mrpt_clock_time(TimeUs time_us);
 
-/// Unix time of an observation, rounded to the nearest microsecond. Empty without a time stamp.
+/// Unix time of an observation, rounded to the nearest microsecond. Empty if the observation has no time
+/// stamp.
 std::optional<TimeUs> time_us(const mrpt::obs::CObservation& observation);
 
-/// Movement of the robot: the increment of odometry, otherwise the mean of another estimate. Empty if no
-/// action is a movement of the robot.
+/// Movement of the robot in its previous frame: the increment of the odometry, or the mean of another
+/// estimate if there is no odometry. Empty if no action is a movement of the robot.
 std::optional<mrpt::math::TPose2D> movement_of(const mrpt::obs::CActionCollection& actions);
 
-/// Returns a movement of the robot by odometry, with MRPT's default noise.
+/// Returns the odometry increment `motion` as an action, with MRPT's default noise.
 mrpt::obs::CActionCollection robot_action(const mrpt::math::TPose2D& motion, TimeUs time_us);
 
-/// Returns the scan with evenly spread rays from the first to the last beam, as MRPT stores scans. Uneven
-/// beams, such as GMapping's 180 without the one straight ahead, are assigned to finer rays: the fewest that
-/// meet each bearing within a milliradian, at most four times as many as beams. Rays without a beam and beams
-/// without a return are invalid. The sensor's pose includes the mean bearing.
+/// Returns the frame's first scan with evenly spread rays from the first to the last beam, as MRPT stores
+/// scans. Uneven beams, such as GMapping's 180 beams without the one straight ahead, are assigned to finer
+/// rays. Takes the fewest rays that meet each bearing within a milliradian, but at most four times as many as
+/// beams. Rays without a beam and beams without a return are invalid. The sensor's pose includes the mean
+/// bearing.
 mrpt::obs::CObservation2DRangeScan::Ptr range_observation(const Frame& frame);
 
-/// Returns the scans of all lasers of the frame for a sensory frame, each with its own label and time stamp.
-/// Sensor poses are relative to the robot's pose at the frame's time.
+/// Returns the scans of all lasers of the frame, each with its own label and time stamp. Sensor poses are
+/// relative to the robot's pose at the frame's time.
 std::vector<mrpt::obs::CObservation2DRangeScan::Ptr> range_observations(const Frame& frame);
 
 }  // namespace psi_slam

@@ -37,7 +37,8 @@ std::vector<float> RawlogLaser::bearings_rad(std::size_t beams, double aperture_
 
 LaserScan RawlogLaser::scan(const mrpt::obs::CObservation2DRangeScan& observation, const std::string& place) {
   const std::size_t beams = observation.getScanSize();
-  if (beams == 0) throw UserError(place + ": the scan has 0 rays, expected 1 or more");
+  if (beams == 0)
+    throw UserError(place + ": the scan has 0 rays, expected 1 or more. Remove the scan from the log");
   const FloorMount mount = floor_mount(observation.sensorPose, place);
   const bool clockwise = (mount.upside_down == observation.rightToLeft) != options_.mirrored;
   const auto aperture_rad = static_cast<double>(observation.aperture);
@@ -89,7 +90,7 @@ void ObservationFrames::take(const mrpt::obs::CActionCollection& action) {
   const std::optional<mrpt::math::TPose2D> motion = movement_of(action);
   if (motion && odometry_ == Odometry::kUndecided) {
     odometry_ = Odometry::kActions;
-    waiting_.add_odometry(0, odom_T_robot_);  // scans before the first action are at the start
+    waiting_.add_odometry(0, odom_T_robot_);  // scans before the first action are at the origin
     waiting_.end_of_log();
     while (std::optional<Frame> frame = waiting_.take()) ready_.push_back(*std::move(frame));
     waiting_ = {};

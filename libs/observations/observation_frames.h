@@ -22,21 +22,21 @@
 
 namespace psi_slam {
 
-/// Turns MRPT's 2D range scans of one sensor into ours. The sensor's pose is projected to the floor. A laser
-/// that is mounted upside down gets mirrored bearings.
+/// Converts the 2D range scans of one sensor from MRPT's form to a LaserScan. Projects the sensor's pose to
+/// the floor. Mirrors the bearings of a laser that is mounted upside down.
 class RawlogLaser {
  public:
   explicit RawlogLaser(const LogOptions& options) : options_(options) {}
 
-  /// Throws UserError that starts with `place` if the scan has no rays or its laser is tilted by more than 15
-  /// degrees.
+  /// Converts a scan. Throws UserError that starts with `place` if the scan has no rays or its laser is
+  /// tilted by more than 15 degrees.
   LaserScan scan(const mrpt::obs::CObservation2DRangeScan& observation, const std::string& place);
 
  private:
   std::vector<float> bearings_rad(std::size_t beams, double aperture_rad, bool clockwise) const;
 
   LogOptions options_;
-  std::tuple<std::size_t, double, bool> geometry_;  // of bearings_: beams, aperture, clockwise
+  std::tuple<std::size_t, double, bool> geometry_;  // beams, aperture and clockwise direction of bearings_
   BeamBearings bearings_;
 };
 
@@ -46,8 +46,9 @@ class RawlogLasers {
   explicit RawlogLasers(const LogOptions& options)
       : options_(options), chosen_(laser_choice("log.laser", options.laser)) {}
 
-  /// Returns nothing if the laser is not read. Throws UserError that starts with `place` if RawlogLaser does,
-  /// and if two lasers have the same pose: their poses were then never set.
+  /// Converts a scan, or returns nothing if its laser is not read. Throws UserError that starts with `place`
+  /// if RawlogLaser does. Also throws if two lasers have the same pose on the robot, which means that the
+  /// poses were never set.
   std::optional<LaserScan> scan(const mrpt::obs::CObservation2DRangeScan& observation,
                                 const std::string& place);
 
@@ -55,8 +56,8 @@ class RawlogLasers {
   struct Laser {
     std::string label;
     RawlogLaser reader;
-    mrpt::poses::CPose3D robot_T_sensor;  // of its first scan
-    bool is_stated = false;               // the user states its mount
+    mrpt::poses::CPose3D robot_T_sensor;  // of the laser's first scan
+    bool is_stated = false;               // whether the user states the laser's mount
   };
 
   Laser& laser(std::size_t number, const mrpt::obs::CObservation2DRangeScan& first, const std::string& place);
@@ -66,30 +67,32 @@ class RawlogLasers {
   std::map<std::size_t, Laser> lasers_;
 };
 
-/// Makes frames from MRPT's actions and observations. Odometry is either the sum of the actions or
-/// interpolated between odometry observations of the first label; then a scan waits for the next odometry.
+/// Makes frames from MRPT's actions and observations. Odometry is either the sum of the actions, or
+/// interpolated between the odometry observations of the first label. In the second case, a scan waits for
+/// the next odometry.
 class ObservationFrames {
  public:
   enum class Odometry { kUndecided, kActions, kObservations };
 
-  /// If undecided, the kind of odometry that comes first is used.
+  /// If `odometry` is kUndecided, the kind of odometry that comes first is used.
   explicit ObservationFrames(const LogOptions& options, Odometry odometry = Odometry::kUndecided);
 
   void take(const mrpt::obs::CActionCollection& action);
 
-  /// Throws UserError, starting with `place`, if the observation has no time stamp, a scan is invalid (see
-  /// RawlogLasers), or many scans came without odometry.
+  /// Takes a scan or odometry, and ignores other observations. Throws UserError, starting with `place`, if
+  /// the observation has no time stamp, a scan is invalid (see RawlogLasers), or many scans came without
+  /// odometry.
   void take(const mrpt::obs::CObservation& observation, const std::string& place);
 
-  /// The next complete frame, with the scan of one laser. Its index is the number of the scan among those
-  /// read.
+  /// Returns the next complete frame, with the scan of one laser, or nothing if there is none yet. Its index
+  /// is the number of the scan among the scans taken, counted from 0.
   std::optional<Frame> next();
 
-  /// Number of scans taken, without those of lasers that are not read.
+  /// Number of scans taken. Scans of lasers that are not read do not count.
   std::size_t scans() const { return scans_; }
 
-  /// Lets next() return the scans that still wait. Throws UserError, starting with `place`, if there are such
-  /// scans and no odometry came.
+  /// Lets next() return the scans that still wait for odometry. Throws UserError, starting with `place`, if
+  /// scans wait and the log has no odometry.
   void end_of_log(const std::string& place);
 
  private:

@@ -11,7 +11,8 @@ namespace {
 
 using Eigen::Matrix3d;
 
-// y -= l * x for 3x3 blocks. Written out so that the compiler keeps x in registers over a column.
+// Computes y -= l * x for 3x3 blocks, stored column by column. The loops are written out so that the compiler
+// keeps x in registers over a column.
 inline void subtract_product(const double* l, const double* x, double* y) {
   for (int c = 0; c < 3; ++c) {
     const double x0 = x[3 * c];
@@ -21,8 +22,9 @@ inline void subtract_product(const double* l, const double* x, double* y) {
   }
 }
 
-// Inverts the Cholesky factor of a symmetric 3x3 matrix, of which it reads the lower triangle. Returns false
-// if the matrix is not positive definite. A pivot must exceed the rounding error of the original diagonal.
+// Computes the inverse of the Cholesky factor of the symmetric 3x3 matrix `a`, of which it reads the lower
+// triangle. Returns false if `a` is not positive definite. A pivot must exceed the rounding error of the
+// original diagonal.
 inline bool invert_factor(const Matrix3d& a, const Eigen::Vector3d& original_diagonal, Matrix3d& inverse) {
   constexpr double kRounding = 1e-15;
   const auto is_pivot = [&](double pivot, int i) { return pivot > kRounding * original_diagonal[i]; };
@@ -66,7 +68,8 @@ std::vector<std::uint32_t> fill_reducing_order(
   return {indices.data(), indices.data() + indices.size()};
 }
 
-// Puts the columns of row k of L in topological order at the end of pattern_. Returns the index of the first.
+// Puts the columns of row k of L in topological order at the end of pattern_. Returns the index of the first
+// of these columns in pattern_.
 std::size_t BlockCholesky::reach(const SymmetricBlockMatrix& matrix, std::uint32_t k) {
   std::size_t top = size();
   mark_[k] = k;
@@ -167,7 +170,7 @@ BlockCholesky::InverseColumns BlockCholesky::inverse_columns(std::size_t k) cons
     const std::uint32_t column = result.rows[step];
     const Matrix3d x = inverse_diagonal_[column] * result.blocks[step];
     result.blocks[step] = x;
-    std::size_t target = step + 1;  // the rows of a column of L all lie on the column's path to the root
+    std::size_t target = step + 1;  // the rows of a column of L lie on the column's path to the root
     for (std::size_t p = column_begin_[column]; p < column_begin_[column + 1]; ++p) {
       while (result.rows[target] != rows_[p]) ++target;
       subtract_product(blocks_[p].data(), x.data(), result.blocks[target].data());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sparse Cholesky factorisation A = L L^T of a symmetric positive definite matrix of 3x3 blocks, by the
 // up-looking algorithm (Davis, Direct Methods for Sparse Linear Systems, 2006, section 4.7). One index and
-// one path in the elimination tree serve the nine numbers of a dense block. This is about three times as fast
-// as Eigen's simplicial factorisation in the same order, with which the tests compare it.
+// one path in the elimination tree serve the nine numbers of a dense block. The factorisation is about three
+// times as fast as Eigen's simplicial factorisation in the same order, with which the tests compare it.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,11 +15,12 @@ namespace psi_slam {
 
 /// The upper triangle of a symmetric block matrix, by columns. All blocks are stored column by column.
 struct SymmetricBlockMatrix {
-  /// n + 1 entries: the blocks (row, k), row < k, are [column_begin[k], column_begin[k + 1]).
+  /// n + 1 entries: the blocks (row, k) with row < k have the indices [column_begin[k], column_begin[k + 1])
+  /// in `rows` and `blocks`.
   std::vector<std::size_t> column_begin;
   std::vector<std::uint32_t> rows;        ///< ascending within a column
   std::vector<Eigen::Matrix3d> blocks;    ///< parallel to `rows`
-  std::vector<Eigen::Matrix3d> diagonal;  ///< n; symmetric
+  std::vector<Eigen::Matrix3d> diagonal;  ///< n blocks, each symmetric
 
   std::size_t size() const { return diagonal.size(); }
 };
@@ -33,7 +34,7 @@ std::vector<std::uint32_t> fill_reducing_order(
 
 class BlockCholesky {
  public:
-  /// Symbolic factorisation: computes what depends on `column_begin` and `rows` alone.
+  /// Symbolic factorisation: computes everything that depends only on `column_begin` and `rows`.
   void analyze(const SymmetricBlockMatrix& matrix);
 
   /// Numeric factorisation of A + D, where D is lambda times the diagonal of A (the scaling of Marquardt
@@ -44,8 +45,9 @@ class BlockCholesky {
   /// Solves (A + D) x = b in place; b holds 3 numbers per block row.
   void solve(Eigen::VectorXd& b) const;
 
-  /// Non-zero blocks of the columns of L^-1 for block row k, for marginal covariances. They solve L Y = the
-  /// three unit columns of row k, and lie on the path from k to the root of the elimination tree.
+  /// Non-zero blocks of the columns of L^-1 for block row k, for marginal covariances. The columns Y solve L
+  /// Y = E_k, where E_k holds the three unit columns of row k. The non-zero blocks lie on the path from k to
+  /// the root of the elimination tree.
   struct InverseColumns {
     std::vector<std::uint32_t> rows;      ///< ascending
     std::vector<Eigen::Matrix3d> blocks;  ///< parallel to `rows`
@@ -53,7 +55,7 @@ class BlockCholesky {
   InverseColumns inverse_columns(std::size_t k) const;
 
   std::size_t size() const { return parent_.size(); }
-  /// Number of block products of a factorisation. It measures the quality of an order of elimination.
+  /// Number of block products of a factorisation. The fewer, the better the order of elimination.
   std::size_t num_products() const { return num_products_; }
 
  private:
@@ -62,17 +64,17 @@ class BlockCholesky {
   std::size_t reach(const SymmetricBlockMatrix& matrix, std::uint32_t k);
 
   std::size_t num_products_ = 0;
-  std::vector<std::uint32_t> parent_;      // elimination tree
-  std::vector<std::size_t> column_begin_;  // of L, n + 1
-  std::vector<std::size_t> column_end_;    // during factorize(): where the next block of each column goes
+  std::vector<std::uint32_t> parent_;      // parent of each node in the elimination tree
+  std::vector<std::size_t> column_begin_;  // first block of each column of L; n + 1 entries
+  std::vector<std::size_t> column_end_;    // during factorize(): index of the next block of each column
   std::vector<std::uint32_t> rows_;
   std::vector<Eigen::Matrix3d> blocks_;
-  std::vector<Eigen::Matrix3d> inverse_diagonal_;  // inverse of the diagonal blocks of L, lower triangular
+  std::vector<Eigen::Matrix3d> inverse_diagonal_;  // inverses of the diagonal blocks of L, lower triangular
 
   std::vector<std::uint32_t> mark_;     // scratch: mark_[i] == k if i was reached for row k
   std::vector<std::uint32_t> pattern_;  // scratch: the columns of row k of L, in topological order
-  std::vector<std::uint32_t> path_;     // scratch
-  std::vector<Eigen::Matrix3d> work_;   // scratch: zero between rows
+  std::vector<std::uint32_t> path_;     // scratch: part of the path to the root of the elimination tree
+  std::vector<Eigen::Matrix3d> work_;   // scratch: the blocks of one row; zero between rows
 };
 
 }  // namespace psi_slam

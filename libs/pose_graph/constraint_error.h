@@ -13,8 +13,8 @@ namespace psi_slam {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-/// The same angle in (-pi, pi], radians. Returns angles in this range bit for bit; mrpt::math::wrapToPi adds
-/// and subtracts pi, which rounds small angles.
+/// Returns the angle wrapped to (-pi, pi], in radians. Does not change an angle in this range;
+/// mrpt::math::wrapToPi adds and subtracts pi, which rounds small angles.
 inline double wrap_to_pi(double angle) {
   if (angle > -kPi && angle <= kPi) return angle;
   const double wrapped = std::remainder(angle, 2 * kPi);
@@ -35,7 +35,7 @@ inline std::vector<RotatedPose> rotated(const std::vector<mrpt::math::TPose2D>& 
   return std::vector<RotatedPose>(poses.begin(), poses.end());
 }
 
-/// e(x_i, x_j) for the measurement z = i_T_j: metres, metres, radians.
+/// Returns e(x_i, x_j) for the measurement z = i_T_j: metres, metres, radians.
 inline Eigen::Vector3d constraint_error(const mrpt::math::TPose2D& i_T_j, const RotatedPose& map_T_i,
                                         const RotatedPose& map_T_j) {
   const double dx = map_T_j.x - map_T_i.x;
@@ -45,7 +45,7 @@ inline Eigen::Vector3d constraint_error(const mrpt::math::TPose2D& i_T_j, const 
           wrap_to_pi(i_T_j.phi - (map_T_j.theta - map_T_i.theta))};
 }
 
-/// de/dx_i and de/dx_j with x = (x, y, theta) of each node in the map frame.
+/// Jacobians de/dx_i and de/dx_j, where x = (x, y, theta) is the pose of each node in the map frame.
 struct ConstraintJacobians {
   Eigen::Matrix3d wrt_i;
   Eigen::Matrix3d wrt_j;
@@ -66,18 +66,19 @@ inline ConstraintJacobians constraint_jacobians(const RotatedPose& map_T_i, cons
   return jacobians;
 }
 
-/// Terms of one constraint in the normal equations H dx = -g of equation 6, J^T Omega J and J^T Omega e.
+/// Parts of H = J^T Omega J and g = J^T Omega e that one constraint adds to the normal equations H dx = -g of
+/// equation 6.
 struct ConstraintNormals {
   Eigen::Matrix3d ii;  ///< block (i, i) of H
   Eigen::Matrix3d ij;  ///< block (i, j) of H
   Eigen::Matrix3d jj;  ///< block (j, j) of H
-  Eigen::Vector3d i;   ///< of g
-  Eigen::Vector3d j;   ///< of g
+  Eigen::Vector3d i;   ///< block i of g
+  Eigen::Vector3d j;   ///< block j of g
 };
 
-/// Computes the products of constraint_jacobians() at a fraction of the work. With R = diag(R_i, 1) and
-/// U = I + [0 0 -dy; 0 0 dx; 0 0 0], the Jacobians are R^T U and -R^T. With W = R Omega R^T, they give
-/// H_jj = W, H_ij = -U^T W, H_ii = U^T W U, g_j = -R Omega e and g_i = -U^T g_j.
+/// Returns the same terms as products of constraint_jacobians(), with a fraction of the work. With R =
+/// diag(R_i, 1) and U = I + [0 0 -dy; 0 0 dx; 0 0 0], the Jacobians are R^T U and -R^T. With W = R Omega R^T,
+/// they give H_jj = W, H_ij = -U^T W, H_ii = U^T W U, g_j = -R Omega e and g_i = -U^T g_j.
 inline ConstraintNormals constraint_normals(const Eigen::Matrix3d& information, const Eigen::Vector3d& error,
                                             const RotatedPose& map_T_i, const RotatedPose& map_T_j) {
   const double c = map_T_i.cosine;

@@ -22,7 +22,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// A node, or the id of a node that is held.
+// A vertex line, or a FIX line, which has no pose.
 struct Vertex {
   std::int64_t id = 0;
   std::size_t line = 0;
@@ -37,7 +37,8 @@ struct Edge {
   Eigen::Matrix3d information;  // in the axes of `from`
 };
 
-// Converts an information matrix from the axes of an edge's end, turned by theta, to those of its beginning.
+// Converts an information matrix from the axes of an edge's end, which is turned by theta, to the axes of its
+// beginning.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& information, double theta) {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   rotation.topLeftCorner<2, 2>() << std::cos(theta), -std::sin(theta), std::sin(theta), std::cos(theta);
@@ -58,14 +59,15 @@ constexpr EdgeFormat kToroEdge{"EDGE2 from to dx dy dtheta Ixx Ixy Iyy Itt Ixt I
                                {{{0, 0}, {0, 1}, {1, 1}, {2, 2}, {0, 2}, {1, 2}}},
                                false};
 
-// Reads the words of a line one by one. Throws UserError with the expected layout.
+// Reads the words of a line one by one. Throws UserError with the expected layout if a word is not as
+// expected.
 class Fields {
  public:
   Fields(std::string_view line, const LineReader& reader) : rest_(line), reader_(reader) {}
 
   void expect(const char* layout) { layout_ = layout; }
 
-  // Next word; empty at the end of the line.
+  // Returns the next word; empty at the end of the line.
   std::string_view word() {
     constexpr std::string_view kBlank = " \t\r";
     const std::size_t begin = std::min(rest_.find_first_not_of(kBlank), rest_.size());
@@ -116,11 +118,11 @@ class Fields {
 
   void end() {
     const std::string_view text = word();
-    if (!text.empty()) throw bad("'" + std::string(text) + "' is one field too many");
+    if (!text.empty()) throw bad("'" + std::string(text) + "' is an extra field");
   }
 
   UserError bad(const std::string& what) const {
-    return UserError(reader_.place() + ": " + what + ", expected \"" + layout_ + "\"");
+    return UserError(reader_.place() + ": " + what + ", expected \"" + layout_ + "\". Correct the line");
   }
 
  private:
@@ -162,7 +164,8 @@ Contents read_lines(const std::filesystem::path& path) {
     } else {
       throw UserError(
           reader.place() + ": '" + std::string(tag.substr(0, 40)) +
-          "' is not an entry of a 2D pose graph, expected VERTEX_SE2, EDGE_SE2, FIX, VERTEX2 or EDGE2");
+          "' is not an entry of a 2D pose graph, expected VERTEX_SE2, EDGE_SE2, FIX, VERTEX2 or EDGE2. "
+          "Remove the line");
     }
   }
   return contents;
@@ -184,10 +187,12 @@ void append(std::string& text, double value) {
 PoseGraphFile read_pose_graph(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
-    throw UserError(path.string() + " does not exist, expected a pose graph in g2o or TORO format");
+    throw UserError(path.string() +
+                    " does not exist, expected a pose graph in g2o or TORO format. Correct the path");
   Contents contents = read_lines(path);
   if (contents.vertices.empty() && contents.edges.empty())
-    throw UserError(path.string() + " contains no pose graph, expected VERTEX_SE2 and EDGE_SE2 lines");
+    throw UserError(path.string() +
+                    " contains no pose graph, expected VERTEX_SE2 and EDGE_SE2 lines. Choose another file");
 
   PoseGraphFile result;
   const bool without_poses = contents.vertices.empty();
@@ -203,7 +208,7 @@ PoseGraphFile read_pose_graph(const std::filesystem::path& path) {
     if (!result.ids.empty() && result.ids.back() == vertex.id) {
       if (without_poses) continue;
       throw UserError(place(path, vertex.line) + ": vertex " + std::to_string(vertex.id) +
-                      " is defined twice, expected every id once");
+                      " is defined twice, expected every id once. Remove one of the lines");
     }
     result.ids.push_back(vertex.id);
     result.graph.add_node(vertex.pose);
@@ -212,7 +217,7 @@ PoseGraphFile read_pose_graph(const std::filesystem::path& path) {
     const auto found = std::lower_bound(result.ids.begin(), result.ids.end(), id);
     if (found == result.ids.end() || *found != id)
       throw UserError(place(path, line) + ": vertex " + std::to_string(id) +
-                      " is missing, expected a line VERTEX_SE2 (or VERTEX2) for it");
+                      " is missing, expected a line VERTEX_SE2 (or VERTEX2) for it. Add the line");
     return static_cast<std::size_t>(found - result.ids.begin());
   };
   for (const Edge& edge : contents.edges) {

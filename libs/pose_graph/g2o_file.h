@@ -7,9 +7,9 @@
 //   FIX id
 //   EDGE2 from to dx dy dtheta  I_xx I_xy I_yy I_tt I_xt I_yt
 //
-// The formats differ in the order of the information's entries and in its axes. g2o weights the error
-// z^-1 (x_i^-1 x_j), in the axes of the measured end of the edge. TORO weights the error of equation 5, in
-// the axes of the beginning. Both are converted to a Constraint, so that chi2 equals that of g2o (or TORO).
+// The formats differ in the order of the entries of the information matrix and in its axes. g2o weights the
+// error z^-1 (x_i^-1 x_j), in the axes of the edge's end. TORO weights the error of equation 5, in the axes
+// of the edge's beginning. Both are converted to a Constraint, so that chi2 equals that of g2o or TORO.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,15 @@ struct PoseGraphFile {
 };
 
 /// Reads a pose graph. Edges between successive nodes become odometry, other edges loops. The root is the
-/// vertex of the FIX line, or the first node without one. A file of edges only gets poses by
-/// spanning_tree_poses(). Throws UserError with file and line for a line that is malformed or inconsistent
-/// with another (a repeated or missing vertex, a second fixed vertex), and with the file if it is not
-/// readable.
+/// vertex of the FIX line, or the first node if there is no FIX line. If the file has edges but no vertices,
+/// spanning_tree_poses() computes the poses. Throws UserError with file and line for a line that is malformed
+/// or inconsistent with another line (a repeated or missing vertex, a second fixed vertex). Throws UserError
+/// with the file if it is not readable.
 PoseGraphFile read_pose_graph(const std::filesystem::path& path);
 
-/// Writes all nodes, FIX for the root, and the enabled constraints, with the fewest digits that read back as
-/// the same numbers, by write_atomically(). Throws SystemFailure if the file cannot be written.
+/// Writes all nodes, FIX for the root, and the enabled constraints. Numbers have the fewest digits that read
+/// back as the same number. The file appears complete or not at all. Throws SystemFailure if it cannot be
+/// written.
 void write_g2o(const PoseGraph& graph, const std::filesystem::path& path);
 
 }  // namespace psi_slam

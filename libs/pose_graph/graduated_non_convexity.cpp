@@ -9,7 +9,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// So wide that the kernel gives every error the same weight.
+// Squared width so large that the kernel gives every error the same weight.
 constexpr double kNearlyConvexWidth2 = 1e20;
 
 bool is_enabled_loop(const PoseGraph& graph, std::size_t constraint) {

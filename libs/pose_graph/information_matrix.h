@@ -6,7 +6,7 @@
 
 namespace psi_slam {
 
-/// Whether the matrix can be an inverse covariance: finite, and, up to rounding, symmetric and positive
+/// Whether the matrix can be an inverse covariance: it is finite and, up to rounding, symmetric and positive
 /// semi-definite.
 inline bool is_information_matrix(const Eigen::Matrix3d& information) {
   if (!information.allFinite()) return false;
@@ -22,13 +22,14 @@ inline bool is_information_matrix(const Eigen::Matrix3d& information) {
   const double xy = correlation(0, 1);
   const double xt = correlation(0, 2);
   const double yt = correlation(1, 2);
-  constexpr double kRounding = 3e-5;  // in text files with six digits
+  constexpr double kRounding = 3e-5;  // of entries in text files with six digits
   const double limit = 1 + kRounding;
   const double determinant = 1 + 2 * xy * xt * yt - xy * xy - xt * xt - yt * yt;
   return xy * xy <= limit && xt * xt <= limit && yt * yt <= limit && determinant >= -kRounding;
 }
 
-/// Inverse of a covariance of (x, y, theta) plus independent noise.
+/// Returns the inverse of a covariance of (x, y, theta) after adding independent noise to it: `sigma_m` in x
+/// and y, `sigma_rad` in theta.
 inline Eigen::Matrix3d noisy_information(const Eigen::Matrix3d& covariance, double sigma_m,
                                          double sigma_rad) {
   const Eigen::Vector3d noise(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);

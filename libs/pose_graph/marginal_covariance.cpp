@@ -10,7 +10,8 @@ namespace {
 using Columns = BlockCholesky::InverseColumns;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-// Block of H^-1 for two variables: Y_a^T Y_b. Both row lists ascend and end with the same row.
+// Returns the block of H^-1 for two variables, Y_a^T Y_b. Both lists of rows ascend and end with the same
+// row.
 Eigen::Matrix3d product(const Columns& a, const Columns& b) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (std::size_t i = a.rows.size(), j = b.rows.size(); i > 0 && j > 0;) {
@@ -53,7 +54,7 @@ void MarginalCovariance::update(const PoseGraph& graph, const std::vector<double
   }
 }
 
-// Returns no rows for the root, whose pose is exact.
+// Returns the columns of L^-1 for a node; no rows for the root, whose pose is exact.
 Columns MarginalCovariance::columns_of(std::size_t node) const {
   static_cast<void>(poses_.at(node));
   const std::uint32_t variable = equations_.variable_of(node);

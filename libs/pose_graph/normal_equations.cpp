@@ -11,10 +11,10 @@
 namespace psi_slam {
 namespace {
 
-// An order is replaced when the nodes added at its end exceed this share of all nodes.
+// An order of elimination is replaced when the nodes added at its end exceed this share of all nodes.
 constexpr double kMaxAppendedShare = 0.2;
-// It is also replaced when it has wasted the work of computing a new one: this number of block products per
-// constraint.
+// It is also replaced when its wasted block products cost as much as computing a new order, which takes this
+// many block products per constraint.
 constexpr double kProductsOfOrderingPerLink = 15;
 
 std::uint32_t find_set(std::vector<std::uint32_t>& parent, std::uint32_t i) {
@@ -22,7 +22,8 @@ std::uint32_t find_set(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   return i;
 }
 
-// Block products of one factorisation beyond those of an order that is as good as the last new order.
+// Number of block products of one factorisation beyond those of an order that is as good as the order
+// computed last.
 double wasted_products(std::size_t products, std::size_t variables, double ordered_products,
                        std::size_t ordered_variables) {
   const double growth =
@@ -134,8 +135,8 @@ void NormalEquations::find_order(const PoseGraph& graph) {
 
 void NormalEquations::lay_out(const PoseGraph& graph) {
   const std::size_t n = node_of_.size();
-  std::vector<std::array<std::uint32_t, 3>>
-      links;  // column, row and constraint of each block off the diagonal
+  // Column, row and constraint of each block off the diagonal.
+  std::vector<std::array<std::uint32_t, 3>> links;
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     places_[i] = Place();
     if (!graph.enabled(i)) continue;
@@ -203,7 +204,7 @@ void NormalEquations::linearize(const PoseGraph& graph, const std::vector<Rotate
   }
 }
 
-// Removes one coordinate of all nodes from the system: its step becomes 0.
+// Holds one coordinate of all nodes (0: x, 1: y, 2: heading): its step becomes 0.
 void NormalEquations::hold(int coordinate) {
   for (Eigen::Matrix3d& block : hessian_.blocks) {
     block.row(coordinate).setZero();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The normal equations H dx = -g of a pose graph (equation 6, with H = J^T Omega J and g = J^T Omega e) and
-// their sparse factorisation. Keep the object between the solves of a growing graph: it stores the place of
-// each constraint in H, and extends the order of elimination until a new order pays off.
+// their sparse factorisation. Keep the object between the solves of a growing graph. It stores the place of
+// each constraint in H, and extends the order of elimination until a new order is worth its cost.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,17 +19,18 @@ class NormalEquations {
   /// Coordinates of the poses that may move. kHeadings uses only the heading parts of the constraints.
   enum class Coordinates { kAll, kHeadings, kPositions };
 
-  /// Prepares H for all nodes except the root, which is held, and for the enabled constraints. Reuses the
-  /// results of earlier calls if the graph is the same or has grown. Throws unreachable_node().
+  /// Prepares H for all nodes except the root, whose pose is held, and for the enabled constraints. Reuses
+  /// the results of earlier calls if the graph is the same or has grown. Throws unreachable_node(), a
+  /// UserError, if a node is not linked to the root.
   void prepare(const PoseGraph& graph);
 
-  /// Computes H and g at `poses`. `errors` and `weights` have one entry per constraint of the graph; a weight
-  /// multiplies the information matrix.
+  /// Computes H and g at `poses`. `errors` and `weights` have one entry per constraint of the graph; each
+  /// weight multiplies the information matrix of its constraint.
   void linearize(const PoseGraph& graph, const std::vector<RotatedPose>& poses,
                  const std::vector<Eigen::Vector3d>& errors, const std::vector<double>& weights,
                  Coordinates coordinates = Coordinates::kAll);
 
-  /// Factorises H + lambda diag(H). Returns false if it is not positive definite.
+  /// Factorises H + lambda diag(H). Returns false if this matrix is not positive definite.
   bool factorize(double lambda);
 
   /// Solves (H + lambda diag(H)) dx = -g after factorize(); dx has three numbers per variable.
@@ -48,15 +49,16 @@ class NormalEquations {
   const BlockCholesky& factor() const { return factor_; }
   const SymmetricBlockMatrix& hessian() const { return hessian_; }
 
-  /// Whether the last prepare() computed a new order of elimination, or a new layout of H.
+  /// Whether the last prepare() computed a new order of elimination.
   bool reordered() const { return reordered_; }
+  /// Whether the last prepare() computed a new memory layout of H.
   bool restructured() const { return restructured_; }
 
  private:
   struct Place {
-    std::uint32_t block = 0;  // of hessian_.blocks; kNoBlock if an end is held
+    std::uint32_t block = 0;  // index in hessian_.blocks; kNoBlock if a node of the constraint is held
     bool known = false;
-    bool transposed = false;  // the block of H is (to, from)
+    bool transposed = false;  // H stores the block (to, from) of the constraint
   };
   static constexpr std::uint32_t kNoBlock = 0xffffffff;
 
@@ -67,20 +69,20 @@ class NormalEquations {
   void hold(int coordinate);
 
   std::size_t root_ = 0;
-  std::vector<std::uint32_t> node_of_;                         // by variable
-  std::vector<std::uint32_t> variable_of_;                     // by node
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;  // of the constraints added so far
+  std::vector<std::uint32_t> node_of_;                         // node of each variable
+  std::vector<std::uint32_t> variable_of_;                     // variable of each node
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;  // nodes of the constraints added so far
   std::vector<Place> places_;                                  // parallel to ends_
-  std::size_t ordered_variables_ = 0;                          // at the last new order
-  double ordered_products_ = 0;                                // of a factorisation then
-  double wasted_products_ = 0;  // since then, beyond those of an equally good order
+  std::size_t ordered_variables_ = 0;  // number of variables when the order was last computed
+  double ordered_products_ = 0;        // block products of a factorisation in that order
+  double wasted_products_ = 0;         // block products since then beyond those of an equally good order
   bool reordered_ = false;
   bool restructured_ = false;
 
   SymmetricBlockMatrix hessian_;
-  Eigen::VectorXd gradient_;  // g
+  Eigen::VectorXd gradient_;  // g of the normal equations
   BlockCholesky factor_;
-  std::vector<std::uint32_t> component_;  // scratch
+  std::vector<std::uint32_t> component_;  // scratch of check_connected(): a parent of each node
 };
 
 }  // namespace psi_slam

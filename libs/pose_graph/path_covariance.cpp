@@ -8,7 +8,7 @@
 namespace psi_slam {
 namespace {
 
-// Covariance in axes turned by the angle.
+// Returns R a R^T, where R is the rotation by the angle with this cosine and sine.
 PoseCovariance turned(const PoseCovariance& a, double cosine, double sine) {
   const double off = sine * cosine * (a.xx - a.yy);
   const double cc = cosine * cosine;
@@ -18,7 +18,7 @@ PoseCovariance turned(const PoseCovariance& a, double cosine, double sine) {
           ss * a.xx + both + cc * a.yy, sine * a.xt + cosine * a.yt, a.tt};
 }
 
-// Covariance of a pose at (dx, dy) from the pose with covariance `a`.
+// Returns the covariance of a pose that is rigidly attached at (dx, dy) to the pose with covariance `a`.
 PoseCovariance carried(const PoseCovariance& a, double dx, double dy) {
   const double xt = a.xt - dy * a.tt;
   const double yt = a.yt + dx * a.tt;
@@ -34,9 +34,9 @@ void add(PoseCovariance& a, const PoseCovariance& b) {
   a.tt += b.tt;
 }
 
-// One step of a chain. Forwards, the error of the new node is that of the old node, carried to the new one,
-// plus that of the measurement. Backwards, the heading error of the measurement also turns the step: both are
-// carried.
+// Extends a chain by one link. Forwards, the error of the next node is the error of the previous node,
+// carried to the next node, plus that of the measurement. Backwards, the heading error of the measurement
+// also turns the step, so both errors are carried.
 PoseCovariance extended(const PoseCovariance& at_previous, const GraphLink& link, const RotatedPose& previous,
                         const RotatedPose& next, bool forwards) {
   const RotatedPose& from = forwards ? previous : next;
@@ -50,7 +50,8 @@ PoseCovariance extended(const PoseCovariance& at_previous, const GraphLink& link
   return result;
 }
 
-// The cost of extended(), faster: a trace needs no rotation of the position part of the measurement.
+// Returns the cost of extended(), with less work: a trace needs no rotation of the position part of the
+// measurement.
 double extended_cost(const PoseCovariance& at_previous, const GraphLink& link, const RotatedPose& previous,
                      const RotatedPose& next, bool forwards, double lever2) {
   const PoseCovariance& measured = link.covariance;
@@ -117,7 +118,7 @@ void PathCovarianceSearch::look_around(const PoseGraph& graph, std::uint32_t her
 void PathCovarianceSearch::run(const PoseGraph& graph, std::size_t source,
                                const PathCovarianceOptions& options) {
   if (source >= graph.num_nodes())
-    throw std::out_of_range("path_covariances: the source is not a node of the graph");
+    throw std::out_of_range("PathCovarianceSearch: the source is not a node of the graph");
   ++run_;
   seen_ = 0;
   source_ = source;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Upper bound of the uncertainty between one node and all others, from one traversal of the graph without a
-// factorisation. It accumulates the covariance of the relative pose along one short chain of constraints: the
-// "Dijkstra projection" of Olson, "Recognizing places using spectrally clustered local matches", RAS 57
-// (2009). It ignores the information of other constraints.
+// factorisation. The search accumulates the covariance of the relative pose along one short chain of
+// constraints: the "Dijkstra projection" of Olson, "Recognizing places using spectrally clustered local
+// matches", RAS 57 (2009). It ignores the information of constraints outside the chain.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,10 +20,10 @@
 namespace psi_slam {
 
 struct PathCovarianceOptions {
-  /// The cost of a chain is the trace of its position covariance, plus its heading variance times the square
-  /// of this length: heading errors become position errors along the chain.
+  /// The cost of a chain, in m^2, is the trace of its position covariance, plus its heading variance times
+  /// the square of this length. Heading errors become position errors along the chain.
   double heading_lever_m = 2;
-  /// The search stops at a cost of the square of this.
+  /// The search leaves out nodes whose cost exceeds the square of this length.
   double max_sigma_m = std::numeric_limits<double>::infinity();
   /// If not empty, the search ends when it has reached all these nodes.
   std::vector<std::size_t> targets;
@@ -32,26 +32,27 @@ struct PathCovarianceOptions {
 /// Uncertainty of the pose of one node in the axes of the source.
 struct RelativeUncertainty {
   bool reached = false;
-  std::size_t previous = 0;    ///< previous node on the chain from the source; for the source, itself
-  std::size_t constraint = 0;  ///< between the previous node and this one; undefined for the source
+  std::size_t previous = 0;  ///< previous node on the chain from the source; the source itself for the source
+  std::size_t constraint = 0;  ///< between the previous node and this node; undefined for the source
   double chain_m = 0;          ///< length of the chain from the source, from node to node
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, theta): m^2, m rad, rad^2
 
-  /// Largest standard deviation of the position over all directions.
+  /// Largest standard deviation of the position over all directions, in metres.
   double position_sigma_m() const;
 };
 
-/// The search. It keeps memory from run to run, so that the cost of a run depends on the number of nodes
-/// visited, not on the size of the graph.
+/// Searches from a node. Keeps its memory between searches, so that the cost of a search depends on the
+/// number of nodes visited, not on the size of the graph.
 class PathCovarianceSearch {
  public:
   /// Runs the search from `source`. Chains use the enabled constraints, and the current poses for lever arms.
-  /// The cheapest chain is extended first, as in Dijkstra's algorithm; ties go to the lower node. The search
-  /// is greedy, because the cost of a chain can fall towards the source. Throws std::out_of_range if a node
-  /// does not exist.
+  /// The search extends the cheapest chain first, as in Dijkstra's algorithm; ties go to the node with the
+  /// lower number. A chain found this way need not be the cheapest one, because costs can fall where a chain
+  /// turns back towards the source. Throws std::out_of_range if a node does not exist.
   void run(const PoseGraph& graph, std::size_t source, const PathCovarianceOptions& options = {});
 
-  /// Uncertainty of `node` that the last search found.
+  /// Uncertainty of `node` that the last search found; `reached` is false if the search did not reach the
+  /// node.
   RelativeUncertainty of(std::size_t node) const;
 
   /// Number of nodes that the last search visited.
@@ -59,7 +60,7 @@ class PathCovarianceSearch {
 
  private:
   struct Node {
-    std::uint64_t run = 0;  // run that set the other members
+    std::uint64_t run = 0;  // number of the search that set the other members
     RotatedPose pose;
     double cost = std::numeric_limits<double>::infinity();
     std::uint32_t constraint = 0;
@@ -69,7 +70,7 @@ class PathCovarianceSearch {
     bool wanted = false;
     PoseCovariance covariance;  // in the axes of the map
   };
-  using Entry = std::pair<double, std::uint32_t>;  // cost, node
+  using Entry = std::pair<double, std::uint32_t>;  // cost in m^2, node
 
   Node& node_at(const PoseGraph& graph, std::size_t node);
   void settle(const PoseGraph& graph, std::uint32_t here);

@@ -31,7 +31,7 @@ GraphLink link_of(const Constraint& constraint) {
   link.to = static_cast<std::uint32_t>(constraint.to);
   Eigen::Matrix3d covariance;
   bool invertible = false;
-  // Scaled to a unit diagonal, so that units do not decide whether the matrix counts as singular.
+  // Scales the matrix to a unit diagonal, so that the units do not decide whether it counts as singular.
   const Eigen::Vector3d scale = constraint.information.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::Matrix3d scaled = scale.asDiagonal() * constraint.information * scale.asDiagonal();
   constexpr double kSingular = 1e-12;

@@ -19,7 +19,7 @@ std::vector<mrpt::math::TPose2D> spanning_tree_poses(const PoseGraph& graph) {
   };
   std::vector<char> reached(graph.num_nodes(), 0);
   std::deque<Arrival> by_odometry{{graph.root(), graph.pose(graph.root())}};
-  std::deque<Arrival> by_others;  // taken only when odometry leads no further
+  std::deque<Arrival> by_others;  // used only when no further node can be reached by odometry
   while (!by_odometry.empty() || !by_others.empty()) {
     std::deque<Arrival>& queue = by_odometry.empty() ? by_others : by_odometry;
     const Arrival arrival = queue.front();

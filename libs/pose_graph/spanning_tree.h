@@ -11,11 +11,11 @@
 namespace psi_slam {
 
 /// Returns the pose of every node by chaining measurements from the root's pose, along a path with as few
-/// constraints other than odometry as possible. This is dead reckoning where there is odometry, and a first
-/// guess for files without poses. Throws unreachable_node().
+/// constraints other than odometry as possible. This is dead reckoning where odometry exists, and an initial
+/// estimate for files without poses. Throws unreachable_node().
 std::vector<mrpt::math::TPose2D> spanning_tree_poses(const PoseGraph& graph);
 
-/// Error for a node that no chain of enabled constraints links to the root.
+/// Returns the error for a node that no chain of enabled constraints links to the root.
 UserError unreachable_node(std::size_t node, std::size_t root);
 
 }  // namespace psi_slam

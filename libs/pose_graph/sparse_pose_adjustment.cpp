@@ -14,8 +14,8 @@ namespace {
 constexpr double kFirstLambda = 1e-5;
 constexpr double kLambdaUp = 10;
 constexpr double kLambdaDown = 0.1;
-constexpr double kMinLambda = 1e-8;  // less is set to 0
-constexpr double kMaxLambda = 1e10;  // ends the optimisation
+constexpr double kMinLambda = 1e-8;  // a smaller damping is set to 0
+constexpr double kMaxLambda = 1e10;  // a larger damping ends the optimisation
 // Convergence is tested only up to this damping: strong damping makes all decreases small.
 constexpr double kMaxLambdaOfConvergence = 1e-3;
 
@@ -99,7 +99,7 @@ void SparsePoseAdjustment::linearize(const PoseGraph& graph, PoseAdjustmentRepor
 }
 
 // Computes trial_: the state after the damped step, or the separate solution of headings and positions if
-// that is better. Its E is infinite if neither exists.
+// that has a lower E. E of trial_ is infinite if neither can be computed.
 SparsePoseAdjustment::Attempt SparsePoseAdjustment::attempt_step(const PoseGraph& graph) {
   Attempt attempt;
   attempt.from_current = equations_.factorize(lambda_);
@@ -122,7 +122,8 @@ SparsePoseAdjustment::Attempt SparsePoseAdjustment::attempt_step(const PoseGraph
   return attempt;
 }
 
-// Starts from current_ with its weights. Returns false if a factorisation fails.
+// Solves for the headings and then for the positions, starting from current_ with its weights. Returns false
+// if a factorisation fails.
 bool SparsePoseAdjustment::solve_headings_first(const PoseGraph& graph, State& result) {
   using Coordinates = NormalEquations::Coordinates;
   State turned;
@@ -135,10 +136,10 @@ bool SparsePoseAdjustment::solve_headings_first(const PoseGraph& graph, State& r
   return true;
 }
 
-// Accepts or rejects trial_. Returns true at the minimum.
+// Accepts or rejects trial_. Returns true if the optimisation has converged.
 bool SparsePoseAdjustment::judge(const Attempt& attempt, PoseAdjustmentReport& report) {
   const bool may_converge = attempt.from_current && uphill_steps_ == 0 && lambda_ <= kMaxLambdaOfConvergence;
-  if (trial_.robust_sum <= lowest_) {  // false for NaN
+  if (trial_.robust_sum <= lowest_) {  // the comparison is false for NaN
     const bool converged = may_converge && lowest_ - trial_.robust_sum <= negligible();
     std::swap(current_, trial_);
     lowest_ = current_.robust_sum;

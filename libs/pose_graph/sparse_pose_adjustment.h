@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sparse pose adjustment (Konolige et al., "Efficient sparse pose adjustment for 2D mapping", IROS 2010):
-// finds the poses that minimise E = sum rho_i(e_i^T Omega_i e_i) (equations 3 to 6) by Levenberg-Marquardt on
-// the weighted error with a sparse Cholesky factorisation; robust kernels rho enter by iterative reweighting.
+// finds the poses that minimise E = sum rho_i(e_i^T Omega_i e_i) (equations 3 to 6). Levenberg-Marquardt
+// minimises the weighted error with a sparse Cholesky factorisation; robust kernels rho enter by iterative
+// reweighting.
 //
-// It differs from the paper in three points, for the large first errors of a long loop. Steps are
-// Gauss-Newton steps until one fails. If E after a step is far from the linearised prediction, the solution
-// of the headings alone and then the positions alone, two linear problems, is tried instead, once per call
-// (Carlone et al., "A fast and accurate approximation for planar pose graph optimization", IJRR 2014). E may
-// rise for two steps if it then reaches a new minimum (the watchdog of Chamberlain et al., 1982); otherwise
-// the steps are damped.
+// It differs from the paper in three points, which handle the large first errors of a long loop. Steps are
+// Gauss-Newton steps until one fails. If E after a step far exceeds the linearised prediction, it solves for
+// the headings alone and then for the positions alone. These two linear problems are solved at most once per
+// call (Carlone et al., "A fast and accurate approximation for planar pose graph optimization", IJRR 2014). E
+// may rise for two steps if it then reaches a new minimum (the watchdog of Chamberlain et al., 1982);
+// otherwise the steps are damped.
 #pragma once
 
 #include <vector>
@@ -21,28 +22,29 @@ namespace psi_slam {
 struct PoseAdjustmentOptions {
   int max_iterations = 50;           ///< number of steps, including rejected ones
   double relative_tolerance = 1e-6;  ///< converged if E can fall by at most this share of E
-  double absolute_tolerance = 1e-9;  ///< plus this amount
-  double initial_lambda = 0;         ///< damping of the first step; 0: Gauss-Newton
-  RobustKernel odometry_kernel;      ///< for constraints between successive nodes
-  RobustKernel local_map_kernel;     ///< for constraints of local maps and starts of runs
-  /// For loops. Huber's kernel is convex, so that it closes a true loop after any drift; kernels that bound
-  /// the cost do not. If loops can be false, use optimize_graduated().
+  double absolute_tolerance = 1e-9;  ///< added to the share of E above
+  double initial_lambda = 0;         ///< damping of the first step; 0 is a Gauss-Newton step
+  RobustKernel odometry_kernel;      ///< kernel for constraints between successive nodes
+  RobustKernel local_map_kernel;     ///< kernel for constraints of local maps and of starts of runs
+  /// Kernel for loops. Huber's kernel is convex, so that a true loop is closed after any drift; with a kernel
+  /// that bounds the cost it may stay open. If loops can be false, use optimize_graduated().
   RobustKernel loop_kernel{RobustKernel::Type::kHuber, 3};
 };
 
-/// Error of one constraint at the solution.
+/// Error and weight of one constraint at the solution.
 struct ConstraintFit {
   double chi2 = 0;    ///< e^T Omega e, also for disabled constraints
   double weight = 1;  ///< weight by the robust kernel, in [0, 1]; 0 if disabled
 };
 
+/// Result of an optimisation. chi2 sums run over the enabled constraints; "final" means after the last step.
 struct PoseAdjustmentReport {
   int iterations = 0;
   int rejected_steps = 0;  ///< steps that did not lower E, or could not be computed
   bool converged = false;
-  double initial_chi2 = 0;  ///< plain sum of e^T Omega e
+  double initial_chi2 = 0;  ///< sum of e^T Omega e before the first step, without kernels
   double final_chi2 = 0;
-  double initial_robust_chi2 = 0;  ///< E, with the kernels
+  double initial_robust_chi2 = 0;  ///< E before the first step, with the kernels
   double final_robust_chi2 = 0;
   double max_gradient = 0;  ///< largest |dE/dx| at the last linearisation
   double milliseconds = 0;
@@ -50,8 +52,8 @@ struct PoseAdjustmentReport {
   std::vector<ConstraintFit> fits;  ///< indexed by constraint
 };
 
-/// Solver for a growing graph. Keep it between calls, because it reuses the structure of the graph. It
-/// accepts other graphs too.
+/// Solver for a growing graph. Keep the object between calls, because it reuses the structure of the graph.
+/// It also accepts another graph.
 class SparsePoseAdjustment {
  public:
   explicit SparsePoseAdjustment(PoseAdjustmentOptions options = {}) : options_(options) {}
@@ -59,16 +61,17 @@ class SparsePoseAdjustment {
   const PoseAdjustmentOptions& options() const { return options_; }
   void set_options(const PoseAdjustmentOptions& options) { options_ = options; }
 
-  /// Moves the poses of the graph to a minimum of E; the root stays. Headings are in (-pi, pi]. E never
-  /// rises. Equal sequences of calls give equal results to the last bit. Throws unreachable_node(), and then
-  /// leaves the graph unchanged.
+  /// Moves the poses of the graph to a minimum of E; the pose of the root stays. Headings are in (-pi, pi].
+  /// The final E never exceeds the initial E. Equal sequences of calls give equal results to the last bit.
+  /// Throws unreachable_node(), a UserError, if a node is not linked to the root; the graph is then
+  /// unchanged.
   PoseAdjustmentReport optimize(PoseGraph& graph);
 
-  /// The system as it was last linearised and factorised.
+  /// The normal equations as they were last linearised and factorised.
   const NormalEquations& equations() const { return equations_; }
 
  private:
-  struct State {  // poses, with the errors of the constraints there
+  struct State {  // poses, and the errors of the constraints at these poses
     std::vector<RotatedPose> poses;
     std::vector<Eigen::Vector3d> errors;
     std::vector<double> chi2;
@@ -99,11 +102,11 @@ class SparsePoseAdjustment {
   State best_;                   // state of the lowest E, while uphill_steps_ > 0
   State current_;                // state of the linearisation
   State trial_;                  // state after the step
-  std::vector<double> weights_;  // of the constraints at current_
+  std::vector<double> weights_;  // weights of the constraints at current_
   double lambda_ = 0;            // damping of the next step
   double lowest_ = 0;            // lowest E: at best_ if uphill_steps_ > 0, otherwise at current_
-  int uphill_steps_ = 0;         // since current_ left best_
-  bool linearized_ = false;      // at current_
+  int uphill_steps_ = 0;         // number of steps since current_ left best_
+  bool linearized_ = false;      // equations_ are linearised at current_
   bool headings_tried_ = false;
 };
 

@@ -14,8 +14,8 @@
 namespace psi_slam {
 namespace {
 
-/// Stream for mrpt::serialization::archiveFrom(). One byte of look-ahead distinguishes an end between objects
-/// from an end within an object.
+/// Stream for mrpt::serialization::archiveFrom(). Reads one byte ahead, to distinguish an end of file between
+/// objects from one within an object.
 class ArchiveStream {
  public:
   explicit ArchiveStream(const std::filesystem::path& path) : file_(path) {}
@@ -47,7 +47,7 @@ class ArchiveStream {
   const CompressedFile& file() const { return file_; }
   bool ended_early() const { return ended_early_; }
 
-  /// Reason why decompression failed. It is kept here because MRPT wraps exceptions.
+  /// Reason why decompression failed. The stream keeps it, because MRPT wraps exceptions.
   const std::optional<UserError>& failure() const { return failure_; }
 
  private:
@@ -83,7 +83,7 @@ struct RawlogArchive::State {
 };
 
 RawlogArchive::RawlogArchive(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {
-  // Logs hold observations whose classes are in libraries that nothing else here refers to.
+  // Logs hold observations of classes in libraries that nothing else in psi-slam refers to.
   mrpt::obs::registerAllClasses_mrpt_obs();
   mrpt::maps::registerAllClasses_mrpt_maps();
 }

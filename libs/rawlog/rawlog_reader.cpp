@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MRPT rawlogs, plain or gzipped, in both common forms:
+// Reads MRPT rawlogs, plain or gzipped, in both common forms:
 //
 // - Actions and sensory frames. Odometry is the sum of the increments of the actions. Every scan of a sensory
 //   frame has the odometry of that frame.
-// - Single observations, in sensory frames or not. Odometry is absolute, in its own observations, and is
-//   interpolated at each scan's time.
+// - Single observations, in sensory frames or not. Odometry is absolute and comes in observations of its own.
+//   It is interpolated at each scan's time.
 //
-// The kind of odometry that appears first is used; the other is ignored. By default scans come from the first
-// laser in the log. Time stamps, ticks of 100 ns since 1601, become Unix time rounded to the nearest
+// The kind of odometry that appears first is used; the other kind is ignored. By default scans come from the
+// first laser in the log. Time stamps, ticks of 100 ns since 1601, become Unix time rounded to the nearest
 // microsecond.
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -43,11 +43,11 @@ void for_each_observation(mrpt::serialization::CSerializable& object,
 }
 
 struct LasersAndOdometry {
-  std::string labels;  // separated by commas
+  std::string labels;  // of the lasers to read, separated by commas
   Odometry odometry;
 };
 
-/// Labels that the user states, each with the name of its option.
+/// Labels of lasers that the user states, each with the name of the option that states it.
 std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& options) {
   std::vector<std::pair<std::string, std::string>> named;
   for (const std::string& label : laser_choice("log.laser", options.laser).names)
@@ -56,7 +56,8 @@ std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& 
   return named;
 }
 
-/// Reads until a laser, all lasers that the user names, and odometry have appeared.
+/// Finds the lasers to read and the kind of odometry. Reads the rawlog until a laser, all lasers that the
+/// user names, and odometry have appeared. Throws UserError if one of these is missing.
 LasersAndOdometry find_lasers_and_odometry(const std::filesystem::path& path, const LogOptions& options) {
   RawlogArchive archive(path);
   const auto named = named_labels(options);
@@ -81,8 +82,9 @@ LasersAndOdometry find_lasers_and_odometry(const std::filesystem::path& path, co
     });
   }
   if (labels.empty()) {
-    throw UserError(path.string() +
-                    " has no laser scans, expected observations of class CObservation2DRangeScan");
+    throw UserError(
+        path.string() +
+        " has no laser scans, expected observations of class CObservation2DRangeScan. Choose another log");
   }
   if (const auto missing = std::find_if(named.begin(), named.end(), is_missing); missing != named.end()) {
     throw UserError(missing->second + " is \"" + missing->first + "\", expected the label of a laser of " +

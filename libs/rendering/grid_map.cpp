@@ -21,24 +21,25 @@ using mrpt::math::TPose2D;
 constexpr int kHitEvidence = 3;
 constexpr int kPassEvidence = -1;
 constexpr int kMaxEvidence = 30'000;
-/// In MRPT's units of 1/16 nat: one pass makes a cell free with 0.82, one hit makes it occupied with 0.99.
+/// Change of a cell's log-odds by one pass, in MRPT's units of 1/16 nat. After one pass, a cell is free with
+/// probability 0.82; after one hit, it is occupied with probability 0.99.
 constexpr int kLogOddsOfOnePass = 24;
 
 using Point = mrpt::math::TPoint2D;
 
-/// End of a beam, in the map, and what it says about its cells.
+/// End point of a beam in the map's frame, in metres, and the evidence that the beam gives.
 struct Ray {
   Point end;
-  bool hit = false;       // an obstacle is at the end
-  bool returned = false;  // else the beam may have crossed glass or ended on a black surface
+  bool hit = false;       // an obstacle is at the end point
+  bool returned = false;  // if false, the beam may have crossed glass or met a black surface
 };
 
-/// The rays of one scan, which start at its laser.
+/// The rays of one scan. They all start at its laser.
 struct Fan {
   Point start;
   std::vector<Ray> rays;
-  BeamBearings bearings;          // of the laser's last scan
-  std::vector<Point> directions;  // of the beams, unit vectors in the laser's frame
+  BeamBearings bearings;          // beam bearings of the laser's last scan
+  std::vector<Point> directions;  // unit vectors of the beams in the laser's frame
 };
 
 /// Turns scans into rays in the map's frame. Keeps the directions of each laser's beams from scan to scan.
@@ -46,7 +47,7 @@ class RayMaker {
  public:
   explicit RayMaker(const GridMapOptions& options) : options_(options) {}
 
-  /// Returns the rays of all scans of a frame, valid until the next call.
+  /// Returns the rays of all scans of a frame. The pointers are valid until the next call.
   const std::vector<const Fan*>& fans(const Frame& frame, const TPose2D& map_T_robot) {
     fans_.clear();
     for_each_scan(frame, map_T_robot, [&](const LaserScan& scan, const TPose2D& map_T_robot_then) {
@@ -70,10 +71,11 @@ class RayMaker {
     const std::size_t beams = scan.ranges_m.size();
     if (fan.directions.size() != beams)
       throw std::invalid_argument("draw_grid_map: " + std::to_string(beams) + " ranges but " +
-                                  std::to_string(fan.directions.size()) + " bearings");
+                                  std::to_string(fan.directions.size()) +
+                                  " bearings, expected equal numbers");
     const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
     if (!std::isfinite(map_T_laser.x) || !std::isfinite(map_T_laser.y) || !std::isfinite(map_T_laser.phi))
-      throw std::invalid_argument("draw_grid_map: a pose is not finite");
+      throw std::invalid_argument("draw_grid_map: the pose of a laser is not finite");
     const double c = std::cos(map_T_laser.phi);
     const double s = std::sin(map_T_laser.phi);
     const double clear_m = std::min(options_.no_return_clears_m, static_cast<double>(scan.max_range_m));
@@ -92,7 +94,7 @@ class RayMaker {
   }
 
   GridMapOptions options_;
-  std::deque<Fan> lasers_;  // by laser; a deque, so that pointers to fans stay valid
+  std::deque<Fan> lasers_;  // index: laser; a deque keeps pointers to its elements valid
   std::vector<const Fan*> fans_;
 };
 
@@ -110,7 +112,8 @@ TBoundingBox bounds_of(const std::vector<Frame>& log, const std::vector<TPose2D>
   return bounds;
 }
 
-/// Cells of the map. (x_min, y_min) is the offset of its lower left corner from the map's origin, in cells.
+/// Extent of the grid. (x_min, y_min) is the offset of its lower left corner from the map's origin; all but
+/// the resolution are in cells.
 struct Layout {
   double resolution_m = 0;
   std::int64_t x_min = 0;
@@ -120,7 +123,7 @@ struct Layout {
 };
 
 Layout layout_for(const TBoundingBox& bounds, const GridMapOptions& options) {
-  constexpr double kMinMarginCells = 2;  // the digital line of a ray may end one cell beside its end
+  constexpr double kMinMarginCells = 2;  // the digital line of a ray may end one cell beside the end point
   for (double resolution_m = options.resolution_m;; resolution_m *= 2) {
     const double margin = std::max(options.margin_m / resolution_m, kMinMarginCells);
     const double x_min = std::floor(bounds.min.x / resolution_m - margin);
@@ -133,8 +136,8 @@ Layout layout_for(const TBoundingBox& bounds, const GridMapOptions& options) {
   }
 }
 
-/// Evidence of all scans for each cell: hits count up, passes count down. Beams without return count for
-/// nothing but clear the cells without other evidence.
+/// Evidence of all scans for each cell. Hits add to it, passes subtract from it. Beams without return add no
+/// evidence; they only clear cells that have no other evidence.
 class Evidence {
  public:
   explicit Evidence(const Layout& layout)
@@ -142,7 +145,8 @@ class Evidence {
         cells_(static_cast<std::size_t>(layout.width * layout.height)),
         cleared_(cells_.size()) {}
 
-  /// Counts all lasers of a frame once per cell. Hits take precedence over passes.
+  /// Adds the evidence of one frame. All its lasers together count once per cell. Hits take precedence over
+  /// passes.
   void add_frame(const std::vector<const Fan*>& fans) {
     next_scan();
     for (const Fan* fan : fans)
@@ -165,7 +169,7 @@ class Evidence {
     grid->setSize(edge(layout_.x_min), edge(layout_.x_min + layout_.width), edge(layout_.y_min),
                   edge(layout_.y_min + layout_.height), static_cast<float>(r), 0.5F);
     if (grid->getSizeX() != layout_.width || grid->getSizeY() != layout_.height)
-      throw std::logic_error("draw_grid_map: MRPT made a grid of another size");
+      throw std::logic_error("draw_grid_map: MRPT made a grid of another size than requested");
     for (std::int64_t y = 0; y < layout_.height; ++y) {
       auto* row = grid->getRow(static_cast<int>(y));
       for (std::int64_t x = 0; x < layout_.width; ++x) {
@@ -183,7 +187,7 @@ class Evidence {
  private:
   struct Cell {
     std::int16_t evidence = 0;
-    std::uint16_t last_scan = 0;  ///< that counted here; 0: none
+    std::uint16_t last_scan = 0;  ///< number of the last frame that counted in this cell; 0 if none did
   };
 
   void next_scan() {
@@ -212,8 +216,8 @@ class Evidence {
     return static_cast<std::int64_t>(cell.y) * layout_.width + static_cast<std::int64_t>(cell.x);
   }
 
-  /// Calls `visit` with the index of each cell of the digital line except the last, which holds the hit.
-  /// Units are cells.
+  /// Calls `visit` with the index of each cell of the digital line from start to end, except the last cell,
+  /// which holds the hit. `start` and `end` are in cells.
   template <class Visit>
   void pass(const Point& start, const Point& end, Visit visit) {
     if (std::abs(end.x - start.x) >= std::abs(end.y - start.y))
@@ -222,8 +226,8 @@ class Evidence {
       walk(start.y, start.x, end.y, end.x, layout_.width, 1, visit);
   }
 
-  /// Steps along the longer axis of the line and evaluates `across` at the middle of each step, in fixed
-  /// point so that all machines choose the same cells.
+  /// Steps along the longer axis of the line and computes the position across it at the middle of each step.
+  /// Fixed-point arithmetic makes all machines choose the same cells.
   template <class Visit>
   static void walk(double along0, double across0, double along1, double across1, std::int64_t along_stride,
                    std::int64_t across_stride, Visit visit) {
@@ -246,7 +250,7 @@ class Evidence {
 
   Layout layout_;
   std::vector<Cell> cells_;
-  std::vector<bool> cleared_;  // a beam without return passed the cell
+  std::vector<bool> cleared_;  // whether a beam without return passed the cell
   std::uint16_t scan_ = 0;
 };
 

@@ -11,7 +11,8 @@ using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPoint2D;
 using CellLine = std::vector<cv::Point>;
 
-/// 255 where a cell is occupied, else 0. Row 0 is the lowest.
+/// Returns a mask of the observed cells: 255 where a cell is occupied, else 0. Row 0 is the lowest row of the
+/// map.
 cv::Mat occupied_mask(const COccupancyGridMap2D& grid, const SeenCells& seen) {
   cv::Mat mask(seen.y_end - seen.y_begin, seen.x_end - seen.x_begin, CV_8UC1);
   for (int y = 0; y < mask.rows; ++y) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map as lines for drawings: outlines of walls, and the robot's path.
+// The map as lines for drawings: outlines of walls, and the paths of the robot.
 //
-// An outline passes through the centres of the outermost cells of a wall: returns lie anywhere in their cell,
-// so its centre is the surface to within half a cell. The outline of a wall one cell thick runs there and
-// back on the same line. A thick wall seen from both sides has an outline for each surface.
+// An outline passes through the centres of the outermost cells of a wall. Returns lie anywhere in their cell,
+// so the surface is within half a cell of the centre. The outline of a wall one cell thick runs along the
+// wall and back on the same line. A thick wall seen from both sides has an outline for each surface.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -17,25 +17,25 @@
 namespace psi_slam {
 
 struct MapDrawingOptions {
-  double tolerance_m = 0.05;  ///< largest deviation of a simplified line
-  double min_wall_m = 0.1;    ///< walls smaller than this in both directions are left out
+  double tolerance_m = 0.05;  ///< largest deviation of a simplified line from the original one
+  double min_wall_m = 0.1;    ///< walls that are smaller than this along x and along y are left out
 };
 
-/// Points in the map's frame.
+/// A line through points in the map's frame, in metres.
 using MapLine = std::vector<mrpt::math::TPoint2D>;
 
-/// Returns the rectangle of the cells seen.
+/// Returns the rectangle of the observed cells in the map's frame, in metres.
 MapRectangle seen_extent(const mrpt::maps::COccupancyGridMap2D& grid, const SeenCells& seen);
 
 struct MapDrawing {
-  std::vector<MapLine> walls;         ///< closed; a line of two points runs there and back
-  std::vector<MapLine> trajectories;  ///< open, one for each run
-  MapRectangle extent;                ///< of all lines and of everything seen
-  double cell_m = 0;                  ///< thickness of an outline
+  std::vector<MapLine> walls;         ///< closed outlines; a line of two points runs there and back
+  std::vector<MapLine> trajectories;  ///< open lines, one for each run
+  MapRectangle extent;                ///< of all lines and of all observed cells
+  double cell_m = 0;                  ///< side length of a cell, which is the thickness of an outline
 };
 
-/// Traces the walls of the grid and the paths (robot poses in the map, one path for each run). Equal input
-/// gives equal lines in the same order.
+/// Traces the walls of the grid and simplifies the paths. `paths` holds the robot's poses in the map, one
+/// path for each run. Equal input gives equal lines in the same order.
 MapDrawing draw_map_lines(const mrpt::maps::COccupancyGridMap2D& grid,
                           const std::vector<std::vector<mrpt::math::TPose2D>>& paths,
                           const MapDrawingOptions& options = {});

@@ -22,8 +22,8 @@ Pixel mixed(const Pixel& a, const Pixel& b, double share_of_b) {
   return result;
 }
 
-/// Colour of the pixel that shows a block of side x side cells. A wall of one cell that crosses the block is
-/// as dark as a thick wall.
+/// Returns the colour of the pixel that shows a block of side x side cells. A wall of one cell that crosses
+/// the block is as dark as a thick wall.
 Pixel block_colour(const COccupancyGridMap2D& grid, int x_begin, int y_begin, int side,
                    const Pixel& unknown) {
   int free = 0;
@@ -81,7 +81,7 @@ void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, do
 std::string png_bytes(const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
   if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9}))
-    throw SystemFailure("cannot encode the map as a PNG picture");
+    throw SystemFailure("cannot encode the map as a PNG image. Use larger cells with map.resolution_m");
   return {bytes.begin(), bytes.end()};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shared by all pictures of the map: colours, scale bar, PNG encoding.
+// Colours, scale bar and PNG encoding, shared by all images of the map.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -14,18 +14,18 @@ inline const Pixel kFreeInk{255, 255, 255, 255};
 inline const Pixel kUnknownInk{232, 229, 226, 255};
 inline const Pixel kTransparentInk{255, 255, 255, 0};
 
-/// Position and size of a scale bar in a picture, in pixels.
+/// Position and size of a scale bar in an image, in pixels.
 struct ScaleBarPlace {
   int left = 0;
   int middle = 0;  ///< row of the bar's middle
   int unit = 6;    ///< height of the end marks; the bar's other sizes are proportional to it
 };
 
-/// Returns the length of the scale bar for a picture `width_m` wide with pixels of `resolution_m` metres: 1,
-/// 2 or 5 times a power of ten, at most a fifth of the width.
+/// Returns the length in metres of the scale bar for an image `width_m` wide: 1, 2 or 5 times a power of ten,
+/// at most a fifth of the width. `resolution_m` is the side length of a pixel.
 double scale_bar_m(double width_m, double resolution_m);
 
-/// Draws the scale bar with its length, followed by `note`.
+/// Draws a scale bar of `bar_m` metres with its length as text, followed by `note`.
 void draw_scale_bar(cv::Mat& image, const ScaleBarPlace& place, double bar_m, double resolution_m,
                     const std::string& note = {});
 

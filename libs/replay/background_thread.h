@@ -10,8 +10,8 @@
 
 namespace psi_slam {
 
-/// Calls `work` in a thread of lower priority, so that the window's thread runs first. The priority also
-/// holds for threads that it starts. The destructor of the returned future waits for the thread.
+/// Calls `work` in a thread of lower priority, so that the window's thread runs first. Threads that `work`
+/// starts inherit the priority. The destructor of the returned future waits for the thread.
 template <class Work>
 auto run_in_background(Work work) {
   return std::async(std::launch::async, [work = std::move(work)] {

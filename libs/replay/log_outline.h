@@ -12,7 +12,8 @@
 
 namespace psi_slam {
 
-/// Time stamps of all scans of a log, for a time slider. A thread reads them ahead of the mapping.
+/// Time stamps of all scans of a log, for a time slider. A thread of its own reads the log ahead of the
+/// mapping.
 class LogOutline {
  public:
   LogOutline(const SessionInput& log, const LogOptions& options)
@@ -22,11 +23,12 @@ class LogOutline {
 
   /// Tells the thread to stop reading. Does not wait for it.
   void stop() { stop_ = true; }
-  /// True once the thread has ended, so that the destructor does not wait.
+  /// True once the thread has ended; the destructor then does not wait.
   bool ended() const { return has_ended(stamps_us_); }
 
   using Stamps = std::shared_ptr<const std::vector<TimeUs>>;
-  /// Time stamps of all readable scans, in the log's order. Null until they are known. Any thread may call.
+  /// Time stamps of all readable scans, in the log's order. Null until the thread has read the whole log. Any
+  /// thread may call.
   Stamps stamps_us() const { return ended() ? stamps_us_.get() : nullptr; }
 
  private:

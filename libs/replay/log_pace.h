@@ -9,7 +9,7 @@
 
 namespace psi_slam {
 
-/// Times at which the scans of a log are due when it is replayed at a multiple of its recorded speed.
+/// Times at which the scans of a log are due when the log is replayed at a multiple of its recorded speed.
 class LogPace {
  public:
   using Clock = std::chrono::steady_clock;
@@ -23,9 +23,9 @@ class LogPace {
   /// Makes the next scan start a new schedule. Call it after a pause.
   void restart() { last_.reset(); }
 
-  /// Returns when the next scan is due after a scan with time stamp `time_us` was shown at `now`. Waits at
-  /// most one second for gaps in the log and for stamps that run backwards. A mapper that is too slow catches
-  /// up at most one second later.
+  /// Returns when the next scan is due after a scan with time stamp `time_us` was shown at `now`. A gap in
+  /// the log makes it wait at most one second; time stamps that run backwards cause no wait. If mapping is
+  /// too slow, at most one second of the delay is caught up.
   Clock::time_point due_after(TimeUs time_us, Clock::time_point now) {
     if (speed_ <= 0) return now;
     if (last_) {

@@ -13,7 +13,7 @@ using mrpt::math::TPose2D;
 
 constexpr double kNear_m = 2;
 
-/// Distance of a node to a place; all distances below kNear_m count as equal.
+/// Distance of a node from a place, in metres; all distances below kNear_m count as kNear_m.
 double rounded_distance_m(const TPose2D& node, const TPoint2D& place) {
   return std::max(kNear_m, std::hypot(node.x - place.x, node.y - place.y));
 }

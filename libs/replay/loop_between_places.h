@@ -10,15 +10,16 @@
 
 namespace psi_slam {
 
-/// Half-widths of the search window around a place that a person clicked.
+/// Half-widths of the search window around a place that a person clicked: along x and y, and in heading.
 inline constexpr double kClickedWindow_m = 2.0;
 inline constexpr double kClickedWindow_rad = 0.5;
 
-/// Makes a loop from two clicks on one object that appears twice in a map with drift: `seen_by_scan` in the
-/// later part, `in_local_map` in the earlier part; both in the map's frame. Matches the newest scan near the
-/// first place with the local map of the oldest scan near the second place. If no scan is near, takes the
-/// nearest one. The search starts where the scan lies once the first place is moved onto the second, with the
-/// scan's heading. Returns nothing if there is no finished local map without that scan.
+/// Makes a loop from two clicks on one object that appears twice in a map with drift. `seen_by_scan` is its
+/// place in the later part, `in_local_map` in the earlier part, both in the map's frame. Matches the newest
+/// scan near the first place with the local map of the oldest scan near the second place. If no scan is near
+/// a place, takes the nearest scan. The search starts at the scan's pose, shifted by the vector from the
+/// first place to the second. Returns nothing unless there is a finished local map that does not contain the
+/// scan.
 std::optional<LoopEdit> loop_between_places(const ReplaySnapshot& snapshot,
                                             const mrpt::math::TPoint2D& seen_by_scan,
                                             const mrpt::math::TPoint2D& in_local_map, MatcherKind matcher);

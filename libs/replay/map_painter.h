@@ -18,16 +18,16 @@
 
 namespace psi_slam {
 
-/// Scans and poses to draw a grid map from.
+/// The scans and poses that a grid map is drawn from.
 struct MapSketch {
   HistoryView<Frame> log;
   std::vector<std::size_t> frames;               ///< indices into `log` of the scans to draw
-  std::vector<mrpt::math::TPose2D> map_T_robot;  ///< pose of each of `frames`
+  std::vector<mrpt::math::TPose2D> map_T_robot;  ///< pose of the robot at each of `frames`
 };
 
-/// Drawn grid map. It never changes.
+/// A drawn grid map, which never changes.
 struct DrawnMap {
-  MapRaster raster;  ///< transparent where no scan has been
+  MapRaster raster;  ///< transparent where nothing was observed
   std::size_t scans = 0;
 };
 
@@ -35,19 +35,19 @@ struct DrawnMap {
 class MapPainter {
  public:
   explicit MapPainter(const GridMapOptions& options);
-  /// Waits until the present drawing is finished.
+  /// Waits until the current drawing is finished.
   ~MapPainter() { stop(); }
 
-  /// Asks for a drawing; replaces a request that still waits. After each drawing the thread rests twice as
+  /// Asks for a drawing; replaces a request that still waits. After each drawing the thread sleeps twice as
   /// long as it worked, so that it uses at most a third of one processor.
   void request(MapSketch sketch);
 
   /// Makes the thread start no further drawing.
   void stop();
-  /// True once the thread has ended, so that the destructor does not wait.
+  /// True once the thread has ended; the destructor then does not wait.
   bool ended() const { return has_ended(thread_); }
 
-  /// The newest drawing, or null. Any thread may call.
+  /// The newest drawing, or null if there is none yet. Any thread may call.
   std::shared_ptr<const DrawnMap> drawn() const;
 
  private:

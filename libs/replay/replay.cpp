@@ -15,7 +15,8 @@ using Clock = LogPace::Clock;
 constexpr std::chrono::milliseconds kBetweenSnapshots{100};
 constexpr int kWorkPerPublishing = 20;  // snapshots take at most 1/20 of the engine's time
 
-/// Calls `action`. Returns why it failed, as a sentence, or nothing after success.
+/// Calls `action`. Returns why it failed, as a sentence: `out_of_memory` if memory ran out. Empty after
+/// success.
 template <class Action>
 std::string failure_of(const Action& action, const char* out_of_memory) {
   try {
@@ -82,7 +83,7 @@ void Replay::work() {
 
 void Replay::finish_map(MappingSession& session) {
   phase_ = ReplayPhase::kFinalSearch;
-  publish();  // all scans, while the mapper can still be followed
+  publish();  // publishes all scans while the mapper can still be followed
   locked([&] { stop_final_search_ = close_ || cut_final_search_ || !edit_requests_.empty(); });
   session.finish(stop_final_search_);
   session_ = nullptr;
@@ -139,7 +140,8 @@ Replay::Turn Replay::next_turn() {
   }
 }
 
-/// Serves exports, saves and edits. Returns true if the map must be finished again, false after close().
+/// Serves exports, saves and edits of a finished run. Returns true if the map must be finished again, false
+/// after close().
 bool Replay::serve_finished(MappingSession& session) {
   while (true) {
     std::unique_lock lock(mutex_);
@@ -159,7 +161,7 @@ bool Replay::serve_finished(MappingSession& session) {
   }
 }
 
-/// Requests that go before all others, the most urgent first.
+/// Returns the most urgent request that goes before mapping and exporting; nothing if there is none.
 std::optional<Replay::Turn> Replay::urgent_turn() const {
   if (close_) return Turn::kClose;
   if (!edit_requests_.empty()) return Turn::kEdit;
@@ -174,7 +176,7 @@ void Replay::serve_edits(MappingSession& session) {
   });
   for (const EditRequest& request : requests) make_edit(session, request);
   maker_->now.edits_served += static_cast<int>(requests.size());
-  if (session.finished()) {  // no edit was possible
+  if (session.finished()) {  // no edit could be made
     if (!final_search_stopped_) return;
     session.reopen();
   }
@@ -286,7 +288,7 @@ void Replay::publish_as_it_is() {
   snapshot_ = std::move(snapshot);
 }
 
-/// Reports the requests that were never served, after the end of the run.
+/// Reports the requests to save or export that the run ended without serving.
 void Replay::refuse_requests() {
   const std::lock_guard lock(mutex_);
   const auto refusal = [](int number, const std::filesystem::path& path) {

@@ -24,8 +24,8 @@ namespace psi_slam {
 
 class SnapshotMaker;
 
-/// A mapping run that can be watched: a MappingSession in a thread of its own that can play, pause and step,
-/// and that publishes snapshots.
+/// A mapping run that can be watched: runs a MappingSession in a thread of its own. It can play, pause and
+/// step, and it publishes snapshots.
 ///
 ///     Replay replay("my.log", settings);      // opens the log in its thread and waits
 ///     replay.set_speed(5);
@@ -34,10 +34,10 @@ class SnapshotMaker;
 ///     replay.export_to("out", false);         // after the run has finished
 ///
 /// Any thread may call any function. All functions return at once; their effects appear in later snapshots.
-/// The results equal those of psi-slam bit by bit, whatever was paused or stepped.
+/// Pausing and stepping do not change the results, which equal those of psi-slam bit by bit.
 class Replay {
  public:
-  /// Makes each of `edits` at its own time.
+  /// Replays a log and makes each of `edits` at its own time.
   Replay(const std::filesystem::path& log, const Settings& settings, EditJournal edits = {});
   /// Replays a log or a recording with its edits.
   Replay(SessionInput input, const Settings& settings);
@@ -45,7 +45,7 @@ class Replay {
   ~Replay();
 
   const SessionInput& input() const { return input_; }
-  /// Path of the log that is read; empty if the input is only a recording.
+  /// Path of the log that is read; empty if the input is a recording without a log.
   const std::filesystem::path& log() const { return input_.log(); }
   const Settings& settings() const { return settings_; }
 
@@ -58,7 +58,7 @@ class Replay {
       due_ = LogPace::Clock::now();
     });
   }
-  /// Pauses after the present scan, or within the final loop search (see ReplaySnapshot::final_search_held).
+  /// Pauses after the current scan, or within the final loop search (see ReplaySnapshot::final_search_held).
   void pause() {
     change([&] {
       playing_ = false;
@@ -67,7 +67,7 @@ class Replay {
       hurry_to_ = 0;
     });
   }
-  /// Maps one more scan and pauses. Not for the final loop search, which has no steps.
+  /// Maps one more scan and pauses. Do not call it during the final loop search, which has no steps.
   void step() {
     change([&] {
       playing_ = false;
@@ -82,14 +82,14 @@ class Replay {
       due_ = LogPace::Clock::now();
     });
   }
-  /// Maps as fast as possible until `scans` scans are mapped, then continues as before.
+  /// Maps as fast as possible until `scans` scans are mapped, then plays or pauses as before.
   void hurry_to(std::size_t scans) {
     change([&] {
       held_ = false;
       hurry_to_ = scans;
     });
   }
-  /// Stops reading the log. The final loop search follows, with the scans mapped so far.
+  /// Stops reading the log. The final loop search follows with the scans mapped so far.
   void finish() {
     change([&] {
       held_ = false;
@@ -101,35 +101,37 @@ class Replay {
     change([&] { stop_final_search_ = cut_final_search_ = true; });
   }
 
-  /// Changes a loop by hand between two scans or after the last scan. After the last scan it also repeats the
-  /// final loop search. ReplaySnapshot::edited has the outcome.
+  /// Changes a loop by hand. The edit is made between two scans or after the last scan; after the last scan,
+  /// the final loop search is then repeated. ReplaySnapshot::edited has the outcome.
   void edit(const LoopEdit& edit) { request({EditKind::kEdit, edit}); }
-  /// Undo and redo edits made by edit(), not those given to the constructor.
+  /// Undo the last edit made by edit(), or redo the edit that was undone last. Edits given to the constructor
+  /// are not affected.
   void undo() { request({EditKind::kUndo}); }
   void redo() { request({EditKind::kRedo}); }
-  /// Number of calls of edit(), undo() and redo(). ReplaySnapshot::edits_served counts those with an outcome.
+  /// Number of calls of edit(), undo() and redo(). ReplaySnapshot::edits_served counts the calls that have an
+  /// outcome.
   int edits_asked() const { return edits_asked_; }
 
-  /// Writes all results; before the run is finished, the request waits. With `replace`, results in the folder
-  /// are replaced. ReplaySnapshot::exported has the outcome.
+  /// Writes all results to a folder, once the run is finished. `replace` allows it to replace results in the
+  /// folder. ReplaySnapshot::exported has the outcome.
   void export_to(std::filesystem::path folder, bool replace) {
     change([&] { export_ = ExportRequest{std::move(folder), replace}; });
   }
 
-  /// Writes the scans mapped so far to a session file and replaces an existing one. Happens between two scans
-  /// or after the final loop search. ReplaySnapshot::saved has the outcome.
+  /// Writes the scans mapped so far to a session file and replaces an existing file. The file is written
+  /// between two scans or after the final loop search. ReplaySnapshot::saved has the outcome.
   void save_session(std::filesystem::path file) {
     change([&] { save_ = std::move(file); });
   }
 
   /// Ends the threads as soon as possible, but completes an export that has begun. Does not wait.
   void close();
-  /// True once all threads have ended, so that the destructor does not wait.
+  /// True once all threads have ended; the destructor then does not wait.
   bool ended() const { return has_ended(thread_) && outline_.ended() && painter_.ended(); }
 
   /// The newest snapshot; never null.
   std::shared_ptr<const ReplaySnapshot> snapshot() const;
-  /// The newest drawing of the grid map, or null.
+  /// The newest drawing of the grid map, or null if there is none yet.
   std::shared_ptr<const DrawnMap> drawn_map() const { return painter_.drawn(); }
   /// Time stamps of all scans of the log, or null until they are known.
   LogOutline::Stamps stamps_us() const { return outline_.stamps_us(); }
@@ -192,8 +194,8 @@ class Replay {
   std::unique_ptr<SnapshotMaker> maker_;
   EditHistory edit_history_;
   int edits_made_ = 0;
-  bool final_search_stopped_ = false;  // for edits, so that it must be repeated
-  MappingSession* session_ = nullptr;  // while its mapper can be followed
+  bool final_search_stopped_ = false;  // an edit stopped the final loop search, so it must be repeated
+  MappingSession* session_ = nullptr;  // null unless its mapper can be followed
   ReplayPhase phase_ = ReplayPhase::kOpening;
   bool stale_ = false;  // the last snapshot is out of date
   LogPace::Clock::time_point published_at_;
@@ -204,23 +206,23 @@ class Replay {
   mutable std::mutex snapshot_mutex_;
   std::shared_ptr<const ReplaySnapshot> snapshot_;
 
-  std::mutex mutex_;  // guards the requests, up to scans_
+  std::mutex mutex_;  // guards the members from here to scans_
   std::condition_variable changed_;
   bool playing_ = false;
   bool held_ = false;  // the final loop search is paused
   std::size_t steps_ = 0;
-  std::size_t hurry_to_ = 0;  // number of scans
+  std::size_t hurry_to_ = 0;  // number of scans to map as fast as possible
   LogPace pace_;
-  LogPace::Clock::time_point due_;  // of the next scan, while playing
+  LogPace::Clock::time_point due_;  // when the next scan is due, while playing
   bool finish_ = false;
   bool close_ = false;
   bool cut_final_search_ = false;
   std::vector<EditRequest> edit_requests_;
   std::optional<ExportRequest> export_;
   std::optional<std::filesystem::path> save_;
-  std::size_t scans_ = 0;  // mapped so far
+  std::size_t scans_ = 0;  // number of scans mapped so far
 
-  std::atomic<bool> stop_final_search_{false};  // to end the final loop search, or to repeat it after edits
+  std::atomic<bool> stop_final_search_{false};  // ends the final loop search, also to repeat it after edits
   std::atomic<int> edits_asked_{0};
   std::future<void> thread_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// State of a run at one moment, for views: plain values that never change once they are published.
+// State of a run at one moment, for views. Published snapshots never change.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -26,7 +26,7 @@ enum class ReplayPhase {
   kOpening,
   kPaused,       ///< waits for Replay::play()
   kPlaying,      ///< maps scans
-  kFinalSearch,  ///< the final loop search
+  kFinalSearch,  ///< runs the final loop search
   kFinished,     ///< the map is ready for export
   kExporting,
   kFailed,  ///< see ReplaySnapshot::failure; the run has ended
@@ -45,18 +45,18 @@ struct WrittenWork {
   std::shared_ptr<const std::vector<TimedEdit>> edits = std::make_shared<std::vector<TimedEdit>>();
 };
 
-/// Outcome of an export or of saving a session.
+/// Outcome of exporting results or saving a session.
 struct WriteOutcome {
-  int number = 0;              ///< counts exports, or saved sessions, from 1
+  int number = 0;              ///< number of the export or of the saved session, from 1
   std::filesystem::path path;  ///< the folder of an export, the file of a session
-  std::string failure;         ///< a sentence; empty after success
+  std::string failure;         ///< why writing failed, as a sentence; empty after success
   std::string remark;          ///< what a session file lacks; empty if it is complete
   WrittenWork written{};
 };
 
 /// Outcome of an edit.
 struct EditOutcome {
-  int number = 0;  ///< counts edits from 1
+  int number = 0;  ///< number of the edit, from 1
   LoopEdit edit;
   LoopEditOutcome outcome;
 };
@@ -65,18 +65,18 @@ struct ReplaySnapshot {
   ReplayPhase phase = ReplayPhase::kOpening;
   bool final_search_held = false;  ///< the final loop search is paused
   SessionProgress progress;
-  std::string failure;                ///< a sentence, if the phase is kFailed
+  std::string failure;  ///< why the run failed, as a sentence; empty unless the phase is kFailed
   std::vector<std::string> warnings;  ///< problems of the log, a sentence each
 
   HistoryView<Frame> log;  ///< the scans mapped so far
   HistoryView<FrameRecord> frames;
-  /// Of `frames`; never null.
+  /// Stretches of unmatched scans among `frames`; never null.
   std::shared_ptr<const UnmatchedScans> unmatched = std::make_shared<UnmatchedScans>();
-  std::vector<std::size_t> later_run_frames;  ///< the first frame of each run except the first run
+  std::vector<std::size_t> later_run_frames;  ///< first frame of each run except the first run
   HistoryView<double> shares;                 ///< share of the log read at each scan, in [0, 1]
   HistoryView<NodeScan> nodes;
-  /// Finished local maps by number. Only their nodes' points are available: the engine packs and unpacks the
-  /// grids, so no other thread may read them.
+  /// Finished local maps by number. Only the points of their nodes can be read. The engine packs and unpacks
+  /// the grids, so no other thread may read the grids.
   HistoryView<LocalMapRecord> local_maps;
   std::vector<ActiveLocalMap> active_local_maps;
   mrpt::math::TPose2D map_T_robot;
@@ -84,32 +84,32 @@ struct ReplaySnapshot {
   /// Pose of each node after the last optimisation of the graph; never null.
   std::shared_ptr<const std::vector<mrpt::math::TPose2D>> map_T_node =
       std::make_shared<std::vector<mrpt::math::TPose2D>>();
-  /// Never null. Another pointer than before means that the loops have changed.
+  /// All loops; never null. A new pointer means that the loops may have changed.
   std::shared_ptr<const std::vector<LoopRecord>> loops = std::make_shared<std::vector<LoopRecord>>();
 
-  /// Edits made so far and planned for later; never null.
+  /// Edits made so far and edits planned for later scans; never null.
   std::shared_ptr<const std::vector<TimedEdit>> edits = std::make_shared<std::vector<TimedEdit>>();
   std::optional<EditOutcome> edited;  ///< outcome of the last edit
   int edits_served = 0;               ///< how many of Replay::edits_asked() have an outcome
-  std::string undo_text;              ///< what Replay::undo() would take back; empty if nothing
-  std::string redo_text;              ///< what Replay::redo() would make again; empty if nothing
+  std::string undo_text;  ///< text of the edit that Replay::undo() would undo; empty if there is none
+  std::string redo_text;  ///< text of the edit that Replay::redo() would repeat; empty if there is none
 
   PsiThresholds psi;
-  std::vector<StageTiming> stages;  ///< once finished
-  bool interrupted =
-      false;  ///< once finished: scans are left unmapped, or the final loop search was cut short
+  std::vector<StageTiming> stages;  ///< times of the stages; empty until the run is finished
+  /// Set once the run is finished: scans are left unmapped, or the final loop search was cut short.
+  bool interrupted = false;
   std::optional<WriteOutcome> exported;  ///< outcome of the last export
   std::optional<WriteOutcome> saved;     ///< outcome of the last saved session
 };
 
-/// True if an outcome of a snapshot is not in an earlier snapshot of the same run.
+/// True if a snapshot has an outcome that an earlier snapshot of the same run does not have.
 template <class Outcome>
 bool is_new(const std::optional<Outcome>& now, const std::optional<Outcome>& before) {
   return now && (!before || now->number != before->number);
 }
 
-/// Pose of the robot at a scan in the present map. Once the run is finished it is the result's pose; before,
-/// it is the pose of the last node up to the scan, moved by the front end's motion since that node.
+/// Pose of the robot at a scan, in the current map. Once the run is finished, it is the pose of the result.
+/// Before, it is the pose of the last node up to the scan, moved by the front end's motion since that node.
 mrpt::math::TPose2D map_T_frame(const ReplaySnapshot& snapshot, std::size_t frame);
 
 }  // namespace psi_slam

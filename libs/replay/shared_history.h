@@ -9,6 +9,7 @@
 
 namespace psi_slam {
 
+/// Number of entries in a block of a SharedHistory.
 inline constexpr std::size_t kHistoryBlock = 512;
 
 /// The entries of a SharedHistory at one moment. They live as long as any view of them.
@@ -33,8 +34,8 @@ class HistoryView {
   std::size_t size_ = 0;
 };
 
-/// List that one thread appends to while other threads read views of its earlier entries. A view copies only
-/// the list of blocks. The threads must synchronise how they pass a view on.
+/// A list that one thread appends to while other threads read views of its earlier entries. A view copies
+/// only the list of blocks. The threads must synchronise how they hand over a view.
 template <class T>
 class SharedHistory {
  public:

@@ -16,7 +16,7 @@ void append_new(SharedHistory<T>& history, const std::vector<T>& all) {
 mrpt::math::TPose2D map_T_frame(const ReplaySnapshot& snapshot, std::size_t frame) {
   const bool finished = snapshot.phase == ReplayPhase::kFinished || snapshot.phase == ReplayPhase::kExporting;
   if (finished || snapshot.nodes.empty()) return snapshot.frames[frame].map_T_robot;
-  std::size_t node = 0;  // the last one whose scan is `frame` or an earlier scan
+  std::size_t node = 0;  // last node whose scan is `frame` or an earlier one
   for (std::size_t end = snapshot.nodes.size(); end - node > 1;) {
     const std::size_t middle = node + (end - node) / 2;
     (snapshot.nodes[middle].frame <= frame ? node : end) = middle;
@@ -52,7 +52,7 @@ void SnapshotMaker::follow(const Mapper& mapper, ActiveMaps active) {
   now.map_T_robot = mapper.map_T_robot();
   if (*now.map_T_node != mapper.graph().poses())
     now.map_T_node = std::make_shared<std::vector<mrpt::math::TPose2D>>(mapper.graph().poses());
-  // While scans are mapped, verdicts change only when a loop is added.
+  // During the mapping of scans, verdicts change only when a loop is added.
   const bool verdicts_may_change = now.progress.phase != SessionProgress::Phase::kMapping;
   if (verdicts_may_change || std::exchange(loops_changed_, false) ||
       now.loops->size() != mapper.loops().size())

@@ -15,33 +15,35 @@ namespace psi_slam {
 /// Makes snapshots of a session in the engine's thread. Copies only what has changed since the last snapshot.
 class SnapshotMaker {
  public:
-  /// `edits` are planned before the run starts.
+  /// `edits` are the edits that are planned before the run starts.
   SnapshotMaker(const PsiThresholds& psi, const std::vector<TimedEdit>& edits);
 
-  /// The next snapshot. The caller may set all members except the histories and those that note_export(),
-  /// note_save(), note_edits(), follow() and take() set.
+  /// The next snapshot. The caller may set all members except the histories and the members that
+  /// note_export(), note_save(), note_edits(), follow() and take() set.
   ReplaySnapshot now;
 
-  /// Notes that a scan was mapped, at this share of the log.
+  /// Notes that a scan was mapped when this share of the log was read.
   void note_scan(double share) { shares_.push_back(share); }
-  /// Note the outcome of an export, which contains all scans, or of saving a session.
+  /// Notes the outcome of an export, which contains all scans.
   void note_export(WriteOutcome outcome);
+  /// Notes the outcome of saving a session.
   void note_save(WriteOutcome outcome);
   /// Notes that edits have changed loops and poses.
   void note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history);
 
-  /// Copies what the mapper has added, before the session is finished. Active local maps are expensive to
-  /// copy: kNowAndThen copies them at most every 400 ms.
+  /// Copies what the mapper has added; call it only before the session is finished. Active local maps are
+  /// expensive to copy: kNowAndThen copies them at most every 400 ms.
   enum class ActiveMaps { kAtOnce, kNowAndThen };
   void follow(const Mapper& mapper, ActiveMaps active);
-  /// Copies only the finished local maps. The last ones are finished when the final loop search begins.
+  /// Copies only the finished local maps. The last local maps are finished when the final loop search begins.
   void follow_local_maps(const Mapper& mapper);
   /// Copies the result of the finished session.
   void take(const MappingResult& result);
 
+  /// Returns a copy of `now` with the histories up to now.
   std::shared_ptr<const ReplaySnapshot> snapshot(ReplayPhase phase);
 
-  /// What to draw the present map from: the nodes' scans, or all scans after take().
+  /// Returns what to draw the current map from: the scans of the nodes, or all scans after take().
   MapSketch sketch() const;
 
  private:

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws UserError if a part of the path is a file.
+/// Throws UserError if the path or one of its parents is a file.
 void check_no_file_in_the_way(const fs::path& path) {
   std::error_code ignored;
   fs::path part;
@@ -27,12 +27,12 @@ void check_no_file_in_the_way(const fs::path& path) {
     part /= name;
     if (fs::exists(part, ignored) && !fs::is_directory(part, ignored))
       throw UserError("cannot write to the folder " + path.string() + ": " + part.string() +
-                      " is a file, not a folder");
+                      " is a file, not a folder. Name another folder");
   }
 }
 
-/// Writes a corrected log, or for several runs a trajectory and a corrected log of each, since their times
-/// may overlap. Deletes such files of older results.
+/// Writes the corrected log of a single run. For several runs, whose times may overlap, writes a trajectory
+/// and a corrected log of each. Deletes files of these kinds that older results left.
 void write_runs(const fs::path& folder, const MappingResult& result) {
   const auto file = [&](std::size_t run, const char* kind) {
     return folder / ("trajectory-" + std::to_string(run) + kind);
@@ -60,7 +60,8 @@ void write_runs(const fs::path& folder, const MappingResult& result) {
 }  // namespace
 
 OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
-  if (path.empty()) throw UserError("the name of the output folder is empty");
+  if (path.empty())
+    throw UserError("the name of the output folder is empty, expected a path. Name a folder for the results");
   check_no_file_in_the_way(path);
   std::error_code error;
   fs::create_directories(path, error);
@@ -73,7 +74,8 @@ OutputFolder OutputFolder::prepare(const fs::path& path, bool force) {
     throw UserError("the output folder " + path.string() +
                     " is not empty. Name a new folder, or replace the results in it with --force");
   if (::access(path.c_str(), W_OK | X_OK) != 0)
-    throw UserError("cannot write to the output folder " + path.string() + ": no permission");
+    throw UserError("cannot write to the output folder " + path.string() +
+                    ": no permission. Name another folder");
   return OutputFolder(path);
 }
 

@@ -38,13 +38,13 @@ class OutputFolder {
   std::filesystem::path path_;
 };
 
-/// Writes the maps, trajectories and tables, each file atomically. `grid` is the map of `result` by
-/// draw_grid_map. Throws SystemFailure naming the file that cannot be written.
+/// Writes the maps, trajectories and tables, each file atomically. `grid` is the map of `result`, drawn by
+/// draw_grid_map(). Throws SystemFailure naming the file that cannot be written.
 void export_results(const MappingResult& result, const mrpt::maps::COccupancyGridMap2D& grid,
                     const OutputFolder& folder, const MapFileOptions& map_files = {});
 
-/// Writes summary.json and report.html. Call it after export_results, so that their times include it. Throws
-/// SystemFailure naming the file that cannot be written.
+/// Writes summary.json and report.html. Call it after export_results(), so that the times in both files
+/// include the export. Throws SystemFailure naming the file that cannot be written.
 void export_account(const MappingResult& result, const RunInfo& info, const RunSummary& summary,
                     const mrpt::maps::COccupancyGridMap2D& grid, const OutputFolder& folder);
 

@@ -13,11 +13,11 @@ std::string files_list(std::size_t runs) {
   const auto add = [&](const std::string& name, const std::string& what) {
     list += "<li><a href=\"" + name + "\">" + name + "</a> <span>" + what + "</span></li>\n";
   };
-  add("map.png", "the map as a picture");
-  add("map.yaml", "and map.pgm, for ROS and nav2");
+  add("map.png", "the map as an image");
+  add("map.yaml", "with map.pgm, the map for ROS and nav2");
   add("map.gridmap.gz", "the map for MRPT");
   add("map.simplemap.gz", "nodes and scans for MRPT");
-  add("trajectory.tum", "for evo");
+  add("trajectory.tum", "the path in TUM format, for evo");
   if (runs <= 1) add("trajectory.carmen", "the corrected log");
   for (std::size_t run = 1; runs > 1 && run <= runs; ++run) {
     const std::string name = "trajectory-" + std::to_string(run);
@@ -27,7 +27,7 @@ std::string files_list(std::size_t runs) {
   add("graph.g2o", "the pose graph");
   add("frames.csv", "one row per scan");
   add("loops.csv", "one row per loop found");
-  add("summary.json", "the figures of this report for programs");
+  add("summary.json", "the figures of this report, for programs");
   return list + "</ul>\n";
 }
 
@@ -48,7 +48,7 @@ std::string stop_text(const RunSummary& summary) {
          ". The final loop search and the refinement of all scans were cut short.";
 }
 
-/// "Mapped by psi-slam 0.1.0 in 51.3 s, 52 times faster than real time."
+/// Returns a sentence such as "Mapped by psi-slam 0.1.0 in 51.3 s, 52 times faster than real time."
 std::string story(const RunInfo& info, const RunSummary& summary) {
   std::string text = "Mapped by psi-slam";
   if (!info.program_version.empty()) text += ' ' + escape_html(info.program_version);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// report.html: one page that shows a run to a person. One file that needs no network: style, script and
-// pictures are inside.
+// report.html: one page that shows a run to a person. The file needs no network: style, script and images are
+// inside.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

@@ -15,9 +15,9 @@ namespace psi_slam {
 namespace {
 
 using mrpt::math::TPose2D;
-using Pixel = mrpt::math::TPoint2D;  // of the picture, y downwards
+using Pixel = mrpt::math::TPoint2D;  // position in the image in pixels, y downwards
 using Path = std::vector<Pixel>;
-using Paths = std::vector<Path>;  // one for each run
+using Paths = std::vector<Path>;  // one path for each run
 
 constexpr int kImageSide_px = 2000;
 constexpr std::size_t kMaxLoopsDrawn = 500;  // of each verdict, so that the map stays visible
@@ -31,15 +31,15 @@ std::string text(const Pixel& pixel) {
   return fixed_text(pixel.x, 1) + ',' + fixed_text(pixel.y, 1);
 }
 
-/// Adds a point that is at least 1.5 pixels from the last point, or the end of the path.
+/// Adds a point to the path if it is at least 1.5 pixels from the last point or is the end of the path.
 void extend(Path& path, const Pixel& point, bool is_end) {
   constexpr double kStep_px = 1.5;
   if (path.empty() || is_end || std::hypot(point.x - path.back().x, point.y - path.back().y) >= kStep_px)
     path.push_back(point);
 }
 
-/// Paths of the poses of one frame of reference. Each run is moved to its start in the map, so that drift
-/// shows.
+/// Returns the path of each run by `pose`: in the map, by the front end or by odometry. Each path starts at
+/// the run's first pose in the map, so that drift is visible.
 Paths paths_of(const MappingResult& result, TPose2D FrameRecord::*pose, const MapPicture& picture) {
   Paths paths;
   for (const FrameSpan& run : runs_of(result)) {
@@ -69,7 +69,8 @@ std::string path_layer(const char* name, const Paths& paths) {
   return layer(name, "<path d=\"" + data + "\"/>");
 }
 
-/// Blue at the start, then violet and pink, orange at the end: visible on light and dark background.
+/// Returns a colour: blue at the start, then violet and pink, orange at the end. All are visible on light and
+/// dark background.
 std::string time_colour(double share) {
   using Rgb = std::array<int, 3>;
   constexpr std::array<Rgb, 4> kStops = {{{47, 98, 235}, {139, 77, 230}, {226, 62, 140}, {247, 126, 24}}};
@@ -97,14 +98,14 @@ std::string coloured(const Path& path) {
   return svg;
 }
 
-/// A dot of the same size at every zoom: a line of length zero with round ends.
+/// Draws a dot that has the same size at every zoom: a line of length zero with round ends.
 std::string dot(const std::string& css_class, const Pixel& at) {
   const std::string data = "d=\"M" + text(at) + "h0\"";
   return "<path class=\"rim\" " + data + "/><path class=\"" + css_class + "\" " + data + "><title>" +
          css_class + "</title></path>\n";
 }
 
-/// All paths coloured by time, with dots at their starts and ends on top.
+/// Draws all paths coloured by time, with dots at their starts and ends on top.
 std::string trajectory_layer(const Paths& paths) {
   std::string lines;
   std::string dots;
@@ -115,7 +116,7 @@ std::string trajectory_layer(const Paths& paths) {
   return layer("trajectory", lines + dots);
 }
 
-/// The path along each stretch of unmatched scans, from the last matched scan.
+/// Draws the path along each stretch of unmatched scans, from the last matched scan on.
 std::string unmatched_layer(const MappingResult& result, const UnmatchedScans& unmatched,
                             const MapPicture& picture) {
   std::string svg;
@@ -143,7 +144,7 @@ std::size_t count_of(const MappingResult& result, LoopVerdict verdict) {
                     [&](const LoopRecord& loop) { return loop.verdict == verdict; }));
 }
 
-/// The loops of one verdict, evenly sampled if there are too many.
+/// Draws the loops of one verdict, evenly sampled if there are too many.
 std::string loop_layer(const std::string& name, const MappingResult& result, LoopVerdict verdict,
                        const MapPicture& picture) {
   const auto place = [&](std::size_t node) {
@@ -178,7 +179,7 @@ std::string scale_bar(const MapPicture& picture) {
          fixed_text(bar_m, 0) + " m</text></g>\n";
 }
 
-/// The picture and the paths, with a margin around paths that leave the picture.
+/// Returns a viewBox that shows the image and the paths, with a margin around paths that leave the image.
 std::string view_box(const MapPicture& picture, const Paths& paths) {
   constexpr double kMargin_px = 20;
   Pixel low(0, 0);
@@ -215,7 +216,7 @@ std::string report_map(const MappingResult& result, const UnmatchedScans& unmatc
   const std::string height = std::to_string(picture.height_px);
 
   std::string toggles;
-  std::string loops;  // accepted ones on top
+  std::string loops;  // accepted loops come last and lie on top
   bool sampled = false;
   const auto add_loops = [&](const char* name, const char* label, LoopVerdict verdict) {
     const std::size_t count = count_of(result, verdict);

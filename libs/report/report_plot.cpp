@@ -24,17 +24,17 @@ constexpr double kTop = 12;
 constexpr double kBottom = 34;
 
 struct Sample {
-  double time_s = 0;  // since the first scan
+  double time_s = 0;  // time since the first scan
   double value = 0;
 };
 
-/// One figure of the scans over the time of the log.
+/// One value of each scan over the time of the log.
 struct Series {
   TimeUs first_us = 0;
   double length_s = 1;
   std::vector<Sample> samples;
 
-  /// Takes the scans that have a value.
+  /// Takes the scans for which `value` returns a value.
   Series(const std::vector<FrameRecord>& frames,
          const std::function<std::optional<double>(const FrameRecord&)>& value) {
     if (frames.empty()) return;
@@ -59,7 +59,7 @@ struct Tick {
   std::string label;
 };
 
-/// From time and value to the units of the plot.
+/// Converts times and values to the coordinates of the plot, y downwards.
 struct Axes {
   double last_s = 1;
   double low = 0;
@@ -74,7 +74,7 @@ struct Axes {
   }
 };
 
-/// A logarithmic axis of whole decades that include all values from least to most.
+/// Returns a logarithmic axis of whole decades that include all values from least to most.
 Axes decades_around(double least, double most, double last_s) {
   Axes axes{last_s, std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most))),
             true};
@@ -82,7 +82,7 @@ Axes decades_around(double least, double most, double last_s) {
   return axes;
 }
 
-/// A power of ten with as many decimals as it needs.
+/// Returns a power of ten with as many decimals as it needs.
 std::string power_text(double value) {
   return fixed_text(value, std::max(0, -static_cast<int>(std::lround(std::log10(value)))));
 }
@@ -136,12 +136,13 @@ std::string point(double x, double y) {
   return fixed_text(x, 1) + ',' + fixed_text(y, 1);
 }
 
-/// A band from minimum to maximum and a line along the means. Both have gaps where there is no sample.
+/// Draws a band from minimum to maximum and a line along the means. Both have gaps where there are no
+/// samples.
 std::string band_and_mean(const Series& series, const Axes& axes) {
   const std::vector<Bin> bins = binned(series);
   std::string band;
   std::string line;
-  std::string upper;  // of the band's part since the last gap
+  std::string upper;  // upper edge of the band since the last gap
   std::string lower;
   const double step = axes.last_s / static_cast<double>(bins.size());
   for (std::size_t i = 0; i < bins.size(); ++i) {
@@ -158,7 +159,7 @@ std::string band_and_mean(const Series& series, const Axes& axes) {
   return "<path class=\"band\" d=\"" + band + "\"/><path class=\"mean\" d=\"" + line + "\"/>\n";
 }
 
-/// A horizontal line across the plot, and its label at `label_x`, moved down by `label_dy`.
+/// Draws a horizontal line across the plot, and its label at `label_x`, moved down by `label_dy`.
 std::string level(const Axes& axes, double value, const std::string& line_class, const std::string& label,
                   const std::string& label_class, double label_x, int label_dy) {
   const std::string y = fixed_text(axes.y(value), 1);
@@ -168,7 +169,7 @@ std::string level(const Axes& axes, double value, const std::string& line_class,
          escape_html(label) + "</text>\n";
 }
 
-/// Grid, labels of both axes, and the series.
+/// Draws the grid, the labels of both axes, and the series.
 std::string plot_of(const Series& series, const Axes& axes, const std::vector<Tick>& value_ticks) {
   std::string svg;
   for (const Tick& tick : value_ticks)
@@ -184,7 +185,7 @@ std::string figure(const std::string& label, const std::string& content) {
          "\" role=\"img\" aria-label=\"" + escape_html(label) + "\">\n" + content + "</svg>\n";
 }
 
-/// Milliseconds on a logarithmic axis, with a line at `limit_ms` if it is positive.
+/// Draws a series in milliseconds on a logarithmic axis, with a line at `limit_ms` if it is positive.
 std::string duration_plot(const std::string& label, const Series& series, double limit_ms,
                           const std::string& limit_text) {
   constexpr double kLeast_ms = 1e-3;
@@ -201,7 +202,8 @@ std::string duration_plot(const std::string& label, const Series& series, double
           (limit_ms > 0 ? level(axes, limit_ms, "limit", limit_text, "limit", kWidth - kRight - 4, -5) : ""));
 }
 
-/// The strip below the plot: for each stretch of time, the share of nodes for which each matcher was in use.
+/// Draws the strip below the plot: for each stretch of time, the share of nodes for which each matcher was in
+/// use.
 std::string matcher_strip(const std::vector<FrameRecord>& frames, const Series& series, const Axes& axes) {
   constexpr std::size_t kStretches = 320;
   constexpr double kStripTop = kHeight - kBottom + 4;
@@ -215,7 +217,7 @@ std::string matcher_strip(const std::vector<FrameRecord>& frames, const Series& 
            [static_cast<std::size_t>(*frame.matcher)];
   }
   std::array<std::string, kMatcherKinds.size()> paths;
-  // A stretch without nodes, where the robot stood still, repeats the stretch before.
+  // A stretch of time without nodes, in which the robot stood still, repeats the stretch before it.
   std::array<int, kMatcherKinds.size()> last{};
   for (std::size_t i = 0; i < kStretches; ++i) {
     if (std::accumulate(nodes[i].begin(), nodes[i].end(), 0) > 0) last = nodes[i];
@@ -238,7 +240,7 @@ std::string matcher_strip(const std::vector<FrameRecord>& frames, const Series& 
   return svg;
 }
 
-/// A band over the whole height for each stretch of unmatched scans.
+/// Draws a band over the whole height for each stretch of unmatched scans.
 std::string unmatched_bands(const UnmatchedScans& unmatched, const Series& series, const Axes& axes) {
   constexpr double kLeastWidth = 2;
   std::string bands;
@@ -277,8 +279,8 @@ std::string response_plot(const MappingResult& result, const UnmatchedScans& unm
 std::string psi_plot(const MappingResult& result) {
   const Series series(result.frames, [](const FrameRecord& frame) { return std::optional(frame.psi); });
   const double most = series.most(std::max(1.0, result.psi.psi_2));
-  // Psi is 0 while no loop was closed recently: it is drawn on the lowest line. Thresholds of 0 or less,
-  // which Psi always exceeds, are not drawn.
+  // Psi is 0 if no loop was closed recently, and is then drawn on the lowest line. Thresholds of 0 or less
+  // are not drawn.
   double least = 0.1;
   for (const double threshold : {result.psi.psi_1, result.psi.psi_2})
     if (threshold > 0) least = std::min(least, threshold / 10);

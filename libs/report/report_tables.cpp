@@ -16,7 +16,7 @@ std::string degrees(double radians) {
   return radians < 0 ? "−" + size : size;
 }
 
-/// "5 cm", "2.5 cm", "10 cm".
+/// Returns a length in centimetres: "5 cm", "2.5 cm", "10 cm".
 std::string centimetres(double metres) {
   return trimmed_text(std::round(metres * 1000) / 10, 1) + " cm";
 }
@@ -38,7 +38,7 @@ std::string cells(std::initializer_list<std::string> values) {
   return row;
 }
 
-/// Opens a table of figures; `more` is HTML after the headings of the columns.
+/// Returns the beginning of a table; `more` is HTML that follows the headings of the columns.
 std::string table_begin(const std::string& css, std::initializer_list<const char*> columns,
                         const std::string& more = {}) {
   std::string head;
@@ -172,7 +172,7 @@ std::string stages_table(const std::vector<StageTiming>& stages, double wall_s) 
 std::string loop_matchers_table(const MappingResult& result) {
   if (result.loop_matchers.empty()) return {};
   std::string html = table_begin("wide", {"Matcher", "tried", "found", "closed", "poses scored per try",
-                                          "ms per try", "total", "of this in the final search"});
+                                          "ms per try", "total time", "time in the final search"});
   for (const auto& [kind, matcher] : result.loop_matchers) {
     const LoopEffort& effort = matcher.effort;
     const double tries = static_cast<double>(std::max<std::size_t>(effort.attempts, 1));

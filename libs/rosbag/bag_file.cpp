@@ -80,7 +80,8 @@ std::unique_ptr<BagFile> open_bag(const fs::path& path) {
     case LogFormat::kRos2Folder:
       return std::make_unique<BagFolder>(files_of_bag_folder(path));
     default:
-      throw UserError(path.string() + " is not a ROS bag, expected a .bag, .db3 or .mcap file");
+      throw UserError(path.string() +
+                      " is not a ROS bag, expected a .bag, .db3 or .mcap file. Choose another file");
   }
 }
 

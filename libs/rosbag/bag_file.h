@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Interface to the containers of ROS bags: ROS 1 bags, ROS 2 bags in SQLite or MCAP files, and folders of the
-// latter.
+// Interface to the containers of ROS bags: ROS 1 bags, ROS 2 bags in SQLite or MCAP files, and the folders of
+// ROS 2 bags.
 #pragma once
 
 #include <algorithm>
@@ -18,21 +18,21 @@ namespace psi_slam {
 enum class BagEncoding { kRos1, kCdr, kOther };
 
 struct BagTopic {
-  std::string name;  ///< "/scan"
-  std::string type;  ///< name in ROS 1, for ROS 2 bags too: "sensor_msgs/LaserScan"
+  std::string name;  ///< such as "/scan"
+  std::string type;  ///< ROS 1 name of the type, also for ROS 2 bags: "sensor_msgs/LaserScan"
   BagEncoding encoding = BagEncoding::kOther;
   bool operator==(const BagTopic& other) const {
     return name == other.name && type == other.type && encoding == other.encoding;
   }
 };
 
-/// Removes the "/msg" that ROS 2 inserts into type names.
+/// Returns the ROS 1 name of a type: removes the "/msg" that ROS 2 inserts.
 std::string ros1_type_name(std::string_view type);
 
 /// Appends a topic unless the list contains it.
 void add_topic(std::vector<BagTopic>& topics, const BagTopic& topic);
 
-/// One message. Pointer and view are valid until the next message is read.
+/// One message. `topic` and `bytes` are valid until the next message is read.
 struct BagMessage {
   const BagTopic* topic = nullptr;
   TimeUs recorded_us = 0;
@@ -44,16 +44,18 @@ class BagFile {
  public:
   virtual ~BagFile() = default;
 
-  /// Returns all topics before any message is read. For a damaged bag, those of its readable part.
+  /// Returns all topics of the bag; no message needs to be read before. For a damaged bag, returns the topics
+  /// of its readable part.
   virtual std::vector<BagTopic> topics() = 0;
 
-  /// Selects the topics of the messages to read; the default is all. Call before the first next().
+  /// Selects the topics whose messages next() returns; by default all topics. Call before the first next().
   virtual void want(const std::vector<std::string>& topics) { wanted_ = topics; }
 
-  /// Returns false at the end. Throws UserError (file, place) where the bag is damaged or truncated.
+  /// Reads the next message. Returns false at the end. Throws UserError, with file and place, where the bag
+  /// is damaged or truncated.
   virtual bool next(BagMessage& message) = 0;
 
-  /// Fraction that has been read, in [0, 1].
+  /// Fraction of the bag that has been read, in [0, 1].
   virtual double progress() const = 0;
 
   /// Place of the last message for error messages: "run.bag: byte 4117".
@@ -69,22 +71,23 @@ class BagFile {
   std::vector<std::string> wanted_;
 };
 
-/// Opens a bag of any container: a file, or the folder of a ROS 2 bag with its files in order. The content
-/// decides. Throws UserError if it is no bag.
+/// Opens a bag of any container: a file, or the folder of a ROS 2 bag, whose files are read in order.
+/// Recognises the container by the content. Throws UserError if `path` is not a bag.
 std::unique_ptr<BagFile> open_bag(const std::filesystem::path& path);
 
-/// Opens a ROS 1 bag, version 2.0 (http://wiki.ros.org/Bags/Format/2.0): records of header fields and data,
-/// most of them in chunks that may be compressed (bz2, lz4). Reading starts at the front; the index at the
-/// end only provides the topics. A bag whose recorder was killed is thus read as far as it goes.
+/// Opens a ROS 1 bag, version 2.0 (http://wiki.ros.org/Bags/Format/2.0). It consists of records of header
+/// fields and data, most of them in chunks that may be compressed (bz2, lz4). Reading starts at the front;
+/// the index at the end only provides the topics. So a bag whose recorder was killed can be read up to its
+/// end.
 std::unique_ptr<BagFile> open_ros1_bag(const std::filesystem::path& path);
 
-/// Opens an MCAP file of ROS 2 (https://mcap.dev/spec): records with one byte of kind and eight of length,
-/// most of them in chunks that may be compressed (lz4, zstd). Reading starts at the front; the summary at the
-/// end only provides the topics. ROS 1 messages in such a file are read too.
+/// Opens an MCAP file of ROS 2 (https://mcap.dev/spec). It consists of records with one byte of kind and
+/// eight bytes of length, most of them in chunks that may be compressed (lz4, zstd). Reading starts at the
+/// front; the summary at the end only provides the topics. ROS 1 messages in such a file are read too.
 std::unique_ptr<BagFile> open_mcap_bag(const std::filesystem::path& path);
 
-/// Opens an SQLite file (.db3) of ROS 2: a table of topics and a table of messages, which are read in the
-/// order in which they were recorded.
+/// Opens an SQLite file (.db3) of ROS 2, which has a table of topics and a table of messages. Messages are
+/// read in the order in which they were written.
 std::unique_ptr<BagFile> open_sqlite_bag(const std::filesystem::path& path);
 
 }  // namespace psi_slam

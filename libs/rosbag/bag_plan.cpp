@@ -26,7 +26,7 @@ Names topics_of_type(const std::vector<BagTopic>& topics, const char* type) {
   return names;
 }
 
-/// Name of a topic in the bag: users and some programs omit the leading slash.
+/// Returns the name of a topic as in the bag: users and some programs omit the leading slash.
 std::string as_in_bag(const std::string& name, const Names& all) {
   return contains(all, '/' + name) ? '/' + name : name;
 }
@@ -62,7 +62,7 @@ class Planner {
       Names found;
       for (const BagTopic& topic : topics_) found.push_back(topic.name + " (" + topic.type + ")");
       throw UserError(path_ + " has no laser scans, expected a topic of type " + kRosLaserScan + "; found " +
-                      (found.empty() ? "no topics" : name_list(found)));
+                      (found.empty() ? "no topics" : name_list(found)) + ". Record the scans with the bag");
     }
     const bool by_topic = !options_.scan_topic.empty();
     const char* option = by_topic ? "log.scan_topic" : "log.laser";
@@ -110,7 +110,7 @@ class Planner {
       } catch (const MalformedBytes& error) {
         if (is_enough()) return;
         throw UserError(bag_->place() + ": the message on " + message.topic->name +
-                        " is damaged: " + error.what());
+                        " is damaged: " + error.what() + ". Record the bag again");
       } catch (const UserError&) {
         if (!is_enough()) throw;
         return;
@@ -139,7 +139,8 @@ class Planner {
     if (plan_.base_frame.empty()) plan_.base_frame = odometry->child_frame;
   }
 
-  /// Searches upwards from the lasers, and from the robot's frame if the user states it.
+  /// Searches the frames above the lasers, and above the robot's frame if the user states it, for the frame
+  /// of the odometry.
   void find_odometry_transform() {
     Names starts;
     if (!options_.base_frame.empty()) starts.push_back(options_.base_frame);
@@ -168,7 +169,8 @@ class Planner {
     return options_of_topic(options_, topic).robot_T_laser.has_value();
   }
 
-  /// If there are transforms, they are needed even for a stated mount: they show whether it is upside down.
+  /// Whether is_enough() holds and all mounts are known. Transforms are needed even for a stated mount,
+  /// because they show whether the laser is upside down.
   bool is_complete() const {
     const bool has_transforms = !plan_.transform_topics.empty();
     return is_enough() && std::all_of(scan_frames_.begin(), scan_frames_.end(), [&](const auto& scan) {
@@ -176,7 +178,7 @@ class Planner {
            });
   }
 
-  /// Returns whether enough is known if the bag ends here.
+  /// Returns whether the plan is usable if the bag ends here.
   bool is_enough() const { return has_odometry_ && scan_frames_.size() == plan_.scan_topics.size(); }
 
   void require_complete() const {
@@ -185,7 +187,8 @@ class Planner {
         throw UserError(path_ + " has no message on the topic " + topic +
                         ". Select another topic of scans with log.scan_topic.");
     if (!has_odometry_ && !invalid_pose_.empty())
-      throw UserError(invalid_pose_ + ", as in all of its messages");
+      throw UserError(invalid_pose_ +
+                      ", as in all of its messages. Select another topic with log.odometry_topic");
     if (!has_odometry_ && !plan_.odometry_topic.empty())
       throw UserError(path_ + " has no message on the topic " + plan_.odometry_topic +
                       ". Select another topic with log.odometry_topic.");
@@ -212,8 +215,8 @@ class Planner {
   std::unique_ptr<BagFile> bag_;
   std::vector<BagTopic> topics_;
   BagPlan plan_;
-  std::map<std::string, std::string> scan_frames_;  // by topic
-  std::string invalid_pose_;                        // message about the first invalid odometry
+  std::map<std::string, std::string> scan_frames_;  // index: topic of the scans
+  std::string invalid_pose_;                        // message about the first odometry with an invalid pose
   bool has_odometry_ = false;
 };
 
@@ -281,7 +284,7 @@ bool is_transforms(const BagTopic& topic) {
 
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic) {
   std::vector<std::string> names{topic};
-  if (topic.front() == '/') names.push_back(topic.substr(1));  // users omit it
+  if (topic.front() == '/') names.push_back(topic.substr(1));  // users may omit the slash
   return options_of_laser(options, names);
 }
 

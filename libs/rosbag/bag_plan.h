@@ -15,18 +15,18 @@
 
 namespace psi_slam {
 
-/// Frames of /tf and /tf_static, each with the newest pose in its parent.
+/// Tree of the frames in /tf and /tf_static, each with its newest pose in its parent.
 class TransformTree {
  public:
   void add(const RosTransform& transform);
 
-  /// Returns the frame and the frames above it, up to the root.
+  /// Returns `frame` and the frames above it, up to the root.
   std::vector<std::string> way_up(const std::string& frame) const;
 
   /// Returns the pose of `frame` in `base`, or nothing if they are not connected.
   std::optional<mrpt::poses::CPose3D> base_T_frame(const std::string& base, const std::string& frame) const;
 
-  /// Each frame with its parent for messages: "base_link < odom, laser < base_link".
+  /// Each frame with its parent, for error messages: "base_link < odom, laser < base_link".
   std::string text() const;
 
  private:
@@ -38,33 +38,34 @@ class TransformTree {
   /// Returns the pose of a frame in the frame that is `steps` above it.
   mrpt::poses::CPose3D above_T_frame(std::string frame, std::size_t steps) const;
 
-  std::map<std::string, Link> links_;  // by frame
+  std::map<std::string, Link> links_;  // index: name of the frame
 };
 
-/// Topics and frames of a ROS bag that are read.
+/// The topics and frames of a ROS bag that are read.
 struct BagPlan {
-  std::vector<std::string> scan_topics;  ///< ordered by LaserScan::laser
+  std::vector<std::string> scan_topics;  ///< index: LaserScan::laser
   std::string odometry_topic;            ///< empty: odometry is the transform from odom_frame to base_frame
   std::vector<std::string> transform_topics;
   std::string odom_frame;
   std::string base_frame;    ///< the robot's frame, which odometry moves
-  TransformTree transforms;  ///< those that were needed to find the frames
+  TransformTree transforms;  ///< transforms that were read while the frames were searched
 
   /// Names of all topics to read.
   std::vector<std::string> topics() const;
 };
 
-/// Message about odometry with an invalid pose.
+/// Error message for odometry with an invalid pose, without the place.
 std::string invalid_pose_text(const std::string& topic);
 
 /// Returns whether the messages of the topic are transforms.
 bool is_transforms(const BagTopic& topic);
 
-/// Options for the laser of a topic, with its stated mount.
+/// Returns the options for the laser of a topic, with its stated mount.
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic);
 
-/// Finds the topics by their types, or by the names that the user states. Then reads until all frames are
-/// known. Throws UserError if something is missing, or if several topics match and the user names none.
+/// Plans how to read a bag. Finds the topics by their types, or by the names that the user states. Then reads
+/// until all frames are known. Throws UserError if something is missing, or if several topics match and the
+/// user names none.
 BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options);
 
 }  // namespace psi_slam

@@ -14,7 +14,7 @@ namespace psi_slam {
 namespace {
 
 constexpr std::string_view kMagic = "\x89MCAP0\r\n";
-constexpr std::int64_t kFooterBytes = 1 + 8 + 20 + 8;  // including the magic bytes after it
+constexpr std::int64_t kFooterBytes = 1 + 8 + 20 + 8;  // including the magic bytes after the footer
 
 enum Kind : std::uint8_t {
   kFooter = 0x02,
@@ -44,7 +44,7 @@ std::uint32_t crc_of(std::string_view bytes) {
   return static_cast<std::uint32_t>(crc);
 }
 
-/// Channels that the records have stated so far. The type of a channel is the name of its schema.
+/// The channels that the records have stated so far. The type of a channel is the name of its schema.
 class Channels {
  public:
   void add_schema(ByteCursor record) {
@@ -128,7 +128,7 @@ class McapBag : public RecordBag {
     const BagTopic* topic = channels_.topic(cursor.number<std::uint16_t>());
     if (topic == nullptr) throw MalformedBytes("a message has no channel");
     if (!is_wanted(*topic)) return false;
-    cursor.number<std::uint32_t>();  // number in the channel
+    cursor.number<std::uint32_t>();  // sequence number of the message
     const auto recorded_ns = cursor.number<std::uint64_t>();
     cursor.number<std::uint64_t>();  // time of publication
     message = {topic, static_cast<TimeUs>(recorded_ns / 1000), cursor.rest()};
@@ -162,7 +162,7 @@ class McapBag : public RecordBag {
     return channels.topics();
   }
 
-  std::uint8_t kind_ = 0;  // of the record
+  std::uint8_t kind_ = 0;  // kind of the current record
   std::string_view bytes_;
   Channels channels_;
   bool at_end_ = false;

@@ -34,7 +34,7 @@ std::string_view BagStream::read(std::uint64_t size) {
   const std::string_view bytes = read_up_to(size);
   if (bytes.size() < size)
     throw UserError(place_of(start) + ": the file is cut off, expected " + std::to_string(size) +
-                    " more bytes, found " + std::to_string(bytes.size()));
+                    " more bytes, found " + std::to_string(bytes.size()) + ". Fetch the bag again");
   return bytes;
 }
 
@@ -66,7 +66,7 @@ bool RecordBag::next(BagMessage& message) {
       if (take_record(message)) return true;
     }
   } catch (const MalformedBytes& error) {
-    throw UserError(place() + ": the bag is damaged: " + error.what());
+    throw UserError(place() + ": the bag is damaged: " + error.what() + ". Fetch the bag again");
   }
   check_end();
   return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ROS 1 bags and MCAP files have in common: a sequence of records, most of them in chunks that may be
+// The common part of ROS 1 bags and MCAP files: a sequence of records, most of them in chunks that may be
 // compressed.
 #pragma once
 
@@ -15,13 +15,14 @@
 
 namespace psi_slam {
 
-/// Reads the bytes of a file in order. Memory grows with the bytes that the file holds, never with a length
-/// that it merely states.
+/// Reads the bytes of a file in order. Its memory grows with the bytes that the file holds, never with a
+/// length that the file merely states.
 class BagStream {
  public:
   explicit BagStream(const std::filesystem::path& path) : file_(path) {}
 
-  /// Returns the next `size` bytes, valid until the next call. Throws UserError if the file ends before.
+  /// Returns the next `size` bytes, valid until the next call. Throws UserError if the file has fewer bytes
+  /// left.
   std::string_view read(std::uint64_t size);
 
   /// Returns up to `size` bytes, fewer only at the end of the file.
@@ -31,7 +32,7 @@ class BagStream {
   double progress() const { return file_.progress(); }
   const std::filesystem::path& path() const { return file_.path(); }
 
-  /// "run.bag: byte 4117".
+  /// Returns an offset as a place for error messages: "run.bag: byte 4117".
   std::string place_of(std::uint64_t offset) const;
 
  private:
@@ -41,7 +42,7 @@ class BagStream {
 };
 
 /// Returns the bytes of a plain file from `offset` to its end; a negative offset counts from the end. Empty
-/// if there are none, or more than the summary of a bag can have.
+/// if there are no such bytes, or more than 256 MiB, which no summary of a bag needs.
 std::string tail_of_file(const std::filesystem::path& path, std::int64_t offset);
 
 /// A bag of records. Derived classes keep the current record and parse it.
@@ -56,25 +57,27 @@ class RecordBag : public BagFile {
 
   /// Reads the next record of the file; returns false at the end.
   virtual bool read_record_of_file() = 0;
+  /// Reads the next record of the current chunk.
   virtual void read_record_of_chunk(ByteCursor& chunk) = 0;
-  /// Returns true if the record is a wanted message, which it fills in.
+  /// Takes the current record. Returns true if it is a wanted message, and then fills in `message`.
   virtual bool take_record(BagMessage& message) = 0;
-  /// Throws UserError if the file ended too early.
+  /// Throws UserError if the file ended before the end that it states.
   virtual void check_end() const {}
 
-  /// Sets the decompressed bytes of a chunk.
+  /// Decompresses the bytes of a chunk to chunk_. `size` is the number of decompressed bytes.
   void unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size);
+  /// Makes next() continue with the records in chunk_.
   void begin_chunk() { in_chunk_.emplace(chunk_); }
-  /// Reads all records, up to the first error.
+  /// Reads all records up to the end or the first error.
   void read_to_end();
 
   BagStream stream_;
   std::string chunk_;
-  std::uint64_t record_offset_ = 0;  // in the file, of the record or its chunk
+  std::uint64_t record_offset_ = 0;  // place in the file of the record or of its chunk
 
  private:
   std::optional<ByteCursor> in_chunk_;
-  std::uint64_t offset_in_chunk_ = 0;  // of the record
+  std::uint64_t offset_in_chunk_ = 0;  // place of the record in its chunk
 };
 
 }  // namespace psi_slam

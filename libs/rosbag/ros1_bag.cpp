@@ -69,7 +69,7 @@ class Ros1Bag : public RecordBag {
     try {
       read_bag_header();
     } catch (const MalformedBytes& error) {
-      throw UserError(place() + ": the bag's header is damaged: " + error.what());
+      throw UserError(place() + ": the bag's header is damaged: " + error.what() + ". Fetch the bag again");
     }
   }
 
@@ -129,7 +129,8 @@ class Ros1Bag : public RecordBag {
                       " was not closed by its recorder and may lack its end. Repair it with rosbag reindex");
     if (stream_.offset() <= index_offset_)
       throw UserError(stream_.place_of(stream_.offset()) +
-                      ": the file is cut off, expected its index at byte " + std::to_string(index_offset_));
+                      ": the file is cut off, expected its index at byte " + std::to_string(index_offset_) +
+                      ". Fetch the bag again");
   }
 
  private:
@@ -159,7 +160,7 @@ class Ros1Bag : public RecordBag {
   Record record_;
   std::map<std::uint32_t, BagTopic> connections_;
   std::string header_;
-  std::uint64_t index_offset_ = 0;  // where the index should start; 0: the recorder did not close the bag
+  std::uint64_t index_offset_ = 0;  // where the index should start; 0 if the recorder did not close the bag
   std::uint32_t stated_connections_ = 0;  // number of connections that the index should have
 };
 

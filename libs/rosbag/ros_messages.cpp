@@ -45,7 +45,8 @@ class RosFields {
   }
 
  private:
-  /// Skips the four bytes before CDR data, which state the encoding.
+  /// Returns a cursor over the fields. Skips the four bytes before CDR data, which state the encoding, and
+  /// sets `alignment` from them.
   static ByteCursor cursor_over(const BagMessage& message, std::size_t& alignment) {
     if (message.topic->encoding == BagEncoding::kRos1) return ByteCursor(message.bytes);
     ByteCursor head(message.bytes);
@@ -64,7 +65,8 @@ class RosFields {
     cursor_.take((step - cursor_.offset() % step) % step);
   }
 
-  std::size_t alignment_ = 8;  // maximum; set together with cursor_, so declared before it
+  // Largest alignment in bytes; set while cursor_ is initialised, so declared before it.
+  std::size_t alignment_ = 8;
   bool cdr_;
   ByteCursor cursor_;
 };
@@ -86,8 +88,8 @@ RosHeader header(RosFields& fields, TimeUs recorded_us) {
   return header;
 }
 
-/// Parses a position and a quaternion x, y, z, w. Empty if a position is not finite or the quaternion does
-/// not have length 1.
+/// Parses a position and a quaternion x, y, z, w. Empty if the position is not finite or the length of the
+/// quaternion is not 1.
 std::optional<mrpt::math::TPose3D> pose(RosFields& fields) {
   double values[7];
   for (double& value : values) value = fields.number<double>();
@@ -119,7 +121,7 @@ RosLaserScan read_ros_laser_scan(const BagMessage& message) {
   RosLaserScan scan;
   scan.header = header(fields, message.recorded_us);
   scan.angle_min_rad = fields.number<float>();
-  fields.number<float>();  // angle_max, which follows from the others
+  fields.number<float>();  // angle_max, which follows from the other fields
   scan.angle_increment_rad = fields.number<float>();
   scan.time_increment_s = fields.number<float>();
   scan.scan_time_s = fields.number<float>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parses the messages of ROS that we need, from the bytes of ROS 1 (packed, little endian) and of ROS 2 (CDR
-// of either byte order, numbers aligned to their size).
+// Parses the ROS messages that psi-slam needs, from the bytes of ROS 1 (packed, little endian) and of ROS 2
+// (CDR of either byte order, numbers aligned to their size).
 #pragma once
 
 #include <mrpt/math/TPose3D.h>
@@ -17,7 +17,7 @@ namespace psi_slam {
 inline constexpr const char* kRosLaserScan = "sensor_msgs/LaserScan";
 inline constexpr const char* kRosOdometry = "nav_msgs/Odometry";
 inline constexpr const char* kRosTransforms = "tf2_msgs/TFMessage";
-inline constexpr const char* kRosOldTransforms = "tf/tfMessage";  ///< the same bytes
+inline constexpr const char* kRosOldTransforms = "tf/tfMessage";  ///< older type with the same bytes
 
 struct RosHeader {
   TimeUs time_us = 0;
@@ -28,8 +28,8 @@ struct RosLaserScan {
   RosHeader header;
   float angle_min_rad = 0;
   float angle_increment_rad = 0;
-  float time_increment_s = 0;  ///< between neighbouring beams; 0: not stated
-  float scan_time_s = 0;       ///< between scans; 0: not stated
+  float time_increment_s = 0;  ///< between neighbouring beams; 0 if not stated
+  float scan_time_s = 0;       ///< between scans; 0 if not stated
   float range_min_m = 0;
   float range_max_m = 0;
   std::vector<float> ranges_m;
@@ -42,13 +42,14 @@ struct RosTransform {
   mrpt::math::TPose3D pose;
 };
 
-// Each function throws MalformedBytes if the message is shorter than it states.
+// Each function throws MalformedBytes if the message is shorter than it states or has an unknown encoding.
 RosLaserScan read_ros_laser_scan(const BagMessage& message);
 
-/// Empty if the pose is invalid: not finite, or a quaternion whose length is not 1.
+/// Returns the pose of the robot in the odometry's frame. Empty if the pose is invalid: not finite, or a
+/// quaternion whose length is not 1.
 std::optional<RosTransform> read_ros_odometry(const BagMessage& message);
 
-/// Skips invalid transforms, since most transforms are not needed.
+/// Returns the transforms of a message. Skips invalid transforms, because most transforms are not needed.
 std::vector<RosTransform> read_ros_transforms(const BagMessage& message);
 
 }  // namespace psi_slam

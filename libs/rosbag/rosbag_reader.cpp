@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ROS bags of any kind (see bag_file.h): scans of sensor_msgs/LaserScan. Odometry of nav_msgs/Odometry, or of
-// the transform odom -> base_link, is interpolated at the header stamp of each scan. The laser's mount comes
-// from the transforms. A message without a stamp has the time at which it was recorded.
+// Reads ROS bags of any kind (see bag_file.h): scans of sensor_msgs/LaserScan. Odometry of nav_msgs/Odometry,
+// or of the transform odom -> base_link, is interpolated at the header stamp of each scan. The laser's mount
+// comes from the transforms. A message without a stamp has the time at which it was recorded.
 //
-// A damaged or truncated bag yields all frames before that place. Odometry with an invalid pose is skipped.
+// A damaged or truncated bag yields all frames before the damage, then a UserError. Odometry with an invalid
+// pose is skipped.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -24,8 +25,8 @@ mrpt::math::TPose2D on_floor(const mrpt::math::TPose3D& pose) {
   return {pose.x, pose.y, pose.yaw};
 }
 
-/// Sweep time, or 0 if the stated one is implausible: drivers may leave it 0, or state more than the time
-/// between scans or than any laser needs.
+/// Returns the sweep time of a scan in seconds, or 0 if the stated time is implausible. Drivers may state 0,
+/// more than the time between scans, or more than any laser needs.
 float sweep_time_s(const RosLaserScan& message) {
   constexpr float kMaxSweep_s = 1;
   const float sweep_s = message.time_increment_s * static_cast<float>(message.ranges_m.size() - 1);
@@ -34,14 +35,15 @@ float sweep_time_s(const RosLaserScan& message) {
   return sweep_s > 0 && sweep_s <= max_sweep_s ? sweep_s : 0;
 }
 
-/// Turns the scans of one topic into ours. The user's options override the messages. The number of beams and
-/// the angles may differ between messages.
+/// Converts the scans of one topic to LaserScans. The user's options override the messages. The number of
+/// beams and the angles may differ between messages.
 class RosLaser {
  public:
   explicit RosLaser(const LogOptions& options) : options_(options) {}
 
-  /// `mount` is the laser's mount according to the transforms. A stated pose overrides its pose, but not
-  /// whether it is upside down. Throws UserError that starts with `place` for invalid angles.
+  /// `mount` is the laser's mount according to the transforms. A pose that the user states overrides the pose
+  /// of `mount`, but not whether the laser is upside down. Throws UserError that starts with `place` for
+  /// invalid angles.
   LaserScan scan(RosLaserScan message, const FloorMount& mount, const std::string& place) {
     const bool clockwise = mount.upside_down != options_.mirrored;
     const Geometry geometry{message.ranges_m.size(), message.angle_min_rad, message.angle_increment_rad,
@@ -52,7 +54,7 @@ class RosLaser {
     if (!has_angles)
       throw UserError(place + ": the scan's angles start at " + std::to_string(message.angle_min_rad) +
                       " in steps of " + std::to_string(message.angle_increment_rad) +
-                      " radians, expected finite angles and a step other than 0");
+                      " radians, expected finite angles and a step other than 0. Correct the laser's driver");
     if (!bearings_ || geometry != geometry_) {
       bearings_ = std::make_shared<const std::vector<float>>(bearings_rad(message, clockwise));
       geometry_ = geometry;
@@ -92,7 +94,7 @@ class RosLaser {
   }
 
   LogOptions options_;
-  Geometry geometry_;  // of bearings_
+  Geometry geometry_;  // geometry of bearings_
   BeamBearings bearings_;
 };
 
@@ -122,7 +124,7 @@ class RosbagReader : public LogReader {
           continue;
         }
       } catch (const UserError&) {
-        failure_ = std::current_exception();  // thrown after the waiting scans, since no odometry follows
+        failure_ = std::current_exception();  // thrown after the scans that wait for odometry
       }
       at_end_ = true;
       interpolator_.end_of_log();
@@ -141,7 +143,7 @@ class RosbagReader : public LogReader {
       }
     } catch (const MalformedBytes& error) {
       throw UserError(bag_->place() + ": the message on " + message.topic->name +
-                      " is damaged: " + error.what());
+                      " is damaged: " + error.what() + ". Record the bag again");
     }
   }
 
@@ -182,7 +184,7 @@ class RosbagReader : public LogReader {
 
   BagPlan plan_;
   std::unique_ptr<BagFile> bag_;
-  std::vector<RosLaser> lasers_;  // in the order of the plan's topics
+  std::vector<RosLaser> lasers_;  // in the order of plan_.scan_topics
   OdometryInterpolator interpolator_;
   std::exception_ptr failure_;
   bool at_end_ = false;

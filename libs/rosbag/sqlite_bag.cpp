@@ -53,7 +53,7 @@ class SqliteBag : public BagFile {
     sqlite3_limit(
         database, SQLITE_LIMIT_LENGTH,
         static_cast<int>(std::clamp<std::uintmax_t>(bytes, 1 << 20, std::numeric_limits<int>::max())));
-    // Without this, SQLite rejects a truncated file as a whole.
+    // Without this setting, SQLite rejects a truncated file as a whole.
     sqlite3_exec(database, "PRAGMA writable_schema = ON", nullptr, nullptr, nullptr);
     read_topics();
   }
@@ -78,7 +78,7 @@ class SqliteBag : public BagFile {
     try {
       unpacked_ = decompress_zstd_frame(message.bytes, kMaxMessageBytes);
     } catch (const MalformedBytes& error) {
-      throw UserError(place() + ": the bag is damaged: " + error.what());
+      throw UserError(place() + ": the bag is damaged: " + error.what() + ". Fetch the bag again");
     }
     message.bytes = unpacked_;
     return true;
@@ -125,7 +125,7 @@ class SqliteBag : public BagFile {
       const Statement last = prepare("SELECT max(id) FROM messages");
       if (step(last)) last_id_ = sqlite3_column_int64(last.get(), 0);
     } catch (const UserError&) {
-      last_id_ = 0;  // the end of the file is missing, so that progress is unknown
+      last_id_ = 0;  // the end of the file is missing, so progress is unknown
     }
   }
 
@@ -133,7 +133,8 @@ class SqliteBag : public BagFile {
     const std::string reason = database_ ? sqlite3_errmsg(database_.get()) : "out of memory";
     const std::string where =
         id_ > 0 ? path_.string() + ": after message " + std::to_string(id_) : path_.string();
-    throw UserError(where + ": the bag is cut off or damaged, or is not a ROS 2 bag (" + reason + ")");
+    throw UserError(where + ": the bag is cut off or damaged, or is not a ROS 2 bag (" + reason +
+                    "). Fetch the bag again");
   }
 
   std::filesystem::path path_;
@@ -141,7 +142,7 @@ class SqliteBag : public BagFile {
   Statement messages_;
   std::map<std::int64_t, BagTopic> topics_;
   std::string unpacked_;
-  std::int64_t id_ = 0;  // of the last message
+  std::int64_t id_ = 0;  // number of the last message read
   std::int64_t last_id_ = 0;
 };
 

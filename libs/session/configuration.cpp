@@ -7,7 +7,7 @@ namespace psi_slam {
 
 class Configuration::Implementation {
  public:
-  /// Keeps the parts of the settings up to date.
+  /// Derives the options of mapper, localizer and log reader from the settings again.
   void update() {
     mapper = psi_slam::mapper_options(bound.settings);
     localizer = localizer_options(bound.settings);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Undo and redo of edits. To undo an edit is an edit, too: it repeats the previous edit of the same loop, or
-// restores the loop if there was none, and plans the later edits of the loop again.
+// Undo and redo of edits. An undo is an edit, too: it repeats the previous edit of the same loop, or restores
+// the loop if there was no previous edit. It also plans the later edits of the loop again.
 #pragma once
 
 #include <optional>
@@ -15,31 +15,33 @@ namespace psi_slam {
 
 class EditHistory {
  public:
+  /// How to undo an edit.
   struct Reversal {
     LoopEdit edit;
-    std::vector<TimedEdit> later;  ///< planned edits of the loop that the undone edit removed
+    std::vector<TimedEdit> later;  ///< planned edits of the same loop that the undone edit removed
   };
 
-  /// Notes an edit that the user made. `before` is the edit of the same loop that was in force, `later` are
-  /// its planned edits. Nothing can be redone afterwards.
+  /// Notes an edit that the user made. `before` is the edit of the same loop that was in force before,
+  /// `later` are the planned edits of that loop. Nothing can be redone afterwards.
   void note(const LoopEdit& made, const std::optional<LoopEdit>& before, std::vector<TimedEdit> later = {}) {
     const LoopEdit restore{LoopEdit::Kind::kRestore, made.frame, made.local_map};
     made_.push_back({made, {before.value_or(restore), std::move(later)}});
     undone_.clear();
   }
 
-  /// The edit that undoes the newest one; empty if there is nothing to undo.
+  /// Returns the edit that undoes the newest edit; empty if there is nothing to undo.
   std::optional<Reversal> undo() {
     if (!move_last(made_, undone_)) return std::nullopt;
     return undone_.back().back;
   }
-  /// The edit that was undone last; empty if there is nothing to redo.
+  /// Returns the edit that was undone last, to make it again; empty if there is nothing to redo.
   std::optional<LoopEdit> redo() {
     if (!move_last(undone_, made_)) return std::nullopt;
     return made_.back().made;
   }
 
-  /// Texts of the edits that undo() and redo() would undo and repeat; empty if there are none.
+  /// Texts of the edits that undo() would undo and redo() would repeat; empty if there is nothing to undo or
+  /// redo.
   std::string undo_text() const { return text_of_last(made_); }
   std::string redo_text() const { return text_of_last(undone_); }
 

@@ -10,6 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
+#include "base/text_parts.h"
 #include "compression/line_reader.h"
 #include "config/nearest_name.h"
 #include "psi_slam/user_error.h"
@@ -50,12 +51,13 @@ class Values {
       keys.insert(keys.end(), {"matcher", "x_m", "y_m", "yaw_deg", "window_m", "window_deg"});
     for (std::string word; words >> word;) {
       const std::size_t equals = word.find('=');
-      if (equals == std::string::npos) throw UserError("\"" + word + "\": expected KEY=VALUE");
+      if (equals == std::string::npos)
+        throw UserError("\"" + word + "\": expected KEY=VALUE. Correct the word");
       const std::string key = word.substr(0, equals);
       if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        throw UserError("unknown key \"" + key + "\"" + did_you_mean(key, keys));
+        throw UserError("unknown key \"" + key + "\": expected " + name_list(keys) + did_you_mean(key, keys));
       if (!values_.emplace(key, word.substr(equals + 1)).second)
-        throw UserError("\"" + key + "\" is given twice");
+        throw UserError("\"" + key + "\" is given twice, expected once. Remove one of them");
     }
   }
 
@@ -63,7 +65,8 @@ class Values {
 
   const std::string& text(const char* key) const {
     const auto found = values_.find(key);
-    if (found == values_.end()) throw UserError(std::string("\"") + key + "\" is missing");
+    if (found == values_.end())
+      throw UserError(std::string("\"") + key + "\" is missing. Add " + key + "=VALUE");
     return found->second;
   }
 
@@ -131,7 +134,7 @@ std::string edit_line(const TimedEdit& timed) {
   return line;
 }
 
-/// Parses a line of the file, without comment. Throws UserError, without file and line, if it is no edit.
+/// Parses a line of the file, without comment. Throws UserError, without file and line, if it is not an edit.
 TimedEdit parse_edit_line(std::string_view line) {
   std::istringstream words{std::string(line)};
   std::string verb;
@@ -144,7 +147,7 @@ TimedEdit parse_edit_line(std::string_view line) {
   timed.time = time_of(values);
   if (values.has("attempt")) {
     const std::string& attempt = values.text("attempt");
-    if (attempt != "final_search" && attempt != "last_pass")  // last_pass is its old name
+    if (attempt != "final_search" && attempt != "last_pass")  // last_pass is the old name of final_search
       throw UserError("attempt=" + attempt + ": expected final_search");
     timed.edit.of_final_search = true;
   }

@@ -11,10 +11,10 @@
 //     match scan=900 local_map=3 matcher=ga x_m=1.5 y_m=-2 yaw_deg=90 window_m=2 window_deg=30 after=1500
 //     restore scan=812 local_map=14 after=1600
 //
-// Without `after`, an edit is made as soon as its scan and its local map exist. x_m, y_m and yaw_deg place
-// the scan's robot in the local map; window_m and window_deg are half-widths. `match` works without these
-// five. attempt=final_search forces a match that only the final loop search finds. Older files call it
-// attempt=last_pass.
+// Without `after`, an edit is made as soon as its scan and its local map exist. x_m, y_m and yaw_deg are the
+// pose of the robot at the scan in the frame of the local map; window_m and window_deg are half-widths of the
+// search window. `match` also works without these five. attempt=final_search forces a match that only the
+// final loop search finds. Older files call it attempt=last_pass.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ namespace psi_slam {
 struct EditTime {
   enum class Kind {
     kBegin,      ///< before the first scan
-    kAfterScan,  ///< after `scan`, in the log's order, was mapped
+    kAfterScan,  ///< after `scan`, counted in the log's order from 0, was mapped
     kEnd,        ///< after the last scan was mapped
   };
   Kind kind = Kind::kBegin;
@@ -54,41 +54,43 @@ class EditJournal {
   const std::vector<TimedEdit>& edits() const { return edits_; }
   bool empty() const { return edits_.empty(); }
 
-  /// Adds an edit after those of the same time.
+  /// Adds an edit. It comes after the edits of the same time.
   void add(const TimedEdit& edit);
+  /// Adds all edits of another journal.
   void add(const EditJournal& others);
 
-  /// Returns the edits that are due at `now` and were not returned before. At the end all are due, even those
-  /// after scans that never came.
+  /// Returns the edits that are due at `now` and were not returned before. At the end all edits are due, even
+  /// edits after scans that the log does not have.
   std::vector<LoopEdit> take_due(EditTime now);
-  /// The last edit of the same loop among those that were taken.
+  /// Returns the last edit of the same loop among the edits that take_due() has returned.
   std::optional<LoopEdit> in_force(const LoopEdit& same_loop) const;
-  /// The edits of the same loop among those that were not taken yet.
+  /// Returns the edits of the same loop among the edits that are still to come.
   std::vector<TimedEdit> to_come(const LoopEdit& same_loop) const;
-  /// Marks all edits as not taken, to map the same log again.
+  /// Makes all edits due again, to map the same log again.
   void rewind() { taken_ = 0; }
 
-  /// Enters an edit that is made now, as taken, and removes later edits of the same loop. Its time must not
-  /// be before that of the edits taken.
+  /// Enters an edit that is made now, so take_due() will not return it. Removes later edits of the same loop.
+  /// Its time must not be before the time of edits that take_due() has returned.
   void enter(const TimedEdit& edit);
-  /// Removes later edits of a loop. Returns false if there were none.
+  /// Removes the edits of a loop that are still to come. Returns false if there were none.
   bool forget_later(const LoopEdit& same_loop);
 
-  /// The edits of a run that becomes one of several. Its scans are numbered from `first_scan`, its local maps
-  /// from `first_local_map`. Edits at its end are made after the last of its `scans`.
+  /// Returns the edits of a run that is merged with other runs. Its scans are numbered from `first_scan`, its
+  /// local maps from `first_local_map`. Edits at its end are made after the last of its `scans` scans.
   EditJournal of_run(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
 
+  /// Returns the text of the file.
   std::string text() const;
-  /// Throws UserError, with file and line, for a line that is no edit.
+  /// Reads a file. Throws UserError, with file and line, for a line that is not an edit.
   static EditJournal read(const std::filesystem::path& file);
-  /// Parses a text; `file` is only for error messages. Throws like read().
+  /// Parses the text of a file; `file` is only for error messages. Throws as read() does.
   static EditJournal parse(const std::string& text, const std::filesystem::path& file);
-  /// Throws SystemFailure if the file cannot be written.
+  /// Writes the file. Throws SystemFailure if it cannot be written.
   void write(const std::filesystem::path& file) const;
 
  private:
   std::vector<TimedEdit> edits_;
-  std::size_t taken_ = 0;
+  std::size_t taken_ = 0;  ///< number of edits that take_due() has returned or enter() has entered
 };
 
 }  // namespace psi_slam

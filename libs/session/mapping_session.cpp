@@ -34,7 +34,7 @@ bool has_return(const Frame& frame) {
   return any;
 }
 
-/// Adds the time of its scope to the session's work.
+/// Adds the time from its construction to its destruction to `work_s`, in seconds.
 class WorkClock {
  public:
   explicit WorkClock(double& work_s) : work_s_(work_s), before_s_(work_s) {}
@@ -45,7 +45,7 @@ class WorkClock {
   void stop() {
     work_s_ = before_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  /// Continues after stop(); the time between them does not count.
+  /// Continues after stop(). The time between stop() and resume() does not count.
   void resume() {
     before_s_ = work_s_;
     start_ = std::chrono::steady_clock::now();
@@ -57,8 +57,8 @@ class WorkClock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Limits the facts to the first scans. All scans beyond those of the earlier logs belong to the last log.
-/// Drops logs and runs that were not reached, and the edits of their scans.
+/// Limits the facts to the first `scans` scans. Scans that are not of an earlier log belong to the last log.
+/// Drops logs and runs that begin later, and the edits of their scans.
 void keep_first(std::size_t scans, SessionFacts& facts) {
   std::size_t left = scans;
   for (std::size_t i = 0; i < facts.logs.size(); ++i) {
@@ -87,11 +87,12 @@ struct MappingSession::Members {
   enum class State {
     kReading,   ///< the log may have more scans
     kRead,      ///< all scans are taken: the log ended, is damaged, or finish() was called
-    kFinished,  ///< the map is made
+    kFinished,  ///< the map is finished
   };
 
-  /// Transitions: kReading -> kRead when the log ends and in finish(), kRead -> kFinished in finish(),
-  /// kFinished -> kRead in reopen(), kRead -> kReading in begin_run(). Others throw std::logic_error.
+  /// Changes the state. Allowed: kReading -> kRead when the log ends and in finish(), kRead -> kFinished in
+  /// finish(), kFinished -> kRead in reopen(), kRead -> kReading in begin_run(). Other transitions throw
+  /// std::logic_error.
   void enter(State next);
   std::optional<Frame> read();
   void make_due_edits(EditTime now);
@@ -103,10 +104,11 @@ struct MappingSession::Members {
   void begin(SessionProgress::Phase new_phase);
   void report(double share) const;
 
-  std::shared_ptr<const SessionRecording> recording;  ///< null if nothing was recorded
+  std::shared_ptr<const SessionRecording> recording;  ///< null if there is no recorded session
   fs::path log_path;                                  ///< the log that is read; empty if there is none
   mutable std::string log_sha256;                     ///< cache of checksum_of_log()
-  std::vector<RecordedLog> logs;  ///< in the last, scans_left means that readable scans are known to remain
+  /// For the last log, scans_left means that readable scans are known to remain.
+  std::vector<RecordedLog> logs;
   std::vector<RecordedRun> later_runs;
   Settings settings;
   std::vector<std::string> settings_warnings;
@@ -152,7 +154,7 @@ MappingSession::~MappingSession() = default;
 
 void MappingSession::Members::enter(State next) {
   const bool allowed = state == State::kRead ? next != State::kRead : next == State::kRead;
-  if (!allowed) throw std::logic_error("MappingSession: its functions were called out of order");
+  if (!allowed) throw std::logic_error("MappingSession: its functions were called in a wrong order");
   state = next;
 }
 
@@ -198,10 +200,11 @@ void MappingSession::finish(const std::atomic<bool>& stop) {
   WorkClock clock(m.work_s);
   if (std::none_of(m.mapper->log().begin(), m.mapper->log().end(), has_return))
     throw UserError((m.log_path.empty() ? names_of(m.logs) : m.log_path.string()) + ": " +
-                    (m.scans == 0 ? "no scan was read, there is nothing to map"
-                                  : "none of its " + std::to_string(m.scans) +
-                                        " scans has a return between log.min_range_m and log.max_range_m. "
-                                        "Correct these two options"));
+                    (m.scans == 0
+                         ? "no scan was read, so there is nothing to map. Choose a log with 2D laser scans"
+                         : "none of its " + std::to_string(m.scans) +
+                               " scans has a return between log.min_range_m and log.max_range_m. "
+                               "Correct these two options"));
   if (m.state == Members::State::kReading) {
     bool& scans_left = m.logs.back().scans_left;
     scans_left = scans_left || m.read().has_value();
@@ -331,7 +334,7 @@ void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
     }
   m.edits.add(
       run.edits().of_run(m.scans, inner ? inner->frames.size() : 0, m.mapper->keyframes().local_maps.size()));
-  m.recording.reset();  // it is only a part of what is mapped now
+  m.recording.reset();  // the recording is only a part of the frames now
   m.log_path = run.log();
   m.log_sha256.clear();
   m.logs = logs_before;
@@ -371,7 +374,7 @@ void MappingSession::export_to(const fs::path& folder, bool force) {
   export_to(OutputFolder::prepare(folder, force));
 }
 
-// Removes the file of an earlier export if there are no edits now.
+// Writes the edits, or removes the file of an earlier export if there are no edits.
 void MappingSession::Members::write_edits(const fs::path& file) const {
   if (!edits.empty()) return edits.write(file);
   std::error_code ignored;
@@ -441,7 +444,7 @@ std::vector<std::string> MappingSession::warnings_of_logs_before() const {
   std::vector<std::string> warnings;
   for (auto log = m_->logs.begin(); log != m_->logs.end() - 1; ++log) {
     if (log->broken_off)
-      warnings.push_back(*log->broken_off + "; this run is mapped up to there");
+      warnings.push_back(*log->broken_off + "; this run is mapped up to the damage");
     else if (log->scans_left)
       warnings.push_back("only the first " + std::to_string(log->scans) + " scans of " + log->name +
                          " are mapped: the run was interrupted and never resumed");

@@ -17,12 +17,13 @@ using mrpt::math::TPose2D;
 // Travel over which the robot must be tracked before its place in the map counts as found.
 constexpr double kFollowed_m = 2.0;
 
-/// Last scan that fitted the map: its pose in the map, and relative to the first scan.
+/// The last scan that fitted the map: the robot's pose in the map and relative to the run's first scan.
 struct Sighting {
   TPose2D map_T_robot;
   TPose2D start_T_robot;
 };
 
+/// Returns the start of the run relative to the node that is nearest to the robot's place in `seen`.
 RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& seen) {
   const TPose2D map_T_start = seen.map_T_robot + inverse(seen.start_T_robot);
   RunStart start;
@@ -37,8 +38,8 @@ RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& see
   return start;
 }
 
-/// Follows the robot until its pose is certain, at most for `end` frames. Sets `why_not` to the last
-/// objection.
+/// Follows the robot until its pose is certain, for at most `end` frames. Returns nothing if the robot was
+/// not found, and sets `why_not` to the objection of the last search.
 std::optional<Sighting> find(FrameSource& frames, std::size_t end, Localizer& localizer, FrontEnd& way,
                              bool start_is_known, const std::atomic<bool>& stop,
                              const std::function<void(double share)>& progress, std::string& why_not) {

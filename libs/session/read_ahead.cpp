@@ -26,7 +26,7 @@ std::optional<Frame> ReadAhead::next() {
   const bool is_last = !ahead_.front().frame.has_value();
   progress_ = ahead_.front().progress;
   skipped_ = ahead_.front().skipped;
-  if (is_last) {  // stays in the queue for further calls
+  if (is_last) {  // the last entry stays in the queue for further calls
     if (ahead_.front().failure) std::rethrow_exception(ahead_.front().failure);
     return std::nullopt;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads a log in a thread of its own, a bounded number of frames ahead of the consumer. Frames and errors
-// arrive in the same order as without it.
+// arrive in the same order as without the thread.
 #pragma once
 
 #include <condition_variable>
@@ -22,16 +22,16 @@ class ReadAhead : public FrameSource {
   explicit ReadAhead(std::unique_ptr<FrameSource> source, std::size_t capacity = 256);
   ~ReadAhead() override;
 
-  /// Throws what the source threw, after the frames before the error.
+  /// Returns the next frame. Throws the error of the source after the frames before it.
   std::optional<Frame> next() override;
 
-  /// Progress of the frames taken, not of those read ahead.
+  /// Progress of the frames that next() has returned, not of the frames read ahead.
   double progress() const override { return progress_; }
   SkippedLines skipped_lines() const override { return skipped_; }
 
  private:
   struct Read {
-    std::optional<Frame> frame;  ///< empty at the end
+    std::optional<Frame> frame;  ///< empty at the end of the log
     double progress = 0;
     SkippedLines skipped;
     std::exception_ptr failure;

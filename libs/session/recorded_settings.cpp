@@ -37,7 +37,7 @@ std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts&
     else
       unknown.push_back(file.string() + ": " + name + " is obsolete and is ignored");
   }
-  bound.table.take_warnings();  // users cannot edit the names inside a session
+  bound.table.take_warnings();  // drops warnings about old names, which users cannot edit in a session
   return unknown;
 }
 
@@ -64,7 +64,7 @@ std::optional<std::string> changed_settings_text(const std::filesystem::path& fi
   const std::vector<ChangedSetting> changed = changed_settings(kept_settings(recorded.table), table);
   if (changed.empty()) return std::nullopt;
   std::string text =
-      file.string() + " was mapped with other settings and is mapped again with the present ones: ";
+      file.string() + " was mapped with other settings and is mapped again with the current settings: ";
   for (std::size_t i = 0; i < std::min(changed.size(), kNamed); ++i) {
     const auto value_text = [](const std::string& value) { return value.empty() ? "empty" : value; };
     text += (i == 0 ? "" : ", ") + changed[i].name + " was " + value_text(changed[i].before) + " and is " +
@@ -80,7 +80,8 @@ void require_kept(const std::map<std::string, std::string>& kept, const OptionTa
   if (changed.empty()) return;
   const auto& [name, before, now] = changed.front();
   throw UserError(name + " is " + before + " in the session " + file.string() + " and cannot become " + now +
-                  ": a resumed session keeps all settings but [map], [localization] and run.threads");
+                  ": a resumed session keeps all settings except [map], [localization] and run.threads. "
+                  "Remove this setting");
 }
 
 }  // namespace psi_slam

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings of a session that is resumed. Those that shaped its map are kept; those that only affect output
-// files may change.
+// Settings of a session that is resumed. Settings that shaped its map are kept; settings that only affect
+// output files may change.
 #pragma once
 
 #include <filesystem>
@@ -20,15 +20,15 @@ namespace psi_slam {
 std::vector<std::string> load_recorded(BoundSettings& bound, const SessionFacts& facts,
                                        const std::filesystem::path& file);
 
-/// Warning if another version of the program recorded the session; empty if this version did.
+/// Returns a warning if another version of the program recorded the session; empty if this version did.
 std::optional<std::string> other_version_text(const std::filesystem::path& file, const SessionFacts& facts);
 
-/// Values of the options that a resumed session cannot change, by name: all but [map], [localization] and
-/// run.threads.
+/// Returns the values of the options that a resumed session cannot change, by name: all except [map],
+/// [localization] and run.threads.
 std::map<std::string, std::string> kept_settings(const OptionTable& table);
 
-/// Warning if a session is mapped with other settings than its own: a sentence without full stop that names
-/// the first of them. Empty if all settings that shape the map are equal.
+/// Returns a warning if a session is mapped with other settings than its own: a sentence without full stop
+/// that names the first changed settings. Empty if all settings that shape the map are equal.
 std::optional<std::string> changed_settings_text(const std::filesystem::path& file, const SessionFacts& facts,
                                                  const OptionTable& table);
 

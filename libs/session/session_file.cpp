@@ -28,18 +28,18 @@ constexpr std::size_t kHeadBytes = kMagic.size() + sizeof(std::uint32_t) + 2 * s
 constexpr std::size_t kChecksumBytes = 64;
 constexpr int kCompressionLevel = 9;
 constexpr const char* kUseACopy = "Use a copy of it, or map the log again.";
-constexpr std::uint32_t kFactsOfEachLog = 3;  // the first version with the faults of every log
+constexpr std::uint32_t kFactsOfEachLog = 3;  // first version with the damage and skipped lines of every log
 
-// The bytes of frames: little-endian, every number to the last bit.
+// Frames are stored in little-endian bytes, every number to the last bit.
 
-constexpr std::uint32_t kSeveralLasers = 2;  // the first version with several lasers
-// Limits for damaged files: the mapper's memory grows with both.
+constexpr std::uint32_t kSeveralLasers = 2;  // first version with several lasers
+// Limits that protect against damaged files, because the mapper's memory grows with both values.
 constexpr std::uint32_t kMostLasers = 64;
 constexpr double kFarthest_m = 1e7;
 
 enum Flags : std::uint8_t {
   kHasOdometry = 1,
-  kOtherSensor = 2,    ///< the sensor differs from the previous frame's and is described
+  kOtherSensor = 2,    ///< the sensor differs from the previous frame's sensor and is described
   kHasCompanions = 4,  ///< the number of companions and their scans follow
 };
 constexpr std::uint8_t kAllFlags = kHasOdometry | kOtherSensor | kHasCompanions;
@@ -58,12 +58,13 @@ void append_pose(std::string& bytes, const TPose2D& pose) {
   for (const double value : {pose.x, pose.y, pose.phi}) append_number(bytes, value);
 }
 
-/// Whether a pose can be that of a robot or a laser: finite and at most 10,000 km from the origin.
+/// Whether a pose can be the pose of a robot or a laser: finite and at most 10,000 km from the origin along x
+/// and y.
 bool is_possible(const TPose2D& pose) {
   return std::abs(pose.x) <= kFarthest_m && std::abs(pose.y) <= kFarthest_m && std::isfinite(pose.phi);
 }
 
-/// Throws MalformedBytes unless the pose can be one of a robot or a laser.
+/// Reads a pose. Throws MalformedBytes unless it can be the pose of a robot or a laser.
 TPose2D read_pose(ByteCursor& bytes) {
   TPose2D pose;
   for (double* const value : {&pose.x, &pose.y, &pose.phi}) *value = bytes.number<double>();
@@ -84,7 +85,7 @@ std::vector<float> read_floats(ByteCursor& bytes) {
   return values;
 }
 
-/// Bytes of what all scans of one sensor share.
+/// Returns the bytes of the description that all scans of one sensor share.
 std::string sensor_bytes(const LaserScan& scan) {
   std::string bytes;
   append_floats(bytes, scan.bearings_rad ? *scan.bearings_rad : std::vector<float>());
@@ -115,7 +116,7 @@ void read_ranges(ByteCursor& bytes, LaserScan& scan) {
     throw MalformedBytes("a scan has another number of beams than its sensor");
 }
 
-/// Appends a scan, with the description of its sensor if that differs from `last_sensor`.
+/// Appends a scan. Describes its sensor if the sensor differs from `last_sensor`.
 void append_scan(std::string& bytes, int flags, TimeUs time_us, const TPose2D& pose, const LaserScan& scan,
                  std::string& last_sensor) {
   const std::string sensor = sensor_bytes(scan);
@@ -127,7 +128,7 @@ void append_scan(std::string& bytes, int flags, TimeUs time_us, const TPose2D& p
   append_floats(bytes, scan.ranges_m);
 }
 
-/// The last sensors, by the index of their scan in a frame.
+/// The last described sensors, by the index of their scan in a frame.
 template <class Sensor>
 using LastSensors = std::map<std::size_t, Sensor>;
 
@@ -169,7 +170,8 @@ void append_frames(std::string& bytes, const std::vector<Frame>& frames) {
   }
 }
 
-/// Reads frames of a file of this `version` and numbers them from 0. Throws MalformedBytes.
+/// Reads the frames of a file of this `version` and numbers them from 0. Throws MalformedBytes if the bytes
+/// are damaged.
 std::vector<Frame> read_frames(ByteCursor& bytes, std::uint32_t version) {
   const auto count = bytes.number<std::uint64_t>();
   std::vector<Frame> frames;
@@ -228,7 +230,7 @@ Json json_of(const SessionFacts& facts) {
           {"edits", facts.edits.text()}};
 }
 
-/// Damage of a log, skipped lines, and whether scans were left.
+/// Reads the damage of a log, its skipped lines, and whether scans were left unread.
 void read_faults(const Json& json, std::uint32_t version, RecordedLog& log) {
   const Json& skipped = json.at("skipped_lines");
   log.skipped = {skipped.at("count").get<std::size_t>(), skipped.at("first").get<std::string>()};
@@ -246,7 +248,7 @@ SessionFacts facts_of(const Json& json, std::uint32_t version, const fs::path& p
                           log.at("scans").get<std::size_t>()});
     if (version >= kFactsOfEachLog) read_faults(log, version, facts.logs.back());
   }
-  // Older versions have only the faults of the last log.
+  // Older versions have these facts only for the last log.
   if (version < kFactsOfEachLog && !facts.logs.empty()) read_faults(json, version, facts.logs.back());
   for (const Json& run : json.at("drives"))
     facts.runs.push_back({run.at("scan").get<std::size_t>(),
@@ -268,18 +270,21 @@ std::string packed(const std::string& bytes) {
 
 std::string all_bytes(const fs::path& path) {
   std::error_code ignored;
-  if (!fs::exists(path, ignored)) throw UserError(path.string() + " does not exist, expected a session");
-  if (fs::is_directory(path, ignored)) throw UserError(path.string() + " is a folder, expected a session");
+  if (!fs::exists(path, ignored))
+    throw UserError(path.string() + " does not exist, expected a session. Correct the path");
+  if (fs::is_directory(path, ignored))
+    throw UserError(path.string() + " is a folder, expected a session. Correct the path");
   std::ifstream file(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw UserError("cannot read " + path.string());
+  if (!file) throw UserError("cannot read " + path.string() + ", expected a session. Check its permissions");
   return bytes;
 }
 
 /// Throws UserError unless all bytes are present and the checksum matches.
 void require_whole(const fs::path& path, std::string_view bytes) {
   if (bytes.substr(0, kMagic.size()) != kMagic)
-    throw UserError(path.string() + " is not a session of psi-slam, expected a file of --save-session");
+    throw UserError(path.string() +
+                    " is not a session of psi-slam, expected a file of --save-session. Choose another file");
   if (bytes.size() < kHeadBytes + kChecksumBytes)
     throw UserError(path.string() + " is cut off: it has only " + std::to_string(bytes.size()) + " bytes. " +
                     kUseACopy);

@@ -15,19 +15,19 @@
 namespace psi_slam {
 namespace {
 
-/// Name of the file or folder; "runs/" is called "runs".
+/// Returns the name of the file or folder; the name of "runs/" is "runs".
 std::string name_of(const std::filesystem::path& log) {
   return (log.has_filename() ? log : log.parent_path()).filename().string();
 }
 
-/// Recorded frames, followed by those of a log. skipped_lines() is only about the last log, since the
-/// recording has that of the logs before.
+/// Recorded frames, followed by the frames of a log. skipped_lines() covers only the last log, because the
+/// recording states the skipped lines of the earlier logs.
 class RecordedSource : public FrameSource {
  public:
-  /// `log` is at its beginning; `path` is its path. If it is the last log of the recording, its rest follows
-  /// the recorded frames, else all of it. Without `log` the frames end as they did when they were recorded:
-  /// at the end of the last log or with its damage. Throws UserError if another log begins before the
-  /// recording ends.
+  /// `log` is at its beginning; `path` is its path. If `is_last`, `log` is the last log of the recording, and
+  /// its rest follows the recorded frames. Otherwise all of `log` follows them. Without `log` the frames end
+  /// as they did when they were recorded: at the end of the last log or with its damage. Throws UserError if
+  /// another log begins before the recording ends.
   RecordedSource(std::shared_ptr<const SessionRecording> recording, std::unique_ptr<FrameSource> log,
                  bool is_last, std::filesystem::path path)
       : recording_(std::move(recording)), log_(std::move(log)), is_last_(is_last), path_(std::move(path)) {
@@ -41,7 +41,8 @@ class RecordedSource : public FrameSource {
             : " is not the log of the session (their checksums differ)";
     throw UserError(path_.string() + why + " and does not continue it: its first scan is at " +
                     format_seconds(first_->time_us) + " s, the session's last scan at " +
-                    format_seconds(frames.back().time_us) + " s");
+                    format_seconds(frames.back().time_us) +
+                    " s. Resume with the log of the session, or with one that follows it");
   }
 
   std::optional<Frame> next() override {
@@ -59,7 +60,8 @@ class RecordedSource : public FrameSource {
     return frame;
   }
 
-  // The length of the next log is unknown, so the recording counts as half of the total.
+  // The length of the log that continues the recording is unknown, so the recording counts as half of the
+  // total.
   double progress() const override {
     if (log_ && is_last_) return log_->progress();
     const std::size_t recorded = recording_->frames.size();
@@ -73,7 +75,7 @@ class RecordedSource : public FrameSource {
   }
 
  private:
-  // Reads the log along with its recorded frames, so that its progress and skipped lines are right.
+  // Reads the log along with its recorded frames, so that its progress and skipped lines are correct.
   void skip_recorded() {
     const std::size_t of_logs_before = recording_->frames.size() - recording_->facts.logs.back().scans;
     if (next_ >= of_logs_before && !log_->next())
@@ -83,10 +85,11 @@ class RecordedSource : public FrameSource {
   }
 
   std::shared_ptr<const SessionRecording> recording_;
-  std::unique_ptr<FrameSource> log_;  ///< null if there is none
-  bool is_last_;                      ///< log_ is the last log of the recording
+  std::unique_ptr<FrameSource> log_;  ///< null if no log continues the recording
+  bool is_last_;                      ///< whether log_ is the last log of the recording
   std::filesystem::path path_;
-  std::optional<Frame> first_;  ///< of the next log; empty once it was returned
+  /// First frame of a log that continues the recording; empty once it was returned.
+  std::optional<Frame> first_;
   std::size_t next_ = 0;
 };
 
@@ -101,10 +104,11 @@ SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, st
       edits_(recording_->facts.edits) {
   edits_.rewind();
   if (log_.empty()) return;
-  if (!std::filesystem::exists(log_)) throw UserError(log_.string() + " does not exist, expected a log file");
+  if (!std::filesystem::exists(log_))
+    throw UserError(log_.string() + " does not exist, expected a log file. Correct the path");
   const std::string sha256 = sha256_of_log(log_);
   same_log_ = logs_.back().sha256 == sha256;
-  if (same_log_) {  // read from its beginning again, which finds its faults again
+  if (same_log_) {  // the log is read from its beginning, which finds its skipped lines and damage again
     logs_.back() = {logs_.back().name, sha256, logs_.back().scans};
     return;
   }

@@ -18,31 +18,31 @@ struct Settings;
 
 class SessionInput {
  public:
-  /// A log from its beginning.
+  /// Reads a log from its beginning.
   explicit SessionInput(std::filesystem::path log);
 
-  /// A recording, continued by `log` unless it is empty. If the checksum of `log` is that of the recording's
-  /// last log, the rest of that log is read, else all of `log`. Throws UserError if `log` is unreadable or is
-  /// an earlier log of the recording.
+  /// Reads a recording, and then `log` unless that path is empty. If the checksum of `log` is that of the
+  /// recording's last log, only the rest of that log is read, else all of `log`. Throws UserError if `log` is
+  /// unreadable or is an earlier log of the recording.
   explicit SessionInput(std::shared_ptr<const SessionRecording> recording, std::filesystem::path log = {});
 
-  /// The session in a file, or the log if the file is no session.
+  /// Returns the session in a file, or a log if the file is not a session.
   static SessionInput of_file(const std::filesystem::path& path);
 
-  /// This input with `edits` instead of its own.
+  /// Returns this input with `edits` instead of its own edits.
   SessionInput with_edits(EditJournal edits) const;
 
-  /// All frames, recorded and read, numbered from 0. Throws UserError if the log is unreadable, or if it
-  /// continues the recording but begins before the recording's end.
+  /// Returns a source of all frames, recorded frames first, numbered from 0. Throws UserError if the log is
+  /// unreadable, or if it continues the recording but begins before the recording's end.
   std::unique_ptr<FrameSource> open(const LogOptions& options) const;
 
-  /// Null if there is no recording.
+  /// The recording; null if there is none.
   const std::shared_ptr<const SessionRecording>& recording() const { return recording_; }
   /// Path of the log that is read; empty if there is none.
   const std::filesystem::path& log() const { return log_; }
-  /// All logs. The checksum of the last one is empty until it is needed.
+  /// All logs, in the order of their frames. The checksum of the last log is empty until it is computed.
   const std::vector<RecordedLog>& logs() const { return logs_; }
-  /// Edits, each made at its time.
+  /// The edits, each with the time at which it is made.
   const EditJournal& edits() const { return edits_; }
 
  private:
@@ -53,11 +53,11 @@ class SessionInput {
   bool same_log_ = false;  ///< log_ is the last log of the recording
 };
 
-/// Opens the input for a run. With several threads, a thread of its own reads ahead. Throws UserError if
-/// settings contradict each other or if the input is unreadable.
+/// Opens the input for a run. If run.threads allows several threads, an extra thread reads ahead. Throws
+/// UserError if settings contradict each other or if the input is unreadable.
 std::unique_ptr<FrameSource> open_input(const SessionInput& input, const Settings& settings);
 
-/// "first.log + second.log".
+/// Returns the names of the logs: "first.log + second.log".
 std::string names_of(const std::vector<RecordedLog>& logs);
 
 }  // namespace psi_slam

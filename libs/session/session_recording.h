@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that is needed to make a map again: the mapper's frames, to the last bit, and its settings and edits.
-// The mapper's state is not recorded: the same program derives the same state from the same frames.
+// All that is needed to make a map again: the mapper's frames, to the last bit, its settings and the edits.
+// The mapper's state is not recorded, because the same program derives the same state from the same frames.
 #pragma once
 
 #include <cstddef>
@@ -17,17 +17,17 @@ namespace psi_slam {
 
 /// A log that frames were read from.
 struct RecordedLog {
-  std::string name;       ///< of the file, without folder
-  std::string sha256;     ///< see sha256_of_log(); empty: the log was unreadable when the session was saved
-  std::size_t scans = 0;  ///< taken from the log's beginning
+  std::string name;       ///< name of the file, without folder
+  std::string sha256;     ///< see sha256_of_log(); empty if the log was unreadable when the session was saved
+  std::size_t scans = 0;  ///< number of scans taken, from the log's beginning
   SkippedLines skipped{};
   std::optional<std::string> broken_off{};  ///< damage after the last frame, as a sentence
-  bool scans_left = false;                  ///< the log is known to have more scans
+  bool scans_left = false;                  ///< whether the log is known to have more scans
 };
 
-/// A run after the first one; see RunStart.
+/// A merged run other than the first one; see RunStart.
 struct RecordedRun {
-  std::size_t scan = 0;  ///< the run's first, in the order of all frames
+  std::size_t scan = 0;  ///< the run's first scan, in the order of all frames
   RunStart start;
 };
 

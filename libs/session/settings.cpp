@@ -24,7 +24,8 @@ void describe_log(OptionTable& table, Settings& settings) {
   for (const BeamAngles angles : stated_beam_angles()) conventions.emplace_back(name_of(angles), angles);
   table.section("log", "Robot and laser: facts that the log does not state")
       .choice("beam_angles", log.beam_angles, std::move(conventions),
-              "How the beams share the field of view if the log does not say. psi-slam check finds it out.")
+              "How the beams divide the field of view if the log does not state it. psi-slam check "
+              "determines this.")
       .optional_angle_deg(
           "field_of_view_deg", log.field_of_view_rad, above(0).at_most(360),
           "Field of view of the laser. auto: the log's value, or the usual one for its number of beams.")
@@ -119,7 +120,7 @@ void describe_run(OptionTable& table, RunOptions& run) {
                "Number of threads. 0: one for each processor. The results do not depend on it.");
 }
 
-/// Value and name of an option.
+/// Name and value of an option.
 struct Named {
   const char* name;
   double value;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All settings of psi-slam. describe() is their only description: settings files, --set, dumps, the reference
-// page and the window's settings panel are made from it.
+// All settings of psi-slam. Settings files, --set, dumps, the reference page and the window's settings panel
+// are all made from describe(), which alone describes the options.
 #pragma once
 
 #include <cstdint>
@@ -26,17 +26,18 @@ struct LaserMount {
 };
 
 struct RunOptions {
-  std::uint64_t seed = 1;  ///< of all random numbers
-  int threads = 0;         ///< 0: one for each processor. Results do not depend on it.
+  std::uint64_t seed = 1;  ///< seed of all random numbers
+  int threads = 0;         ///< number of threads; 0: one for each processor. Results do not depend on it.
 };
 
 struct Settings {
-  LogOptions log;  ///< without robot_T_laser, which log_options() takes from `laser_mount`
+  LogOptions log;  ///< without robot_T_laser: log_options() takes it from `laser_mount`
   LaserMount laser_mount;
-  MapperOptions mapper;  ///< without seed and threads, which mapper_options() takes from `run`
+  MapperOptions mapper;  ///< without seed and threads: mapper_options() takes them from `run`
   GridMapOptions map;
   MapFileOptions map_files;
-  LocalizerOptions localization;  ///< without what localizer_options() takes from `mapper` and `run`
+  /// Without the options that localizer_options() takes from `mapper` and `run`.
+  LocalizerOptions localization;
   RunOptions run;
 };
 
@@ -49,43 +50,45 @@ void describe(OptionTable& table, Settings& settings);
 void describe_mapper(OptionTable& table, MapperOptions& mapper);
 void describe_localization(OptionTable& table, LocalizerOptions& localization);
 
-/// Settings together with the table that is bound to them.
+/// Settings, together with the option table that is bound to them.
 struct BoundSettings {
   BoundSettings() { describe(table, settings); }
   BoundSettings(const BoundSettings&) = delete;
   BoundSettings& operator=(const BoundSettings&) = delete;
 
-  /// Takes the values of a file, unless `config` is empty, and then "section.key=value" assignments in their
-  /// order. Throws UserError for what is unreadable or not accepted. Call check() afterwards. Old names leave
-  /// warnings in the table (see OptionTable::take_warnings()).
+  /// Takes the values of the file `config`, unless that path is empty. Then takes "section.key=value"
+  /// assignments in their order. Throws UserError for a file that is unreadable, and for options and values
+  /// that are not accepted. Call check() afterwards. Old names leave warnings in the table (see
+  /// OptionTable::take_warnings()).
   void load(const std::filesystem::path& config, const std::vector<std::string>& assignments);
 
   Settings settings;
   OptionTable table;
 };
 
-/// Text of a settings file with all options and their present values, under a heading with the program's
-/// version.
+/// Returns the text of a settings file with all options and their current values, under a heading with the
+/// program's version.
 std::string settings_file_text(const OptionTable& table);
 std::string settings_file_text(const Settings& settings);
 
 /// Throws UserError if two options contradict each other. Each single option is checked when it is set.
 void check(const Settings& settings);
 
-/// check() without the coordinate system map.epsg, which only GDAL knows.
+/// Checks as check() does, except the coordinate system map.epsg, which only GDAL knows.
 void check_values(const Settings& settings);
 
-/// Options of the log's reader. If the laser's mount is stated in part, the rest of it is 0.
+/// Returns the options of the log's reader. If the laser's mount is stated in part, its other coordinates are
+/// 0.
 LogOptions log_options(const Settings& settings);
 
-/// Options of the mapper, with seed and threads of `run`.
+/// Returns the options of the mapper, with seed and threads of `run`.
 MapperOptions mapper_options(const Settings& settings);
 
-/// Options of the localizer, with the mapper's front end, consensus and genetic search, and the seed of
-/// `run`.
+/// Returns the options of the localizer, with the mapper's front end, consensus and genetic search, and the
+/// seed of `run`.
 LocalizerOptions localizer_options(const Settings& settings);
 
-/// Number of threads that run.threads means, at least 1.
+/// Returns the number of threads to start for run.threads, at least 1.
 int worker_threads(const RunOptions& run);
 
 }  // namespace psi_slam

@@ -12,7 +12,7 @@ std::vector<std::pair<std::string, Choice>> matcher_choices() {
   return choices;
 }
 
-/// Describes the options refine_* in the current section of the table.
+/// Describes the options refine_* and adds them to the current section of the table.
 void describe_refinement(OptionTable& table, RefinementOptions& refinement) {
   table
       .integer("refine_max_iterations", refinement.max_iterations, between(0, 1000), "iterations",
@@ -56,7 +56,8 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
           "worse keeps its predicted pose.")
       .number("poor_response_share", front_end.poor_response_share, between(0, 1), "",
               "A scan whose response is below this share of the mean response of the last scans is searched "
-              "again in a wide window, unless that is hardly wider. The match there must exceed the share.")
+              "again in a wide window, unless this window is hardly wider than the first one. The match in "
+              "the wide window must exceed this share too.")
       .number(
           "wide_response_gain", front_end.wide_response_gain, at_least(1), "",
           "A match in the wide window of a scan must exceed the response of the poor match by this factor.")
@@ -88,9 +89,8 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
               "A correction is doubtful if the pose predicted by odometry reaches this share of the matched "
               "pose's response.")
       .number("max_doubtful_correction_m", front_end.max_doubtful_correction_m, at_least(0).at_most(100), "m",
-              "Largest sum of doubtful corrections, as a person walking ahead causes them. A correction "
-              "beyond it "
-              "is not applied.")
+              "Largest sum of doubtful corrections, such as a person who walks ahead of the robot causes. A "
+              "correction beyond this sum is not applied.")
       .number("doubtful_correction_travel_m", front_end.doubtful_correction_travel_m, above(0).at_most(1000),
               "m", "Travel over which the sum of doubtful corrections decays to 37 %.")
       .number(
@@ -172,15 +172,16 @@ void describe_loop_closure(OptionTable& table, MapperOptions& mapper) {
       .number("reach_m", candidates.reach_m, at_least(0).at_most(1000), "m",
               "A local map is searched for loops if one of its nodes is at most this far from the window.")
       .number("min_travel_m", candidates.min_travel_m, at_least(0), "m",
-              "Least travel since the last node of a local map before it is searched for loops. Nearer nodes "
-              "share scans with it.")
+              "Least travel since the last node of a local map before that map is searched for loops. Nearer "
+              "nodes share scans with the map.")
       .number(
           "drift_per_metre", candidates.drift_per_metre, at_least(0).at_most(1), "",
-          "Drift of the position for each metre of the shortest chain of constraints to a local map. Local "
-          "maps that this drift may have moved out of the largest window are searched as a whole by nodes "
-          "with no local map nearby.")
-      .integer("wide_searches", loops.wide_searches, between(1, 1000), "windows",
-               "Largest number of wide windows that a node searches. The next nodes search the others.")
+          "Drift of the position for each metre of the shortest chain of constraints to a local map. A node "
+          "with no local map nearby searches local maps that this drift may have moved out of the largest "
+          "window, each as a whole.")
+      .integer(
+          "wide_searches", loops.wide_searches, between(1, 1000), "windows",
+          "Largest number of wide windows that a node searches. The next nodes search the remaining windows.")
       .number("attempt_distance_m", loops.attempt_distance_m, at_least(0), "m",
               "Travel from one search for loops to the next.")
       .number("context_travel_m", loops.context.travel_m, at_least(0).at_most(1000), "m",
@@ -355,7 +356,7 @@ void describe_pose_graph(OptionTable& table, MapperOptions& mapper) {
       .integer("max_iterations", solver.max_iterations, between(1, 10000), "iterations",
                "Largest number of iterations of an optimisation.")
       .number("relative_tolerance", solver.relative_tolerance, at_least(0).below(1), "",
-              "An optimisation ends when the error can fall by at most this share of itself.")
+              "An optimisation ends when the error can fall by at most this share of its value.")
       .number("absolute_tolerance", solver.absolute_tolerance, at_least(0), "",
               "An optimisation ends when the error can fall by at most this much.")
       .number("initial_lambda", solver.initial_lambda, at_least(0), "",
@@ -379,8 +380,10 @@ void describe_final_search(OptionTable& table, FinalSearchOptions& final_search)
 void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refinement) {
   SurfaceAlignmentOptions& alignment = refinement.alignment;
   table
-      .section("joint_refinement",
-               "Final scan refinement: aligns each scan with what near scans saw, if loops are closed")
+      .section(
+          "joint_refinement",
+          "Final scan refinement: aligns each scan with the surfaces that nearby scans saw, if loops are "
+          "closed")
       .integer("rounds", refinement.rounds, between(0, 100), "rounds",
                "Number of rounds of the final scan refinement. 0 skips it.")
       .integer("references", refinement.references, between(1, 1000), "nodes",
@@ -403,8 +406,9 @@ void describe_joint_refinement(OptionTable& table, JointRefinementOptions& refin
                  "Standard deviation of the optimised heading that the refinement starts from.")
       .integer("iterations", alignment.iterations, between(1, 100), "iterations",
                "Number of Gauss-Newton iterations for each scan.")
-      .integer("min_points", alignment.min_points, between(1, 1000000), "points",
-               "Least number of a scan's points near surfaces. A scan with fewer keeps its pose.");
+      .integer(
+          "min_points", alignment.min_points, between(1, 1000000), "points",
+          "Least number of a scan's points near surfaces. A scan with fewer such points keeps its pose.");
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TimeUs TextLine::time(std::size_t i) const {
 void for_each_text_line(const fs::path& path, const std::function<void(const TextLine&)>& visit) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored))
-    throw UserError("cannot read " + path.string() + ": it is a folder, not a file");
+    throw UserError("cannot read " + path.string() + ": it is a folder, not a file. Name a file");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file)
@@ -73,7 +73,8 @@ void for_each_text_line(const fs::path& path, const std::function<void(const Tex
     split(text, line.words);
     if (!line.words.empty()) visit(line);
   }
-  if (file.bad()) throw SystemFailure("cannot read " + path.string() + ": reading failed part-way through");
+  if (file.bad())
+    throw SystemFailure("cannot read " + path.string() + ": reading failed part-way through. Check the disk");
 }
 
 }  // namespace psi_slam

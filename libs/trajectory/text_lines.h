@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Text files with one record per line and words separated by blanks: trajectories, relations, CARMEN logs.
-// '#' starts a comment, empty lines are skipped, and errors read "file:line: ...".
+// '#' starts a comment, lines without words are skipped, and errors read "file:line: ...".
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,19 @@
 
 namespace psi_slam {
 
-/// The words of one line that is not empty. The views are valid during the visit only.
+/// The words of one line that has words. The views are valid only during the visit.
 struct TextLine {
   const std::filesystem::path& path;
-  std::size_t number = 0;  ///< from 1
+  std::size_t number = 0;  ///< number of the line, from 1
   std::vector<std::string_view> words;
 
-  /// Returns the error "file:line: complaint".
+  /// Returns the error "file:line: complaint", to be thrown.
   UserError error(const std::string& complaint) const;
-  /// Returns word `i` as a finite number. Throws UserError naming the word and `what` was expected.
+  /// Returns word `i`, counted from 0, as a finite number. Throws UserError that names the word and the
+  /// expected value `what`.
   double finite_number(std::size_t i, const char* what) const;
-  /// Returns word `i`, a time stamp in decimal seconds. Throws UserError naming the word.
+  /// Returns word `i`, a time stamp in decimal seconds, in microseconds. Throws UserError that names the
+  /// word.
   TimeUs time(std::size_t i) const;
 };
 

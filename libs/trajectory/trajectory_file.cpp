@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kPlaneWords = 4;
 constexpr std::size_t kTumWords = 8;
-constexpr TimeUs kSameTimeUs = 100;  // exclusive
+constexpr TimeUs kSameTimeUs = 100;  // times that differ by fewer microseconds count as equal
 
 /// Reads x, y and theta from three words in a row.
 StampedPose plane_pose(const TextLine& line, std::size_t stamp, std::size_t x) {
@@ -74,7 +74,7 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   bool carmen = false;
   for_each_text_line(path, [&](const TextLine& line) {
     const char letter = line.words[0][0];
-    if (first) carmen = letter >= 'A' && letter <= 'Z';  // the name of a message
+    if (first) carmen = letter >= 'A' && letter <= 'Z';  // messages of CARMEN begin with a capital letter
     first = false;
     if (carmen) {
       if (line.words[0] == "FLASER") trajectory.push_back(flaser_pose(line));
@@ -90,7 +90,7 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   if (trajectory.empty())
     throw UserError(path.string() +
                     ": no pose found. Expected lines 'timestamp x y theta', lines in TUM format, or FLASER " +
-                    "messages of CARMEN");
+                    "messages of CARMEN. Choose another file");
   return trajectory;
 }
 

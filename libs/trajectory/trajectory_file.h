@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectories, and their text files as evo and the tools of the Freiburg benchmark read them. Lengths are
-// metres, angles radians, time stamps seconds.
+// Trajectories, and their text files in the formats that evo and the tools of the Freiburg benchmark read.
+// Lengths are in metres, angles in radians, time stamps in seconds.
 //
 //     TUM       timestamp tx ty tz qx qy qz qw      with tz = qx = qy = 0, qz = sin(yaw/2), qw = cos(yaw/2)
 //     plane     timestamp x y theta
@@ -19,7 +19,7 @@
 
 namespace psi_slam {
 
-/// Pose of something (usually of the robot in the map) at one time.
+/// A pose at one time, usually the pose of the robot in the map.
 struct StampedPose {
   TimeUs time_us = 0;
   mrpt::math::TPose2D pose;
@@ -31,19 +31,19 @@ using Trajectory = std::vector<StampedPose>;
 /// Returns the trajectory in TUM format: no header, one line per pose, in the order given.
 std::string tum_text(const Trajectory& trajectory);
 
-/// Writes `tum_text` atomically. Throws SystemFailure if the file cannot be written.
+/// Writes the text of tum_text() atomically. Throws SystemFailure if the file cannot be written.
 void write_tum(const std::filesystem::path& path, const Trajectory& trajectory);
 
-/// Reads a file in any of the three formats above; the first line that is not a comment decides which. '#'
-/// starts a comment. Projects TUM poses onto the plane. Takes the first pose of each FLASER line of a CARMEN
-/// log and ignores its other messages. Throws UserError ("file:line: expected ...") on a malformed line, and
-/// if the file has no pose.
+/// Reads a file in any of the three formats above; the first line that is not a comment decides which one.
+/// '#' starts a comment. Projects TUM poses onto the plane. Takes the first pose of each FLASER line of a
+/// CARMEN log and ignores its other messages. Throws UserError ("file:line: expected ...") for a malformed
+/// line, and if the file has no pose.
 Trajectory read_trajectory(const std::filesystem::path& path);
 
 struct PoseAtTime {
   mrpt::math::TPose2D pose;
   bool interpolated = false;
-  std::size_t from = 0;  ///< index of the pose taken, or of the earlier one of the two interpolated
+  std::size_t from = 0;  ///< index of the pose taken, or of the earlier of the two poses interpolated
 };
 
 /// Returns the trajectory's pose less than 0.1 ms from `time_us` if there is one. Otherwise interpolates

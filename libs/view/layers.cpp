@@ -27,7 +27,8 @@ using mrpt::math::TPoint3D;
 using mrpt::math::TPose2D;
 using mrpt::opengl::CSetOfLines;
 
-/// Dots of one colour and size. (Passes all points at once because insertPoint() of MRPT 2.5 deadlocks.)
+/// Returns dots of one colour and size. Passes all points at once, because insertPoint() of MRPT 2.5
+/// deadlocks.
 mrpt::opengl::CPointCloud::Ptr dots_of(const std::vector<TPoint3D>& points, const mrpt::img::TColor& colour,
                                        float size_px) {
   auto dots = mrpt::opengl::CPointCloud::Create();
@@ -38,7 +39,7 @@ mrpt::opengl::CPointCloud::Ptr dots_of(const std::vector<TPoint3D>& points, cons
   return dots;
 }
 
-/// An empty set of lines of one colour and width.
+/// Returns an empty set of lines of one colour and width.
 CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
   auto lines = CSetOfLines::Create();
   lines->setColor_u8(colour);
@@ -46,8 +47,8 @@ CSetOfLines::Ptr lines_of(const mrpt::img::TColor& colour, float width) {
   return lines;
 }
 
-/// A plane at height 0 that shows the raster in true colours, whatever the light; transparent where the
-/// raster is.
+/// Returns a plane at height 0 that shows the raster in its own colours, without light, and transparent where
+/// the raster is transparent.
 mrpt::opengl::CTexturedPlane::Ptr textured_plane(const MapRaster& raster) {
   const auto width = static_cast<unsigned>(raster.width_px);
   const auto height = static_cast<unsigned>(raster.height_px);
@@ -74,7 +75,7 @@ mrpt::opengl::CTexturedPlane::Ptr textured_plane(const MapRaster& raster) {
   return plane;
 }
 
-/// A point or pose in the plane, lifted to a height.
+/// Returns a point or pose in the plane as a point at a height.
 template <class Planar>
 TPoint3D raised(const Planar& at, double z_m) {
   return {at.x, at.y, z_m};
@@ -96,13 +97,15 @@ void insert_line_with_ends(SceneLayer& layer, const Planar& a, const Planar& b, 
   layer.insert(dots_of({raised(a, z_m), raised(b, z_m)}, colour, dot_px));
 }
 
-// Transparent planes are drawn by decreasing distance: this one makes the grid map come before local maps.
+// Height for sorting: transparent planes are drawn from far to near, and the grid map must come before the
+// local maps.
 constexpr float kFarBelow_m = -1000;
 
-constexpr double kWallOpacity = 200;  // out of 255
-constexpr double kFreeOpacity = 70;
+constexpr double kWallOpacity = 200;  // opacity of a certain wall, out of 255
+constexpr double kFreeOpacity = 70;   // opacity of certain free space, out of 255
 
-/// Walls in the tint, free space in a paler tint. The opacity of a cell grows with its certainty.
+/// Returns a raster with walls in the tint and free space in a paler tint. The opacity of a cell grows with
+/// its certainty.
 MapRaster tinted_raster(const COccupancyGridMap2D& grid, const mrpt::img::TColor& tint) {
   MapRaster raster;
   raster.width_px = static_cast<int>(grid.getSizeX());
@@ -114,7 +117,7 @@ MapRaster tinted_raster(const COccupancyGridMap2D& grid, const mrpt::img::TColor
   for (int y = raster.height_px - 1; y >= 0; --y) {
     const COccupancyGridMap2D::cellType* row = grid.getRow(y);
     for (int x = 0; x < raster.width_px; ++x) {
-      const double free = 2 * static_cast<double>(COccupancyGridMap2D::l2p(row[x])) - 1;  // -1 wall .. 1 free
+      const double free = 2 * static_cast<double>(COccupancyGridMap2D::l2p(row[x])) - 1;  // -1: wall, 1: free
       const double opaque = free < 0 ? -free * kWallOpacity : free * kFreeOpacity;
       for (const std::uint8_t channel : {tint.B, tint.G, tint.R}) raster.pixels.push_back(channel);
       raster.pixels.push_back(static_cast<std::uint8_t>(std::lround(opaque)));
@@ -125,7 +128,8 @@ MapRaster tinted_raster(const COccupancyGridMap2D& grid, const mrpt::img::TColor
 
 constexpr double kShortestLine_m = 0.05;
 
-/// Continues a line from `last`, or starts it if there is none. Skips poses closer than kShortestLine_m.
+/// Extends a line from `last` to the pose, or starts a line if `last` is empty. Skips poses closer than
+/// kShortestLine_m to `last`.
 void extend(CSetOfLines& lines, std::optional<TPoint3D>& last, const TPose2D& pose, double z_m) {
   const TPoint3D point = raised(pose, z_m);
   if (last && (point - *last).norm() < kShortestLine_m) return;
@@ -138,21 +142,22 @@ bool starts_run(const ReplaySnapshot& snapshot, std::size_t frame) {
 }
 
 constexpr std::uint8_t kFaint = 45;
-// Opacity of accepted loops. It falls with their number, so that the map stays visible.
+// Opacity of accepted loops, out of 255. It falls with the number of loops, so that the map stays visible.
 constexpr double kClear = 140;
 constexpr double kPalest = 50;
 constexpr double kClearLoops = 100;  // up to this many loops keep the full opacity
 
-// More lines would only cover the map and slow the window down.
+// Largest number of loops of the final loop search that are drawn. More lines would hide the map and slow
+// down the window.
 constexpr std::size_t kMostLoopsOfFinalSearch = 3000;
 
-// The arrow that shows the robot, along its x axis.
+// Size of the arrow that shows the robot. It points along the robot's x axis.
 constexpr double kNose_m = 0.45;
 constexpr double kTail_m = -0.25;
 constexpr double kHalfWidth_m = 0.25;
 
-/// Adds a search window: a rectangle around a pose, along the pose's axes, and two lines at the limits of the
-/// heading.
+/// Adds a search window: a rectangle around a pose, along the axes of that pose, and two lines at the limits
+/// of the heading.
 void add_window(CSetOfLines& lines, const TPose2D& map_T_middle, const SearchExtent& extent) {
   const std::array<TPoint2D, 4> corners{TPoint2D(extent.x_m, extent.y_m), TPoint2D(-extent.x_m, extent.y_m),
                                         TPoint2D(-extent.x_m, -extent.y_m),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Functions that draw a snapshot into the layers of a scene. Each adds its objects to an empty layer.
+// Functions that draw a snapshot into the layers of a scene. Each draw function adds its objects to an empty
+// layer.
 #pragma once
 
 #include <mrpt/opengl/CSetOfObjects.h>
@@ -14,8 +15,8 @@ namespace psi_slam {
 
 using SceneLayer = mrpt::opengl::CSetOfObjects;
 
-/// Heights of the layers above the ground; within a viewport the highest is drawn last. They are small
-/// because perspective shifts higher layers.
+/// Heights of the layers above the ground, in metres. Within a viewport the highest layer is drawn last. The
+/// heights are small because perspective shifts higher layers.
 namespace height_m {
 inline constexpr double kLocalMaps = 0.005;
 inline constexpr double kOdometry = 0.01;
@@ -31,13 +32,15 @@ inline constexpr double kChosenLoop = 0.05;
 inline constexpr double kMeasure = 0.055;
 }  // namespace height_m
 
+/// Draws the grid map as a textured plane.
 void draw_grid(SceneLayer& layer, const DrawnMap& map);
 
-/// Draws the tinted active local maps at the origin; place_local_maps() moves them to their poses.
+/// Draws the active local maps, each in its own tint, at the origin.
 void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
+/// Moves the active local maps to their current poses.
 void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
 
-/// Draws the path by odometry alone, from the first pose in the map.
+/// Draws the path by odometry alone, from the first pose in the map on.
 void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot);
 /// Draws the corrected path, with dots at unmatched scans.
 void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot);
@@ -46,12 +49,12 @@ void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot);
 /// Draws lines from each node to the anchors of the local maps that contain its scan.
 void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot);
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style);
-/// Draws the selected loop, and the window of its search.
+/// Draws the selected loop and the window in which it was searched.
 void draw_chosen_loop(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t loop);
 
 void draw_robot(SceneLayer& layer, const mrpt::math::TPose2D& map_T_robot);
 void draw_scan(SceneLayer& layer, const Frame& frame, const mrpt::math::TPose2D& map_T_robot);
-/// Draws the search windows of a scan: the front end's and those of its loops.
+/// Draws the search windows of a scan: the window of the front end and the windows of its loops.
 void draw_windows(SceneLayer& layer, const ReplaySnapshot& snapshot, std::size_t frame);
 
 void draw_measure(SceneLayer& layer, const Measure& measure);

@@ -24,7 +24,7 @@ std::vector<mrpt::math::TPoint2D> placed(const ScanPoints& scan, const mrpt::mat
   return points;
 }
 
-/// Points of all scans of a local map, in its frame.
+/// Returns the points of all scans of a local map, in its frame.
 std::vector<mrpt::math::TPoint2D> points_of(const LocalMapRecord& map, const HistoryView<NodeScan>& nodes) {
   std::vector<mrpt::math::TPoint2D> points;
   const mrpt::math::TPose2D local_T_map = nodes[map.anchor].local_T_robot;
@@ -35,7 +35,7 @@ std::vector<mrpt::math::TPoint2D> points_of(const LocalMapRecord& map, const His
   return points;
 }
 
-/// A white raster. Each point makes its cell darker.
+/// Returns a white raster of the points. Each point makes its cell darker.
 MapRaster raster_of(const std::vector<mrpt::math::TPoint2D>& points) {
   MapRaster raster;
   raster.resolution_m = kCell_m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the window shows of one loop: a picture of the match, and the loop's residual in the graph.
+// Details of one loop for the window: an image of the match, and the loop's residual in the graph.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -14,18 +14,19 @@
 
 namespace psi_slam {
 
-/// The local map of a loop and the node's scan on it; both in the local map's frame.
+/// The local map of a loop, and the node's scan at two poses; all in the local map's frame.
 struct LoopPicture {
-  MapRaster local_map;                       ///< white, dark where scans hit something
+  MapRaster local_map;                       ///< white, dark where the scans of the local map have returns
   std::vector<mrpt::math::TPoint2D> before;  ///< the scan at the predicted pose
   std::vector<mrpt::math::TPoint2D> after;   ///< the scan at the matched pose; empty without a match
 };
 
-/// Picture of a loop by its index; nothing if the snapshot lacks the loop, its local map or its node.
+/// Returns the picture of the loop with this index in ReplaySnapshot::loops; nothing if the snapshot lacks
+/// the loop, its local map or its node.
 std::optional<LoopPicture> loop_picture(const ReplaySnapshot& snapshot, std::size_t loop);
 
-/// Error of a loop in the present graph: distance from the matched position of the node to its position in
-/// the graph, in metres.
+/// Error of a loop in the current graph, in metres: distance from the matched position of the node to its
+/// position in the graph.
 double loop_residual_m(const LoopRecord& loop, const std::vector<mrpt::math::TPose2D>& map_T_node);
 
 }  // namespace psi_slam

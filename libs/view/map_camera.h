@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MRPT's orbit camera over the ground plane: from pixels to places, and a view of a whole map.
+// An orbit camera over the ground plane, as MRPT has it: conversion from pixels to places, and a view of a
+// whole map.
 #pragma once
 
 #include <mrpt/img/TPixelCoord.h>
@@ -12,15 +13,15 @@
 namespace psi_slam {
 
 struct MapCamera {
-  mrpt::math::TPoint2D target;    ///< the place on the ground in the middle of the picture
-  double distance_m = 40;         ///< from the target to the eye
-  double azimuth_deg = -90;       ///< of the eye, seen from the target; at -90, y points up
-  double elevation_deg = 90;      ///< of the eye; 90 looks straight down
-  double field_of_view_deg = 30;  ///< from the lower to the upper edge
+  mrpt::math::TPoint2D target;    ///< place on the ground in the middle of the image
+  double distance_m = 40;         ///< distance from the target to the eye
+  double azimuth_deg = -90;       ///< azimuth of the eye, seen from the target; at -90, y points up
+  double elevation_deg = 90;      ///< elevation of the eye; 90 looks straight down
+  double field_of_view_deg = 30;  ///< vertical: from the lower to the upper edge of the image
 };
 
-/// Place on the ground that a pixel shows in a picture of `size` pixels; (0, 0) is the upper left corner.
-/// Nothing above the horizon.
+/// Place on the ground that a pixel shows in an image of `size` pixels; (0, 0) is the upper left corner.
+/// Returns nothing if the pixel is above the horizon.
 std::optional<mrpt::math::TPoint2D> ground_at(const MapCamera& camera, const mrpt::img::TImageSize& size,
                                               double x_px, double y_px);
 

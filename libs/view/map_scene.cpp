@@ -88,7 +88,7 @@ void MapScene::set_legend(mrpt::img::CImage picture, int margin_px) {
   viewport->setImageView(std::move(picture));
 }
 
-/// Replaces the objects of a layer, with lines and points scaled for the screen.
+/// Replaces the objects of a layer, and scales its lines and points for the screen.
 template <class Draw>
 void MapScene::fill(SceneLayer& layer, const Draw& draw) const {
   layer.clear();
@@ -101,7 +101,8 @@ void MapScene::fill(SceneLayer& layer, const Draw& draw) const {
   }
 }
 
-/// Fills a layer again, unless it is hidden: set_visible() makes show() redraw it later.
+/// Draws the objects of a layer again, unless the layer is hidden. set_visible() makes show() redraw a hidden
+/// layer later.
 template <class Draw, class... Matter>
 void MapScene::redraw(MapLayer layer, const Draw& draw, const Matter&... matter) {
   if (visible(layer)) fill(of(layer), [&](SceneLayer& objects) { draw(objects, matter...); });

@@ -38,12 +38,12 @@ bool shown_at_first(MapLayer layer);
 struct LoopStyle {
   enum class Colour { kMatcher, kResidual };
   Colour colour = Colour::kMatcher;
-  bool refused = false;  ///< also draw matches that were refused or deleted
+  bool refused = false;  ///< whether to draw matches that were refused or deleted
 
   bool operator==(const LoopStyle& other) const { return colour == other.colour && refused == other.refused; }
 };
 
-/// Residuals of this size and larger have the last colour of the scale.
+/// Residuals of this size and larger ones have the last colour of the scale.
 inline constexpr double kWorstResidual_m = 0.25;
 
 /// A line with which a person measures a distance, in the map's frame.
@@ -54,22 +54,22 @@ struct Measure {
 };
 
 /// A run as an MRPT scene, for windows, reports and tests. Has one layer for each kind of object, and redraws
-/// only layers whose data has changed.
+/// only the layers whose data has changed.
 ///
 /// The layers are millimetres apart in height, which OpenGL cannot always resolve from far above. So maps,
-/// lines and marks have a viewport each, and the viewports are drawn one over the other. All use the camera
-/// of the first one, "main".
+/// lines and marks have a viewport each, and the viewports are drawn on top of each other. All viewports use
+/// the camera of the first viewport, "main".
 class MapScene {
  public:
   MapScene();
 
   /// The scene, which is always the same object.
   const mrpt::opengl::COpenGLScene::Ptr& scene() const { return scene_; }
-  /// Sets the range of distances from the eye within which objects are drawn.
+  /// Sets the range of distances from the eye, in metres, within which objects are drawn.
   void set_clip_distances(double nearest_m, double farthest_m);
 
-  /// Brings all visible layers up to date. Shows the scan `frame`, or the newest one. Returns true if
-  /// anything has changed.
+  /// Brings all visible layers up to date. Shows the scan `frame`, or the newest scan if `frame` is empty.
+  /// Returns true if anything has changed.
   bool show(const std::shared_ptr<const ReplaySnapshot>& snapshot, const std::shared_ptr<const DrawnMap>& map,
             std::optional<std::size_t> frame = {});
 
@@ -77,13 +77,13 @@ class MapScene {
   bool visible(MapLayer layer) const { return this->layer(layer).isVisible(); }
   void set_loop_style(const LoopStyle& style) { loop_style_ = style; }
   const LoopStyle& loop_style() const { return loop_style_; }
-  /// Highlights a loop by its index in ReplaySnapshot::loops.
+  /// Selects the loop to highlight, by its index in ReplaySnapshot::loops; empty selects none.
   void choose_loop(std::optional<std::size_t> loop) { chosen_loop_ = loop; }
   void set_measure(const std::optional<Measure>& measure);
 
-  /// Multiplies the sizes of lines and points, for desktops that are scaled.
+  /// Multiplies the sizes of lines and points by a factor, for desktops that are scaled.
   void set_pixel_scale(float scale);
-  /// Shows a picture in the lower left corner in its own size, or none if it is empty.
+  /// Shows an image in the lower left corner at its own size; shows nothing if the image is empty.
   void set_legend(mrpt::img::CImage picture, int margin_px);
 
   /// The objects of a layer.

@@ -16,7 +16,7 @@ namespace {
 using mrpt::img::TColor;
 
 constexpr int kResidualShades = 8;
-constexpr int kScaleSteps = 4;  // of the legend's scale of residuals
+constexpr int kScaleSteps = 4;  // number of steps in the legend's scale of residuals
 
 }  // namespace
 

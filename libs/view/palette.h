@@ -30,15 +30,16 @@ inline constexpr mrpt::img::TColor kAfter{0, 130, 80};
 /// Colour of a matcher in plots, tables and scenes.
 mrpt::img::TColor matcher_colour(MatcherKind matcher);
 
+/// Colour of a verdict in tables and scenes.
 mrpt::img::TColor verdict_colour(LoopVerdict verdict);
 
 /// Colour from green (0) over yellow to red (1); values outside [0, 1] are clamped.
 mrpt::img::TColor heat_colour(double share);
 
-/// True for matches that were refused or deleted. They are drawn only with LoopStyle::refused.
+/// Whether a match was refused or deleted. Such matches are drawn only with LoopStyle::refused.
 bool was_no_loop(LoopVerdict verdict);
 
-/// The colour in which a scene with this style draws a loop.
+/// Colour in which a scene with this style draws a loop.
 mrpt::img::TColor loop_colour(const LoopRecord& loop, const ReplaySnapshot& snapshot, const LoopStyle& style);
 
 struct LoopLegend {

@@ -133,7 +133,7 @@ TEST_F(MergeApp, warns_of_changed_settings_of_a_session) {
   const AppRun run = merge({"first.session", "second.session"}, "out");
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.err, "psi-slam: " + file("second.session") +
-                         " was mapped with other settings and is mapped again with the present ones: "
+                         " was mapped with other settings and is mapped again with the current settings: "
                          "front_end.window_theta_deg was 7.5 and is " +
                          default_text("front_end.window_theta_deg") + ", log.min_range_m was 0.05 and is " +
                          default_text("log.min_range_m") + ", run.seed was 9 and is " +

@@ -27,7 +27,7 @@ MrptGraph::edge_t edge(double x, double information = 1) {
   return {CPose2D(x, 0, 0), matrix};
 }
 
-/// Two nodes and one edge of psi-slam, published to MRPT.
+/// A graph of two nodes and one edge that psi-slam has published to MRPT's network.
 struct Shared {
   GraphMirror mirror;
   MrptGraph network;
@@ -60,8 +60,8 @@ TEST(GraphMirror, reads_edges_of_others_once_even_parallel_ones) {
 
 TEST(GraphMirror, a_new_node_of_others_follows_from_its_edge) {
   Shared shared;
-  shared.mirror.graph().set_pose(1, {1, 5, 0});  // optimised
-  shared.network.nodes[2] = CPose2D(7, 7, 7);    // reset by the engine
+  shared.mirror.graph().set_pose(1, {1, 5, 0});  // as after an optimisation
+  shared.network.nodes[2] = CPose2D(7, 7, 7);    // as after a reset by the engine
   shared.network.insertEdgeAtEnd(1, 2, edge(2));
   shared.mirror.read(shared.network);
   ASSERT_EQ(shared.mirror.graph().num_nodes(), 3U);

@@ -57,12 +57,11 @@ TEST(GraphSlamApp, deciders_that_do_not_go_together_are_wrong_usage) {
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(run.err,
             "psi-graphslam: the edge decider CPsiLoopCloserERD needs the local maps of CPsiFrontEndNRD. "
-            "Choose that "
-            "as the node decider, or another edge decider.\n");
+            "Choose it as the node decider, or choose another edge decider.\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));
 }
 
-/// All file names in a folder, hidden ones too.
+/// Returns the names of all files in a folder, including hidden files.
 std::set<std::string> names_in(const std::filesystem::path& folder) {
   std::set<std::string> names;
   for (const auto& file : std::filesystem::directory_iterator(folder))
@@ -108,7 +107,7 @@ TEST(GraphSlamApp, a_damaged_line_without_utf8_is_reported) {
   EXPECT_EQ(run.code, 2) << run.err;
   const std::string summary = read_file(results / "summary.json");
   EXPECT_THAT(summary, HasSubstr("\"broken_off\": \""));
-  EXPECT_THAT(summary, HasSubstr("\xef\xbf\xbd")) << "the sign for what is no character";
+  EXPECT_THAT(summary, HasSubstr("\xef\xbf\xbd")) << "the replacement character stands for the invalid bytes";
 }
 
 TEST(GraphSlamApp, an_interrupted_run_writes_what_it_has) {
@@ -117,7 +116,7 @@ TEST(GraphSlamApp, an_interrupted_run_writes_what_it_has) {
   for (const std::string signal : {"INT", "TERM"}) {
     const auto results = folder.path() / signal;
     const auto words = folder.path() / (signal + ".words");
-    // The program creates the folder of the results when mapping begins.
+    // The program creates the folder for the results when mapping begins.
     const std::string command = "bash -c '" PSI_GRAPHSLAM_PROGRAM " -i " + kIni + " -r " + log.string() +
                                 " --disable-visuals --output-dir " + results.string() + " > /dev/null 2> " +
                                 words.string() + " & while [ ! -d " + results.string() +

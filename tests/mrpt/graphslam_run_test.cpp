@@ -33,13 +33,13 @@ struct Outcome {
   std::string map;
 };
 
-/// The shipped settings with one line replaced.
+/// Returns the shipped settings with the line `as_shipped` replaced by `line`.
 std::string settings_with(const std::string& line, const std::string& as_shipped) {
   std::string settings = read_file(PSI_SLAM_INI_FOLDER "/graphslam.ini");
   return settings.replace(settings.find(as_shipped), as_shipped.size(), line);
 }
 
-/// `write_log` writes the log to the given file.
+/// Maps a log with these deciders and settings. `write_log` writes the log to the given file.
 Outcome run_team(const Team& team, const std::string& settings,
                  const std::function<void(const std::filesystem::path&)>& write_log) {
   const TemporaryFolder folder;
@@ -79,7 +79,7 @@ std::vector<Frame> first_third() {
   return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 3)};
 }
 
-/// The first third of the run, with the lasers "right", "left" or both.
+/// Maps the first third of the run, recorded with the lasers "right", "left" or both.
 Outcome run_with_lasers(const Team& team, int form, const std::string& log_laser, bool right, bool left) {
   const std::vector<Frame> frames = first_third();
   const std::string node_distance = "front_end.node_distance_m = 0.15";

@@ -48,7 +48,7 @@ TEST_P(LogEntriesOfEitherForm, give_the_frames_that_were_written) {
   }
 }
 
-/// The labels of the scans of each entry that has one.
+/// Returns the labels of the scans in each entry that has scans.
 std::vector<std::vector<std::string>> labels_of(LogEntries& log) {
   std::vector<std::vector<std::string>> all;
   while (const std::optional<LogEntry> entry = log.next()) {

@@ -43,7 +43,7 @@ using testing::HasSubstr;
 constexpr const char* kRawlog =
     "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
 
-// Example program: maps a rawlog of either form and draws the map.
+// The example program: maps a rawlog of either form and writes the map.
 void map_rawlog(const std::string& rawlog, CMetricMapBuilderPsi& builder, const std::string& folder) {
   mrpt::io::CFileGZInputStream file(rawlog);
   auto archive = mrpt::serialization::archiveFrom(file);
@@ -93,7 +93,7 @@ std::vector<TPose2D> node_poses(const CMetricMapBuilderPsi& builder) {
   return poses;
 }
 
-// A simulated run in both forms of rawlogs.
+// Returns the first scans of a simulated run with wrong odometry.
 SimulatedDrive short_drive(std::size_t scans = 150) {
   OdometryErrors errors;
   errors.length_share = 0.05;
@@ -133,7 +133,8 @@ TEST(MetricMapBuilderPsi, maps_a_rawlog_in_ten_lines) {
   CMetricMapBuilderPsi builder;
   map_rawlog(kRawlog, builder, folder.path().string());
 
-  // This log begins with a sensory frame; MRPT reads pairs of an action and the next frame.
+  // This log begins with a sensory frame. MRPT reads pairs of an action and the next sensory frame, so it
+  // skips the first scan.
   const MappingResult expected = map_by_the_reader(kRawlog, 1);
   EXPECT_TRUE(std::any_of(expected.loops.begin(), expected.loops.end(),
                           [](const LoopRecord& loop) { return loop.verdict == LoopVerdict::kAccepted; }));
@@ -257,9 +258,9 @@ TEST(MetricMapBuilderPsi, starts_at_the_given_pose) {
   for (std::size_t i = 0; i < poses.size(); ++i) expect_pose(poses[i], start + expected[i]);
   const mrpt::poses::CPosePDFGaussian estimate = estimate_of(elsewhere);
   expect_pose(estimate.mean.asTPose(), start + estimate_of(at_origin).mean.asTPose());
-  EXPECT_GT(estimate.cov(0, 0), 0.04) << "what is not known of the start, is not known of the robot";
+  EXPECT_GT(estimate.cov(0, 0), 0.04) << "the robot's uncertainty includes that of the start";
 
-  // The grid lies there too: it is free at the robot.
+  // The grid is shifted too: it is free at the robot.
   const TPose2D stood = poses.back();
   EXPECT_GT(elsewhere.grid()->getPos(static_cast<float>(stood.x), static_cast<float>(stood.y)), 0.6F);
 }
@@ -280,7 +281,7 @@ TEST(MetricMapBuilderPsi, initialize_begins_another_map) {
   expect_pose(estimate_of(builder).mean.asTPose(), first);
 
   builder.initialize();
-  expect_pose(estimate_of(builder).mean.asTPose(), first);  // no start given: the estimate stays
+  expect_pose(estimate_of(builder).mean.asTPose(), first);  // without a given start, the estimate stays
 }
 
 TEST(MetricMapBuilderPsi, an_initial_map_is_an_error) {
@@ -295,7 +296,7 @@ TEST(MetricMapBuilderPsi, an_initial_map_is_an_error) {
   } catch (const UserError& error) {
     EXPECT_THAT(error.what(), HasSubstr("has " + std::to_string(map.size()) + " frames. Give an empty map"));
   }
-  EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), map.size()) << "and nothing has changed";
+  EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), map.size()) << "the builder has not changed";
 }
 
 TEST(MetricMapBuilderPsi, its_metric_map_is_one_grid_drawn_when_asked_for) {
@@ -306,20 +307,22 @@ TEST(MetricMapBuilderPsi, its_metric_map_is_one_grid_drawn_when_asked_for) {
   process_as_actions(builder, drive);
   ASSERT_EQ(metric_map->maps.size(), 1U);
   EXPECT_EQ(metric_map->mapByClass<mrpt::maps::COccupancyGridMap2D>(), before)
-      << "as it was drawn, until the next call";
+      << "the map stays as it was drawn, until the next call";
 
-  EXPECT_EQ(builder.getCurrentlyBuiltMetricMap(), metric_map) << "one object for the builder's life";
+  EXPECT_EQ(builder.getCurrentlyBuiltMetricMap(), metric_map) << "the builder always returns the same object";
   const auto grid = metric_map->mapByClass<mrpt::maps::COccupancyGridMap2D>();
   EXPECT_NE(grid, before);
   EXPECT_GT(grid->getSizeX(), before->getSizeX());
-  EXPECT_EQ(builder.grid(), grid) << "nothing new, nothing drawn";
+  EXPECT_EQ(builder.grid(), grid) << "without a new scan, no grid is drawn";
   builder.finish();
   EXPECT_NE(builder.grid(), grid);
 
-  // The south wall of the corridor, 1.6 m to the right of the start, and the path of the robot.
+  // The grid shows the south wall of the corridor, 1.6 m to the right of the start, and free space on the
+  // robot's path.
   const auto last = builder.grid();
   EXPECT_LT(last->getPos(1.5F, -1.62F), 0.4F);
-  for (std::size_t i = 10; i < drive.frames.size(); i += 10) {  // no scan saw the space before the start
+  // Skips the start, since no scan saw the space before it.
+  for (std::size_t i = 10; i < drive.frames.size(); i += 10) {
     const TPose2D& pose = drive.map_T_robot[i];
     EXPECT_GT(last->getPos(static_cast<float>(pose.x), static_cast<float>(pose.y)), 0.6F);
   }
@@ -360,7 +363,7 @@ TEST(MetricMapBuilderPsi, other_observations_are_kept_beside_their_scan) {
     const auto actions = movement(CPose2D(frame.odom_T_robot - last));
     const auto observations = sensory_frame({range_observation(frame), other});
     with_another.processActionObservation(*actions, *observations);
-    observations->clear();  // the builder keeps its own list
+    observations->clear();  // the builder must keep its own list of observations
     last = frame.odom_T_robot;
   }
   EXPECT_EQ(node_poses(with_another), node_poses(alone));
@@ -377,7 +380,7 @@ TEST(MetricMapBuilderPsi, uses_laser_and_mount_of_the_options) {
   options.log.laser = "REAR";
   CMetricMapBuilderPsi builder(options);
   process_as_actions(builder, short_drive(10));
-  EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), 0U) << "its scans are of another laser";
+  EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), 0U) << "the scans are of another laser";
   options.log.min_range_m = -1;
   EXPECT_THROW(CMetricMapBuilderPsi{options}, UserError);
 }
@@ -402,7 +405,7 @@ TEST(MetricMapBuilderPsi, scans_before_the_first_action_are_at_the_start) {
   const SimulatedDrive drive = short_drive(40);
   CMetricMapBuilderPsi builder;
   builder.processObservation(range_observation(drive.frames[0]));
-  EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), 0U) << "it waits for its odometry";
+  EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), 0U) << "the scan waits for its odometry";
   process_as_actions(builder, drive);
   EXPECT_GT(builder.getCurrentlyBuiltMapSize(), 3U);
   expect_pose(node_poses(builder).front(), {0, 0, 0});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simulated run as rawlogs of both forms, with the true pose of each scan.
+// Writes a simulated run as a rawlog of either form. The true pose of each scan is known.
 #pragma once
 
 #include <mrpt/io/CFileOutputStream.h>
@@ -21,7 +21,7 @@ namespace psi_slam {
 
 struct SimulatedDriveWithTruth {
   std::vector<Frame> frames;
-  std::map<TimeUs, mrpt::math::TPose2D> truth;  ///< relative to the first scan
+  std::map<TimeUs, mrpt::math::TPose2D> truth;  ///< true poses by time stamp, relative to the first scan
 
   explicit SimulatedDriveWithTruth(double path_m) {
     SimulatedLog log(simulated_log_options(path_m, 3));
@@ -33,7 +33,7 @@ struct SimulatedDriveWithTruth {
     }
   }
 
-  /// Mean distance from the true positions, metres.
+  /// Mean distance of the positions from the true positions, in metres.
   double error_m(const Trajectory& path) const {
     double sum = 0;
     for (const StampedPose& pose : path) {
@@ -43,7 +43,7 @@ struct SimulatedDriveWithTruth {
     return sum / static_cast<double>(path.size());
   }
 
-  /// Mean error of odometry alone, metres.
+  /// Mean position error of odometry alone, in metres.
   double odometry_error_m() const {
     Trajectory path;
     for (const Frame& frame : frames)
@@ -52,7 +52,7 @@ struct SimulatedDriveWithTruth {
   }
 };
 
-/// Made once for all tests.
+/// The simulated run of 120 m, made once for all tests.
 inline const SimulatedDriveWithTruth& simulated_drive() {
   static const SimulatedDriveWithTruth kDrive(120);
   return kDrive;
@@ -65,7 +65,8 @@ inline mrpt::obs::CObservationOdometry odometry_observation(const Frame& frame) 
   return odometry;
 }
 
-/// Form 1: actions and sensory frames. Form 2: single observations, each scan followed by its odometry.
+/// Writes a rawlog. Form 1: actions and sensory frames. Form 2: single observations, each scan followed by
+/// its odometry.
 inline std::filesystem::path write_rawlog(const std::filesystem::path& path, const std::vector<Frame>& frames,
                                           int form) {
   mrpt::io::CFileOutputStream file(path.string());
@@ -84,7 +85,7 @@ inline std::filesystem::path write_rawlog(const std::filesystem::path& path, con
   return path;
 }
 
-/// The frame of a laser with only the beams from `begin` to `end`.
+/// Returns the frame with only the beams [begin, end).
 inline Frame seen_by_part(const Frame& frame, std::size_t begin, std::size_t end) {
   Frame part = frame;
   const std::vector<float>& bearings = *frame.scan.bearings_rad;
@@ -104,7 +105,8 @@ inline Frame seen_on_the_left(const Frame& frame) {
   return seen_by_part(frame, frame.scan.ranges_m.size() / 2, frame.scan.ranges_m.size());
 }
 
-/// Writes a rawlog as write_rawlog() does, of a robot with the lasers "right" and "left" or one of them.
+/// Writes a rawlog as write_rawlog() does, of a robot with one or two lasers, "right" and "left". Each has
+/// half of the beams.
 inline std::filesystem::path write_rawlog_of_lasers(const std::filesystem::path& path,
                                                     const std::vector<Frame>& frames, int form, bool right,
                                                     bool left) {

@@ -26,7 +26,7 @@ Frame frame_with(const BeamBearings& bearings) {
   return frame;
 }
 
-/// Direction of ray `i` in the robot's frame according to MRPT.
+/// Returns the direction of ray `i` in the robot's frame, in radians, as MRPT defines it.
 double direction(const mrpt::obs::CObservation2DRangeScan& observation, std::size_t i) {
   const double step =
       static_cast<double>(observation.aperture) / static_cast<double>(observation.getScanSize() - 1);

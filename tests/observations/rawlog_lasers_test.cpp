@@ -68,7 +68,7 @@ TEST(RawlogLaser, marks_readings_without_a_return) {
   const auto ranges_m = scan_of(*observation).ranges_m;
   EXPECT_EQ(ranges_m[0], 1);
   for (std::size_t i = 1; i < 6; ++i) EXPECT_TRUE(std::isnan(ranges_m[i])) << i;
-  EXPECT_TRUE(std::isinf(ranges_m[6])) << "valid, and at the maximum range";
+  EXPECT_TRUE(std::isinf(ranges_m[6])) << "a valid reading at the maximum range counts as no return";
 }
 
 TEST(RawlogLaser, options_override_the_log) {
@@ -100,7 +100,7 @@ TEST(RawlogLaser, shares_bearings_until_the_sensor_changes) {
 
 TEST(RawlogLaser, rejects_a_scan_without_rays) {
   EXPECT_EQ(sentence_of([] { scan_of(*range_scan(1, "LASER", {})); }),
-            "log: object 1: the scan has 0 rays, expected 1 or more");
+            "log: object 1: the scan has 0 rays, expected 1 or more. Remove the scan from the log");
 }
 
 }  // namespace

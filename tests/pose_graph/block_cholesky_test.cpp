@@ -14,7 +14,8 @@
 namespace psi_slam {
 namespace {
 
-// A positive definite matrix with the given share of its blocks.
+// Returns a random positive definite matrix. `density` is the share of its blocks off the diagonal that are
+// not zero.
 SymmetricBlockMatrix random_matrix(std::size_t n, double density, std::uint64_t seed) {
   Measurer measurer(seed);
   SymmetricBlockMatrix matrix;
@@ -68,7 +69,7 @@ TEST(BlockCholesky, solves_as_a_dense_factorisation_does) {
 
     constexpr double kLambda = 0.5;
     const Eigen::MatrixXd damped = a + kLambda * Eigen::MatrixXd(a.diagonal().asDiagonal());
-    ASSERT_TRUE(cholesky.factorize(matrix, kLambda)) << "reuses the symbolic factorisation";
+    ASSERT_TRUE(cholesky.factorize(matrix, kLambda)) << "the symbolic factorisation is reused";
     x = b;
     cholesky.solve(x);
     EXPECT_LT((x - damped.ldlt().solve(b)).norm(), 1e-12 * b.norm());
@@ -133,7 +134,7 @@ TEST(BlockCholesky, gives_any_block_of_the_inverse) {
 
 using Links = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-// Number of block products of a factorisation with this order.
+// Returns the number of block products of a factorisation with this order of elimination.
 std::size_t products(std::size_t n, const Links& links, const std::vector<std::uint32_t>& order) {
   std::vector<std::uint32_t> place(n);
   for (std::uint32_t k = 0; k < n; ++k) place[order[k]] = k;

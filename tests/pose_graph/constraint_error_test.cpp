@@ -31,7 +31,7 @@ TEST(ConstraintError, is_zero_if_the_poses_agree_with_the_measurement) {
 
 TEST(ConstraintError, is_measured_minus_predicted_in_the_axes_of_the_first_node) {
   const RotatedPose a({1, 2, kPi / 2});
-  const RotatedPose b({1, 5, kPi / 2});  // 3 m straight ahead of a
+  const RotatedPose b({1, 5, kPi / 2});  // 3 m straight ahead of `a`
   const Eigen::Vector3d error = constraint_error({3.5, 0.25, 0.1}, a, b);
   EXPECT_NEAR(error.x(), 0.5, 1e-12);
   EXPECT_NEAR(error.y(), 0.25, 1e-12);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slow and simple counterparts of the library for its tests. They share only the graph with it.
+// Slow and simple implementations that the tests compare with the library. They share only the class
+// PoseGraph and wrap_to_pi() with it.
 #pragma once
 
 #include <Eigen/Dense>
@@ -10,7 +11,7 @@
 
 namespace psi_slam {
 
-/// Equation 6 by its definition.
+/// Error of a constraint by the definition in equation 6.
 inline Eigen::Vector3d reference_error(const Constraint& constraint, const TPose2D& from, const TPose2D& to) {
   const TPose2D predicted = relative_pose(from, to);
   return {constraint.from_T_to.x - predicted.x, constraint.from_T_to.y - predicted.y,
@@ -33,8 +34,8 @@ inline Eigen::Matrix<double, 3, 6> numeric_jacobian(const Constraint& constraint
   return jacobian;
 }
 
-/// H = J^T Omega J and g = J^T Omega e of all nodes including the root, 3 rows per node, by numeric
-/// Jacobians.
+/// H = J^T Omega J and g = J^T Omega e of all nodes including the root, with 3 rows per node. Computed with
+/// numeric Jacobians.
 struct DenseSystem {
   Eigen::MatrixXd h;
   Eigen::VectorXd g;
@@ -68,6 +69,7 @@ inline DenseSystem held_at_root(const DenseSystem& system) {
   return {system.h.bottomRightCorner(size, size), system.g.tail(size)};
 }
 
+/// Adds a step of 3 numbers per node to the poses of all nodes but node 0.
 inline void move_all(PoseGraph& graph, const Eigen::VectorXd& step) {
   for (std::size_t node = 1; node < graph.num_nodes(); ++node) {
     const TPose2D& pose = graph.pose(node);

@@ -56,7 +56,7 @@ TEST(G2oFile, reads_vertices_edges_and_the_fixed_one) {
   EXPECT_EQ(file.graph.root(), 2U);
   EXPECT_EQ(file.graph.pose(0), TPose2D(0, 0, 0.5));
   EXPECT_EQ(file.graph.pose(2).x, 1.25);
-  EXPECT_NEAR(file.graph.pose(2).phi, 4 - 2 * kPi, 1e-15) << "wrapped";
+  EXPECT_NEAR(file.graph.pose(2).phi, 4 - 2 * kPi, 1e-15) << "the heading is wrapped";
   ASSERT_EQ(file.graph.num_constraints(), 2U);
   const Constraint& loop = file.graph.constraint(0);
   EXPECT_EQ(loop.from, 0U);
@@ -80,7 +80,7 @@ TEST(G2oFile, orders_the_information_of_each_format_as_that_does) {
 }
 
 TEST(G2oFile, weighs_errors_in_the_axes_that_each_format_means) {
-  // After a quarter turn to the left, x of the end points along y of the beginning.
+  // The edge turns by 90 degrees to the left: the x axis of its end is the y axis of its beginning.
   const std::string numbers = " 0 1 2 0 1.5707963267948966 ";
   const Eigen::Matrix3d g2o =
       read_text(kTwoVertices + ("EDGE_SE2" + numbers + "4 0 0 100 0 1\n")).graph.constraint(0).information;
@@ -126,7 +126,7 @@ TEST(G2oFile, comes_back_as_it_was_written) {
   known.graph.add_constraint(skewed);
   write_g2o(known.graph, folder.path() / "a.g2o");
   const PoseGraphFile file = read_pose_graph(folder.path() / "a.g2o");
-  EXPECT_EQ(file.graph.poses(), known.graph.poses()) << "to the last bit";
+  EXPECT_EQ(file.graph.poses(), known.graph.poses()) << "poses are equal to the last bit";
   EXPECT_EQ(file.graph.root(), 3U);
   ASSERT_EQ(file.graph.num_constraints(), known.graph.num_constraints() - 1);
   for (std::size_t i = 0; i < file.graph.num_constraints(); ++i) {
@@ -165,7 +165,7 @@ TEST(G2oFile, says_what_is_wrong_and_where) {
       testing::AllOf(HasSubstr("graph.g2o:3: "), HasSubstr("'zero' is not a finite number"),
                      HasSubstr("expected \"EDGE_SE2 from to dx dy dtheta Ixx Ixy Ixt Iyy Iyt Itt\"")));
   EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 0 0 0 1 0 0 1 0\n"), HasSubstr(":3: '' is not a finite number"));
-  EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 0 0 0 1 0 0 1 0 1 7\n"), HasSubstr("'7' is one field too many"));
+  EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 0 0 0 1 0 0 1 0 1 7\n"), HasSubstr("'7' is an extra field"));
   EXPECT_THAT(error_of(two + "EDGE_SE2 0 1 nan 0 0 1 0 0 1 0 1\n"),
               HasSubstr("'nan' is not a finite number"));
   EXPECT_THAT(error_of(two + "EDGE_SE2 0 1.5 0 0 0 1 0 0 1 0 1\n"), HasSubstr("'1.5' is not a vertex id"));

@@ -14,8 +14,8 @@ namespace {
 
 enum class Falsehood { kAnywhere, kNearby };
 
-// Adds false loops up to this share of all loops: between arbitrary places, or between the right places but
-// off by metres, as a match in a corridor can be.
+// Adds false loops until they are this share of all loops. kAnywhere joins arbitrary nodes. kNearby joins
+// nodes of a true loop with an error of metres, as a match in a corridor can have.
 PoseGraph with_false_loops(const PoseGraph& graph, double share, Falsehood falsehood) {
   PoseGraph result = graph;
   Measurer measurer(7);
@@ -108,7 +108,7 @@ TEST(GraduatedNonConvexity, hardly_changes_a_graph_without_false_loops) {
   for (const Constraint& constraint : graph.constraints())
     loops += constraint.kind == Constraint::Kind::kLoop;
   EXPECT_LT(static_cast<double>(report.outliers.size()), 0.03 * static_cast<double>(loops))
-      << "the width is the 99 % quantile";
+      << "about 1 % of the true loops exceed the 99 % quantile";
 }
 
 TEST(GraduatedNonConvexity, restores_the_options_of_the_solver) {

@@ -36,7 +36,7 @@ TEST(InformationMatrix, can_lack_information_of_a_coordinate) {
 }
 
 TEST(InformationMatrix, tolerates_the_rounding_of_text_files) {
-  Eigen::Matrix3d rounded;  // of rank 1 in x and y, to six digits
+  Eigen::Matrix3d rounded;  // a matrix of rank 1 in x and y, rounded to six digits
   rounded << 0.333333, 0.666667, 0, 0.666667, 1.33333, 0, 0, 0, 1;
   EXPECT_TRUE(is_information_matrix(rounded));
 }
@@ -52,7 +52,7 @@ TEST(InformationMatrix, rejects_other_matrices) {
   EXPECT_FALSE(is_information_matrix(matrix)) << "indefinite";
   matrix = Eigen::Vector3d(1, 0, 1).asDiagonal();
   matrix(0, 1) = matrix(1, 0) = 0.1;
-  EXPECT_FALSE(is_information_matrix(matrix)) << "correlated with an unknown coordinate";
+  EXPECT_FALSE(is_information_matrix(matrix)) << "y has no information, but is correlated with x";
   matrix = Eigen::Matrix3d::Identity();
   matrix(2, 2) = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(is_information_matrix(matrix));

@@ -15,7 +15,7 @@ bool near(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).cwiseAbs().maxCoeff() <= 1e-6 * b.cwiseAbs().maxCoeff();
 }
 
-// Joint covariance of two nodes from the inverse of the dense system; the root must be node 0.
+// Returns the joint covariance of two nodes from the inverse of the dense system; the root must be node 0.
 Matrix6d dense_joint(const Eigen::MatrixXd& inverse, std::size_t a, std::size_t b) {
   Matrix6d joint = Matrix6d::Zero();
   const std::size_t nodes[2] = {a, b};
@@ -101,7 +101,7 @@ TEST(MarginalCovariance, reports_an_undetermined_pose) {
   graph.add_constraint(constraint);
   MarginalCovariance covariance;
   EXPECT_THROW(covariance.update(graph), UserError);
-  EXPECT_THROW(covariance.marginal(1), std::out_of_range) << "the update failed";
+  EXPECT_THROW(covariance.marginal(1), std::out_of_range) << "there is no covariance after a failed update";
 }
 
 }  // namespace

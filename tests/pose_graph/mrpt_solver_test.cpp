@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares the solver with MRPT's optimize_graph_spa_levmarq where that converges: exact measurements,
-// disturbed poses. MRPT's error is the logarithm of P1 D P2^-1 in the axes of the map, so that with noise its
-// minimum differs.
+// Compares the solver with MRPT's optimize_graph_spa_levmarq where MRPT's solver converges: exact
+// measurements and disturbed poses. MRPT's error is the logarithm of P1 D P2^-1 in the axes of the map. With
+// noise, its minimum is therefore another one.
 #include <gtest/gtest.h>
 #include <mrpt/graphs/CNetworkOfPoses.h>
 #include <mrpt/graphslam/levmarq.h>
@@ -38,7 +38,7 @@ PoseGraph solved_by_mrpt(const PoseGraph& graph) {
   return result;
 }
 
-// Steps of 1 m; loops have the same information as odometry.
+// Returns a ring with steps of 1 m and disturbed poses. Loops have the same information as odometry.
 KnownGraph disturbed_ring(double noise) {
   KnownGraph known = ring(100, 5, noise, 0.05, 0.01);
   Measurer measurer(3);

@@ -26,7 +26,7 @@ Linearization at_current_poses(const PoseGraph& graph) {
   return result;
 }
 
-// Step of the equations in the order of the nodes, without the root, which must be node 0.
+// Returns the step of the equations in the order of the nodes, without the root, which must be node 0.
 Eigen::VectorXd step_by_node(NormalEquations& equations, const PoseGraph& graph, double lambda = 0) {
   equations.prepare(graph);
   const Linearization at = at_current_poses(graph);
@@ -91,7 +91,7 @@ TEST(NormalEquations, hold_headings_or_positions) {
     moved += std::abs(step[k]);
   }
   EXPECT_GT(moved, 0);
-  // The problem is linear: a second step is zero.
+  // The problem is linear in the positions, so a second step is zero.
   PoseGraph graph = known.graph;
   for (std::size_t node = 1; node < graph.num_nodes(); ++node) {
     const auto delta = step.segment<3>(3 * static_cast<Eigen::Index>(equations.variable_of(node)));
@@ -149,13 +149,14 @@ TEST(NormalEquations, accept_constraints_that_are_switched_off_and_on) {
   EXPECT_LT((step_by_node(equations, graph) - reference_step(graph)).norm(), 1e-5);
   for (const std::size_t loop : loops) graph.set_enabled(loop, true);
   EXPECT_LT((step_by_node(equations, graph) - reference_step(graph)).norm(), 1e-5);
-  EXPECT_TRUE(equations.restructured()) << "their blocks are new";
+  EXPECT_TRUE(equations.restructured()) << "the blocks of the loops are new";
   graph.set_enabled(loops.front(), false);
   EXPECT_LT((step_by_node(equations, graph) - reference_step(graph)).norm(), 1e-5);
-  EXPECT_FALSE(equations.restructured()) << "blocks of zeros can stay";
+  EXPECT_FALSE(equations.restructured()) << "the block of a disabled loop stays, filled with zeros";
 }
 
-// As after the final loop search: no new nodes, but many new loops, some of which are switched off later.
+// The graph changes as after the final loop search: no new nodes, but many new loops, some of which are
+// switched off later.
 TEST(NormalEquations, many_new_loops_cause_a_new_order_at_once) {
   PoseGraph graph = building(1500, 2, 3).graph;
   const std::size_t nodes = graph.num_nodes();
@@ -192,7 +193,7 @@ TEST(NormalEquations, accept_another_graph) {
 
 TEST(NormalEquations, name_a_node_that_only_a_disabled_constraint_links) {
   KnownGraph known = ring(10, 0, 0);
-  known.graph.set_enabled(5, false);  // 5 -> 6
+  known.graph.set_enabled(5, false);  // the constraint from node 5 to node 6
   NormalEquations equations;
   try {
     equations.prepare(known.graph);
@@ -201,7 +202,7 @@ TEST(NormalEquations, name_a_node_that_only_a_disabled_constraint_links) {
     EXPECT_THAT(error.what(), testing::HasSubstr("node 6 of the pose graph is not linked to node 0"));
   }
   known.graph.set_enabled(5, true);
-  EXPECT_NO_THROW(equations.prepare(known.graph)) << "works again once linked";
+  EXPECT_NO_THROW(equations.prepare(known.graph)) << "no error once the node is linked again";
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ std::vector<RelativeUncertainty> path_covariances(const PoseGraph& graph, std::s
   return all;
 }
 
-// Covariance of the end of a chain, by first-order propagation through the composition of its links with
-// numeric derivatives. Each link is the relative pose of two nodes of the graph.
+// Returns the covariance of the end of a chain, by first-order propagation through the composition of its
+// links with numeric derivatives. Each link is the relative pose of two nodes of the graph.
 Eigen::Matrix3d propagated(const PoseGraph& graph, const std::vector<std::size_t>& nodes,
                            const std::vector<std::size_t>& constraints) {
   const auto end_of_chain = [&](std::size_t disturbed, const Eigen::Vector3d& by) {
@@ -55,7 +55,7 @@ Eigen::Matrix3d propagated(const PoseGraph& graph, const std::vector<std::size_t
   return sum;
 }
 
-// The chain from the source to a node.
+// Returns the chain from the source to a node, as `nodes` and `constraints`.
 void trace_back(const std::vector<RelativeUncertainty>& all, std::size_t source, std::size_t node,
                 std::vector<std::size_t>& nodes, std::vector<std::size_t>& constraints) {
   for (; node != source; node = all[node].previous) {
@@ -80,7 +80,7 @@ PoseGraph with_skewed_information(const PoseGraph& graph) {
   return result;
 }
 
-// Greedy search without a queue, by the definition of the cost.
+// Returns the costs by a greedy search without a queue, with the cost computed by its definition.
 std::vector<double> slow_costs(const PoseGraph& graph, std::size_t source, double lever) {
   struct State {
     std::vector<std::size_t> nodes, constraints;
@@ -175,7 +175,7 @@ TEST(PathCovariance, is_never_below_the_covariance_of_all_constraints) {
 TEST(PathCovariance, prefers_the_more_certain_way) {
   KnownGraph known = ring(100, 1, 0, 0.001, 0.0001);
   const std::vector<RelativeUncertainty> all = path_covariances(known.graph, 0);
-  EXPECT_EQ(all[99].previous, 0U) << "over the loop";
+  EXPECT_EQ(all[99].previous, 0U) << "the chain uses the loop";
   EXPECT_NEAR(all[99].position_sigma_m(), 0.001, 1e-9);
   EXPECT_EQ(all[95].previous, 96U);
   known.graph.set_enabled(known.graph.num_constraints() - 1, false);
@@ -219,7 +219,7 @@ TEST(PathCovariance, stops_at_a_bound_or_when_all_targets_are_reached) {
 
 TEST(PathCovariance, a_search_with_targets_equals_one_of_the_whole_graph) {
   KnownGraph known = building(500, 2, 3);
-  PathCovarianceSearch search;  // shared by all searches, to test the memory it keeps
+  PathCovarianceSearch search;  // one object for all searches, to test the memory that it keeps
   for (std::size_t source = 0; source < 500; source += 7) {
     const std::vector<RelativeUncertainty> all = path_covariances(known.graph, source);
     PathCovarianceOptions options;
@@ -234,7 +234,7 @@ TEST(PathCovariance, a_search_with_targets_equals_one_of_the_whole_graph) {
       EXPECT_EQ(found.previous, all[node].previous);
       EXPECT_EQ(found.constraint, all[node].constraint);
     }
-    // The search keeps no poses.
+    // Moves a node, to test that the search keeps no poses.
     known.graph.set_pose(source, {0.1 * static_cast<double>(source), 1, 0.5});
   }
 }
@@ -271,7 +271,7 @@ TEST(PathCovariance, skips_nodes_without_information) {
   constraint.to = 1;
   graph.add_constraint(constraint);
   constraint.to = 2;
-  constraint.information(2, 2) = 0;  // no covariance
+  constraint.information(2, 2) = 0;  // singular, so there is no covariance
   graph.add_constraint(constraint);
   const std::vector<RelativeUncertainty> all = path_covariances(graph, 1);
   EXPECT_TRUE(all[0].reached);
@@ -284,7 +284,8 @@ TEST(PathCovariance, skips_nodes_without_information) {
 }
 
 TEST(PathCovariance, breaks_ties_the_same_way_every_time) {
-  const KnownGraph known = building(300, 3, 3);  // all sigmas are equal
+  // Constraints of a kind have equal standard deviations, so costs tie.
+  const KnownGraph known = building(300, 3, 3);
   const std::vector<RelativeUncertainty> a = path_covariances(known.graph, 150);
   const std::vector<RelativeUncertainty> b = path_covariances(known.graph, 150);
   for (std::size_t node = 0; node < 300; ++node) {

@@ -53,14 +53,14 @@ TEST_P(PublicGraphs, are_solved_to_the_minimum_that_a_second_solver_finds) {
   RecordProperty("iterations", report.iterations);
   RecordProperty("chi2", std::to_string(report.final_chi2));
 
-  // The second solver starts from the same poses. Undamped, MITb needs the most steps.
+  // The second solver starts from the same poses. It has no damping, so MITb needs the most steps.
   PoseGraph second = graph_;
   sparse_gauss_newton(second, std::string(GetParam().name) == "MITb" ? 30 : 12);
   EXPECT_LE(report.final_chi2, second.chi2() * (1 + 1e-6));
 
   PoseGraph beyond = solved;
   const double decrement = sparse_gauss_newton(beyond, 1);
-  EXPECT_LT(decrement, 1e-6 * report.final_chi2) << "the gradient vanishes";
+  EXPECT_LT(decrement, 1e-6 * report.final_chi2) << "no further decrease is possible";
 }
 
 TEST_P(PublicGraphs, are_solved_in_few_iterations_as_a_map_would_be) {

@@ -17,7 +17,7 @@ void expect_near(const TPose2D& a, const TPose2D& b, double tolerance) {
 }
 
 TEST(SpanningTree, is_dead_reckoning_where_there_is_odometry) {
-  const KnownGraph known = building(200, 2, 2);  // its poses come from odometry
+  const KnownGraph known = building(200, 2, 2);  // all its poses come from odometry
   const std::vector<TPose2D> poses = spanning_tree_poses(known.graph);
   for (std::size_t node = 0; node < poses.size(); ++node)
     expect_near(poses[node], known.graph.pose(node), 1e-9);

@@ -15,7 +15,7 @@ namespace {
 
 using Type = RobustKernel::Type;
 
-// Options for full convergence without robust kernels.
+// Returns options for full convergence without robust kernels.
 PoseAdjustmentOptions thorough() {
   PoseAdjustmentOptions options;
   options.max_iterations = 200;
@@ -166,7 +166,7 @@ TEST(SparsePoseAdjustment, holds_the_root_wherever_it_is) {
 }
 
 TEST(SparsePoseAdjustment, closes_a_ring_whose_loops_are_much_tighter_than_its_odometry) {
-  // 1000 nodes. A solver that judges steps by the unweighted error does not move here.
+  // A ring of 1000 nodes. A solver that judges steps by the unweighted error makes no progress with it.
   KnownGraph known = ring(1000, 30, 1, 0.001, 0.0002);
   PoseGraph reference = known.graph;
   sparse_gauss_newton(reference, 10);
@@ -186,7 +186,7 @@ TEST(SparsePoseAdjustment, closes_a_single_loop_after_more_drift_than_the_odomet
     for (const TPose2D& pose : known.graph.poses()) graph.add_node(pose);
     for (Constraint constraint : known.graph.constraints()) {
       if (constraint.kind == Constraint::Kind::kOdometry)
-        constraint.information *= 36;  // claims a sixth of its sigma
+        constraint.information *= 36;  // odometry claims a sixth of its true standard deviation
       graph.add_constraint(constraint);
     }
     const Constraint& loop = graph.constraints().back();
@@ -201,7 +201,7 @@ TEST(SparsePoseAdjustment, closes_a_single_loop_after_more_drift_than_the_odomet
 }
 
 TEST(SparsePoseAdjustment, recovers_from_rejected_steps) {
-  // From random poses, the first steps fail.
+  // The optimisation starts from random poses, where the first steps fail.
   int rejected = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     KnownGraph known = ring(60, 20, 0.2, 0.05, 0.01, seed);
@@ -215,7 +215,7 @@ TEST(SparsePoseAdjustment, recovers_from_rejected_steps) {
     EXPECT_LE(report.final_robust_chi2, report.initial_robust_chi2);
     const DenseSystem system = held_at_root(dense_system(known.graph));
     EXPECT_LT(system.g.dot(system.h.ldlt().solve(system.g)), 1e-4 * (1 + report.final_chi2))
-        << "a stationary point";
+        << "the solution is a stationary point";
   }
   EXPECT_GT(rejected, 0);
 }
@@ -248,7 +248,7 @@ TEST(SparsePoseAdjustment, gives_the_same_bytes_every_time) {
   EXPECT_EQ(report_a.final_robust_chi2, report_b.final_robust_chi2);
   PoseGraph third = known.graph;
   a.optimize(third);
-  EXPECT_TRUE(same_bytes(first, third)) << "kept structure does not change the result";
+  EXPECT_TRUE(same_bytes(first, third)) << "reusing the structure does not change the result";
 }
 
 TEST(SparsePoseAdjustment, keeps_its_structure_for_a_graph_that_did_not_grow) {

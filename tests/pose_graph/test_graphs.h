@@ -24,19 +24,21 @@ inline TPose2D relative_pose(const TPose2D& a, const TPose2D& b) {
   return {c * dx + s * dy, c * dy - s * dx, wrap_to_pi(b.phi - a.phi)};
 }
 
+/// Composes two poses: returns the pose `b`, given relative to `a`, in the frame in which `a` is given.
 inline TPose2D compose(const TPose2D& a, const TPose2D& b) {
   const double c = std::cos(a.phi);
   const double s = std::sin(a.phi);
   return {a.x + c * b.x - s * b.y, a.y + s * b.x + c * b.y, wrap_to_pi(a.phi + b.phi)};
 }
 
-/// A graph, and the poses that its measurements were taken from.
+/// A graph, and the true poses that its constraints were measured from.
 struct KnownGraph {
   PoseGraph graph;
   std::vector<TPose2D> truth;
 };
 
-/// Draws measurements of true poses with Gaussian noise, by Box-Muller, the same on every platform.
+/// Draws measurements of true poses with Gaussian noise by the Box-Muller method. The same seed gives the
+/// same measurements on every platform.
 class Measurer {
  public:
   explicit Measurer(std::uint64_t seed) : random_(seed) {}
@@ -45,7 +47,7 @@ class Measurer {
   double normal() { return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * kPi * uniform()); }
   std::size_t index(std::size_t count) { return static_cast<std::size_t>(random_() % count); }
 
-  /// `noise` scales the drawn errors, not the information.
+  /// Returns a measured constraint. `noise` scales the drawn errors, not the information.
   Constraint measure(const std::vector<TPose2D>& truth, std::size_t from, std::size_t to,
                      Constraint::Kind kind, double sigma_m, double sigma_rad, double noise = 1) {
     Constraint constraint;
@@ -66,13 +68,14 @@ class Measurer {
   std::mt19937_64 random_;
 };
 
-/// Adds node k at the end of its odometry constraint from node k - 1, as dead reckoning does.
+/// Adds node k at the end of the odometry constraint from node k - 1 to node k, as dead reckoning does.
 inline void add_by_odometry(PoseGraph& graph, const Constraint& odometry) {
   graph.add_node(compose(graph.pose(odometry.from), odometry.from_T_to));
   graph.add_constraint(odometry);
 }
 
-/// One lap on a circle with steps of 1 m, closed by `loops` tight constraints between its ends.
+/// Returns the graph of one lap on a circle with steps of 1 m, closed by `loops` precise constraints between
+/// its ends.
 inline KnownGraph ring(std::size_t nodes, std::size_t loops, double noise, double loop_sigma_m = 0.01,
                        double loop_sigma_rad = 0.002, std::uint64_t seed = 1) {
   KnownGraph result;
@@ -92,9 +95,9 @@ inline KnownGraph ring(std::size_t nodes, std::size_t loops, double noise, doubl
   return result;
 }
 
-/// A random walk over a grid of corridors (every 4 m, steps of 0.5 m). Each node has odometry, `local_maps`
-/// constraints to the anchors of the last local maps of 40 nodes, and loops to the anchors of older maps
-/// within 6 m.
+/// Returns the graph of a random walk over a grid of corridors, which are 4 m apart, with steps of 0.5 m.
+/// Each node has odometry and `local_maps` constraints to the anchors of the last local maps of 40 nodes. It
+/// also has loops to the anchors of older local maps within 6 m.
 inline KnownGraph building(std::size_t nodes, std::size_t local_maps, std::size_t max_loops_per_node,
                            std::uint64_t seed = 1, double noise = 1) {
   constexpr std::size_t kMapNodes = 40;
@@ -143,7 +146,7 @@ inline KnownGraph building(std::size_t nodes, std::size_t local_maps, std::size_
   return result;
 }
 
-/// Largest distance of a node from its true position, metres.
+/// Largest distance of a node from its true position, in metres.
 inline double max_position_error(const KnownGraph& known) {
   double largest = 0;
   for (std::size_t i = 0; i < known.truth.size(); ++i)

@@ -15,7 +15,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr TimeUs kStart = 1'464'602'099'833'205;  // needs microseconds of a recent time
+constexpr TimeUs kStart = 1'464'602'099'833'205;  // a recent time that is not a whole number of milliseconds
 
 class RawlogReaderTest : public testing::Test {
  protected:
@@ -129,8 +129,10 @@ TEST_F(RawlogReaderTest, rounds_time_to_the_nearest_microsecond) {
 }
 
 TEST_F(RawlogReaderTest, reports_missing_scans_odometry_and_time_stamps) {
-  EXPECT_EQ(sentence_about({movement({1, 0, 0}), sensory_frame({})}),
-            path_.string() + " has no laser scans, expected observations of class CObservation2DRangeScan");
+  EXPECT_EQ(
+      sentence_about({movement({1, 0, 0}), sensory_frame({})}),
+      path_.string() +
+          " has no laser scans, expected observations of class CObservation2DRangeScan. Choose another log");
   EXPECT_EQ(sentence_about({range_scan(kStart), range_scan(kStart)}),
             path_.string() +
                 " has no odometry, expected actions of class CActionRobotMovement2D or observations of class "
@@ -159,7 +161,7 @@ TEST(RawlogOfTelecomFaculty, yields_every_frame) {
       "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "needs " << path << " of Debian's mrpt-common";
   const auto frames = all_frames(*open_rawlog(path, {}));
-  ASSERT_EQ(frames.size(), 225U) << "224 steps and the start";
+  ASSERT_EQ(frames.size(), 225U) << "one frame for each of the 224 steps, and one at the start";
   EXPECT_EQ(frames[0].scan.ranges_m.size(), 361U);
   EXPECT_NEAR(frames[0].scan.bearings_rad->front(), -M_PI / 2, 1e-6);
   EXPECT_NEAR(frames[0].scan.robot_T_laser.x, 0.78, 1e-6);

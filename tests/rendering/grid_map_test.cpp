@@ -47,7 +47,7 @@ TEST(GridMap, a_room_is_free_inside_its_walls_and_unknown_outside) {
     EXPECT_TRUE(is_wall(*grid, -2.02, y)) << y;
     EXPECT_TRUE(is_wall(*grid, 4.03, y)) << y;
   }
-  EXPECT_NEAR(static_cast<double>(grid->getXMin()), -2.55, 0.051) << "the margin of half a metre";
+  EXPECT_NEAR(static_cast<double>(grid->getXMin()), -2.55, 0.051) << "the margin is half a metre";
   EXPECT_NEAR(static_cast<double>(grid->getYMax()), 3.55, 0.051);
 }
 
@@ -91,12 +91,14 @@ TEST(GridMap, rays_follow_the_true_line) {
         ++free_cells;
         const double dx = static_cast<double>(grid->idx2x(x)) - 0.013;
         const double dy = static_cast<double>(grid->idx2y(y)) + 0.021;
-        EXPECT_LT(std::abs(-std::sin(bearing) * dx + std::cos(bearing) * dy), 0.051) << "beside the line";
-        EXPECT_LT(std::cos(bearing) * dx + std::sin(bearing) * dy, length + 0.051) << "beyond its end";
+        EXPECT_LT(std::abs(-std::sin(bearing) * dx + std::cos(bearing) * dy), 0.051)
+            << "no free cell is beside the line";
+        EXPECT_LT(std::cos(bearing) * dx + std::sin(bearing) * dy, length + 0.051)
+            << "no free cell is beyond the end of the line";
       }
     }
     const double steps = length * std::max(std::abs(std::cos(bearing)), std::abs(std::sin(bearing))) / 0.1;
-    EXPECT_NEAR(free_cells, steps, 1.5) << "a cell for each step along the longer axis";
+    EXPECT_NEAR(free_cells, steps, 1.5) << "one free cell for each step along the longer axis";
   }
 }
 
@@ -112,7 +114,7 @@ TEST(GridMap, ignores_invalid_readings_and_draws_long_beams_as_free_space) {
 }
 
 TEST(GridMap, beams_without_return_free_the_unknown_cells_on_their_way_and_no_others) {
-  // The last two scans, without returns, give all maps the same size.
+  // The last two scans have no returns. They only give all maps the same size.
   const std::vector<TPose2D> poses = {
       {0.01, 0.02, 0}, {1.3, -0.7, 2}, {-0.4, 1.1, -1}, {-6, -6, 0}, {6, 6, 0}};
   const auto draw = [&](const std::vector<Frame>& log, double max_range_m, double no_return_clears_m) {
@@ -121,7 +123,8 @@ TEST(GridMap, beams_without_return_free_the_unknown_cells_on_their_way_and_no_ot
   std::mt19937_64 random(9);
   std::uniform_real_distribution<float> near(0.2F, 3.9F);
   std::vector<Frame> log(poses.size());
-  std::vector<Frame> only_no_returns(poses.size());  // as returns that are cut
+  // Beams without return, as returns beyond the range of the map.
+  std::vector<Frame> only_no_returns(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     log[i].scan.bearings_rad = even_bearings(-M_PI, M_PI, 90);
     log[i].scan.max_range_m = 30;
@@ -139,13 +142,14 @@ TEST(GridMap, beams_without_return_free_the_unknown_cells_on_their_way_and_no_ot
   std::size_t cleared = 0;
   for (std::size_t cell = 0; cell < expected.size(); ++cell) {
     if (expected[cell] != 0 || passed[cell] == 0) continue;
-    expected[cell] = 24;  // of one pass
+    expected[cell] = 24;  // log-odds of one pass, in MRPT's units
     ++cleared;
   }
   EXPECT_GT(cleared, 500U);
-  EXPECT_EQ(draw(log, 4, 10), expected) << "not beyond the range of the map";
+  EXPECT_EQ(draw(log, 4, 10), expected) << "beams without return clear nothing beyond the range of the map";
   for (Frame& frame : log) frame.scan.max_range_m = 4;
-  EXPECT_EQ(draw(log, 4, 30), expected) << "not beyond the range of the sensor";
+  EXPECT_EQ(draw(log, 4, 30), expected)
+      << "beams without return clear nothing beyond the range of the sensor";
 }
 
 TEST(GridMap, a_length_of_0_ignores_beams_without_return) {
@@ -224,7 +228,7 @@ TEST(GridMap, each_laser_of_a_frame_draws_from_its_own_pose) {
   rear.scan.laser = 1;
   rear.scan.ranges_m = {4};
   rear.scan.robot_T_laser = {-0.5, 0, M_PI};
-  rear.frame_T_robot = {0, 1, 0};  // the robot moved to its left in between
+  rear.frame_T_robot = {0, 1, 0};  // the robot moved to its left between the two scans
   frame.companions = {rear};
   const TPose2D pose(10.02, -20.02, 0);
   const auto grid = draw_grid_map({frame}, {pose});
@@ -236,7 +240,7 @@ TEST(GridMap, each_laser_of_a_frame_draws_from_its_own_pose) {
     EXPECT_TRUE(is_unknown(*grid, pose.x + x, pose.y)) << x;
     EXPECT_TRUE(is_unknown(*grid, pose.x + x, pose.y + 1)) << x;
   }
-  EXPECT_LT(static_cast<double>(grid->getXMin()), pose.x - 4.5) << "the map includes what both see";
+  EXPECT_LT(static_cast<double>(grid->getXMin()), pose.x - 4.5) << "the map includes what both lasers see";
 }
 
 }  // namespace

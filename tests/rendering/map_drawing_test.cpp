@@ -13,7 +13,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A free map of 10 m x 10 m around the origin with cells of 0.1 m and these obstacles.
+/// Returns a free map of 10 m x 10 m around the origin with cells of 0.1 m and these occupied cells.
 COccupancyGridMap2D map_with(const std::vector<std::pair<int, int>>& obstacles) {
   COccupancyGridMap2D grid(-5, 5, -5, 5, 0.1F);
   for (int x = 0; x < 100; ++x)

@@ -12,8 +12,8 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 
-/// A map of 3 m x 2 m with corner (-1.5, 4) and cells of 0.25 m: 2 m x 1 m free, one obstacle at
-/// (-0.5, 4.25).
+/// Returns a map of 3 m x 2 m with lower left corner (-1.5, 4) and cells of 0.25 m. 2 m x 1 m of it is free,
+/// with one obstacle at (-0.5, 4.25).
 COccupancyGridMap2D lopsided_map() {
   COccupancyGridMap2D grid(-1.5F, 1.5F, 4, 6, 0.25F);
   for (int x = 0; x < 8; ++x)
@@ -67,7 +67,7 @@ TEST(MapImage, is_cropped_to_the_seen_part_and_its_margin) {
   const PngHeader header = header_of(bare.png);
   EXPECT_EQ(header.width, 8U);
   EXPECT_EQ(header.height, 4U);
-  EXPECT_EQ(header.colour_type, 2) << "colour without opacity";
+  EXPECT_EQ(header.colour_type, 2) << "PNG colour type without opacity";
 
   MapPictureOptions wide = plain();
   wide.margin_m = 0.5;
@@ -100,7 +100,8 @@ TEST(MapImage, scale_bar_has_its_own_strip) {
 TEST(MapImage, unknown_space_can_be_transparent) {
   MapPictureOptions options = plain();
   options.transparent_unknown = true;
-  EXPECT_EQ(header_of(map_picture(lopsided_map(), options).png).colour_type, 6) << "colour with opacity";
+  EXPECT_EQ(header_of(map_picture(lopsided_map(), options).png).colour_type, 6)
+      << "PNG colour type with opacity";
 }
 
 TEST(MapImage, empty_maps_give_pictures_and_equal_maps_equal_bytes) {

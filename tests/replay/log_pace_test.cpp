@@ -20,7 +20,7 @@ TEST_F(LogPaceTest, at_speed_1_scans_are_due_at_their_recorded_times) {
   EXPECT_EQ(pace_.due_after(kStart_us, start_), start_);
   EXPECT_EQ(pace_.due_after(kStart_us + 200'000, start_ + 1ms), start_ + 200ms);
   EXPECT_EQ(pace_.due_after(kStart_us + 300'000, start_ + 201ms), start_ + 300ms)
-      << "the time of mapping does not accumulate";
+      << "the time that mapping takes does not delay later scans";
 }
 
 TEST_F(LogPaceTest, at_speed_5_scans_are_due_five_times_faster) {

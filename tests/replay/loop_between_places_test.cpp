@@ -10,7 +10,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Two legs along x, ten nodes each, the second 20 m above the first; three local maps.
+// A path with two legs of ten nodes along x; the second leg is at y = 20 m. It has three local maps.
 class LoopBetweenPlacesTest : public testing::Test {
  protected:
   LoopBetweenPlacesTest() {
@@ -43,7 +43,7 @@ TEST_F(LoopBetweenPlacesTest, takes_the_scan_near_the_first_place_and_the_local_
   EXPECT_EQ(edit->local_map, 1U);
   EXPECT_EQ(edit->matcher, MatcherKind::kGa);
   ASSERT_TRUE(edit->place.has_value());
-  // The node lies at (80, 20); moved by (-2, -20) it is at (78, 0), 48 m ahead of the anchor at (30, 0).
+  // The node is at (80, 20). Moved by (-2, -20), it is at (78, 0), 48 m ahead of the anchor at (30, 0).
   EXPECT_NEAR(edit->place->anchor_T_node.x, 48, 1e-9);
   EXPECT_NEAR(edit->place->anchor_T_node.y, 0, 1e-9);
   EXPECT_NEAR(edit->place->anchor_T_node.phi, 0.1, 1e-9);

@@ -24,7 +24,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using SnapshotPtr = std::shared_ptr<const ReplaySnapshot>;
 
-/// The first snapshot that fulfils `expected`. Fails the test after four minutes.
+/// Returns the first snapshot that fulfils `expected`. Fails the test after four minutes.
 SnapshotPtr wait_for(const Replay& replay, const std::function<bool(const ReplaySnapshot&)>& expected) {
   const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(4);  // sanitizers are slow
   SnapshotPtr snapshot = replay.snapshot();
@@ -66,7 +66,7 @@ class ReplayTest : public testing::Test {
   }
   std::filesystem::path out(const std::string& name) const { return folder_.path() / name; }
 
-  /// Writes the results of psi-slam.
+  /// Maps the log as psi-slam does, without a window, and writes the results.
   void map_headless(const std::filesystem::path& log, const std::string& name) {
     MappingSession session(log, settings_);
     session.run(std::atomic<bool>(false));
@@ -102,7 +102,7 @@ TEST_F(ReplayTest, playing_and_pausing_gives_the_results_of_psi_slam) {
   const auto path = log(room_log_lines());
   map_headless(path, "headless");
   Replay replay(path, settings_);
-  replay.set_speed(10);  // slow enough to pause on the way
+  replay.set_speed(10);  // slow enough to pause before the end of the log
   replay.play();
   wait_for(replay, [](const ReplaySnapshot& now) { return now.frames.size() > 20; });
   replay.pause();
@@ -113,7 +113,7 @@ TEST_F(ReplayTest, playing_and_pausing_gives_the_results_of_psi_slam) {
   const SnapshotPtr hurried = wait_for(replay, [](const ReplaySnapshot& now) {
     return now.phase == ReplayPhase::kPaused && now.frames.size() >= 90;
   });
-  EXPECT_EQ(hurried->frames.size(), 90U) << "stops at the requested scan";
+  EXPECT_EQ(hurried->frames.size(), 90U) << "the replay stops at the requested scan";
   while (replay.stamps_us() == nullptr) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_EQ(replay.stamps_us()->size(), 150U);
   replay.set_speed(0);
@@ -170,7 +170,7 @@ TEST_F(ReplayTest, a_saved_and_resumed_session_gives_the_results_of_psi_slam) {
 }
 
 TEST_F(ReplayTest, plays_at_a_multiple_of_the_recorded_speed) {
-  Replay replay(log(room_log_lines(6)), settings_);  // five scans a second
+  Replay replay(log(room_log_lines(6)), settings_);  // the log has five scans a second
   replay.set_speed(20);
   const auto start = std::chrono::steady_clock::now();
   replay.play();
@@ -194,7 +194,7 @@ TEST_F(ReplayTest, snapshots_are_consistent) {
       EXPECT_LT(now->local_maps[i].last_node, now->nodes.size());
     for (const LoopRecord& loop : *now->loops) EXPECT_LT(loop.local_map, now->local_maps.size());
     for (const ActiveLocalMap& active : now->active_local_maps)
-      EXPECT_GT(active.occupancy->getSizeX(), 1U) << "it is not packed";
+      EXPECT_GT(active.occupancy->getSizeX(), 1U) << "the local map is not packed";
     if (now->phase == ReplayPhase::kFinished) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -254,7 +254,7 @@ TEST_F(ReplayTest, reports_why_a_log_cannot_be_mapped) {
 TEST_F(ReplayTest, writes_to_a_folder_that_is_not_empty_only_on_request) {
   write_file(folder_.path() / "notes.txt", "mine");
   Replay replay(log(room_log_lines(20)), settings_);
-  replay.export_to(folder_.path(), false);  // waits for the map
+  replay.export_to(folder_.path(), false);  // the request waits until the map is finished
   replay.set_speed(0);
   replay.play();
   EXPECT_THAT(wait_for_export(replay, 1)->exported->failure, HasSubstr(folder_.path().string()));
@@ -283,7 +283,7 @@ TEST_F(ReplayTest, a_log_deleted_while_it_is_open_is_mapped_with_a_remark) {
 TEST_F(ReplayTest, closing_refuses_pending_requests_with_a_reason) {
   Replay replay(log(room_log_lines(60)), settings_);
   wait_for(replay, ReplayPhase::kPaused);
-  replay.export_to(out("never"), false);  // waits until the map is finished
+  replay.export_to(out("never"), false);  // the request waits until the map is finished
   replay.close();
   while (!replay.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   ASSERT_TRUE(replay.snapshot()->exported.has_value());
@@ -325,7 +325,7 @@ TEST_F(ReplayTest, can_be_closed_at_any_moment) {
 
 class HeldFinalSearch : public ReplayTest {
  protected:
-  /// A run that is paused in its final loop search.
+  /// Returns a run that is paused in its final loop search.
   std::unique_ptr<Replay> held() {
     auto replay = std::make_unique<Replay>(log(room_log_lines()), settings_);
     replay->set_speed(0);
@@ -342,7 +342,7 @@ TEST_F(HeldFinalSearch, waits_and_then_gives_the_same_results) {
   const SnapshotPtr held = replay->snapshot();
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   EXPECT_EQ(replay->snapshot()->phase, ReplayPhase::kFinalSearch);
-  EXPECT_EQ(replay->snapshot()->progress.share, held->progress.share) << "the search waits";
+  EXPECT_EQ(replay->snapshot()->progress.share, held->progress.share) << "the paused search does not advance";
   replay->play();
   EXPECT_FALSE(wait_for(*replay, ReplayPhase::kFinished)->final_search_held);
   EXPECT_FALSE(replay->snapshot()->interrupted);
@@ -486,7 +486,7 @@ TEST_F(ReplayEditsTest, of_one_run_are_repeated_in_the_next) {
   }
   ASSERT_EQ(journal.edits().size(), 1U);
   Replay replay(path, settings_, journal);
-  EXPECT_EQ(replay.snapshot()->edits->size(), 1U) << "known before the log opens";
+  EXPECT_EQ(replay.snapshot()->edits->size(), 1U) << "the edit is known before the log opens";
   replay.set_speed(0);
   replay.play();
   const SnapshotPtr finished = wait_for(replay, ReplayPhase::kFinished);

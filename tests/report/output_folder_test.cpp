@@ -102,13 +102,13 @@ TEST(OutputFolder, equal_results_give_equal_bytes) {
   export_room(OutputFolder::prepare(temporary.path() / "a", false));
   export_room(OutputFolder::prepare(temporary.path() / "b", false));
   for (const std::string& name : names_in(temporary.path() / "a")) {
-    if (name == "summary.json" || name == "report.html") continue;  // they contain the memory used
+    if (name == "summary.json" || name == "report.html") continue;  // these files contain the memory used
     EXPECT_EQ(contents(temporary.path() / "a" / name), contents(temporary.path() / "b" / name)) << name;
   }
 }
 
-/// Runs in a child process whose files cannot exceed `limit` bytes, as on a full disk. Its standard error is
-/// a file, too.
+/// Exports in a child process whose files cannot exceed `limit` bytes, as on a full disk. The limit also
+/// holds for its standard error, which is a file.
 [[noreturn]] void export_to_a_full_disk(const fs::path& path, rlim_t limit) {
   std::signal(SIGXFSZ, SIG_IGN);
   const rlimit bytes{limit, limit};

@@ -32,7 +32,7 @@ std::string without_style_and_script(const std::string& html) {
   return without(without(html, "<style>", "</style>"), "<script>", "</script>");
 }
 
-/// Values of an attribute, each cut after 40 characters.
+/// Returns the values of an attribute, each cut after 40 characters.
 std::vector<std::string> values_of(const std::string& attribute, const std::string& html) {
   std::vector<std::string> values;
   const std::string begin = ' ' + attribute + "=\"";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bag that is truncated or damaged anywhere ends with a message, never with a crash or gigabytes of memory.
-// It yields the frames before the damage.
+// Reading a bag that is truncated or damaged anywhere ends with an error message, never with a crash or
+// gigabytes of memory. It yields the frames before the damage.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Reading read_to_the_end(const Path& path) {
   try {
     const auto log = open_log(path);
     while (log->next()) ++reading.frames;
-    EXPECT_FALSE(log->next()) << "no frame after the end";
+    EXPECT_FALSE(log->next()) << "there is no frame after the end";
   } catch (const UserError& error) {
     reading.sentence = error.what();
   }
@@ -49,7 +49,8 @@ class DamagedBag : public testing::TestWithParam<Kind> {
     whole_ = read_file(path_);
   }
 
-  /// Reads `bytes`, which must have the size of the whole. Overwriting the file is faster than creating one.
+  /// Reads a bag of these `bytes`, which must be as many as the undamaged bag has. Overwriting the file is
+  /// faster than creating one.
   Reading read(const std::string& bytes) const {
     std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -67,7 +68,7 @@ TEST_P(DamagedBag, truncated_anywhere_yields_the_frames_before) {
   EXPECT_EQ(all.frames, 8U);
   EXPECT_EQ(all.sentence, "");
   std::size_t least = 8;
-  // Tests every length and thus every end of a record; for SQLite only some lengths.
+  // Tests every length, and thus cuts after every record; for SQLite tests only some lengths.
   const std::size_t step = GetParam().name == "db3" ? 97 : 1;
   for (std::size_t size = whole_.size() - 1; size > step; size -= step) {
     std::filesystem::resize_file(path_, size);
@@ -76,7 +77,7 @@ TEST_P(DamagedBag, truncated_anywhere_yields_the_frames_before) {
     ASSERT_LE(reading.frames, least + 3)
         << "a shorter bag has fewer frames, except scans that wait for odometry";
     if (size + 400 > whole_.size()) {
-      ASSERT_GE(reading.frames, 4U) << "most of the bag has most of the frames";
+      ASSERT_GE(reading.frames, 4U) << "a bag that lacks little has at least half of the frames";
     }
     least = std::min(least, reading.frames);
   }

@@ -23,7 +23,7 @@ using mrpt::math::TPose3D;
 using testing::HasSubstr;
 using Path = std::filesystem::path;
 
-/// Frames of the same recording, written as a CARMEN log.
+/// Returns the frames of the recording after it was written as a CARMEN log.
 std::vector<Frame> carmen_frames(const Recording& recording, const TPose2D& mount = {0.2, 0, 0.3}) {
   TemporaryFolder folder;
   write_carmen(folder.path() / "log.clf", recording);
@@ -70,7 +70,7 @@ Kind mcap(const std::string& name, const McapLayout& layout) {
   return {name, [=](const Path& path, const Recording& r) { write_mcap(path, r, layout); }};
 }
 
-/// Writes the recording as a folder of eleven files.
+/// Returns a kind of bag that is a folder of eleven files.
 Kind folder(const std::string& name, const std::string& suffix, bool with_metadata) {
   return {name, [=](const Path& path, const Recording& recording) {
             std::filesystem::create_directory(path);
@@ -133,7 +133,9 @@ TEST_P(BagOfRosItself, holds_the_frames_of_the_same_carmen_log) {
                               (folder.path() / "log.clf").string() + "' '" +
                               (folder.path() / "run.bag").string() + "' " + GetParam();
   const int status = std::system(command.c_str());
-  if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "needs Debian's python3-rosbag, python3-nav-msgs and so on";
+  if (WEXITSTATUS(status) == 77)
+    GTEST_SKIP()
+        << "needs Debian's python3-rosbag, python3-nav-msgs, python3-sensor-msgs and python3-tf2-msgs";
   ASSERT_EQ(status, 0);
   expect_same_frames(frames_of(folder.path() / "run.bag"), carmen_frames(recording));
 }
@@ -154,7 +156,7 @@ class RosbagReaderTest : public testing::Test {
     return sentence_of([&] { read(recording, options); });
   }
 
-  /// A robot that stands at (1, 2, 0.5) with one scan.
+  /// Returns the recording of a robot that stands at the pose (1, 2, 0.5), with one scan.
   static Recording one_scan(const RecordedScan& scan, const RecordedPose& mount = static_mount()) {
     return {mount, RecordedPose{"/odom", 1'000'000, "odom", "base_link", {1, 2, 0, 0.5, 0, 0}}, scan};
   }
@@ -207,7 +209,8 @@ TEST_F(RosbagReaderTest, odometry_may_be_a_transform) {
   options.odom_frame = "wheels";
   EXPECT_THAT(sentence_about(recording, options), HasSubstr("base_footprint < odom"));
   options.odom_frame = "map";
-  EXPECT_EQ(read(recording, options).front().odom_T_robot, TPose2D(7, 7, 1)) << "odom moves in map";
+  EXPECT_EQ(read(recording, options).front().odom_T_robot, TPose2D(7, 7, 1))
+      << "the odometry is the pose of odom in map";
 }
 
 TEST_F(RosbagReaderTest, the_odometry_topic_may_be_a_topic_of_transforms) {
@@ -250,7 +253,7 @@ TEST_F(RosbagReaderTest, mirrors_the_bearings_of_a_laser_mounted_upside_down) {
                 .front()
                 .scan.bearings_rad->front(),
             -1.0F)
-      << "mirrored twice";
+      << "the bearings are mirrored twice";
   EXPECT_THAT(sentence_about(one_scan(scan_at(), static_mount("laser", {0, 0, 0, 0, 0, 1}))),
               HasSubstr("the laser is tilted by 57 degrees"));
 }
@@ -315,7 +318,7 @@ TEST_F(RosbagReaderTest, reports_missing_scans_and_odometry) {
   EXPECT_EQ(sentence_about(without("/scan")),
             path_.string() +
                 " has no laser scans, expected a topic of type sensor_msgs/LaserScan; found /tf_static "
-                "(tf2_msgs/TFMessage), /odom (nav_msgs/Odometry)");
+                "(tf2_msgs/TFMessage), /odom (nav_msgs/Odometry). Record the scans with the bag");
   EXPECT_THAT(
       sentence_about(without("/odom")),
       HasSubstr("has no odometry, expected a topic of type nav_msgs/Odometry or a transform from a frame "
@@ -371,7 +374,7 @@ TEST_F(RosbagReaderTest, reports_the_place_of_a_scan_with_invalid_angles) {
       sentence_about(one_scan(scan)),
       path_.string() +
           ": byte 33, byte 1148 of the chunk: the scan's angles start at -1.000000 in steps of 0.000000 "
-          "radians, expected finite angles and a step other than 0");
+          "radians, expected finite angles and a step other than 0. Correct the laser's driver");
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Writes the RAWLASER1 and ODOM lines of a CARMEN log as a ROS 1 bag with ROS's own library, the laser mounted at
-# x 0.2 m and yaw 0.3: write_ros1_bag.py LOG BAG none|bz2|lz4. Ends with 77 where that library is missing.
+# Writes the RAWLASER1 and ODOM lines of a CARMEN log as a ROS 1 bag with ROS's own library: write_ros1_bag.py
+# LOG BAG none|bz2|lz4. The laser is mounted at x = 0.2 m with a yaw of 0.3 rad. Exits with 77 if the library
+# is missing.
 import math
 import sys
 

@@ -66,7 +66,7 @@ TEST_F(EditJournalTest, survives_its_file_to_the_last_bit) {
               HasSubstr("attempt=first: expected final_search"));
   EXPECT_TRUE(
       EditJournal::parse("force scan=1 local_map=2 attempt=last_pass", "").edits().at(0).edit.of_final_search)
-      << "its old name";
+      << "last_pass is the old name of final_search";
   const LoopEdit& read = back.edits()[3].edit;
   EXPECT_EQ(read.kind, Kind::kMatch);
   EXPECT_EQ(read.matcher, MatcherKind::kCsmGa);
@@ -95,7 +95,7 @@ TEST_F(EditJournalTest, takes_each_edit_once_in_the_order_of_time) {
   EXPECT_THAT(journal.take_due(after(6)), IsEmpty());
   const std::vector<LoopEdit> due = journal.take_due(after(7));
   ASSERT_THAT(due, SizeIs(2));
-  EXPECT_EQ(due[0].kind, Kind::kDelete) << "of the same time, the first first";
+  EXPECT_EQ(due[0].kind, Kind::kDelete) << "edits of the same time keep their order";
   EXPECT_THAT(journal.take_due(after(1000000)), IsEmpty()) << "the end is later than any scan";
   EXPECT_THAT(journal.take_due(kEnd), SizeIs(1));
   journal.rewind();
@@ -108,7 +108,7 @@ TEST_F(EditJournalTest, the_edit_in_force_is_the_last_one_taken) {
   journal.add({{Kind::kForce, 2, 0}, after(7)});
   journal.take_due(after(3));
   const LoopEdit same{Kind::kRestore, 2, 0};
-  EXPECT_EQ(journal.in_force(same)->kind, Kind::kDelete) << "the other is still to come";
+  EXPECT_EQ(journal.in_force(same)->kind, Kind::kDelete) << "the other edit is still to come";
   EXPECT_FALSE(journal.in_force({Kind::kRestore, 2, 1}).has_value());
   journal.take_due(after(7));
   EXPECT_EQ(journal.in_force(same)->kind, Kind::kForce);
@@ -122,7 +122,7 @@ TEST_F(EditJournalTest, a_new_edit_replaces_later_edits_of_the_loop) {
   journal.enter({{Kind::kForce, 2, 0}, after(3)});
   EXPECT_EQ(journal.text(),
             "# psi-slam loop edits 1\nforce scan=2 local_map=0 after=3\nforce scan=2 local_map=1 after=9\n");
-  EXPECT_FALSE(journal.forget_later({Kind::kRestore, 2, 0})) << "that was done";
+  EXPECT_FALSE(journal.forget_later({Kind::kRestore, 2, 0})) << "the edit of this loop has been made";
   EXPECT_TRUE(journal.forget_later({Kind::kRestore, 2, 1}));
   EXPECT_THAT(journal.edits(), SizeIs(1));
 }

@@ -67,7 +67,7 @@ TEST_F(MappingSessionTest, neither_steps_nor_threads_change_the_result) {
   MappingSession stepwise(path, settings_);
   std::size_t steps = 0;
   while (stepwise.step()) ASSERT_EQ(stepwise.mapper().frames().size(), ++steps);
-  EXPECT_FALSE(stepwise.step()) << "the end stays the end";
+  EXPECT_FALSE(stepwise.step()) << "step() stays false after the end of the log";
   stepwise.finish();
   ASSERT_EQ(at_once.result().frames.size(), steps);
   for (std::size_t i = 0; i < steps; ++i)
@@ -105,7 +105,7 @@ TEST_F(MappingSessionTest, a_stop_cuts_the_final_search_short) {
   });
   session.run(stop);
   EXPECT_GT(share, 0);
-  EXPECT_LT(share, 1) << "it goes on no further";
+  EXPECT_LT(share, 1) << "the final loop search stops before its end";
   EXPECT_EQ(session.result().frames.size(), 150U);
   EXPECT_TRUE(session.result().interrupted);
   const RunSummary summary = session.export_to(output());
@@ -135,7 +135,7 @@ TEST_F(MappingSessionTest, reports_its_progress) {
   MappingSession session(log(room_log_lines(60)), settings_);
   session.set_observer([&](const SessionProgress& progress) {
     if (phases.empty() || phases.back() != progress.phase) {
-      EXPECT_EQ(share, phases.empty() ? 0 : 1) << "a phase ends when all of it is done";
+      EXPECT_EQ(share, phases.empty() ? 0 : 1) << "a phase ends with a share of 1";
       phases.push_back(progress.phase);
       share = 0;
     }
@@ -180,7 +180,7 @@ TEST_F(MappingSessionTest, maps_a_damaged_log_up_to_the_damage) {
   session.run(go_on_);
   ASSERT_TRUE(session.broken_off().has_value());
   EXPECT_THAT(*session.broken_off(), HasSubstr("room.log:41"));
-  EXPECT_FALSE(session.result().interrupted) << "nobody did";
+  EXPECT_FALSE(session.result().interrupted) << "a damaged log is not an interruption";
   EXPECT_EQ(session.result().broken_off, session.broken_off());
   EXPECT_EQ(session.result().frames.size(), 40U);
   const RunSummary summary = session.export_to(output());
@@ -306,7 +306,7 @@ class MappingSessionEditsTest : public MappingSessionTest {
     throw std::logic_error("no loop was closed");
   }
 
-  /// Maps the log with the edits in the folder `like`.
+  /// Maps the log with the edits that an earlier export left in the folder `like`.
   std::filesystem::path mapped_by_file(const std::filesystem::path& path, const std::filesystem::path& like) {
     MappingSession session(path, settings_);
     session.add_edits(EditJournal::read(like / "loops.edits"));
@@ -353,7 +353,7 @@ TEST_F(MappingSessionEditsTest, change_the_map) {
   MappingSession untouched(path, settings_);
   untouched.run(go_on_);
   untouched.export_to(output());
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out" / "loops.edits")) << "there were none";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out" / "loops.edits")) << "there were no edits";
   EditJournal edits;
   for (const LoopRecord& loop : untouched.result().loops) edits.add({delete_of(loop), {}});
   MappingSession edited(path, settings_);
@@ -376,7 +376,7 @@ TEST_F(MappingSessionEditsTest, reports_edits_that_could_not_be_made) {
   EXPECT_THAT(session.unmet_edits(),
               ElementsAre("delete the loop of scan 5 with local map 0: scan 5 is part of local map 0",
                           HasSubstr("force the loop of scan 7 with local map 99: ")));
-  EXPECT_THAT(session.run_info().warnings, SizeIs(2)) << "the report tells it too";
+  EXPECT_THAT(session.run_info().warnings, SizeIs(2)) << "the report contains the warnings too";
 }
 
 }  // namespace

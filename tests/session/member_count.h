@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-// The conversions are only declared, never called.
+// The conversions of Anything are only declared, never called.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 

@@ -45,7 +45,8 @@ class MergedRuns : public testing::Test {
     return folder_.path() / name;
   }
 
-  /// Largest distance of a frame from the truth, with both runs in the frame of the first scan.
+  /// Largest distance of a frame from its true position, in metres, with both runs in the frame of the first
+  /// scan.
   static double worst_m(const MappingResult& result, const TrueRun& first, const TrueRun& second) {
     double worst = 0;
     for (std::size_t i = 0; i < result.frames.size(); ++i) {
@@ -89,7 +90,7 @@ TEST_F(MergedRuns, are_placed_correctly_without_odometry_between_them) {
   EXPECT_EQ(starts, 1U);
   const TPose2D begin = result.frames[first.frames.size()].odom_T_robot;
   EXPECT_LT(distance_m(begin, second.world_T_robot[0] - first.world_T_robot[0]), 1)
-      << "its odometry starts where the run began";
+      << "the odometry of the second run starts at the true start of the run";
 }
 
 TEST_F(MergedRuns, mapping_a_saved_session_again_gives_the_same_bytes) {
@@ -193,7 +194,7 @@ TEST_F(MergedRuns, the_search_for_the_start_reports_progress_and_can_stop) {
   };
   try {
     place();
-    ADD_FAILURE() << "it was not interrupted";
+    ADD_FAILURE() << "the search was not interrupted";
   } catch (const SystemFailure& failure) {
     EXPECT_THAT(failure.what(), HasSubstr("interrupted before a run was placed in the map"));
   }
@@ -201,7 +202,7 @@ TEST_F(MergedRuns, the_search_for_the_start_reports_progress_and_can_stop) {
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_LT(shares.front(), 0.2);
   EXPECT_GT(shares.back(), 0.5);
-  EXPECT_LT(shares.back(), 0.7) << "the search ended at once";
+  EXPECT_LT(shares.back(), 0.7) << "the search ends at once";
 }
 
 TEST_F(MergedRuns, rejects_runs_of_different_buildings) {

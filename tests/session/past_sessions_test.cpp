@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A session file of every version of the format. Each still loads and gives the same map. A new
-// kSessionVersion needs a new file here; the others stay as they are.
+// Reads a session file of every version of the format. Each still loads and gives the same map. A new
+// kSessionVersion needs a new file; the old files must not change.
 //
-// version-1.session: the room of room_log.h, made by `psi-slam merge`. The first run has 55 scans, 50 for
-// each round, and a loop deleted by hand. The second has 48 scans, 40 for each round, and begins with the
-// round's 13th.
+// version-1.session: two runs in the room of room_log.h, made by `psi-slam merge`. The first run has 55
+// scans, 50 for each round, and a loop deleted by hand. The second run has 48 scans, 40 for each round. It
+// begins with the 13th scan of a round.
 //
-// version-2.session: another room, 60 scans along an ellipse with half axes of 3 m and 2.4 m, 50 for each
-// round. The robot has a front and a rear laser.
+// version-2.session: another room. The run has 60 scans, 50 for each round along an ellipse with half axes of
+// 3 m and 2.4 m. The robot has a front and a rear laser.
 //
-// version-3.session: the room again, made by `psi-slam merge`, with runs as in version 1. Line 21 of the
-// first log is no scan, and the log is cut off in line 57.
+// version-3.session: the room of room_log.h again, made by `psi-slam merge`, with runs as in version 1. Line
+// 21 of the first log is malformed, and the log is cut off in line 57.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -39,7 +39,7 @@ double distance_m(const TPose2D& a, const TPose2D& b) {
 TEST(PastSessions, version_1_is_read_as_it_was_written) {
   const auto file = past_session("version-1.session");
   ASSERT_EQ(sha256_of_file(file), "6e86601bfccd8339bb9d9dce696f9ad662bb14693b88c64ae1d64412a25f49cc")
-      << "the fixture itself was changed";
+      << "the session file was changed";
   const SessionRecording recording = read_session_file(file);
   ASSERT_EQ(recording.frames.size(), 103U);
   ASSERT_EQ(recording.facts.logs.size(), 2U);
@@ -73,13 +73,13 @@ TEST(PastSessions, version_1_gives_the_same_map) {
   EXPECT_LT(distance_m(result.frames[54].map_T_robot, room_pose(2 * M_PI * 54 / 50) - room_pose(0)), 0.03);
   EXPECT_LT(distance_m(result.frames[102].map_T_robot, room_pose(2 * M_PI * 59 / 40) - room_pose(0)), 0.03);
   EXPECT_LT(distance_m(result.frames[102].map_T_robot, {0.4067, 7.9528, 0}), 0.03)
-      << "as when it was recorded";
+      << "the map is the same as when the session was recorded";
 }
 
 TEST(PastSessions, version_2_has_two_lasers_and_gives_the_same_map) {
   const auto file = past_session("version-2.session");
   ASSERT_EQ(sha256_of_file(file), "3e7dfbbb350d54762751c3384603ed2c70fed36828a261e408cd9fc145a6f332")
-      << "the fixture itself was changed";
+      << "the session file was changed";
   const SessionInput input = SessionInput::of_file(file);
   ASSERT_EQ(input.recording()->frames.size(), 60U);
   for (const Frame& frame : input.recording()->frames) {
@@ -98,7 +98,7 @@ TEST(PastSessions, version_2_has_two_lasers_and_gives_the_same_map) {
 TEST(PastSessions, version_3_has_faults_of_each_log_and_gives_the_same_map) {
   const auto file = past_session("version-3.session");
   ASSERT_EQ(sha256_of_file(file), "65b48346934b60af846ebf12cd31d0ff81a8c03b8ab0db9b6a4da19c87629f41")
-      << "the fixture itself was changed";
+      << "the session file was changed";
   const SessionInput input = SessionInput::of_file(file);
   const SessionFacts& facts = input.recording()->facts;
   ASSERT_EQ(facts.logs.size(), 2U);
@@ -120,7 +120,7 @@ TEST(PastSessions, version_3_has_faults_of_each_log_and_gives_the_same_map) {
   EXPECT_THAT(session.warnings(),
               testing::ElementsAre(testing::HasSubstr("first.log:57"), testing::HasSubstr("first.log:21")));
   EXPECT_LT(distance_m(session.result().frames.back().map_T_robot, {0.4085, 7.9527, 0}), 0.03)
-      << "as when it was recorded";
+      << "the map is the same as when the session was recorded";
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace psi_slam {
 namespace {
 
-/// A number of frames, followed by the end or by a malformed line.
+/// Yields a number of frames, followed by the end or by the error of a malformed line.
 class CountedFrames : public FrameSource {
  public:
   CountedFrames(std::size_t count, bool breaks_off) : count_(count), breaks_off_(breaks_off) {}
@@ -40,7 +40,7 @@ TEST(ReadAhead, gives_all_frames_in_order_with_the_progress_of_those_taken) {
       ASSERT_EQ(ahead.progress(), static_cast<double>(i + 1) / 1000);
     }
     EXPECT_FALSE(ahead.next().has_value());
-    EXPECT_FALSE(ahead.next().has_value()) << "the end stays the end";
+    EXPECT_FALSE(ahead.next().has_value()) << "next() returns nothing again after the end";
   }
 }
 

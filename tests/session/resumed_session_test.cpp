@@ -38,7 +38,7 @@ class ResumedSession : public testing::Test {
     return export_of(session, "uninterrupted");
   }
 
-  /// Saves the session after the log's first scans.
+  /// Maps the first `scans` scans of the log and saves the session.
   fs::path saved_after(std::size_t scans, const fs::path& log, const EditJournal& edits = {}) {
     MappingSession session(log, settings_);
     session.add_edits(edits);
@@ -95,7 +95,7 @@ TEST_F(ResumedSession, continues_with_a_second_log_as_if_both_were_one) {
   expect_same_results(whole, export_of(session, "resumed"));
   EXPECT_EQ(session.run_info().log_name, "first.log + second.log");
 
-  session.save(saved_);  // again, now with both logs
+  session.save(saved_);  // saves the session again, now with both logs
   MappingSession again(resumed(), settings_);
   again.run(go_on_);
   expect_same_results(whole, export_of(again, "again"));
@@ -114,7 +114,7 @@ TEST_F(ResumedSession, without_a_log_it_gives_the_same_results) {
   alone.run(go_on_);
   expect_same_results(before, export_of(alone, "alone"));
   EXPECT_EQ(alone.run_info().log_name, "room.log");
-  EXPECT_TRUE(alone.result().interrupted) << "the log had more";
+  EXPECT_TRUE(alone.result().interrupted) << "the log has more scans";
 }
 
 TEST_F(ResumedSession, keeps_edits_and_accepts_further_ones) {
@@ -176,11 +176,11 @@ class ContinuedWithAnotherLog : public ResumedSession {
   void expect_told_again_and_again(const std::string& what, bool interrupted) {
     const auto lines = room_log_lines(90);
     const auto second = log("second.log", {lines.begin() + 60, lines.end()});
-    for (const fs::path& behind :
-         {second, fs::path(), second}) {  // with another log, alone, with its last log
+    // Resumes with another log, without a log, and with the last log of the session.
+    for (const fs::path& behind : {second, fs::path(), second}) {
       MappingSession session(resumed(behind), settings_);
       session.run(go_on_);
-      EXPECT_FALSE(session.broken_off()) << "the second log is whole";
+      EXPECT_FALSE(session.broken_off()) << "the second log is not damaged";
       EXPECT_EQ(session.breaks_off(), !interrupted);
       EXPECT_EQ(session.result().interrupted, interrupted);
       EXPECT_THAT(session.warnings_of_logs_before(), ElementsAre(HasSubstr(what)));
@@ -191,7 +191,7 @@ class ContinuedWithAnotherLog : public ResumedSession {
     }
   }
 
-  /// A log with one line that is no scan.
+  /// Returns the lines of a log with one malformed line.
   std::vector<std::string> lines_of_first() const {
     auto lines = room_log_lines(50);
     lines[20] = "FLASER 181 1.0 2.0";

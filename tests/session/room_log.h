@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A CARMEN log of a robot that drives in circles in a room with a pillar and a niche, for tests of whole
+// A CARMEN log of a robot that drives in rounds through a room with a pillar and a niche, for tests of whole
 // runs. Tests may replace single lines.
 #pragma once
 
@@ -25,7 +25,7 @@ struct RoomWall {
   double x0, y0, x1, y1;
 };
 
-/// Distance from a point to the nearest wall in a direction. The room is closed.
+/// Distance in metres from a point to the nearest wall in a direction. The room is closed.
 inline double room_range_m(double x, double y, double direction_rad) {
   static constexpr std::array<RoomWall, 12> kWalls{{{0, 0, 12, 0},
                                                     {12, 0, 12, 8},
@@ -54,15 +54,16 @@ inline double room_range_m(double x, double y, double direction_rad) {
   return nearest_m;
 }
 
-/// True pose of the robot, on an ellipse around the pillar.
+/// True pose of the robot in the room, on an ellipse around the pillar. `turn_rad` is the angle on the
+/// ellipse.
 inline mrpt::math::TPose2D room_pose(double turn_rad) {
   const double x = 6.2 + 4 * std::cos(turn_rad);
   const double y = 4 + 2.6 * std::sin(turn_rad);
   return {x, y, std::atan2(2.6 * std::cos(turn_rad), -4 * std::sin(turn_rad))};
 }
 
-/// FLASER lines of a run with a number of scans for each round, five a second. Odometry turns slightly too
-/// far.
+/// Returns the FLASER lines of a run with five scans a second. `scans_a_round` scans make one round. The
+/// odometry turns slightly too far.
 inline std::vector<std::string> room_log_lines(int scans = 150, int scans_a_round = 100) {
   std::vector<std::string> lines;
   mrpt::math::TPose2D odom_T_robot(0, 0, 0);
@@ -88,7 +89,7 @@ inline std::vector<std::string> room_log_lines(int scans = 150, int scans_a_roun
   return lines;
 }
 
-/// Splits a line at blanks.
+/// Returns the words of a line, which is split at blanks.
 inline std::vector<std::string> words_of(const std::string& line) {
   std::vector<std::string> words(1);
   for (const char c : line) {
@@ -100,7 +101,7 @@ inline std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-/// Replaces the ranges of the beams [first, last) of a FLASER line.
+/// Returns a FLASER line with the ranges of the beams [first, last) replaced by `range`.
 inline std::string with_ranges(const std::string& line, int first, int last, const std::string& range) {
   std::vector<std::string> words = words_of(line);
   std::string result;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests the comparison that the tests of whole runs use.
+// Tests the comparison of results that the tests of whole runs use.
 #include "same_results.h"
 
 #include <gmock/gmock.h>

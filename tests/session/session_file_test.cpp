@@ -31,7 +31,7 @@ LaserScan scan_of(std::vector<float> ranges_m, float max_range_m) {
   return scan;
 }
 
-/// Scans of a second laser in every frame, of a third in some.
+/// Returns scans of a second laser; for frame 2 also of a third laser.
 std::vector<CompanionScan> companions_of(std::size_t frame) {
   std::vector<CompanionScan> companions(frame == 2 ? 2 : 1);
   for (std::size_t i = 0; i < companions.size(); ++i) {
@@ -43,14 +43,14 @@ std::vector<CompanionScan> companions_of(std::size_t frame) {
   return companions;
 }
 
-/// Alternating scans of two sensors, with numbers that text would round.
+/// Returns a recording with scans of two sensors, with numbers that a text would round.
 SessionRecording small_recording() {
   SessionRecording recording;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (std::size_t i = 0; i < 4; ++i) {
     Frame frame;
     frame.index = i;
-    frame.time_us = 1'000'000'000'000'007 - static_cast<TimeUs>(i);  // stamps may run backwards
+    frame.time_us = 1'000'000'000'000'007 - static_cast<TimeUs>(i);  // time stamps run backwards
     frame.odom_T_robot = {1.0 / 3, -0.0, std::nextafter(M_PI, 0)};
     frame.scan = i < 2 ? scan_of({1.1F, nan, INFINITY, 3.3F}, 80) : scan_of({0.1F}, 30);
     frame.has_odometry = i != 3;
@@ -92,7 +92,7 @@ class SessionFileTest : public testing::Test {
     return sentence_of([&] { read_session_file(path_); });
   }
 
-  /// Repairs the checksum.
+  /// Replaces the checksum at the end by the correct one.
   static std::string sealed(const std::string& bytes) {
     const std::string content = bytes.substr(0, bytes.size() - 64);
     return content + sha256_of_text(content);
@@ -122,7 +122,8 @@ TEST_F(SessionFileTest, restores_everything_to_the_last_bit) {
       expect_same_scan(a.companions[other].scan, b.companions[other].scan);
     }
   }
-  EXPECT_EQ(back.frames[0].scan.bearings_rad, back.frames[1].scan.bearings_rad) << "one sensor, told once";
+  EXPECT_EQ(back.frames[0].scan.bearings_rad, back.frames[1].scan.bearings_rad)
+      << "a sensor is described once";
   EXPECT_EQ(back.frames[1].companions[0].scan.bearings_rad, back.frames[3].companions[0].scan.bearings_rad);
 
   EXPECT_EQ(back.facts.program_version, "0.1.0");
@@ -215,12 +216,12 @@ TEST_F(SessionFileTest, reports_contradictions_despite_a_valid_checksum) {
               HasSubstr("a run begins at an invalid pose"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs[0].start.robot_T_found.phi = NAN; }),
               HasSubstr("its description is not valid JSON"))
-      << "JSON has no such number";
+      << "JSON cannot represent NaN";
   EXPECT_THAT(complaint([](SessionRecording& r) { r.facts.runs.push_back(r.facts.runs[0]); }),
               HasSubstr("its runs are out of order"));
   EXPECT_THAT(complaint([](SessionRecording& r) {
                 r.facts.logs[0].scans = static_cast<std::size_t>(-3);
-                r.facts.logs[1].scans = 7;  // the sum is 4, as it must be
+                r.facts.logs[1].scans = 7;  // the sum is 4, which is the number of frames
               }),
               HasSubstr("a log has more scans than the session"));
   EXPECT_THAT(complaint([](SessionRecording& r) { r.frames[1].companions[0].frame_T_robot.x = 1e300; }),

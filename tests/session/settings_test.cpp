@@ -27,7 +27,7 @@ class SettingsTest : public testing::Test {
     return options;
   }
 
-  /// Error message for these settings; "" if they are accepted.
+  /// Returns the error message for these settings; "" if they are accepted.
   std::string refusal(const std::vector<std::string>& assignments) {
     for (const std::string& assignment : assignments) apply_override(assignment, table_);
     try {
@@ -43,8 +43,8 @@ class SettingsTest : public testing::Test {
 };
 
 TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
-  const std::size_t log = member_count<LogOptions>() - 1 +
-                          member_count<LaserMount>();  // one of them is the pose, which LaserMount describes
+  // LaserMount describes the pose of the laser, which is one member of LogOptions.
+  const std::size_t log = member_count<LogOptions>() - 1 + member_count<LaserMount>();
   const std::size_t front_end = member_count<FrontEndOptions>() - 3 + member_count<ScanFilterOptions>() +
                                 member_count<LocalMapOptions>() + member_count<RefinementOptions>();
   const std::size_t matcher = member_count<MatcherOptions>() - 1 + member_count<RefinementOptions>();
@@ -53,13 +53,13 @@ TEST_F(SettingsTest, every_member_of_every_struct_is_described) {
                             member_count<ScanContextOptions>() + member_count<LoopConsensusOptions>() +
                             member_count<FinalSearchOptions>() + member_count<JointRefinementOptions>() - 1 +
                             member_count<SurfaceAlignmentOptions>();
-  // The mapper has no odometry constraints.
+  // The mapper has no odometry constraints, so their kernel is not an option.
   const std::size_t solver = member_count<PoseAdjustmentOptions>() - 3 + 2 * member_count<RobustKernel>();
   const std::size_t choice = member_count<PsiOptions>() + member_count<GeneticOptions>() - 3 +
                              member_count<PaperGeneticOptions>() + member_count<MemeticGeneticOptions>() +
                              member_count<CoarseCellOptions>();
-  // MapperOptions has three structs. BackEndOptions has seven, and its seed and threads are those of
-  // RunOptions.
+  // MapperOptions has three structs as members, BackEndOptions has seven. The seed and threads of
+  // BackEndOptions are those of RunOptions.
   const std::size_t mapper = member_count<MapperOptions>() - 3 + member_count<BackEndOptions>() - 9 + choice +
                              front_end + matcher + loops + solver;
   const std::size_t files =

@@ -68,7 +68,7 @@ TEST_F(TrajectoryFile, reads_plane_poses_comments_and_foreign_line_ends) {
   EXPECT_EQ(read[0].time_us, 1'500'000);
   EXPECT_EQ(read[0].pose, mrpt::math::TPose2D(1, 2, 0.25));
   EXPECT_EQ(read[1].pose.y, 2.5);
-  EXPECT_NEAR(read[1].pose.phi, 7 - 2 * M_PI, 1e-12) << "angles are wrapped into (-pi, pi]";
+  EXPECT_NEAR(read[1].pose.phi, 7 - 2 * M_PI, 1e-12) << "angles are wrapped to (-pi, pi]";
 }
 
 TEST_F(TrajectoryFile, both_signs_of_a_quaternion_are_the_same_rotation) {
@@ -85,7 +85,7 @@ TEST_F(TrajectoryFile, takes_the_first_pose_of_each_flaser_line_of_a_carmen_log)
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[0].time_us, 976052905167303);
   EXPECT_EQ(read[0].pose, mrpt::math::TPose2D(1.5, -2.5, 0.5));
-  EXPECT_EQ(read[1].time_us, 976052904000000) << "the order is the log's";
+  EXPECT_EQ(read[1].time_us, 976052904000000) << "poses keep the order of the log";
 }
 
 TEST_F(TrajectoryFile, errors_name_file_line_and_what_was_expected) {
@@ -104,7 +104,7 @@ TEST_F(TrajectoryFile, errors_name_file_line_and_what_was_expected) {
   EXPECT_THAT(complaint("PARAM a b\n"), HasSubstr("no pose found"));
   EXPECT_THAT(complaint("\x1f\x8b\x08\x01\n"), HasSubstr("expected")) << "binary words are not printed";
   EXPECT_THROW(read_trajectory(folder_.path() / "missing.tum"), UserError);
-  EXPECT_THROW(read_trajectory(folder_.path()), UserError) << "a folder";
+  EXPECT_THROW(read_trajectory(folder_.path()), UserError) << "the path is a folder";
 }
 
 }  // namespace

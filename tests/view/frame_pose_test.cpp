@@ -13,7 +13,7 @@ class FramePoseTest : public ReplayedRoom {};
 TEST_F(FramePoseTest, before_the_end_nodes_have_graph_poses_and_other_scans_are_within_5_cm_of_the_result) {
   ReplaySnapshot open = *finished_;
   open.phase = ReplayPhase::kFinalSearch;
-  SharedHistory<NodeScan> nodes;  // every fourth node
+  SharedHistory<NodeScan> nodes;  // holds every fourth node of the run
   std::vector<mrpt::math::TPose2D> poses;
   for (std::size_t i = 0; i < finished_->nodes.size(); i += 4) {
     nodes.push_back(finished_->nodes[i]);

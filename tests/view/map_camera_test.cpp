@@ -30,7 +30,7 @@ TEST(MapCamera, when_tilted_the_upper_edge_is_farther_away_and_the_sky_shows_no_
   const auto above = ground_at(camera, kSize, 400, 0);
   const auto below = ground_at(camera, kSize, 400, 400);
   ASSERT_TRUE(above && below);
-  EXPECT_GT(above->y, -below->y) << "perspective";
+  EXPECT_GT(above->y, -below->y) << "the same distance in pixels shows more ground farther away";
   EXPECT_NEAR(above->x, 0, 1e-9);
   camera.elevation_deg = 10;
   EXPECT_FALSE(ground_at(camera, kSize, 400, 0).has_value());

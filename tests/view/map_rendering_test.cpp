@@ -28,13 +28,13 @@ class MapRenderingTest : public ReplayedRoom {
     try {
       renderer_ = std::make_unique<mrpt::opengl::CFBORender>(kSize.x, kSize.y);
     } catch (const std::exception& error) {
-      GTEST_SKIP() << "there is no OpenGL: " << error.what();
+      GTEST_SKIP() << "needs OpenGL: " << error.what();
     }
     scene_ = std::make_unique<MapScene>();
     camera_ = camera_above(map_->raster.rectangle(), kSize);
   }
 
-  /// Renders the layers over the grid map, seen from above.
+  /// Renders these layers over the grid map, seen from above.
   void draw(std::initializer_list<MapLayer> layers) {
     for (std::size_t i = 0; i < kMapLayers; ++i) scene_->set_visible(static_cast<MapLayer>(i), false);
     scene_->set_visible(MapLayer::kGrid, true);
@@ -51,7 +51,7 @@ class MapRenderingTest : public ReplayedRoom {
     renderer_->render_RGB(*scene_->scene(), picture_);
   }
 
-  /// True if a pixel within 2 px of the place has about this colour.
+  /// Whether a pixel within 2 px of the place has about this colour.
   bool seen(const mrpt::math::TPoint2D& place, const mrpt::img::TColor& colour) const {
     const auto middle = ground_at(camera_, kSize, kSize.x / 2.0, kSize.y / 2.0);
     const auto beside = ground_at(camera_, kSize, kSize.x / 2.0 + 100, kSize.y / 2.0);
@@ -69,7 +69,7 @@ class MapRenderingTest : public ReplayedRoom {
       }
     return false;
   }
-  /// Share of the nodes at which the colour is seen.
+  /// Share of the nodes at which the colour is seen, in [0, 1].
   double share_seen(const mrpt::img::TColor& colour) const {
     const auto& nodes = *finished_->map_T_node;
     const auto count = std::count_if(nodes.begin(), nodes.end(), [&](const auto& node) {
@@ -78,8 +78,8 @@ class MapRenderingTest : public ReplayedRoom {
     return static_cast<double>(count) / static_cast<double>(nodes.size());
   }
 
-  std::unique_ptr<mrpt::opengl::CFBORender>
-      renderer_;  // must outlive the scene, which has objects in its context
+  // Must outlive the scene, whose objects belong to its OpenGL context.
+  std::unique_ptr<mrpt::opengl::CFBORender> renderer_;
   std::unique_ptr<MapScene> scene_;
   MapCamera camera_;
   mrpt::img::CImage picture_;

@@ -56,7 +56,7 @@ TEST_F(MapSceneTest, draws_a_finished_run) {
 
 TEST_F(MapSceneTest, marks_unmatched_scans_on_the_path) {
   scene_.show(finished_, map_);
-  EXPECT_EQ(objects(MapLayer::kTrajectory), 1U) << "the path alone";
+  EXPECT_EQ(objects(MapLayer::kTrajectory), 1U) << "the layer has only the path";
   auto snapshot = std::make_shared<ReplaySnapshot>(*finished_);
   UnmatchedStretch stretch;
   stretch.first_frame = 20;
@@ -100,7 +100,7 @@ TEST_F(MapSceneTest, colours_loops_by_matcher_or_residual) {
   EXPECT_EQ(colour().G, matcher_colour(first_accepted->matcher).G);
   scene_.set_loop_style({LoopStyle::Colour::kResidual, false});
   scene_.show(finished_, map_);
-  EXPECT_EQ(colour().G, heat_colour(0).G) << "simulated loops have small residuals";
+  EXPECT_EQ(colour().G, heat_colour(0).G) << "the loops of the simulated room have small residuals";
 }
 
 TEST_F(MapSceneTest, draws_the_search_windows_of_a_scan_and_its_loops) {
@@ -111,7 +111,7 @@ TEST_F(MapSceneTest, draws_the_search_windows_of_a_scan_and_its_loops) {
     scene_.show(finished_, map_, frame);
     return first<mrpt::opengl::CSetOfLines>(MapLayer::kWindows)->size();
   };
-  EXPECT_EQ(lines(1), 6U) << "four sides and two limits of the heading";
+  EXPECT_EQ(lines(1), 6U) << "the window has four sides and two limits of the heading";
   EXPECT_GE(lines(first_loop->frame), 12U);
 }
 
@@ -143,7 +143,7 @@ TEST_F(MapSceneTest, scales_lines_and_points_with_the_desktop) {
   EXPECT_EQ(first<mrpt::opengl::CPointCloud>(MapLayer::kScan)->getPointSize(), 2 * dot);
   scene_.show(finished_, map_, 10);
   EXPECT_EQ(first<mrpt::opengl::CPointCloud>(MapLayer::kScan)->getPointSize(), 2 * dot)
-      << "scaled once, not twice";
+      << "the points are scaled once, not twice";
 }
 
 TEST_F(MapSceneTest, updates_a_layer_when_it_becomes_visible) {

@@ -40,7 +40,8 @@ class ReplayedRoom : public testing::Test {
     map_.reset();
   }
 
-  static inline std::shared_ptr<const ReplaySnapshot> paused_;  // paused after the first scans
+  // A snapshot of the run, paused after the first scans.
+  static inline std::shared_ptr<const ReplaySnapshot> paused_;
   static inline std::shared_ptr<const ReplaySnapshot> finished_;
   static inline std::shared_ptr<const DrawnMap> map_;
 };

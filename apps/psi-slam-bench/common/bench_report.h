@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report of a benchmark in all its forms, and the sections that the reports share.
+// The report of a benchmark as Markdown, JSON, CSV and plots, and the sections that all reports share.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -19,7 +19,7 @@ struct BenchReport {
 
   struct Plot {
     std::string file;     ///< "robustness-scans-kept.svg"
-    std::string content;  ///< of the file
+    std::string content;  ///< bytes of the file
   };
   std::vector<Plot> plots;
 };
@@ -28,7 +28,7 @@ struct BenchReport {
 /// differed from it; "unknown" for a build outside a git clone.
 std::string program_commit();
 
-/// "psi-slam 0.1.0, commit bf09480d1c2e, AMD EPYC, 2 processors".
+/// Names version, commit and machine: "psi-slam 0.1.0, commit bf09480d1c2e, AMD EPYC, 2 processors".
 std::string measured_by(const std::string& machine);
 
 /// A report's JSON: schema, program and machine, then `members`.
@@ -41,12 +41,14 @@ struct LogIdentity {
   std::string relations_sha256;  ///< of its relations
 };
 
-/// Checksums of logs with relations. Throws UserError when a file cannot be read.
+/// Checksums of logs and of their relations, which all logs must have. Throws UserError when a file cannot be
+/// read.
 std::vector<LogIdentity> identities_of(const std::vector<BenchmarkLog>& logs);
 
 ReportTable logs_table(const std::vector<LogIdentity>& logs);
 
-/// The section with the checksums, which also lists the logs that were left out for want of relations.
+/// Section with the checksums of the logs. It also lists the logs that were left out because they have no
+/// relations.
 std::string logs_section(const std::vector<LogIdentity>& logs,
                          const std::vector<std::string>& without_relations);
 

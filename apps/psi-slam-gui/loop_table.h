@@ -34,7 +34,7 @@ class LoopTable {
 
   /// Shows the loops of a snapshot. Returns true if they differ from those shown before.
   bool show(const std::shared_ptr<const ReplaySnapshot>& snapshot);
-  /// Lists only loops with this verdict, or all.
+  /// Lists only loops with `verdict`, or all loops if it is empty.
   void set_filter(std::optional<LoopVerdict> verdict);
   void sort_by(std::size_t column, bool ascending);
   std::size_t sorted_by() const { return column_; }

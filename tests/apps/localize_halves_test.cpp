@@ -26,8 +26,8 @@ constexpr std::size_t kStarts = 12;
 constexpr std::size_t kThreads = 4;
 constexpr double kWay_m = 20;   // longest path of a robot
 constexpr double kFalse_m = 1;  // error above which a tracked pose is at a false place
-constexpr double kNear_m =
-    1;  // largest distance from the path of the first half at which tracking is expected
+// Tracking is expected up to this distance from the path of the first half.
+constexpr double kNear_m = 1;
 
 MappingResult mapped(const std::filesystem::path& log, const Settings& settings, std::size_t scans) {
   MappingSession session(log, settings);

@@ -29,7 +29,7 @@ constexpr std::chrono::milliseconds kBetweenLooks{10};
 enum class MessageKind : int { kOrder = 1, kOutcome, kStop, kEnd };
 
 struct Message {
-  int rank = 0;  // of the sender
+  int rank = 0;  // rank of the sender
   MessageKind kind = MessageKind::kEnd;
   std::string text;
 };

@@ -66,8 +66,8 @@ std::string per_relation_csv(const RelationsMetric& metric) {
 
 /// A figure of the metric.
 struct Row {
-  const char* key;   // in JSON
-  const char* name;  // in the table
+  const char* key;   // key in JSON
+  const char* name;  // name in the table
   ErrorSummary RelationsMetric::*summary;
 };
 

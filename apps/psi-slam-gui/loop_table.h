@@ -11,7 +11,7 @@
 
 namespace psi_slam {
 
-/// Describes a loop, such as "Node 12 on local map 3, refused: the response 0.31 is below 0.45".
+/// Describes a loop, such as "Node 12 on local map 3, refused: the response is too low: 0.31, minimum 0.45".
 std::string describe_loop(const LoopRecord& loop);
 
 /// Rows of the loop inspector: filters and sorts the loops of a snapshot and gives the texts of the cells.

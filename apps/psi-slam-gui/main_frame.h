@@ -162,7 +162,7 @@ class MainFrame : public wxFrame {
   UnsavedWork unsaved_;
   RunState run_;
   double speed_ = 0;
-  std::filesystem::path opened_;                         ///< log or session
+  std::filesystem::path opened_;                         ///< log or session that is open
   std::map<std::string, std::string> session_settings_;  ///< settings of the session that cannot change
   std::optional<mrpt::math::TPoint2D> first_place_;      ///< first click of a loop to add
 

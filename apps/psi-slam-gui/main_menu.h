@@ -57,9 +57,9 @@ enum Command : int {
   kAddLoop,
   kOpenEdits,
   kSaveEdits,
-  kSpeed,                                                // first command of the kSpeeds
-  kLayer = kSpeed + static_cast<int>(kSpeeds.size()),    // first command of the layers
-  kMatchLoopBy = kLayer + static_cast<int>(kMapLayers),  // first command of the kMatcherKinds
+  kSpeed,                                                // command of the first of kSpeeds
+  kLayer = kSpeed + static_cast<int>(kSpeeds.size()),    // command of the first layer
+  kMatchLoopBy = kLayer + static_cast<int>(kMapLayers),  // command of the first of kMatcherKinds
 };
 
 /// Makes the menu bar. `recent` is the submenu of recent logs, filled by the caller.

@@ -11,7 +11,7 @@
 namespace psi_slam {
 namespace {
 
-constexpr long kVersion = 1;  // of the saved layout; other versions are ignored
+constexpr long kVersion = 1;  // version of the saved layout; layouts of other versions are ignored
 constexpr int kGrip = 80;     // at least this many pixels of the title bar must be on a screen
 
 const char* const kSection = "/window/";  // section of the configuration file

@@ -13,12 +13,12 @@ namespace psi_slam {
 
 struct BenchReport {
   std::string page;      ///< file name of the Markdown page: "robustness.md"
-  std::string markdown;  ///< the page
+  std::string markdown;  ///< text of the Markdown page
   std::string json;
-  std::string csv;  ///< the main table
+  std::string csv;  ///< main table of the report as CSV
 
   struct Plot {
-    std::string file;     ///< "robustness-scans-kept.svg"
+    std::string file;     ///< file name: "robustness-scans-kept.svg"
     std::string content;  ///< bytes of the file
   };
   std::vector<Plot> plots;
@@ -37,8 +37,8 @@ nlohmann::ordered_json report_json(const std::string& schema, const std::string&
 
 struct LogIdentity {
   std::string name;
-  std::string sha256;            ///< of the log
-  std::string relations_sha256;  ///< of its relations
+  std::string sha256;            ///< checksum of the log file
+  std::string relations_sha256;  ///< checksum of the file with the log's relations
 };
 
 /// Checksums of logs and of their relations, which all logs must have. Throws UserError when a file cannot be

@@ -9,11 +9,11 @@
 
 namespace psi_slam {
 
-/// Plot of lines over labelled places on the horizontal axis. The vertical axis is logarithmic.
+/// Plot of lines over labelled points of the horizontal axis. The vertical axis is logarithmic.
 struct GrowthPlot {
   std::string title;
-  std::string unit = "ms";          ///< of the values
-  std::vector<std::string> labels;  ///< of the places, from left to right
+  std::string unit = "ms";          ///< unit of the values
+  std::vector<std::string> labels;  ///< labels of the horizontal axis, from left to right
 
   struct Line {
     std::string name;

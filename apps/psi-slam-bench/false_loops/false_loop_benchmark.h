@@ -38,8 +38,9 @@ struct FalseLoopOptions {
   double reach_m = 10;  ///< largest distance of the wrong place from the anchor
   /// Nearby loops are moved by min_error_m to nearby_m and rotated by up to min_error_rad.
   double nearby_m = 3;
-  double min_error_m = 1;  ///< a loop is false if it is at least this far off the truth
-  double min_error_rad = radians_from_degrees(20.0L);  ///< or rotated by at least this angle
+  /// A loop is false if it differs from the truth by at least this distance or at least this angle.
+  double min_error_m = 1;
+  double min_error_rad = radians_from_degrees(20.0L);
   std::uint64_t seed = 1;
 };
 
@@ -52,14 +53,15 @@ std::vector<std::size_t> add_false_loops(PoseGraph& graph, const std::vector<mrp
                                          const FalseLoopOptions& options);
 
 struct FalseLoopBenchmarkOptions {
-  std::vector<double> shares_percent{10, 20, 50, 100, 200, 500};  ///< in percent of the accepted loops
+  /// Numbers of added false loops, in percent of the accepted loops.
+  std::vector<double> shares_percent{10, 20, 50, 100, 200, 500};
   std::vector<FalseLoopKind> kinds{FalseLoopKind::kScattered, FalseLoopKind::kGroups, FalseLoopKind::kNearby};
   SeedRange seeds;
 };
 
 /// A graph with true loops, and a function for the error of given poses of its nodes.
 struct LoopTrial {
-  PoseGraph graph;                            ///< at its optimum
+  PoseGraph graph;                            ///< optimised graph
   std::vector<mrpt::math::TPose2D> unlooped;  ///< poses of the nodes before any loop was closed
   double max_chi = 5;                         ///< largest residual of an enabled loop, standard deviations
   PoseAdjustmentOptions solver;
@@ -82,7 +84,7 @@ struct FalseLoopRow {
   std::string log;
   FalseLoopKind kind = FalseLoopKind::kScattered;
   double share_percent = 0;
-  std::uint64_t seed = 1;  ///< of the false loops
+  std::uint64_t seed = 1;  ///< seed for drawing the false loops
   std::size_t true_loops = 0;
   std::size_t false_loops = 0;
   LoopTrialOutcome undefended;   ///< optimised with all loops, from the poses before any loop
@@ -103,7 +105,7 @@ struct FalseLoopBenchmark {
   std::vector<LogIdentity> identities;
   std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
   std::vector<FalseLoopLog> logs;
-  std::vector<FalseLoopRow> rows;  ///< by log, kind, share, seed
+  std::vector<FalseLoopRow> rows;  ///< ordered by log, kind, share and seed
 };
 
 /// Adds one share of one kind of false loops to the graph and tries all treatments.

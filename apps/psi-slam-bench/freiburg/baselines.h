@@ -36,7 +36,7 @@ struct BaselineProgram {
   std::filesystem::path program;
   std::filesystem::path config;
   std::string version;  ///< as the program prints it: "MRPT 2.5.8 - Sources timestamp: ..."
-  std::string sha256;   ///< of the program file
+  std::string sha256;   ///< checksum of the program file
 };
 
 struct FoundBaselines {
@@ -57,8 +57,8 @@ std::string changes_text(const BaselineKind& kind);
 
 struct BaselineRun {
   BaselineProgram baseline;
-  BenchmarkLog log;              ///< with relations
-  std::filesystem::path folder;  ///< for the input and the output of the baseline
+  BenchmarkLog log;              ///< log that has relations
+  std::filesystem::path folder;  ///< folder for the input and the output of the baseline
   double time_limit_s = 0;
 };
 
@@ -97,9 +97,9 @@ struct BaselineOptions {
 
 /// Runs every baseline on every log, each run in a process of its own. A result is kept and not repeated
 /// while the log, its relations, the settings of its reader, the baseline and its settings stay the same. A
-/// run that did not finish is repeated only with a larger time limit. Returns results by log, then baseline.
-/// All `logs` need relations. When `stop` becomes true, ends the running processes and throws SystemFailure.
-/// Also throws SystemFailure when a file cannot be written.
+/// run that did not finish is repeated only with a larger time limit. The results are ordered by log, then
+/// baseline. All `logs` need relations. When `stop` becomes true, ends the running processes and throws
+/// SystemFailure. Also throws SystemFailure when a file cannot be written.
 std::vector<BaselineResult> run_baselines(const std::vector<BaselineProgram>& baselines,
                                           const std::vector<BenchmarkLog>& logs,
                                           const BaselineOptions& options, const std::atomic<bool>& stop,

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 struct Task {
   FreiburgRun run;
   std::string name;  // "intel-csm-1"
-  fs::path file;     // for its result
+  fs::path file;     // file for the result
   RunKey key;
   double work = 0;  // bytes of the log
   const LogIdentity* log = nullptr;

@@ -87,7 +87,7 @@ struct FreiburgResult {
 struct FreiburgCell {
   std::string log;
   std::string matcher;
-  std::vector<FreiburgResult> runs;  ///< by seed
+  std::vector<FreiburgResult> runs;  ///< ordered by seed
 };
 
 /// Figures of one log with one matcher over all seeds: means and spreads, not the best run.
@@ -95,13 +95,14 @@ struct CellFigures {
   std::size_t runs = 0;    ///< successful runs
   std::size_t failed = 0;  ///< failed runs
   PathErrors errors;       ///< means and standard deviations of the runs, averaged over the seeds
-  std::array<SeedSpread, kPathFigures.size()> spread;  ///< of the mean errors, in the order of kPathFigures
-  double relations_used = 0;                           ///< mean over the seeds
+  /// Spread of the mean errors over the seeds, in the order of kPathFigures.
+  std::array<SeedSpread, kPathFigures.size()> spread;
+  double relations_used = 0;  ///< mean over the seeds
   double relations_skipped = 0;
   SeedSpread loops_accepted;
   SeedSpread loops_judged;
   SeedSpread loops_false;
-  std::optional<SeedSpread> loop_recall;  ///< of the runs that have a recall; may be empty
+  std::optional<SeedSpread> loop_recall;  ///< spread over the runs with a recall; empty without such runs
   SeedSpread wall_s;
   SeedSpread cpu_s;
   SeedSpread real_time_factor;
@@ -113,7 +114,7 @@ std::optional<CellFigures> figures_of(const FreiburgCell& cell);
 
 struct FreiburgBenchmark {
   std::vector<LogIdentity> logs;
-  std::vector<FreiburgCell> cells;             ///< by log, then matcher
+  std::vector<FreiburgCell> cells;             ///< ordered by log, then matcher
   std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
   std::vector<std::string> left_out;           ///< logs that --logs does not name
   FoundBaselines baselines;                    ///< empty without --baselines

@@ -54,15 +54,15 @@ std::string benchmark_log_name(const std::string& name);
 std::string benchmark_log_title(const std::string& name);
 
 struct ComparisonRow {
-  std::string log;                                     ///< "Intel"
+  std::string log;                                     ///< usual name of the log: "Intel"
   std::size_t figure;                                  ///< index in kPathFigures
-  std::vector<std::optional<PublishedFigure>> values;  ///< by column
-  std::vector<bool> best;                              ///< by column: true for the least mean of the row
+  std::vector<std::optional<PublishedFigure>> values;  ///< one for each column
+  std::vector<bool> best;  ///< for each column: true for the least mean of the row
 };
 
 struct Comparison {
   std::vector<PublishedSystem> columns;  ///< the first is psi-slam
-  std::vector<ComparisonRow> rows;       ///< four for each log
+  std::vector<ComparisonRow> rows;       ///< for each log, one row for each of its four errors
 };
 
 /// Compares all systems. The adaptive matcher represents psi-slam, or the first matcher if the adaptive one

@@ -62,7 +62,7 @@ struct LoopCase {
   mrpt::math::TPose2D anchor_T_node;  ///< true pose of the node; outside the window in negative cases
   mrpt::math::TPose2D start;          ///< centre of the window
   MatchSeed seed;
-  MatcherKind adaptive_matcher = MatcherKind::kCsm;  ///< for the adaptive candidate
+  MatcherKind adaptive_matcher = MatcherKind::kCsm;  ///< matcher that the adaptive candidate uses
 };
 
 /// Draws `count` positive cases, then `count` negative ones, or fewer if the log has no more. Each pair of

@@ -29,7 +29,8 @@ struct Judgement {
   bool false_accept = false;  ///< negative cases: found with a response that loop closing would accept
 };
 
-/// `exact` is the match of exact CSM in the same case.
+/// Judges a match. `exact` is the match of exact CSM in the same case. `accepted_response` is the least
+/// response that loop closing accepts.
 Judgement judge(const LoopCase& loop_case, const MatchResult& match, const MatchResult& exact,
                 double accepted_response);
 
@@ -44,9 +45,9 @@ struct MatchFigures {
   std::size_t cases = 0;
   std::size_t positive = 0;
   std::size_t negative = 0;
-  std::optional<double> success_rate;       ///< of the positive cases; empty without positive cases
-  std::optional<double> same_optimum_rate;  ///< of the positive cases; empty without positive cases
-  std::optional<double> false_accept_rate;  ///< of the negative cases; empty without negative cases
+  std::optional<double> success_rate;       ///< share of the positive cases; empty without positive cases
+  std::optional<double> same_optimum_rate;  ///< share of the positive cases; empty without positive cases
+  std::optional<double> false_accept_rate;  ///< share of the negative cases; empty without negative cases
   double evaluations = 0;                   ///< mean number of scored poses
   TimeFigures time_ms;
   /// Share of the decoded chromosomes that lay outside the window; empty for matchers without chromosomes.
@@ -99,7 +100,7 @@ struct MatchSeries {
     std::string matcher;
     MatchTally tally;
   };
-  std::vector<Row> rows;  ///< by candidate, of the cases run so far; the first is exact CSM
+  std::vector<Row> rows;  ///< one for each candidate, over the cases run so far; the first is exact CSM
 };
 
 struct MatchBenchmarkOptions {
@@ -111,7 +112,7 @@ struct MatchBenchmarkOptions {
 /// Use of a log in the benchmark.
 struct LogNote {
   std::string name;
-  std::string md5;  ///< of the log file
+  std::string md5;  ///< checksum of the log file
   std::optional<double> translation_error_m;
   std::size_t positive = 0;  ///< cases of the first series
   std::size_t negative = 0;
@@ -123,8 +124,8 @@ struct MatchBenchmark {
   std::vector<LogNote> logs;
   MatchSeries scans;
   MatchSeries contexts;
-  std::vector<MatchSeries> windows;     ///< by half-width; may be empty
-  std::vector<MatchSeries> local_maps;  ///< by nodes of a local map; may be empty
+  std::vector<MatchSeries> windows;     ///< one for each half-width of the window; may be empty
+  std::vector<MatchSeries> local_maps;  ///< one for each number of nodes of a local map; may be empty
 };
 
 /// Largest mean error over the relations, in metres, of a map whose poses serve as truth.

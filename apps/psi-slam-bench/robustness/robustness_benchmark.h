@@ -109,7 +109,7 @@ struct RobustnessBenchmark {
   std::vector<LogIdentity> identities;
   std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
   std::vector<RobustnessLog> logs;
-  std::vector<RobustnessRow> rows;  ///< by log, then case, then seed
+  std::vector<RobustnessRow> rows;  ///< ordered by log, case and seed
 };
 
 /// Maps each log once for each different case, or once for each seed if the case draws random numbers. Throws

@@ -69,7 +69,7 @@ inline constexpr std::size_t kRelations = 2000;
 /// Mean and 99th percentile of the values; zeros without values.
 MeanAndP99 mean_and_p99(std::vector<double> values);
 
-/// A run of one length with the seed, people and glass of the options.
+/// Options of a run with a path of `path_m` metres, and with the seed, people and glass of `options`.
 SimulatedLogOptions simulated_run_options(const SimulateOptions& options, double path_m);
 
 /// Relations of the true path between `count` random pairs of scans. `truth` must not be empty.

@@ -36,7 +36,7 @@ struct SparseOptions {
   bool needs_logs() const { return has(kThinnedPart) || has(kEveryNthPart) || has(kSparsePart); }
 };
 
-/// One run of a log.
+/// Figures of one run of a log.
 struct SparseRow {
   std::string log;
   std::string kept;  ///< scans kept: "1 m / 0.5 rad", "1 of 3", "all"
@@ -61,7 +61,7 @@ struct SparseMapPicture {
 struct SparseBenchmark {
   std::vector<LogIdentity> identities;
   std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
-  std::vector<SparseRow> rows;                 ///< by part, then log, then case, then seed
+  std::vector<SparseRow> rows;                 ///< ordered by part, log, case and seed
   std::vector<SparseMapPicture> pictures;
   std::vector<SensorSweepRow> sensors;
 };

@@ -93,7 +93,7 @@ run() {
   mkdir -p "$3"
   settings "$1" >"$3/graphslam.ini"
   TIMEFORMAT='%U %S %R'
-  # shellcheck disable=SC2016  # the inner shell expands them
+  # shellcheck disable=SC2016  # the inner shell expands $0 and $@
   {
     time bash -c 'ulimit -S -t "$0" && exec "$@"' "$4" "${app[psi-graphslam]}" -i "$3/graphslam.ini" \
       -r "$(log_file "$1")" -n "$node" -e "$edge" -o "$optimizer" --disable-visuals --output-dir "$3/results" \

@@ -22,8 +22,9 @@ struct TwoLasers {
   TimeUs period_us = 100'000;
   TimeUs rear_later_us = 40'000;
   int scans = 20;
-  TimeUs sweep_us = 0;                                      ///< time from a scan's first beam to its last
-  TimeUs front_silent_from_us = 0, front_silent_to_us = 0;  ///< interval without scans, since the start
+  TimeUs sweep_us = 0;  ///< time from a scan's first beam to its last
+  /// Intervals without scans of a laser, counted from kStart_us.
+  TimeUs front_silent_from_us = 0, front_silent_to_us = 0;
   TimeUs rear_silent_from_us = 0, rear_silent_to_us = 0;
 
   static constexpr TimeUs kStart_us = 1'600'000'000'000'000;

@@ -32,9 +32,9 @@ struct BenchArguments {
   std::string data;
   std::string ini;
   std::vector<std::string> names;  ///< names of logs; empty: all logs that have relations
-  std::string json;                ///< file; empty: not written
-  std::string csv;                 ///< file; empty: not written
-  std::string output;              ///< folder for page and plots; empty: not written
+  std::string json;                ///< JSON file to write; empty: none
+  std::string csv;                 ///< CSV file to write; empty: none
+  std::string output;              ///< folder to write page and plots to; empty: none
 };
 
 /// Adds --data and --ini.

@@ -23,7 +23,7 @@ namespace psi_slam {
 
 enum class FalseLoopKind {
   kScattered,  ///< false loops that are independent of each other
-  kGroups,     ///< several successive nodes agree on the same wrong place
+  kGroups,     ///< groups of false loops: those of successive nodes agree on one wrong place
   kNearby,     ///< true loops moved by metres, within the uncertainty of odometry
 };
 

@@ -75,8 +75,8 @@ class DegradedSource : public FrameSource {
 
 /// One way to degrade a log.
 struct RobustnessCase {
-  std::string series;  ///< curve of the plot: "odometry noise", ...
-  std::string name;    ///< place on the curve: "× 2"
+  std::string series;  ///< name of a curve of the plot: "odometry noise", ...
+  std::string name;    ///< label of a point of the curve: "× 2"
   DegradationOptions degradation;
 };
 

@@ -54,7 +54,7 @@ struct FloorPlanOptions {
   std::uint64_t seed = 1;
   double corridors_m = 150;  ///< least total length of the corridors; at least those around one block
   double glass_share = 0.1;  ///< share of glass in front walls and the outer wall, in [0, 1]
-  double bare_share = 0.25;  ///< share of corridor stretches between crossings without doors or furniture
+  double bare_share = 0.25;  ///< share of corridor stretches that have neither doors nor furniture
   double hall_share = 0.15;  ///< share of blocks that are one hall
   double scale = 1;          ///< factor of all lengths, at least 1: larger rooms and wider corridors
 };

@@ -20,7 +20,7 @@
 
 namespace psi_slam {
 
-/// Parts of the benchmark, by the names of --parts.
+/// Names of the parts of the benchmark, as the option --parts takes them.
 inline constexpr const char* kThinnedPart = "thinned";     ///< dense logs, one scan for each step of odometry
 inline constexpr const char* kEveryNthPart = "every-nth";  ///< some dense logs, every 3rd and 5th scan
 inline constexpr const char* kSparsePart = "sparse";       ///< sparse logs, all scans

@@ -7,9 +7,9 @@
 namespace psi_slam {
 namespace {
 
-/// Finds the word to complete, the option before it, and the command among the words before it. Bash splits
-/// words at "=" and ":", which are part of ours. So the script splits the line again, and removes from its
-/// answers what bash has already.
+/// Start of the completion function: finds the word to complete, the option before it, and the command. Bash
+/// splits words at "=" and ":", which settings contain, so the script splits the line again at blanks. kEnd
+/// removes from each answer the part before the last "=" or ":", which bash keeps on the line.
 constexpr const char* kBegin = R"(@FUNCTION@_answer() {
   local answer
   while IFS= read -r answer; do
@@ -23,7 +23,7 @@ constexpr const char* kBegin = R"(@FUNCTION@_answer() {
   if [[ -n ${ZSH_VERSION-} ]]; then
     words=("${COMP_WORDS[@]:0:$((COMP_CWORD + 1))}")
   else
-    # shellcheck disable=SC2162  # backslashes are the shell's
+    # shellcheck disable=SC2162  # backslashes escape blanks, as in bash
     read -a words <<<"$line"
     [[ $line == *[[:space:]] ]] && words+=("")
   fi
@@ -101,7 +101,8 @@ std::string value_branches(const CLI::App& app, const std::string& command, cons
   return text;
 }
 
-/// Branches for a word that is no option's value: options after a dash, else commands and files.
+/// Branches for a word that is not the value of an option. They complete options after a dash, and commands
+/// and files otherwise.
 std::string word_branches(const CLI::App& app, const std::string& command) {
   std::vector<std::string> options;
   for (const CLI::Option* option : shown_options(app))

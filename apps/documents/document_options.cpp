@@ -13,12 +13,12 @@
 namespace psi_slam {
 namespace {
 
-/// Bold text, which the user types as it is.
+/// Bold text, for words that the user types literally.
 std::string roff_bold(std::string_view text) {
   return "\\fB" + roff_text(text) + "\\fR";
 }
 
-/// Italic text, which the user replaces.
+/// Italic text, for placeholders that the user replaces.
 std::string roff_italic(std::string_view text) {
   return "\\fI" + roff_text(text) + "\\fR";
 }
@@ -27,7 +27,7 @@ std::string roff_section(std::string_view title) {
   return ".SH \"" + roff_text(title) + "\"\n";
 }
 
-/// A paragraph with a hanging tag. `tag` and `text` are in troff already.
+/// Paragraph with a hanging tag. `tag` and `text` must be troff markup.
 std::string roff_item(const std::string& tag, const std::string& text) {
   return ".TP\n" + tag + '\n' + text + '\n';
 }
@@ -40,7 +40,7 @@ std::string heading(const std::string& name, int section, const std::string& ver
          "\" \"" + manual + "\"\n";
 }
 
-/// First clause of the description, without the program's name.
+/// First clause of the program's description, in lower case and without the program's name.
 std::string in_a_line(const CLI::App& app) {
   std::string text = app.get_description();
   const std::string name = app.get_name() + ' ';
@@ -165,7 +165,7 @@ std::string settings_man_page(const OptionTable& table, const std::string& versi
 
 void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings) {
   const auto add_hidden = [&app](const std::string& name, const std::function<std::string()>& text) {
-    // CLI11 adds a line end to the text of --version, so the document's own is removed.
+    // CLI11 appends a newline to the text of --version, so the last newline of the document is removed.
     const auto print = [text] {
       std::string document = text();
       if (!document.empty()) document.pop_back();

@@ -22,15 +22,16 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, Member& member, 
 /// Each prints its document and ends the program, as --version does. `app` must outlive the parsing.
 void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings = nullptr);
 
-/// Manual page of a program. The description of `app` must complete the sentence "NAME is a program that";
-/// its first clause becomes the line of the section NAME.
+/// Manual page of a program. The description of `app` may begin with the program's name and must go on with a
+/// verb, as in "psi-slam draws floor plans". Its first clause becomes the line of the section NAME.
 std::string man_page(const CLI::App& app);
 
 /// Manual page psi-slam.ini(5) of the settings files; `version` is that of the programs.
 std::string settings_man_page(const OptionTable& table, const std::string& version);
 
 /// Completion script for bash, and for zsh through its bashcompinit. Completes commands, options, files,
-/// folders, and the keys and values of `settings` after --set. It needs only bash 4.
+/// folders, and the keys and values of `settings` after --set. `settings` may be null. The script needs
+/// bash 4.
 std::string bash_completion(const CLI::App& app, const OptionTable* settings);
 
 }  // namespace psi_slam

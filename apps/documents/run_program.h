@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How every program ends: the exit code and the message for what its work throws.
+// Exit codes and error messages of all programs.
 #pragma once
 
 #include <CLI/CLI.hpp>

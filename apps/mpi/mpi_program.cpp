@@ -29,12 +29,12 @@ constexpr std::chrono::milliseconds kBetweenLooks{10};
 enum class MessageKind : int { kOrder = 1, kOutcome, kStop, kEnd };
 
 struct Message {
-  int rank = 0;  // of the sender
+  int rank = 0;  // rank of the sender
   MessageKind kind = MessageKind::kEnd;
   std::string text;
 };
 
-/// Initialises MPI and finalises it in the destructor. An error in MPI ends the job with a message of MPI.
+/// Initialises MPI and finalises it in the destructor. After an error, MPI prints a message and ends the job.
 struct MpiWorld {
   MpiWorld(int& argc, char**& argv) { MPI_Init(&argc, &argv); }
   ~MpiWorld() { MPI_Finalize(); }
@@ -59,7 +59,7 @@ void send(int rank, MessageKind kind, const std::string& text = {}) {
            MPI_COMM_WORLD);
 }
 
-/// The next message, if there is one.
+/// Receives the next message if one has arrived. Does not wait.
 std::optional<Message> receive() {
   int there = 0;
   MPI_Status status{};
@@ -72,20 +72,21 @@ std::optional<Message> receive() {
   return message;
 }
 
-/// As receive(), after a short sleep without a message: waiting inside MPI would keep a processor busy.
+/// Calls receive(), then sleeps for kBetweenLooks if no message has arrived. Waiting inside MPI would keep a
+/// processor busy.
 std::optional<Message> wait() {
   std::optional<Message> message = receive();
   if (!message) std::this_thread::sleep_for(kBetweenLooks);
   return message;
 }
 
-/// For the other ranks: carries out orders until rank 0 dismisses them.
+/// Work of all ranks except 0: carries out orders until rank 0 sends kEnd.
 void work_for_rank_0(const MakeOrder& make) {
   for (bool dismissed = false; !dismissed;) {
     const std::optional<Message> message = wait();
     if (message && message->kind == MessageKind::kEnd) return;
     if (!message || message->kind != MessageKind::kOrder)
-      continue;  // a stop that came after the end of the order
+      continue;  // no message, or a kStop that arrived after its order had ended
     const std::optional<std::string> outcome = make(message->text, [&] {
       const std::optional<Message> other = receive();
       dismissed = dismissed || (other && other->kind == MessageKind::kEnd);
@@ -102,7 +103,7 @@ bool is_started_as_later_rank() {
   return false;
 }
 
-/// Parses the command line and does the work of rank 0.
+/// Parses the command line and does the work of rank 0. Only parses if `ranks` is 0.
 int run(CLI::App& app, const MpiProgram& program, int ranks, int argc, char** argv, const Streams& streams) {
   app.description(program.description);
   const std::function<int()> work = program.define(app, ranks, streams);
@@ -113,7 +114,7 @@ int run(CLI::App& app, const MpiProgram& program, int ranks, int argc, char** ar
   return ranks > 0 ? work() : kExitDone;
 }
 
-/// The text of --help, --version or a document; empty for other arguments.
+/// Text that --help, --version or a hidden option for documents prints; empty for other arguments.
 std::optional<std::string> words_of_itself(const MpiProgram& program, int argc, char** argv,
                                            const Streams& streams) {
   CLI::App app("", program.name);
@@ -123,7 +124,7 @@ std::optional<std::string> words_of_itself(const MpiProgram& program, int argc, 
     std::ostringstream words;
     app.exit(asked, words, words);
     return words.str();
-  } catch (const std::exception&) {  // reported by rank 0 when MPI runs
+  } catch (const std::exception&) {  // rank 0 reports the error when MPI runs
   }
   return std::nullopt;
 }
@@ -131,7 +132,8 @@ std::optional<std::string> words_of_itself(const MpiProgram& program, int argc, 
 }  // namespace
 
 int run_mpi_program(int argc, char** argv, const MpiProgram& program) {
-  std::signal(SIGXFSZ, SIG_IGN);  // as in psi-slam
+  // A file that reaches the limit of `ulimit -f` gives an error message, as on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   const Streams streams{std::cout, std::cerr, ::isatty(STDERR_FILENO) == 1};
   if (const auto words = words_of_itself(program, argc, argv, streams)) {
     if (!is_started_as_later_rank()) std::cout << *words << std::flush;
@@ -154,14 +156,14 @@ fs::path program_beside(const std::string& name, const std::string& own_name) {
   for (const fs::path& program : {folder / name, folder.parent_path() / name / name})
     if (fs::is_regular_file(program)) return program;
   throw UserError(name + ", which makes the runs, was not found: expected it beside " +
-                  (folder / own_name).string());
+                  (folder / own_name).string() + ". Install both programs in one folder");
 }
 
 void hand_out(const std::vector<std::string>& orders, const WorkWatch<std::string>& watch) {
   std::vector<int> idle;
   for (int rank = number_of_ranks() - 1; rank > 0; --rank) idle.push_back(rank);
-  std::map<int, std::size_t> busy;  // order by rank
-  std::size_t next = 0;             // the first order that is not handed out
+  std::map<int, std::size_t> busy;  // index of the order that each busy rank carries out
+  std::size_t next = 0;             // index of the first order that is not handed out
   bool stopped = false;
   std::exception_ptr failure;  // the first exception of watch.finished()
   while (true) {
@@ -181,7 +183,7 @@ void hand_out(const std::vector<std::string>& orders, const WorkWatch<std::strin
       idle.push_back(message->rank);
       try {
         if (!message->text.empty()) watch.finished(order, message->text);
-      } catch (...) {  // wait for the other ranks first
+      } catch (...) {  // rethrown when all ranks are idle
         if (!failure) failure = std::current_exception();
       }
     }

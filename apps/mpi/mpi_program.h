@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The main function of the programs for clusters. Rank 0 of an MPI job hands out orders, the other ranks
-// carry them out. Orders and outcomes travel as texts.
+// The main function of the programs for clusters. Rank 0 of an MPI job hands out orders, and all other ranks
+// carry them out. Orders and outcomes are sent as text.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,36 +18,37 @@
 
 namespace psi_slam {
 
-/// Carries out an order and returns its outcome. Calls `stop` a few times a second and returns nothing if
-/// that ended the order.
+/// Carries out an order and returns its outcome. Calls `stop` a few times a second. Ends the order and
+/// returns nothing when `stop` returns true.
 using MakeOrder =
     std::function<std::optional<std::string>(const std::string& order, const std::function<bool()>& stop)>;
 
 struct MpiProgram {
   std::string name;
   std::string description;
-  std::string examples;  ///< end of --help
-  /// Adds the options to `app` and returns the work of rank 0, which follows the parsing. Parsing must do
-  /// nothing else if `ranks` is 0. Both may throw CLI::ParseError and UserError for mistakes of the user.
+  std::string examples;  ///< printed at the end of --help
+  /// Adds the options to `app` and returns the work of rank 0, which is called after parsing. If `ranks` is
+  /// 0, parsing must have no other effect. Parsing and work may throw CLI::ParseError and UserError for
+  /// mistakes of the user.
   std::function<std::function<int()>(CLI::App& app, int ranks, const Streams& streams)> define;
-  /// Carries out one order on another rank.
+  /// Carries out one order on a rank other than 0.
   MakeOrder make;
-  std::shared_ptr<const OptionTable> settings{};  ///< for the documents; may be null
+  std::shared_ptr<const OptionTable> settings{};  ///< options for man page and completion; may be null
 };
 
-/// Runs the program as one rank of a job, or alone, and returns its exit code. --help, --version and
-/// documents work without MPI and are printed by one rank.
+/// Runs the program as one rank of a job, or alone, and returns its exit code. --help, --version and the
+/// hidden options for documents work without MPI, and only one rank prints them.
 int run_mpi_program(int argc, char** argv, const MpiProgram& program);
 
-/// Path of another program of psi-slam, installed beside this one or in the same build. Throws UserError if
-/// it does not exist.
+/// Path of another program of psi-slam, installed beside this one or in the same build. `own_name` is the
+/// name of this program, for the error message. Throws UserError if the other program does not exist.
 std::filesystem::path program_beside(const std::string& name, const std::string& own_name);
 
-/// For rank 0 of several: hands out the orders, and returns when all have been carried out or stopped. Waits
-/// for all ranks before it rethrows an exception of `watch.finished`.
+/// Hands out the orders, and returns when all have been carried out or stopped. Call it in rank 0 of a job
+/// with several ranks. Waits for all ranks before it rethrows an exception of `watch.finished`.
 void hand_out(const std::vector<std::string>& orders, const WorkWatch<std::string>& watch);
 
-/// For rank 0 of several: workers that are the other ranks.
+/// Workers for rank 0 of a job with several ranks: they hand out orders to all other ranks.
 template <class Order, class Outcome>
 Workers<Order, Outcome> rank_workers() {
   return [](const std::vector<Order>& orders, const WorkWatch<Outcome>& watch) {
@@ -59,7 +60,7 @@ Workers<Order, Outcome> rank_workers() {
   };
 }
 
-/// For the other ranks: `make` with orders and outcomes as texts.
+/// MakeOrder for all ranks except 0: calls `make`, and converts orders and outcomes from and to CBOR text.
 template <class Order, class Outcome>
 MakeOrder text_maker(std::optional<Outcome> (*make)(const Order&, const std::function<bool()>&)) {
   return [make](const std::string& order, const std::function<bool()>& stop) {

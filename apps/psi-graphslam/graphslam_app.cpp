@@ -99,7 +99,8 @@ GraphSlamCommandLine parse(const std::vector<std::string>& arguments, CLI::App& 
   GraphSlamCommandLine line;
   add_inputs(app, line.setup);
   add_switches(app, line);
-  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+  // CLI11 expects the last argument first.
+  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   line.list_node_deciders |= line.list_regs || line.list_all;
   line.list_edge_deciders |= line.list_regs || line.list_all;
   line.list_optimizers |= line.list_all;
@@ -152,7 +153,8 @@ Json summary_of(const GraphSlamRun& run, const GraphSlamSetup& setup) {
           {"broken_off", run.broken_off() ? Json(*run.broken_off()) : Json()}};
 }
 
-/// Maps the log to its end. After a signal, only makes the map of what was read.
+/// Maps the log to its end. After a signal, reads no more scans and finishes the map of the scans read so
+/// far.
 void make_map(GraphSlamRun& run, const std::atomic<bool>& stop, std::ostream& err) {
   while (!stop && run.step()) {
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam-bench freiburg on a cluster:
+// Runs the command `psi-slam-bench freiburg` on a cluster:
 //
 //     mpirun -n 9 psi-slam-bench-mpi freiburg --data DIR -o DIR [--seeds 10]...
 //

@@ -24,14 +24,14 @@
 namespace psi_slam {
 namespace {
 
-/// Options of one benchmark, and those that all benchmarks share.
+/// Options of one benchmark, and the options that all benchmarks share.
 template <class Options>
 struct Arguments : BenchArguments {
   Options options{};
 };
 
-/// Adds the output options, and what happens when `command` is parsed: `logs_for(arguments)` chooses the
-/// logs, and `report_on(logs, options, progress)` runs the benchmark.
+/// Adds the output options to `command`, and the callback that runs the benchmark when `command` is parsed.
+/// `logs_for(arguments)` chooses the logs, and `report_on(logs, options, progress)` makes the report.
 template <class Options, class LogsFor, class ReportOn>
 void run_on_logs(CLI::App& command, const std::shared_ptr<Arguments<Options>>& arguments,
                  const Streams& streams, const LogsFor& logs_for, const ReportOn& report_on) {
@@ -110,7 +110,7 @@ struct SimulateArguments : Arguments<SimulateOptions> {
   std::string log;
 };
 
-/// Floor plan and path of the shortest run, as SVG: pictures of longer runs are too large to read.
+/// Floor plan and path of the shortest run, as SVG. Pictures of longer runs are too large to read.
 std::string plan_of_shortest(const SimulateOptions& options) {
   const double path_m = *std::min_element(options.path_m.begin(), options.path_m.end());
   SimulatedLog log(simulated_run_options(options, path_m));
@@ -129,7 +129,7 @@ void run_simulate(const SimulateArguments& arguments, const Streams& streams) {
   const std::vector<SimulateRow> rows =
       with_progress(streams, [&](const auto& progress) { return run_simulate_benchmark(options, progress); });
 
-  // Not before the benchmark: memory of this process would count as memory of its children.
+  // The report follows the benchmark, because memory of this process would count as memory of its children.
   BenchReport report = simulate_report(rows, options, machine_text());
   if (!arguments.output.empty()) report.plots.push_back({"simulate-plan.svg", plan_of_shortest(options)});
   if (!arguments.log.empty())
@@ -172,8 +172,8 @@ void add_simulate_command(CLI::App& app, const Streams& streams) {
   simulate.callback([arguments, &streams] { run_simulate(*arguments, streams); });
 }
 
-/// The logs of the benchmark, after a check of their settings; none if no part needs logs. Prints warnings
-/// about the settings of the logs.
+/// Logs of the benchmark, after a check of their settings. Empty if no part of the benchmark needs logs.
+/// Prints warnings about the settings of the logs.
 SparseLogs sparse_logs(const Arguments<SparseOptions>& arguments, const Streams& streams) {
   const SparseOptions& options = arguments.options;
   benchmark_settings({}, options.assignments);
@@ -217,7 +217,7 @@ void add_sparse_command(CLI::App& app, const Streams& streams) {
       });
 }
 
-/// The arguments in the order that CLI11 expects, last first. Old names of options are replaced.
+/// Returns the arguments in the order that CLI11 expects, last first. Replaces old names of options.
 std::vector<std::string> for_parser(const std::vector<std::string>& arguments) {
   constexpr std::string_view kOld = "--rival";
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());

@@ -28,14 +28,16 @@ struct EvalOptions {
   bool json = false;
 };
 
-/// Throws CLI::ParseError for wrong usage, --help and --version.
+/// Parses the arguments, without the program's name. Throws CLI::ParseError for wrong usage, --help and
+/// --version.
 EvalOptions parse(const std::vector<std::string>& arguments, CLI::App& app) {
   EvalOptions options;
   app.add_option(
          "TRAJECTORY", options.trajectory,
          "Trajectory: lines 'timestamp x y theta', TUM format, or a corrected CARMEN log with FLASER lines")
       ->required();
-  app.add_option("RELATIONS", options.relations, "True relations: lines 'time1 time2 x y z roll pitch yaw'")
+  app.add_option("RELATIONS", options.relations,
+                 "Known relative poses: lines 'time1 time2 x y z roll pitch yaw'")
       ->required();
   app.add_option("--max-gap", options.max_gap_s,
                  "Longest gap between two poses that is interpolated, in seconds")
@@ -48,7 +50,8 @@ EvalOptions parse(const std::vector<std::string>& arguments, CLI::App& app) {
   app.add_flag("--json", options.json, "Print the result as JSON");
   app.set_version_flag("--version", "psi-slam-eval " PSI_SLAM_VERSION, "Print the version and exit");
   add_document_options(app);
-  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+  // CLI11 expects the last argument first.
+  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   return options;
 }
 
@@ -63,8 +66,8 @@ std::string per_relation_csv(const RelationsMetric& metric) {
 
 /// A figure of the metric.
 struct Row {
-  const char* key;   // in JSON
-  const char* name;  // in the table
+  const char* key;   // key in JSON
+  const char* name;  // name in the table
   ErrorSummary RelationsMetric::*summary;
 };
 
@@ -131,7 +134,7 @@ void evaluate(const EvalOptions& options, std::ostream& out) {
 
 int run_eval_app(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) noexcept {
   CLI::App app(
-      "Compares a trajectory with true relations: the metric of the Freiburg SLAM benchmark "
+      "Compares a trajectory with known relative poses: the metric of the Freiburg SLAM benchmark "
       "(Kümmerle et al. 2009) and the variant of Cartographer's tool.",
       "psi-slam-eval");
   return run_program(app, out, err, [&] {

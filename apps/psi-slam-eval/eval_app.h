@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam-eval: compares a trajectory with true relations (the metric of relations_metric.h).
+// psi-slam-eval: measures the errors of a trajectory over relations, by the metric of relations_metric.h.
 //
 //     psi-slam-eval TRAJECTORY RELATIONS [--max-gap S] [--per-relation FILE [--force]] [--json] [--version]
 #pragma once

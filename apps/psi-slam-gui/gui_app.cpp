@@ -27,14 +27,14 @@ namespace psi_slam {
 namespace {
 
 struct Arguments {
-  std::string log;                    ///< empty: opens none
-  std::string edits;                  ///< file of loop edits; empty: none
+  std::string log;                    ///< log or session to open; empty: opens nothing
+  std::string edits;                  ///< file of loop edits; empty: no edits
   std::string config;                 ///< settings file; empty: the defaults
   std::vector<std::string> settings;  ///< "section.key=value", in the order given
 };
 
-/// Reads the arguments with `app`. Throws CLI::ParseError for --help, --version and syntax errors, UserError
-/// for unknown arguments.
+/// Parses the arguments with `app`. Throws CLI::ParseError for --help, --version and syntax errors, and
+/// UserError for unknown arguments and for --edits without a log.
 Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
   Arguments line;
   app.add_option("LOG", line.log,
@@ -46,7 +46,8 @@ Arguments parse(const std::vector<std::string>& arguments, CLI::App& app) {
   app.set_version_flag("--version", "psi-slam-gui " PSI_SLAM_VERSION, "Print the version and exit");
   add_document_options(app, default_settings());
   app.allow_extras();
-  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 wants reverse order
+  // CLI11 expects the last argument first.
+  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   if (const std::vector<std::string> unknown = app.remaining(); !unknown.empty())
     throw UserError(unknown_argument_text(unknown.front(), app, "psi-slam-gui"));
   if (!line.edits.empty() && line.log.empty())
@@ -66,7 +67,7 @@ class GuiApp : public wxApp {
     wxInitAllImageHandlers();
     wxStandardPaths::Get().SetFileLayout(wxStandardPathsBase::FileLayout_XDG);
     open_preferences();
-    auto* frame = new MainFrame();  // wx deletes it when it is closed
+    auto* frame = new MainFrame();  // wxWidgets deletes the frame when it is closed
     frame->Show();
     frame->start(line_.log, line_.config, line_.settings, line_.edits);
     if (when_shown_) frame->CallAfter([this, frame] { when_shown_(*frame); });
@@ -81,11 +82,11 @@ class GuiApp : public wxApp {
     return true;
   }
 
-  // run_gui() has read the arguments.
+  // Passes no arguments to wxWidgets, because run_gui() has parsed them.
   void OnInitCmdLine(wxCmdLineParser& parser) override { parser.SetCmdLine(wxString()); }
 
  private:
-  /// Keeps recent files and the layout in the desktop's folder for preferences, if there is one.
+  /// Opens the file for recent logs and the layout of the window, in the user's folder for settings.
   static void open_preferences() {
     const wxLogNull quiet;
     const wxString folder = wxStandardPaths::Get().GetUserConfigDir();
@@ -98,7 +99,7 @@ class GuiApp : public wxApp {
 };
 
 int run_window(const Arguments& line, std::ostream& err, const std::function<void(MainFrame&)>& when_shown) {
-  wxApp::SetInstance(new GuiApp(line, when_shown));  // wx deletes it
+  wxApp::SetInstance(new GuiApp(line, when_shown));  // wxWidgets deletes the object
   std::string name = "psi-slam-gui";
   std::array<char*, 2> argv{name.data(), nullptr};
   int argc = 1;

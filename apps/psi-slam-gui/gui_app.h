@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // psi-slam-gui: replays a log in a window and shows how the map is built.
 //
-//     psi-slam-gui [LOG] [-c INI] [--set SECTION.KEY=VALUE]...
+//     psi-slam-gui [LOG [--edits FILE]] [-c INI] [--set SECTION.KEY=VALUE]...
 #pragma once
 
 #include <functional>

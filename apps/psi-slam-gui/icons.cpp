@@ -9,7 +9,7 @@ namespace {
 constexpr int kSide = 20;
 constexpr int kProgramSide = 64;
 
-/// Shapes of each Icon on a ground of 20 x 20. INK is replaced by the colour, LINE by a style for strokes.
+/// SVG shapes of each Icon, in a square of 20 x 20. INK stands for the colour, LINE for the style of strokes.
 constexpr std::array<const char*, 15> kShapes{
     R"(<path d="M2.5 16V4.5H8l2 2.5h7.5v9z" LINE/>)",
     R"(<path d="M5 3l12 7-12 7z" fill="INK"/>)",

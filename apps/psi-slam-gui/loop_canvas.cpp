@@ -17,7 +17,7 @@ namespace psi_slam {
 namespace {
 
 constexpr double kAround_m = 1.5;  // margin around the scan
-// At each side, one of this many points may lie outside the picture.
+// On each of the four sides, one of this many points may lie outside the picture.
 constexpr std::size_t kPointsPerOutlier = 12;
 
 /// Maps the ground to pixels: the place (x_m, y_m) lies at the pixel (x_px, y_px).
@@ -32,7 +32,7 @@ struct Frame2D {
   double y(double at_m) const { return y_px + (y_m - at_m) * px_per_m; }
 };
 
-/// The range of the values without the outliers at both ends.
+/// Range of the values without one in kPointsPerOutlier at each end.
 std::pair<double, double> range_without_outliers(std::vector<double> values) {
   if (values.empty()) return {0, 0};
   std::sort(values.begin(), values.end());
@@ -40,7 +40,7 @@ std::pair<double, double> range_without_outliers(std::vector<double> values) {
   return {values[out], values[values.size() - 1 - out]};
 }
 
-/// Fits both scans and a margin into the middle of the area.
+/// Fits both scans with a margin into the area, centred.
 Frame2D frame_for(const LoopPicture& picture, const wxRect& area) {
   std::vector<double> x_m;
   std::vector<double> y_m;

@@ -15,7 +15,7 @@ class LoopCanvas : public wxPanel {
  public:
   explicit LoopCanvas(wxWindow* parent);
 
-  /// Shows a picture; without one, shows a hint.
+  /// Shows `picture`, or a hint if it is empty.
   void show(std::optional<LoopPicture> picture);
   bool empty() const { return !picture_; }
 

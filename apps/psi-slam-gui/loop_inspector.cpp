@@ -149,7 +149,8 @@ void LoopInspector::show(const std::shared_ptr<const ReplaySnapshot>& snapshot) 
   if (list_->table.show(snapshot)) refresh_rows();
 }
 
-/// Finds the selected loop again after the loops have changed, and shows its picture if it has changed.
+/// Finds the selected loop again after the list of loops has changed. Shows the loop's picture again if its
+/// verdict or pose has changed.
 void LoopInspector::find_chosen() {
   if (!chosen_) return;
   const std::vector<LoopRecord>& loops = *snapshot_->loops;
@@ -222,7 +223,7 @@ void LoopInspector::filter() {
   refresh_rows();
 }
 
-/// Updates the rows. The same loop stays selected, and stays visible if it was.
+/// Updates the rows. The same loop stays selected, and stays in view if it was in view.
 void LoopInspector::refresh_rows() {
   selecting_ = true;
   const long before = list_->GetNextItem(-1, wxLIST_NEXT_ALL, wxLIST_STATE_SELECTED);

@@ -27,7 +27,7 @@ class LoopList : public wxListCtrl {
   LoopTable table;
 
  private:
-  /// Gives the last column the width that the others leave.
+  /// Gives the last column the rest of the width.
   void fit_columns(wxSizeEvent& event);
   /// Shows a reason as a tooltip if its column cuts it off.
   void show_tip(wxMouseEvent& event);
@@ -40,7 +40,8 @@ class LoopList : public wxListCtrl {
 /// described below the table and shown as a picture beside it.
 class LoopInspector : public wxPanel {
  public:
-  /// Calls `on_chosen` with the index of the selected loop in ReplaySnapshot::loops, or with nothing.
+  /// Calls `on_chosen` with the index of the selected loop in ReplaySnapshot::loops, or with nothing when no
+  /// loop is selected any more.
   LoopInspector(wxWindow* parent, std::function<void(std::optional<std::size_t>)> on_chosen);
 
   void show(const std::shared_ptr<const ReplaySnapshot>& snapshot);
@@ -70,7 +71,7 @@ class LoopInspector : public wxPanel {
   std::function<void(std::optional<std::size_t>)> on_chosen_;
   std::shared_ptr<const ReplaySnapshot> snapshot_ = std::make_shared<ReplaySnapshot>();
   std::optional<std::size_t> selected_;
-  bool selecting_ = false;  ///< refresh_rows() changes the selection, not the user
+  bool selecting_ = false;  ///< true while refresh_rows(), not the user, changes the selection
   bool scroll_to_selected_ = false;
   /// The selected loop. Identifies it after edits, which change the indices of loops.
   std::optional<LoopRecord> chosen_;

@@ -11,7 +11,7 @@
 
 namespace psi_slam {
 
-/// Describes a loop, such as "Node 12 on local map 3, refused: the response 0.31 is below 0.45".
+/// Describes a loop, such as "Node 12 on local map 3, refused: the response is too low: 0.31, minimum 0.45".
 std::string describe_loop(const LoopRecord& loop);
 
 /// Rows of the loop inspector: filters and sorts the loops of a snapshot and gives the texts of the cells.
@@ -34,7 +34,7 @@ class LoopTable {
 
   /// Shows the loops of a snapshot. Returns true if they differ from those shown before.
   bool show(const std::shared_ptr<const ReplaySnapshot>& snapshot);
-  /// Lists only loops with this verdict, or all.
+  /// Lists only loops with `verdict`, or all loops if it is empty.
   void set_filter(std::optional<LoopVerdict> verdict);
   void sort_by(std::size_t column, bool ascending);
   std::size_t sorted_by() const { return column_; }

@@ -30,7 +30,7 @@ namespace {
 constexpr int kRefresh_ms = 50;
 constexpr const char* kUnsaved =
     "Some scans or edits have not been exported or saved. Close the window anyway?";
-constexpr double kLoopDistance_m = 20;  // from the eye to a selected loop
+constexpr double kLoopDistance_m = 20;  // distance from the camera to a selected loop
 
 /// The page shown in place of the map until a log is open.
 wxPanel* make_start_page(wxWindow* parent) {
@@ -185,11 +185,11 @@ void MainFrame::report_changes(const ReplaySnapshot& snapshot, const ReplaySnaps
   if (saved) report_save(*snapshot.saved);
   if (exported) report_export(*snapshot.exported);
   if (failed && (saved || exported || before.phase != ReplayPhase::kFailed))
-    messages_->fail(snapshot.failure);  // the cause of the other failures
+    messages_->fail(snapshot.failure);  // the failure of the run makes saves and exports fail, too
   if (is_new(snapshot.edited, before.edited)) report_edit(snapshot);
 }
 
-/// Shows warnings if there are new ones. If only a number in them has changed, updates the text on show.
+/// Shows new warnings. If only the text of a shown warning has changed, such as a number, updates the text.
 void MainFrame::report_warnings(const std::vector<std::string>& warnings) {
   if (warnings.empty() || warnings == run_.reported_warnings || messages_->asks()) return;
   if (warnings.size() > run_.reported_warnings.size() ||
@@ -319,7 +319,7 @@ void MainFrame::close(wxCloseEvent& event) {
   }
   timer_.Stop();
   save_layout(*wxConfigBase::Get(), *this, panes_, canvas_->map_scene());
-  Hide();  // the threads may take a moment to end
+  Hide();  // the threads of the run may take a moment to end
   event.Skip();
 }
 

@@ -41,22 +41,22 @@ struct FileQuestion {
   std::string proposed_name;
 };
 
-/// Returns the file or folder, or nothing if the user cancels. If a file to save to exists, the user has
-/// agreed to replace it.
+/// Asks the user for a file or folder. Returns its path, or nothing if the user cancels. If a file to save
+/// exists, the user has agreed to replace it.
 using AskForFile = std::function<std::optional<std::filesystem::path>(const FileQuestion&)>;
 
-/// The window: the map in the middle with the transport bar below it, loops below that, settings and plots on
-/// the right. It looks at the run 20 times a second and never waits for it.
+/// The window. The map is in the middle, with the transport bar and the loops below it, and settings and
+/// plots on its right. The window reads the state of the run 20 times a second and never waits for the run.
 class MainFrame : public wxFrame {
  public:
   MainFrame();
 
-  /// Opens what the command line names; empty names are ignored.
+  /// Opens the files that the command line names. Ignores empty names.
   void start(const std::string& log, const std::string& config, const std::vector<std::string>& settings,
              const std::string& edits = "");
 
   /// Opens a log or a session. A session also replaces the window's settings. `edits`, if given, replace the
-  /// session's edits. `overrule` changes those settings of a session that may be changed.
+  /// session's edits. `overrule` may change settings that do not shape the map of the session.
   void open_log(const std::filesystem::path& log, std::optional<EditJournal> edits = {},
                 const std::function<void(BoundSettings&)>& overrule = {});
   /// Calls open_log(), but asks first if edits would be lost.
@@ -74,12 +74,12 @@ class MainFrame : public wxFrame {
   void resume_with(const std::filesystem::path& log);
   /// Saves the session after the present scan, or after the final loop search.
   void save_session(const std::filesystem::path& file);
-  /// Shows in the message bar what went wrong.
+  /// Shows the message of an exception in the message bar.
   void report_failure(const std::exception_ptr& failure);
   /// Shows a scan that is already mapped, or maps up to it.
   void go_to(std::size_t scan);
 
-  // For tests.
+  // Access for tests.
   void set_ask_for_file(AskForFile ask) { ask_for_file_ = std::move(ask); }
   wxAuiManager& panes() { return panes_; }
   const ReplaySlot& replay() const { return replay_; }
@@ -126,13 +126,13 @@ class MainFrame : public wxFrame {
   void close(wxCloseEvent& event);
   bool has_unsaved_work() const;
   bool has_unsaved_edits() const;
-  /// True while an edit has no outcome yet, so that snapshots lack it.
+  /// True while the run has not processed an edit that the user made. Snapshots lack such an edit.
   bool edits_are_pending() const;
 
   std::vector<std::string> take_settings_of(const SessionFacts& facts, const std::filesystem::path& file,
                                             const std::function<void(BoundSettings&)>& overrule);
   enum class Edits { kOfFile, kMadeSoFar };
-  /// Opens a run. Throws UserError if it is a recording that was made with other settings.
+  /// Opens a run. Throws UserError if it resumes a session, and a setting that shapes the map has changed.
   void open(SessionInput input, Edits edits);
   /// Calls `action` and shows its exception, if any, in the message bar.
   void attempt(const std::function<void()>& action);
@@ -162,8 +162,8 @@ class MainFrame : public wxFrame {
   UnsavedWork unsaved_;
   RunState run_;
   double speed_ = 0;
-  std::filesystem::path opened_;                         ///< log or session
-  std::map<std::string, std::string> session_settings_;  ///< those that cannot change when it is mapped again
+  std::filesystem::path opened_;                         ///< log or session that is open
+  std::map<std::string, std::string> session_settings_;  ///< settings of the session that cannot change
   std::optional<mrpt::math::TPoint2D> first_place_;      ///< first click of a loop to add
 
   AskForFile ask_for_file_;
@@ -171,7 +171,7 @@ class MainFrame : public wxFrame {
   wxString default_panes_;
   wxFileHistory recent_;
   wxTimer timer_;
-  static constexpr int kMapPage = 1;  // of middle_; page 0 is shown without a log
+  static constexpr int kMapPage = 1;  // page of middle_ with the map; page 0 is the start page
   wxSimplebook* middle_ = nullptr;
   MessageBar* messages_ = nullptr;
   MapCanvas* canvas_ = nullptr;

@@ -203,7 +203,8 @@ void MainFrame::open_log(const Path& log, std::optional<EditJournal> edits,
   });
 }
 
-/// Takes over the settings of a session, all or none. Returns remarks for the user.
+/// Replaces the window's settings by the settings of a session. Changes nothing if it throws UserError.
+/// Returns remarks for the user.
 std::vector<std::string> MainFrame::take_settings_of(const SessionFacts& facts, const Path& file,
                                                      const std::function<void(BoundSettings&)>& overrule) {
   BoundSettings recorded;  // options that the session does not set have their defaults
@@ -248,7 +249,7 @@ void MainFrame::report_failure(const std::exception_ptr& failure) {
 
 void MainFrame::open(SessionInput input, Edits edits) {
   if (input.recording()) require_kept(session_settings_, settings_.table, opened_);
-  session_reader_.give_up();  // its session was to continue the previous run
+  session_reader_.give_up();  // a session that is being read belongs to the previous run
   messages_->dismiss();
   run_ = {};
   set_adding_loop(false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Actions of the Edit menu: loops changed by hand.
+// Actions of the Edit menu, which change loops by hand.
 #include "base/number_text.h"
 #include "loop_inspector.h"
 #include "main_frame.h"
@@ -47,7 +47,7 @@ void MainFrame::edit_selected(Kind kind, MatcherKind matcher) {
   const LoopRecord& loop = *loops_->selected_loop();
   LoopEdit edit{kind, loop.frame, loop.local_map};
   edit.matcher = matcher;
-  // An edit discards the loops of the final loop search, so a forced one must be searched again in its place.
+  // An edit discards the loops of the final loop search. A forced loop of that search must be matched again.
   edit.of_final_search = kind == Kind::kForce && loop.in_final_search;
   const double window_m = std::max(loop.window.x_m, loop.window.y_m);
   if (kind == Kind::kMatch)
@@ -129,7 +129,8 @@ void MainFrame::enable_edit_commands() {
   enable(kUndo, open && !snapshot->undo_text.empty());
   enable(kRedo, open && !snapshot->redo_text.empty());
   enable(kOpenEdits, snapshot != nullptr);
-  enable(kSaveEdits, snapshot != nullptr && !snapshot->edits->empty());  // also after a failure
+  // Edits can also be saved after a failure of the run.
+  enable(kSaveEdits, snapshot != nullptr && !snapshot->edits->empty());
   const auto title = [&](int command, const char* name, const char* key, const std::string& what) {
     const wxString label =
         wxString::FromUTF8(name) + (what.empty() ? wxString() : ": " + text_of(what)) + key;

@@ -57,9 +57,9 @@ enum Command : int {
   kAddLoop,
   kOpenEdits,
   kSaveEdits,
-  kSpeed,                                                // one for each of kSpeeds
-  kLayer = kSpeed + static_cast<int>(kSpeeds.size()),    // one for each layer
-  kMatchLoopBy = kLayer + static_cast<int>(kMapLayers),  // one for each of kMatcherKinds
+  kSpeed,                                                // command of the first of kSpeeds
+  kLayer = kSpeed + static_cast<int>(kSpeeds.size()),    // command of the first layer
+  kMatchLoopBy = kLayer + static_cast<int>(kMapLayers),  // command of the first of kMatcherKinds
 };
 
 /// Makes the menu bar. `recent` is the submenu of recent logs, filled by the caller.
@@ -68,11 +68,11 @@ wxMenuBar* make_menu_bar(wxMenu* recent);
 /// Sends a command to the window that contains `from`, as if it were chosen in the menu.
 void choose_command(wxWindow& from, int command);
 
-/// The command of a key that is pressed without Ctrl, Alt or Shift, or wxID_NONE. Menu accelerators would act
-/// while the user types in a text field.
+/// The command of a key that is pressed without Ctrl, Alt or Shift, or wxID_NONE. These keys are not menu
+/// accelerators, which would also act while the user types in a text field.
 int command_of_key(int key);
 
-/// Help on mouse and keys: the most important ones in a line, and all of them.
+/// Help on mouse and keys. hint_text() is short enough for the status bar; shortcuts_text() names more keys.
 const char* hint_text();
 const char* shortcuts_text();
 

@@ -20,16 +20,16 @@ constexpr double kZoomPerNotch = 1.25;
 constexpr double kNearest_m = 1;
 constexpr double kFarthest_m = 5000;
 constexpr double kTurnPerPixel_deg = 0.4;
-constexpr double kLowest_deg = 10;       // least elevation of the eye
+constexpr double kLowest_deg = 10;       // least elevation of the camera
 constexpr double kFromAbove_deg = 89.9;  // at 90, MRPT's camera has no upward direction
 constexpr double kFollowDistance_m = 25;
 constexpr int kLegendMargin = 10;
-// Objects are drawn between these multiples of the eye's distance.
+// Clipping distances, as multiples of the distance from the camera to its target.
 constexpr double kNearShare = 0.2;
 constexpr double kFarShare = 8;
 
-/// Draws a legend from the upper left corner on: its title, and a coloured stroke with a name for each entry.
-/// Returns the size that it takes with a margin. All sizes are pixels at 100 % scaling.
+/// Draws a legend into the upper left corner: its title, and a coloured stroke with a name for each entry.
+/// Returns the size of the legend with a margin. All sizes are pixels at 100 % scaling.
 wxSize draw_legend(wxGraphicsContext& context, const LoopLegend& legend, const wxFont& font) {
   constexpr double kMargin = 7;
   constexpr double kStroke = 18;
@@ -56,13 +56,13 @@ wxSize draw_legend(wxGraphicsContext& context, const LoopLegend& legend, const w
   return {static_cast<int>(std::ceil(right + kMargin)), static_cast<int>(std::ceil(y + kMargin))};
 }
 
-/// The legend in a box, in the window's font and scaling; empty without entries.
+/// Picture of the legend in a box, with the window's font and scaling. Empty without entries.
 mrpt::img::CImage legend_picture(const LoopLegend& legend, const wxWindow& window) {
   if (legend.entries.empty()) return {};
   const double scale = window.GetContentScaleFactor();
   wxSize size(1, 1);
   wxBitmap bitmap;
-  for (const double zoom : {1.0, scale}) {  // the first pass measures
+  for (const double zoom : {1.0, scale}) {  // the first pass only measures the size
     bitmap.Create(size * zoom, 24);
     wxMemoryDC dc(bitmap);
     dc.SetBackground(*wxWHITE_BRUSH);
@@ -306,7 +306,7 @@ void MapCanvas::key(wxKeyEvent& event) {
 
 void MapCanvas::take_picture(std::function<void(const wxImage&)> taken) {
   picture_taken_ = std::move(taken);
-  reported_failure_ = false;  // a failure must be reported again
+  reported_failure_ = false;  // reports a failure of this picture even if one was reported before
   Refresh(false);
 }
 
@@ -329,7 +329,8 @@ void MapCanvas::OnPostRender() {
 void MapCanvas::OnRenderError(const wxString& text) {
   picture_taken_ = {};
   if (std::exchange(reported_failure_, true)) return;
-  on.failed("OpenGL cannot draw the map: " + text.utf8_string());
+  on.failed("OpenGL cannot draw the map. Check the graphics driver, or map without a window with psi-slam. " +
+            text.utf8_string());
 }
 
 }  // namespace psi_slam

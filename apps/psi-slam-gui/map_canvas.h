@@ -15,33 +15,34 @@
 namespace psi_slam {
 
 /// The map view: the MRPT scene of the run in a window. The left button moves the map, or draws a line while
-/// measuring; the right button rotates and tilts it; the wheel zooms towards the pointer.
+/// measuring. The right button rotates and tilts the map. The wheel zooms towards the pointer.
 class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
  public:
   explicit MapCanvas(wxWindow* parent);
 
-  /// Functions that the canvas calls.
+  /// Functions that the canvas calls when the user clicks, measures, or starts or stops following the robot.
   struct Callbacks {
     std::function<void(const mrpt::math::TPoint2D&)> clicked = [](const mrpt::math::TPoint2D&) {};
     std::function<void(const Measure&)> measured = [](const Measure&) {};
     std::function<void(bool)> followed = [](bool) {};
-    /// Gets a sentence, once, if OpenGL cannot draw.
+    /// Called with an error message if OpenGL cannot draw. Not called again for each frame.
     std::function<void(const std::string&)> failed = [](const std::string&) {};
   };
   Callbacks on;
 
   MapScene& map_scene() { return map_scene_; }
 
-  /// Shows the run. Keeps the whole map in view until the user moves it.
+  /// Shows the run at scan `frame`, or at its newest scan. Keeps the whole map in view until the user moves
+  /// it.
   void show(const std::shared_ptr<const ReplaySnapshot>& snapshot, const std::shared_ptr<const DrawnMap>& map,
             std::optional<std::size_t> frame);
 
   /// Redraws after a change of layers or of the style of loops.
   void restyle();
-  /// The legend of the loops' colours; without entries if no loop is shown.
+  /// Legend of the colours of loops; without entries if no loop is shown.
   const LoopLegend& legend() const { return legend_; }
 
-  /// Shows the whole map from above, also when it grows.
+  /// Shows the whole map from above, and keeps it in view while it grows.
   void show_all();
   /// Looks straight down, keeping target and distance.
   void look_from_above();
@@ -52,7 +53,7 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   /// While pointing, a click with the left button calls on.clicked instead of moving the map.
   void set_pointing(bool pointing);
   bool pointing() const { return pointing_; }
-  /// Draws a line from a place to the pointer, or none.
+  /// Draws a line from `place` to the pointer, or removes the line if `place` is empty.
   void show_pointed(const std::optional<mrpt::math::TPoint2D>& place);
   const std::optional<Measure>& measure() const { return measure_; }
   void look_at(const mrpt::math::TPoint2D& place, double distance_m);

@@ -22,10 +22,10 @@ const wxColour kInk(40, 44, 52);
 struct Look {
   Icon icon;
   wxColour paper;
-  wxColour ink;  // of the icon
+  wxColour ink;  // colour of the icon
 };
 
-/// The look of each MessageBar::Kind.
+/// Icon and colours of each MessageBar::Kind.
 const std::array<Look, 3> kLooks{{{Icon::kNote, {222, 235, 250}, {31, 97, 171}},
                                   {Icon::kWarning, {253, 240, 208}, {176, 112, 0}},
                                   {Icon::kError, {251, 224, 222}, {196, 30, 40}}}};
@@ -76,7 +76,7 @@ void MessageBar::say(Kind kind, const std::string& sentence, const std::vector<A
   Refresh();
 }
 
-/// Wraps the text to the width that icon and buttons leave.
+/// Wraps the text to the width between icon and buttons.
 void MessageBar::wrap() {
   wrapped_for_ = GetParent()->GetClientSize().GetWidth();
   const int beside = icon_->GetBestSize().GetWidth() + buttons_->CalcMin().GetWidth() +

@@ -14,7 +14,7 @@ class wxStaticText;
 
 namespace psi_slam {
 
-/// Bar above the map for messages and questions. It never blocks the user.
+/// Bar above the map for messages and questions. The user can ignore it and go on working.
 class MessageBar : public wxPanel {
  public:
   enum class Kind { kNote, kWarning, kError };
@@ -32,11 +32,11 @@ class MessageBar : public wxPanel {
     say(Kind::kWarning, sentence, answers);
   }
   void fail(const std::string& sentence) { say(Kind::kError, sentence); }
-  /// The sentence on show; empty while the bar is hidden.
+  /// The sentence that the bar shows; empty while the bar is hidden.
   std::string sentence() const { return IsShown() ? sentence_ : std::string(); }
   /// True while a question waits for an answer.
   bool asks() const { return IsShown() && !answers_.empty(); }
-  /// Does what a click on this answer does. Returns false if there is no such answer.
+  /// Gives the answer with this label, like a click on its button. Returns false if there is no such answer.
   bool answer(const std::string& label);
   void dismiss();
 
@@ -44,7 +44,7 @@ class MessageBar : public wxPanel {
   void wrap();
 
   std::string sentence_;
-  int wrapped_for_ = -1;  // width of the bar
+  int wrapped_for_ = -1;  // width of the bar that the text is wrapped for, in pixels
   std::vector<Answer> answers_;
   wxBoxSizer* buttons_;
   wxStaticBitmap* icon_;
@@ -52,7 +52,7 @@ class MessageBar : public wxPanel {
   wxBitmapButton* close_;
 };
 
-/// The first four sentences, a line each, and the number of the others.
+/// The first four sentences, one per line, and the number of further sentences.
 std::string first_sentences(const std::vector<std::string>& sentences);
 
 }  // namespace psi_slam

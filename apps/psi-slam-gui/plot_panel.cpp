@@ -30,7 +30,7 @@ struct Curve {
 
 struct Plot {
   wxString title;
-  double least_top = 1;  ///< the axis reaches at least up to this value
+  double least_top = 1;  ///< least upper end of the axis
   std::vector<Curve> curves;
   bool stacked = false;  ///< each curve is drawn on top of the sum of the curves before it
 

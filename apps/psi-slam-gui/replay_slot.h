@@ -27,8 +27,8 @@ class ReplaySlot {
     replay_ = std::make_unique<Replay>(std::move(input), settings);
   }
 
-  /// Deletes closed runs whose threads have ended; call it regularly. Returns why exports and sessions that
-  /// were pending when their run was closed were not written, a sentence each.
+  /// Deletes closed runs whose threads have ended; call it regularly. Returns an error message for each
+  /// export or session that was pending when its run was closed and could not be written.
   std::vector<std::string> tidy() {
     std::vector<std::string> failures;
     const auto ended = [&](const Closing& closing) {

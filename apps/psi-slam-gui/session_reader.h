@@ -12,14 +12,14 @@
 
 namespace psi_slam {
 
-/// Reads sessions, and checks logs against them, in another thread. A read that is given up still runs to its
-/// end, and the destructor waits for it.
+/// Reads sessions, and checks the logs that continue them, in another thread. A read that is given up still
+/// runs to its end, and the destructor waits for that.
 class SessionReader {
  public:
   using Read = std::function<SessionInput()>;
   using Take = std::function<void(SessionInput)>;
 
-  /// Calls `read` in another thread; it must own all that it uses. Gives up the previous read.
+  /// Calls `read` in another thread. `read` must own all data that it uses. Gives up the previous read.
   void begin(Read read, Take take) {
     give_up();
     reading_ = std::async(std::launch::async, std::move(read));
@@ -29,7 +29,8 @@ class SessionReader {
     if (reading_.valid()) given_up_.push_back(std::move(reading_));
   }
 
-  /// Calls `take` if a read has ended; call it regularly. Rethrows what `read` threw.
+  /// Calls `take` with the result when `read` has ended. Call serve() regularly. Rethrows exceptions of
+  /// `read`.
   void serve() {
     given_up_.erase(std::remove_if(given_up_.begin(), given_up_.end(), has_ended<std::future<SessionInput>>),
                     given_up_.end());
@@ -41,7 +42,7 @@ class SessionReader {
  private:
   std::future<SessionInput> reading_;
   Take take_;
-  std::vector<std::future<SessionInput>> given_up_;  // until they end
+  std::vector<std::future<SessionInput>> given_up_;  // given-up reads that have not ended
 };
 
 }  // namespace psi_slam

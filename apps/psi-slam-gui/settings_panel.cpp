@@ -16,17 +16,17 @@
 namespace psi_slam {
 namespace {
 
-constexpr const char* kWhere = "Settings";  // named in messages about wrong values
+constexpr const char* kWhere = "Settings";  // the place that error messages about wrong values name
 constexpr const char* kNothingSelected =
     "Select an option to read its help. Right-click an option to reset it.";
-constexpr int kHelpHeight = 104;  // six lines
+constexpr int kHelpHeight = 104;  // pixels of six lines
 
 std::string help_of(const Option& option) {
   return option.name() + ": " + option.help + "\n" + option.values() + "; default " +
          (option.default_text.empty() ? "empty" : option.default_text) + '.';
 }
 
-/// Makes a property without a value. Texts of its values are those of a settings file.
+/// Makes the property of an option, without a value. It shows values as a settings file does.
 wxPGProperty* property_for(const Option& option) {
   const wxString label = text_of(option.unit.empty() ? option.key : option.key + "  [" + option.unit + ']');
   const wxString name = text_of(option.name());
@@ -102,7 +102,7 @@ void SettingsPanel::refresh() {
   grid_->Refresh();
 }
 
-/// Colours options that differ from their defaults.
+/// Colours the property if the option differs from its default.
 void SettingsPanel::mark(wxPGProperty& property, const Option& option) {
   const bool changed = option.text() != option.default_text;
   grid_->SetPropertyTextColour(&property, changed ? wxColour(31, 97, 171) : grid_->GetCellTextColour(),
@@ -117,7 +117,7 @@ void SettingsPanel::show_pending(bool pending) {
   if (wxPGProperty* const selected = grid_->GetSelection()) grid_->EnsureVisible(selected);
 }
 
-/// Sets an option. Reports a wrong value and returns false.
+/// Sets an option and returns true, or reports a wrong value and returns false.
 bool SettingsPanel::set(const std::string& name, const std::string& text) {
   try {
     settings_.table.set(name, text, kWhere);

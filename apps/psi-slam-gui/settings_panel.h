@@ -17,7 +17,7 @@ class wxStaticText;
 namespace psi_slam {
 
 /// Property grid of all options, made from their descriptions, with the help of the selected option below it.
-/// Rejects a wrong value with the message that the command line has for it.
+/// Rejects a wrong value with the same message as the command line.
 class SettingsPanel : public wxPanel {
  public:
   struct Actions {
@@ -28,7 +28,7 @@ class SettingsPanel : public wxPanel {
   /// `settings` must outlive the panel.
   SettingsPanel(wxWindow* parent, BoundSettings& settings, Actions actions);
 
-  /// Shows the present values of the settings.
+  /// Shows the current values of the settings.
   void refresh();
   /// Shows or hides the note that the map was made with other settings.
   void show_pending(bool pending);

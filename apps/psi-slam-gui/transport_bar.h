@@ -22,16 +22,16 @@ namespace psi_slam {
 /// Buttons to play, pause, step and finish, the speed, and a slider over the log.
 class TransportBar : public wxPanel {
  public:
-  /// Calls `go_to` with the scan that the slider was moved to, whether it is mapped or not. The other
-  /// controls send the window's commands.
+  /// Calls `go_to` with the scan that the slider was moved to, whether it is mapped or not. Buttons and speed
+  /// choice send commands to the window.
   TransportBar(wxWindow* parent, const std::function<void(std::size_t)>& go_to);
 
-  /// `shown` is an earlier scan that is shown instead of the newest. The remaining time is the longer one of
-  /// the mapper's work and of the log's duration at the given speed.
+  /// Shows the state of a run. `shown` is an earlier scan that is shown instead of the newest. The remaining
+  /// time is the longer of the mapper's estimate and the rest of the log at the chosen speed.
   void show(const ReplaySnapshot& snapshot, const std::shared_ptr<const std::vector<TimeUs>>& stamps_us,
             std::optional<std::size_t> shown);
 
-  /// True while the run does something that can be paused.
+  /// True while the log is played, and during a final loop search that is not paused.
   static bool can_pause(const ReplaySnapshot& snapshot);
 
   /// Selects one of kSpeeds by its index.
@@ -51,12 +51,12 @@ class TransportBar : public wxPanel {
 /// Time of a scan since the start of the log, such as "0:12 of 3:40".
 std::string log_time_text(const std::vector<TimeUs>& stamps_us, std::size_t scan);
 
-/// Duration of the log after `mapped` scans at `speed`, a multiple of the recorded speed. Returns 0 for speed
-/// 0, which is as fast as possible.
+/// Time in seconds to replay the log after `mapped` scans at `speed`, a multiple of the recorded speed.
+/// Returns 0 for speed 0, which is as fast as possible.
 double replay_time_left_s(const std::vector<TimeUs>& stamps_us, std::size_t mapped, double speed);
 
-/// Describes what the run is doing, with the remaining time, which is at least `waiting_left_s` while scans
-/// are mapped.
+/// Describes the phase of the run and its remaining time. While scans are mapped, the remaining time is at
+/// least `waiting_left_s`.
 std::string progress_words(const ReplaySnapshot& snapshot, double waiting_left_s);
 
 }  // namespace psi_slam

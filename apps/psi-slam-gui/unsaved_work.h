@@ -25,7 +25,7 @@ class UnsavedWork {
     restart(input);
     written_edits_ = input.edits().text();
   }
-  /// Call this when the run is restarted or resumed with a log. Its edits stay as unsaved as before.
+  /// Call this when the run is restarted or resumed with a log. Unsaved edits still count as unsaved.
   void restart(const SessionInput& input) {
     written_scans_ = input.recording() ? input.recording()->frames.size() : 0;
   }

@@ -11,10 +11,10 @@
 namespace psi_slam {
 namespace {
 
-constexpr long kVersion = 1;  // of the saved layout; other versions are ignored
+constexpr long kVersion = 1;  // version of the saved layout; layouts of other versions are ignored
 constexpr int kGrip = 80;     // at least this many pixels of the title bar must be on a screen
 
-const char* const kSection = "/window/";  // of the preferences
+const char* const kSection = "/window/";  // section of the configuration file
 
 wxString key_of(MapLayer layer) {
   return wxString("layers/") + name_of(layer);

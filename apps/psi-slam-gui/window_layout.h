@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arrangement of the window from one start of the program to the next: its position, its panes and the
-// map's layers.
+// Saves the position of the window, its panes and the visible layers of the map, and restores them when the
+// program starts again.
 #pragma once
 
 #include <wx/aui/framemanager.h>
@@ -13,8 +13,8 @@ namespace psi_slam {
 
 void save_layout(wxConfigBase& config, const wxFrame& frame, wxAuiManager& panes, const MapScene& scene);
 
-/// Restores what was saved, as far as it fits: keeps the window on an existing screen, and ignores saved
-/// panes that differ from the present panes.
+/// Restores the saved layout as far as it fits: keeps the window on an existing screen, and ignores a layout
+/// with other panes.
 void restore_layout(wxConfigBase& config, wxFrame& frame, wxAuiManager& panes, MapScene& scene);
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam sweep on a cluster:
+// Runs the command `psi-slam sweep` on a cluster:
 //
 //     mpirun -n 5 psi-slam-sweep-mpi LOG... -o DIR [--set SECTION.KEY=V,V]...
 //

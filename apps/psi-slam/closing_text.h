@@ -14,11 +14,15 @@ namespace psi_slam {
 /// Path of the map and the main figures of the run, in a few lines.
 std::string closing_text(const RunSummary& summary, const std::string& log_name, const OutputFolder& folder);
 
-/// Sentences for a run that was interrupted, and for a log with damage `why`.
+/// Sentence about a run that the user interrupted after `scans` scans.
 std::string interrupted_text(std::size_t scans);
+
+/// Sentence about a run that ended after `scans` scans at a damaged place of the log; `why` describes the
+/// damage.
 std::string broken_off_text(const std::string& why, std::size_t scans);
 
-/// Times of each stage, a line each: calls, mean ± std [min, max] and sum.
+/// Times of the stages, one line each: number of calls, mean ± standard deviation [min, max] in ms, and sum
+/// in s.
 std::string stages_text(const MappingResult& result);
 
 }  // namespace psi_slam

@@ -100,7 +100,7 @@ CLI::App* add_sweep(CLI::App& app, CommandLine& line) {
   return sweep;
 }
 
-/// Throws the error message for an argument that is neither the log nor a known option.
+/// Throws UserError for an argument that is neither the log nor a known option.
 [[noreturn]] void fail_unknown(const std::string& argument, const CommandLine& line, const CLI::App& app) {
   const auto command = nearest_name(line.log, {"check", "localize", "merge", "options", "sweep"});
   if (command && !is_option(argument))
@@ -129,7 +129,7 @@ void check_together(const CommandLine& line, const std::string& log_to_map) {
   refuse(merges && line.inputs.size() > 2 && !line.start.empty(),
          "--start needs exactly two runs. Merge the first two, then merge their session with further runs");
   refuse(!maps && !merges && !localizes && !line.output.empty(),
-         "-o has no effect here, because nothing is written");
+         "-o has no effect on this command, because nothing is written. Leave -o out");
   refuse(!maps && !line.edits.empty(), "--edits is only for mapping a log");
   refuse(!maps && !line.resume.empty(), "--resume is only for mapping a log");
   refuse(!maps && !merges && !line.save_session.empty(),
@@ -218,7 +218,8 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
   for (const auto& [command, kind] : commands) command->allow_extras();
   app.footer(kExamples);
   add_document_options(app, default_settings());
-  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+  // CLI11 expects the last argument first.
+  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
 
   const CLI::App* parsed = &app;
   if (dump_config) line.command = Command::kDumpConfig;

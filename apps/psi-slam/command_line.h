@@ -22,13 +22,13 @@ struct CommandLine {
 
   Command command = Command::kMap;
   std::string log;
-  std::string map;                    ///< of localize
+  std::string map;                    ///< map file for localize
   std::string start;                  ///< "X,Y,YAW_DEG" in the map; empty: unknown
-  std::vector<std::string> inputs;    ///< of merge
-  std::string output;                 ///< folder
-  std::string edits;                  ///< file; empty: none
-  std::string resume;                 ///< session file; empty: none
-  std::string save_session;           ///< session file; empty: none
+  std::vector<std::string> inputs;    ///< logs and sessions for merge
+  std::string output;                 ///< folder for the results
+  std::string edits;                  ///< file of loop edits; empty: no edits
+  std::string resume;                 ///< session file to resume; empty: maps from the first scan
+  std::string save_session;           ///< session file to write; empty: not written
   std::string config;                 ///< settings file; empty: the defaults
   std::vector<std::string> settings;  ///< "section.key=value", in the order given
   std::optional<std::string> seed;
@@ -49,7 +49,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::A
 /// option name. Throws UserError for invalid values and for settings that contradict each other.
 void load_settings(const CommandLine& line, BoundSettings& bound, const Streams& streams);
 
-/// Parses --start, "X,Y,YAW_DEG" in metres and degrees. Throws UserError.
+/// Parses --start, "X,Y,YAW_DEG" in metres and degrees. Throws UserError for any other text.
 mrpt::math::TPose2D parse_start(const std::string& text);
 
 /// The table of all options with their defaults, for the documentation.

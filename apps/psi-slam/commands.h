@@ -35,11 +35,12 @@ int check_log(const CommandLine& line, const Streams& streams);
 /// session that is resumed may be overwritten.
 void check_session_to_save(const CommandLine& line);
 
-/// Takes the settings of a recorded session, and prints a warning for each that is unknown.
+/// Loads the settings of a recorded session into `bound`. Prints a warning for each obsolete option, and if
+/// another version of the program recorded the session.
 void load_recorded_settings(const CommandLine& line, const std::string& file, const SessionFacts& facts,
                             BoundSettings& bound, const Streams& streams);
 
-/// Shows the session's progress if errors go to a terminal, and prints a message when it is interrupted.
+/// Shows the session's progress if errors go to a terminal. Prints a message when the session is interrupted.
 void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
            const Streams& streams, std::optional<ProgressLine>& progress_line);
 

@@ -19,7 +19,7 @@ InterruptSignals::InterruptSignals() {
   signal_came = false;
   struct sigaction action = {};
   action.sa_handler = on_signal;
-  action.sa_flags = SA_RESTART;  // do not interrupt reads and writes
+  action.sa_flags = SA_RESTART;  // a signal does not make reads and writes fail
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, &previous_interrupt_);
   sigaction(SIGTERM, &action, &previous_terminate_);

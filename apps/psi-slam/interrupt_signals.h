@@ -7,8 +7,8 @@
 
 namespace psi_slam {
 
-/// In its scope the first SIGINT or SIGTERM sets came(). The next one has its default effect: it ends the
-/// process. At most one object may exist at a time.
+/// While an object exists, the first SIGINT or SIGTERM makes came() true. The second signal has its default
+/// effect: it ends the process. At most one object may exist at a time.
 class InterruptSignals {
  public:
   InterruptSignals();

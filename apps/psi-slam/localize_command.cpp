@@ -51,7 +51,9 @@ int localize(const CommandLine& line, const Streams& streams) {
   const LocalizedLog localized =
       localize_all(*log, localizer, signals,
                    WorkProgress(streams.err_is_terminal && !line.quiet ? &streams.err : nullptr));
-  if (localized.steps.empty()) throw UserError(line.log + ": no scan was read, there is nothing to localize");
+  if (localized.steps.empty())
+    throw UserError(
+        line.log + ": no scan was read, so the robot cannot be localized. Check the log with psi-slam check");
   if (folder) write_localization(localized.steps, folder->path());
   LocalizationSummary summary = summarize(localized.steps);
   summary.interrupted = localized.interrupted;
@@ -62,7 +64,7 @@ int localize(const CommandLine& line, const Streams& streams) {
   if (const SkippedLines skipped = log->skipped_lines(); skipped.count > 0 && !localized.broken_off)
     streams.err << "psi-slam: " << skipped.sentence() << '\n';
   if (localized.interrupted)
-    streams.err << "psi-slam: interrupted: the end of the log means the last of the " << summary.scans
+    streams.err << "psi-slam: interrupted: \"end of the log\" stands for the last of the " << summary.scans
                 << " scans read so far\n";
   if (localized.broken_off) {
     streams.err << "psi-slam: " << *localized.broken_off << '\n';

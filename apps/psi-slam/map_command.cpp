@@ -68,7 +68,7 @@ void check_session_to_save(const CommandLine& line) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) throw UserError(where + "is a folder, expected a file");
   if (!fs::is_directory(folder, ignored))
-    throw UserError(where + "the folder " + folder.string() + " does not exist");
+    throw UserError(where + "the folder " + folder.string() + " does not exist: create it first");
   const bool resumed = !line.resume.empty() && fs::equivalent(file, line.resume, ignored);
   if (fs::exists(file, ignored) && !line.force && !resumed)
     throw UserError(where + "the file exists. Replace it with --force");

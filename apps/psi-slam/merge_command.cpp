@@ -10,7 +10,8 @@
 namespace psi_slam {
 namespace {
 
-/// The settings are those of the first session among the inputs, changed by those of the command line.
+/// Opens the inputs. The settings are those of the first session among the inputs, overridden by the command
+/// line.
 std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bound, const Streams& streams) {
   std::vector<SessionInput> inputs;
   bool recorded = false;
@@ -20,7 +21,7 @@ std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bo
     if (recording && !recorded) load_recorded_settings(line, name, recording->facts, bound, streams);
     recorded = recorded || recording;
   }
-  // Edits at the end of the first run come before the next run.
+  // Edits at the end of the first run take effect before the next run begins.
   if (const auto& recording = inputs.front().recording())
     inputs.front() = inputs.front().with_edits(inputs.front().edits().of_run(0, recording->frames.size(), 0));
   load_settings(line, bound, streams);
@@ -29,10 +30,11 @@ std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bo
       if (const auto changed = changed_settings_text(line.inputs[i], recording->facts, bound.table))
         streams.err << "psi-slam: " << *changed << '\n';
   for (const SessionInput& input : inputs)
-    input.open(log_options(bound.settings));  // reports mistakes at once
+    input.open(log_options(bound.settings));  // reports an unreadable log before any mapping
   return inputs;
 }
 
+/// Throws if no loop joins a run to the other runs: SystemFailure after an interrupt, UserError otherwise.
 /// `inputs` has the name of the input of each run.
 void require_joined(const MappingSession& session, const std::vector<std::string>& inputs,
                     const InterruptSignals& signals) {

@@ -14,7 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenUpdates{200};
 constexpr const char* kEraseLine = "\r\x1b[K";
-constexpr double kEarlyShare = 0.01;  // before it an estimate of the time left is unreliable
+constexpr double kEarlyShare = 0.01;  // share of the work below which an estimated time left is unreliable
 
 }  // namespace
 

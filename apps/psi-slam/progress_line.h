@@ -11,15 +11,15 @@
 
 namespace psi_slam {
 
-/// " 43 %   5876 scans   2100 scans/s   0:04 left"; in later phases the name of the phase. The time left is
-/// that of the phase.
+/// Text such as " 43 %   5876 scans   2100 scans/s   0:04 left". Later phases have their name in place of the
+/// scans. The time left is that of the current phase.
 std::string progress_text(const SessionProgress& progress);
 
-/// "intel, cases   34 %   12:30 left", without the time left in the first percent of the work.
+/// Text such as "intel, cases   34 %   12:30 left", without the time left in the first percent of the work.
 std::string work_progress_text(const std::string& doing, double share, double elapsed_s);
 
-/// A line of a terminal that is overwritten, and erased at the end of its scope. Without a terminal nothing
-/// is written.
+/// A line of a terminal that show() overwrites and the destructor erases. Without a terminal nothing is
+/// written.
 class OverwrittenLine {
  public:
   /// `terminal` may be null.
@@ -49,7 +49,7 @@ class ProgressLine {
 
  private:
   OverwrittenLine line_;
-  std::optional<SessionProgress::Phase> phase_;  ///< shown now
+  std::optional<SessionProgress::Phase> phase_;  ///< phase shown last
 };
 
 /// Progress of any work, updated a few times a second.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam: from a log to a map.
+// psi-slam: makes a map from a log, and localizes robots in it.
 //
 //     psi-slam [-c INI] [--set SECTION.KEY=VALUE]... LOG -o DIR     maps a log
 //     psi-slam --resume SESSION [LOG] -o DIR                        resumes a saved run

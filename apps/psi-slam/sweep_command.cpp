@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMostThreads = 1024;
 
-/// An option that may be repeated, with one text each time.
+/// Adds an option that may be repeated, with one value each time.
 void add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& texts,
                   const std::string& help, const std::string& type) {
   add_value(command, name, texts, help + ". May be repeated", type)->allow_extra_args(false);
@@ -43,7 +43,8 @@ void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
   add_value(command, "--ini", request.ini_folder,
             "Folder with the settings NAME.ini of each log. Default: the folder of the log", "DIR");
   add_value(command, "--relations", request.relations,
-            "True relations of the only log. Default: NAME.relations in the folder of each log", "FILE");
+            "Relations (known relative poses) of a single log. Default: NAME.relations beside each log",
+            "FILE");
   add_repeated(command, "-c,--config", request.configs,
                "Settings file to compare; overrides the settings of the log", "INI");
   add_repeated(command, "--set", request.choices, "Values of an option to compare", "SECTION.KEY=VALUE,...");

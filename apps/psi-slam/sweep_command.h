@@ -24,9 +24,9 @@ struct SweepArguments {
 void add_sweep_options(CLI::App& command, SweepArguments& arguments);
 void add_processes_option(CLI::App& command, SweepArguments& arguments);
 
-/// Makes the sweep and its report; `program` is psi-slam. Returns the exit code. After SIGINT or SIGTERM the
-/// finished runs are kept and reported. Throws UserError for invalid input, and SystemFailure if runs failed
-/// or were interrupted.
+/// Makes the sweep and its report; `program` is the path of psi-slam. Returns the exit code. After SIGINT or
+/// SIGTERM the finished runs are kept and reported. Throws UserError for invalid input, and SystemFailure if
+/// runs failed or were interrupted.
 int run_sweep_command(const SweepArguments& arguments, const SweepWorkers& workers,
                       const std::filesystem::path& program, const Streams& streams);
 

@@ -51,7 +51,7 @@ function(psi_slam_dependencies_of target)
   set(IMPORTED ${imported} PARENT_SCOPE)
 endfunction()
 
-# Appends a target and all that it needs to the list OUTPUT, dependencies first, each once.
+# Appends a target and its direct and indirect dependencies to the list OUTPUT: dependencies first, each once.
 function(psi_slam_append_closure output target)
   if(target IN_LIST ${output})
     return()
@@ -63,7 +63,8 @@ function(psi_slam_append_closure output target)
   set(${output} ${${output}} ${target} PARENT_SCOPE)
 endfunction()
 
-# Makes find_package(psi-slam) work for other projects, and psi-slam::psi-slam, which is all components, in this one.
+# Installs the files that find_package(psi-slam) reads. Defines psi-slam::psi-slam, all components together, in this
+# project.
 function(psi_slam_install_package)
   set(destination ${CMAKE_INSTALL_LIBDIR}/cmake/psi-slam)
   add_library(psi_slam_all INTERFACE)

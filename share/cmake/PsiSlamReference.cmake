@@ -3,7 +3,7 @@
 # public symbol is undocumented.
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)
-  message(STATUS "Doxygen was not found: there is no target docs (Debian package doxygen)")
+  message(STATUS "Doxygen was not found: the target docs is left out. Install Debian's package doxygen to make it")
   return()
 endif()
 set(DOXYGEN_OUTPUT_DIRECTORY reference)

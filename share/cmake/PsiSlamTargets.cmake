@@ -7,7 +7,7 @@ include(GNUInstallDirs)
 function(psi_slam_configure_target target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
-  # No contraction to fused multiply-add, so that every machine rounds each expression alike.
+  # Without contraction to fused multiply-add, every machine rounds each expression in the same way.
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
     -Wcast-align -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
@@ -26,9 +26,9 @@ function(psi_slam_configure_target target)
 endfunction()
 
 # psi_slam_add_library(NAME SOURCES file... [PUBLIC dependency...] [PRIVATE dependency...])
-# A static library of libs/NAME, known as psi-slam::NAME. Its own headers lie beside its sources and are included as
-# "NAME/file.h"; the public headers of all libraries are libs/include/psi_slam/*.h. It is installed if a component of
-# the package needs it, see PsiSlamInstallation.cmake.
+# Adds the static library of libs/NAME as psi-slam::NAME. Its own headers lie beside its sources and are included as
+# "NAME/file.h"; the public headers of all libraries are libs/include/psi_slam/*.h. The library is installed if a
+# component of the package needs it, see PsiSlamInstallation.cmake.
 function(psi_slam_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target psi_slam_${name})
@@ -39,7 +39,7 @@ function(psi_slam_add_library name)
     $<BUILD_INTERFACE:${psi-slam_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC})
   foreach(dependency IN LISTS ARG_PRIVATE)
-    if(dependency MATCHES "^(nanoflann|nlohmann_json)::")  # headers only: users of the static library need none of it
+    if(dependency MATCHES "^(nanoflann|nlohmann_json)::")  # header-only: users of the static library do not need it
       set(dependency $<BUILD_INTERFACE:${dependency}>)
     endif()
     target_link_libraries(${target} PRIVATE ${dependency})

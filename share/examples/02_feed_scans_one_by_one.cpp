@@ -45,7 +45,7 @@ psi_slam::Frame frame_of(const mrpt::obs::CObservation2DRangeScan& observed,
   frame.scan.bearings_rad = bearings_of(observed);
   frame.scan.max_range_m = observed.maxRange;
   frame.scan.robot_T_laser = mrpt::math::TPose2D(observed.sensorPose.asTPose());
-  for (std::size_t i = 0; i < observed.getScanSize(); ++i)  // NaN: invalid
+  for (std::size_t i = 0; i < observed.getScanSize(); ++i)  // invalid ranges become NaN
     frame.scan.ranges_m.push_back(observed.getScanRangeValidity(i) ? observed.getScanRange(i)
                                                                    : std::numeric_limits<float>::quiet_NaN());
   return frame;

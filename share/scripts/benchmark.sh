@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Maps the benchmark logs with psi-slam and compares the paths with the true relations. Prints errors, speed and memory
-# beside the errors of Karto.
+# Maps the benchmark logs with psi-slam and measures the errors of the paths over the relations of the benchmark. Prints
+# errors, speed and memory beside the errors of Karto.
 #
 #     share/scripts/benchmark.sh FOLDER [OUTPUT]     # FOLDER: filled by fetch-benchmark-logs.sh
 #

@@ -80,7 +80,7 @@ cp /etc/resolv.conf "$system/etc/resolv.conf" 2>/dev/null || true
 mount --bind /proc "$system/proc" 2>/dev/null && mounted+=("$system/proc")
 inside() { chroot "$system" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
 
-say "installing psi-slam in it"
+say "installing psi-slam in the minimal Debian 12"
 cp "$programs" "$system/tmp/psi-slam.deb"
 inside apt-get update --quiet --quiet || fail "apt-get update failed"
 inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/psi-slam.deb >"$work/install.log" 2>&1 ||
@@ -102,7 +102,7 @@ else
   say "no log was mapped, because the package mrpt-common with the log is not installed here"
 fi
 if [ -n "$cluster" ]; then
-  say "installing psi-slam-mpi in it"
+  say "installing psi-slam-mpi in the minimal Debian 12"
   cp "$cluster" "$system/tmp/psi-slam-mpi.deb"
   inside apt-get install --quiet --quiet --yes --no-install-recommends /tmp/psi-slam-mpi.deb >"$work/install-mpi.log" 2>&1 ||
     fail "the package psi-slam-mpi cannot be installed: $(tail -5 "$work/install-mpi.log")"

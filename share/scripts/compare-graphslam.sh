@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs MRPT's graph-slam engine on the benchmark logs with MRPT's deciders, with psi-slam's, and with combinations of both.
-# Prints a table with the error of each path over the true relations, the number of loops, and the time.
+# Prints a table with the error of each path over the relations of the benchmark, the number of loops, and the time.
 #
 #     share/scripts/compare-graphslam.sh FOLDER [OUTPUT]     # FOLDER: filled by fetch-benchmark-logs.sh
 #
@@ -50,7 +50,7 @@ log_file() {
   done
 }
 
-# relations LOG FILE: copies the true relations to FILE, or computes them from the true poses.
+# relations LOG FILE: copies the relations of the log to FILE, or computes them from the true poses.
 relations() {
   if [ -r "$folder/$1.clf.gz" ]; then
     cp "$folder/$1.relations" "$2"
@@ -93,7 +93,7 @@ run() {
   mkdir -p "$3"
   settings "$1" >"$3/graphslam.ini"
   TIMEFORMAT='%U %S %R'
-  # shellcheck disable=SC2016  # the inner shell expands them
+  # shellcheck disable=SC2016  # the inner shell expands $0 and $@
   {
     time bash -c 'ulimit -S -t "$0" && exec "$@"' "$4" "${app[psi-graphslam]}" -i "$3/graphslam.ini" \
       -r "$(log_file "$1")" -n "$node" -e "$edge" -o "$optimizer" --disable-visuals --output-dir "$3/results" \

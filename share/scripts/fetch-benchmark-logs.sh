@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Downloads the logs and true relations of the Freiburg SLAM benchmark from their public home page (Kümmerle et al.,
+# Downloads the logs and relations of the Freiburg SLAM benchmark from their public home page (Kümmerle et al.,
 # "On measuring the accuracy of SLAM algorithms", Autonomous Robots 27(4), 2009). Needs Internet access.
 #
 #     share/scripts/fetch-benchmark-logs.sh [-o FOLDER] [NAME...]

@@ -16,10 +16,10 @@ LARGEST_PX = (1360, 680)  # width of both halves together, and height
 MARGIN_PX = 20
 CAPTION_PX = 44
 SCALE_PX = 28  # height of the strip with the scale bar
-OVERSAMPLING = 3  # drawn larger by this factor, then reduced
-NODE_DISTANCE_M = 0.1  # scans nearer to the scan before, and turned less, are left out
+OVERSAMPLING = 3  # the picture is drawn larger by this factor, then reduced
+NODE_DISTANCE_M = 0.1  # scans closer to the last drawn scan, and turned less than NODE_TURN_RAD, are left out
 NODE_TURN_RAD = math.radians(5)
-FARTHEST_M = 20  # beams are cut here: far walls at grazing angles are noise
+FARTHEST_M = 20  # beams are cut at this length, because far walls at grazing angles are noisy
 FULL_INK_HITS = 3  # a pixel is black when this many points fall into it
 FREE = (228, 236, 245)
 PATHS = ((200, 60, 40), (30, 100, 190))
@@ -30,14 +30,14 @@ class Scan:
     """One scan: points in the robot's frame, and the pose of the robot by odometry and in the map."""
 
     def __init__(self, origin, ends, hits, odom, corrected):
-        self.origin = origin  # the laser
-        self.ends = ends  # of the beams, cut at FARTHEST_M
+        self.origin = origin  # position of the laser
+        self.ends = ends  # ends of the beams, cut at FARTHEST_M
         self.hits = hits  # ends that are returns
         self.poses = (odom, corrected)
 
 
 def read_scans(path):
-    """The scans of a corrected log. Its heading states mount, beam angles and largest range of each laser."""
+    """Reads the scans of a corrected log. Its first lines state mount, beam angles and largest range of each laser."""
     mounts, angles, farthest = {}, {}, {}
     scans = []
     with open(path, encoding="utf-8") as file:
@@ -99,7 +99,7 @@ def placed(points, pose):
 
 def wall_direction(scans):
     """The heading in [-45, 45) degrees along which the finished map has most of its walls."""
-    bins = [0] * 180  # of half a degree, modulo 90 degrees
+    bins = [0] * 180  # counts of directions modulo 90 degrees, in bins of half a degree
     for scan in scans[::5]:
         points = placed(scan.hits, scan.poses[1])
         for (ax, ay), (bx, by) in zip(points, points[4:]):
@@ -184,7 +184,7 @@ def draw_scale_bar(draw, right, bottom, metres_per_px):
 
 
 def draw_picture(scans):
-    """Both halves have the same scale; the width of each is that of its content."""
+    """Draws both halves at the same scale. The width of each half depends on its content."""
     scans = thinned(scans)
     angle = wall_direction(scans)
     for scan in scans:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Helpers of the program's tests: run it in this process or as a child, and read its results.
+// Helpers for tests of psi-slam: run the program in this process or as a child process, and read its results.
 #pragma once
 
 #include <fcntl.h>
@@ -25,7 +25,7 @@ inline constexpr const char* kQuickstartLog =
     "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
 inline constexpr const char* kNeedsQuickstartLog = "needs the rawlogs of Debian's package mrpt-common";
 
-/// Names of all files of a run.
+/// Names of all result files of a run, in alphabetical order.
 inline const std::vector<std::string>& result_names() {
   static const std::vector<std::string> kNames{
       "frames.csv",  "graph.g2o",    "loops.csv",         "map.dxf",       "map.gridmap.gz",
@@ -88,7 +88,7 @@ class AppProcess {
   pid_t pid() const { return pid_; }
   void send(int signal) const { ::kill(pid_, signal); }
 
-  /// Waits for its end. The code is the negative signal number if a signal ended it.
+  /// Waits until the process ends. The exit code is the negative signal number if a signal ended the process.
   AppRun finish() const {
     int status = 0;
     ::waitpid(pid_, &status, 0);

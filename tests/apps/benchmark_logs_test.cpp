@@ -16,9 +16,9 @@ namespace {
 
 struct Benchmark {
   const char* log;
-  double max_error_m;  ///< mean over all relations
+  double max_error_m;  ///< largest accepted mean error over all relations
   int every_nth_scan = 1;
-  double max_gap_s = 2;  ///< between two poses that a relation's is interpolated from
+  double max_gap_s = 2;  ///< longest gap in the path over which a pose is interpolated
 
   friend std::ostream& operator<<(std::ostream& out, const Benchmark& benchmark) {
     return out << benchmark.log << ", every " << benchmark.every_nth_scan;

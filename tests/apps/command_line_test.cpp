@@ -19,7 +19,7 @@ CommandLine parsed(const std::vector<std::string>& arguments) {
   return parse_command_line(arguments, app);
 }
 
-/// Error message for wrong usage.
+/// Runs psi-slam with arguments that it must reject, and returns the error message.
 std::string complaint(const std::vector<std::string>& arguments) {
   const AppRun run = run_app(arguments);
   EXPECT_EQ(run.code, 2);

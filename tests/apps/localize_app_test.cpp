@@ -19,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// Map of the room, in the frame of the first scan. Another robot drives faster in the room.
+/// Makes a map of the room, in the frame of the first scan, and the log of a faster run in the same room.
 class LocalizeApp : public testing::Test {
  protected:
   void SetUp() override {
@@ -88,7 +88,6 @@ TEST_F(LocalizeApp, a_robot_that_is_not_found_gives_exit_code_1) {
   EXPECT_EQ(Json::parse(json.out)["localized_at_end"], false);
 }
 
-/// A robot that is found and tracked, then moved outside the map.
 TEST_F(LocalizeApp, warns_if_it_was_interrupted) {
   write_lines(folder_.path() / "new.log", room_log_lines(20000, 80));
   const auto out = folder_.path() / "out";
@@ -101,10 +100,11 @@ TEST_F(LocalizeApp, warns_if_it_was_interrupted) {
   const Json summary = Json::parse(run.out);
   EXPECT_EQ(summary["interrupted"], true);
   EXPECT_LT(summary["scans"], 20000);
-  EXPECT_THAT(run.err, HasSubstr("interrupted: the end of the log means the last of the " +
+  EXPECT_THAT(run.err, HasSubstr("interrupted: \"end of the log\" stands for the last of the " +
                                  std::to_string(summary["scans"].get<int>()) + " scans"));
 }
 
+/// The robot is found and tracked, then moved outside the map.
 TEST_F(LocalizeApp, a_robot_lost_at_the_end_gives_exit_code_1) {
   std::vector<std::string> lines = room_log_lines(120, 80);
   for (std::size_t i = 80; i < lines.size(); ++i)

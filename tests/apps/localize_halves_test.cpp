@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real logs: the first half is mapped, and robots of the second half are localized in it. The truth is the
-// path of the whole log, mapped at once. Each true pose is taken relative to the nearest pose of the first
-// half, since the two maps differ by some centimetres. The test prints the figures of share/doc/localize.md.
+// Maps the first half of real logs, and localizes the robot of the second half in this map. The truth is the
+// path in a map of the whole log. Each true pose is taken relative to the nearest pose of the first half,
+// because the two maps differ by some centimetres. The test prints the figures of share/doc/localize.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,9 +25,9 @@ using mrpt::math::TPose2D;
 constexpr std::size_t kStarts = 12;
 constexpr std::size_t kThreads = 4;
 constexpr double kWay_m = 20;   // longest path of a robot
-constexpr double kFalse_m = 1;  // least distance from the path of a false place
-constexpr double kNear_m =
-    1;  // largest distance from the path of the first half, which has mapped the surroundings
+constexpr double kFalse_m = 1;  // error above which a tracked pose is at a false place
+// Tracking is expected up to this distance from the path of the first half.
+constexpr double kNear_m = 1;
 
 MappingResult mapped(const std::filesystem::path& log, const Settings& settings, std::size_t scans) {
   MappingSession session(log, settings);
@@ -41,7 +41,7 @@ struct Figures {
   std::size_t found = 0;
   std::size_t within_5_m = 0;
   std::size_t wrong = 0;
-  std::vector<double> errors_m;  ///< of all poses tracked
+  std::vector<double> errors_m;  ///< errors of all tracked poses
   std::vector<double> found_after_m;
   std::vector<double> found_after_s;
 
@@ -74,8 +74,8 @@ struct Halves {
   MappingResult whole;
   std::size_t half = 0;
   MappingResult first;
-  std::vector<TPose2D> map_T_robot;  ///< of all scans
-  std::vector<double> from_first_m;  ///< of all scans: to the nearest one of the first half
+  std::vector<TPose2D> map_T_robot;  ///< true poses of all scans in the map of the first half
+  std::vector<double> from_first_m;  ///< distances of all scans from the nearest scan of the first half
 
   Halves(const std::filesystem::path& log, const Settings& settings)
       : whole(mapped(log, settings, static_cast<std::size_t>(-1))),
@@ -160,7 +160,7 @@ TEST(LocalizeHalves, finds_robots_of_the_second_half_in_the_map_of_the_first) {
   EXPECT_LT(median(figures.errors_m), 0.1);
 }
 
-/// Localizes the whole second half, with or without a start.
+/// Localizes the robot through the whole second half. With `told`, the robot gets its start pose.
 void follow_second_half(const Halves& log, const ReferenceMap& map, const LocalizerOptions& options,
                         bool told) {
   SCOPED_TRACE(told ? "told start" : "no start");

@@ -19,8 +19,8 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// Two runs in the room. The second is faster and begins at a quarter of the round. Its odometry begins at
-/// zero and its time stamps repeat those of the first run.
+/// Two runs in the room. The second run is faster and begins after a quarter of the round. Its odometry
+/// begins at zero, and its time stamps repeat those of the first run.
 class MergeApp : public testing::Test {
  protected:
   void SetUp() override {
@@ -140,7 +140,7 @@ TEST_F(MergeApp, warns_of_changed_settings_of_a_session) {
                          default_text("run.seed") + ", and 1 more\n");
 }
 
-/// Time stamps and odometry of a CARMEN log must be continuous.
+/// Time stamps and odometry of each corrected CARMEN log must be continuous.
 TEST_F(MergeApp, writes_a_corrected_log_for_each_run) {
   ASSERT_EQ(merge({"first.log", "second.log"}, "out").code, 0);
   EXPECT_FALSE(std::filesystem::exists(file("out") + "/trajectory.carmen"));
@@ -159,7 +159,7 @@ TEST_F(MergeApp, writes_a_corrected_log_for_each_run) {
     for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_NEAR(poses[i].pose.x, tum[i].pose.x, 1e-6);
   }
   EXPECT_THAT(bytes_of(file("out") + "/report.html"), HasSubstr("href=\"trajectory-2.carmen\""));
-  // A map of one run in the same folder removes them.
+  // A map of one run, written to the same folder, removes the files of the two runs.
   ASSERT_EQ(run_app({file("first.log"), "-q", "-o", file("out"), "--force"}).code, 0);
   EXPECT_TRUE(std::filesystem::exists(file("out") + "/trajectory.carmen"));
   EXPECT_FALSE(std::filesystem::exists(file("out") + "/trajectory-1.carmen"));

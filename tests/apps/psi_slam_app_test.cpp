@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole runs of the program.
+// Whole runs of psi-slam.
 #include "psi_slam_app.h"
 
 #include <gmock/gmock.h>

@@ -44,7 +44,8 @@ TEST(ShippedSettings, the_default_file_has_every_key_and_gives_the_defaults) {
 TEST(ShippedSettings, every_file_loads_and_states_facts_of_robot_and_sensor_only) {
   std::size_t files = 0;
   for (const auto& entry : fs::directory_iterator(kFolder)) {
-    if (entry.path().filename() == "graphslam.ini") continue;  // of psi-graphslam, has its own test
+    if (entry.path().filename() == "graphslam.ini")
+      continue;  // settings of psi-graphslam, tested in tests/mrpt
     SCOPED_TRACE(entry.path().string());
     Loaded loaded;
     EXPECT_NO_THROW(apply(read_ini(entry.path()), loaded.table));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole sweeps of small logs, with and without disturbance.
+// Whole sweeps of small logs, also with killed processes and interrupts.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -57,7 +57,7 @@ class SweepCommand : public testing::Test {
     return text.substr(0, text.find("## Times"));
   }
 
-  /// Waits until `ready`, up to a time limit.
+  /// Waits until `ready` returns true. Returns false if that takes longer than kLongest.
   template <class Ready>
   static bool wait_for(const Ready& ready) {
     for (const auto began = Clock::now(); Clock::now() - began < kLongest;) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faults of logs, folders and disks give one sentence and an exit code that says whether the user can fix it.
+// Faults of logs, folders and disks give an error message of one line, and exit code 2 for wrong input or 1
+// for a failure of the system.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -38,7 +39,7 @@ class WrongInput : public testing::Test {
     return run_app(options);
   }
 
-  /// Error message for a log, with exit code 2 and nothing written.
+  /// Maps a log that must be refused with exit code 2 and without results. Returns the error message.
   std::string refusal(const std::string& log, const std::vector<std::string>& options = {}) const {
     const AppRun run = map(log, options);
     EXPECT_EQ(run.code, 2);

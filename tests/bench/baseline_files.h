@@ -10,8 +10,8 @@
 
 namespace psi_slam {
 
-/// A program that prints its version, and runs `script` if it gets settings and a log: $1 is the settings
-/// file, $2 the log and $output the output folder.
+/// Installs a program that prints its version, and runs `script` if it gets settings and a log: $1 is the
+/// settings file, $2 the log and $output the output folder.
 inline void install_baseline(const std::filesystem::path& prefix, const BaselineKind& kind,
                              const std::string& script) {
   namespace fs = std::filesystem;

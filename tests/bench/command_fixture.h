@@ -40,7 +40,7 @@ class BenchCommand : public testing::Test {
     return run_program(words(command_, options), terminal);
   }
 
-  /// The error message of a refused call.
+  /// Runs the command with options that it must refuse, and returns the error message.
   std::string refusal(const std::vector<std::string>& options) {
     return refusal_of(words(command_, options));
   }

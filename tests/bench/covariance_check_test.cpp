@@ -30,10 +30,10 @@ TPose2D measured(const TPose2D& truth, const Eigen::Matrix3d& covariance, Random
   return {truth.x + error.x(), truth.y + error.y(), truth.phi + error.z()};
 }
 
-std::vector<double> drawn_squares(double believed_share_of_sigma) {
+std::vector<double> drawn_squares(double stated_share_of_sigma) {
   RandomDraws random(4, "covariances", 0);
   const Eigen::Matrix3d information =
-      (some_covariance() * believed_share_of_sigma * believed_share_of_sigma).inverse();
+      (some_covariance() * stated_share_of_sigma * stated_share_of_sigma).inverse();
   std::vector<double> squares;
   for (int i = 0; i < 20000; ++i) {
     const TPose2D truth(random.plus_minus(5), random.plus_minus(5), random.plus_minus(3.2));

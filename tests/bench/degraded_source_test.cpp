@@ -19,7 +19,7 @@ using mrpt::math::TPose2D;
 constexpr std::size_t kStepsAhead = 30;
 constexpr std::size_t kStepsInAll = 40;
 
-/// Alternates between 3 m ahead and 3 rad on the spot.
+/// Motion to pose i. The motions alternate between 3 m straight ahead and 3 rad on the spot.
 TPose2D step(std::size_t i) {
   return i % kStepsInAll < kStepsAhead ? TPose2D(0.1, 0, 0) : TPose2D(0, 0, 0.3);
 }
@@ -108,13 +108,13 @@ TEST(DegradedSource, marks_frames_without_odometry) {
   }
 }
 
-/// Root mean squares of the errors of odometry over the stretches of one kind.
+/// Root mean squares of the errors of odometry over several stretches.
 struct StretchErrors {
   double way_m = 0;
   double turn_rad = 0;
 };
 
-/// Over stretches of a number of steps, starting at `first` and every kStepsInAll steps after it.
+/// Errors over stretches of `steps` steps, which start at pose `first` and every kStepsInAll poses after it.
 StretchErrors errors_over(const std::vector<TPose2D>& odometry, const std::vector<TPose2D>& truth,
                           std::size_t first, std::size_t steps) {
   StretchErrors squares;
@@ -129,7 +129,7 @@ StretchErrors errors_over(const std::vector<TPose2D>& odometry, const std::vecto
   return {std::sqrt(squares.way_m / stretches), std::sqrt(squares.turn_rad / stretches)};
 }
 
-/// True poses of the robot for odometry with this noise.
+/// Draws true poses of a robot whose odometry has this noise.
 std::vector<TPose2D> truth_of(const std::vector<TPose2D>& odometry, const OdometryNoise& noise) {
   std::vector<TPose2D> truth{odometry.front()};
   RandomDraws draws(5, "truth", 0);
@@ -151,7 +151,7 @@ TEST(DegradedSource, multiplies_the_error_of_odometry) {
   const std::vector<TPose2D> truth = truth_of(odometry, {0.01, 0.02, 0.03});
   DegradationOptions options;
   options.natural_noise = measure_odometry_noise(odometry, truth);
-  // Step i leads to pose i. Stretches: ahead, rotations, and both with the effect of rotations on positions.
+  // Step i leads to pose i. Stretches: straight ahead, rotations, and both, where rotations affect positions.
   constexpr std::size_t kLast = kStepsInAll - 1;
   for (const auto& [first, steps] :
        {std::pair(kLast, kStepsAhead), std::pair(kStepsAhead - 1, std::size_t{10}),

@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A building with closed loops, and the poses of the robot without them.
+/// Graph of a building with closed loops, and the poses of its nodes by odometry alone.
 LoopTrial building_trial() {
   const KnownGraph known = building(1000, 2, 2);
   LoopTrial trial;

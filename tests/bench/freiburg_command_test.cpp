@@ -17,7 +17,7 @@ class FreiburgCommand : public BenchCommand {
  protected:
   FreiburgCommand() : BenchCommand("freiburg") {}
 
-  /// Uses the built program, which starts itself.
+  /// Runs the built program as a child process, because the command starts its own program for each run.
   ChildEnd run(std::vector<std::string> options) const {
     return run_process(words("freiburg", with_output(std::move(options))), path_);
   }
@@ -71,7 +71,7 @@ TEST_F(FreiburgCommand, maps_the_logs_and_writes_page_figures_and_plots) {
 
 TEST_F(FreiburgCommand, a_failed_run_gives_exit_code_1) {
   write_room();
-  write_file(data_ / "room.relations", "1 2 0 0 0 0 0 0\n");  // long before the log
+  write_file(data_ / "room.relations", "1 2 0 0 0 0 0 0\n");  // times long before the log
   const ChildEnd end = run({"--matchers", "csm"});
   EXPECT_EQ(end.code, 1);
   EXPECT_THAT(end.err, HasSubstr("1 run failed"));

@@ -10,7 +10,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// One log mapped by the adaptive matcher with this mean translational error; the other errors are 1.
+/// Benchmark of one log that the adaptive matcher mapped with the mean translational error `error_m`. All
+/// other mean errors are 1.
 FreiburgBenchmark benchmark_with(const std::string& log, double error_m) {
   FreiburgResult run;
   run.figures.emplace();

@@ -21,7 +21,7 @@ class FreiburgByMpi : public BenchCommand {
   FreiburgByMpi() : BenchCommand("freiburg") {
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);  // containers may forbid it
+    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);  // containers may forbid this mechanism
     write_room();
   }
 
@@ -74,7 +74,7 @@ TEST_F(FreiburgByMpi, gives_the_same_figures_as_processes_and_a_page) {
   EXPECT_THAT(mpi.out, HasSubstr("| room | ga | 3 | 0.0"));
 
   const auto made = times("processes");
-  const ChildEnd again = by_mpi("processes");  // one run at a time
+  const ChildEnd again = by_mpi("processes");  // the kept runs were made one at a time
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(times("processes"), made) << "kept runs are not repeated";
 }

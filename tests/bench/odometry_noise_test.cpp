@@ -14,7 +14,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// Odometry that alternates between 2.5 rad and 2.5 m ahead, and the true poses of the robot.
+/// Odometry that alternates between rotations by 2.5 rad and 2.5 m straight ahead, and the true poses.
 struct NoisyRun {
   explicit NoisyRun(const OdometryNoise& noise) {
     RandomDraws draws(3, "noise", 0);

@@ -39,13 +39,13 @@ inline MappedLog map_office() {
   return log;
 }
 
-/// Computed once for all tests.
+/// The result of map_office(), computed once for all tests.
 inline const MappedLog& office_log() {
   static const MappedLog kLog = map_office();
   return kLog;
 }
 
-/// Options for cases, also negative ones, in the small office.
+/// Options that give positive and negative cases in the small office.
 inline CaseOptions office_cases() {
   CaseOptions options;
   options.window_m = 1;

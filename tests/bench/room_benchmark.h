@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A benchmark with one small log: a simulated room, its settings and its true relations.
+// A benchmark with one small log: a run in a simulated room, its settings and its relations.
 #pragma once
 
 #include <cmath>
@@ -12,14 +12,15 @@
 
 namespace psi_slam {
 
-/// A relation between two poses of the run, given by their scan numbers.
+/// Line of a relations file for two scans of the run, given by their numbers.
 inline std::string room_relation(int from, int to, const mrpt::math::TPose2D& motion) {
   return format_seconds(1'000'000'000 + 200'000 * from) + ' ' + format_seconds(1'000'000'000 + 200'000 * to) +
          ' ' + std::to_string(motion.x) + ' ' + std::to_string(motion.y) + " 0 0 0 " +
          std::to_string(motion.phi) + '\n';
 }
 
-/// A run of almost two rounds with its relations; `stretch` 1 gives true relations.
+/// Writes log, settings and relations of a run of almost two rounds. Relations are true if `stretch` is 1;
+/// other values multiply their translations.
 inline void write_room_benchmark(const std::filesystem::path& data, const std::filesystem::path& ini,
                                  double stretch = 1) {
   constexpr int kScans = 190;
@@ -33,8 +34,8 @@ inline void write_room_benchmark(const std::filesystem::path& data, const std::f
   write_file(data / "room.relations", relations);
 }
 
-/// Relations between the second round and the first, one round earlier or a little less. False ones are
-/// `lie_m` off.
+/// Writes relations between scans of the second round and scans almost one round earlier. The relations are
+/// wrong by `lie_m` metres.
 inline void write_room_passes(const std::filesystem::path& data, double lie_m = 0) {
   std::string relations;
   for (int i = 100; i < 190; i += 3) {

@@ -58,7 +58,7 @@ TEST(SimulatedLogFile, leaves_nothing_when_the_disk_is_full) {
   const std::uintmax_t compressed = fs::file_size(folder.path() / "run.clf.gz");
   const fs::path full = folder.path() / "full";
   fs::create_directory(full);
-  const SmallDisk disk(compressed / 2);  // the plain log is larger still
+  const SmallDisk disk(compressed / 2);  // the uncompressed log is even larger
   EXPECT_THROW(write_simulated_log(full / "run.clf.gz", run), SystemFailure);
   EXPECT_TRUE(fs::is_empty(full)) << names_in(full).front();
 }

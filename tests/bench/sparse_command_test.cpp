@@ -20,7 +20,8 @@ class SparseCommand : public BenchCommand {
  protected:
   SparseCommand() : BenchCommand("sparse") {}
 
-  /// The room three times: as a dense log, as a log of which every nth scan is mapped, and as a sparse log.
+  /// Writes the log of the room three times: as a dense log, as a log for the part every-nth, and as a sparse
+  /// log.
   void write_rooms() const {
     write_room();
     fs::create_directories(data_ / "sparse");

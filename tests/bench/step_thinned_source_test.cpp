@@ -53,7 +53,7 @@ StepThinnedSource thinned(const std::vector<TPose2D>& odometry, const ThinningSt
   return {std::make_unique<PoseSource>(odometry), step};
 }
 
-/// The scans that are kept, by comparing each scan with the last kept one; angles are compared on the circle.
+/// Reference for the kept scans: compares each scan with the last kept scan, and angles by their cosine.
 std::vector<std::size_t> slowly_kept(const std::vector<TPose2D>& odometry, const ThinningStep& step) {
   std::vector<std::size_t> kept{0};
   for (std::size_t i = 1; i < odometry.size(); ++i) {
@@ -66,7 +66,7 @@ std::vector<std::size_t> slowly_kept(const std::vector<TPose2D>& odometry, const
   return kept;
 }
 
-/// Position and direction of scan i if the last kept scan before it is at `kept`, with the rotation written
+/// Reference for the pose of a removed scan: moves the last kept scan by odometry, with the rotation written
 /// out.
 TPose2D slowly_put_back(const TPose2D& odom_T_kept, const TPose2D& odom_T_scan, const TPose2D& map_T_kept) {
   const double turn_rad = map_T_kept.phi - odom_T_kept.phi;

@@ -133,7 +133,7 @@ TEST_F(FileQuestionsTest, edits_made_while_a_session_is_read_are_not_lost) {
       .when_phase(ReplayPhase::kPaused)
       .then([=](MainFrame& frame) {
         frame.resume_with(log);
-        frame.replay()->edit(edit);  // before or after the log is compared with the session
+        frame.replay()->edit(edit);  // takes effect before or after the log is compared with the session
       })
       .when("the session is resumed with the log",
             [=](MainFrame& frame) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures how long the window does not react while it shows a benchmark log. The figures are printed and
-// recorded but not checked, because machines differ too much.
+// Measures the longest times in which the window does not react while it shows a benchmark log. Prints and
+// records these times but does not check them, because machines differ too much.
 #include <gmock/gmock.h>
 
 #include "gui_run.h"

@@ -27,8 +27,8 @@
 
 namespace psi_slam {
 
-/// Runs the real program and controls it from its event loop. A test is a list of steps; each starts when the
-/// previous one has succeeded.
+/// Runs the real program and controls it from its event loop. A test is a list of steps. Each step starts
+/// when the previous step has succeeded.
 class GuiRun {
  public:
   GuiRun() {
@@ -56,7 +56,7 @@ class GuiRun {
          [id](MainFrame& frame) { return frame.GetMenuBar()->IsEnabled(id); });
     return then([id](MainFrame& frame) { choose(frame, id); });
   }
-  /// Chooses a command as a click on its menu item does.
+  /// Chooses a command like a click on its menu item.
   static void choose(MainFrame& frame, int id) {
     wxMenuItem* const item = frame.GetMenuBar()->FindItem(id);
     if (item->IsCheckable()) item->Check(item->IsRadio() || !item->IsChecked());
@@ -98,7 +98,7 @@ class GuiRun {
     then([](MainFrame&) { wxUIActionSimulator().MouseUp(); });
     return pause(100);
   }
-  /// Sends a key to the window. Without a window manager no control has the focus.
+  /// Sends a key to the window itself, because no control has the focus without a window manager.
   GuiRun& key(int code) {
     then([code](MainFrame& frame) {
       wxKeyEvent event(wxEVT_CHAR_HOOK);
@@ -115,7 +115,7 @@ class GuiRun {
     });
     return when("a pause", [until](MainFrame&) { return std::chrono::steady_clock::now() >= *until; });
   }
-  /// Records the gaps between events under this name from now on, including the time of the steps.
+  /// From now on, records the longest gap between events as `name`. The gaps include the time of the steps.
   GuiRun& gauge(const std::string& name) {
     return then([this, name](MainFrame&) {
       gauges_.push_back({name, {}});
@@ -171,7 +171,7 @@ class GuiRun {
   struct Gauge {
     std::string name;
     std::chrono::steady_clock::duration longest{};
-    double longest_cpu_ms = 0;  // of the window's thread
+    double longest_cpu_ms = 0;  // longest processor time of the window's thread between two events
   };
   class Timer : public wxTimer {
    public:
@@ -194,7 +194,7 @@ class GuiRun {
       ADD_FAILURE() << "step " << next_ << " does not succeed: " << steps_[next_].what;
       next_ = steps_.size();
     }
-    // The time of a step does not count unless it is gauged.
+    // The time of a step does not count as a gap before gauge() is called.
     if (gauges_.empty())
       ticked_ = std::chrono::steady_clock::now();
     else
@@ -206,7 +206,7 @@ class GuiRun {
     }
   }
 
-  /// Processor time of the window's thread so far.
+  /// Processor time of the window's thread so far, in ms.
   static double cpu_ms() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -84,7 +84,7 @@ TEST_F(MainFrameTest, playing_pausing_and_stepping_gives_the_results_of_psi_slam
       .command(kPlayOrPause)
       .when_phase(ReplayPhase::kFinished)
       .then([&](MainFrame& frame) { frame.export_to(gui_.folder() / "gui", false); })
-      .close();  // waits until all results are written
+      .close();  // the window closes when all results are written
   EXPECT_EQ(gui_.run({log}), 0);
   EXPECT_GE(paused_at, 40U);
   EXPECT_LT(paused_at, 110U) << "it was paused before scan 110";
@@ -646,7 +646,7 @@ TEST_F(MainFrameTest, shows_a_benchmark_log) {
       .then([](MainFrame& frame) { EXPECT_GT(frame.replay()->snapshot()->loops->size(), 10U); })
       .then([](MainFrame& frame) {
         const std::vector<LoopRecord>& loops = *frame.replay()->snapshot()->loops;
-        std::size_t far = 0;  // the accepted loop that corrected most
+        std::size_t far = 0;  // the accepted loop with the largest correction
         double farthest_m = 0;
         for (std::size_t i = 0; i < loops.size(); ++i) {
           const mrpt::math::TPose2D moved = loops[i].anchor_T_node - loops[i].anchor_T_predicted;

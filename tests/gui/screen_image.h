@@ -6,7 +6,8 @@
 
 namespace psi_slam {
 
-/// Picture of a part of the screen, in pixels. (wxScreenDC never updates its first picture.)
+/// Picture of a part of the screen; corner and size are in pixels. Replaces wxScreenDC, which never updates
+/// its first picture.
 wxImage screen_image(const wxPoint& corner, const wxSize& size);
 
 }  // namespace psi_slam

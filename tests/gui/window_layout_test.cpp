@@ -21,7 +21,7 @@ class WindowLayoutTest : public testing::Test {
   void SetUp() override {
     if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run from Debian's package xvfb";
   }
-  /// Writes the preferences of an earlier run.
+  /// Writes the configuration file of an earlier start of the program.
   void write_choices(const std::string& lines) {
     std::filesystem::create_directories(gui_.folder() / "config");
     write_file(gui_.folder() / "config" / "psi-slam-gui.conf", lines);

@@ -10,7 +10,7 @@ foreach(name PSI_SLAM_BUILD WORK)
   endif()
 endforeach()
 
-# run(STEP COMMAND...): runs the command and sets `output` in the caller. Fails with the name STEP.
+# run(STEP COMMAND...): runs the command and sets `output` in the caller. Fails with a message that names STEP.
 function(run step)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
   if(NOT result EQUAL 0)
@@ -41,7 +41,7 @@ set(examples ${WORK}/installed/share/doc/libpsi-slam-dev/examples)
 build_project(examples ${examples})
 build_project(headers ${CMAKE_CURRENT_LIST_DIR} -D HEADERS=${WORK}/installed/include
   -D README=${WORK}/installed/share/doc/psi-slam/README.md)
-# The mapper alone needs none of these packages.
+# The component mapping needs none of these packages.
 set(no_more)
 foreach(package SQLite3 GDAL OpenCV OpenSSL mrpt-graphslam mrpt-slam)
   list(APPEND no_more -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)

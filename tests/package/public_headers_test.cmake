@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Public headers are few, and include only each other and headers of other projects.
+# Checks that there are few public headers, and that they include only each other and headers of other projects.
 #
 #   cmake -D "FOLDERS=DIR;..." -P public_headers_test.cmake      folders that hold psi_slam/*.h
 cmake_minimum_required(VERSION 3.22)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Checks what the bash completion scripts offer. Needs no terminal.
+# Checks the words that the bash completion scripts offer. Needs no terminal.
 #
 #     completion_test.sh BUILD
 set -euo pipefail

@@ -29,7 +29,7 @@ check_reasons() {
     { before = $0 } END { exit wrong }' "$1"
 }
 
-# Makes the files that the pages use: a log with its true relations, and a folder with one log of the benchmark.
+# Makes the files that the pages use: a log with its relations, and a folder with one log of the benchmark.
 write_logs() {
   mkdir -p "$scratch/logs/benchmark-logs"
   cd "$scratch/logs"

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# draw-front-picture.sh on a small simulated log: draw_front_picture_test.sh BUILD_FOLDER
+# Runs draw-front-picture.sh on a small simulated log.
+#
+#     draw_front_picture_test.sh BUILD_FOLDER
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -35,7 +37,7 @@ picture = Image.open(sys.argv[1]).convert("RGB")
 width, height = picture.size
 assert 500 < width < 1500 and 200 < height < 900, f"{width} x {height} pixels"
 assert picture.getpixel((0, 0)) == (255, 255, 255), "the background is not white"
-half = width * 9 // 20  # nearly all of each half
+half = width * 9 // 20  # width in pixels of the checked part of each half
 for name, box, strongest in (("odometry", (0, 60, half, height), 0), ("map", (width - half, 60, width, height), 2)):
     part = list(picture.crop(box).getdata())
     assert sum(max(pixel) < 100 for pixel in part) > 50, f"no walls in the half of the {name}"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Checks the links of the pages: every file that a page links to exists, every heading too, and a link whose text is the name of
-# a C++ function or class leads to a file that contains that name. Checks the README's length.
+# Checks the links of the pages. Every linked file and heading must exist. A link whose text is the name of a C++ function or
+# class must lead to a file that contains this name. Checks the README's length.
 #
 #     page_links_test.sh SOURCE
 set -euo pipefail

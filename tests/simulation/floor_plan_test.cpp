@@ -32,7 +32,7 @@ std::size_t count(const FloorPlan& plan, Material material) {
                     [&](const PlanSegment& segment) { return segment.material == material; }));
 }
 
-/// Places that are reachable from the first one.
+/// Number of places that are reachable from the first place.
 std::size_t reachable(const FloorPlan& plan) {
   std::vector<bool> reached(plan.places.size(), false);
   reached[0] = true;

@@ -64,7 +64,7 @@ TEST(RobotPath, has_the_requested_length_and_limited_speed) {
 
 TEST(RobotPath, revisits_places_and_takes_corridors_in_both_directions) {
   const TestPath run = path_of(2);
-  std::map<std::pair<int, int>, std::pair<bool, bool>> ways;  // by square metre: up or right, down or left
+  std::map<std::pair<int, int>, std::pair<bool, bool>> ways;  // directions seen in each square metre
   for (const PathPose& pose : run.poses) {
     const mrpt::math::TPose2D& at = pose.world_T_robot;
     auto& way = ways[{static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y))}];

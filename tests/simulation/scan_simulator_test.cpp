@@ -30,7 +30,8 @@ FloorPlan glass_before_wall() {
   return plan;
 }
 
-/// Bounds for an exact range: those to surfaces one cell nearer and one cell farther.
+/// True if a range without noise is within two cells of the true range, or ends within two cells of a
+/// surface.
 bool within_a_cell(const FloorPlan& plan, const TPose2D& ray, double range_m, double cell_m) {
   if (std::abs(range_m - ray_m(plan, ray, true)) <= 2 * cell_m) return true;
   const mrpt::math::TPoint2D end(ray.x + range_m * std::cos(ray.phi), ray.y + range_m * std::sin(ray.phi));
@@ -172,7 +173,7 @@ TEST(ScanSimulator, refuses_impossible_lasers) {
   refuses(&Options::robot_T_laser, TPose2D(0, nan, 0));
   for (const auto share : {&Options::dropout_share, &Options::glass_return_share, &Options::glass_loss_share})
     for (const double value : {-0.1, 1.1, nan}) refuses(share, value);
-  refuses(&Options::glass_return_share, 0.9);  // and 0.2 are lost
+  refuses(&Options::glass_return_share, 0.9);  // with glass_loss_share = 0.2 above 1 in total
 }
 
 TEST(ScanSimulator, accepts_options_at_their_bounds) {

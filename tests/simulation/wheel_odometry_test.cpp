@@ -17,8 +17,8 @@ struct Moments {
 };
 
 constexpr int kRuns = 4000;
-constexpr double kMeanBound = 5;         // standard deviations of a mean
-constexpr double kVarianceShare = 0.12;  // more than five standard deviations of a variance over 4000
+constexpr double kMeanBound = 5;         // bound for a mean over kRuns runs, in its standard deviations
+constexpr double kVarianceShare = 0.12;  // bound for a variance: more than five of its standard deviations
 
 Moments moments(const std::vector<double>& values) {
   Moments result;
@@ -28,7 +28,7 @@ Moments moments(const std::vector<double>& values) {
   return result;
 }
 
-/// Odometry after `steps` equal steps, over many runs.
+/// Odometry after `steps` equal steps, for kRuns runs with different seeds.
 std::vector<TPose2D> ends(WheelOdometryOptions options, const TPose2D& step, int steps) {
   std::vector<TPose2D> poses;
   for (int run = 0; run < kRuns; ++run) {
@@ -47,7 +47,7 @@ void expect_moments(const std::vector<double>& values, double mean, double sigma
   EXPECT_NEAR(found.variance, sigma * sigma, kVarianceShare * sigma * sigma);
 }
 
-// The same distance in coarse and in fine steps.
+// The error over 4 m must not depend on the length of the steps.
 TEST(WheelOdometry, distances_have_a_scale_error_and_a_random_walk) {
   for (const int steps : {4, 80}) {
     WheelOdometryOptions options;

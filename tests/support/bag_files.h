@@ -115,7 +115,8 @@ inline std::string lz4_frame(const std::string& bytes) {
 
 // ---- CDR ----
 
-/// Writes numbers aligned to their size after a header of four bytes, in either byte order.
+/// Writes a ROS 2 message in CDR: numbers are aligned to their size after a header of four bytes, in either
+/// byte order.
 class CdrWriter {
  public:
   explicit CdrWriter(bool little_endian = true) : little_endian_(little_endian) {}
@@ -321,7 +322,8 @@ inline void write_mcap(const std::filesystem::path& path, const Recording& recor
 
 // ---- CARMEN ----
 
-/// Writes scans and odometry as RAWLASER1 and ODOM lines. The reader of the log must state the mount.
+/// Writes scans and odometry as RAWLASER1 and ODOM lines. These lines do not state the mount of the laser, so
+/// the settings of the reader must.
 inline void write_carmen(const std::filesystem::path& path, const Recording& recording) {
   std::string log = "# the same recording\n";
   const auto add = [&log](double value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs an external program, to test that it reads our files.
+// Runs an external program, to test that it reads the files of psi-slam.
 #pragma once
 
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ struct ForeignRun {
   }
 };
 
-/// Runs a shell command.
+/// Runs a shell command and returns its exit code and standard output.
 inline ForeignRun run_foreign(const std::string& command) {
   FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);

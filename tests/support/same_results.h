@@ -15,7 +15,7 @@
 
 namespace psi_slam {
 
-/// Rows without their last columns, which contain times.
+/// Rows of a CSV text without their last `columns` columns.
 inline std::string without_last_columns(const std::string& csv, int columns) {
   std::istringstream rows(csv);
   std::string text;

@@ -98,12 +98,12 @@ struct SimulatedRun {
 
 /// Consecutive equal steps of a run.
 struct RunPart {
-  double ahead_m;   // of each step; negative: reversing
-  double turn_deg;  // of each step
+  double ahead_m;   // distance of each step; negative: reversing
+  double turn_deg;  // rotation of each step, counterclockwise
   std::size_t steps;
 };
 
-/// Simulates odometry with errors of two percent and a drift of its heading.
+/// Simulates a run. Its odometry has errors of two percent and a drift of the heading.
 inline SimulatedRun simulated_run(const std::vector<RunPart>& parts,
                                   const mrpt::math::TPose2D& start = {2, 1.8, 0}) {
   SimulatedRun run;
@@ -123,7 +123,8 @@ inline SimulatedRun simulated_run(const std::vector<RunPart>& parts,
   return run;
 }
 
-/// Drives around the block with a turn on the spot at each corner, one full turn and some reversing.
+/// Steps once around the block in the room, with a turn on the spot at each corner, one full turn and some
+/// reversing.
 inline std::vector<RunPart> round_trip() {
   const RunPart corner{0.0, 3.0, 30};
   return {{0.0, -4.0, 90},  {0.08, 0.0, 95}, corner,          {0.08, 0.2, 10},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Simulates a robot that drives along a curve through the furnished room. It has a front laser and a rear
-// laser that is mounted upside down. Writes its recordings in every format.
+// laser that is mounted upside down. Writes its recordings in every log format.
 #pragma once
 
 #include <cmath>
@@ -22,15 +22,16 @@ struct TwoLasers {
   TimeUs period_us = 100'000;
   TimeUs rear_later_us = 40'000;
   int scans = 20;
-  TimeUs sweep_us = 0;                                      ///< time from a scan's first beam to its last
-  TimeUs front_silent_from_us = 0, front_silent_to_us = 0;  ///< since the start
+  TimeUs sweep_us = 0;  ///< time from a scan's first beam to its last
+  /// Intervals without scans of a laser, counted from kStart_us.
+  TimeUs front_silent_from_us = 0, front_silent_to_us = 0;
   TimeUs rear_silent_from_us = 0, rear_silent_to_us = 0;
 
   static constexpr TimeUs kStart_us = 1'600'000'000'000'000;
   static constexpr double kHalfView_rad = M_PI / 2;
   static constexpr std::size_t kBeams = 181;
 
-  /// Moves 0.5 m and turns 1 rad per second.
+  /// True pose of the robot, which moves 0.5 m and turns 1 rad per second.
   static mrpt::math::TPose2D world_T_robot(TimeUs time_us) {
     const double t = seconds(time_us - kStart_us);
     return {2 + 0.5 * std::sin(t), 6 + 0.5 * (1 - std::cos(t)), mrpt::math::wrapToPi(t)};
@@ -46,8 +47,8 @@ struct TwoLasers {
   struct Scan {
     bool rear = false;
     TimeUs time_us = 0;
-    std::vector<float>
-        ranges_m;  ///< in the order of the laser's beams; seen from above, the rear laser counts clockwise
+    /// Ranges in the order of the beams. Seen from above, the beams of the rear laser are in clockwise order.
+    std::vector<float> ranges_m;
   };
 
   Scan scan_at(TimeUs time_us, bool rear) const {

@@ -16,7 +16,7 @@ namespace psi_slam {
 /// Two rounds of a furnished room with good odometry. The second round sees the local maps of the first.
 struct TwoRounds {
   KeyframeStore keyframes;
-  std::vector<mrpt::math::TPose2D> truth;  ///< by node
+  std::vector<mrpt::math::TPose2D> truth;  ///< true poses of the nodes
   std::size_t node = 0;                    ///< a node of the second round
   std::size_t local_map = 0;               ///< a local map of the first round near that node
 
@@ -60,7 +60,7 @@ struct TwoRounds {
     return result;
   }
 
-  /// All nodes at their true poses, each constrained to the one before.
+  /// All nodes at their true poses, each with a constraint from the node before.
   PoseGraph graph() const {
     PoseGraph result;
     for (const mrpt::math::TPose2D& pose : truth) result.add_node(pose);

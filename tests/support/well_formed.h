@@ -17,7 +17,7 @@ inline std::string without(std::string text, const std::string& begin, const std
   return text;
 }
 
-/// Parses one tag from its '<' on.
+/// Parses the tag whose '<' is at the index `at`.
 class Tag {
  public:
   Tag(const std::string& html, std::size_t at) : html_(html), at_(at + 1) {
@@ -66,7 +66,7 @@ class Tag {
   bool well_formed_ = false;
 };
 
-/// Whether `text`, found between two tags, contains no unescaped HTML character.
+/// True if `text`, found between two tags, contains no unescaped HTML character.
 inline bool is_escaped(const std::string& text) {
   if (text.find_first_of("<>") != std::string::npos) return false;
   for (std::size_t at = 0; (at = text.find('&', at)) != std::string::npos; ++at) {

@@ -110,10 +110,11 @@ void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& pu
 
 void check_writable(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (fs::is_directory(file)) throw UserError(file.string() + " is a folder: name a file");
-  if (!fs::is_directory(folder)) throw UserError("the folder of " + file.string() + " does not exist");
+  if (fs::is_directory(file)) throw UserError(file.string() + " is a folder, expected a file: name a file");
+  if (!fs::is_directory(folder))
+    throw UserError("the folder of " + file.string() + " does not exist: create it first");
   if (::access(folder.c_str(), W_OK) != 0)
-    throw UserError(file.string() + " cannot be written: its folder is write-protected");
+    throw UserError(file.string() + " cannot be written: its folder is write-protected. Name another folder");
 }
 
 void prepare_folder(const fs::path& folder, const std::string& file) {

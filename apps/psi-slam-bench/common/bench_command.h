@@ -16,12 +16,14 @@
 
 namespace psi_slam {
 
-/// Adds the command of one run of the Freiburg benchmark, for the command `freiburg` to start. Parsing the
-/// command line runs the command, which throws UserError for wrong input. `streams` must outlive `app`.
+/// Adds the hidden command `freiburg-run`, which makes one run of the Freiburg benchmark. The command
+/// `freiburg` starts it in a child process. Parsing the command line runs the command, which throws UserError
+/// for wrong input. `streams` must outlive `app`.
 void add_freiburg_run_command(CLI::App& app, const Streams& streams);
 
 /// Adds the command `freiburg`. `options` are its defaults. Without `options.workers` the command also has
-/// options for processes of this machine and for baselines. `only_parsed`: parsing does not run the command.
+/// options for the number of processes and for baselines. With `only_parsed`, parsing does not run the
+/// command.
 void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgOptions& options = {},
                           bool only_parsed = false);
 
@@ -29,10 +31,10 @@ void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgO
 struct BenchArguments {
   std::string data;
   std::string ini;
-  std::vector<std::string> names;  ///< of logs; empty: all that have relations
-  std::string json;                ///< empty: not written, as for the next two
-  std::string csv;
-  std::string output;
+  std::vector<std::string> names;  ///< names of logs; empty: all logs that have relations
+  std::string json;                ///< JSON file to write; empty: none
+  std::string csv;                 ///< CSV file to write; empty: none
+  std::string output;              ///< folder to write page and plots to; empty: none
 };
 
 /// Adds --data and --ini.
@@ -54,21 +56,22 @@ std::vector<BenchmarkLog> logs_of(const BenchArguments& arguments);
 
 /// The logs for a command to work on, and the names of the other logs in the folder.
 struct ChosenLogs {
-  std::vector<BenchmarkLog> logs;              ///< all with relations
+  std::vector<BenchmarkLog> logs;              ///< logs to map; all have relations
   std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
-  std::vector<std::string> left_out;           ///< logs that were not asked for
+  std::vector<std::string> left_out;           ///< logs that --logs does not name
 };
 
-/// The logs that --logs names, or all logs with relations, in the order of the folder. Throws UserError as
-/// logs_of(), for an unknown name, for a named log without relations, for settings that psi-slam refuses, and
-/// when no log remains. Prints warnings about the settings of the logs.
+/// The logs that --logs names, or all logs with relations, ordered by name. Throws UserError as logs_of(),
+/// for an unknown name, for a named log without relations, for settings that psi-slam refuses, and when no
+/// log remains. Prints warnings about the settings of the logs.
 ChosenLogs chosen_logs(const BenchArguments& arguments, const Streams& streams);
 
-/// Creates the folder for `page` and throws UserError if a file cannot be written. Called before the work,
-/// which takes long.
+/// Creates the output folder. Throws UserError if `page` in it or another output file cannot be written. Call
+/// it before the benchmark, which takes long.
 void check_outputs(const BenchArguments& arguments, const std::string& page);
 
-/// Writes the files that the options ask for, then prints the page. Throws SystemFailure when it cannot.
+/// Writes the files that the options ask for, then prints the page. Throws SystemFailure if a file or
+/// standard output cannot be written.
 void write_report(const BenchReport& report, const BenchArguments& arguments, const Streams& streams);
 
 /// Calls `work` with an observer that shows its progress on a terminal, and returns its result.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The logs of the benchmarks, their settings, and mapping a log as psi-slam maps it.
+// Finds the logs of the benchmarks and their settings, and maps logs in the same way as psi-slam.
 #pragma once
 
 #include <filesystem>
@@ -25,16 +25,17 @@ struct BenchmarkLog {
   std::optional<std::filesystem::path> relations;  ///< intel.relations, if it exists
 };
 
-/// Logs in the folder `data`, by name. A log is NAME.clf, NAME.log or NAME.rawlog, gzipped or not, or a ROS
-/// bag. BenchmarkLog::ini is empty without NAME.ini in `ini`. Throws UserError when `data` is not a folder.
+/// Logs in the folder `data`, ordered by name. A log is NAME.clf, NAME.log or NAME.rawlog, gzipped or not, or
+/// a ROS bag. Of several files with one NAME, takes the first in alphabetical order. BenchmarkLog::ini is
+/// empty if `ini` has no NAME.ini. Throws UserError when `data` is not a folder.
 std::vector<BenchmarkLog> logs_in_folder(const std::filesystem::path& data, const std::filesystem::path& ini);
 
-/// logs_in_folder(), if it holds a log and all logs have settings. Throws UserError otherwise.
+/// Calls logs_in_folder(). Throws UserError if there is no log, or if a log has no settings.
 std::vector<BenchmarkLog> find_benchmark_logs(const std::filesystem::path& data,
                                               const std::filesystem::path& ini);
 
 /// Folder of the settings that come with the program, installed or in the source tree. Searches upwards from
-/// the folder of the program.
+/// the folder of the program. Empty if there is none.
 std::optional<std::filesystem::path> shipped_ini_folder();
 
 /// Settings of a log: the defaults, overridden by the file `ini` unless it is empty, and by assignments
@@ -44,7 +45,8 @@ Settings benchmark_settings(const std::filesystem::path& ini,
                             const std::vector<std::string>& assignments = {},
                             std::vector<std::string>* warnings = nullptr);
 
-/// Maps all frames. Calls `progress` with the share of the log that is done. Throws UserError as the source.
+/// Maps all frames. Calls `progress` with the share of the log that is read, in [0, 1]. Passes on exceptions
+/// of the source.
 MappingResult map_source(FrameSource& source, const MapperOptions& options,
                          const std::function<void(double)>& progress);
 
@@ -61,10 +63,10 @@ struct ScratchFile {
   }
 };
 
-/// Number of loops in the finished graph.
+/// Number of accepted loops.
 std::size_t loops_accepted(const MappingResult& result);
 
-/// Errors of the mapped poses of the frames.
+/// Errors of the mapped poses of the frames over the relations.
 RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations);
 
 }  // namespace psi_slam

@@ -30,7 +30,7 @@ struct LogAxis {
   }
 };
 
-/// Range of positive values; others are ignored.
+/// Range of positive values. add() ignores values that are not positive.
 struct PositiveRange {
   double least = std::numeric_limits<double>::infinity();
   double most = 0;
@@ -41,7 +41,7 @@ struct PositiveRange {
     most = std::max(most, value);
   }
 
-  /// The axis over the range; 0.1 to 1 without a value.
+  /// Axis over the range; from 0.1 to 1 if no positive value was added.
   LogAxis axis() const {
     if (!(most > 0)) return {};
     LogAxis axis{std::pow(10, std::floor(std::log10(least))), std::pow(10, std::ceil(std::log10(most)))};
@@ -50,18 +50,19 @@ struct PositiveRange {
   }
 };
 
-/// Pixels as text.
+/// Number of pixels as text with one decimal.
 std::string px(double pixels) {
   return fixed_text(pixels, 1);
 }
 
-/// `content` is plain text; `attributes` are those of the element: "text-anchor=\"end\"".
+/// SVG text element at (x, y) in pixels. `content` is plain text; `attributes` are XML, such as
+/// "text-anchor=\"end\"".
 std::string svg_text(double x, double y, const std::string& attributes, const std::string& content) {
   return "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" " + attributes + '>' + escape_html(content) +
          "</text>\n";
 }
 
-/// A whole file with a white background; width and height are pixels.
+/// SVG file with a white background. Width and height are in pixels.
 std::string svg_page(double width, double height, const std::string& content) {
   const std::string size = fixed_text(width, 0) + ' ' + fixed_text(height, 0);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size + "\" width=\"" +
@@ -114,7 +115,7 @@ std::string axes(const GrowthPlot& plot, const LogAxis& axis) {
   return svg;
 }
 
-/// Heights of the names at the ends of the lines, moved apart where they would overlap.
+/// Vertical positions in pixels of the line names, moved apart where they would overlap.
 std::vector<double> name_places(const GrowthPlot& plot, const LogAxis& axis) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < plot.lines.size(); ++i) {
@@ -133,7 +134,8 @@ std::vector<double> name_places(const GrowthPlot& plot, const LogAxis& axis) {
   return places;
 }
 
-/// A bar from the least to the greatest value with a dash at each end; empty if they are equal.
+/// Bar from the least to the greatest value with a dash at each end. Empty if these values are equal or not
+/// positive.
 std::string spread_svg(const GrowthPlot::Line& line, std::size_t place, const char* colour,
                        const LogAxis& axis) {
   const SeedSpread& spread = line.values[place];
@@ -184,7 +186,7 @@ double x_of(const LogAxis& axis, double value) {
 LogAxis axis_of(const std::vector<BarPlot::Bar>& bars) {
   PositiveRange range;
   for (const BarPlot::Bar& bar : bars) range.add(bar.value);
-  range.least *= 0.9;  // so that the shortest bar has a length
+  range.least *= 0.9;  // gives the shortest bar a length
   return range.axis();
 }
 

@@ -9,17 +9,18 @@
 
 namespace psi_slam {
 
-/// Lines over a few labelled places of the horizontal axis; the vertical axis is logarithmic.
+/// Plot of lines over labelled points of the horizontal axis. The vertical axis is logarithmic.
 struct GrowthPlot {
   std::string title;
-  std::string unit = "ms";          ///< of the values
-  std::vector<std::string> labels;  ///< of the places, from left to right
+  std::string unit = "ms";          ///< unit of the values
+  std::vector<std::string> labels;  ///< labels of the horizontal axis, from left to right
 
   struct Line {
     std::string name;
-    /// One for each label; a bar joins least and greatest value. Means that are not positive are left out.
+    /// One element for each label. The line joins the means, and a bar joins the least and the greatest
+    /// value. Means that are not positive are left out.
     std::vector<SeedSpread> values;
-    bool faint = false;  ///< thin and light, in the colour of the preceding line
+    bool faint = false;  ///< drawn thin and without name, in the colour of the preceding line
   };
   std::vector<Line> lines;
 };
@@ -33,8 +34,8 @@ struct BarPlot {
 
   struct Bar {
     std::string name;
-    double value = 0;   ///< a bar that is not positive has length 0
-    bool ours = false;  ///< drawn in another colour
+    double value = 0;   ///< a value that is not positive has a bar of length 0
+    bool ours = false;  ///< true for psi-slam: drawn in a different colour
   };
   std::vector<Bar> bars;
 };

@@ -21,7 +21,7 @@ using mrpt::math::TPose2D;
 
 struct Material {
   std::vector<std::size_t> anchors;
-  std::vector<Constraint> loops;  ///< enabled ones
+  std::vector<Constraint> loops;  ///< enabled loops
 };
 
 Material material_of(const PoseGraph& graph) {
@@ -50,7 +50,7 @@ bool is_false(const TPose2D& place, const TPose2D& truth, const FalseLoopOptions
   return std::hypot(error.x, error.y) >= options.min_error_m || std::abs(error.phi) >= options.min_error_rad;
 }
 
-/// One node, or several successive nodes, at one wrong place.
+/// Draws loops that put one node, or a group of successive nodes, at one random place in a local map.
 std::vector<Constraint> draw_elsewhere(const Material& material, const std::vector<TPose2D>& map_T_node,
                                        const FalseLoopOptions& options, RandomDraws& draws) {
   std::size_t group = 1;
@@ -81,7 +81,7 @@ Constraint draw_nearby(const Material& material, const FalseLoopOptions& options
   return loop;
 }
 
-constexpr double kWorstFirstOnly = 1;  // doubtful share that switches off only the worst loops
+constexpr double kWorstFirstOnly = 1;  // doubtful share for which select_inlier_loops() is never called
 
 std::vector<std::size_t> loops_on(const PoseGraph& graph) {
   std::vector<std::size_t> loops;
@@ -187,7 +187,7 @@ FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& log
   benchmark.identities = identities_of(logs);
   const auto trials =
       static_cast<double>(options.kinds.size() * options.shares_percent.size() * options.seeds.count());
-  const double work = 2 * trials;  // of one log: mapping takes about as long as the trials
+  const double work = 2 * trials;  // steps of one log: mapping takes about as long as all trials
   const double all = work * static_cast<double>(logs.size());
   double done = 0;
   for (const BenchmarkLog& log : logs) {
@@ -195,7 +195,7 @@ FalseLoopBenchmark run_false_loop_benchmark(const std::vector<BenchmarkLog>& log
     const std::vector<Relation> relations = read_relations(log.relations.value());
     const auto source = open_log(log.log, log_options(settings));
     MapperOptions mapper = mapper_options(settings);
-    mapper.back_end.joint_refinement.rounds = 0;  // it would move the graph away from its optimum
+    mapper.back_end.joint_refinement.rounds = 0;  // refinement would move the graph away from its optimum
     const MappingResult run = map_source(
         *source, mapper, [&](double share) { observer("mapping " + log.name, done + trials * share, all); });
     done += trials;

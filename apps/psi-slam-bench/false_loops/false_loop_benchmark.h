@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robustness of the back end to false loops: adds false loops to the finished graph of a log and lets the
-// back end find them.
+// Measures the robustness of the back end to false loops. Adds false loops to the finished graph of a log,
+// and counts those that the back end switches off.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -22,8 +22,8 @@
 namespace psi_slam {
 
 enum class FalseLoopKind {
-  kScattered,  ///< independent of each other
-  kGroups,     ///< several successive nodes agree on the same wrong place
+  kScattered,  ///< false loops that are independent of each other
+  kGroups,     ///< groups of false loops: those of successive nodes agree on one wrong place
   kNearby,     ///< true loops moved by metres, within the uncertainty of odometry
 };
 
@@ -36,31 +36,34 @@ struct FalseLoopOptions {
   std::size_t smallest_group = 5;
   std::size_t largest_group = 10;
   double reach_m = 10;  ///< largest distance of the wrong place from the anchor
-  double nearby_m = 3;  ///< nearby loops are moved by min_error_m to this and rotated by up to min_error_rad
-  double min_error_m = 1;  ///< a loop is false if it is at least this far off the truth
-  double min_error_rad = radians_from_degrees(20.0L);  ///< or rotated by at least this angle
+  /// Nearby loops are moved by min_error_m to nearby_m and rotated by up to min_error_rad.
+  double nearby_m = 3;
+  /// A loop is false if it differs from the truth by at least this distance or at least this angle.
+  double min_error_m = 1;
+  double min_error_rad = radians_from_degrees(20.0L);
   std::uint64_t seed = 1;
 };
 
-/// Adds loops between random nodes and random anchors of local maps, and returns the indices of their
-/// constraints. The place in the local map is random within reach, with any heading; the information is that
-/// of a random loop of the graph. The successive nodes of a group move as in the truth `map_T_node`, so that
-/// they agree exactly, which is harder than the output of any matcher. Adds nothing to a graph without
-/// enabled loops.
+/// Adds `count` false loops and returns the indices of their constraints. Scattered loops and groups join
+/// random nodes with random anchors of local maps. Their place is random within reach_m of the anchor, with
+/// any heading, and their information is that of a random loop of the graph. Successive nodes of a group move
+/// as in the true poses `map_T_node`. They agree exactly, so they are harder to reject than the output of a
+/// matcher. Adds nothing to a graph without enabled loops.
 std::vector<std::size_t> add_false_loops(PoseGraph& graph, const std::vector<mrpt::math::TPose2D>& map_T_node,
                                          const FalseLoopOptions& options);
 
 struct FalseLoopBenchmarkOptions {
-  std::vector<double> shares_percent{10, 20, 50, 100, 200, 500};  ///< in percent of the accepted loops
+  /// Numbers of added false loops, in percent of the accepted loops.
+  std::vector<double> shares_percent{10, 20, 50, 100, 200, 500};
   std::vector<FalseLoopKind> kinds{FalseLoopKind::kScattered, FalseLoopKind::kGroups, FalseLoopKind::kNearby};
   SeedRange seeds;
 };
 
-/// A graph with true loops, and the error of poses of its nodes.
+/// A graph with true loops, and a function for the error of given poses of its nodes.
 struct LoopTrial {
-  PoseGraph graph;                            ///< at its optimum
+  PoseGraph graph;                            ///< optimised graph
   std::vector<mrpt::math::TPose2D> unlooped;  ///< poses of the nodes before any loop was closed
-  double max_chi = 5;                         ///< as in MapperOptions
+  double max_chi = 5;                         ///< largest residual of an enabled loop, standard deviations
   PoseAdjustmentOptions solver;
   struct Error {
     double translation_m = 0;
@@ -72,8 +75,8 @@ struct LoopTrial {
 /// Result of one treatment of the false loops.
 struct LoopTrialOutcome {
   LoopTrial::Error error;
-  std::size_t false_kept = 0;
-  std::size_t true_lost = 0;
+  std::size_t false_kept = 0;  ///< false loops that stay enabled
+  std::size_t true_lost = 0;   ///< true loops that are switched off
   double milliseconds = 0;
 };
 
@@ -81,7 +84,7 @@ struct FalseLoopRow {
   std::string log;
   FalseLoopKind kind = FalseLoopKind::kScattered;
   double share_percent = 0;
-  std::uint64_t seed = 1;  ///< of the false loops
+  std::uint64_t seed = 1;  ///< seed for drawing the false loops
   std::size_t true_loops = 0;
   std::size_t false_loops = 0;
   LoopTrialOutcome undefended;   ///< optimised with all loops, from the poses before any loop
@@ -94,18 +97,18 @@ struct FalseLoopLog {
   std::string name;
   std::size_t nodes = 0;
   std::size_t loops = 0;
-  LoopTrial::Error map;        ///< without false loops
-  LoopTrial::Error front_end;  ///< without any loop
+  LoopTrial::Error map;        ///< error of the map without false loops
+  LoopTrial::Error front_end;  ///< error of the front end's poses, before any loop was closed
 };
 
 struct FalseLoopBenchmark {
   std::vector<LogIdentity> identities;
   std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
   std::vector<FalseLoopLog> logs;
-  std::vector<FalseLoopRow> rows;  ///< by log, kind, share, seed
+  std::vector<FalseLoopRow> rows;  ///< ordered by log, kind, share and seed
 };
 
-/// Tries one share of one kind with all treatments.
+/// Adds one share of one kind of false loops to the graph and tries all treatments.
 FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double share_percent,
                             std::uint64_t seed);
 

@@ -19,7 +19,7 @@ std::vector<Trials> cases_of(const FalseLoopBenchmark& benchmark) {
   });
 }
 
-/// How a trial treats the false loops.
+/// Member of a trial with the outcome of one treatment of the false loops.
 using Treatment = LoopTrialOutcome FalseLoopRow::*;
 
 using Column = ColumnOf<Trials>;
@@ -34,7 +34,7 @@ double translation_error_m(const LoopTrialOutcome& outcome) {
   return outcome.error.translation_m;
 }
 
-/// The columns of a treatment named `key` in JSON. An empty head is missing in Markdown.
+/// Columns of a treatment, which is named `key` in JSON. Markdown leaves out columns with an empty head.
 struct TreatmentColumns {
   Treatment treatment;
   std::string key;
@@ -117,7 +117,7 @@ std::string markdown_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenc
       "# How false loops are rejected\n\nThis page shows how many false loops a pose graph tolerates. False "
       "loops are added to finished graphs, and the graphs are optimised again.\n\n" +
       measured_by(machine) + "; " + seeds_text(options.seeds) +
-      " of the false loops. Errors are means over the true relations.\n\n";
+      " of the false loops. Errors are means over the relations.\n\n";
   text +=
       "- share: number of false loops added to the finished graph, as a percentage of the loops accepted "
       "during mapping\n"

@@ -44,7 +44,7 @@ std::optional<fs::path> find_program(const std::string& name, const std::string&
   return std::nullopt;
 }
 
-/// Version in the program's first output; there is no option for it.
+/// Version that the program prints when it starts. The program has no option that only prints the version.
 std::string version_of(const fs::path& program) {
   constexpr std::string_view kBefore = "MRPT C++ Library: ";
   const ChildEnd end = run_child({{program.string()}, kVersionLimit_s});
@@ -75,8 +75,8 @@ struct Task {
   BaselineResult* result = nullptr;
 };
 
-/// Includes the settings of our reader, which provides the input. Does not include the checksum of this
-/// program, so that a new build does not repeat the runs.
+/// Checksum of everything that the result depends on, with the settings that psi-slam reads the log with.
+/// Leaves out the checksum of this program, because a new build need not repeat the runs.
 std::string key_of(const BaselineRun& run) {
   return sha256_of_text(machine_text() + '\n' + sha256_of_file(run.log.log) + '\n' +
                         sha256_of_file(run.log.relations.value()) + "\n" PSI_SLAM_VERSION "\n" +
@@ -84,7 +84,7 @@ std::string key_of(const BaselineRun& run) {
                         run.baseline.sha256 + '\n' + baseline_settings(run.baseline, "output"));
 }
 
-/// Reads a kept result. Returns false if the run must be made.
+/// Reads the result of an earlier run into `task.result`. Returns false if the run must be made.
 bool read_kept(const Task& task) {
   const std::optional<Json> kept = kept_run(task.file, task.key);
   if (!kept) return false;
@@ -94,12 +94,12 @@ bool read_kept(const Task& task) {
       result.figures = read_run_figures(kept->at("figures"));
     else if (const auto limit_s = kept->at(kUnfinished).get<double>(); limit_s >= task.run.time_limit_s)
       result.not_finished_in_s = limit_s;
-  } catch (const Json::exception&) {  // the run is repeated
+  } catch (const Json::exception&) {  // the file is damaged: repeat the run
   }
   return result.figures || result.not_finished_in_s;
 }
 
-/// Keeps a result. A failure is not kept, so that the run is repeated.
+/// Writes a result to its file. Does not write a failure, so that the next command repeats the run.
 void keep(const Task& task, const BaselineResult& result) {
   if (!result.figures && !result.not_finished_in_s) return;
   Json content = {{"schema", "psi-slam-rival-run"},
@@ -113,7 +113,7 @@ void keep(const Task& task, const BaselineResult& result) {
   keep_run(task.file, task.key, content);
 }
 
-/// The runs without kept results. Fills in the kept results of the others.
+/// Returns the runs without kept results. Fills `results` with the kept results of all other runs.
 std::vector<Task> tasks_of(const std::vector<BaselineProgram>& baselines,
                            const std::vector<BenchmarkLog>& logs, const BaselineOptions& options,
                            std::vector<BaselineResult>& results) {
@@ -139,8 +139,8 @@ std::vector<Task> tasks_of(const std::vector<BaselineProgram>& baselines,
 }  // namespace
 
 const std::vector<BaselineKind>& baseline_kinds() {
-  constexpr std::size_t kPlaneYaw = 3;
-  constexpr std::size_t kSpaceYaw = 4;  // after z
+  constexpr std::size_t kPlaneYaw = 3;  // columns: step, x, y, yaw
+  constexpr std::size_t kSpaceYaw = 4;  // columns: step, x, y, z, yaw
   static const std::vector<BaselineKind> kKinds{
       {"icp-slam",
        "icp-slam/icp-slam_demo_classic.ini",
@@ -181,7 +181,7 @@ FoundBaselines find_baselines(const std::string& search_path) {
 std::string baseline_settings(const BaselineProgram& baseline, const fs::path& output) {
   std::ifstream file(baseline.config, std::ios::binary);
   const std::string shipped(std::istreambuf_iterator<char>(file), {});
-  if (!file) throw UserError(baseline.config.string() + " cannot be read");
+  if (!file) throw UserError(baseline.config.string() + " cannot be read: check its permissions");
   mrpt::config::CConfigFileMemory settings(shipped);
   for (const auto& [key, value] : baseline.kind.changes) settings.write(kSection, key, value);
   settings.write(kSection, "logOutput_dir", output.string());

@@ -18,18 +18,19 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// A run with its place in the benchmark.
+/// A run to make, with the places for its result.
 struct Task {
   FreiburgRun run;
   std::string name;  // "intel-csm-1"
-  fs::path file;     // for its result
+  fs::path file;     // file for the result
   RunKey key;
   double work = 0;  // bytes of the log
   const LogIdentity* log = nullptr;
   FreiburgResult* result = nullptr;
 };
 
-/// Takes over the figures of a finished run with its time and memory, or the reason of its failure.
+/// Stores figures, time and memory of a finished run in its result and its file, or the reason of its failure
+/// in its result.
 void take(const Task& task, const ChildEnd& end) {
   FreiburgResult& result = *task.result;
   result.made = true;
@@ -58,12 +59,12 @@ void take(const Task& task, const ChildEnd& end) {
             {"settings", settings_text(settings_of(task.run))}});
 }
 
-/// Fills in all cells with their kept results. Returns the runs without kept results.
+/// Makes the cells of `benchmark` and fills them with kept results. Returns the runs without kept results.
 std::vector<Task> plan(const std::vector<BenchmarkLog>& logs, const FreiburgOptions& options,
                        FreiburgBenchmark& benchmark) {
   const std::string program_sha256 = sha256_of_file(options.program);
   benchmark.logs = identities_of(logs);
-  benchmark.cells.reserve(logs.size() * options.matchers.size());  // tasks point to their results
+  benchmark.cells.reserve(logs.size() * options.matchers.size());  // keeps the tasks' pointers valid
   std::vector<Task> tasks;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const BenchmarkLog& log = logs[i];

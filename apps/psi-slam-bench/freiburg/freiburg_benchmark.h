@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Freiburg benchmark: maps every log with every matcher and every seed, and evaluates the paths against
-// the true relations (R. Kümmerle et al., "On measuring the accuracy of SLAM algorithms", 2009). Each run has
-// a process of its own, so that its time and memory can be measured. Results are kept in small files: a run
-// is not repeated while its log, its relations, its settings and the program stay the same.
+// The Freiburg benchmark: maps every log with every matcher and every seed, and measures the errors of the
+// paths over relations (R. Kümmerle et al., "On measuring the accuracy of SLAM algorithms", 2009). Each run
+// has a process of its own, so that its time and memory can be measured. Results are kept in small files. A
+// run is not repeated while its log, its relations, its settings and the program stay the same.
 #pragma once
 
 #include <array>
@@ -38,11 +38,11 @@ struct FreiburgRun {
 /// adaptive matcher with the genetic search of the paper.
 const std::vector<std::string>& freiburg_matchers();
 
-/// False for csm, which searches exhaustively. No other part of a run draws random numbers.
+/// True for all matchers except csm, whose search is exact. No other part of a run draws random numbers.
 bool draws_random_numbers(const std::string& matcher);
 
-/// The defaults, overridden by the log's own settings and by those of the run. Throws UserError as
-/// benchmark_settings().
+/// The default settings, overridden by the settings of the log, then by matcher, seed and threads of the run.
+/// Throws UserError as benchmark_settings().
 Settings settings_of(const FreiburgRun& run);
 
 /// All settings, with a line "section.key = value" for each. Equal texts mean equal settings.
@@ -50,14 +50,14 @@ std::string settings_text(const Settings& settings);
 
 struct FreiburgFigures : RunFigures {
   std::size_t loops_accepted = 0;
-  std::size_t loops_judged = 0;       ///< accepted loops that a true relation can judge: see loop_judgement.h
-  std::size_t loops_false = 0;        ///< judged loops that contradict the relation
+  std::size_t loops_judged = 0;       ///< accepted loops that a relation can judge, see loop_judgement.h
+  std::size_t loops_false = 0;        ///< judged loops that contradict a relation
   std::optional<double> loop_recall;  ///< empty if no relation connects two passes of one place
 };
 
 /// Maps the log and evaluates its path, without drawing a map or writing files. Throws UserError as
-/// MappingSession and evaluate_relations(), and when the log ends early: figures of a part would not be
-/// comparable.
+/// MappingSession and evaluate_relations(), and when the log ends early, because figures of a part of a log
+/// are not comparable.
 FreiburgFigures map_and_evaluate(const FreiburgRun& run);
 
 /// The figures as one line of JSON, for read_figures().
@@ -68,12 +68,12 @@ std::optional<FreiburgFigures> read_figures(const std::string& json);
 
 struct FreiburgOptions {
   std::vector<std::string> matchers = freiburg_matchers();
-  SeedRange seeds{1, 10};        ///< a matcher without random numbers runs only with the first
-  int processes = 1;             ///< runs at a time
-  int threads = 1;               ///< of each run
+  SeedRange seeds{1, 10};        ///< a matcher without random numbers runs only with the first seed
+  int processes = 1;             ///< number of runs at a time
+  int threads = 1;               ///< number of threads of each run
   std::filesystem::path output;  ///< results are kept in output/runs/LOG-MATCHER-SEED.json
   std::filesystem::path program = "/proc/self/exe";  ///< psi-slam-bench, which makes the runs
-  ChildWorkers workers{};                            ///< empty: `processes` on this machine
+  ChildWorkers workers{};                            ///< empty: starts child processes on this machine
 };
 
 struct FreiburgResult {
@@ -83,11 +83,11 @@ struct FreiburgResult {
   bool made = false;    ///< true: the run was made now; false: its result was kept from before
 };
 
-/// One log with one matcher.
+/// Runs of one log with one matcher.
 struct FreiburgCell {
   std::string log;
   std::string matcher;
-  std::vector<FreiburgResult> runs;  ///< by seed
+  std::vector<FreiburgResult> runs;  ///< ordered by seed
 };
 
 /// Figures of one log with one matcher over all seeds: means and spreads, not the best run.
@@ -95,33 +95,34 @@ struct CellFigures {
   std::size_t runs = 0;    ///< successful runs
   std::size_t failed = 0;  ///< failed runs
   PathErrors errors;       ///< means and standard deviations of the runs, averaged over the seeds
-  std::array<SeedSpread, kPathFigures.size()> spread;  ///< of the mean errors, in the order of kPathFigures
-  double relations_used = 0;                           ///< mean over the seeds
+  /// Spread of the mean errors over the seeds, in the order of kPathFigures.
+  std::array<SeedSpread, kPathFigures.size()> spread;
+  double relations_used = 0;  ///< mean over the seeds
   double relations_skipped = 0;
   SeedSpread loops_accepted;
   SeedSpread loops_judged;
   SeedSpread loops_false;
-  std::optional<SeedSpread> loop_recall;  ///< of the runs that have a recall; may be empty
+  std::optional<SeedSpread> loop_recall;  ///< spread over the runs with a recall; empty without such runs
   SeedSpread wall_s;
   SeedSpread cpu_s;
   SeedSpread real_time_factor;
   SeedSpread peak_memory_mib;
 };
 
-/// Empty if every run failed.
+/// Figures over the successful runs of a cell; empty if every run failed.
 std::optional<CellFigures> figures_of(const FreiburgCell& cell);
 
 struct FreiburgBenchmark {
   std::vector<LogIdentity> logs;
-  std::vector<FreiburgCell> cells;             ///< by log, then matcher
+  std::vector<FreiburgCell> cells;             ///< ordered by log, then matcher
   std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
   std::vector<std::string> left_out;           ///< logs that --logs does not name
   FoundBaselines baselines;                    ///< empty without --baselines
   std::vector<BaselineResult> baseline_results;
 };
 
-/// Makes the runs that have no kept results. All `logs` need relations. A run that fails does not stop the
-/// others. When `stop` becomes true, ends the running processes and throws SystemFailure; finished results
+/// Makes the runs that have no kept results. All `logs` need relations. After a failed run, goes on with the
+/// next run. When `stop` becomes true, ends the running processes and throws SystemFailure; finished results
 /// are kept. Also throws SystemFailure when a file cannot be written. Calls `progress` from several threads,
 /// one at a time.
 FreiburgBenchmark run_freiburg_benchmark(const std::vector<BenchmarkLog>& logs,

@@ -25,11 +25,11 @@ struct FreiburgArguments : BenchArguments {
 void check_once(const std::vector<std::string>& names, const std::string& option) {
   for (auto name = names.begin(); name != names.end(); ++name)
     if (std::find(names.begin(), name, *name) != name)
-      throw UserError(option + ": " + *name + " is named twice");
+      throw UserError(option + ": " + *name + " is named twice: name it once");
 }
 
-/// The installed baselines if --baselines is given, with a warning for each missing one. Throws UserError
-/// when all are missing.
+/// Finds the installed baselines if --baselines is given. Prints a warning for each missing baseline. Throws
+/// UserError when all are missing.
 FoundBaselines baselines_of(const FreiburgArguments& arguments, const Streams& streams) {
   if (!arguments.baselines) return {};
   const char* const search_path = std::getenv("PATH");
@@ -101,7 +101,7 @@ void add_freiburg_command(CLI::App& app, const Streams& streams, const FreiburgO
   freiburg.add_option("--threads", options.threads, "Number of threads of each run")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  if (!options.workers) {  // runs on this machine
+  if (!options.workers) {  // the runs are child processes, not orders to other ranks
     freiburg
         .add_option("--processes", options.processes,
                     "Number of runs at a time; measured times are only meaningful with 1")

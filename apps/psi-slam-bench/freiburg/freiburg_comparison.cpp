@@ -17,7 +17,7 @@ std::string our_matcher(const FreiburgBenchmark& benchmark) {
   return benchmark.cells.empty() ? "adaptive" : benchmark.cells.front().matcher;
 }
 
-/// The logs of the Freiburg benchmark, then other mapped logs.
+/// The logs of the Freiburg benchmark, then all other mapped logs.
 std::vector<BenchmarkLogTitle> logs_of(const FreiburgBenchmark& benchmark) {
   std::vector<BenchmarkLogTitle> logs = benchmark_log_titles();
   for (const LogIdentity& log : benchmark.logs) {
@@ -46,7 +46,7 @@ PublishedSystem our_system(const FreiburgBenchmark& benchmark) {
   return system;
 }
 
-/// The figures of a baseline that was run here.
+/// Figures of a baseline that this benchmark ran.
 PublishedSystem baseline_system(const BaselineProgram& baseline, const std::vector<BaselineResult>& results) {
   PublishedSystem system{"MRPT " + baseline.kind.name + " (run here)",
                          baseline.version + ", run here on the same log, every scan, with " +
@@ -79,13 +79,13 @@ ReportCell cell_of(const std::optional<PublishedFigure>& value, bool best) {
           best};
 }
 
-/// The footnotes for the marks in the table.
+/// Footnotes that explain the marks in the table.
 std::string footnotes(const std::string& table) {
   std::string text;
   if (table.find(kUncheckedMark) != std::string::npos)
     text += "\n† quoted from memory and not checked against the source.\n";
   if (table.find(kFailedMark) != std::string::npos)
-    text += "\n‡ some runs failed; the mean is over the others.\n";
+    text += "\n‡ some runs failed; the mean is over the successful runs.\n";
   return text;
 }
 

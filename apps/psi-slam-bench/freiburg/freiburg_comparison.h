@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// psi-slam compared with other systems: a column for each system, a row for each error of each log. Figures
-// of other systems are published ones, and results of their programs on these logs. Each system names the
-// source of its figures.
+// Compares psi-slam with other systems in a table: a column for each system, a row for each error of each
+// log. Figures of other systems are published, or measured by running their programs on the same logs. Each
+// system names the source of its figures.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace psi_slam {
 
-/// A mean over the relations, with its standard deviation if that was published.
+/// A mean error over the relations, with its standard deviation if that was published.
 struct PublishedFigure {
   double mean = 0;
   std::optional<double> std;
@@ -21,7 +21,7 @@ struct PublishedFigure {
   std::size_t failed_runs = 0;  ///< runs of psi-slam that the mean leaves out
 };
 
-/// In the order of kPathFigures; empty where nothing was published.
+/// Errors in the order and units of kPathFigures; empty where nothing was published.
 using PublishedErrors = std::array<std::optional<PublishedFigure>, kPaperFigures>;
 
 struct PublishedLog {
@@ -34,7 +34,7 @@ struct PublishedSystem {
   std::string source;  ///< one or more sentences
   std::vector<PublishedLog> logs;
 
-  /// Null if the system has no figures for that log.
+  /// Errors on a log; null if the system has no figures for it.
   const PublishedErrors* errors_of(const std::string& log) const;
 };
 
@@ -47,30 +47,30 @@ struct BenchmarkLogTitle {
 };
 const std::vector<BenchmarkLogTitle>& benchmark_log_titles();
 
-/// "hospital" is "fr-hospital"; every other name is itself.
+/// Name of a log in benchmark_log_titles(): "fr-hospital" for "hospital", and `name` itself otherwise.
 std::string benchmark_log_name(const std::string& name);
 
-/// The usual name of a log of the benchmark; the name itself for other logs.
+/// Usual name of a log of the Freiburg benchmark; `name` itself for all other logs.
 std::string benchmark_log_title(const std::string& name);
 
 struct ComparisonRow {
-  std::string log;                                     ///< "Intel"
+  std::string log;                                     ///< usual name of the log: "Intel"
   std::size_t figure;                                  ///< index in kPathFigures
-  std::vector<std::optional<PublishedFigure>> values;  ///< by column
-  std::vector<bool> best;                              ///< by column: true for the least mean of the row
+  std::vector<std::optional<PublishedFigure>> values;  ///< one for each column
+  std::vector<bool> best;  ///< for each column: true for the least mean of the row
 };
 
 struct Comparison {
   std::vector<PublishedSystem> columns;  ///< the first is psi-slam
-  std::vector<ComparisonRow> rows;       ///< four for each log
+  std::vector<ComparisonRow> rows;       ///< for each log, one row for each of its four errors
 };
 
-/// The adaptive matcher represents psi-slam, or the first matcher if the adaptive one was not run. Rows are
-/// the logs of the Freiburg benchmark, then other mapped logs.
+/// Compares all systems. The adaptive matcher represents psi-slam, or the first matcher if the adaptive one
+/// was not run. Rows are the logs of the Freiburg benchmark, then all other mapped logs.
 Comparison compare_with_others(const FreiburgBenchmark& benchmark);
 
-/// A Markdown table with the best figure of each row in bold, followed by footnotes for marked figures: ours
-/// if some runs failed, and published ones that are unchecked.
+/// Markdown table with the best figure of each row in bold. Footnotes explain two marks: figures of psi-slam
+/// with failed runs, and unchecked published figures.
 std::string comparison_table(const Comparison& comparison);
 
 /// Bars of the mean translational error on the log with this title ("Intel"), as SVG. Empty without figures

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A cell of the benchmark with its figures; without figures if every run failed.
+/// A cell of the benchmark with its figures, which are empty if every run failed.
 struct CellRow {
   const FreiburgCell* cell;
   std::optional<CellFigures> figures;
@@ -28,7 +28,8 @@ std::vector<CellRow> rows_of(const FreiburgBenchmark& benchmark, bool with_faile
   return rows;
 }
 
-/// "10", "8, 2 failed", "1 run: draws no random numbers"; the reason if every run failed.
+/// Text of the column "runs": "10", "8, 2 failed", "1 run: draws no random numbers", or the reason if every
+/// run failed.
 std::string runs_text(const CellRow& row) {
   if (!row.figures) return "failed: " + row.cell->runs.front().failure;
   std::string text = std::to_string(row.figures->runs);
@@ -139,7 +140,7 @@ std::string failures_text(const FreiburgBenchmark& benchmark) {
   return text.empty() ? text : "## Runs that failed\n\n" + text + '\n';
 }
 
-/// The logs of the Freiburg benchmark that were not mapped, and why.
+/// Lists the logs of the Freiburg benchmark that were not mapped, with the reasons.
 std::string missing_text(const FreiburgBenchmark& benchmark) {
   std::string text;
   for (const BenchmarkLogTitle& title : benchmark_log_titles()) {
@@ -244,11 +245,11 @@ std::string markdown_of(const FreiburgBenchmark& benchmark, const Comparison& co
       counted(static_cast<std::size_t>(options.threads), "thread", "threads") + " each, " +
       seeds_text(options.seeds) + ".\n\n";
   text +=
-      "- errors: metric of Kümmerle et al. 2009, mean ± standard deviation over all true relations, "
+      "- errors: metric of Kümmerle et al. 2009, mean ± standard deviation over all relations, "
       "averaged over all seeds\n"
       "- translation, Cartographer's variant: translational error as computed by the tool of Hess et al.\n"
-      "- false of judged: accepted loops that a true relation contradicts, out of those that a true "
-      "relation can judge; averaged over all seeds\n"
+      "- false of judged: accepted loops that a relation contradicts, out of those that a relation "
+      "can judge; averaged over all seeds\n"
       "- recall: share of the relations between two visits to a place whose neighbourhoods a loop joins; "
       "averaged over all seeds\n"
       "- times and memory: of the whole process, which reads the log, maps it and evaluates the path, but "

@@ -15,7 +15,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// Length of the path between a node and a local map; 0 for nodes of the local map.
+/// Length of the path in metres between a node and a local map; 0 for nodes of the local map.
 double travel_between_m(const KeyframeStore& memory, std::size_t node, const PlacedLocalMap& map) {
   const double here_m = memory.nodes[node].travelled_m;
   return std::max({0.0, here_m - memory.nodes[map.last_node].travelled_m,
@@ -33,7 +33,7 @@ double nearest_node_m(const MappedLog& log, std::size_t node, const PlacedLocalM
   return std::sqrt(nearest);
 }
 
-/// All pairs of a node and a local map for cases, by local map, then node.
+/// All pairs of a node and a local map that suit positive or negative cases, ordered by local map, then node.
 std::vector<std::pair<std::size_t, std::size_t>> pairs(const MappedLog& log, const CaseOptions& options,
                                                        bool positive) {
   std::vector<std::pair<std::size_t, std::size_t>> result;

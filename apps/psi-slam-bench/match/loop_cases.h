@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cases for the matchers, drawn from a mapped log: a scan, a finished local map of another time, and a start
-// pose as far from the truth as the prediction of a loop may be.
+// Cases for the matchers, drawn from a mapped log. Each case has a scan, a finished local map of another
+// time, and a start pose as far from the truth as the prediction of a loop may be.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -20,18 +20,19 @@
 
 namespace psi_slam {
 
-/// A mapped log: the data of a loop closer, and the true poses.
+/// A mapped log: the nodes and local maps that loops join, and the optimised poses, which serve as truth.
 struct MappedLog {
   std::string name;
   MapperOptions options;
-  KeyframeStore memory;                         ///< of the whole log
-  std::vector<mrpt::math::TPose2D> map_T_node;  ///< optimised
-  std::vector<MatcherKind> adaptive_matcher;    ///< by node: the adaptive matcher's choice
-  double translation_error_m = 0;               ///< mean over the true relations
+  KeyframeStore memory;                         ///< all nodes and local maps of the log
+  std::vector<mrpt::math::TPose2D> map_T_node;  ///< optimised poses of the nodes
+  std::vector<MatcherKind> adaptive_matcher;    ///< matcher that Ψ chose at each node
+  double translation_error_m = 0;               ///< mean over the relations
 };
 
 /// Maps a log with relations. Local maps get `nodes_per_local_map` nodes, and a path of proportional length.
-/// Calls `progress` with the share that is done. Throws UserError as open_log() and read_relations().
+/// Calls `progress` with the share of the log that is read. Throws UserError as open_log() and
+/// read_relations().
 MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
                   const std::function<void(double)>& progress);
 
@@ -42,7 +43,7 @@ struct CaseOptions {
   std::size_t count = 250;  ///< number of positive cases, and of negative ones
   std::uint64_t seed = 1;
 
-  double min_travel_m = 10;  ///< least path between node and local map: closer ones share scans
+  double min_travel_m = 10;  ///< least path between node and local map: closer pairs may share scans
   double near_m = 1.5;       ///< positive: largest distance from the node to a node of the local map
   double clear_m = 20;       ///< negative: least distance beyond window_m to all nodes of the local map
   double min_observed_share = 0.7;  ///< positive: least share of points in observed space of the local map
@@ -54,14 +55,14 @@ struct CaseOptions {
 
 struct LoopCase {
   bool positive = false;      ///< the scan was taken in the local map; otherwise far away from it
-  std::size_t node = 0;       ///< of the scan
+  std::size_t node = 0;       ///< node of the scan
   std::size_t local_map = 0;  ///< index in KeyframeStore::local_maps
   std::shared_ptr<const ScanPoints> scan;
   std::shared_ptr<const LocalMap> map;
-  mrpt::math::TPose2D anchor_T_node;  ///< true pose; of negative cases, outside the window
+  mrpt::math::TPose2D anchor_T_node;  ///< true pose of the node; outside the window in negative cases
   mrpt::math::TPose2D start;          ///< centre of the window
   MatchSeed seed;
-  MatcherKind adaptive_matcher = MatcherKind::kCsm;  ///< for the adaptive candidate
+  MatcherKind adaptive_matcher = MatcherKind::kCsm;  ///< matcher that the adaptive candidate uses
 };
 
 /// Draws `count` positive cases, then `count` negative ones, or fewer if the log has no more. Each pair of

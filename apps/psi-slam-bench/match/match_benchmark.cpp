@@ -23,7 +23,7 @@ std::optional<double> share(std::size_t part, std::size_t all) {
   return static_cast<double>(part) / static_cast<double>(all);
 }
 
-/// The memetic search without one of its steps.
+/// The memetic genetic search with one of its steps switched off.
 struct Ablation {
   const char* name;
   void (*apply)(MemeticGeneticOptions&);
@@ -44,7 +44,7 @@ constexpr Ablation kAblations[] = {
 };
 
 const std::size_t kUsualNodesPerLocalMap = FrontEndOptions().nodes_per_local_map;
-constexpr std::size_t kFewerCases = 5;  // series over sizes draw a fifth of the cases
+constexpr std::size_t kFewerCases = 5;  // series over window and map sizes draw a fifth of the cases
 
 std::string md5_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -71,7 +71,7 @@ MatchBenchmark plan(const MatchBenchmarkOptions& options) {
   fewer.cases = std::max<std::size_t>(1, options.cases / kFewerCases);
   for (const double window_m : {2.0, 4.0, 8.0, 16.0}) {
     MatchSeries series = make_series("±" + fixed_text(window_m, 0) + " m", fewer, CandidateSet::kMatchers);
-    // The same distance for windows of all sizes, so that all have the same negative pairs.
+    // Keeps window_m + clear_m constant, so that windows of all sizes have the same negative pairs.
     series.cases.clear_m += series.cases.window_m - window_m;
     series.cases.window_m = window_m;
     benchmark.windows.push_back(std::move(series));
@@ -85,7 +85,7 @@ MatchBenchmark plan(const MatchBenchmarkOptions& options) {
   return benchmark;
 }
 
-/// All series by the size of their local maps: a log is mapped once for each size.
+/// All series by the number of nodes of their local maps. A log is mapped once for each number.
 std::map<std::size_t, std::vector<MatchSeries*>> series_by_nodes(MatchBenchmark& benchmark) {
   std::map<std::size_t, std::vector<MatchSeries*>> result;
   const auto add = [&result](MatchSeries& series) { result[series.nodes_per_local_map].push_back(&series); };
@@ -134,7 +134,7 @@ void run_log(const BenchmarkLog& log, std::size_t nodes, const std::vector<Match
   if (usual) note.translation_error_m = mapped.translation_error_m;
   if (mapped.translation_error_m > kTrustedError_m) {
     if (usual) note.used = false;
-    add_remark(note, "left out" + of_maps + ": the error of its map over the true relations, " +
+    add_remark(note, "left out" + of_maps + ": the error of its map over the relations, " +
                          fixed_text(mapped.translation_error_m, 3) + " m, is too large for a truth");
     return;
   }
@@ -257,7 +257,7 @@ void run_cases(const std::vector<LoopCase>& cases, const std::vector<MatchCandid
     problem.min_response = kReportedShare * accepted_response;
     problem.measure_ambiguity = true;
     problem.seed = loop_case.seed;
-    // Each case starts with another candidate, so that cache misses hit all candidates alike.
+    // Each case starts with a different candidate, which spreads cache misses over all candidates.
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       const std::size_t at = (i + k) % candidates.size();
       const auto& matchers = candidates[at].matchers;
@@ -280,7 +280,7 @@ MatchBenchmark run_match_benchmark(const std::vector<BenchmarkLog>& logs,
                                    const MatchBenchmarkOptions& options, const ProgressObserver& observer) {
   MatchBenchmark benchmark = plan(options);
   const auto by_nodes = series_by_nodes(benchmark);
-  double all = 0;  // progress counts matches: mapping takes much less time
+  double all = 0;  // progress counts only matches, because mapping takes much less time
   for (const auto& [nodes, all_series] : by_nodes)
     all += static_cast<double>(logs.size()) * planned_matches(all_series);
   double done = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares the matchers: those of the settings, the one of the paper, and the genetic matcher with one of its
-// steps switched off at a time. Runs every candidate on every case.
+// Compares matchers: the matchers of the settings, the genetic search of the paper, and genetic searches with
+// one step switched off. Runs every candidate on every case.
 #pragma once
 
 #include <cstddef>
@@ -25,11 +25,12 @@ inline constexpr double kSuccess_rad = radians_from_degrees(3.5L);
 
 struct Judgement {
   bool success = false;       ///< positive cases: found within the limits above
-  bool same_optimum = false;  ///< positive cases: at least as good as exact CSM's match, or none by either
+  bool same_optimum = false;  ///< positive cases: response not below exact CSM's, or no match by either
   bool false_accept = false;  ///< negative cases: found with a response that loop closing would accept
 };
 
-/// `exact` is the match of exact CSM in the same case.
+/// Judges a match. `exact` is the match of exact CSM in the same case. `accepted_response` is the least
+/// response that loop closing accepts.
 Judgement judge(const LoopCase& loop_case, const MatchResult& match, const MatchResult& exact,
                 double accepted_response);
 
@@ -44,12 +45,12 @@ struct MatchFigures {
   std::size_t cases = 0;
   std::size_t positive = 0;
   std::size_t negative = 0;
-  std::optional<double> success_rate;       ///< of the positive cases; empty without positive cases
-  std::optional<double> same_optimum_rate;  ///< of the positive cases; empty without positive cases
-  std::optional<double> false_accept_rate;  ///< of the negative cases; empty without negative cases
-  double evaluations = 0;                   ///< mean
+  std::optional<double> success_rate;       ///< share of the positive cases; empty without positive cases
+  std::optional<double> same_optimum_rate;  ///< share of the positive cases; empty without positive cases
+  std::optional<double> false_accept_rate;  ///< share of the negative cases; empty without negative cases
+  double evaluations = 0;                   ///< mean number of scored poses
   TimeFigures time_ms;
-  /// Share of the decoded codes that lay outside the window.
+  /// Share of the decoded chromosomes that lay outside the window; empty for matchers without chromosomes.
   std::optional<double> repaired_share;
 };
 
@@ -58,7 +59,7 @@ class MatchTally {
  public:
   void add(const LoopCase& loop_case, const Judgement& judgement, const MatchResult& match, double time_ms);
 
-  /// The percentile p of n values is the value of rank floor(p n / 100), counted from 0.
+  /// Figures of all cases so far. The percentile p of n values has the rank floor(p n / 100), counted from 0.
   MatchFigures figures() const;
 
  private:
@@ -72,19 +73,20 @@ class MatchTally {
   std::vector<double> times_ms_;
 };
 
-/// A row of the tables.
+/// A matcher to compare, which has a row in each table.
 struct MatchCandidate {
   std::string name;
-  /// A single matcher, or one of each MatcherKind in their order: then each case names the one to use.
+  /// A single matcher, or one of each MatcherKind in their order. In the latter case,
+  /// LoopCase::adaptive_matcher chooses.
   std::vector<std::shared_ptr<const Matcher>> matchers;
 };
 
 enum class CandidateSet {
-  kAll,       ///< with all ablations
+  kAll,       ///< all matchers and all ablations
   kMatchers,  ///< csm, csm_ga, ga and ga_paper
 };
 
-/// The first candidate is exact CSM, with which the others are compared.
+/// Makes the candidates. The first is exact CSM, with which all other candidates are compared.
 std::vector<MatchCandidate> match_candidates(CandidateSet set, const MapperOptions& options);
 
 /// Cases of one kind, drawn from every log: one table of the report.
@@ -98,11 +100,11 @@ struct MatchSeries {
     std::string matcher;
     MatchTally tally;
   };
-  std::vector<Row> rows;  ///< by candidate, of the cases run so far; the first is exact CSM
+  std::vector<Row> rows;  ///< one for each candidate, over the cases run so far; the first is exact CSM
 };
 
 struct MatchBenchmarkOptions {
-  std::size_t cases = 250;  ///< positive and negative cases from each log
+  std::size_t cases = 250;  ///< number of positive cases from each log, and of negative cases
   std::uint64_t seed = 1;
   bool windows = false;  ///< also compare over window sizes and sizes of local maps
 };
@@ -110,7 +112,7 @@ struct MatchBenchmarkOptions {
 /// Use of a log in the benchmark.
 struct LogNote {
   std::string name;
-  std::string md5;  ///< of the log file
+  std::string md5;  ///< checksum of the log file
   std::optional<double> translation_error_m;
   std::size_t positive = 0;  ///< cases of the first series
   std::size_t negative = 0;
@@ -122,11 +124,11 @@ struct MatchBenchmark {
   std::vector<LogNote> logs;
   MatchSeries scans;
   MatchSeries contexts;
-  std::vector<MatchSeries> windows;     ///< by half-width; may be empty
-  std::vector<MatchSeries> local_maps;  ///< by nodes of a local map; may be empty
+  std::vector<MatchSeries> windows;     ///< one for each half-width of the window; may be empty
+  std::vector<MatchSeries> local_maps;  ///< one for each number of nodes of a local map; may be empty
 };
 
-/// Largest error of a map over the true relations for which its poses serve as truth.
+/// Largest mean error over the relations, in metres, of a map whose poses serve as truth.
 inline constexpr double kTrustedError_m = 0.2;
 
 /// Runs every candidate on every case in this thread, case by case, and adds the results to the rows of the

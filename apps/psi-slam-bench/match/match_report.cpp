@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Rounded to the decimals that mean something; null without a finite value.
+/// The value rounded to `decimals`; null if it is missing or not finite.
 Json rounded(const std::optional<double>& value, int decimals) {
   if (!value || !std::isfinite(*value)) return nullptr;
   const double scale = std::pow(10.0, decimals);
@@ -31,7 +31,7 @@ ReportCell ratio(double part, double whole, int decimals = 2) {
   return cell(whole > 0 ? "× " + fixed_text(part / whole, decimals) : "× –");
 }
 
-/// A candidate in one series.
+/// Figures of a candidate in one series.
 struct CandidateRow {
   std::string series;
   std::string matcher;
@@ -76,7 +76,7 @@ ReportTable table_of_series(const std::vector<MatchSeries>& all_series, const st
       rows_of(all_series));
 }
 
-/// Each matcher compared with exact CSM, the first.
+/// Table that compares each matcher with exact CSM, the first row of the series.
 ReportTable against_csm(const MatchSeries& series) {
   std::vector<CandidateRow> rows = rows_of({series});
   const MatchFigures csm = rows.front().figures;

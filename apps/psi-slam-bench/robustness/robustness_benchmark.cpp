@@ -25,9 +25,9 @@ constexpr double kStretch_m = 1;
 constexpr double kStretch_rad = 1;
 
 /// A stretch of the path and the error of odometry over it. Sums the errors of the steps in the frame of the
-/// map, so that a wrong heading does not add to the error of the position.
+/// map. A wrong heading therefore does not add to the error of the position.
 struct Stretch {
-  double way_m = 0;     // by odometry, which has no jitter while the robot stands
+  double way_m = 0;     // length by odometry, which has no jitter while the robot stands
   double turn_rad = 0;  // sum of absolute rotations
   double off_x_m = 0;
   double off_y_m = 0;
@@ -58,7 +58,8 @@ std::vector<Stretch> stretches_of(const std::vector<TPose2D>& odom_T_robot,
   return stretches;
 }
 
-/// Variances per metre and per radian: least squares of off_rad^2 = a way + b turn with a, b >= 0.
+/// Splits heading errors into variances a per metre and b per radian: least squares of
+/// off_rad^2 = a way_m + b turn_rad with a, b >= 0.
 void split_heading(const std::vector<Stretch>& stretches, OdometryNoise& noise) {
   double ww = 0, wt = 0, tt = 0, we = 0, te = 0;
   for (const Stretch& stretch : stretches) {
@@ -72,7 +73,7 @@ void split_heading(const std::vector<Stretch>& stretches, OdometryNoise& noise) 
   const double determinant = ww * tt - wt * wt;
   double a = determinant > 1e-9 * ww * tt ? (we * tt - te * wt) / determinant : -1;
   double b = determinant > 1e-9 * ww * tt ? (te * ww - we * wt) / determinant : -1;
-  if (a < 0 || b < 0) {  // a negative one is set to 0
+  if (a < 0 || b < 0) {  // no variance is negative: fits only one of a and b
     const bool way_only = a >= 0 || (b < 0 && ww >= tt);
     a = way_only && ww > 0 ? we / ww : 0;
     b = !way_only && tt > 0 ? te / tt : 0;
@@ -111,7 +112,8 @@ RobustnessRow row_of(const MappingResult& result, const std::vector<Relation>& r
   return row;
 }
 
-/// The cases in order, with all seeds if they draw random numbers, otherwise with the first.
+/// Runs in the order of their cases. A case that draws random numbers has a run for each seed, and any other
+/// case has one run with the first seed.
 std::vector<RobustnessCase> runs_of(const SeedRange& seeds) {
   std::vector<RobustnessCase> runs;
   for (RobustnessCase degraded : robustness_cases(seeds.first))
@@ -151,7 +153,7 @@ DegradedSource::DegradedSource(std::unique_ptr<FrameSource> source, const Degrad
 
 std::optional<Frame> DegradedSource::next() {
   while (auto frame = source_->next()) {
-    spoil_odometry(*frame);  // also of skipped frames, so that the noise does not depend on keep_every_nth
+    spoil_odometry(*frame);  // also for skipped frames: the noise must not depend on keep_every_nth
     if (read_++ % options_.keep_every_nth != 0) continue;
     frame->index = kept_++;
     narrow(frame->scan);

@@ -20,20 +20,20 @@
 
 namespace psi_slam {
 
-/// Noise of odometry as a random walk: errors of successive stretches are independent, so that their
-/// variances grow with the distance and the rotation that odometry measures.
+/// Noise of odometry as a random walk. Errors of successive stretches are independent: their variances grow
+/// with the distance and the rotation that odometry measures.
 struct OdometryNoise {
-  double sigma_m_per_root_m = 0;      ///< of the position along each axis, after 1 m
-  double sigma_rad_per_root_m = 0;    ///< of the heading, after 1 m straight ahead
-  double sigma_rad_per_root_rad = 0;  ///< of the heading, after 1 rad on the spot
+  double sigma_m_per_root_m = 0;      ///< standard deviation of the position along each axis after 1 m
+  double sigma_rad_per_root_m = 0;    ///< standard deviation of the heading after 1 m straight ahead
+  double sigma_rad_per_root_rad = 0;  ///< standard deviation of the heading after 1 rad on the spot
 };
 
 /// Measures the noise of odometry against the true poses of the robot: root mean squares of the differences
-/// over successive stretches of at least 1 m or 1 rad by odometry. Compares positions along the true
+/// over successive stretches of at least 1 m or 1 rad by odometry. Compares the motions along the true
 /// headings, so that a wrong heading does not add to the error of the position. Splits the error of the
-/// heading between distance and rotation by least squares; the split is ambiguous if both are always in the
-/// same proportion. Zero without a complete stretch. Throws std::invalid_argument for paths of different
-/// lengths.
+/// heading between distance and rotation by least squares. The split is ambiguous if distance and rotation
+/// are always in the same proportion. Zero without a complete stretch. Throws std::invalid_argument if the
+/// numbers of poses differ.
 OdometryNoise measure_odometry_noise(const std::vector<mrpt::math::TPose2D>& odom_T_robot,
                                      const std::vector<mrpt::math::TPose2D>& map_T_robot);
 
@@ -46,16 +46,16 @@ struct DegradationOptions {
   std::size_t keep_every_nth = 1;           ///< keeps every nth scan, starting with the first
   std::optional<double> field_of_view_rad;  ///< centred ahead of the laser; other beams have no return
   bool no_odometry = false;                 ///< removes odometry from the frames
-  std::uint64_t seed = 1;                   ///< of the noise
+  std::uint64_t seed = 1;                   ///< seed of the noise
 };
 
-/// A source that degrades the frames of another one.
+/// Frame source that degrades the frames of another source.
 class DegradedSource : public FrameSource {
  public:
   /// Throws std::invalid_argument if keep_every_nth is 0 or the field of view is not positive.
   DegradedSource(std::unique_ptr<FrameSource> source, const DegradationOptions& options);
 
-  /// Frame indices count the kept scans.
+  /// Next kept frame. Frame::index counts the kept frames.
   std::optional<Frame> next() override;
   double progress() const override { return source_->progress(); }
   SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
@@ -69,14 +69,14 @@ class DegradedSource : public FrameSource {
   RandomDraws draws_;
   std::size_t read_ = 0;
   std::size_t kept_ = 0;
-  std::optional<mrpt::math::TPose2D> last_odom_T_robot_;  ///< of the previous frame in the log
+  std::optional<mrpt::math::TPose2D> last_odom_T_robot_;  ///< odometry of the previous frame in the log
   mrpt::math::TPose2D spoilt_odom_T_robot_;
 };
 
 /// One way to degrade a log.
 struct RobustnessCase {
-  std::string series;  ///< curve of the plot: "odometry noise", ...
-  std::string name;    ///< place on the curve: "× 2"
+  std::string series;  ///< name of a curve of the plot: "odometry noise", ...
+  std::string name;    ///< label of a point of the curve: "× 2"
   DegradationOptions degradation;
 };
 
@@ -89,13 +89,13 @@ std::vector<RobustnessCase> robustness_cases(std::uint64_t seed);
 struct RobustnessRow {
   std::string log;
   RobustnessCase degraded;
-  std::uint64_t seed = 1;          ///< of the noise
-  double translation_error_m = 0;  ///< mean over the true relations
-  double rotation_error_deg = 0;   ///< mean over the true relations
+  std::uint64_t seed = 1;          ///< seed of the noise
+  double translation_error_m = 0;  ///< mean over the relations
+  double rotation_error_deg = 0;   ///< mean over the relations
   std::size_t relations = 0;       ///< evaluated relations; those in long gaps of the path are not evaluated
   std::size_t scans = 0;
   std::size_t unmatched = 0;  ///< scans that the front end could not match, except the first
-  std::size_t loops = 0;      ///< accepted
+  std::size_t loops = 0;      ///< accepted loops
   std::optional<double> loop_precision;
   std::optional<double> loop_recall;
 };
@@ -109,10 +109,10 @@ struct RobustnessBenchmark {
   std::vector<LogIdentity> identities;
   std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
   std::vector<RobustnessLog> logs;
-  std::vector<RobustnessRow> rows;  ///< by log, then case, then seed
+  std::vector<RobustnessRow> rows;  ///< ordered by log, case and seed
 };
 
-/// Maps each log once for each different case, or once for each seed if the case depends on it. Throws
+/// Maps each log once for each different case, or once for each seed if the case draws random numbers. Throws
 /// UserError as open_log() and read_relations().
 RobustnessBenchmark run_robustness_benchmark(const std::vector<BenchmarkLog>& logs, const SeedRange& seeds,
                                              const ProgressObserver& observer);

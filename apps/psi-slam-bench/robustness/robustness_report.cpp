@@ -27,7 +27,7 @@ SeedSpread over_seeds(const Runs& runs, Figure RobustnessRow::*figure) {
   return spread_over(runs, [figure](const RobustnessRow& run) { return run.*figure; });
 }
 
-/// Mean in percent, over the runs that have the share.
+/// Mean over the runs that have the share: in percent in Markdown, as a fraction in JSON.
 ReportCell percent(const Runs& runs, std::optional<double> RobustnessRow::*share) {
   std::vector<double> known;
   for (const RobustnessRow& run : runs)
@@ -132,7 +132,7 @@ std::string markdown_of(const RobustnessBenchmark& benchmark, const SeedRange& s
       "# Degraded logs\n\nThis page shows how the maps get worse if odometry is noisy or missing, scans are "
       "rare or the field of view is narrow.\n\n" +
       measured_by(machine) + "; " + seeds_text(seeds) +
-      " of the noise. Errors are means over the true relations.\n\n";
+      " of the noise. Errors are means over the relations.\n\n";
   text +=
       "- odometry noise × k: each step of odometry gets normal noise of √(k² - 1) times its natural noise, "
       "so that its error grows to about k times its original value. The natural noise is measured over "
@@ -142,7 +142,7 @@ std::string markdown_of(const RobustnessBenchmark& benchmark, const SeedRange& s
       "- scans kept: all other scans are removed. Relations at the times of removed scans use interpolated "
       "poses, and the error of the interpolation is included\n"
       "- field of view: beams outside it count as no returns\n"
-      "- precision, recall: of the accepted loops, judged by the true relations\n"
+      "- precision, recall: of the accepted loops, judged by the relations\n"
       "- unmatched: scans that the front end could not match with the active local map\n"
       "- runs: one per seed if the case uses random numbers, otherwise one. With several runs, errors are "
       "mean ± sample standard deviation [worst] and other figures are means\n"

@@ -20,7 +20,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Random pairs: each first node is combined with several others, which costs little more than with one.
+// Numbers of first and second nodes of the random pairs. Several second nodes for one first node cost little
+// more than a single one.
 constexpr std::size_t kFirsts = 30;
 constexpr std::size_t kOthers = 20;
 

@@ -22,9 +22,10 @@ inline constexpr double kChiSquare95 = 7.815;
 
 /// Normalised squared errors of one kind of poses.
 struct NormalisedErrors {
-  std::string of;  ///< "scans in local maps", ...
+  std::string of;  ///< kind of the poses: "scans in local maps", ...
   std::size_t count = 0;
-  double mean = 0;       ///< divided by 3: 1 for correct covariances, 4 for standard deviations half as large
+  /// Divided by 3: 1 for correct covariances, 4 if the standard deviations are half the true ones.
+  double mean = 0;
   double median = 0;     ///< divided by kChiSquareMedian: 1 for correct covariances, robust to outliers
   double beyond_95 = 0;  ///< share above kChiSquare95: 0.05 for correct covariances
 };
@@ -33,7 +34,7 @@ struct NormalisedErrors {
 double normalised_square(const mrpt::math::TPose2D& measured, const mrpt::math::TPose2D& truth,
                          const Eigen::Matrix3d& information);
 
-/// Zeros without squares.
+/// Mean, median and outer share of `squares`; zeros without squares.
 NormalisedErrors normalised_errors(std::string of, std::vector<double> squares);
 
 /// Normalised errors of the optimised graph without the final scan refinement: of local-map constraints, of

@@ -14,7 +14,7 @@
 namespace psi_slam {
 namespace {
 
-// First character of a message. Messages end with a zero.
+// First character of a message, its kind. Messages end with a zero byte.
 constexpr char kReport = 'r';
 constexpr char kResult = 't';
 constexpr char kUserError = 'u';
@@ -36,7 +36,7 @@ std::string run_forked(const std::function<std::string(const TextObserver& repor
                        const TextObserver& observer) {
   Pipe pipe;
   const pid_t pid = ::fork();
-  if (pid < 0) throw SystemFailure("cannot start a child process");
+  if (pid < 0) throw SystemFailure("cannot start a child process: too many processes, or too little memory");
   if (pid == 0) {
     pipe.close_reading();
     try {
@@ -47,7 +47,7 @@ std::string run_forked(const std::function<std::string(const TextObserver& repor
     } catch (const std::exception& error) {
       send(pipe.writing(), kFailure, error.what());
     }
-    ::_exit(0);  // without destructors and stream buffers of the parent
+    ::_exit(0);  // calls no destructors and flushes no stream buffers of the parent
   }
   RunningChild child(pid);
   pipe.close_writing();

@@ -20,8 +20,8 @@ namespace {
 using mrpt::math::TPose2D;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kPeoplePer_m = 500;
-constexpr double kScansShare = 0.6;  // of the progress; the rest is the final search
+constexpr double kPeoplePer_m = 500;  // length of path that SimulateOptions::people refers to
+constexpr double kScansShare = 0.6;   // share of the scans in the progress; the rest is the final loop search
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -49,7 +49,7 @@ void compare_with_truth(const MappingResult& result, const Trajectory& truth, st
 
 }  // namespace
 
-// The functions that nlohmann::json finds by the type of their arguments.
+// Conversions of the structs to and from nlohmann::json.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeanAndP99, mean, p99)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NormalisedErrors, of, count, mean, median, beyond_95)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SimulateRow, path_m, scans, rooms, corridors_m, nodes, local_maps,

@@ -122,7 +122,8 @@ std::string markdown_of(const Rows& rows, const SimulateOptions& options, const 
          covariances_table(rows).markdown();
 }
 
-/// `lines` are the names of the lines, each with its value for a run.
+/// SVG plot over the length of the path. Each element of `lines` has the name of a line and the function that
+/// gives its value for a run.
 std::string growth_over_path(
     const Rows& rows, const std::string& title, const std::string& unit,
     const std::vector<std::pair<std::string, std::function<double(const SimulateRow&)>>>& lines) {

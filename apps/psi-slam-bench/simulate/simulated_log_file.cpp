@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".clf.gz";
 
-/// The file beside `log` with another ending.
+/// Path of the file beside `log` that has the ending `ending` instead of kEnding.
 fs::path beside(const fs::path& log, const std::string& ending) {
   const std::string name = log.filename().string();
   return log.parent_path() / (name.substr(0, name.size() - std::string(kEnding).size()) + ending);
@@ -43,7 +43,7 @@ std::string relations_text(const std::vector<Relation>& relations) {
 }
 
 constexpr double kMargin_m = 2;
-constexpr double kWidth = 1200;           // of the picture, in pixels
+constexpr double kWidth = 1200;           // width of the picture in pixels
 constexpr double kBetweenPoints_m = 0.1;  // distance of the drawn points of the path
 
 struct Layer {
@@ -56,7 +56,7 @@ constexpr std::array<Layer, 4> kLayers = {{{Material::kFurniture, "furniture", "
                                            {Material::kGlass, "glass", "#30a8c8"},
                                            {Material::kWall, "walls", "#222222"}}};
 
-/// Point in metres with y downwards, as SVG has it.
+/// Point in metres with the y axis downwards, as in SVG.
 std::string point_text(const mrpt::math::TPoint2D& point) {
   return fixed_text(point.x, 2) + ',' + fixed_text(-point.y, 2);
 }

@@ -14,7 +14,7 @@ namespace psi_slam {
 void check_simulated_log_file(const std::filesystem::path& log);
 
 /// Writes the run as a gzipped CARMEN log NAME.clf.gz with the true poses as corrected poses. Also writes
-/// NAME.relations, true relations between random pairs of scans, and NAME.tum, the true path. Throws
+/// NAME.relations, the relations of random pairs of scans, and NAME.tum, the true path in TUM format. Throws
 /// SystemFailure when a file cannot be written.
 void write_simulated_log(const std::filesystem::path& log, const SimulatedLogOptions& run);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kWallThickness_m = 0.12;
 
-/// An opening in a wall, from .. to along the wall.
+/// An opening, or another part of a wall: an interval along the wall, in metres.
 struct Opening {
   double from = 0;
   double to = 0;
@@ -73,11 +73,11 @@ constexpr double kHallDoor_m = 1.8;
 constexpr double kDoorToWall_m = 1.0;  // least distance from the middle of a door to the side walls
 constexpr double kNarrowestRoom_m = 3.2;
 constexpr double kWidestRoom_m = 7.5;
-constexpr double kFurnitureClear_m = 0.6;  // from the straight path into a room
+constexpr double kFurnitureClear_m = 0.6;  // least distance of furniture from the straight path into a room
 
-/// Positions along one axis of the parallel corridors across it, and of the blocks between them.
+/// Positions of parallel corridors, and of the blocks between them, along the axis that they cross.
 struct Axis {
-  std::vector<double> corridor;  ///< lower edges
+  std::vector<double> corridor;  ///< coordinates of the lower edges
   std::vector<double> width;
 
   double middle(std::size_t i) const { return corridor[i] + width[i] / 2; }
@@ -93,7 +93,7 @@ struct Axis {
   }
 };
 
-/// A row of rooms of a block, side by side along x, with their fronts at the same corridor.
+/// A row of rooms in a block, side by side along x. All rooms have their fronts at the same corridor.
 struct RoomRow {
   double x0;
   double x1;
@@ -230,7 +230,7 @@ class Draughtsman {
     draw_.line(door.to, room.y_front, room.x1, room.y_front, Material::kGlass);
   }
 
-  /// Boxes outside the straight path into the room.
+  /// Draws furniture: boxes outside the straight path into the room.
   void furnish(const RoomRow& room, double door_x) {
     const double y_low = std::min(room.y_front, room.y_back) + kHalfWall_m;
     const double y_high = std::max(room.y_front, room.y_back) - kHalfWall_m;
@@ -245,7 +245,7 @@ class Draughtsman {
     }
   }
 
-  /// Pilasters and cupboards in the corridor, along the front of the room.
+  /// Draws pilasters and cupboards in the corridor, along the front of the room.
   void draw_in_corridor(const RoomRow& room, const Opening& door) {
     const double face = room.y_front - room.inwards() * kHalfWall_m;
     if (random_.happens(0.4))
@@ -272,8 +272,9 @@ class Draughtsman {
     for (const bool low : {true, false}) draw_panes(false, y_.begin(), y_.end(), low, false);
   }
 
-  /// Panes of wall or glass with pilasters between them, from `begin` to `end` along the x axis (`along_x`)
-  /// or the y axis; a bare wall has one pane. `low`: the wall is at the low end of the other axis.
+  /// Draws panes of wall or glass with pilasters between them, from `begin` to `end` along the x axis
+  /// (`along_x`) or the y axis. A bare wall has one pane. With `low`, the wall is at the low end of the axis
+  /// that it crosses.
   void draw_panes(bool along_x, double begin, double end, bool low, bool bare) {
     const Axis& across = along_x ? y_ : x_;
     const double inwards = low ? 1 : -1;
@@ -327,7 +328,7 @@ class Draughtsman {
   PlanDrawing draw_;
   Axis x_;
   Axis y_;
-  std::vector<Stretch> stretches_;  ///< of the corridors along x, by corridor
+  std::vector<Stretch> stretches_;  ///< stretches of the corridors along x, ordered by corridor
 };
 
 void enlarge(FloorPlan& plan, double scale) {

@@ -12,19 +12,20 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kAhead_m = 0.5;  // distance of the carrot
+constexpr double kAhead_m = 0.5;  // distance of the carrot, the point that the robot follows
 constexpr double kCarrotStep_m = 0.01;
 constexpr double kStep_s = 0.0125;
 constexpr double kTurnPerError = 2.5;  // rad/s per radian between the heading and the direction of the carrot
 constexpr double kTurnOnTheSpot_rad = 1.0;
 
-constexpr double kTakenTheOtherWay = 0.4;  // weight of a passage taken in the opposite direction
+// Costs of the route, in uses of a passage.
+constexpr double kTakenTheOtherWay = 0.4;  // cost of each use in the opposite direction
 constexpr double kTurningBack = 3.0;
-constexpr double kPassedDoors = 0.6;  // share of the doors that the robot does not enter
+constexpr double kPassedDoors = 0.6;  // probability that a door has the cost kEnteringRoom
 constexpr double kEnteringRoom = 2.0;
 
-/// An endless walk over the places of a floor plan. It prefers the passages that it has taken least, so that
-/// it visits all places, closes rings and takes corridors in both directions.
+/// An endless route over the places of a floor plan. It prefers the passages that it has used least. It
+/// therefore visits all places, closes rings and uses corridors in both directions.
 class Route {
  public:
   /// Starts at a crossing. The plan must outlive the route.
@@ -42,7 +43,7 @@ class Route {
 
   std::size_t here() const { return here_; }
 
-  /// Goes to the next place, along a passage, and returns it.
+  /// Moves along a passage to the next place and returns the index of the place.
   std::size_t next() {
     std::vector<Way>& ways = ways_[here_];
     std::vector<double> reluctances;
@@ -57,8 +58,8 @@ class Route {
  private:
   struct Way {
     std::size_t to = 0;
-    std::size_t back = 0;  ///< index of the opposite way in the ways from `to`
-    double taken = 0;      ///< how often
+    std::size_t back = 0;  ///< index of the opposite direction in the ways from `to`
+    double taken = 0;      ///< number of uses
   };
 
   double reluctance(const Way& way) {
@@ -71,7 +72,7 @@ class Route {
 
   const FloorPlan& plan_;
   SimulationRandom random_;
-  std::vector<std::vector<Way>> ways_;  ///< by start place
+  std::vector<std::vector<Way>> ways_;  ///< ways from each place
   std::size_t here_ = 0;
   std::size_t before_ = 0;
 };
@@ -82,7 +83,7 @@ double distance_m(const TPoint2D& a, const TPoint2D& b) {
 
 }  // namespace
 
-/// The point that the robot follows: it moves along the line from place to place and weaves about it.
+/// The point that the robot follows. It moves along the lines between places with small sideways deviations.
 class RobotPath::Carrot {
  public:
   Carrot(const FloorPlan& plan, const RobotPathOptions& options)
@@ -121,8 +122,8 @@ class RobotPath::Carrot {
   double phases_[2] = {0, 0};
   TPoint2D from_;
   TPoint2D to_;
-  double along_m_ = 0;  ///< from from_ to to_
-  double run_m_ = 0;    ///< in total
+  double along_m_ = 0;  ///< distance from from_ towards to_
+  double run_m_ = 0;    ///< total distance along the route
 };
 
 RobotPath::RobotPath(const FloorPlan& plan, const RobotPathOptions& options)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Path of a robot through a floor plan: it closes rings, takes corridors in both directions and enters rooms.
-// The robot follows a carrot on the line from place to place, slows down in curves and turns on the spot to
-// go back. Poses are computed one by one and not stored.
+// Path of a robot through a floor plan: it closes rings, uses corridors in both directions and enters rooms.
+// The robot follows a point (the carrot) that moves along the lines between places. It slows down in curves
+// and turns on the spot to go back. Poses are computed one by one and not stored.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -24,7 +24,7 @@ struct RobotPathOptions {
   double weave_m = 0.1;  ///< largest deviation from the line between places
 };
 
-/// True pose of the robot at a scan.
+/// True pose of the robot at the time of a scan.
 struct PathPose {
   double time_s = 0;
   double travelled_m = 0;
@@ -38,7 +38,7 @@ class RobotPath {
   ~RobotPath();
   RobotPath(RobotPath&&) noexcept;
 
-  /// Pose of the next scan; empty at the end of the path.
+  /// Pose at the next scan; empty at the end of the path.
   std::optional<PathPose> next();
 
  private:

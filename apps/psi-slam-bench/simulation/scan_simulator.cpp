@@ -18,15 +18,15 @@ using mrpt::math::TPose2D;
 
 constexpr double kRepaintAfter_m = 8;
 
-// Freeness of the cells, and thresholds above which beams pass a cell.
+// Values of the cells, and the least values that beams pass: with kStopAtGlass, a beam ends at glass.
 constexpr float kFree = 1.0F;
 constexpr float kGlass = 0.7F;
 constexpr float kSolid = 0.0F;
 constexpr float kStopAtGlass = 0.85F;
 constexpr float kPassGlass = 0.35F;
 
-/// Distance along the ray to a circle. Infinite if the ray misses the circle or starts inside: people step
-/// aside.
+/// Distance along the ray to a circle, in metres. Infinite if the ray misses the circle, or starts inside,
+/// because people step aside for the robot.
 double range_to_circle_m(const TPose2D& ray, const TPoint2D& middle, double radius_m) {
   const double x = middle.x - ray.x;
   const double y = middle.y - ray.y;
@@ -91,7 +91,7 @@ void ScanSimulator::paint_around(const TPoint2D& middle) {
   any_painted_ = true;
 }
 
-// Paints every cell that the segment crosses, so that no beam slips through between diagonal cells.
+// Paints every cell that the segment crosses, so that no beam passes between diagonal cells.
 void ScanSimulator::paint(const PlanSegment& segment) {
   const auto cell_m = static_cast<double>(grid_.getResolution());
   const double x0 = (segment.from.x - static_cast<double>(grid_.getXMin())) / cell_m;
@@ -110,8 +110,8 @@ void ScanSimulator::paint(const PlanSegment& segment) {
   const int x_end = static_cast<int>(std::floor(x0 + dx));
   const int y_end = static_cast<int>(std::floor(y0 + dy));
   const double infinity = std::numeric_limits<double>::infinity();
-  double next_x =
-      dx == 0 ? infinity : ((dx > 0 ? x + 1 : x) - x0) / dx;  // parameter of the segment at the next column
+  // Parameters of the segment, 0 at its start and 1 at its end, where it enters the next column and row.
+  double next_x = dx == 0 ? infinity : ((dx > 0 ? x + 1 : x) - x0) / dx;
   double next_y = dy == 0 ? infinity : ((dy > 0 ? y + 1 : y) - y0) / dy;
   for (int steps = std::abs(x_end - x) + std::abs(y_end - y); steps >= 0; --steps) {
     grid_.setCell(x, y, glass ? kGlass : kSolid);
@@ -128,14 +128,14 @@ void ScanSimulator::paint(const PlanSegment& segment) {
 double ScanSimulator::range_m(const TPose2D& ray, float least_free) const {
   float range = 0;
   bool valid = false;
-  // MRPT counts steps as if each had the length of a cell.
+  // MRPT takes the maximum range as a number of steps, as if each step had the length of a cell.
   const double steps_m =
       options_.max_range_m / mrpt::maps::COccupancyGridMap2D::RAYTRACE_STEP_SIZE_IN_CELL_UNITS;
   grid_.simulateScanRay(ray.x, ray.y, ray.phi, range, valid, steps_m, least_free);
   return valid ? static_cast<double>(range) : std::numeric_limits<double>::infinity();
 }
 
-// Range in the plan without people; glass returns, loses or passes the beam.
+// Range in the plan without people. A beam that meets glass returns, is lost or passes, at random.
 double ScanSimulator::plan_range_m(const TPose2D& ray, SimulationRandom& random) const {
   const double behind_m = range_m(ray, kPassGlass);
   if (!any_glass_) return behind_m;

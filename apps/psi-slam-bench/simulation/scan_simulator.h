@@ -24,11 +24,11 @@ struct ScanSimulatorOptions {
   double field_of_view_rad = M_PI;  ///< in (0, 2 pi]
   double max_range_m = 30;
   mrpt::math::TPose2D robot_T_laser{0.1, 0, 0};
-  double resolution_m = 0.02;       ///< of the occupancy grid
+  double resolution_m = 0.02;       ///< cell size of the occupancy grid
   double noise_m = 0.01;            ///< standard deviation of a range, not negative
   double dropout_share = 0.005;     ///< share of beams that get lost at random
   double glass_return_share = 0.3;  ///< share of the beams at glass that the glass returns
-  double glass_loss_share = 0.2;    ///< share of the beams at glass that get lost; the others pass
+  double glass_loss_share = 0.2;    ///< share of the beams at glass that get lost; the rest pass
 };
 
 class ScanSimulator {
@@ -38,7 +38,8 @@ class ScanSimulator {
   /// and infinite values.
   ScanSimulator(const FloorPlan& plan, const ScanSimulatorOptions& options);
 
-  /// Scan at a pose; `index` seeds its noise. The range of a beam without return is infinite.
+  /// Simulates a scan of a robot at a pose among people, whose centres are points in the plan. `index` seeds
+  /// the noise. The range of a beam without return is infinite.
   LaserScan scan(const mrpt::math::TPose2D& world_T_robot, const std::vector<mrpt::math::TPoint2D>& people,
                  std::uint64_t index);
 
@@ -54,7 +55,7 @@ class ScanSimulator {
   mrpt::maps::COccupancyGridMap2D grid_;
   mrpt::math::TPoint2D painted_;  ///< centre of the grid
   bool any_painted_ = false;
-  bool any_glass_ = false;  ///< in the grid
+  bool any_glass_ = false;  ///< true if the grid has glass
 };
 
 }  // namespace psi_slam

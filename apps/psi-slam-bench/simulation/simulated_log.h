@@ -29,23 +29,25 @@ class WalkingPeople {
   std::vector<mrpt::math::TPoint2D> at(double time_s) const;
 
  private:
-  /// Walks between two points, back and forth.
+  /// A person who walks back and forth between two points.
   struct Person {
     mrpt::math::TPoint2D from;
     mrpt::math::TPoint2D to;
     double speed_m_s = 1;
-    double start_m = 0;  ///< distance along the way at time 0
+    double start_m = 0;  ///< distance walked at time 0
   };
   std::vector<Person> people_;
 };
 
 struct WheelOdometryOptions {
   std::uint64_t seed = 1;
-  double length_scale = 1.01;        ///< factor of distances; above 1 for wheels smaller than assumed
-  double turn_scale = 1.01;          ///< factor of rotations; above 1 for wheels farther apart than assumed
-  double sigma_m_per_root_m = 0.01;  ///< of the distance, after 1 m; twice that after 4 m
-  double sigma_rad_per_root_m = radians_from_degrees(0.4L);    ///< of the heading, after 1 m
-  double sigma_rad_per_root_rad = radians_from_degrees(1.0L);  ///< of the heading, after 1 rad
+  double length_scale = 1.01;  ///< factor of distances; above 1 for wheels smaller than assumed
+  double turn_scale = 1.01;    ///< factor of rotations; above 1 for wheels farther apart than assumed
+  /// Standard deviation of the distance after 1 m; twice as large after 4 m.
+  double sigma_m_per_root_m = 0.01;
+  /// Standard deviations of the heading after 1 m and after a rotation by 1 rad.
+  double sigma_rad_per_root_m = radians_from_degrees(0.4L);
+  double sigma_rad_per_root_rad = radians_from_degrees(1.0L);
 };
 
 /// Simulated wheel odometry. Random errors are random walks: their variances grow in proportion to distance
@@ -55,7 +57,7 @@ class WheelOdometry {
   explicit WheelOdometry(const WheelOdometryOptions& options)
       : options_(options), random_(options.seed, SimulationRandom::Stream::kOdometry) {}
 
-  /// Odometry of the robot after a motion by `before_T_now` since the last call. Starts at the origin.
+  /// Pose odom_T_robot after a motion `before_T_now` since the last call. Starts at the origin.
   mrpt::math::TPose2D move(const mrpt::math::TPose2D& before_T_now);
 
  private:
@@ -64,26 +66,26 @@ class WheelOdometry {
   mrpt::math::TPose2D odom_T_robot_{0, 0, 0};
 };
 
-/// A further laser, which scans at the same rate with a delay.
+/// A further laser, which scans at the rate of the first laser with a delay.
 struct FurtherLaser {
   ScanSimulatorOptions scan;
   double delay_s = 0;  ///< in [0, time between scans)
 };
 
-/// Each part has its own seed; simulated_log_options() sets all of them.
+/// Options of a simulated log. Each part has its own seed; simulated_log_options() sets all seeds.
 struct SimulatedLogOptions {
   FloorPlanOptions plan;
   RobotPathOptions path;
   ScanSimulatorOptions scan;
   WheelOdometryOptions odometry;
-  /// Their scans are companions of those of the first laser.
+  /// Lasers whose scans are companions of the scans of the first laser.
   std::vector<FurtherLaser> further_lasers;
   std::size_t people = 0;
   std::uint64_t people_seed = 1;
 };
 
-/// A run with this length of path, through a building whose places it visits about three times each. All
-/// parts get the same seed.
+/// Options of a run with a path of `path_m` metres, about three times as long as the corridors of its
+/// building. All parts get the same seed.
 SimulatedLogOptions simulated_log_options(double path_m, std::uint64_t seed);
 
 class SimulatedLog : public FrameSource {
@@ -94,16 +96,16 @@ class SimulatedLog : public FrameSource {
   SimulatedLog& operator=(const SimulatedLog&) = delete;
 
   std::optional<Frame> next() override;
-  /// Share of the path that is travelled.
+  /// Share of the path that the robot has travelled, in [0, 1].
   double progress() const override;
 
-  /// True pose of the robot in the plan at the last frame of next().
+  /// True pose of the robot in the plan at the frame that next() returned last.
   const mrpt::math::TPose2D& world_T_robot() const { return now_.world_T_robot; }
   double travelled_m() const { return now_.travelled_m; }
   const FloorPlan& plan() const { return plan_; }
 
  private:
-  /// Poses of the robot at a scan of the first laser.
+  /// True pose and odometry of the robot at a scan of the first laser.
   struct Stop {
     PathPose path;
     mrpt::math::TPose2D odom_T_robot;

@@ -12,8 +12,8 @@ class SimulationRandom : public RandomDraws {
  public:
   enum class Stream : std::uint64_t { kFloorPlan, kRoute, kScan, kOdometry, kPeople, kRelations };
 
-  /// `index` distinguishes parts of a stream: each scan has its own index, so that scans do not depend on
-  /// each other.
+  /// `index` selects an independent part of a stream. Each scan has its own index, so its noise does not
+  /// depend on other scans.
   SimulationRandom(std::uint64_t seed, Stream stream, std::uint64_t index = 0)
       : RandomDraws(mixed_bits(mixed_bits(mixed_bits(seed) ^ static_cast<std::uint64_t>(stream)) ^ index)) {}
 

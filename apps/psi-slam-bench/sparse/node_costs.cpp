@@ -7,7 +7,7 @@
 namespace psi_slam {
 namespace {
 
-/// One cost of all nodes, and of those that tried loops.
+/// Costs of all nodes, and of the nodes that tried loops.
 struct Costs {
   std::vector<double> all;
   std::vector<double> with_loops;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cost of the nodes of a run: what a scan that becomes a node costs in processor time and in scored poses.
+// Cost of the nodes of a run: processor time and number of scored poses of each scan that becomes a node.
 #pragma once
 
 #include <optional>
@@ -13,13 +13,14 @@ struct NodeCosts {
   double p50_ms = 0;
   double p99_ms = 0;
   double max_ms = 0;
-  /// Most expensive node over the median of the nodes that tried loops; none if no node did.
+  /// Cost of the most expensive node, divided by the median of the nodes that tried loops. Empty if no node
+  /// tried a loop.
   std::optional<double> time_ratio;
   std::optional<double> evaluations_ratio;
 };
 
-/// The value at rank ceil(share n), counted from 1: the least value that this share of the values does not
-/// exceed. 0 without values.
+/// Least value that at least `share` of the values do not exceed: the value of rank ceil(share n), counted
+/// from 1. Returns 0 without values.
 double quantile(std::vector<double> values, double share);
 
 /// Costs of the frames that became nodes. `add_ms` are the processor times of Mapper::add, one for each

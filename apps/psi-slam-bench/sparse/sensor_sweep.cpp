@@ -20,8 +20,8 @@ using mrpt::math::TPose2D;
 
 constexpr double kFieldOfView_deg = 180;
 constexpr double kSmallestBuilding_m = 8;  // range of the sensor for a building of scale 1
-constexpr double kTurn_rad = 0.5;          // between two scans, at most
-constexpr double kResolution_m = 0.02;     // of the simulator, in a building of scale 1
+constexpr double kTurn_rad = 0.5;          // rotation by odometry after which a scan is kept
+constexpr double kResolution_m = 0.02;     // cell size of the simulator in a building of scale 1
 
 /// All scans of a simulated run, with the true poses.
 struct SimulatedScans {

@@ -22,7 +22,7 @@ constexpr std::array<const char*, 2> kEveryNthLogs = {"fr079", "mit-csail"};
 constexpr std::array<std::size_t, 2> kEveryNth = {3, 5};
 constexpr int kPictureSide_px = 1200;
 
-/// Processor time of this process.
+/// Processor time of this process, in seconds.
 double cpu_s() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
@@ -51,7 +51,7 @@ MeasuredMap map_measured(FrameSource& source, const Settings& settings) {
   return map;
 }
 
-/// `path` are the poses to evaluate.
+/// Figures of a mapped log. `path` holds the poses to evaluate.
 SparseRow row_of(const BenchmarkLog& log, const Settings& settings, const MeasuredMap& map,
                  const Trajectory& path) {
   SparseRow row;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps logs with few scans: dense logs thinned by odometry or by number, and logs that are sparse as
-// recorded. Also maps simulated buildings with many sensors, see sensor_sweep.h.
+// Maps logs with few scans: dense logs thinned by odometry, every nth scan of dense logs, and logs that are
+// sparse as recorded. Also maps simulated buildings with many sensors, see sensor_sweep.h.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@
 
 namespace psi_slam {
 
-/// Parts of the benchmark, by the names of --parts.
+/// Names of the parts of the benchmark, as the option --parts takes them.
 inline constexpr const char* kThinnedPart = "thinned";     ///< dense logs, one scan for each step of odometry
 inline constexpr const char* kEveryNthPart = "every-nth";  ///< some dense logs, every 3rd and 5th scan
 inline constexpr const char* kSparsePart = "sparse";       ///< sparse logs, all scans
@@ -30,13 +30,13 @@ struct SparseOptions {
   std::vector<std::string> parts = {kThinnedPart, kEveryNthPart, kSparsePart, kSimulatedPart};
   SeedRange seeds{1, 3};
   std::vector<std::string> assignments;  ///< "section.key=value": override the settings of every log
-  SensorSweepOptions sensors;            ///< its seed is the first of `seeds`
+  SensorSweepOptions sensors;            ///< sensors.seed is replaced by the first of `seeds`
 
   bool has(const std::string& part) const;
   bool needs_logs() const { return has(kThinnedPart) || has(kEveryNthPart) || has(kSparsePart); }
 };
 
-/// One run of a log.
+/// Figures of one run of a log.
 struct SparseRow {
   std::string log;
   std::string kept;  ///< scans kept: "1 m / 0.5 rad", "1 of 3", "all"
@@ -45,23 +45,23 @@ struct SparseRow {
   RunFigures figures;
   std::size_t nodes = 0;
   std::size_t unmatched = 0;  ///< scans that the front end could not match, except the first
-  std::size_t loops = 0;      ///< in the finished graph
+  std::size_t loops = 0;      ///< accepted loops
   NodeCosts costs;
-  /// Translation error of thinned logs if the kept scans have the poses of the map of all scans: the share of
-  /// odometry in the error.
+  /// Translation error of a thinned log if its kept scans have their poses in the map of all scans. This part
+  /// of the error comes from odometry between the kept scans. Empty for other logs.
   std::optional<double> floor_m;
 };
 
 /// The map of a sparse log, with the first seed.
 struct SparseMapPicture {
   std::string log;
-  std::string png;  ///< contents of the file
+  std::string png;  ///< bytes of the PNG file
 };
 
 struct SparseBenchmark {
   std::vector<LogIdentity> identities;
   std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
-  std::vector<SparseRow> rows;                 ///< by part, then log, then case, then seed
+  std::vector<SparseRow> rows;                 ///< ordered by part, log, case and seed
   std::vector<SparseMapPicture> pictures;
   std::vector<SensorSweepRow> sensors;
 };
@@ -70,10 +70,11 @@ struct SparseBenchmark {
 Settings sparse_settings(const BenchmarkLog& log, const SparseOptions& options, std::uint64_t seed,
                          std::size_t every_nth = 1);
 
-/// Maps a dense log thinned to `step`, puts the poses of the other scans back and measures them.
+/// Maps a dense log thinned to `step`, composes poses for the removed scans from odometry, and measures the
+/// poses of all scans.
 SparseRow run_thinned(const BenchmarkLog& log, const Settings& settings, const ThinningStep& step);
 
-/// Error of the poses of run_thinned() with the kept scans at their poses in the map of all scans.
+/// Translation error, in metres, of a thinned log whose kept scans have their poses in the map of all scans.
 double thinned_floor_m(const BenchmarkLog& log, const Settings& settings, const ThinningStep& step);
 
 /// Runs all parts of the options. Throws UserError as open_log() and read_relations().

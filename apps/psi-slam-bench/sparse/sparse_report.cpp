@@ -14,7 +14,7 @@ namespace {
 using Runs = std::vector<SparseRow>;
 using Column = ColumnOf<Runs>;
 
-/// Mean over the seeds in Markdown, all statistics in JSON.
+/// Column with the mean over the seeds in Markdown, and all statistics in JSON.
 template <class ValueOf>
 Column mean_column(const std::string& head, const std::string& key, int decimals, const ValueOf& value_of) {
   return {{head, key}, [=](const Runs& runs) {
@@ -23,7 +23,7 @@ Column mean_column(const std::string& head, const std::string& key, int decimals
           }};
 }
 
-/// Mean and standard deviation over the relations, averaged over the seeds.
+/// Column with the mean and standard deviation over the relations, averaged over the seeds.
 Column error_column(const std::string& head, const std::string& key, MeanAndStd PathErrors::*errors) {
   return {{head, key}, [=](const Runs& runs) {
             const auto over_seeds = [&](double MeanAndStd::*part) {
@@ -37,7 +37,7 @@ Column error_column(const std::string& head, const std::string& key, MeanAndStd 
           }};
 }
 
-/// Mean over the runs that have the ratio.
+/// Column with the mean of a ratio, over the runs that have the ratio.
 Column ratio_column(const std::string& head, const std::string& key,
                     std::optional<double> NodeCosts::*ratio) {
   return {{head, key}, [=](const Runs& runs) {

@@ -30,7 +30,7 @@ std::optional<Frame> StepThinnedSource::next() {
   while (std::optional<Frame> frame = source_->next()) {
     if (!frame->has_odometry)
       throw UserError("scan " + std::to_string(frame->index) +
-                      " has no odometry: only logs with odometry can be thinned to steps of it");
+                      " has no odometry: only logs with odometry can be thinned. Name such logs with --logs");
     const TPose2D motion = frame->odom_T_robot - odom_T_kept_;
     const bool keep = kept_ == 0 || is_one_step(motion);
     if (keep) {

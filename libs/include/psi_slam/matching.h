@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The terms in which records describe a search for a match: the matcher and the search window.
+/// Matcher and search window of a match, as records describe them.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ constexpr const char* name(MatcherKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-/// Half-widths of the region searched around a predicted pose.
+/// Half-widths of the search window around a predicted pose.
 struct SearchExtent {
   double x_m = 0;        ///< along x
   double y_m = 0;        ///< along y

@@ -213,7 +213,7 @@ TEST_F(MapperEditsTest, explains_impossible_edits) {
   while (mapper_.frames()[between].node) ++between;
   const LoopEditOutcome no_node = mapper_.edit({Kind::kDelete, between, 0});
   EXPECT_EQ(no_node.state, State::kImpossible);
-  EXPECT_THAT(no_node.reason, HasSubstr("is no node of the graph"));
+  EXPECT_THAT(no_node.reason, HasSubstr("is not a node of the graph"));
   const LoopEditOutcome itself = mapper_.edit({Kind::kForce, 0, 0});
   EXPECT_EQ(itself.state, State::kImpossible);
   EXPECT_THAT(itself.reason, HasSubstr("scan 0 is part of local map 0"));

@@ -11,8 +11,8 @@
 namespace psi_slam {
 namespace {
 
-// The node's uncertainty relative to the local maps' anchors. A heading error at the node counts with the
-// distance.
+// Returns the uncertainty of the node relative to the anchors of local maps. The position sigma includes the
+// heading sigma, multiplied by the distance.
 std::vector<PositionSigma> sigmas_of_anchors(std::size_t node, const std::vector<std::size_t>& local_maps,
                                              const KeyframeStore& keyframes, const PoseGraph& graph,
                                              PathCovarianceSearch& search) {
@@ -34,7 +34,8 @@ std::vector<PositionSigma> sigmas_of_anchors(std::size_t node, const std::vector
 
 }  // namespace
 
-// All candidates in narrow windows, and of those in wide windows as many as a node may search.
+// Returns all candidates with narrow windows, and as many with wide windows as a node may search. If no
+// candidate has a narrow window, may add one local map within the drift.
 std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const KeyframeStore& keyframes,
                                                   const PoseGraph& graph) {
   std::vector<LoopCandidate> chosen =
@@ -46,7 +47,7 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const Keyfra
   });
   const std::vector<LoopCandidate> wide(first_wide, chosen.end());
   chosen.erase(first_wide, chosen.end());
-  const bool unseen = chosen.empty();  // no local map is known to be near
+  const bool unseen = chosen.empty();  // no candidate has a narrow window
   for (const LoopCandidate& one : schedule_.choose(wide, options_.wide_searches)) chosen.push_back(one);
   if (unseen && wide.size() < options_.wide_searches) {
     std::vector<LoopCandidate> far = far_candidates(

@@ -6,9 +6,10 @@
 //     R = theta + n_theta,               0 <= R < R_max = 2 n_theta
 //     smallest l_1, l_2 with 2^l_1 > L_max, 2^l_2 > R_max
 //
-// with x, y, theta in steps from the window's centre. Cells are half open: the last column, row and angle of
-// the exhaustive search, +n, have no code, so a genetic search never finds a pose there. With them, +n would
-// alias onto the next row. Codes outside the window are repaired by the modulus.
+// with x, y, theta in steps from the window's centre. Cells are half open: the exhaustive search includes the
+// last column, row and angle +n, but they have no code. A genetic search therefore never finds a pose there.
+// If +n had a code, it would equal the code of the first column of the next row. Codes outside the window are
+// repaired by the modulus.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +37,7 @@ class PoseCode {
   /// Decodes any bits() bits: codes outside the window are replaced by their remainder.
   LatticePose decode(Chromosome chromosome) const;
 
-  /// False for codes that decode() repairs.
+  /// Returns whether the chromosome is a code of the window; decode() repairs all others.
   bool inside(Chromosome chromosome) const;
 
  private:

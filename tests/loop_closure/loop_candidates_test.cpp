@@ -12,7 +12,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Thirty metres along x and back one metre beside. A node every metre, a local map every ten nodes.
+// A path of 30 m along x and back, one metre beside the way out. There is a node every metre and a local map
+// every ten nodes.
 struct ThereAndBack {
   KeyframeStore keyframes;
   PoseGraph graph;
@@ -55,9 +56,9 @@ using Maps = std::vector<std::size_t>;
 
 TEST(LoopCandidates, only_local_maps_near_the_node_are_tried) {
   const ThereAndBack drive;
-  EXPECT_EQ(drive.local_maps(59, {0.01, 0.001}), Maps({0}));     // at x = 0
-  EXPECT_EQ(drive.local_maps(53, {0.01, 0.001}), Maps({0, 1}));  // at x = 6
-  EXPECT_EQ(drive.local_maps(44, {0.01, 0.001}), Maps({1, 2}));  // at x = 15: 6.1 m from the first map
+  EXPECT_EQ(drive.local_maps(59, {0.01, 0.001}), Maps({0}));     // node at x = 0
+  EXPECT_EQ(drive.local_maps(53, {0.01, 0.001}), Maps({0, 1}));  // node at x = 6
+  EXPECT_EQ(drive.local_maps(44, {0.01, 0.001}), Maps({1, 2}));  // node at x = 15: 6.1 m from local map 0
 }
 
 TEST(LoopCandidates, an_uncertain_node_may_see_farther_local_maps) {
@@ -75,7 +76,7 @@ TEST(LoopCandidates, asks_for_the_uncertainty_of_local_maps_in_reach_only) {
     for (std::size_t node = 0; node < 60; ++node) {
       Maps asked;
       loop_candidates(node, drive.keyframes, drive.graph, options, [&](const Maps& local_maps) {
-        EXPECT_TRUE(asked.empty()) << "asks once";
+        EXPECT_TRUE(asked.empty()) << "the uncertainties are computed only once";
         asked = local_maps;
         return std::vector<PositionSigma>(local_maps.size());
       });
@@ -157,7 +158,7 @@ TEST(LoopCandidates, local_maps_of_the_path_nearby_are_left_out) {
 
 TEST(LoopCandidates, predicts_from_the_graph) {
   ThereAndBack drive;
-  drive.graph.set_pose(0, {1, 2, M_PI / 2});  // the graph has moved, the front end's frame has not
+  drive.graph.set_pose(0, {1, 2, M_PI / 2});  // moves poses of the graph, but not the front end's frame
   drive.graph.set_pose(59, {2, 5, M_PI});
   const auto candidates = drive.candidates(59, {0.01, 0.001});
   ASSERT_EQ(candidates.size(), 1U);
@@ -171,7 +172,7 @@ TEST(FarCandidates, are_searched_only_once_drift_may_exceed_the_largest_window) 
   const ThereAndBack drive;
   LoopCandidateOptions options;
   options.drift_per_metre = 0.02;
-  EXPECT_TRUE(far_candidates(59, drive.keyframes, drive.graph, 399, options).empty());  // 8 m
+  EXPECT_TRUE(far_candidates(59, drive.keyframes, drive.graph, 399, options).empty());  // a drift of 8 m
   EXPECT_FALSE(far_candidates(59, drive.keyframes, drive.graph, 401, options).empty());
 }
 
@@ -186,8 +187,8 @@ TEST(FarCandidates, are_the_local_maps_within_drift_and_reach) {
       result.push_back(far.local_map);
     return result;
   };
-  // Node 59 is at x = 0, y = 1. The maps 0, 1 and 2 begin at x = 0, 10 and 20, y = 0; 4 ends at x = 10, y
-  // = 1.
+  // Node 59 is at x = 0, y = 1. The local maps 0, 1 and 2 begin at x = 0, 10 and 20, at y = 0. Local map 4
+  // ends at x = 10, y = 1.
   EXPECT_EQ(maps(401), Maps({0, 4}));
   EXPECT_EQ(maps(1000), Maps({0, 1, 2, 3, 4}));
 }

@@ -38,7 +38,7 @@ class ConstantVelocityModel {
   PredictedMotion predict(TimeUs time_us) const;
 
  private:
-  struct Speed {  // along the axes of the robot
+  struct Speed {  // velocity along the axes of the robot
     double x_mps = 0;
     double y_mps = 0;
     double turn_radps = 0;

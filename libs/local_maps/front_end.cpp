@@ -227,7 +227,7 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
   return held;
 }
 
-// Propagates the pose covariance in each active map as a Kalman filter does: the motion adds the noise of
+// Propagates the pose covariance in each active map by a Kalman filter: the motion adds the noise of
 // odometry, and the match reduces the covariance. Where only odometry determines the position, as along a
 // corridor, the covariance grows.
 void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& motion) {

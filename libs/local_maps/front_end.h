@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The front end: predicts the pose of each scan, matches the scan with the active local map (equations 1 and
-// 2), and inserts it if the robot moved enough. Odometry gives the prediction, or else the constant-velocity
-// model.
+// The front end predicts the pose of each scan and matches the scan with the active local map (equations 1
+// and 2). It inserts the scan if the robot moved enough. Odometry gives the prediction, or else the
+// constant-velocity model.
 //
 // The front end works in a continuous frame, "local", which loop closing never moves. The mapper knows the
 // pose of this frame in the map. At most two local maps are active at a time, and successive local maps
@@ -40,9 +40,9 @@ struct FrontEndOptions {
   double max_window_m = 1.0;
   double max_window_rad = radians_from_degrees(35.0L);
 
-  // The response that a match can reach depends on the overlap with the local map, on the share of smooth
-  // walls and on the spacing of the beams. So each response is compared with an expected response: a decaying
-  // mean over the last scans. A scan without a match counts as 0. The expected response is at least 0.25.
+  // The response that a match can reach depends on the overlap with the local map, the share of smooth walls
+  // and the spacing of beams. So each response is compared with an expected response: a decaying mean over
+  // the last scans. A scan without a match counts as 0. The expected response is at least 0.25.
   double min_response_share = 0.3;  ///< share of the expected response that a match needs
   /// A match below this share of the expected response is poor: the error of odometry may exceed the window.
   /// The front end then searches a wide window, whose match must reach this share.
@@ -77,9 +77,9 @@ struct FrontEndOptions {
 
   // Standard deviations of odometry, for the covariance of the poses where scans do not determine the pose.
   // The variance grows with time, path and turns, and does not depend on the rate of scans.
-  double odometry_sigma_m = 0.005;          ///< after one second at rest
-  double odometry_sigma_per_metre = 0.055;  ///< after one metre
-  double odometry_sigma_per_radian = 0.02;  ///< after a turn of one radian
+  double odometry_sigma_m = 0.005;          ///< standard deviation after one second at rest
+  double odometry_sigma_per_metre = 0.055;  ///< standard deviation after one metre
+  double odometry_sigma_per_radian = 0.02;  ///< standard deviation after a turn of one radian
   double odometry_sigma_rad = radians_from_degrees(0.2L);
   double odometry_sigma_rad_per_metre = radians_from_degrees(1.3L);
   double odometry_sigma_rad_per_radian = radians_from_degrees(2.0L);
@@ -176,7 +176,7 @@ class FrontEnd {
 
   FrontEndOptions options_;
   CorrelativeMatcher matcher_;
-  std::vector<PlacedLocalMap> active_;  ///< older first, at most two
+  std::vector<PlacedLocalMap> active_;  ///< active local maps, older first, at most two
   std::size_t next_local_map_ = 0;
   std::size_t next_node_ = 0;
   std::optional<Frame> last_;  ///< last frame, without its scans
@@ -186,7 +186,7 @@ class FrontEnd {
   Eigen::Vector2d doubtful_correction_m_ = Eigen::Vector2d::Zero();  ///< decaying sum, along the robot's axes
   double expected_response_ = 0.5;                                   ///< decaying mean of the responses
   int misses_ = 0;                 ///< number of successive scans without a match
-  double unmatched_travel_m_ = 0;  ///< path since the last match, or since the newest local map began
+  double unmatched_travel_m_ = 0;  ///< path since the last match, or since all local maps ended
   mrpt::math::TPose2D last_node_local_T_robot_;
 };
 

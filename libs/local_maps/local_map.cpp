@@ -207,7 +207,7 @@ void LocalMap::finish() {
       if (row[x] != 0) observed_[static_cast<std::size_t>(y / 2 * half_width + x / 2)] = 1;
   }
   finished_ = true;
-  last_scan_ = std::vector<std::uint16_t>();  // "= {}" would keep the memory
+  last_scan_ = std::vector<std::uint16_t>();  // an assignment of {} would keep the memory
   grid_.reset();
 }
 

@@ -35,7 +35,7 @@ struct LocalMapOptions {
 struct Beams {
   mrpt::math::TPoint2D origin;
   std::vector<mrpt::math::TPoint2D> ends;
-  std::vector<bool> hits;  ///< false: the beam was cut at the largest range
+  std::vector<bool> hits;  ///< for each end; false: the beam was cut at the largest range
   /// For each end, whether it lies on one surface with the end before it. Empty: false for all ends.
   std::vector<bool> joined{};
 };

@@ -130,7 +130,7 @@ std::string localization_json(const LocalizationSummary& summary) {
   const auto number = [](const std::optional<double>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
   };
-  nlohmann::ordered_json found_at;  // metres, metres, radians
+  nlohmann::ordered_json found_at;  // x and y in metres, theta in radians
   if (summary.found()) found_at = {summary.map_T_found.x, summary.map_T_found.y, summary.map_T_found.phi};
   const nlohmann::ordered_json json = {{"found", summary.found()},
                                        {"localized_at_end", summary.localized_at_end()},

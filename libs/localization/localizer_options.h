@@ -29,7 +29,7 @@ struct GlobalSearchOptions {
 };
 
 struct LocalizerOptions {
-  FrontEndOptions front_end;  ///< measures the motion
+  FrontEndOptions front_end;  ///< options of the front end, which measures the motion
   GlobalSearchOptions search;
   LoopConsensusOptions consensus;
   std::uint64_t seed = 1;
@@ -47,7 +47,7 @@ struct LocalizerOptions {
   double min_observed_share = 0.5;  ///< smallest share of a scan's points in space that the map shows
   double min_agree = 0.6;           ///< smallest share of these points on or beside occupied cells
   double max_misfit_m = 2.0;        ///< the robot is lost after more travel without a fitting scan,
-  double max_misfit_s = 5.0;        ///< or after more time
+  double max_misfit_s = 5.0;        ///< or after more time without one
 };
 
 }  // namespace psi_slam

@@ -57,7 +57,7 @@ void check_resolution(const std::filesystem::path& path, double resolution_m) {
 }
 
 Grid read_yaml(const std::filesystem::path& path) {
-  CompressedFile readable(path, kExpected);  // throws the error message for an unreadable file
+  CompressedFile readable(path, kExpected);  // throws UserError for an unreadable file
   Grid grid;
   try {
     const auto yaml = mrpt::containers::yaml::FromFile(path.string());

@@ -24,7 +24,7 @@ struct NodeScan {
 };
 
 struct KeyframeStore {
-  std::vector<NodeScan> nodes;             ///< by node number
+  std::vector<NodeScan> nodes;             ///< nodes in the order of their numbers
   std::vector<PlacedLocalMap> local_maps;  ///< finished local maps, in the order of their ids
   std::shared_ptr<LocalMapCache> cache;    ///< holds the same local maps; null: no local map is ever packed
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Selects the finished local maps that a node may see again, and the search window for each. The window
 // covers the uncertainty of the node relative to the local map, along the best path between them in the pose
-// graph (Olson 2009, "Recognizing places using spectrally clustered local matches").
+// graph. Source: Olson 2009, "Recognizing places using spectrally clustered local matches".
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

@@ -31,7 +31,7 @@ class LoopConsensus {
   explicit LoopConsensus(const LoopConsensusOptions& options) : options_(options) {}
 
   struct Vote {
-    std::size_t loop = 0;                ///< number given by the caller
+    std::size_t loop = 0;                ///< number of the loop, chosen by the caller
     double travelled_m = 0;              ///< path length up to the scan
     mrpt::math::TPose2D local_T_robot;   ///< pose by the front end
     std::size_t anchor = 0;              ///< anchor of the matched local map

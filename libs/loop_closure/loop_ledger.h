@@ -48,8 +48,8 @@ class LoopLedger {
 
   void refuse_pending();
 
-  /// Returns the pairs that the final search skips: pairs with an accepted, pending or switched-off loop,
-  /// pairs that an earlier pass matched, and pairs that a person edited.
+  /// Returns the pairs that the final search skips. These pairs have an accepted, pending or switched-off
+  /// loop, were matched by an earlier pass, or were edited by a person.
   std::set<LoopPair> searched_pairs() const;
 
   // Edits by hand. They also apply to later attempts of the pair.

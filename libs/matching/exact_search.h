@@ -13,7 +13,7 @@ namespace psi_slam {
 
 struct SearchOutcome {
   std::optional<Candidate> best;  ///< empty if no pose reaches the smallest sum
-  std::int64_t evaluations = 0;   ///< poses scored on any level of the grid
+  std::int64_t evaluations = 0;   ///< number of poses scored, on all levels of the grid
 };
 
 /// Scores every pose of the window outside `excluded`. Returns the best pose in Candidate's order, if its sum

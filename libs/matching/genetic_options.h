@@ -10,7 +10,7 @@ struct PaperGeneticOptions {
   int population = 200;
   int generations = 100;
   double crossover_rate = 0.6;  ///< the paper advises a lower rate
-  double mutation_rate = 0.05;  ///< per bit; the paper advises a higher rate
+  double mutation_rate = 0.05;  ///< probability per bit; the paper advises a higher rate
 };
 
 /// Options of the memetic search, which extends the paper's algorithm. An individual is a tile (see
@@ -23,7 +23,7 @@ struct MemeticGeneticOptions {
   int generations = 4;
   int patience = 2;  ///< stops after this many generations without improvement; 0: never stops early
   double crossover_rate = 0.5;
-  double mutation_rate = 0.1;  ///< per bit
+  double mutation_rate = 0.1;  ///< probability per bit
   bool gray_code = true;  ///< codes of neighbouring tiles differ in one bit; false: the paper's binary code
   bool niches = true;     ///< keeps only one individual per neighbourhood, so several peaks survive
   bool remember = true;   ///< scores each chromosome only once

@@ -19,10 +19,8 @@ FoundPeaks paper_genetic_search(const SearchLattice& lattice, const PeakRequest&
                                 const PaperGeneticOptions& options);
 
 /// Runs a genetic algorithm with local search, for responses with many local maxima. Its individuals are
-/// tiles. MemeticGeneticOptions switches each addition to the paper's algorithm: Gray code, a first
-/// generation from a sparse coarse search, fitness on the max-pooled grid first, elitism, niches, local
-/// search along the heading, and an early stop without improvement. Throws std::invalid_argument if the
-/// lattice's grid has no pyramid, unless the window is one tile.
+/// tiles. MemeticGeneticOptions has a switch for each addition to the paper's algorithm. Throws
+/// std::invalid_argument if the lattice's grid has no pyramid, unless the window is one tile.
 FoundPeaks memetic_search(const SearchLattice& lattice, const PeakRequest& request,
                           const MemeticGeneticOptions& options);
 

@@ -21,9 +21,9 @@ FoundPeaks evolve_cells(const SearchLattice& lattice, const std::vector<Tile>& c
   return evolve_tiles(lattice, space, first_generation, options.pooled_fitness, request, options, random);
 }
 
-// The paper's variant of csm_ga: a genetic search in each of the best cells, with the chromosomes of equation
-// 10 for the small window of a cell. It scores as many poses as a quarter of the cell's poses. With more, an
-// exhaustive search would be cheaper.
+// The paper's variant of csm_ga runs a genetic search in each of the best cells. The chromosomes of equation
+// 10 cover the small window of a cell. It scores as many poses as a quarter of the cell's poses. With more,
+// an exhaustive search would be cheaper.
 FoundPeaks search_cells_by_paper(const SearchLattice& lattice, const std::vector<Tile>& cells,
                                  int heading_stride, const PeakRequest& request,
                                  const PaperGeneticOptions& options) {

@@ -56,7 +56,7 @@ struct MatchResult {
   /// Empty if not measured. 0 if no distinct pose reaches MatcherOptions::ambiguity_floor.
   std::optional<double> ambiguity;
   SearchWindow window;           ///< window that was searched
-  std::int64_t evaluations = 0;  ///< poses scored on any level of the grid
+  std::int64_t evaluations = 0;  ///< number of poses scored, on all levels of the grid
   GeneticEffort genetic;
 };
 

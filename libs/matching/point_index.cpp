@@ -53,7 +53,7 @@ class Within {
 struct PointIndex::Tree {
   explicit Tree(const std::vector<Point>& points) : source{points.data(), points.size()} {}
 
-  PointSource source;  // stays valid when the vector moves, because its heap memory does not
+  PointSource source;  // stays valid when the vector moves, because its heap memory does not move
   nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointSource>, PointSource, 2,
                                       std::size_t>
       index{2, source};

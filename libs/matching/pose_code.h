@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The chromosome of equations 9, 10 and 12: a pose of the search window as two binary integers, the linear
-// index of its cell and the index of its angle.
+// The chromosome of equations 9, 10 and 12 encodes a pose of the search window as two binary integers: the
+// linear index of its cell and the index of its angle.
 //
 //     L = (y + n_y) 2 n_x + (x + n_x),   0 <= L < L_max = 2 n_x 2 n_y
 //     R = theta + n_theta,               0 <= R < R_max = 2 n_theta
@@ -19,7 +19,8 @@
 
 namespace psi_slam {
 
-/// Bits, least significant first: l_1 of the position, then l_2 of the angle.
+/// Code of a pose as a bit string. From the least significant bit: l_1 bits of the position, then l_2 bits of
+/// the angle.
 using Chromosome = std::uint64_t;
 
 class PoseCode {
@@ -47,8 +48,8 @@ class PoseCode {
   int n_x_;
   int n_y_;
   int n_theta_;
-  std::uint64_t positions_;  // L_max
-  std::uint64_t angles_;     // R_max
+  std::uint64_t positions_;  // number of positions, L_max
+  std::uint64_t angles_;     // number of angles, R_max
   int position_bits_;
   int angle_bits_;
 };

@@ -4,9 +4,9 @@
 //
 //     minimise over the pose:  sum_j (1 - M(T p_j))^2 / s^2  +  (x - x_prior)^T P^-1 (x - x_prior)
 //
-// Here s is the standard deviation of one point's score, T is the pose x as a transform, and P is the
-// covariance of the prior. The information matrix of the match is J^T J / s^2, the Gauss-Newton approximation
-// of the second derivative. Along a corridor it is nearly singular.
+// Here s is the standard deviation of one point's score, T the pose x as a transform, and P the covariance of
+// the prior. The information matrix of the match is J^T J / s^2, the Gauss-Newton approximation of the second
+// derivative. Along a corridor it is nearly singular.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

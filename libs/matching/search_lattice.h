@@ -95,7 +95,8 @@ class SearchLattice {
   SearchWindow window_;
   mrpt::math::TPose2D centre_;
   std::size_t points_;
-  mutable std::unique_ptr<Cell[]> cells_;  // uninitialised until turned
+  // Cells by heading and point. The cells of a heading are uninitialised before turn_scan().
+  mutable std::unique_ptr<Cell[]> cells_;
   mutable std::vector<bool> turned_;
 };
 

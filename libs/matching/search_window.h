@@ -23,9 +23,9 @@ struct SearchWindow {
 };
 
 /// Computes equations 7 and 8. `farthest_point_m` is d_max, the largest distance of a point from the robot.
-/// Throws std::invalid_argument if a half-width or the resolution is not positive and finite, if a half-width
-/// needs more than a million steps, or if d_max is at most half the resolution, where the arc cosine of
-/// equation 7 is undefined.
+/// Throws std::invalid_argument if a half-width or the resolution is not positive and finite, or if a
+/// half-width needs more than a million steps. Also throws it if d_max is at most half the resolution,
+/// because the arc cosine of equation 7 is then undefined.
 SearchWindow make_search_window(const SearchExtent& extent, double resolution_m, double farthest_point_m);
 
 }  // namespace psi_slam

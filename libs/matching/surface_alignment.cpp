@@ -43,7 +43,7 @@ float dot(const Point& a, const Point& b) {
 /// Mean point and mean normal of the surface points near a point.
 struct Surface {
   Point point;
-  Point normal;  // unit
+  Point normal;  // unit vector
 };
 
 class SurfaceSearch {

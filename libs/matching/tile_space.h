@@ -14,7 +14,7 @@ namespace psi_slam {
 /// All shifts of a block at one heading. The sum kernel scores a tile at little more than the cost of one
 /// pose.
 struct Tile {
-  int theta = 0;  ///< steps from the window's centre
+  int theta = 0;  ///< heading, in angular steps from the window's centre
   ShiftBlock block;
 };
 
@@ -101,7 +101,7 @@ class CellTiles : public TileSpace {
  private:
   struct Place {
     std::size_t cell;
-    int turn;  // 0 .. turns - 1
+    int turn;  // heading inside the cell, 0 .. turns - 1
   };
   Place decode(Chromosome chromosome) const;
   Chromosome encode(const Place& place) const;

@@ -41,7 +41,7 @@ struct PeakRequest {
 struct FoundPeaks {
   std::optional<Candidate> best;  ///< empty if no pose reaches PeakRequest::min_sum
   std::optional<Candidate> next;  ///< second peak; empty if none meets the conditions
-  std::int64_t evaluations = 0;   ///< poses scored on any level of the grid
+  std::int64_t evaluations = 0;   ///< number of poses scored, on all levels of the grid
   GeneticEffort genetic;
 };
 

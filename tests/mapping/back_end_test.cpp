@@ -19,7 +19,7 @@ BackEndOptions near_maps_too() {
   return options;
 }
 
-/// Closes the loops of all nodes in order.
+/// Closes the loops of all nodes in order. Returns the number of new constraints.
 std::size_t close_all(BackEnd& back_end, PoseGraph& graph) {
   const TwoRounds& rounds = two_rounds();
   std::size_t made = 0;
@@ -115,7 +115,7 @@ TEST(BackEnd, loops_pending_at_the_end_are_refused) {
   BackEndOptions options = near_maps_too();
   options.final_search.passes = 0;
   options.loop_closure.verification.wide_window_m = 0;  // every window is wide, so all loops are pending
-  options.loop_consensus.min_weight = 1e6;              // no loop is ever confirmed
+  options.loop_consensus.min_weight = 1e6;              // so high that no loop is confirmed
   BackEnd back_end(options);
   EXPECT_EQ(close_all(back_end, graph), 0U);
   const auto pending = [&] {

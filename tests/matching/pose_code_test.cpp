@@ -71,8 +71,8 @@ TEST(PoseCode, lengths_are_the_smallest_of_equation_10) {
   }
 }
 
-// The window of the paper, computed by hand. r_t = 5 cm and W = 8 m give n = 160 and L_max = 320^2 = 102,400
-// < 2^17.
+// The window of the paper, computed by hand. r_t = 5 cm and W = 8 m give n = 160.
+// L_max = 320^2 = 102,400 is less than 2^17.
 TEST(PoseCode, the_window_of_the_paper_takes_17_bits_for_positions) {
   const PoseCode code(window_of_steps(160, 160, 184, 0.003));
   EXPECT_EQ(code.position_bits(), 17);

@@ -144,7 +144,7 @@ TEST(ScoreGridInterpolation, gradient_equals_numeric_derivatives) {
   const ScoreGrid grid = random_grid(random, 30, 20, 256);
   std::uniform_real_distribution<double> x(-0.2, 1.7);
   std::uniform_real_distribution<double> y(-0.2, 1.2);
-  constexpr double kStep = 1e-6;  // m
+  constexpr double kStep = 1e-6;  // metres
   for (int i = 0; i < 5000; ++i) {
     const double x_m = grid.origin_x_m() + x(random);
     const double y_m = grid.origin_y_m() + y(random);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Adapters for MRPT's graph-slam engine: the front end as a node registration decider, loop closing as an
-/// edge registration decider, and sparse pose adjustment as an optimizer.
+/// Adapters for MRPT's graph-slam engine. The front end becomes a node registration decider, loop closing an
+/// edge registration decider, and sparse pose adjustment an optimizer.
 ///
 ///     connect_deciders(node_decider, edge_decider, optimizer);
 ///     mrpt::graphslam::CGraphSlamEngine<MrptGraph> engine(ini, rawlog, "", nullptr, &node_decider, ...);
@@ -66,7 +66,7 @@ class CPsiFrontEndNRD : public NodeDecider {
   /// time stamp or no rays, its laser is tilted, or odometry is missing.
   bool updateState(mrpt::obs::CActionCollection::Ptr action, mrpt::obs::CSensoryFrame::Ptr observations,
                    mrpt::obs::CObservation::Ptr observation) override;
-  /// Appends the state of the object as text for people.
+  /// Appends the state of the node decider as readable text.
   void getDescriptiveReport(std::string* report_str) const override;
 
   /// Maps the scans that still wait for odometry or a companion scan, and finishes the active local maps.
@@ -121,7 +121,7 @@ class CPsiLoopCloserERD : public EdgeDecider {
 
   /// Sets "LC" and "ICP2D", the engine's names for loops, to the number of accepted loops.
   void getEdgesStats(std::map<std::string, int>* edge_type_to_num) const override;
-  /// Appends the state of the object as text for people.
+  /// Appends the state of the edge decider as readable text.
   void getDescriptiveReport(std::string* report_str) const override;
 
   /// Runs the final loop search, removes outlier loops, and refines the scans of all nodes jointly. Call
@@ -130,7 +130,7 @@ class CPsiLoopCloserERD : public EdgeDecider {
   /// skipped.
   void finish(const std::function<bool(double)>& progress = {});
 
-  /// All attempts to close loops.
+  /// Returns the records of all attempts to close loops.
   const std::vector<LoopRecord>& loops() const;
   /// Number of loops that are constraints of the graph.
   std::size_t accepted_loops() const;
@@ -169,7 +169,7 @@ class CPsiSpaGSO : public GraphOptimizer {
                    mrpt::obs::CObservation::Ptr observation) override;
   /// Whether the last updateState() optimised the graph.
   bool justFullyOptimizedGraph() const override;
-  /// Appends the state of the object as text for people.
+  /// Appends the state of the optimizer as readable text.
   void getDescriptiveReport(std::string* report_str) const override;
 
   /// Optimises the graph if edges were added since the last optimisation, and writes the poses to the graph.

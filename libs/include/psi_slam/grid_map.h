@@ -6,10 +6,10 @@
 /// steps, although there are only n - 1. Its last beam is therefore one step off: 1 degree for a usual scan
 /// of 180 degrees.
 ///
-/// Each scan counts once per cell: as a hit if any of its beams ended in the cell, otherwise as a pass if any
-/// beam crossed the cell. Over all scans, a hit weighs three times a pass and counts do not saturate. A cell
-/// is occupied if more than a quarter of the scans that saw it hit it. The map depends neither on the order
-/// of the scans nor on the number of beams.
+/// Each scan counts once per cell. It is a hit if any beam ended in the cell, otherwise a pass if any beam
+/// crossed the cell. Over all scans, a hit weighs three times a pass and counts do not saturate. A cell is
+/// occupied if more than a quarter of the scans that saw it hit it. The map depends neither on the order of
+/// the scans nor on the number of beams.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -24,7 +24,7 @@ namespace psi_slam {
 
 /// Options of draw_grid_map(): section [map] of settings files.
 struct GridMapOptions {
-  double resolution_m = 0.05;  ///< side of a cell
+  double resolution_m = 0.05;  ///< side of a cell, metres
   double max_range_m = 200;    ///< longer beams are drawn as free space up to this range
   /// Beams without return make unknown cells free up to this length, but not beyond the sensor's maximum
   /// range. Glass and black surfaces give no return either, so such beams never outvote a hit. 0: beams

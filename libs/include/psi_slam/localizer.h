@@ -43,13 +43,13 @@ struct FoundPlace {
   double clear_share = 0;           ///< share of the scans' beams that cross no wall of the map
   std::string objection;            ///< why the place was rejected, as a clause; empty if accepted
   bool ambiguous = false;           ///< true: rejected because another place fits equally well
-  std::int64_t evaluations = 0;     ///< poses scored
+  std::int64_t evaluations = 0;     ///< number of poses scored
 
   /// Whether a place was found and passed all checks.
   bool believed() const { return found && objection.empty(); }
 };
 
-/// Result of one scan.
+/// Result of the localizer for one scan.
 struct LocalizationStep {
   /// Whether the pose of the robot is known.
   enum class State { kLost, kTracking };

@@ -52,9 +52,9 @@ struct LogOptions {
   /// Default: CARMEN: the front laser if there is one; rawlog: the first laser; ROS: the only topic of scans.
   std::string laser;
 
-  /// Poses of lasers that the log states wrongly or not at all: "NAME X Y YAW" in metres and degrees,
-  /// followed by "mirrored" if the laser is mounted upside down; several separated by commas. Names are those
-  /// of `laser`. `robot_T_laser` overrides this option.
+  /// Poses of lasers that the log states wrongly or not at all: "NAME X Y YAW" in metres and degrees. Append
+  /// "mirrored" if the laser is mounted upside down. Separate several lasers by commas. Names are those of
+  /// `laser`. `robot_T_laser` overrides this option.
   std::string laser_mounts;
 
   /// Time from the first beam of a scan to its last, seconds, in [0, 1]. The robot's motion during this time

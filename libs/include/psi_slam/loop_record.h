@@ -41,8 +41,8 @@ constexpr const char* verdict_text(LoopVerdict verdict) {
 struct LoopRefusal {
   /// Test that the match failed, or edit that removed the loop.
   enum class Reason {
-    kNothingFound,        ///< limit: minimum response of the search
-    kLowResponse,         ///< value: response
+    kNothingFound,        ///< no match in the window; limit: minimum response
+    kLowResponse,         ///< value: response of the match
     kAmbiguous,           ///< value: response of the second-best place, divided by the best
     kUncertainPosition,   ///< value: largest standard deviation of the position, metres
     kUnobserved,          ///< value: share of the scan in space that the local map observed
@@ -87,7 +87,7 @@ struct LoopRecord {
   double neighbours_agree = 0;   ///< share of the neighbouring scans' points that fit the local map
   double reverse_agree = 0;      ///< share of the local map's points visible from the scan that fit the scan
   double moved_m = 0;            ///< distance from the predicted to the matched position
-  std::int64_t evaluations = 0;  ///< poses scored
+  std::int64_t evaluations = 0;  ///< number of poses scored
   double milliseconds = 0;       ///< time of the match
 
   LoopVerdict verdict = LoopVerdict::kRefused;  ///< outcome so far
@@ -97,9 +97,9 @@ struct LoopRecord {
 
 /// Cost of searching for loops, successful or not.
 struct LoopEffort {
-  std::size_t attempts = 0;      ///< windows searched
+  std::size_t attempts = 0;      ///< number of windows searched
   std::size_t found = 0;         ///< windows in which a match was found
-  std::int64_t evaluations = 0;  ///< poses scored
+  std::int64_t evaluations = 0;  ///< number of poses scored
   double milliseconds = 0;       ///< time of matching without verification, summed over the attempts
 
   /// Adds the cost of further searches.

@@ -54,9 +54,9 @@ struct LoopEditOutcome {
 /// Maps scans with odometry, one by one, into a pose graph.
 class Mapper {
  public:
-  /// Maps with the default options.
+  /// Creates a mapper with the default options.
   Mapper();
-  /// Maps with the given options: pass a Configuration.
+  /// Creates a mapper with the given options: pass a Configuration.
   explicit Mapper(const MapperOptions& options);
   ~Mapper();
   /// Moves the mapper. The moved-from mapper can only be assigned to or destroyed.

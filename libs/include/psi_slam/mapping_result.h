@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The result of a mapping run: plain values that exports, reports and views read.
+/// The result of mapping: plain values that exports, reports and views read.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -49,8 +49,8 @@ struct FrameRecord {
   /// earlier frames that this frame confirmed, and loops that are switched off later.
   int loops_accepted = 0;
   std::optional<MatcherKind> matcher;  ///< matcher chosen for the loops of this frame; empty if it is no node
-  std::int64_t loop_evaluations = 0;   ///< poses scored to close loops
-  std::int64_t evaluations = 0;        ///< poses scored by loop closing and the front end
+  std::int64_t loop_evaluations = 0;   ///< number of poses scored to close loops
+  std::int64_t evaluations = 0;        ///< number of poses scored by loop closing and the front end
 
   double front_end_ms = 0;      ///< time of matching and of insertion into the local maps
   double loop_matching_ms = 0;  ///< time of loop matching, summed over matches that may run in parallel
@@ -96,8 +96,8 @@ struct MappingResult {
   std::vector<FrameRecord> frames;  ///< one record for each scan, with its pose in the map
   /// Pose graph, optimised and then refined with the scans. Optimising it again undoes the refinement.
   PoseGraph graph;
-  std::vector<std::size_t> node_frames;       ///< the frame of each node
-  std::vector<std::size_t> later_run_frames;  ///< the first frame of each run after the first
+  std::vector<std::size_t> node_frames;       ///< frame number of each node
+  std::vector<std::size_t> later_run_frames;  ///< number of the first frame of each run after the first
   std::vector<LocalMapRecord> local_maps;     ///< all local maps, in the order in which they began
   std::vector<LoopRecord> loops;              ///< all attempts to close loops; see LoopRecord
   std::vector<std::string> unmet_edits;       ///< edits that could not be made, one sentence each

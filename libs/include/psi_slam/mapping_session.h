@@ -81,7 +81,7 @@ class MappingSession {
   MappingSession& operator=(const MappingSession&) = delete;
 
   /// Sets the function that is called after every scan, at the start of every phase and sometimes within a
-  /// phase, in the thread that drives the session.
+  /// phase. It is called in the thread that drives the session.
   void set_observer(Observer observer);
 
   /// Maps the next scan. Returns false at the end of the log and where the log is damaged (see broken_off()).
@@ -110,8 +110,8 @@ class MappingSession {
   /// Edits that could not be made, one sentence each. The list is complete after finish().
   std::vector<std::string> unmet_edits() const;
 
-  /// All warnings about this run, one sentence each: renamed settings, damaged logs, skipped lines, edits
-  /// that could not be made and, after finish(), scans that matched no local map.
+  /// All warnings about this run, one sentence each: renamed settings, damaged logs, skipped messages and
+  /// edits that could not be made. After finish(), also scans that matched no local map.
   std::vector<std::string> warnings() const;
 
   /// Number of runs through the building: this run and the runs merged before it.

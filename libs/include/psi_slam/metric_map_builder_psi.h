@@ -54,9 +54,9 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
     std::shared_ptr<const MapperOptions> mapper;  ///< Configuration::mapper_options(); null: the defaults
   };
 
-  /// Throws UserError if an option of the log is invalid.
+  /// Creates a builder. Throws UserError if an option of the log is invalid.
   explicit CMetricMapBuilderPsi(const Options& psi_options);
-  /// Maps with the default options.
+  /// Creates a builder with the default options.
   CMetricMapBuilderPsi();
   ~CMetricMapBuilderPsi() override;
 

@@ -30,12 +30,13 @@ struct RobustKernel {
   };
 
   Type type = Type::kNone;  ///< form of the cost function
-  double width = 1;         ///< > 0, in standard deviations, the unit of sqrt(e^T Omega e)
+  double width = 1;         ///< width of the kernel, > 0, in the unit of sqrt(e^T Omega e)
 
-  /// rho(chi2), chi2 >= 0.
+  /// Returns rho(chi2) for chi2 >= 0.
   double cost(double chi2) const;
 
-  /// drho/dchi2 in [0, 1]: the factor on the information matrix in iteratively reweighted least squares.
+  /// Returns drho/dchi2, in [0, 1]: the factor on the information matrix in iteratively reweighted least
+  /// squares.
   double weight(double chi2) const;
 };
 
@@ -50,8 +51,8 @@ struct Constraint {
   };
 
   std::size_t from = 0;           ///< node in whose frame `to` is measured
-  std::size_t to = 0;             ///< measured node
-  mrpt::math::TPose2D from_T_to;  ///< metres, radians
+  std::size_t to = 0;             ///< node whose pose is measured
+  mrpt::math::TPose2D from_T_to;  ///< measured pose of `to` in the frame of `from`: metres, radians
   /// Inverse covariance of (x, y, theta) of from_T_to, in the axes of `from`: 1/m^2, 1/(m rad), 1/rad^2.
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
   Kind kind = Kind::kOdometry;         ///< origin of the measurement
@@ -114,7 +115,7 @@ class PoseGraph {
   /// Poses of all nodes in the map frame.
   const std::vector<mrpt::math::TPose2D>& poses() const { return poses_; }
 
-  /// A constraint by its number.
+  /// Returns a constraint by its number.
   const Constraint& constraint(std::size_t index) const { return constraints_.at(index); }
   /// All constraints, enabled or not.
   const std::vector<Constraint>& constraints() const { return constraints_; }

@@ -241,7 +241,8 @@ void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& mot
     covariance.diagonal() += Eigen::Vector3d(motion.sigma_m * motion.sigma_m, motion.sigma_m * motion.sigma_m,
                                              motion.sigma_rad * motion.sigma_rad);
     if (step.matched) {
-      Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  // from the matched map to `active`
+      // Rotation from the axes of the matched map to those of `active`.
+      Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
       turn.topLeftCorner<2, 2>() =
           Eigen::Rotation2Dd(active_.front().local_T_map.phi - active.local_T_map.phi).toRotationMatrix();
       const Eigen::Matrix3d information = turn * step.information * turn.transpose();

@@ -22,7 +22,7 @@ struct PsiOptions {
   /// windows the other matchers find the same loops in a tenth of the time (psi-slam-bench match).
   double psi_1 = -1;
   double psi_2 = 1;        ///< kGa searches for Psi >= psi_2, and kCsmGa in between
-  int window_frames = 20;  ///< K, >= 1
+  int window_frames = 20;  ///< K of equation 13: number of nodes in the mean, >= 1
   double eta_max = 20;     ///< upper bound of eta, which is infinite at the start
 };
 

@@ -22,7 +22,7 @@ struct LoopConsensusOptions {
   double same_place_m = 0.5;                             ///< largest distance between poses that agree
   double same_heading_rad = radians_from_degrees(3.5L);  ///< largest turn between poses that agree
   double min_span_m = 1.0;       ///< shortest path between the first and the last match that agree
-  double min_weight = 0.5;       ///< weight of the agreeing matches; one weighs max(0.05, 1 - ambiguity)
+  double min_weight = 0.5;       ///< minimum weight of agreeing matches; one weighs max(0.05, 1 - ambiguity)
   double max_rival_share = 0.5;  ///< largest weight of another place, divided by that of the agreeing matches
 };
 

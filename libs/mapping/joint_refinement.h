@@ -18,10 +18,10 @@
 namespace psi_slam {
 
 struct JointRefinementOptions {
-  int rounds = 1;               ///< 0: no refinement
+  int rounds = 1;               ///< number of rounds; 0: no refinement
   std::size_t references = 12;  ///< largest number of nearby nodes that a scan is aligned with
   double reach_m = 3.0;         ///< largest distance between scan and node
-  double max_turn_rad = radians_from_degrees(70.0L);  ///< largest difference of their headings
+  double max_turn_rad = radians_from_degrees(70.0L);  ///< largest heading difference of scan and node
   SurfaceAlignmentOptions alignment;
 };
 

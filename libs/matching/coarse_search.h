@@ -24,7 +24,7 @@ CoarseCells rank_coarse_cells(const SearchLattice& lattice, int heading_stride, 
                               std::uint32_t min_sum);
 
 struct Seeds {
-  std::vector<Chromosome> chromosomes;  ///< in descending order of sums
+  std::vector<Chromosome> chromosomes;  ///< codes of the tiles, in descending order of sums
   std::int64_t evaluations = 0;
 };
 

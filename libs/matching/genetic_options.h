@@ -5,7 +5,7 @@
 
 namespace psi_slam {
 
-/// The genetic algorithm of the paper, section 3.1, equations 9 to 12.
+/// Options of the paper's genetic algorithm, section 3.1, equations 9 to 12.
 struct PaperGeneticOptions {
   int population = 200;
   int generations = 100;

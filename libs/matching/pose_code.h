@@ -28,8 +28,8 @@ class PoseCode {
   /// Throws std::invalid_argument if the window needs more than 64 bits or has no steps along an axis.
   explicit PoseCode(const SearchWindow& window);
 
-  int position_bits() const { return position_bits_; }  ///< l_1
-  int angle_bits() const { return angle_bits_; }        ///< l_2
+  int position_bits() const { return position_bits_; }  ///< number of bits of the position, l_1
+  int angle_bits() const { return angle_bits_; }        ///< number of bits of the angle, l_2
   int bits() const { return position_bits_ + angle_bits_; }
 
   /// Encodes a pose with -n <= steps < n on each axis.

@@ -33,7 +33,7 @@ struct PeakRequest {
     int turns = 1;
     double share = 0;
   };
-  std::optional<Next> next;  ///< empty: only the best peak is needed
+  std::optional<Next> next;  ///< conditions for the second peak; empty: it is not needed
 
   MatchSeed seed;  ///< seed of random searches
 };

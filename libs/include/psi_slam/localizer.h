@@ -34,12 +34,12 @@ struct ReferenceMap;
 
 /// Best place found by a search of the whole map. Values that the search did not reach are 0.
 struct FoundPlace {
-  bool found = false;               ///< false: no place reaches 0.9 of the minimum response
+  bool found = false;               ///< false: no place comes near the minimum response
   mrpt::math::TPose2D map_T_robot;  ///< robot pose in the map
   double response = 0;              ///< response of the scans at this pose, in [0, 1]
   double ambiguity = 0;             ///< response of the next best place, divided by `response`
   double observed_share = 0;        ///< share of the scans' points in space that the map shows
-  double agree = 0;                 ///< share of these points on or beside occupied cells
+  double agree = 0;                 ///< share of points in such space on or beside occupied cells
   double clear_share = 0;           ///< share of the scans' beams that cross no wall of the map
   std::string objection;            ///< why the place was rejected, as a clause; empty if accepted
   bool ambiguous = false;           ///< true: rejected because another place fits equally well
@@ -81,7 +81,7 @@ class Localizer {
   /// Sets the approximate start pose of the robot. Call before the first scan.
   void start_at(const mrpt::math::TPose2D& map_T_robot);
 
-  /// Processes the next scan.
+  /// Localizes the robot at the next scan. Frames must come in the order of the log.
   LocalizationStep add(const Frame& frame);
 
  private:

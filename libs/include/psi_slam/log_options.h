@@ -13,7 +13,7 @@ namespace psi_slam {
 
 /// How n beams divide a field of view F. Bearings run counter-clockwise from the right.
 enum class BeamAngles {
-  kAuto,                  ///< as the log states, otherwise see usual_beam_angles()
+  kAuto,                  ///< as the log states, otherwise as usual for the number of beams
   kCentredStepInclusive,  ///< -F/2 ... +F/2 in steps F/(n-1): a beam at each end
   kCentredHalfStep,       ///< -F/2 + s/2 ... +F/2 - s/2 in steps s = F/n (180 beams: -89.5 ... +89.5 degrees)
   kLeftOpen,              ///< -F/2 ... +F/2 - s in steps s = F/n (180 beams: -90 ... +89 degrees)
@@ -86,7 +86,7 @@ struct LogOptions {
 /// Maximum range, metres, for logs that state none; longer readings of CARMEN logs raise it.
 inline constexpr double kUnstatedMaxRange_m = 50.0;
 
-/// Throws UserError that names the first option with an invalid value.
+/// Checks the options. Throws UserError that names the first option with an invalid value.
 void check_log_options(const LogOptions& options);
 
 }  // namespace psi_slam

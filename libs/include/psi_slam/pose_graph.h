@@ -23,10 +23,11 @@ struct RobustKernel {
   /// Form of the cost function.
   enum class Type {
     kNone,            ///< rho(s) = s
-    kHuber,           ///< grows as sqrt(s) beyond the width; convex in the error
-    kCauchy,          ///< grows logarithmically
+    kHuber,           ///< rho(s) grows as sqrt(s) beyond the width; convex in the error
+    kCauchy,          ///< rho(s) grows logarithmically
     kDynamicScaling,  ///< dynamic covariance scaling (Agarwal et al., ICRA 2013): bounded by 3 width^2
-    kGemanMcClure,    ///< bounded by width^2; kernel of graduated non-convexity (Yang et al., RA-L 2020)
+    kGemanMcClure,    ///< rho(s) is bounded by width^2; kernel of graduated non-convexity (Yang et al., RA-L
+                      ///< 2020)
   };
 
   Type type = Type::kNone;  ///< form of the cost function
@@ -44,7 +45,7 @@ struct RobustKernel {
 struct Constraint {
   /// Origin of the measurement.
   enum class Kind {
-    kOdometry,  ///< between successive nodes
+    kOdometry,  ///< odometry between successive nodes
     kLocalMap,  ///< from the anchor of a local map to a node placed in that map
     kRunStart,  ///< from a node of an earlier run to the first node of a later run
     kLoop,      ///< from a loop closure; only this kind can be entirely false

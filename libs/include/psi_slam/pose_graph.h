@@ -26,8 +26,7 @@ struct RobustKernel {
     kHuber,           ///< rho(s) grows as sqrt(s) beyond the width; convex in the error
     kCauchy,          ///< rho(s) grows logarithmically
     kDynamicScaling,  ///< dynamic covariance scaling (Agarwal et al., ICRA 2013): bounded by 3 width^2
-    kGemanMcClure,    ///< rho(s) is bounded by width^2; kernel of graduated non-convexity (Yang et al., RA-L
-                      ///< 2020)
+    kGemanMcClure,    ///< rho(s) is bounded by width^2; for graduated non-convexity (Yang et al., RA-L 2020)
   };
 
   Type type = Type::kNone;  ///< form of the cost function

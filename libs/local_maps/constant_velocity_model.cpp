@@ -11,10 +11,10 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kShortest_s = 1e-3;  // no speed is computed from closer time stamps
+constexpr double kShortest_s = 1e-3;  // smallest time between scans for computing a speed
 
-/// Turns the translation of a motion. Along the axes halfway through its turn, that of an arc is straight
-/// ahead.
+/// Rotates the translation of a motion by an angle. Rotated by minus half its turn, the translation of an arc
+/// points straight ahead.
 TPose2D turned(const TPose2D& motion, double angle_rad) {
   const double c = std::cos(angle_rad);
   const double s = std::sin(angle_rad);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predicts the motion of a robot without odometry, by the speed between the last two matched scans.
+// Predicts the motion of a robot without odometry, from the velocity between the last two matched scans.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -16,11 +16,11 @@ struct ConstantVelocityOptions {
   double turn_acceleration_radps2 = radians_from_degrees(90.0L);
   double first_speed_mps = 0.5;  ///< standard deviation of the speed while it is unknown
   double first_turn_radps = radians_from_degrees(30.0L);
-  double longest_s = 2.0;  ///< the speed counts as unknown after this time without a match
+  double longest_s = 2.0;  ///< after this time without a match, the speed counts as unknown
 };
 
 struct PredictedMotion {
-  mrpt::math::TPose2D motion;  ///< in the frame of the last pose: the end of an arc at constant velocity
+  mrpt::math::TPose2D motion;  ///< motion along an arc, in the frame of the last pose
   double sigma_m = 0;
   double sigma_rad = 0;
 };
@@ -29,16 +29,16 @@ class ConstantVelocityModel {
  public:
   explicit ConstantVelocityModel(const ConstantVelocityOptions& options = {}) : options_(options) {}
 
-  /// Adds the pose of a scan, in any fixed frame. `matched` tells whether a match found it; a pose that was
-  /// only predicted does not change the speed.
+  /// Adds the pose of a scan, in any fixed frame. If `matched` is false, the pose was only predicted and does
+  /// not change the speed.
   void moved(TimeUs time_us, const mrpt::math::TPose2D& local_T_robot, bool matched);
 
-  /// Predicts the motion since the last pose. Returns zero motion before the first pose; treats time that
-  /// runs backwards as zero.
+  /// Predicts the motion since the last pose. Returns zero motion before the first pose. Treats a time before
+  /// that of the last pose as zero elapsed time.
   PredictedMotion predict(TimeUs time_us) const;
 
  private:
-  struct Speed {  // along the axes of the robot
+  struct Speed {  // velocity along the axes of the robot
     double x_mps = 0;
     double y_mps = 0;
     double turn_radps = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells whether a match's correction of the odometry has more support in the scan than one small object. That
-// object can be a walking person, who fills more of the scan than all doors of a corridor if near the robot.
+// Measures whether more than one small object of the scan supports a match's correction of the odometry. A
+// walking person near the robot can fill more of the scan than all doors of a corridor.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -10,16 +10,17 @@
 
 namespace psi_slam {
 
-/// Points within this distance of one point count as one object.
+/// Points within this distance of a point count as the same object.
 inline constexpr double kPersonReach_m = 0.4;
 
-/// Mean scores of points at two poses, in [0, 1].
+/// Mean scores of the scan's points at two poses, in [0, 1].
 struct CorrectionScores {
-  double matched = 0;
-  double held = 0;  ///< at the pose held to odometry
+  double matched = 0;  ///< at the matched pose
+  double held = 0;     ///< at the pose kept close to odometry
 };
 
-/// Mean scores without the one spot, of radius kPersonReach_m, that supports the match most.
+/// Returns mean scores without the points of one spot of radius kPersonReach_m: the spot that gains most from
+/// the match.
 CorrectionScores scores_without_best_spot(const ScoreGrid& grid, const ScanPoints& scan,
                                           const mrpt::math::TPose2D& matched,
                                           const mrpt::math::TPose2D& held);

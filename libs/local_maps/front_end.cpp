@@ -26,10 +26,10 @@ MatcherOptions matcher_options(const FrontEndOptions& options) {
   return matcher;
 }
 
-constexpr double kResponseWeight = 0.2;  // of a scan in the expected response
-constexpr double kLeastExpected = 0.25;  // misses lower the expected response, but no further than this
-constexpr double kWiderBy = 1.5;         // a wide search is worth its cost if its window is so much wider
-constexpr double kSteadyTime_s = 0.5;    // after this time, confidence in constant velocity is one half
+constexpr double kResponseWeight = 0.2;  // weight of one scan in the expected response
+constexpr double kLeastExpected = 0.25;  // lower bound of the expected response
+constexpr double kWiderBy = 1.5;         // smallest ratio of wide to narrow half-widths for a wide search
+constexpr double kHalfWeight_s = 0.5;    // time after which the disagreement with the last step counts half
 
 }  // namespace
 
@@ -40,7 +40,7 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
   step.points = std::make_shared<const ScanPoints>(matching_points(frame, options_.scan));
   const Motion motion = motion_to(frame);
   doubtful_correction_m_ *= std::exp(-motion.length_m / options_.doubtful_correction_travel_m);
-  step.local_T_robot = last_local_T_robot_ + motion.odometry;
+  step.local_T_robot = last_local_T_robot_ + motion.predicted;
   step.window = search_extent(motion);
   // A scan without points, or with points only at the robot, cannot be matched (see make_search_window).
   const bool blind =
@@ -62,11 +62,11 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   Motion motion;
   if (!last_) return motion;
   if (!frame.has_odometry || !last_->has_odometry) return constant_velocity_motion(frame.time_us);
-  motion.odometry = frame.odom_T_robot - last_->odom_T_robot;
-  motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
-  motion.turn_rad = std::abs(mrpt::math::wrapToPi(motion.odometry.phi));
+  motion.predicted = frame.odom_T_robot - last_->odom_T_robot;
+  motion.length_m = std::hypot(motion.predicted.x, motion.predicted.y);
+  motion.turn_rad = std::abs(mrpt::math::wrapToPi(motion.predicted.phi));
   const double passed_s = std::max(0.0, seconds(frame.time_us - last_->time_us));
-  // Independent errors add up by their variances, so that the sum does not depend on the rate of scans.
+  // The variances of independent errors add up, so the sum does not depend on the rate of scans.
   const auto variance = [&](double rest, double per_metre, double per_radian) {
     return rest * rest * passed_s + per_metre * per_metre * motion.length_m +
            per_radian * per_radian * motion.turn_rad;
@@ -75,11 +75,11 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
                                       options_.odometry_sigma_per_radian));
   motion.sigma_rad = std::sqrt(variance(options_.odometry_sigma_rad, options_.odometry_sigma_rad_per_metre,
                                         options_.odometry_sigma_rad_per_radian));
-  const double steadiness = passed_s / kSteadyTime_s;
-  const double belief = 1 / (1 + steadiness * steadiness);
-  motion.surprise_m =
-      belief * std::hypot(motion.odometry.x - last_motion_.x, motion.odometry.y - last_motion_.y);
-  motion.surprise_rad = belief * std::abs(mrpt::math::wrapToPi(motion.odometry.phi - last_motion_.phi));
+  const double elapsed = passed_s / kHalfWeight_s;
+  const double weight = 1 / (1 + elapsed * elapsed);
+  motion.disagreement_m =
+      weight * std::hypot(motion.predicted.x - last_motion_.x, motion.predicted.y - last_motion_.y);
+  motion.disagreement_rad = weight * std::abs(mrpt::math::wrapToPi(motion.predicted.phi - last_motion_.phi));
   return motion;
 }
 
@@ -87,11 +87,11 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(TimeUs time_us) const {
   const PredictedMotion predicted = constant_velocity_.predict(time_us);
   Motion motion;
   motion.measured = false;
-  motion.odometry = predicted.motion;
-  motion.length_m = std::hypot(motion.odometry.x, motion.odometry.y);
-  motion.turn_rad = std::abs(motion.odometry.phi);
-  motion.surprise_m = predicted.sigma_m;
-  motion.surprise_rad = predicted.sigma_rad;
+  motion.predicted = predicted.motion;
+  motion.length_m = std::hypot(motion.predicted.x, motion.predicted.y);
+  motion.turn_rad = std::abs(motion.predicted.phi);
+  motion.disagreement_m = predicted.sigma_m;
+  motion.disagreement_rad = predicted.sigma_rad;
   motion.sigma_m = predicted.sigma_m;
   motion.sigma_rad = predicted.sigma_rad;
   return motion;
@@ -100,18 +100,18 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(TimeUs time_us) const {
 SearchExtent FrontEnd::search_extent(const Motion& motion) const {
   const double lost = 1 + misses_;
   const double half_m =
-      lost * (options_.window_m + options_.window_per_metre * motion.length_m + motion.surprise_m);
+      lost * (options_.window_m + options_.window_per_metre * motion.length_m + motion.disagreement_m);
   const double half_rad = lost * (options_.window_rad + options_.window_rad_per_metre * motion.length_m +
-                                  options_.window_per_radian * motion.turn_rad + motion.surprise_rad);
+                                  options_.window_per_radian * motion.turn_rad + motion.disagreement_rad);
   return {std::min(half_m, options_.max_window_m), std::min(half_m, options_.max_window_m),
           std::min(half_rad, options_.max_window_rad)};
 }
 
 PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const Motion& motion) const {
   const double sigma_m = options_.prior_sigma_m + options_.prior_per_metre * motion.length_m +
-                         options_.prior_per_surprise * motion.surprise_m;
+                         options_.prior_per_surprise * motion.disagreement_m;
   const double sigma_rad = options_.prior_sigma_rad + options_.prior_per_radian * motion.turn_rad +
-                           options_.prior_per_surprise * motion.surprise_rad;
+                           options_.prior_per_surprise * motion.disagreement_rad;
   PosePrior prior;
   prior.map_T_robot = map_T_robot;
   prior.information.diagonal() << 1 / (sigma_m * sigma_m), 1 / (sigma_m * sigma_m),
@@ -119,14 +119,15 @@ PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const Motion& motion) cons
   return prior;
 }
 
-// Odometry may be wrong by as much as the whole motion, as when it counts a reversal as forward motion.
+// The error of odometry can be as large as the whole motion, for example if it reports a reversal as forward
+// motion.
 SearchExtent FrontEnd::wide_extent(const Motion& motion) const {
   const double half_m =
       std::min(options_.max_wide_window_m,
-               options_.window_m + options_.wide_window_per_motion * motion.length_m + motion.surprise_m);
+               options_.window_m + options_.wide_window_per_motion * motion.length_m + motion.disagreement_m);
   const double half_rad =
       std::min(options_.max_wide_window_rad,
-               options_.window_rad + motion.surprise_rad +
+               options_.window_rad + motion.disagreement_rad +
                    options_.wide_window_per_motion *
                        (motion.turn_rad + options_.window_rad_per_metre * motion.length_m));
   return {half_m, half_m, half_rad};
@@ -142,14 +143,15 @@ MatchResult FrontEnd::search(FrontEndStep& step, const ScoreGrid& grid, const Po
   return match;
 }
 
-/// The match in the wide window, if the window is wider than before and the match better than poor.
+/// Returns the match in the wide window. Returns nothing if this window is hardly wider than the window
+/// before, or if its match is not much better than the poor one.
 std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Motion& motion,
                                                    double poor_response) {
   const SearchExtent wide = wide_extent(motion);
   if (wide.x_m <= kWiderBy * step.window.x_m && wide.theta_rad <= kWiderBy * step.window.theta_rad) return {};
   const PlacedLocalMap& older = active_.front();
   PosePrior unknown;
-  unknown.map_T_robot = last_local_T_robot_ + motion.odometry - older.local_T_map;
+  unknown.map_T_robot = last_local_T_robot_ + motion.predicted - older.local_T_map;
   const double needed = std::max(options_.poor_response_share * expected_response_,
                                  options_.wide_response_gain * poor_response);
   const MatchResult match = search(step, older.map->scores_with_pyramid(), unknown, wide, needed);
@@ -161,8 +163,8 @@ std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Mot
 void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const PlacedLocalMap& older = active_.front();
   const ScoreGrid& grid = older.map->scores();
-  std::vector<TPose2D> hypotheses = {motion.odometry};
-  if (motion.surprise_m > options_.max_window_m || motion.surprise_rad > options_.max_window_rad)
+  std::vector<TPose2D> hypotheses = {motion.predicted};
+  if (motion.disagreement_m > options_.max_window_m || motion.disagreement_rad > options_.max_window_rad)
     hypotheses.push_back(last_motion_);
   MatchResult best;
   PosePrior best_prior;
@@ -225,9 +227,9 @@ std::optional<RefinedPose> FrontEnd::held_to_odometry(const ScoreGrid& grid, con
   return held;
 }
 
-// Propagates a covariance for each active map as a Kalman filter does: the motion adds the noise of odometry,
-// the match reduces it. So a position along a corridor that only odometry determines is passed on as
-// uncertain.
+// Propagates the pose covariance in each active map by a Kalman filter: the motion adds the noise of
+// odometry, and the match reduces the covariance. Where only odometry determines the position, as along a
+// corridor, the covariance grows.
 void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& motion) {
   for (PlacedLocalMap& active : active_) {
     const TPose2D before = last_local_T_robot_ - active.local_T_map;
@@ -239,7 +241,8 @@ void FrontEnd::propagate_covariances(const FrontEndStep& step, const Motion& mot
     covariance.diagonal() += Eigen::Vector3d(motion.sigma_m * motion.sigma_m, motion.sigma_m * motion.sigma_m,
                                              motion.sigma_rad * motion.sigma_rad);
     if (step.matched) {
-      Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  // from the matched map's axes to this one's
+      // Rotation from the axes of the matched map to those of `active`.
+      Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
       turn.topLeftCorner<2, 2>() =
           Eigen::Rotation2Dd(active_.front().local_T_map.phi - active.local_T_map.phi).toRotationMatrix();
       const Eigen::Matrix3d information = turn * step.information * turn.transpose();
@@ -285,7 +288,8 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
   for (const PlacedLocalMap& active : active_)
     step.memberships.push_back(
         {active.id, active.anchor, step.local_T_robot - active.local_T_map, active.covariance});
-  if (unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 0) {  // this scan is another miss
+  // If misses_ > 0 here, this scan is at least the second successive one without a match.
+  if (unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 0) {
     end_local_maps(step, active_.size());
     unmatched_travel_m_ = 0;
   }

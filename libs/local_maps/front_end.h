@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The front end: predicts the pose of each scan by odometry, or by constant velocity without odometry,
-// matches the scan with the active local map (equations 1 and 2), and inserts it if the robot moved enough.
+// The front end predicts the pose of each scan and matches the scan with the active local map (equations 1
+// and 2). It inserts the scan if the robot moved enough. Odometry gives the prediction, or else the
+// constant-velocity model.
 //
-// It works in a continuous frame, "local", which loop closing never moves. The mapper knows the pose of that
-// frame in the global map. Two local maps are active at a time and overlap by half: scans are matched with
-// the older one and inserted into both.
+// The front end works in a continuous frame, "local", which loop closing never moves. The mapper knows the
+// pose of this frame in the map. At most two local maps are active at a time, and successive local maps
+// overlap by half. Scans are matched with the older active map and inserted into both.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -29,8 +30,8 @@ struct FrontEndOptions {
   LocalMapOptions local_map;
   RefinementOptions refinement;
 
-  // Search window: half-widths for a robot at rest, and their growth with the odometry's motion. The
-  // difference between odometry and constant velocity (the motion of the last step) is added.
+  // Search window: half-widths for a robot at rest, and their growth with the motion by odometry. The
+  // disagreement of odometry with the motion of the last step is added, see Motion.
   double window_m = 0.15;
   double window_rad = radians_from_degrees(7.0L);
   double window_per_metre = 0.3;
@@ -39,81 +40,84 @@ struct FrontEndOptions {
   double max_window_m = 1.0;
   double max_window_rad = radians_from_degrees(35.0L);
 
-  // The response that a match can reach depends on the place: on the overlap with the local map, on how much
-  // of it are smooth walls, on the spacing of the beams. So matches are judged by the response expected here:
-  // a decaying mean of those of the last scans, where a scan without a match counts as 0, and at least 0.25.
-  double min_response_share = 0.3;  ///< below this share, the prediction is kept instead of the match
-  /// A match below this share is poor: odometry may be wrong by more than the window holds. The scan is
-  /// searched again in a wide window, whose match must exceed this share.
+  // The response that a match can reach depends on the overlap with the local map, the share of smooth walls
+  // and the spacing of beams. So each response is compared with an expected response: a decaying mean over
+  // the last scans. A scan without a match counts as 0. The expected response is at least 0.25.
+  double min_response_share = 0.3;  ///< share of the expected response that a match needs
+  /// A match below this share of the expected response is poor: the error of odometry may exceed the window.
+  /// The front end then searches a wide window, whose match must reach this share.
   double poor_response_share = 0.75;
-  double wide_response_gain = 1.6;  ///< factor by which the match in the wide window must exceed the poor one
-  double wide_window_per_motion = 2.0;  ///< growth of the wide window with the motion by odometry
+  double wide_response_gain = 1.6;      ///< smallest ratio of the response in the wide window to the poor one
+  double wide_window_per_motion = 2.0;  ///< growth of the wide window per metre or radian of motion
   double max_wide_window_m = 2.5;
   double max_wide_window_rad = radians_from_degrees(60.0L);
 
-  // Standard deviations of the prediction, which holds the pose where the scan does not (along corridors):
-  // for a robot at rest, and their growth with the motion and with its difference from constant velocity.
+  // Standard deviations of the prediction, for a robot at rest, and their growth with the motion and with its
+  // disagreement (see Motion). The prediction determines the pose where the scan does not, as along a
+  // corridor.
   double prior_sigma_m = 0.02;
   double prior_sigma_rad = radians_from_degrees(6.0L);
   double prior_per_metre = 0.1;
   double prior_per_radian = 0.5;
   double prior_per_surprise = 0.5;
-  /// The pose refined directly from the prediction is preferred if it scores at least this share of the
-  /// searched one, because noise decides the search along a corridor.
+  /// The pose refined directly from the prediction replaces the searched pose if it reaches this share of the
+  /// searched pose's score. Along a corridor, noise decides where the search finds its best pose.
   double prediction_share = 0.95;
 
-  // Only a small part of the scan supports a doubtful correction of the odometry. A person who walks ahead
-  // along a bare corridor causes such corrections, which would hold the robot back. A correction is doubtful
-  // if the pose held to odometry scores at least `held_share` of the match, with or without the spot of the
-  // scan, no larger than a person, that supports the match most. Doubtful corrections are summed, and the sum
-  // decays over `doubtful_correction_travel_m` of travel. A correction that would raise the sum above
-  // `max_doubtful_correction_m` is not applied. So the scale of odometry may be wrong by
-  // max_doubtful_correction_m / doubtful_correction_travel_m.
+  // Only a small part of the scan supports a doubtful correction of the odometry. A person who walks ahead of
+  // the robot along a bare corridor causes such corrections: the mapped path becomes too short. A correction
+  // is doubtful if the pose held to odometry scores at least `held_share` of the match. The comparison is
+  // repeated without the spot of the scan, as small as a person, that supports the match most. Doubtful
+  // corrections are summed, and the sum decays over `doubtful_correction_travel_m` of travel. A correction
+  // that would raise the sum above `max_doubtful_correction_m` is not applied. So doubtful corrections can
+  // correct a scale error of odometry of at most max_doubtful_correction_m / doubtful_correction_travel_m.
   double held_share = 0.9;
   double max_doubtful_correction_m = 0.2;
   double doubtful_correction_travel_m = 3.0;
 
-  // Noise of odometry, for the covariance of the poses. It matters where scans do not determine the pose. Its
-  // variance grows with time, path and turns, whatever the rate of scans.
-  double odometry_sigma_m = 0.005;          ///< after one second at rest
-  double odometry_sigma_per_metre = 0.055;  ///< after one metre
-  double odometry_sigma_per_radian = 0.02;  ///< after a turn of one radian
+  // Standard deviations of odometry, for the covariance of the poses where scans do not determine the pose.
+  // The variance grows with time, path and turns, and does not depend on the rate of scans.
+  double odometry_sigma_m = 0.005;          ///< standard deviation after one second at rest
+  double odometry_sigma_per_metre = 0.055;  ///< standard deviation after one metre
+  double odometry_sigma_per_radian = 0.02;  ///< standard deviation after a turn of one radian
   double odometry_sigma_rad = radians_from_degrees(0.2L);
   double odometry_sigma_rad_per_metre = radians_from_degrees(1.3L);
   double odometry_sigma_rad_per_radian = radians_from_degrees(2.0L);
 
-  double node_distance_m = 0.15;  ///< a scan becomes a node if the robot moved this far since the last node
-  double node_rotation_rad = radians_from_degrees(6.0L);  ///< or if it turned by this angle since then
-  /// A local map ends after this number of nodes, or this path of the robot. The next begins at half of it.
+  double node_distance_m = 0.15;  ///< a scan becomes a node if the robot moved this far since the last node,
+  double node_rotation_rad = radians_from_degrees(6.0L);  ///< or turned by this angle
+  /// A local map ends after this number of nodes or after this path of the robot. The next local map begins
+  /// when the map has reached half of either limit.
   std::size_t nodes_per_local_map = 80;
   double local_map_travel_m = 15.0;
   /// All local maps end if at least two successive scans were not matched and the robot has travelled this
-  /// far since. Odometry's error over such a stretch would distort the maps.
+  /// far since the last match. The error of odometry over this path would distort the maps.
   double max_unmatched_travel_m = 0.5;
 };
 
-/// Result of one scan.
+/// Result of the front end for one scan.
 struct FrontEndStep {
   mrpt::math::TPose2D local_T_robot;
-  bool matched = false;  ///< false: there was no local map, or the response was too low
+  bool matched = false;  ///< false: no local map, no points, or a response that is too low
   double response = 0;
   SearchExtent window;
   std::int64_t evaluations = 0;
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the match, along the axes of the local map
+  /// Information matrix of the match, along the axes of the older active map.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   std::shared_ptr<const ScanPoints> points;
 
-  std::optional<std::size_t> node;  ///< number of the node, from 0, if the scan became one
-  /// A local map with this node, and the node's pose in it. `memberships` excludes maps that begin with this
-  /// node. It includes maps that end here because of unmatched scans, which links the graph, though they do
-  /// not hold this scan.
+  std::optional<std::size_t> node;  ///< number of the scan's node, from 0; empty if it became no node
+  /// Pose of this node in one local map. `memberships` excludes maps that begin with this node. It includes
+  /// maps that end at this node because of unmatched scans: they do not hold this scan, but link the node to
+  /// the graph.
   struct Membership {
     std::size_t local_map;
     std::size_t anchor;
     mrpt::math::TPose2D anchor_T_node;
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of anchor_T_node, along the anchor's axes
   };
-  std::vector<Membership> memberships;   ///< older first
-  std::vector<PlacedLocalMap> finished;  ///< local maps that ended with this node, older first
+  std::vector<Membership> memberships;   ///< poses of the node in its local maps, older first
+  std::vector<PlacedLocalMap> finished;  ///< local maps that ended at this node, older first
 };
 
 class FrontEnd {
@@ -126,29 +130,30 @@ class FrontEnd {
   /// Ends the local maps that are still active and returns them, older first.
   std::vector<PlacedLocalMap> finish();
 
-  /// Begins another run, whose start is unrelated to the last pose: resets the frame "local" to the robot of
-  /// the next scan. Numbers of nodes and local maps continue. Call finish() before.
+  /// Begins another run, whose start is unrelated to the last pose. The pose of the next scan becomes the
+  /// origin of the frame "local". Numbers of nodes and local maps continue. Call finish() before.
   void begin_run();
 
   /// Local maps that scans are inserted into, older first, at most two.
   const std::vector<PlacedLocalMap>& active() const { return active_; }
 
  private:
-  /// Motion since the last scan by odometry, and its difference from constant velocity, the motion of the
-  /// last step. The difference reveals slipping wheels, stalling encoders and late time stamps. Confidence in
-  /// the constant-velocity prediction decays with time.
+  /// Predicted motion since the last scan.
   struct Motion {
-    mrpt::math::TPose2D odometry;
-    bool measured = true;  ///< false: there is no odometry
+    mrpt::math::TPose2D predicted;  ///< by odometry or the constant-velocity model, in the last pose's frame
+    bool measured = true;           ///< false: there is no odometry
     double length_m = 0;
     double turn_rad = 0;
-    double surprise_m = 0;
-    double surprise_rad = 0;
-    double sigma_m = 0;  ///< noise, for the covariance of the poses
+    /// Disagreement of odometry with the motion of the last step. It reveals slipping wheels, stalling
+    /// encoders and late time stamps, and counts less the more time has passed. Without odometry: sigma_m and
+    /// sigma_rad.
+    double disagreement_m = 0;
+    double disagreement_rad = 0;
+    double sigma_m = 0;  ///< standard deviations, for the covariance of the poses
     double sigma_rad = 0;
   };
   Motion motion_to(const Frame& frame) const;
-  /// Motion by the constant-velocity model, for scans without odometry.
+  /// Predicts the motion by the constant-velocity model, for scans without odometry.
   Motion constant_velocity_motion(TimeUs time_us) const;
   SearchExtent search_extent(const Motion& motion) const;
   PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
@@ -157,9 +162,10 @@ class FrontEnd {
   MatchResult search(FrontEndStep& step, const ScoreGrid& grid, const PosePrior& prior,
                      const SearchExtent& window, double min_response) const;
   std::optional<MatchResult> search_widely(FrontEndStep& step, const Motion& motion, double poor_response);
-  /// Updates the sum of doubtful corrections. If the sum would be too large (see FrontEndOptions), returns
-  /// the pose held to the prediction in the direction of the correction, with no information in that
-  /// direction. Otherwise empty: the match is kept.
+  /// Decides whether to apply the correction of odometry by a match, and updates the sum of doubtful
+  /// corrections. Returns nothing if the correction is applied. If the sum would become too large (see
+  /// FrontEndOptions), returns the pose held to the prediction in the direction of the correction. Its
+  /// information in that direction is zero.
   std::optional<RefinedPose> held_to_odometry(const ScoreGrid& grid, const ScanPoints& scan,
                                               const RefinedPose& matched, const PosePrior& prior);
   void propagate_covariances(const FrontEndStep& step, const Motion& motion);
@@ -170,17 +176,17 @@ class FrontEnd {
 
   FrontEndOptions options_;
   CorrelativeMatcher matcher_;
-  std::vector<PlacedLocalMap> active_;  ///< older first, at most two
+  std::vector<PlacedLocalMap> active_;  ///< active local maps, older first, at most two
   std::size_t next_local_map_ = 0;
   std::size_t next_node_ = 0;
-  std::optional<Frame> last_;  ///< without its ranges
+  std::optional<Frame> last_;  ///< last frame, without its scans
   ConstantVelocityModel constant_velocity_;
   mrpt::math::TPose2D last_local_T_robot_;
   mrpt::math::TPose2D last_motion_;
-  Eigen::Vector2d doubtful_correction_m_ = Eigen::Vector2d::Zero();  ///< decaying sum, in the robot's axes
-  double expected_response_ = 0.5;                                   ///< decaying mean of the last responses
-  int misses_ = 0;                                                   ///< successive scans without a match
-  double unmatched_travel_m_ = 0;  ///< path since the last match, or since the newest local map began
+  Eigen::Vector2d doubtful_correction_m_ = Eigen::Vector2d::Zero();  ///< decaying sum, along the robot's axes
+  double expected_response_ = 0.5;                                   ///< decaying mean of the responses
+  int misses_ = 0;                 ///< number of successive scans without a match
+  double unmatched_travel_m_ = 0;  ///< path since the last match, or since all local maps ended
   mrpt::math::TPose2D last_node_local_T_robot_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 using Grid = mrpt::maps::COccupancyGridMap2D;
 
-constexpr double kGrowthStep_m = 5.0;  // grids grow in large steps, so that they grow rarely
+constexpr double kGrowthStep_m = 5.0;  // large, so that grids rarely grow
 
 }  // namespace
 
@@ -76,7 +76,7 @@ void LocalMap::draw_hit(int x, int y) {
                                  static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MIN + hit));
 }
 
-// The cells between two beam ends on one surface.
+// Draws hits in the cells between two beam ends on one surface, without the cells of the ends.
 void LocalMap::draw_surface(int x0, int y0, int x1, int y1) {
   const int steps = std::max(std::abs(x1 - x0), std::abs(y1 - y0));
   for (int i = 1; i < steps; ++i) {
@@ -85,7 +85,7 @@ void LocalMap::draw_surface(int x0, int y0, int x1, int y1) {
   }
 }
 
-// Bresenham's line, without its last cell.
+// Draws free space along Bresenham's line, without its last cell.
 void LocalMap::draw_way(int x0, int y0, int x1, int y1) {
   const Grid::cellType miss = Grid::p2l(static_cast<float>(1 - options_.miss_probability));
   const auto threshold = static_cast<Grid::cellType>(Grid::OCCGRID_CELLTYPE_MAX - miss);
@@ -120,7 +120,8 @@ void LocalMap::insert(const std::vector<Beams>& scans) {
   for (const Way& way : ways) draw_way(way.from_x, way.from_y, way.to_x, way.to_y);
 }
 
-// Draws the hits and adds the ways to them, which insert() draws after all hits.
+// Draws the hits of one scan. Appends the beams that lead to them to `ways`, which insert() draws after all
+// hits.
 void LocalMap::draw_hits(const Beams& beams, std::vector<Way>& ways) {
   const int origin_x = grid_->x2idx(beams.origin.x);
   const int origin_y = grid_->y2idx(beams.origin.y);
@@ -171,7 +172,7 @@ const ScoreGrid& LocalMap::scores_with_pyramid() {
   return scores_;
 }
 
-// All observed cells, and the cells around that their smoothing reaches.
+// Returns the smallest region that holds all observed cells and the cells within reach of their smoothing.
 LocalMap::Region LocalMap::observed_region() const {
   const int width = static_cast<int>(grid_->getSizeX());
   const int height = static_cast<int>(grid_->getSizeY());
@@ -206,7 +207,7 @@ void LocalMap::finish() {
       if (row[x] != 0) observed_[static_cast<std::size_t>(y / 2 * half_width + x / 2)] = 1;
   }
   finished_ = true;
-  last_scan_ = std::vector<std::uint16_t>();  // "= {}" would keep the memory
+  last_scan_ = std::vector<std::uint16_t>();  // an assignment of {} would keep the memory
   grid_.reset();
 }
 
@@ -239,7 +240,7 @@ bool LocalMap::observed(int x, int y) const {
 
 LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
                                         const mrpt::math::TPose2D& map_T_robot) const {
-  constexpr int kHitScore = 64;  // a quarter: about one and a half sigma from a wall
+  constexpr int kHitScore = 64;  // a quarter of 255: about 1.7 sigma from a wall
   if (packed_) throw std::logic_error("LocalMap::agreement: the local map is packed, call unpack() first");
   Agreement agreement;
   const ScoreLevel& finest = scores_.finest();
@@ -255,7 +256,7 @@ LocalMap::Agreement LocalMap::agreement(const ScanPoints& scan,
     ++agreement.observed;
     std::uint8_t best = 0;
     for (int j = -1; j <= 1; ++j) {
-      const std::uint8_t* row = finest.cell(x, y + j);  // observed cells have a margin around them
+      const std::uint8_t* row = finest.cell(x, y + j);  // the margin makes row[-1] and row[1] valid
       best = std::max({best, row[-1], row[0], row[1]});
     }
     if (best >= kHitScore) ++agreement.hits;

@@ -25,18 +25,18 @@ namespace psi_slam {
 
 struct LocalMapOptions {
   double resolution_m = 0.05;
-  double hit_probability = 0.65;      ///< of occupancy, given a scan point in the cell
-  double miss_probability = 0.48;     ///< of occupancy, given a beam through the cell
-  double smoothing_sigma_m = 0.03;    ///< of the Gaussian from occupancy to scores: range noise, cell size
-  double max_insert_range_m = 200.0;  ///< longer beams are cut there; the default is beyond usual 2D lidars
+  double hit_probability = 0.65;      ///< occupancy probability of a cell, given a scan point in it
+  double miss_probability = 0.48;     ///< occupancy probability of a cell, given a beam through it
+  double smoothing_sigma_m = 0.03;    ///< standard deviation of the Gaussian that blurs the scores
+  double max_insert_range_m = 200.0;  ///< longer beams are cut at this range; usual 2D lidars stay below it
 };
 
 /// One scan for drawing: beams from `origin` to each of `ends`, in the local map's frame, metres.
 struct Beams {
   mrpt::math::TPoint2D origin;
   std::vector<mrpt::math::TPoint2D> ends;
-  std::vector<bool> hits;  ///< false: the beam was cut at the largest range
-  /// Whether an end lies on one surface with the end before it; empty: no end does.
+  std::vector<bool> hits;  ///< for each end; false: the beam was cut at the largest range
+  /// For each end, whether it lies on one surface with the end before it. Empty: false for all ends.
   std::vector<bool> joined{};
 };
 
@@ -44,38 +44,39 @@ class LocalMap {
  public:
   explicit LocalMap(const LocalMapOptions& options);
 
-  /// Makes a finished map from an occupancy grid, in the frame and with the resolution of the grid.
+  /// Makes a finished map from an occupancy grid. Takes over the grid's frame and resolution.
   LocalMap(const LocalMapOptions& options, const mrpt::maps::COccupancyGridMap2D& drawn);
 
-  /// Draws a scan: cells at beam ends, and between ends on one surface, become more occupied; cells along the
-  /// beams less. A scan changes a cell at most once, and surfaces take precedence. Must not be called after
-  /// finish().
+  /// Draws a scan. Cells at beam ends, and between ends on one surface, become more occupied. Cells along the
+  /// beams become less occupied. A scan changes each cell at most once; surfaces take precedence. Must not be
+  /// called after finish().
   void insert(const Beams& beams) { insert(std::vector<Beams>{beams}); }
 
   /// Draws simultaneous scans of several lasers as one scan, so that no beam of one laser erases the beam
   /// ends of another.
   void insert(const std::vector<Beams>& scans);
 
-  /// Occupancy of all inserted scans; empty once the map is finished.
+  /// Occupancy grid of all inserted scans; empty for a finished map.
   const std::optional<mrpt::maps::COccupancyGridMap2D>& occupancy() const { return grid_; }
 
-  /// Score grid of all inserted scans, without a pyramid until the map is finished.
+  /// Returns the score grid, updated with all inserted scans. It may lack its pyramid until the map is
+  /// finished.
   const ScoreGrid& scores();
-  /// Score grid with its pyramid, for a search in a wide window.
+  /// Returns the updated score grid with its pyramid, for a search in a wide window.
   const ScoreGrid& scores_with_pyramid();
-  const ScoreGrid& scores() const { return scores_; }  ///< of a finished map
+  const ScoreGrid& scores() const { return scores_; }  ///< score grid of a finished map
 
   /// Ends the insertion of scans: builds the pyramid and frees the occupancy grid.
   void finish();
   bool finished() const { return finished_; }
 
-  /// Packs or unpacks a finished map; does nothing if it already is. A packed map has no scores, and
-  /// agreement() throws std::logic_error. Not thread-safe.
+  /// Packs or unpacks a finished map; does nothing if the map already is in that state. A packed map has no
+  /// scores, and agreement() throws std::logic_error. Not thread-safe.
   void pack();
   void unpack();
   bool packed() const { return packed_; }
 
-  /// Agreement of a scan at a pose with what the map observed there.
+  /// Agreement of a scan at a pose with the cells that the map observed.
   struct Agreement {
     std::size_t observed = 0;  ///< points in cells that the map has observed, free or occupied
     std::size_t hits = 0;      ///< observed points on or beside an occupied cell
@@ -83,19 +84,20 @@ class LocalMap {
       return observed == 0 ? 0 : static_cast<double>(hits) / static_cast<double>(observed);
     }
   };
-  /// The map must be finished, or its score grid up to date after scores().
+  /// Counts the points of a scan that agree with the map. The map must be finished, or scores() must have
+  /// been called after the last insert().
   Agreement agreement(const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot) const;
 
   std::size_t memory_bytes() const;
 
  private:
-  struct Region {  // of cells, empty if x_end <= x
+  struct Region {  // cells [x, x_end) x [y, y_end); empty if x_end <= x
     int x = 0;
     int y = 0;
     int x_end = 0;
     int y_end = 0;
   };
-  struct Way {  // of a beam, from cell to cell
+  struct Way {  // a beam from its first cell to its last
     int from_x = 0;
     int from_y = 0;
     int to_x = 0;
@@ -111,29 +113,28 @@ class LocalMap {
   void draw_way(int x0, int y0, int x1, int y1);
 
   LocalMapOptions options_;
-  /// Empty once finished. MRPT's grid keeps its memory when it shrinks, so the grid is destroyed.
+  /// Empty for a finished map: the grid is destroyed, because MRPT's grid keeps its memory when it shrinks.
   std::optional<mrpt::maps::COccupancyGridMap2D> grid_;
-  std::vector<std::uint16_t> last_scan_;  ///< for each cell, the last scan that changed it
+  std::vector<std::uint16_t> last_scan_;  ///< for each cell, the number of the last scan that changed it
   std::uint16_t scan_ = 0;
   Region dirty_;
   ScoreGrid scores_;
-  std::vector<std::uint8_t> observed_;  ///< of a finished map: 1 for 2 x 2 cells with an observed one, else 0
-  PackedBytes packed_scores_;           ///< kept, as packed_observed_, from the first pack() on
+  std::vector<std::uint8_t> observed_;  ///< of a finished map: 1 for each 2 x 2 block with an observed cell
+  PackedBytes packed_scores_;           ///< filled by the first pack(), like packed_observed_
   PackedBytes packed_observed_;
   bool packed_ = false;
-  bool scores_fit_ = false;  ///< whether the score grid has the size of the occupancy grid
+  bool scores_fit_ = false;  ///< whether the score grid is as large as the occupancy grid
   bool finished_ = false;
 };
 
-/// A local map with its place on the robot's path. The front end, which fills the map, and loop closing share
-/// it.
+/// A local map with its place on the robot's path. Front end and loop closing share it.
 struct PlacedLocalMap {
-  std::size_t id = 0;               ///< counts from 0 in the order of creation
+  std::size_t id = 0;               ///< number of the local map, from 0 in the order of creation
   std::size_t anchor = 0;           ///< first node; its pose is the frame of the map
   mrpt::math::TPose2D local_T_map;  ///< the anchor's pose in the front end's frame
   std::size_t first_node = 0;       ///< the map holds the scans of the nodes [first_node, last_node]
   std::size_t last_node = 0;
-  double travelled_m = 0;  ///< path of the robot while the map was active
+  double travelled_m = 0;  ///< path length of the robot while the map was active
   /// Covariance of the robot's pose in this map while the map is active, along the map's axes: m^2, m rad,
   /// rad^2.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

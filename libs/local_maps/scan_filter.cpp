@@ -13,10 +13,10 @@ namespace {
 using mrpt::math::TPose2D;
 using Point = mrpt::math::TPoint2Df;
 
-constexpr std::ptrdiff_t kReach = 3;      // neighbours on either side for the line through a point
-constexpr float kMaxGap_m = 0.4F;         // between neighbours on one surface
-constexpr float kMaxGapPerMetre = 0.15F;  // or this gap per metre of range, for walls at grazing angles
-constexpr float kMaxResidual_m = 0.04F;   // root mean square, of points on a straight surface
+constexpr std::ptrdiff_t kReach = 3;      // largest number of neighbours on each side for a line
+constexpr float kMaxGap_m = 0.4F;         // largest gap between neighbours on one surface,
+constexpr float kMaxGapPerMetre = 0.15F;  // or this share of the range, for walls at grazing angles
+constexpr float kMaxResidual_m = 0.04F;   // largest root mean square distance of points from their line
 
 bool on_one_surface(const Point& a, const Point& b) {
   const float gap = std::hypot(a.x - b.x, a.y - b.y);
@@ -67,7 +67,8 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
   double farthest_squared = 0;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;  // also without return
+    // Skips beams without a return too.
+    if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;
     const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + robot_T_laser.phi;
     const double x = robot_T_laser.x + range * std::cos(bearing);
     const double y = robot_T_laser.y + range * std::sin(bearing);

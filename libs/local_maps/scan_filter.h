@@ -14,8 +14,8 @@ namespace psi_slam {
 
 struct ScanFilterOptions {
   double min_range_m = 0.1;
-  /// Longer returns are not matched. Usual 2D lidars end before the default, which then leaves the limit to
-  /// the sensor's own maximum and only bounds memory and time for a damaged reading.
+  /// Largest range of returns that are matched. The default exceeds the range of usual 2D lidars. It only
+  /// bounds memory and time if a reading is damaged.
   double max_range_m = 200.0;
   double spacing_m = 0.03;  ///< smallest distance between successive points
 };
@@ -27,11 +27,12 @@ ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& optio
 /// separately.
 ScanPoints matching_points(const Frame& frame, const ScanFilterOptions& options);
 
-/// Converts all returns of a scan to beams in the frame of a local map. Cuts beams at `max_range_m`.
+/// Converts all returns of a scan of at least `min_range_m` to beams in the frame of a local map. Cuts beams
+/// at `max_range_m`.
 Beams drawing_beams(const LaserScan& scan, const mrpt::math::TPose2D& map_T_robot, double min_range_m,
                     double max_range_m);
 
-/// Returns the beams of all scans of a frame.
+/// Returns the beams of each scan of a frame, in the order of for_each_scan().
 std::vector<Beams> drawing_beams(const Frame& frame, const mrpt::math::TPose2D& map_T_robot,
                                  double min_range_m, double max_range_m);
 

@@ -9,7 +9,8 @@ namespace {
 
 using Grid = mrpt::maps::COccupancyGridMap2D;
 
-// Occupancy that counts as full evidence. One hit reaches it, so that logs with few scans can be matched.
+// Occupancy probability that counts as full evidence. A single hit reaches it, so logs with few scans can be
+// matched.
 constexpr double kCertain = 0.65;
 
 }  // namespace
@@ -34,7 +35,7 @@ void ScorePainter::paint(const Grid& grid, int x, int y, int x_end, int y_end, S
   const int width = x_end - x;
   const int height = y_end - y;
   if (width <= 0 || height <= 0) return;
-  // The margin of `reach` around the region avoids bounds checks while spreading the evidence.
+  // A margin of 2 `reach_` cells around the region avoids bounds checks while the evidence is spread.
   const int row = width + 4 * reach_;
   sums_.assign(static_cast<std::size_t>(row) * static_cast<std::size_t>(height + 4 * reach_), 0);
   const int side = 2 * reach_ + 1;

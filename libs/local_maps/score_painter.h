@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Converts occupancy to scores, M of equation 1. The evidence of a cell is its occupancy above "unknown".
-// Free and unknown cells have none, so that unobserved space attracts no scans. A Gaussian of the size of the
-// range noise spreads the evidence; a straight wall one cell thick scores 1 at its middle.
+// Converts occupancy to scores, M of equation 1. The evidence of a cell is its occupancy probability above
+// 0.5. Free and unknown cells have no evidence, so unobserved space attracts no scans. A Gaussian as wide as
+// the range noise spreads the evidence. A straight wall, one cell thick, scores 1 at its middle.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -18,17 +18,18 @@ class ScorePainter {
  public:
   ScorePainter(double sigma_m, double resolution_m);
 
-  /// Number of cells that the evidence of a cell reaches.
+  /// Distance in cells over which the evidence of a cell is spread.
   int reach_cells() const { return reach_; }
 
-  /// Repaints the cells [x, x_end) x [y, y_end) of `scores` from the cells of `grid` there and around.
+  /// Computes the cells [x, x_end) x [y, y_end) of `scores` from these cells of `grid` and those within
+  /// reach.
   void paint(const mrpt::maps::COccupancyGridMap2D& grid, int x, int y, int x_end, int y_end,
              ScoreLevel& scores);
 
  private:
   int reach_;
-  std::vector<std::uint16_t> kernel_;       // (2 reach + 1)^2, 256 is 1
-  std::array<std::uint8_t, 256> evidence_;  // indexed by the raw value of a cell, as unsigned
+  std::vector<std::uint16_t> kernel_;       // weights of (2 reach + 1)^2 cells; 256 is weight 1
+  std::array<std::uint8_t, 256> evidence_;  // by the raw value of a cell as unsigned number
   std::vector<std::uint16_t> sums_;
 };
 

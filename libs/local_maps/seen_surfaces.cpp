@@ -12,11 +12,11 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kMinGap_m = 0.05;         // nearer ends leave no cell between them
+constexpr double kMinGap_m = 0.05;         // smaller gaps leave no cell to draw
 constexpr double kMaxGap_m = 2.0;          // largest distance of joined ends
-constexpr double kMaxGapPerSpacing = 5;    // distance of the ends over that on a wall seen head-on
-constexpr double kMaxOffset_m = 0.06;      // of the third end from the line through the two ...
-constexpr double kMaxOffsetPerGap = 0.15;  // ... or this share of their distance
+constexpr double kMaxGapPerSpacing = 5;    // largest ratio of the distance to that on a wall seen head-on
+constexpr double kMaxOffset_m = 0.06;      // largest distance of the third end from the line through the two,
+constexpr double kMaxOffsetPerGap = 0.15;  // or this share of the distance between the two
 
 double gap_m(const TPoint2D& a, const TPoint2D& b) {
   return std::hypot(b.x - a.x, b.y - a.y);
@@ -39,9 +39,8 @@ std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m)
   for (std::size_t i = 0; i < beams; ++i)
     ends.emplace_back(range(i) * std::cos(bearing(i)), range(i) * std::sin(bearing(i)));
 
-  const auto hit = [&](std::size_t i) {
-    return i < beams && range(i) <= max_range_m;
-  };  // false without return
+  // False for beams without a return, whose range is infinite or NaN.
+  const auto hit = [&](std::size_t i) { return i < beams && range(i) <= max_range_m; };
   std::vector<bool> joined(beams, false);
   for (std::size_t i = 1; i < beams; ++i) {
     if (!hit(i - 1) || !hit(i)) continue;

@@ -12,13 +12,13 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Share of min_response that the coarse search needs: large cells score less, and rejected places are
-// reported.
+// Share of min_response that the coarse search needs. It is below 1, because large cells score less, and
+// because rejected places are reported too.
 constexpr double kSearchedShare = 0.9;
 constexpr double kFineCells = 1.5;  // half-width of the window in the fine grid, in coarse cells
 constexpr double kFineWindow_rad = radians_from_degrees(2.0L);
 
-// Other places below this share of the best are ignored: they do not prevent belief in the best.
+// Other places with a response below this share of the best response are ignored.
 constexpr double kLeastAmbiguity = 0.75;
 
 MatcherOptions with_quick_ambiguity(MatcherOptions options) {
@@ -26,12 +26,12 @@ MatcherOptions with_quick_ambiguity(MatcherOptions options) {
   return options;
 }
 
-constexpr int kWallScore = 160;           // of 255: inside a wall, not beside it
-constexpr double kSurface_m = 0.25;       // walls this near to the end of a beam are the surface it hit
-constexpr double kLeastIncidence = 0.05;  // sine of the angle between beam and wall
-constexpr double kNoSurface = 0.5;        // incidence if the surface normal is unknown
+constexpr int kWallScore = 160;      // of 255; reached inside a wall, but not beside it
+constexpr double kSurface_m = 0.25;  // walls this near to the end of a beam count as the surface that it hit
+constexpr double kLeastIncidence = 0.05;  // lower bound of the sine of the angle between beam and wall
+constexpr double kNoSurface = 0.5;        // sine of this angle if the surface normal is unknown
 
-/// Length of the last part of a beam that may lie on a wall.
+/// Returns the length of the last part of a beam that may cross the surface which the beam hit.
 double tolerance_m(const ScanPoints& scan, std::size_t i, double dx, double dy) {
   double incidence = kNoSurface;
   if (!scan.normals.empty() && (scan.normals[i].x != 0 || scan.normals[i].y != 0))
@@ -112,8 +112,9 @@ FoundPlace GlobalSearch::find(std::size_t node, const KeyframeStore& memory, con
   return place;
 }
 
-// If the best heading lies near +-180 degrees, it is found on both sides and looks ambiguous. The search is
-// then repeated with a window centred on 180 degrees.
+// Matches the context in the whole map at all headings. If the best heading is near +-180 degrees, both ends
+// of the window contain it, and the match seems ambiguous. The search is then repeated with a window centred
+// on 180 degrees.
 MatchResult GlobalSearch::match_anywhere(const ScanPoints& context, const MatchSeed& seed) const {
   const ScoreGrid& grid = map_.coarse->scores();
   const double half_x_m = 0.5 * grid.finest().width() * grid.resolution_m();
@@ -135,7 +136,7 @@ MatchResult GlobalSearch::match_anywhere(const ScanPoints& context, const MatchS
 std::string GlobalSearch::objection(FoundPlace& place, const ScanPoints& context, std::size_t node,
                                     const KeyframeStore& memory) const {
   if (place.response < options_.min_response)
-    return "no place of the map fits: the best one's response is " + two_decimals(place.response) +
+    return "no place of the map fits: the response of the best place is " + two_decimals(place.response) +
            ", less than " + two_decimals(options_.min_response);
 
   const LocalMap::Agreement all = map_.fine->agreement(context, place.map_T_robot);
@@ -160,10 +161,10 @@ std::string GlobalSearch::objection(FoundPlace& place, const ScanPoints& context
     return "only " + two_decimals(place.observed_share) +
            " of the scans' points lie in space that the map shows";
   if (place.agree < options_.min_agree)
-    return "no place of the map fits: at the best one only " + two_decimals(place.agree) +
-           " of the scans' points lie on its walls";
+    return "no place of the map fits: at the best place, only " + two_decimals(place.agree) +
+           " of the scans' points lie on walls";
   if (place.clear_share < options_.min_clear_share)
-    return "no place of the map fits: at the best one only " + two_decimals(place.clear_share) +
+    return "no place of the map fits: at the best place, only " + two_decimals(place.clear_share) +
            " of the beams pass through no wall";
   place.ambiguous = place.ambiguity > options_.max_ambiguity;
   if (place.ambiguous)

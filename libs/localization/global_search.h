@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds a robot in a map without any start pose. The robot's last scans, joined by its own motion, are
-// matched in a window of the whole map and all headings: in large cells first, then in the map's own cells. A
-// place is believed if no other place fits as well and if map and scans do not contradict each other.
+// Finds a robot in a map without a start pose. The last scans, placed by the robot's own motion, are matched
+// in a window of the whole map and all headings. A coarse grid is searched first, then the map's own cells
+// near the best place. The place is accepted if no other place fits as well, and if the scans do not
+// contradict the map.
 #pragma once
 
 #include <cstddef>
@@ -18,22 +19,24 @@
 
 namespace psi_slam {
 
-/// Beams of a scan, followed at a pose of a map. A scan taken there has no beam through a wall. It is not
-/// enough that the ends of the beams lie on walls, since most ends find some wall in a large building.
+/// Numbers of beams of a scan that cross no wall of the map. A scan at its true pose has no beam through a
+/// wall. The ends of the beams alone prove little, because in a large building most ends lie near some wall.
 struct ClearBeams {
-  std::size_t beams = 0;
-  std::size_t clear = 0;  ///< beams that meet no wall before their end
+  std::size_t beams = 0;  ///< number of all beams
+  std::size_t clear = 0;  ///< number of beams that cross no wall before their end
   double share() const { return beams == 0 ? 0 : static_cast<double>(clear) / static_cast<double>(beams); }
 };
 
-/// Follows all beams of the scan. A wall near the end of a beam counts as the surface that the beam hit.
+/// Follows all beams of the scan through the map. A wall near the end of a beam counts as the surface that
+/// the beam hit.
 ClearBeams clear_beams(const ScoreGrid& map, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot);
 
 class GlobalSearch {
  public:
   GlobalSearch(ReferenceMap map, const GlobalSearchOptions& options);
 
-  /// Finds the robot at `node` by its scan and the scans before it.
+  /// Finds the pose of the robot at `node` from the scan of the node and the scans before it. Returns the
+  /// best place even if it is rejected, with the objection.
   FoundPlace find(std::size_t node, const KeyframeStore& memory, const MatchSeed& seed) const;
 
   const ReferenceMap& map() const { return map_; }

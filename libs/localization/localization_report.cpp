@@ -29,7 +29,7 @@ std::string times(int count) {
   return count == 1 ? "once" : std::to_string(count) + " times";
 }
 
-/// Mean confidence of the scans at the end of the log; see LocalizationSummary.
+/// Returns the mean confidence of the scans at the end of the log; see LocalizationSummary.
 double confidence_at_end(const std::vector<LocalizationStep>& steps) {
   double sum = 0;
   std::size_t count = 0;
@@ -41,7 +41,7 @@ double confidence_at_end(const std::vector<LocalizationStep>& steps) {
   return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
-/// State of the robot at the end of the log.
+/// Returns a sentence on the state of the robot at the end of the log.
 std::string end_text(const LocalizationSummary& summary) {
   if (!summary.tracked_at_end)
     return "Lost at the end, since " + fixed_text(summary.lost_after_s.value_or(0), 1) +
@@ -95,7 +95,7 @@ LocalizationSummary summarize(const std::vector<LocalizationStep>& steps) {
     summary.why_not.clear();
     summary.ambiguous = false;
   } else if (summary.why_not.empty()) {
-    summary.why_not = summary.searches == 0 ? "no scan could be searched for"
+    summary.why_not = summary.searches == 0 ? "the whole map was never searched"
                                             : "too few of the places found agree with each other";
   }
   return summary;
@@ -130,7 +130,7 @@ std::string localization_json(const LocalizationSummary& summary) {
   const auto number = [](const std::optional<double>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
   };
-  nlohmann::ordered_json found_at;  // metres, metres, radians
+  nlohmann::ordered_json found_at;  // x and y in metres, theta in radians
   if (summary.found()) found_at = {summary.map_T_found.x, summary.map_T_found.y, summary.map_T_found.phi};
   const nlohmann::ordered_json json = {{"found", summary.found()},
                                        {"localized_at_end", summary.localized_at_end()},

@@ -14,8 +14,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// The refined prediction is preferred if it reaches this share of the searched pose's score: along a corridor
-// noise decides where the search finds its best pose.
+// The refined prediction replaces the searched pose if it reaches this share of the searched pose's score.
+// Along a corridor, noise decides where the search finds its best pose.
 constexpr double kPredictionShare = 0.95;
 
 }  // namespace
@@ -102,7 +102,8 @@ struct Localizer::Members {
     step.confidence = place.agree * place.observed_share;
   }
 
-  // The robot may have been moved by hand, so the motion measured until now may be wrong.
+  // Starts again without any knowledge of the pose. The robot may have been moved by hand, so the motion
+  // measured before is discarded.
   void become_lost() {
     map_T_local.reset();
     is_near_given_start = false;
@@ -117,16 +118,16 @@ struct Localizer::Members {
   CorrelativeMatcher matcher;
   std::optional<FrontEnd> front_end;
   TPose2D last_local_T_robot;
-  std::optional<TPose2D> map_T_local;  ///< of the front end's frame; empty while lost
+  std::optional<TPose2D> map_T_local;  ///< pose of the front end's frame in the map; empty while lost
   bool is_near_given_start = false;    ///< true from start_at() until a scan fits
-  double misfit_m = 0;                 ///< travel since the last scan that fitted
-  TimeUs fitted_us = 0;
+  double misfit_m = 0;                 ///< travel since the last scan that fitted the map
+  TimeUs fitted_us = 0;                ///< time of the last scan that fitted the map
   TimeUs now_us = 0;
 
-  // While lost.
-  KeyframeStore keyframes;  ///< since the robot was lost
+  // State while lost.
+  KeyframeStore keyframes;  ///< nodes since the robot was lost
   LoopConsensus consensus;
-  PoseGraph map_frame;  ///< has one node, the map, which the places found are relative to
+  PoseGraph map_frame;  ///< has one node, the origin of the map, as anchor of the places found
 };
 
 Localizer::Localizer(const mrpt::maps::COccupancyGridMap2D& map, const LocalizerOptions& options)

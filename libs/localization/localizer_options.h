@@ -12,31 +12,31 @@
 
 namespace psi_slam {
 
-/// The search of the whole map.
+/// Options of a search of the whole map.
 struct GlobalSearchOptions {
   MatcherKind matcher = MatcherKind::kCsm;
-  GeneticOptions genetic;  ///< of csm_ga and ga
+  GeneticOptions genetic;  ///< options of csm_ga and ga
   MatcherOptions match;
-  double resolution_m = 0.1;  ///< of the coarse grid that is searched first
+  double resolution_m = 0.1;  ///< largest cell size of the coarse grid, which is searched first
   double smoothing_sigma_m = 0.03;
   ScanContextOptions context{15.0, 0.5, 0.2};
 
-  double min_response = 0.5;        ///< at the place found
-  double max_ambiguity = 0.87;      ///< response of the next best place, as a share of the best
-  double min_observed_share = 0.5;  ///< of the scans' points, in space that the map shows
-  double min_agree = 0.75;          ///< of the points in such space, on something occupied
-  double min_clear_share = 0.9;     ///< of the scans' beams, through no wall of the map
+  double min_response = 0.5;        ///< smallest response at the place found
+  double max_ambiguity = 0.87;      ///< largest response of the next best place, divided by the best
+  double min_observed_share = 0.5;  ///< smallest share of the scans' points in space that the map shows
+  double min_agree = 0.75;          ///< smallest share of points in such space on or beside occupied cells
+  double min_clear_share = 0.9;     ///< smallest share of the scans' beams that cross no wall of the map
 };
 
 struct LocalizerOptions {
-  FrontEndOptions front_end;  ///< measures the motion
+  FrontEndOptions front_end;  ///< options of the front end, which measures the motion
   GlobalSearchOptions search;
   LoopConsensusOptions consensus;
   std::uint64_t seed = 1;
 
-  double search_travel_m = 1.0;  ///< while lost: travel from one search to the next
+  double search_travel_m = 1.0;  ///< while lost: path between searches of the whole map
 
-  // While tracking.
+  // Options while tracking.
   double window_m = 0.3;  ///< half-widths of the search window
   double window_rad = radians_from_degrees(6.0L);
   double prior_sigma_m = 0.05;  ///< standard deviations of the predicted pose
@@ -44,10 +44,10 @@ struct LocalizerOptions {
   double start_window_m = 1.0;  ///< half-widths of the first window, centred on start_at()
   double start_window_rad = radians_from_degrees(15.0L);
   double min_response = 0.3;
-  double min_observed_share = 0.5;  ///< of a scan's points, in space that the map shows
-  double min_agree = 0.6;           ///< of these, on something occupied
-  double max_misfit_m = 2.0;        ///< lost after more travel without a fitting scan,
-  double max_misfit_s = 5.0;        ///< or after more time
+  double min_observed_share = 0.5;  ///< smallest share of a scan's points in space that the map shows
+  double min_agree = 0.6;           ///< smallest share of points in such space on or beside occupied cells
+  double max_misfit_m = 2.0;        ///< the robot is lost after more travel without a fitting scan,
+  double max_misfit_s = 5.0;        ///< or after more time without one
 };
 
 }  // namespace psi_slam

@@ -22,7 +22,8 @@ namespace {
 
 using Grid = mrpt::maps::COccupancyGridMap2D;
 
-// A larger cell is unknown only if all cells in it are unknown.
+// Merges cells into larger cells, which take the value of the most occupied cell. A larger cell is unknown
+// only if all cells in it are unknown.
 Grid in_larger_cells(const Grid& map, int factor) {
   const float resolution = map.getResolution() * static_cast<float>(factor);
   Grid larger;
@@ -50,27 +51,32 @@ constexpr double kMostResolution_m = 1;
 
 void check_resolution(const std::filesystem::path& path, double resolution_m) {
   if (!(resolution_m >= kLeastResolution_m && resolution_m <= kMostResolution_m))
-    throw UserError(path.string() + ": resolution is " + shortest_text(static_cast<float>(resolution_m)) +
-                    " m, expected 0.001 to 1 m");
+    throw UserError(
+        path.string() + ": resolution is " + shortest_text(static_cast<float>(resolution_m)) +
+        " m, expected 0.001 to 1 m. Export the map again with psi-slam, or correct the resolution");
 }
 
 Grid read_yaml(const std::filesystem::path& path) {
-  CompressedFile readable(path, kExpected);  // throws the error message for an unreadable file
+  CompressedFile readable(path, kExpected);  // throws UserError for an unreadable file
   Grid grid;
   try {
     const auto yaml = mrpt::containers::yaml::FromFile(path.string());
     check_resolution(path, yaml["resolution"].as<double>());
     if (yaml["origin"](2).as<double>() != 0)
-      throw UserError(path.string() + ": the origin is rotated, expected yaw 0");
+      throw UserError(path.string() +
+                      ": the origin is rotated, expected yaw 0. Rotate the image instead, and set the third "
+                      "value of origin to 0");
     if (!grid.loadFromROSMapServerYAML(path.string()))
-      throw UserError(path.string() + ": the image that it names is unreadable");
+      throw UserError(path.string() +
+                      ": the image that it names is unreadable, expected an image next to it. Copy the "
+                      "image, or correct the key image");
   } catch (const UserError&) {
     throw;
   } catch (const std::exception&) {
     throw UserError(
         path.string() +
         " is not a map of map_server: expected image, resolution, origin, negate, occupied_thresh "
-        "and free_thresh");
+        "and free_thresh. Add the missing keys, or export the map again with psi-slam");
   }
   return grid;
 }
@@ -88,13 +94,14 @@ std::vector<char> all_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-/// Protects MRPT, which allocates a grid of any size that the header claims. Throws MalformedBytes if the
-/// bytes end within the header.
+/// Checks the header of a gridmap, because MRPT allocates a grid of any size that the header states. Throws
+/// UserError if the size is implausible, and MalformedBytes if the bytes end within the header.
 void check_gridmap(const std::filesystem::path& path, std::string_view bytes) {
   constexpr std::uint8_t kLengthOfName = 0x7F;
   ByteCursor cursor(bytes);
   cursor.take(cursor.number<std::uint8_t>() & kLengthOfName);
-  if (cursor.number<std::uint8_t>() >= 2) cursor.number<std::uint8_t>();  // version; bits of a cell
+  // Skips the version and, from version 2 on, the bits of a cell.
+  if (cursor.number<std::uint8_t>() >= 2) cursor.number<std::uint8_t>();
   const auto metres = [&] { return static_cast<double>(cursor.number<float>()); };
   const double cells_x = cursor.number<std::uint32_t>();
   const double cells_y = cursor.number<std::uint32_t>();
@@ -111,7 +118,7 @@ void check_gridmap(const std::filesystem::path& path, std::string_view bytes) {
       cells_x * cells_y > static_cast<double>(cursor.left()))
     throw UserError(path.string() + " is damaged: it claims " + fixed_text(cells_x, 0) + " x " +
                     fixed_text(cells_y, 0) + " cells, which contradicts its limits or its " +
-                    std::to_string(bytes.size()) + " bytes");
+                    std::to_string(bytes.size()) + " bytes. Copy or export the map again");
 }
 
 Grid read_gridmap(const std::filesystem::path& path) {
@@ -125,7 +132,7 @@ Grid read_gridmap(const std::filesystem::path& path) {
   } catch (const UserError&) {
     throw;
   } catch (const std::exception&) {
-    throw UserError(path.string() + " is not a complete gridmap of MRPT");
+    throw UserError(path.string() + " is not a complete gridmap of MRPT. Copy or export the map again");
   }
   return grid;
 }
@@ -149,11 +156,13 @@ Grid read_map_file(const std::filesystem::path& path) {
   const bool is_yaml = ends_with(name, ".yaml") || ends_with(name, ".yml");
   if (!is_yaml && !ends_with(name, ".gridmap.gz") && !ends_with(name, ".gridmap"))
     throw UserError(path.string() +
-                    " is not a map: expected map.yaml or map.gridmap.gz, as psi-slam writes them");
+                    " is not a map: expected map.yaml or map.gridmap.gz, as psi-slam writes them. Name one "
+                    "of these files");
   Grid grid = is_yaml ? read_yaml(path) : read_gridmap(path);
   const auto& cells = grid.getRawMap();
   if (std::none_of(cells.begin(), cells.end(), [](Grid::cellType cell) { return cell < 0; }))
-    throw UserError(path.string() + ": the map has no wall");
+    throw UserError(path.string() +
+                    ": the map has no wall, expected at least one occupied cell. Use a map with walls");
   return grid;
 }
 

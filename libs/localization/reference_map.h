@@ -11,18 +11,20 @@
 
 namespace psi_slam {
 
-/// Both grids are in the map's own frame.
+/// Grids of a finished map at two resolutions, both in the frame of the map.
 struct ReferenceMap {
-  std::shared_ptr<const LocalMap> fine;    ///< with the resolution of the map
-  std::shared_ptr<const LocalMap> coarse;  ///< with larger cells, so that searching all of it is fast
+  std::shared_ptr<const LocalMap> fine;    ///< grid with the resolution of the map
+  std::shared_ptr<const LocalMap> coarse;  ///< grid with larger cells, for fast searches of the whole map
 };
 
-/// The cells of the coarse grid are the largest multiple of the map's cells up to `search_resolution_m`. Each
-/// is as occupied as the most occupied cell in it. `smoothing_sigma_m` blurs the fine grid's scores.
+/// Prepares a map. The cell size of the coarse grid is the largest multiple of the map's cell size up to
+/// `search_resolution_m`, but at least one cell. Each coarse cell takes the occupancy of the most occupied
+/// cell in it. `smoothing_sigma_m` blurs the scores of the fine grid; the blur of the coarse grid grows with
+/// its cells.
 ReferenceMap make_reference_map(const mrpt::maps::COccupancyGridMap2D& map, double search_resolution_m,
                                 double smoothing_sigma_m);
 
-/// Reads a map from `map.yaml`, with the image that it names, or from `map.gridmap.gz`; the file's extension
+/// Reads a map from `map.yaml`, with the image that it names, or from `map.gridmap.gz`. The file's extension
 /// decides. Throws UserError if the file is unreadable or of another kind, or if the map is rotated or has no
 /// wall.
 mrpt::maps::COccupancyGridMap2D read_map_file(const std::filesystem::path& path);

@@ -10,10 +10,10 @@
 namespace psi_slam {
 namespace {
 
-// Pairs matched between two reports of progress.
+// Number of pairs matched between two reports of progress.
 constexpr std::size_t kBatch = 64;
 
-/// Bounding box of the nodes of a local map: a quick test before the distance to every node.
+/// Bounding box of the nodes of a local map, to avoid computing distances to all nodes.
 struct Box {
   double x_min, y_min, x_max, y_max;
 

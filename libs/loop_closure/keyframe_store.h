@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The places that the robot has visited, for loop closing: points and pose of each node, and the finished
-// local maps.
+// Keyframe store for loop closing: points and pose of each node, and the finished local maps.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -18,44 +17,44 @@
 namespace psi_slam {
 
 struct NodeScan {
-  std::size_t frame = 0;              ///< in the log's order
-  mrpt::math::TPose2D local_T_robot;  ///< in the front end's frame
-  double travelled_m = 0;             ///< along the path from the first node to this one
+  std::size_t frame = 0;              ///< number of the scan in the log, from 0
+  mrpt::math::TPose2D local_T_robot;  ///< pose of the robot in the front end's frame
+  double travelled_m = 0;             ///< path length from the first node to this one
   std::shared_ptr<const ScanPoints> points;
 };
 
 struct KeyframeStore {
-  std::vector<NodeScan> nodes;             ///< by node number
-  std::vector<PlacedLocalMap> local_maps;  ///< finished ones, in the order of their ids
-  std::shared_ptr<LocalMapCache> cache;    ///< holds all local maps in this order; null: none is packed
+  std::vector<NodeScan> nodes;             ///< nodes in the order of their numbers
+  std::vector<PlacedLocalMap> local_maps;  ///< finished local maps, in the order of their ids
+  std::shared_ptr<LocalMapCache> cache;    ///< holds the same local maps; null: no local map is ever packed
 };
 
-/// An empty store with a cache. The cache keeps enough local maps unpacked for a robot that returns within
-/// metres.
+/// Returns an empty store with a cache. The cache keeps the local maps unpacked that a robot needs while it
+/// drives around one place.
 KeyframeStore make_keyframe_store();
 
-/// Appends the node that the front end made of a frame.
+/// Appends the node that the front end made of the frame with number `frame`.
 void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& keyframes);
 
-/// Noise of a node's pose in a local map, added to the front end's covariance.
+/// Standard deviations of a node's pose in a local map, added to the front end's covariance.
 struct LocalMapNoise {
   double sigma_m = 0;
   double sigma_rad = 0;
 };
 
-/// Adds a constraint from the anchor of each of its local maps to the step's node. All these nodes must be in
-/// the graph.
+/// Adds a constraint to the step's node from the anchor of each of its local maps. The node and the anchors
+/// must be in the graph.
 void constrain_to_local_maps(const FrontEndStep& step, const LocalMapNoise& noise, PoseGraph& graph);
 
 void remember_local_map(const PlacedLocalMap& finished, KeyframeStore& keyframes);
 
-/// Unpacks local maps if there is a cache. Call before reading them.
+/// Unpacks local maps if the store has a cache. Call before reading these local maps.
 void unpack_local_maps(const KeyframeStore& keyframes, const std::vector<std::size_t>& local_maps,
                        WorkerPool& pool);
 
-/// Whether `node` is the first node of a stretch, if the path is divided into stretches of `stretch_m`. Loops
-/// are searched at such nodes only. The choice does not depend on loops found before, so one match more or
-/// less does not shift later searches. With `stretch_m` 0 every node is one.
+/// Returns whether `node` is the first node of a stretch, if the path is divided into stretches of
+/// `stretch_m`. Loops are searched only at such nodes. The choice does not depend on loops found before, so a
+/// single match does not shift later searches. If `stretch_m` is 0, every node begins a stretch.
 bool begins_stretch(std::size_t node, const std::vector<NodeScan>& nodes, double stretch_m);
 
 }  // namespace psi_slam

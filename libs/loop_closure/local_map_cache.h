@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cache of compressed local maps: all finished local maps are packed except those used last. Memory of a long
-// run then grows with the length of its walls, not with the area of its local maps.
+// Local map cache: packs all finished local maps except the most recently used ones. The memory of a long run
+// then grows with the length of the mapped walls, not with the area of the local maps.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ namespace psi_slam {
 
 class LocalMapCache {
  public:
-  /// Packs local maps that are not in use when more than `most_unpacked` are unpacked.
+  /// Keeps at most `most_unpacked` local maps unpacked, or more if one call of use() needs more.
   explicit LocalMapCache(std::size_t most_unpacked) : most_unpacked_(most_unpacked) {}
 
-  /// Appends a finished local map; the first has number 0.
+  /// Appends a finished local map. Local maps are numbered from 0.
   void add(std::shared_ptr<LocalMap> map);
 
-  /// Unpacks local maps by number, and packs those unused for longest. Any number of threads may read the
-  /// unpacked ones until the next call. Ignores unknown numbers.
+  /// Unpacks the given local maps, and packs those unused for longest. Any number of threads may read the
+  /// given local maps until the next call of add() or use(). Ignores unknown numbers.
   void use(const std::vector<std::size_t>& maps, WorkerPool& pool);
 
   std::size_t unpacked() const { return unpacked_.size(); }

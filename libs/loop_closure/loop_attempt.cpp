@@ -8,7 +8,8 @@
 namespace psi_slam {
 namespace {
 
-// Needs points, and some that a turn would move by a cell (see make_search_window).
+// Whether a scan can be searched: it needs a point farther than one cell from the robot (see
+// make_search_window).
 bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
   return !scan.points.empty() && scan.farthest_m > std::as_const(*local_map.map).scores().resolution_m();
 }

@@ -12,12 +12,12 @@
 namespace psi_slam {
 
 struct LoopAttempt {
-  std::optional<LoopRecord> loop;  ///< none if the scan has no points to match
+  std::optional<LoopRecord> loop;  ///< empty if the scan has no points to match
   LoopEffort effort;
 };
 
-/// Matches `scan`, the points of a node or its context, with one local map and verifies the match. `run_seed`
-/// goes into MatchSeed. Safe to call from several threads at once.
+/// Matches `scan` with one local map and verifies the match. `scan` holds the points of the node or of its
+/// context. `run_seed` becomes MatchSeed::run. Thread-safe.
 LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCandidate& candidate,
                          const KeyframeStore& keyframes, const ChosenMatcher& matcher,
                          const LoopVerificationOptions& verification, std::uint64_t run_seed);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which finished local maps a node may see again, and how large a search window each needs: the pose graph's
-// uncertainty of the node relative to the local map, along the best path between them (Olson 2009,
-// "Recognizing places using spectrally clustered local matches").
+// Selects the finished local maps that a node may see again, and the search window for each. The window
+// covers the uncertainty of the node relative to the local map, along the best path between them in the pose
+// graph. Source: Olson 2009, "Recognizing places using spectrally clustered local matches".
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -18,48 +18,50 @@
 namespace psi_slam {
 
 struct LoopCandidateOptions {
-  SearchExtent max_window = {8.0, 8.0, radians_from_degrees(30.0L)};  ///< the paper's W
+  SearchExtent max_window = {8.0, 8.0, radians_from_degrees(30.0L)};  ///< largest half-widths: W of the paper
   double min_window_m = 0.25;
   double min_window_rad = radians_from_degrees(3.5L);
   double window_sigmas = 3.0;  ///< half-width of the window in standard deviations of the prediction
   double reach_m = 5.0;        ///< largest distance between the window and a node of the local map
-  /// Shortest path between the node and the local map's nearest node. Nearer local maps share scans with it.
+  /// Smallest length of the robot's path between the node and the local map. The front end already links the
+  /// node to local maps nearer along the path.
   double min_travel_m = 10.0;
-  /// Drift of the position for each metre of the shortest chain of constraints to a local map. Local maps
-  /// that this drift may have moved out of the largest window are searched as a whole.
+  /// Assumed drift of the position per metre of the chain of constraints to a local map. If this drift
+  /// exceeds the largest window, far_candidates() searches the local map as a whole.
   double drift_per_metre = 0.02;
 };
 
 struct LoopCandidate {
   std::size_t local_map = 0;          ///< index in KeyframeStore::local_maps
-  mrpt::math::TPose2D anchor_T_node;  ///< predicted by the graph
+  mrpt::math::TPose2D anchor_T_node;  ///< predicted by the graph: centre of the window
   SearchExtent extent;
-  double distance_m = 0;  ///< from the predicted position to the nearest node of the local map
+  double distance_m = 0;  ///< distance from the predicted position to the nearest node of the local map
 };
 
-/// Standard deviations of a node's pose relative to another node. Infinite where nothing is known.
+/// Standard deviations of a node's pose relative to another node. Infinite if no path of the graph connects
+/// the two.
 struct PositionSigma {
   double metres = 0;
   double radians = 0;
 };
 
-/// Returns the node's uncertainty relative to the anchor of each of these local maps, in their order.
+/// Function that returns the node's uncertainty relative to the anchor of each given local map.
 using SigmasOfAnchors = std::function<std::vector<PositionSigma>(const std::vector<std::size_t>& local_maps)>;
 
-/// The candidates of a node by ascending local map. Calls `sigmas_of_anchors` at most once, and only for
-/// local maps within reach of the largest window.
+/// Returns the candidates of a node in ascending order of local maps. Calls `sigmas_of_anchors` at most once,
+/// for the local maps within reach of the largest window.
 std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore& keyframes,
                                            const PoseGraph& graph, const LoopCandidateOptions& options,
                                            const SigmasOfAnchors& sigmas_of_anchors);
 
-/// Returns the lengths in metres of chains of constraints from the node to the anchors of these local maps,
-/// in their order. Infinite where there is no chain.
+/// Returns the lengths in metres of the chains of constraints from the node to the anchors of these local
+/// maps, in their order. The length is infinite without a chain.
 using ChainsToAnchors = std::function<std::vector<double>(const std::vector<std::size_t>& local_maps)>;
 
-/// Local maps that drift may have moved out of the reach of loop_candidates(): the drift over the chain of
-/// constraints to the local map exceeds the largest window and reaches the node. Their windows are the whole
-/// local maps, because the robot may be at any of the nodes. Calls `chains_to_anchors` at most once, and only
-/// for local maps that the robot's whole path since then may have moved as far.
+/// Returns local maps that drift may have moved out of the reach of loop_candidates(). The assumed drift is
+/// `options.drift_per_metre` times the length of the chain of constraints to the local map. The window covers
+/// the whole local map, because the robot may be near any of its nodes. Calls `chains_to_anchors` at most
+/// once. Asks it only for local maps from which the robot's whole path is long enough for such a drift.
 std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore& keyframes,
                                           const PoseGraph& graph, const LoopCandidateOptions& options,
                                           const ChainsToAnchors& chains_to_anchors);

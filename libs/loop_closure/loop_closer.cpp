@@ -11,8 +11,8 @@
 namespace psi_slam {
 namespace {
 
-// The node's uncertainty relative to the local maps' anchors. A heading error at the node counts with the
-// distance.
+// Returns the uncertainty of the node relative to the anchors of local maps. The position sigma includes the
+// heading sigma, multiplied by the distance.
 std::vector<PositionSigma> sigmas_of_anchors(std::size_t node, const std::vector<std::size_t>& local_maps,
                                              const KeyframeStore& keyframes, const PoseGraph& graph,
                                              PathCovarianceSearch& search) {
@@ -49,8 +49,8 @@ std::vector<double> chains_to_anchors(std::size_t node, const std::vector<std::s
 
 }  // namespace
 
-// All candidates in narrow windows, and of the others as many as a node may search. A node without a
-// candidate in a narrow window may be anywhere within its drift.
+// Returns all candidates with narrow windows, and as many of the others as a node may search. If no candidate
+// has a narrow window, the others include whole local maps within the drift.
 std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const KeyframeStore& keyframes,
                                                   const PoseGraph& graph) {
   std::vector<LoopCandidate> chosen =

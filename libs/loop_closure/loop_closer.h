@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The per-loop step: matches a node with every finished local map nearby.
+// Searches for the loops of one node: matches it with the finished local maps nearby.
 #pragma once
 
 #include <cstdint>
@@ -23,26 +23,26 @@ struct LoopClosureOptions {
   LoopCandidateOptions candidates;
   LoopVerificationOptions verification;
   ScanContextOptions context;
-  double attempt_distance_m = 0.5;  ///< searches for loops once in this much travel
-  std::size_t wide_searches = 1;    ///< most searches of one node in wide windows
+  double attempt_distance_m = 0.5;  ///< smallest path between nodes that search for loops
+  std::size_t wide_searches = 1;    ///< largest number of searches in wide windows per node
 };
 
 class LoopCloser {
  public:
-  /// `run_seed` goes into MatchSeed.
+  /// `run_seed` becomes MatchSeed::run.
   LoopCloser(const LoopClosureOptions& options, std::uint64_t run_seed)
       : options_(options), run_seed_(run_seed) {}
 
   struct Outcome {
-    std::vector<LoopRecord> loops;  ///< all attempts in the order of the local maps
+    std::vector<LoopRecord> loops;  ///< all attempts, in the order of the local maps
     LoopEffort effort;
   };
-  /// Matches `node` with all its candidates, several at a time.
+  /// Matches `node` with all its candidates, several in parallel.
   Outcome close(std::size_t node, const KeyframeStore& keyframes, const PoseGraph& graph,
                 const ChosenMatcher& matcher, WorkerPool& pool);
 
-  /// Matches `node` with one local map in a given window, and verifies the match. None if the scan has no
-  /// points to match.
+  /// Matches `node` with one local map in a given window, and verifies the match. Returns nothing if the scan
+  /// has no points to match.
   std::optional<LoopRecord> match(std::size_t node, const LoopCandidate& candidate,
                                   const KeyframeStore& keyframes, const ChosenMatcher& matcher,
                                   WorkerPool& pool) const;

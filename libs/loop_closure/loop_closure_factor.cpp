@@ -14,7 +14,7 @@ void LoopClosureFactor::move(double odometry_m, const mrpt::math::TPoint2D& robo
 
 LoopClosureFactor::Value LoopClosureFactor::value() const {
   Value value;
-  // Compared as a product, because the quotient is infinite or 0 / 0 at the start.
+  // The comparison uses a product, because the quotient is infinite or 0 / 0 at the start.
   value.eta = path_m_ >= options_.eta_max * from_start_m_ ? options_.eta_max : path_m_ / from_start_m_;
   if (!loops_.empty())
     value.mean_loops =

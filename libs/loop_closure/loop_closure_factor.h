@@ -5,8 +5,8 @@
 //     Psi_k = eta_k * (1/K) sum of C_i over the K frames before k,
 //     eta_k = (sum of d_j over all j <= k) / |t'_k - t_0|
 //
-// The mean is over nodes of the pose graph, the frames at which loop closing runs. Over all frames it would
-// depend on the number of scans per node. The path d_j is summed over every scan.
+// The mean is over nodes of the pose graph, because a mean over all frames would depend on the number of
+// scans per node. The path lengths d_j are summed over all scans.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -17,32 +17,32 @@
 namespace psi_slam {
 
 struct PsiOptions {
-  /// Loops are searched exhaustively for Psi <= psi_1. Psi is never negative, so the default never does. The
-  /// widest searches are those of a robot without loops for a long time, with Psi 0. There the other matchers
-  /// find the same in a tenth of the time (psi-slam-bench match).
+  /// Loops are searched exhaustively for Psi <= psi_1. Psi is never negative, so the default disables
+  /// exhaustive searches. The windows are widest after a long path without loops, when Psi is 0. In such
+  /// windows the other matchers find the same loops in a tenth of the time (psi-slam-bench match).
   double psi_1 = -1;
-  double psi_2 = 1;        ///< genetic matcher for Psi >= psi_2, both matchers in between
-  int window_frames = 20;  ///< K, >= 1
-  double eta_max = 20;     ///< bound of eta, which is infinite at the start
+  double psi_2 = 1;        ///< kGa searches for Psi >= psi_2, and kCsmGa in between
+  int window_frames = 20;  ///< K of equation 13: number of nodes in the mean, >= 1
+  double eta_max = 20;     ///< upper bound of eta, which is infinite at the start
 };
 
 class LoopClosureFactor {
  public:
   explicit LoopClosureFactor(const PsiOptions& options) : options_(options) {}
 
-  /// Call for every scan: the length of odometry's motion since the last scan, and the robot's position by
-  /// the front end. The first position is t_0.
+  /// Adds the motion to a scan. `odometry_m` is the length of the motion by odometry since the last scan.
+  /// `robot` is the robot's position in the map. The first position is t_0. Call for every scan.
   void move(double odometry_m, const mrpt::math::TPoint2D& robot);
 
   struct Value {
     double psi = 0;
     double eta = 0;
-    double mean_loops = 0;  ///< mean of C_i over at most K frames; 0 before the first
+    double mean_loops = 0;  ///< mean of C_i over the last K nodes; 0 before the first node
   };
-  /// The factor for the next node. eta is at most eta_max, and eta_max at the start itself.
+  /// Returns the factor for the next node. eta is at most eta_max, also at the start.
   Value value() const;
 
-  /// Call after loop closing at a node, with the number of new constraints C_i.
+  /// Adds C_i, the number of new loop constraints of a node. Call after loop closing at every node.
   void add_frame(int loops);
 
  private:
@@ -50,7 +50,7 @@ class LoopClosureFactor {
   std::optional<mrpt::math::TPoint2D> start_;
   double from_start_m_ = 0;
   double path_m_ = 0;
-  std::deque<int> loops_;  ///< of the last K frames
+  std::deque<int> loops_;  ///< C_i of the last K nodes
 };
 
 }  // namespace psi_slam

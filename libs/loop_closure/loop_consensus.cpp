@@ -16,7 +16,8 @@ double weight(const LoopConsensus::Vote& vote) {
 
 }  // namespace
 
-// Compares the robot's pose implied by `a`, carried along the path, with that implied by `b`.
+// Moves the robot pose of match `a` along the path to the scan of `b`, and compares it with that of match
+// `b`.
 bool LoopConsensus::agree(const Vote& a, const Vote& b, const PoseGraph& graph) const {
   const mrpt::math::TPose2D carried =
       graph.pose(a.anchor) + a.anchor_T_robot + (b.local_T_robot - a.local_T_robot);

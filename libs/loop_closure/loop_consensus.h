@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops found in wide windows wait here until other matches agree. If the pose is known to metres only, one
-// match proves little: equal doors along a corridor fit several places. But every match implies a pose of the
-// front end's frame in the map. True matches of later scans imply the same pose, while false ones scatter.
-// The weight of a match decreases with its ambiguity.
+// Consensus of loops found in wide windows: each loop is pending until other matches agree with it. If the
+// pose is only known to within metres, one match proves little, because equal doors along a corridor fit
+// several places. But every match implies a pose of the front end's frame in the map. True matches of several
+// scans imply the same pose, whereas false matches imply different poses. The weight of a match decreases
+// with its ambiguity.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -17,12 +18,12 @@
 namespace psi_slam {
 
 struct LoopConsensusOptions {
-  double memory_m = 15.0;                                ///< length of the path whose matches count
+  double memory_m = 15.0;                                ///< path length after which a match no longer counts
   double same_place_m = 0.5;                             ///< largest distance between poses that agree
   double same_heading_rad = radians_from_degrees(3.5L);  ///< largest turn between poses that agree
   double min_span_m = 1.0;       ///< shortest path between the first and the last match that agree
-  double min_weight = 0.5;       ///< of all matches that agree; one match weighs 1 - ambiguity, at least 0.05
-  double max_rival_share = 0.5;  ///< largest weight of another place, as a share of that weight
+  double min_weight = 0.5;       ///< minimum weight of agreeing matches; one weighs max(0.05, 1 - ambiguity)
+  double max_rival_share = 0.5;  ///< largest weight of another place, divided by that of the agreeing matches
 };
 
 class LoopConsensus {
@@ -30,16 +31,16 @@ class LoopConsensus {
   explicit LoopConsensus(const LoopConsensusOptions& options) : options_(options) {}
 
   struct Vote {
-    std::size_t loop = 0;                ///< number given by the caller
-    double travelled_m = 0;              ///< along the path
-    mrpt::math::TPose2D local_T_robot;   ///< by the front end
-    std::size_t anchor = 0;              ///< a node of the graph
-    mrpt::math::TPose2D anchor_T_robot;  ///< by the match
+    std::size_t loop = 0;                ///< number of the loop, chosen by the caller
+    double travelled_m = 0;              ///< path length up to the scan
+    mrpt::math::TPose2D local_T_robot;   ///< pose by the front end
+    std::size_t anchor = 0;              ///< anchor of the matched local map
+    mrpt::math::TPose2D anchor_T_robot;  ///< matched pose
     double ambiguity = 0;
   };
 
-  /// Adds a vote. Returns the loops confirmed by it, itself included, or none. Clears the votes after a
-  /// confirmation. Earlier votes count while `still_waits` holds for their loops.
+  /// Adds a vote. Returns the loops that it confirms, including its own loop; empty without a confirmation.
+  /// Clears all votes after a confirmation. Votes count only while `still_waits` is true for their loops.
   std::vector<std::size_t> add(const Vote& vote, const PoseGraph& graph,
                                const std::function<bool(std::size_t loop)>& still_waits = {});
 

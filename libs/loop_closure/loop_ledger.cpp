@@ -98,7 +98,7 @@ std::set<LoopPair> LoopLedger::searched_pairs() const {
   for (const LoopRecord& loop : loops_) {
     const bool failed =
         loop.verdict == LoopVerdict::kRefused || loop.verdict == LoopVerdict::kNotFound ||
-        (loop.verdict == LoopVerdict::kDeleted && !loop.by_hand);  // match by hand, taken back
+        (loop.verdict == LoopVerdict::kDeleted && !loop.by_hand);  // a match by hand that was undone
     if (!failed || loop.in_final_search || loop.by_hand) pairs.insert(pair_of(loop));
   }
   return pairs;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All attempts to close loops, the constraints that they became, and the changes by hand. A plain value: a
-// copy of it and of its graph is a state that can be restored.
+// Records all attempts to close loops, the constraints made from them, and the edits by hand. To save a state
+// that can be restored, copy the ledger and its graph.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,13 @@
 
 namespace psi_slam {
 
-/// Noise of a loop, added to its match's covariance.
+/// Standard deviations added to the covariance of each loop match.
 struct LoopNoise {
   double sigma_m = 0;
   double sigma_rad = 0;
 };
 
-/// A node and a local map.
+/// Number of a node and number of a local map.
 using LoopPair = std::pair<std::size_t, std::size_t>;
 
 class LoopLedger {
@@ -30,52 +30,53 @@ class LoopLedger {
   explicit LoopLedger(const LoopNoise& noise) : noise_(noise) {}
 
   const std::vector<LoopRecord>& loops() const { return loops_; }
-  /// Moves the loops out. Call nothing else afterwards.
+  /// Moves the loops out of the ledger. No other function may be called afterwards.
   std::vector<LoopRecord> take_loops() { return std::move(loops_); }
 
-  /// Adds an attempt and returns its number. If a person deleted or forced the loop of this pair, its verdict
-  /// follows.
+  /// Adds an attempt and returns its number. If a person deleted or forced the loop of this pair, the verdict
+  /// is set accordingly.
   std::size_t add(LoopRecord loop);
 
-  /// Makes an accepted or pending loop a constraint. Returns its residual in standard deviations of the loop
-  /// noise. Does nothing and returns none for other loops and existing constraints.
+  /// Makes an accepted or pending loop a constraint of the graph. Returns its residual in standard deviations
+  /// of the loop noise. Does nothing and returns nothing if the loop has another verdict or already is a
+  /// constraint.
   std::optional<double> accept(std::size_t loop, PoseGraph& graph);
 
-  /// Optimises the graph and switches off loops with residuals above `max_chi` standard deviations, except
-  /// forced ones.
+  /// Optimises the graph and switches off loops with residuals above `max_chi` standard deviations. Never
+  /// switches off forced loops.
   void settle(PoseGraph& graph, SparsePoseAdjustment& solver, double max_chi);
 
   void refuse_pending();
 
-  /// Pairs that the final search leaves out: loops that were not refused, pairs that it has tried before, and
-  /// pairs that a person decided.
+  /// Returns the pairs that the final search skips. These pairs have an accepted, pending or switched-off
+  /// loop, were matched by an earlier pass, or were edited by a person.
   std::set<LoopPair> searched_pairs() const;
 
-  // Changes by hand. They also hold for later attempts.
+  // Edits by hand. They also apply to later attempts of the pair.
 
   void remove(const LoopPair& pair, PoseGraph& graph);
-  /// False if there is no match of the pair yet; then the first one to come is forced. With `of_final_search`
-  /// it must be a match of the final search.
+  /// Accepts the newest match of the pair. Returns false if there is no match yet; then a later match is
+  /// forced. If `of_final_search` is true, only matches of the final search count.
   bool force(const LoopPair& pair, bool of_final_search, PoseGraph& graph);
-  /// Replaces earlier attempts of the pair by `loop`, a match by hand.
+  /// Replaces the earlier attempts of the pair by `loop`, the result of a match by hand.
   void replace(LoopRecord loop, PoseGraph& graph);
-  /// Undoes remove(), force() and replace() of the pair. False if there was no change.
+  /// Undoes remove(), force() and replace() of the pair. Returns false if there was no such edit.
   bool restore(const LoopPair& pair, PoseGraph& graph);
 
-  /// Forced pairs without an accepted loop.
+  /// Returns the forced pairs without an accepted loop.
   std::vector<LoopPair> forced_in_vain() const;
 
-  /// The newest attempt of the pair, or null.
+  /// Returns the newest attempt of the pair, or null. The pointer is valid until the ledger changes.
   const LoopRecord* find(const LoopPair& pair) const;
 
  private:
-  /// An attempt before a change by hand.
+  /// State of an attempt before an edit by hand.
   struct Entry {
     std::size_t loop = 0;
     LoopRecord record;
     std::optional<std::size_t> constraint;
   };
-  /// A change by hand, and the pair's attempts before it.
+  /// An edit by hand, and the attempts of its pair as they were before it.
   struct ByHand {
     LoopEdit::Kind kind = LoopEdit::Kind::kDelete;
     bool of_final_search = false;  ///< see force()
@@ -83,7 +84,7 @@ class LoopLedger {
   };
 
   std::vector<std::size_t> attempts_of(const LoopPair& pair) const;
-  /// Starts a change by hand from the attempts of the mapper, without earlier changes.
+  /// Prepares an edit by hand: undoes earlier edits of the pair, and saves its attempts.
   void take_over(const LoopPair& pair, LoopEdit::Kind kind, PoseGraph& graph);
   std::size_t enter(LoopRecord loop);
   void link(std::size_t loop, std::size_t constraint);
@@ -91,8 +92,8 @@ class LoopLedger {
 
   LoopNoise noise_;
   std::vector<LoopRecord> loops_;
-  std::vector<std::optional<std::size_t>> constraint_of_;  ///< by loop
-  /// Constraint and loop, enabled or not, in the order of accept().
+  std::vector<std::optional<std::size_t>> constraint_of_;  ///< constraint of each loop, if it is one
+  /// Pairs of constraint and loop, enabled or not, in the order in which they were accepted.
   std::vector<std::pair<std::size_t, std::size_t>> constraints_;
   std::map<LoopPair, ByHand> by_hand_;
 };

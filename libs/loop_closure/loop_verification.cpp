@@ -20,7 +20,8 @@ double largest_sigma_m(const Eigen::Matrix3d& covariance) {
   return std::sqrt(mean + std::hypot(half_difference, covariance(0, 1)));
 }
 
-// Places the neighbouring scans by the match: if the match is true, they fit the local map too.
+// Returns the agreement of the neighbouring scans with the local map. The match places these scans. If the
+// match is true, they fit too.
 LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeStore& keyframes,
                                          double neighbourhood_m) {
   const LocalMap& map = *keyframes.local_maps[loop.local_map].map;
@@ -41,7 +42,8 @@ LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeS
   return sum;
 }
 
-// Compares the local map's scans nearest to the matched pose with the ranges of the scan.
+// Returns the agreement of the local map's scans with the scan. Uses the scans of the nodes nearest to the
+// matched pose.
 RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const KeyframeStore& keyframes) {
   const PlacedLocalMap& local_map = keyframes.local_maps[loop.local_map];
   const TPose2D& local_T_anchor = keyframes.nodes[local_map.anchor].local_T_robot;
@@ -67,7 +69,7 @@ RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const KeyframeSt
   return sum;
 }
 
-/// The first reason to refuse the loop. Fills in its shares as far as they are needed to decide.
+/// Returns the first reason to refuse the loop, if any. Sets the shares that were computed for the decision.
 std::optional<LoopRefusal> find_objection(LoopRecord& loop, const ScanPoints& scan,
                                           const KeyframeStore& keyframes,
                                           const LoopVerificationOptions& options) {

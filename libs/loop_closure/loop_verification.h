@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Verification of a match (method, section 7). One false loop ruins a map, and in corridors false matches
-// have high responses. A match must also be unique in its window and well determined. The scan must lie in
-// space that the local map observed. Neighbouring scans must fit the local map, and points of the local map
-// must fit the scan.
+// Verification of a match (method, section 7). A single false loop ruins a map, and in corridors even false
+// matches have high responses. So a high response is not enough. A match must also be unique in its window,
+// and the scan must determine the position. The scan must lie in space that the local map observed.
+// Neighbouring scans must fit the local map, and points of the local map must fit the scan.
 #pragma once
 
 #include "loop_closure/keyframe_store.h"
@@ -11,14 +11,14 @@
 namespace psi_slam {
 
 struct LoopVerificationOptions {
-  double min_response = 0.5;  ///< of a scan in a narrow window
-  /// Minimum response of a scan with its context in a wide window. The local map holds only part of the
-  /// context.
+  double min_response = 0.5;  ///< minimum response of a scan in a narrow window
+  /// Minimum response of a context in a wide window. It is lower, because the local map holds only part of
+  /// the context.
   double min_context_response = 0.35;
-  double max_ambiguity = 0.9;  ///< in a narrow window; in wide windows LoopConsensus decides
+  double max_ambiguity = 0.9;  ///< largest ambiguity in a narrow window; LoopConsensus handles wide windows
   double wide_window_m = 1.0;  ///< windows with a larger half-width are wide
   double max_sigma_m = 0.3;    ///< largest standard deviation of the matched position
-  /// Minimum share of the scan's points in space that the local map observed; in a narrow window.
+  /// Minimum share of the scan's points in space that the local map observed; only in narrow windows.
   double min_observed_share = 0.5;
   /// Minimum share of the neighbouring scans' points in observed space that fit occupied cells.
   double min_neighbours_agree = 0.75;
@@ -29,14 +29,15 @@ struct LoopVerificationOptions {
 
 bool is_wide(const SearchExtent& extent, const LoopVerificationOptions& options);
 
-/// Minimum response of a match in this window.
+/// Returns the minimum response of a match in this window.
 double min_response(const SearchExtent& extent, const LoopVerificationOptions& options);
 
-/// Matches are searched down to this share of min_response(), so that a person sees what was refused and why.
+/// Searches report matches down to this share of min_response(). Records then show which matches were
+/// refused, and why.
 inline constexpr double kReportedShare = 0.8;
 
-/// Decides the verdict of `loop` and fills in its shares and refusal. A verified match in a wide window is
-/// pending until others agree, see LoopConsensus. `scan` holds the points that were matched.
+/// Sets the verdict, the shares and the refusal of `loop`. A verified match in a wide window is pending until
+/// other matches agree, see LoopConsensus. `scan` holds the points that were matched.
 void verify(LoopRecord& loop, const ScanPoints& scan, const KeyframeStore& keyframes,
             const LoopVerificationOptions& options);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the matcher that searches for loops (method, section 6). The paper searches exhaustively where
-// loops are rare, because a missed loop costs much there. Where loops are frequent it uses the genetic
-// matcher, and in between both in turn. PsiOptions tells how the defaults differ from the paper.
+// Chooses the matcher that searches for loops (method, section 6). Where loops are rare, the paper searches
+// exhaustively, because a missed loop costs much. Where loops are frequent, it uses the genetic matcher; in
+// between, it combines the two. PsiOptions describes how the defaults differ from the paper.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@
 
 namespace psi_slam {
 
-/// `choice` if there is one; otherwise kCsm for psi <= psi_1, kGa for psi >= psi_2, and kCsmGa in between.
+/// Returns `choice` if it has a value; otherwise kCsm for psi <= psi_1, kGa for psi >= psi_2, and kCsmGa in
+/// between.
 MatcherKind matcher_kind(std::optional<MatcherKind> choice, const PsiOptions& options, double psi);
 
 struct ChosenMatcher {
@@ -21,7 +22,7 @@ struct ChosenMatcher {
   const Matcher& matcher;
 };
 
-/// Owns the matchers that it may choose.
+/// Chooses matchers by Psi, and owns them.
 class MatcherPolicy {
  public:
   MatcherPolicy(std::optional<MatcherKind> choice, const PsiOptions& psi, const MatcherOptions& matcher,
@@ -35,7 +36,8 @@ class MatcherPolicy {
  private:
   std::optional<MatcherKind> choice_;
   PsiOptions psi_;
-  std::array<std::unique_ptr<const Matcher>, kMatcherKinds.size()> matchers_;  ///< by kind
+  /// Matchers by kind; null if never chosen.
+  std::array<std::unique_ptr<const Matcher>, kMatcherKinds.size()> matchers_;
 };
 
 }  // namespace psi_slam

@@ -15,7 +15,7 @@
 namespace psi_slam {
 namespace {
 
-// Share of the worst residual that a loop needs to be disabled in the same round.
+// Loops with at least this share of the worst residual are disabled in the same round.
 constexpr double kShareOfWorst = 0.5;
 
 std::vector<double> optimized_chi(PoseGraph& graph, SparsePoseAdjustment& solver,
@@ -26,7 +26,8 @@ std::vector<double> optimized_chi(PoseGraph& graph, SparsePoseAdjustment& solver
   return chi;
 }
 
-// Every round disables at least one loop, so this ends.
+// Disables the worst loops and optimises, until no loop is contradicted. Every round disables at least one
+// loop.
 void switch_off_worst_first(PoseGraph& graph, SparsePoseAdjustment& solver,
                             const std::vector<std::size_t>& loops, double max_chi, std::vector<double>& chi) {
   while (true) {
@@ -85,7 +86,8 @@ std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustm
 }
 
 std::vector<double> path_chi(const PoseGraph& graph, const std::vector<std::size_t>& loops) {
-  std::map<std::size_t, std::vector<std::size_t>> by_start;  // indices of `loops`; one search for each start
+  // Indices into `loops` by start node. One search serves all loops of a start node.
+  std::map<std::size_t, std::vector<std::size_t>> by_start;
   for (std::size_t i = 0; i < loops.size(); ++i) by_start[graph.constraint(loops[i]).from].push_back(i);
   std::vector<double> chi(loops.size());
   PathCovarianceSearch search;
@@ -96,7 +98,7 @@ std::vector<double> path_chi(const PoseGraph& graph, const std::vector<std::size
     for (const std::size_t i : indices) {
       const Constraint& loop = graph.constraint(loops[i]);
       const RelativeUncertainty uncertainty = search.of(loop.to);
-      if (!uncertainty.reached) continue;  // nothing contradicts the loop
+      if (!uncertainty.reached) continue;  // no path contradicts the loop
       const Eigen::Vector3d error = constraint_error(loop.from_T_to, RotatedPose(graph.pose(loop.from)),
                                                      RotatedPose(graph.pose(loop.to)));
       const Eigen::Matrix3d covariance = uncertainty.covariance + loop.information.inverse();

@@ -41,7 +41,8 @@ RangeImage::Verdict RangeImage::View::judge(double x, double y, double tolerance
   const std::size_t b = bin(std::atan2(dy, dx));
   if (farthest_m[b] <= 0) return Verdict::kNothing;
   const double range = std::hypot(dx, dy);
-  if (range > static_cast<double>(farthest_m[b]) + tolerance_m) return Verdict::kNothing;  // hidden
+  if (range > static_cast<double>(farthest_m[b]) + tolerance_m)
+    return Verdict::kNothing;  // hidden behind the measured points
   return range < static_cast<double>(nearest_m[b]) - tolerance_m ? Verdict::kContradicts : Verdict::kAgrees;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One scan as a range image, to test whether the points of another scan agree with it. A point in space that
-// a beam passed through contradicts the scan. A point at the measured range agrees. A point hidden by a
-// nearer obstacle does not count. Each laser has an image of its own; a point that agrees with any of them
-// agrees.
+// Range image of one scan, to test whether the points of another scan agree with it. A point in space that a
+// beam passed through contradicts the scan. A point at the measured range agrees with it. A point hidden by a
+// nearer obstacle does not count. Each laser has its own image. A point agrees with the scan if it agrees
+// with any image.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -26,17 +26,18 @@ class RangeImage {
                                      : static_cast<double>(agree) / static_cast<double>(agree + contradict);
     }
   };
-  /// Compares the points of another scan. `this_T_other` is its robot's pose in this scan's robot frame.
+  /// Compares the points of another scan with this scan. `this_T_other` is the robot's pose at the other
+  /// scan, in the robot frame of this scan.
   Agreement compare(const ScanPoints& other, const mrpt::math::TPose2D& this_T_other,
                     double tolerance_m) const;
 
  private:
   enum class Verdict { kNothing, kContradicts, kAgrees };
-  /// The ranges of one laser.
+  /// Range image of one laser.
   struct View {
     mrpt::math::TPoint2Df origin;
-    std::vector<float> nearest_m;   ///< per bin of bearings; infinite without a beam
-    std::vector<float> farthest_m;  ///< 0 without a beam
+    std::vector<float> nearest_m;   ///< smallest range in each bin of bearings; infinite without a return
+    std::vector<float> farthest_m;  ///< largest range in each bin of bearings; 0 without a return
 
     Verdict judge(double x, double y, double tolerance_m) const;
   };

@@ -9,7 +9,7 @@
 namespace psi_slam {
 namespace {
 
-// Identifies a square of the plane.
+// Returns a number that identifies the square of side `size_m` around a point.
 std::int64_t square_of(float x, float y, double size_m) {
   const auto column = static_cast<std::int64_t>(std::floor(static_cast<double>(x) / size_m));
   const auto row = static_cast<std::int64_t>(std::floor(static_cast<double>(y) / size_m));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scan together with the scans on the path before it. One scan of a corridor fits many places along it; the
-// last ten metres, with their doors and niches, fit one. Wide searches match this context instead of the scan
-// alone.
+// Context of a scan: the scan together with the scans on the path before it. A single scan of a corridor fits
+// many places along the corridor. The scans of the last metres, with their doors and niches, fit only one.
+// Searches in wide windows match this context instead of the scan alone.
 #pragma once
 
 #include "loop_closure/keyframe_store.h"
@@ -10,13 +10,13 @@
 namespace psi_slam {
 
 struct ScanContextOptions {
-  double travel_m = 8.0;         ///< length of the path before the scan
-  double node_spacing_m = 1.0;   ///< smallest distance between scans along the path
+  double travel_m = 8.0;         ///< length of the path before the scan that the context covers
+  double node_spacing_m = 1.0;   ///< smallest distance along the path between scans of the context
   double point_spacing_m = 0.1;  ///< keeps one point per square of this size
 };
 
-/// The points of the scans of `node` and of the nodes before it, placed by the front end, in the robot frame
-/// at `node`.
+/// Returns the points of the scans of `node` and of the nodes before it, in the robot frame at `node`. The
+/// front end's poses place the scans.
 ScanPoints scan_context(std::size_t node, const KeyframeStore& keyframes, const ScanContextOptions& options);
 
 }  // namespace psi_slam

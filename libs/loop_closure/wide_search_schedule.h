@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spreads searches in wide windows over the nodes. One such search costs as much as ten in narrow windows,
-// and a robot whose position is uncertain by metres has many local maps around it. Each node searches a few
-// of them, and the next nodes the others, so that a node's cost is bounded and no local map is forgotten.
+// Distributes searches in wide windows over the nodes. Such a search costs as much as ten in narrow windows,
+// and a robot whose position is uncertain by metres has many candidates. Each node searches only a few local
+// maps; the next nodes search the remaining ones. This bounds the cost of a node, and every local map gets
+// its turn.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +15,18 @@ namespace psi_slam {
 
 class WideSearchSchedule {
  public:
-  /// At most `count` of these candidates, by ascending local map. Prefers those whose last search found a
-  /// match, because others must agree with it, but not the one searched last of all, so that other places get
-  /// their turn; then those not searched for longest; then the nearest.
+  /// Returns at most `count` of the candidates, in ascending order of local maps. First come local maps whose
+  /// last search found a match, because further matches must agree with it. The local map of the very last
+  /// search is not preferred, so the others get their turn. Then come local maps not searched for longest,
+  /// then the nearest.
   std::vector<LoopCandidate> choose(std::vector<LoopCandidate> candidates, std::size_t count) const;
 
-  /// Tells the outcome of a search with a local map.
+  /// Records the outcome of a search in a local map.
   void searched(std::size_t local_map, bool found) { last_[local_map] = {++searches_, found}; }
 
  private:
   struct Search {
-    std::size_t number = 0;  ///< counts from 1; 0: never
+    std::size_t number = 0;  ///< number of the search, from 1; 0: never searched
     bool found = false;
   };
   Search last(std::size_t local_map) const {
@@ -32,7 +34,7 @@ class WideSearchSchedule {
     return search == last_.end() ? Search() : search->second;
   }
 
-  std::map<std::size_t, Search> last_;  ///< by local map
+  std::map<std::size_t, Search> last_;  ///< last search of each local map
   std::size_t searches_ = 0;
 };
 

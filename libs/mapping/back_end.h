@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The back end of SLAM on a pose graph that its caller makes grow: closes loops, decides when to optimise the
-// graph, and finishes the map after the last scan. Mapper and CPsiLoopCloserERD share it.
+// The back end of SLAM: closes loops, decides when to optimise the pose graph, and finishes the map after the
+// last scan. The caller adds the nodes to the graph. Mapper and CPsiLoopCloserERD both use the back end.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -28,7 +28,7 @@
 namespace psi_slam {
 
 struct BackEndOptions {
-  std::optional<MatcherKind> matcher;  ///< none: the factor Psi chooses a matcher for each node
+  std::optional<MatcherKind> matcher;  ///< empty: the factor Psi chooses the matcher for each node
   MatcherOptions loop_matcher;         ///< options that all matchers share
   GeneticOptions genetic;
   PsiOptions psi;
@@ -36,32 +36,32 @@ struct BackEndOptions {
   LoopConsensusOptions loop_consensus;
   FinalSearchOptions final_search;
   JointRefinementOptions joint_refinement;
-  double loop_sigma_m = 0.02;  ///< noise of a loop, added to its match's covariance
+  double loop_sigma_m = 0.02;  ///< standard deviation added to the covariance of each loop match
   double loop_sigma_rad = radians_from_degrees(0.25L);
   double max_loop_chi = 5.0;  ///< residual in standard deviations above which a loop is switched off
-  std::uint64_t seed = 1;     ///< of all random numbers
-  int threads = 1;            ///< that match loops; results do not depend on it
+  std::uint64_t seed = 1;     ///< seed of all random numbers
+  int threads = 1;            ///< number of threads for matching; results do not depend on it
 };
 
 /// Result of a node's search for loops.
 struct NodeLoops {
   MatcherKind matcher = MatcherKind::kCsm;
   LoopEffort effort;
-  int accepted = 0;  ///< new constraints, loops of earlier nodes included
+  int accepted = 0;  ///< number of new constraints, including loops of earlier nodes
   double milliseconds = 0;
 };
 
-/// Progress of the steps after the last scan, reported as one share of all of them in [0, 1].
+/// Progress of the steps after the last scan, reported as a share of all steps, in [0, 1].
 class FinalProgress {
  public:
-  /// `report` may be empty. It returns false to cut the remaining steps short.
+  /// `report` may be empty. If it returns false, the remaining steps are skipped.
   FinalProgress(const BackEndOptions& options, std::function<bool(double)> report)
       : passes_(options.final_search.passes),
         steps_(passes_ + (options.joint_refinement.rounds > 0 ? 1 : 0)),
         report_(std::move(report)) {}
 
   int passes() const { return passes_; }
-  /// Reports `done` steps; returns whether to go on.
+  /// Reports the number of completed steps; fractions are allowed. Returns whether to continue.
   bool at(double done) {
     const bool go_on = !report_ || report_(done / steps_);
     cut_short_ = !go_on && done < steps_;
@@ -80,30 +80,30 @@ class BackEnd {
  public:
   explicit BackEnd(const BackEndOptions& options);
 
-  /// Tells the odometry's path length since the last call, and the robot's position in the map. Psi depends
-  /// on both.
+  /// Updates the factor Psi with the path length by odometry since the last call, and with the robot's
+  /// position in the map. Call for every scan.
   void move(double odometry_m, const mrpt::math::TPoint2D& robot) { factor_.move(odometry_m, robot); }
   LoopClosureFactor::Value factor() const { return factor_.value(); }
 
-  /// The per-loop step. Call it for every node in order. Adds the loops confirmed by now to the graph, loops
-  /// of earlier nodes included.
+  /// Searches for loops of a node, and adds accepted loops to the graph. Also adds pending loops of earlier
+  /// nodes that are now confirmed. Call it for every node in order.
   NodeLoops close(std::size_t node, const KeyframeStore& keyframes, PoseGraph& graph);
 
   /// Optimises the graph if new loops make it necessary, see OptimizationSchedule. Returns the time in
-  /// milliseconds; 0 if the graph was left alone.
+  /// milliseconds; 0 without an optimisation.
   double optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver);
   double optimize(PoseGraph& graph, SparsePoseAdjustment& solver);
 
-  /// After the last scan: optimises the graph and switches off outlier loops, before and after every pass of
-  /// the final loop search; then refuses pending loops. Returns the effort of each matcher.
+  /// Runs the final loop search after the last scan. Optimises the graph and switches off outlier loops
+  /// before and after every pass. Refuses all pending loops. Returns the effort of each matcher.
   std::map<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
                                                  SparsePoseAdjustment& solver, FinalProgress& progress);
 
-  /// The last step: refines the poses of all scans jointly, and the graph's nodes with them. The first node
+  /// Refines the poses of all scans jointly, and sets the graph's nodes to the refined poses. The first node
   /// keeps its pose. Does nothing if `progress` was cut short.
   void refine(RefinedScans& scans, PoseGraph& graph, FinalProgress& progress);
 
-  /// Matches as LoopEdit::Kind::kMatch asks. False if the scan has no returns to match.
+  /// Carries out an edit of kind LoopEdit::Kind::kMatch. Returns false if the scan has no returns to match.
   bool match_by_hand(const LoopEdit& edit, std::size_t node, const KeyframeStore& keyframes,
                      PoseGraph& graph);
 
@@ -129,10 +129,10 @@ class BackEnd {
   LoopLedger ledger_;
   WorkerPool pool_;
   OptimizationSchedule schedule_;
-  std::vector<MatcherKind> matcher_of_node_;  ///< that Psi chose there
+  std::vector<MatcherKind> matcher_of_node_;  ///< matcher chosen at each node
   StageClock loop_clock_{"close loops"};
   StageClock graph_clock_{"optimise pose graph"};
-  StageClock final_search_clock_{"last global pass"};
+  StageClock final_search_clock_{"final loop search"};
   StageClock refinement_clock_{"refine all scans jointly"};
 };
 

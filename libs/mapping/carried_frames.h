@@ -11,9 +11,10 @@
 
 namespace psi_slam {
 
-/// Sets `map_T_robot` of every frame. Applies the front end's motion to the previous and the next node's
-/// pose, and interpolates between the two results by frame number. `node_frames` has the frame of each node.
-/// `later_run_frames` has the first frame of each later run; no interpolation reaches across it.
+/// Sets `map_T_robot` of every frame. Applies the front end's motion to the pose of the node before the frame
+/// and of the node after it. Interpolates between the two results by frame number. `node_frames` holds the
+/// frame number of each node. `later_run_frames` holds the first frame of each later run; no interpolation
+/// crosses the start of a run.
 void carry_frames_along(const std::vector<mrpt::math::TPose2D>& map_T_node,
                         const std::vector<std::size_t>& node_frames, std::vector<FrameRecord>& frames,
                         const std::vector<std::size_t>& later_run_frames = {});

@@ -14,9 +14,9 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Nodes refined between two reports of progress, each with the frames up to the next node.
+// Number of nodes between two reports of progress. Each node is refined with the frames up to the next node.
 constexpr std::size_t kBatch = 64;
-// Turn that counts like a metre of distance when the nearest nodes are chosen.
+// When the nearest nodes are chosen, a turn by this angle counts like a distance of one metre.
 constexpr double kRadiansPerMetre = 1.0;
 
 mrpt::math::TPoint2Df position(const TPose2D& pose) {
@@ -29,14 +29,14 @@ PointIndex positions(const std::vector<TPose2D>& poses) {
   return PointIndex(std::move(points));
 }
 
-/// Poses and surfaces of the nodes in one round.
+/// Poses of the nodes in one round, and the surfaces that their scans saw.
 class Round {
  public:
   Round(std::vector<TPose2D> map_T_node, const std::vector<SurfacePoints>& seen,
         const JointRefinementOptions& options)
       : map_T_node_(std::move(map_T_node)), seen_(seen), options_(options), index_(positions(map_T_node_)) {}
 
-  /// Surfaces seen by the nodes near `node`, without its own.
+  /// Surfaces seen by the nodes near `node`, except those seen by `node` itself.
   SurfaceMap surfaces_near(std::size_t node) const {
     std::vector<SurfaceMap::Part> parts;
     for (const std::size_t other : references(node)) parts.push_back({&seen_[other], map_T_node_[other]});

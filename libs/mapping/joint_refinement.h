@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The last step of mapping: aligns every scan with the surfaces seen by the scans near it, all at their
-// optimised poses, in one or several rounds. After optimisation the scans are within a few centimetres of
-// their true poses. What remains is noise of single poses below the cell size of local maps.
+// The last step of mapping: aligns every scan with the surfaces seen by the scans near it, in one or several
+// rounds. All scans start at the poses of the optimised graph, which are accurate to a few centimetres. The
+// refinement reduces the remaining noise of single poses, which is below the cell size of local maps.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -18,23 +18,23 @@
 namespace psi_slam {
 
 struct JointRefinementOptions {
-  int rounds = 1;               ///< 0: no refinement
-  std::size_t references = 12;  ///< largest number of nodes that a scan is aligned with, the nearest ones
-  double reach_m = 3.0;         ///< largest distance to such a node
-  double max_turn_rad = radians_from_degrees(70.0L);  ///< largest turn from the heading of such a node
+  int rounds = 1;               ///< number of rounds; 0: no refinement
+  std::size_t references = 12;  ///< largest number of nearby nodes that a scan is aligned with
+  double reach_m = 3.0;         ///< largest distance between scan and node
+  double max_turn_rad = radians_from_degrees(70.0L);  ///< largest heading difference of scan and node
   SurfaceAlignmentOptions alignment;
 };
 
-/// The scans to refine: all of the log or all nodes.
+/// The scans to refine: either all scans of the log or only the nodes.
 struct RefinedScans {
-  std::vector<mrpt::math::TPose2D> map_T_frame;         ///< in, and out
-  std::vector<std::size_t> node_frames;                 ///< the frame of each node, ascending
-  std::function<ScanPoints(std::size_t frame)> points;  ///< several threads call it at once
+  std::vector<mrpt::math::TPose2D> map_T_frame;         ///< pose of each frame; refine_jointly() replaces it
+  std::vector<std::size_t> node_frames;                 ///< frame number of each node, ascending
+  std::function<ScanPoints(std::size_t frame)> points;  ///< points of a frame; must be thread-safe
 };
 
-/// Aligns every frame with the scans of nodes near its previous node. A round uses the poses of the round
-/// before, so results do not depend on the order or the number of threads. `progress` gets the share done; if
-/// it returns false, only finished rounds count.
+/// Aligns every frame with the scans of nodes near its previous node. Each round uses the poses of the round
+/// before, so results do not depend on the order of the frames or the number of threads. `progress` gets the
+/// completed share of the work, in [0, 1]. If it returns false, the unfinished round is discarded.
 void refine_jointly(RefinedScans& scans, const JointRefinementOptions& options, WorkerPool& pool,
                     const std::function<bool(double)>& progress);
 

@@ -15,26 +15,26 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Uncertainty of the start of a later run until loops hold it. It sizes the windows in which those are
-// searched.
+// Standard deviations of the start of a later run, before any loop joins the run to the map. They determine
+// the windows of the first loop searches.
 constexpr double kStartSigma_m = 0.3;
 constexpr double kStartSigma_rad = radians_from_degrees(3.0L);
 
-// Distance along the path put between two runs, so that no search along the path reaches from one to the
-// other.
+// Distance added to the path between two runs. It exceeds every limit along the path, so no search along the
+// path crosses from one run to the other.
 double between_runs_m(const BackEndOptions& options) {
   return 1 + std::max({options.loop_closure.candidates.min_travel_m, options.loop_closure.context.travel_m,
                        options.loop_closure.attempt_distance_m, options.loop_consensus.memory_m,
                        options.loop_closure.verification.neighbourhood_m, options.final_search.travel_m});
 }
 
-/// Information of node_T_robot. The place where the run was found is known best; it moves with the start of
-/// the run like the end of a rigid arm.
+/// Information matrix of node_T_robot. The standard deviations apply to the pose at which the robot was
+/// found, which is known best. An error of the start pose moves that pose like the end of a rigid arm.
 Eigen::Matrix3d information_of(const RunStart& start) {
   const double c = std::cos(start.node_T_robot.phi);
   const double s = std::sin(start.node_T_robot.phi);
   const TPose2D& arm = start.robot_T_found;
-  Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();  // derivative of the place found
+  Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();  // derivative of the found pose by the start pose
   moved(0, 2) = -(s * arm.x + c * arm.y);
   moved(1, 2) = c * arm.x - s * arm.y;
   return moved.transpose() * noisy_information(Eigen::Matrix3d::Zero(), kStartSigma_m, kStartSigma_rad) *
@@ -90,7 +90,8 @@ void Mapper::Implementation::begin_run(const RunStart& start) {
   result_.later_run_frames.push_back(result_.frames.size());
 }
 
-// Odometry of a later run continues that of the first run at the place where the run begins in the map.
+// Transforms odometry of a later run into the odometry frame of the first run. The two meet at the place
+// where the run begins in the map.
 void Mapper::Implementation::rebase_odometry(FrameRecord& record) {
   if (run_start_) {
     const TPose2D odom_T_start = result_.frames.front().odom_T_robot + (map_T_local_ - graph_.pose(0));
@@ -99,7 +100,8 @@ void Mapper::Implementation::rebase_odometry(FrameRecord& record) {
   if (odom_T_run_) record.odom_T_robot = *odom_T_run_ + record.odom_T_robot;
 }
 
-// Places the front end's frame by the newest node, or by the start of a run whose first scan is to come.
+// Places the front end's frame by the newest node. Before the first scan of a later run, uses the start of
+// that run.
 void Mapper::Implementation::follow_graph() {
   if (run_start_) {
     map_T_local_ = graph_.pose(run_start_->node) + run_start_->node_T_robot;
@@ -109,7 +111,8 @@ void Mapper::Implementation::follow_graph() {
   map_T_local_ = graph_.pose(newest) + inverse(keyframes_.nodes[newest].local_T_robot);
 }
 
-// Psi measures distances in the map: the front end's pose, corrected by the loops of earlier frames.
+// Computes Psi for this frame. The distance from the start uses the robot's pose in the map, as corrected by
+// the loops of earlier frames.
 void Mapper::Implementation::record_factor(FrameRecord& record, const FrontEndStep& step) {
   double odometry_m = 0;
   if (!result_.frames.empty() && !run_start_) {
@@ -133,8 +136,8 @@ void Mapper::Implementation::add_node(const FrontEndStep& step, std::size_t fram
   if (run_start_) join_run();
 }
 
-// Joins the run's first node to the map. The weak constraint keeps the graph connected and tells where to
-// search until loops take over.
+// Joins the first node of a later run to the map by a weak constraint. The constraint keeps the graph
+// connected and determines where loops are searched.
 void Mapper::Implementation::join_run() {
   const std::size_t first = keyframes_.nodes.size() - 1;
   keyframes_.nodes[first].travelled_m =

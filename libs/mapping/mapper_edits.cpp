@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes of loops by hand, during and after mapping.
+// Edits of loops by hand, during and after mapping.
 #include <algorithm>
 #include <utility>
 
@@ -31,7 +31,8 @@ LoopEditOutcome Mapper::Implementation::judge(const LoopEdit& edit,
   if (!options_.close_loops) return {State::kImpossible, "loop closing is switched off"};
   if (edit.frame >= frames.size()) return {State::kWaits, scan + " has not been mapped"};
   const std::optional<std::size_t> node = frames[edit.frame].node;
-  if (!node) return {State::kImpossible, scan + " is no node of the graph: the robot had hardly moved"};
+  if (!node)
+    return {State::kImpossible, scan + " is not a node of the graph, because the robot had hardly moved"};
   if (edit.local_map >= keyframes_.local_maps.size()) return {State::kWaits, map + " is not finished"};
   const PlacedLocalMap& local_map = keyframes_.local_maps[edit.local_map];
   if (*node >= local_map.first_node && *node <= local_map.last_node)
@@ -49,8 +50,9 @@ LoopEditOutcome Mapper::Implementation::carry_out(const LoopEdit& edit) {
       break;
     case LoopEdit::Kind::kForce:
       if (!back_end_.ledger().force(pair, edit.of_final_search, graph_))
-        outcome = {State::kWaits, edit.of_final_search ? "the final search has to find its match again"
-                                                       : "no match of them has been found yet"};
+        outcome = {State::kWaits, edit.of_final_search
+                                      ? "the final search has to find its match again"
+                                      : "no match of this scan and local map has been found yet"};
       break;
     case LoopEdit::Kind::kMatch:
       if (!back_end_.match_by_hand(edit, node, keyframes_, graph_))
@@ -58,7 +60,7 @@ LoopEditOutcome Mapper::Implementation::carry_out(const LoopEdit& edit) {
       break;
     case LoopEdit::Kind::kRestore:
       if (!back_end_.ledger().restore(pair, graph_))
-        outcome = {State::kImpossible, "there is no edit to take back"};
+        outcome = {State::kImpossible, "this loop has no edit that could be undone"};
       break;
   }
   if (outcome.state == State::kImpossible) return outcome;
@@ -67,7 +69,7 @@ LoopEditOutcome Mapper::Implementation::carry_out(const LoopEdit& edit) {
   return outcome;
 }
 
-// Carries out waiting edits whose scan and local map exist by now.
+// Carries out the waiting edits whose scan and local map now exist. Keeps the other edits waiting.
 void Mapper::Implementation::serve_waiting_edits() {
   for (const LoopEdit& waiting : std::exchange(waiting_edits_, {})) {
     const LoopEditOutcome outcome = edit(waiting);
@@ -82,7 +84,7 @@ std::vector<std::string> Mapper::Implementation::unmet_edits() const {
     unmet.push_back(text_of(waiting) + ": " + judge(waiting, result_.frames).reason);
   for (const auto& [node, local_map] : back_end_.ledger().forced_in_vain())
     unmet.push_back(text_of({LoopEdit::Kind::kForce, keyframes_.nodes[node].frame, local_map}) +
-                    ": no match of them was found");
+                    ": no match of this scan and local map was found");
   return unmet;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hidden part of Mapper. Functions without a comment are described there.
+// Implementation of Mapper. Functions without a comment here are described in psi_slam/mapper.h.
 #pragma once
 
 #include <map>
@@ -32,7 +32,7 @@ class Mapper::Implementation {
   const std::vector<PlacedLocalMap>& active_local_maps() const { return front_end_.active(); }
 
  private:
-  /// What finish() changes and reopen() restores.
+  /// State that finish() changes and reopen() restores.
   struct Checkpoint {
     PoseGraph graph;
     LoopLedger ledger;
@@ -61,11 +61,12 @@ class Mapper::Implementation {
   PoseGraph graph_;
   KeyframeStore keyframes_;
   std::vector<LoopEdit> waiting_edits_;
-  std::vector<std::string> impossible_edits_;  ///< waiting edits that became impossible, a sentence each
+  std::vector<std::string> impossible_edits_;  ///< one sentence for each waiting edit that became impossible
   std::optional<Checkpoint> before_finish_;
-  std::optional<RunStart> run_start_;              ///< of the next frame
-  std::optional<mrpt::math::TPose2D> odom_T_run_;  ///< a later run's odometry frame in the first run's
-  mrpt::math::TPose2D map_T_local_;                ///< the front end's frame, placed by the newest node
+  std::optional<RunStart> run_start_;  ///< start of the run of the next frame; empty within a run
+  /// Odometry frame of a later run, in the odometry frame of the first run.
+  std::optional<mrpt::math::TPose2D> odom_T_run_;
+  mrpt::math::TPose2D map_T_local_;  ///< front end's frame, placed by the newest node
   MappingResult result_;
   StageClock front_end_clock_{"match and insert scan"};
 };

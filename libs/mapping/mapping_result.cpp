@@ -25,7 +25,8 @@ std::optional<std::size_t> unjoined_run(const MappingResult& result) {
     const auto next = std::upper_bound(begins.begin(), begins.end(), result.node_frames[node]);
     return static_cast<std::size_t>(next - begins.begin());
   };
-  std::vector<std::size_t> group(result.later_run_frames.size() + 1);  // by run: the lowest run joined to it
+  // For each run, the lowest run joined to it.
+  std::vector<std::size_t> group(result.later_run_frames.size() + 1);
   std::iota(group.begin(), group.end(), 0U);
   for (const LoopRecord& loop : result.loops) {
     if (loop.verdict != LoopVerdict::kAccepted) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides when a growing pose graph is optimised: at once when a new constraint contradicts it strongly. For
-// a weak contradiction it waits until the graph has grown by a fixed share. The cost per node then hardly
-// depends on the size of the graph.
+// Decides when to optimise a growing pose graph. If the graph strongly contradicts a new constraint, the
+// optimisation is due at once. If the contradiction is weak, it is due after the graph has grown by a fixed
+// share. The cost per node then hardly depends on the size of the graph.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class OptimizationSchedule {
   /// Residuals of at least this many standard deviations are urgent.
   static constexpr double kUrgentResidual = 5;
 
-  /// Tells by how many standard deviations the graph contradicts a new constraint.
+  /// Adds the residual of a new constraint, in standard deviations.
   void add_residual(double residual) { worst_residual_ = std::max(worst_residual_, residual); }
 
   bool is_due(const PoseGraph& graph) const {
@@ -26,7 +26,7 @@ class OptimizationSchedule {
            nodes - static_cast<double>(optimized_nodes_) >= kGrowthForSmallResidual * nodes;
   }
 
-  /// Tells that the graph has just been optimised.
+  /// Records that the graph has just been optimised.
   void optimized(const PoseGraph& graph) {
     worst_residual_ = 0;
     optimized_nodes_ = graph.num_nodes();
@@ -35,7 +35,7 @@ class OptimizationSchedule {
  private:
   static constexpr double kGrowthForSmallResidual = 1e-3;
 
-  double worst_residual_ = 0;  ///< since the last optimisation
+  double worst_residual_ = 0;  ///< largest residual since the last optimisation
   std::size_t optimized_nodes_ = 0;
 };
 

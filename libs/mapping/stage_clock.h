@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures the stages of the work: mean, standard deviation and extremes over all calls.
+// Measures the time of one stage of the work: mean, standard deviation and extremes over all calls.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class StageClock {
  public:
   explicit StageClock(std::string name) { timing_.name = std::move(name); }
 
-  /// Runs `work`, adds its time and returns it in milliseconds.
+  /// Runs `work` and adds its time to the statistics. Returns the time in milliseconds.
   template <class Work>
   double time(const Work& work) {
     const double left_out_before_ms = left_out_ms_;
@@ -25,7 +25,7 @@ class StageClock {
     return ms;
   }
 
-  /// Runs `call` inside time() without counting it, for example to report progress.
+  /// Runs `call` and excludes its time from the enclosing time(). Use it for example to report progress.
   template <class Call>
   auto leave_out(const Call& call) {
     decltype(call()) result{};
@@ -59,7 +59,7 @@ class StageClock {
 
   StageTiming timing_;
   double left_out_ms_ = 0;
-  double squares_about_mean_ = 0;  // Welford's sum
+  double squares_about_mean_ = 0;  // sum of squared deviations from the mean, by Welford's method
 };
 
 }  // namespace psi_slam

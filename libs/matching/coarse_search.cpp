@@ -26,7 +26,7 @@ void keep_best(std::vector<RankedCell>& ranked, std::size_t count) {
   ranked.resize(count);
 }
 
-// The best coarse sum of each tile at each of the headings looked at.
+// The best coarse sum of each tile, at each heading that was summed.
 class TileSums {
  public:
   TileSums(int turns, const WindowTiles& tiles)
@@ -34,7 +34,7 @@ class TileSums {
 
   std::uint32_t& at(int turn, int row, int column) { return sums_[index(turn, row, column)]; }
 
-  // Whether no neighbour, diagonal ones included, is better.
+  // Returns whether no neighbour has a larger sum, including diagonal neighbours.
   bool is_peak(int turn, int row, int column) {
     const std::uint32_t here = at(turn, row, column);
     for (int t = std::max(0, turn - 1); t <= std::min(turns_ - 1, turn + 1); ++t)
@@ -44,7 +44,7 @@ class TileSums {
     return true;
   }
 
-  // The largest sum that `count` tiles exceed or equal.
+  // Returns the largest sum that more than `count` tiles reach; 0 if there are no more than `count` tiles.
   std::uint32_t reached_by(std::size_t count) const {
     if (count >= sums_.size()) return 0;
     std::vector<std::uint32_t> sums = sums_;
@@ -148,7 +148,7 @@ Seeds coarse_seeds(const SearchLattice& lattice, const WindowTiles& tiles,
   }
 
   const auto count = static_cast<std::size_t>(options.seeds);
-  const std::uint32_t least = best.reached_by(3 * count);  // not all of them are peaks
+  const std::uint32_t least = best.reached_by(3 * count);  // more than `count`, because not all are peaks
   std::vector<std::pair<std::uint32_t, Chromosome>> peaks;
   for (int turn = 0; turn < turns; ++turn)
     for (int row = 0; row < tiles.rows(); ++row)

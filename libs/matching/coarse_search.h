@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Coarse looks at a whole search window, on the coarsest level of the score grid's pyramid.
+// Searches a whole window coarsely, on the coarsest level of the score grid's pyramid.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace psi_slam {
 
 struct CoarseCells {
-  std::vector<Tile> best;  ///< in descending order of sums; each at its middle heading
+  std::vector<Tile> best;  ///< best cells, in descending order of sums; `theta` is the middle heading
   std::int64_t evaluations = 0;
 };
 
@@ -24,13 +24,14 @@ CoarseCells rank_coarse_cells(const SearchLattice& lattice, int heading_stride, 
                               std::uint32_t min_sum);
 
 struct Seeds {
-  std::vector<Chromosome> chromosomes;  ///< in descending order of sums
+  std::vector<Chromosome> chromosomes;  ///< codes of the tiles, in descending order of sums
   std::int64_t evaluations = 0;
 };
 
-/// First generation of the memetic search. Sums a part of the scan's points at every
-/// `options.heading_stride`-th heading from a random one on. Returns at most `options.seeds` tiles whose sum
-/// no neighbour exceeds. A window of one block is not summed: all those headings are seeds.
+/// Returns the first generation of the memetic search. Sums a part of the scan's points at every
+/// `options.heading_stride`-th heading, beginning at a random heading. Returns at most `options.seeds` tiles
+/// whose sum no neighbouring tile exceeds. For a window of one block, computes no sums: all these headings
+/// are seeds.
 Seeds coarse_seeds(const SearchLattice& lattice, const WindowTiles& tiles,
                    const MemeticGeneticOptions& options, Random& random);
 

@@ -9,18 +9,19 @@
 namespace psi_slam {
 namespace {
 
-// Up to this many poses, the pyramid costs more than it saves.
+// Windows with at most this many poses are searched exhaustively, because the pyramid costs more than it
+// saves.
 constexpr std::int64_t kExhaustivePoses = 60'000;
 constexpr int kCoarse = ScoreGrid::kStrides[1];
 constexpr int kMiddle = ScoreGrid::kStrides[0];
 
-// A block of shifts at one heading: from `pose`, as many shifts a side as the stride of its level.
+// A block of shifts at one heading. It begins at `pose`, and its side is the stride of its pyramid level.
 struct Block {
   std::uint32_t bound;
   LatticePose pose;
 };
 
-// Base of both searches: keeps the best candidate.
+// Base class of both searches. Keeps the best candidate.
 class SearchBase {
  public:
   SearchBase(const SearchLattice& lattice, std::uint32_t min_sum,
@@ -89,7 +90,7 @@ class BranchAndBound : private SearchBase {
   }
 
  private:
-  // All blocks of the window whose bound reaches the smallest sum, in descending order of bounds.
+  // Returns all blocks of the window whose bound reaches the smallest sum, in descending order of bounds.
   std::vector<Block> coarse_blocks() {
     const int width = (2 * window_.n_x + kCoarse) / kCoarse;
     const int height = (2 * window_.n_y + kCoarse) / kCoarse;

@@ -11,7 +11,7 @@ Random random_for(const MatchSeed& seed) {
   return Random(mixed_bits(mixed_bits(mixed_bits(seed.run) + seed.scan) + seed.local_map));
 }
 
-// Lemire, "Fast random integer generation in an interval", 2019.
+// Uses the method of Lemire, "Fast random integer generation in an interval", 2019.
 std::uint64_t draw_below(std::uint64_t count, Random& random) {
   __extension__ using Wide = unsigned __int128;
   Wide product = static_cast<Wide>(random()) * count;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The operators of the genetic searches (section 3.1 of the paper): roulette wheel, two-point crossover,
-// bit-flip mutation. All random numbers come from the generator passed in.
+// The operators of the genetic searches (section 3.1 of the paper): roulette wheel, two-point crossover and
+// bit-flip mutation. All random numbers come from the given generator.
 #pragma once
 
 #include <cstddef>
@@ -19,25 +19,27 @@ using Random = std::mt19937_64;
 /// Returns the random generator of one match. Equal seeds give equal generators.
 Random random_for(const MatchSeed& seed);
 
-/// Draws an integer below `count` > 0, uniformly; the result is the same on every platform.
+/// Draws an integer in [0, count) uniformly, with count > 0. The result is the same on every platform.
 std::uint64_t draw_below(std::uint64_t count, Random& random);
 
-/// Draws a number in [0, 1), a multiple of 2^-53.
+/// Draws a multiple of 2^-53 in [0, 1) uniformly.
 double draw_unit(Random& random);
 
-/// Draws individuals in proportion to their fitness; uniformly if the fitness of all is 0.
+/// Draws individuals with probabilities proportional to their fitness; uniformly if all fitness values are 0.
 class RouletteWheel {
  public:
-  /// `fitness` has at least one entry, and no negative ones.
+  /// `fitness` must have at least one entry, and no negative entry.
   explicit RouletteWheel(const std::vector<double>& fitness);
 
+  /// Returns the index of the individual that was drawn.
   std::size_t spin(Random& random) const;
 
  private:
   std::vector<double> up_to_;  ///< cumulative fitness
 };
 
-/// Exchanges the bits between two cuts, drawn uniformly from all pairs 0 <= first < last <= bits.
+/// Exchanges the bits of `a` and `b` between two cuts. Draws the cuts uniformly from all pairs 0 <= first <
+/// last <= bits.
 std::pair<Chromosome, Chromosome> two_point_crossover(Chromosome a, Chromosome b, int bits, Random& random);
 
 /// Flips each of the lowest `bits` bits with probability `rate`.

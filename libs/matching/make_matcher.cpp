@@ -21,9 +21,9 @@ FoundPeaks evolve_cells(const SearchLattice& lattice, const std::vector<Tile>& c
   return evolve_tiles(lattice, space, first_generation, options.pooled_fitness, request, options, random);
 }
 
-// The paper's variant: a genetic search in each of the best cells, with chromosomes of equation 10 for the
-// small window of that cell. It scores a quarter of the cell's poses; with more, scoring all would be
-// cheaper.
+// The paper's variant of csm_ga runs a genetic search in each of the best cells. The chromosomes of equation
+// 10 cover the small window of a cell. It scores as many poses as a quarter of the cell's poses. With more,
+// an exhaustive search would be cheaper.
 FoundPeaks search_cells_by_paper(const SearchLattice& lattice, const std::vector<Tile>& cells,
                                  int heading_stride, const PeakRequest& request,
                                  const PaperGeneticOptions& options) {
@@ -63,7 +63,7 @@ FoundPeaks search_cells_by_paper(const SearchLattice& lattice, const std::vector
   return peaks;
 }
 
-// Scan matching by a genetic algorithm on binary chromosomes (see GeneticVariant).
+// Matcher ga: searches the window by a genetic algorithm on binary chromosomes (see GeneticVariant).
 class GeneticMatcher : public WindowMatcher {
  public:
   GeneticMatcher(const MatcherOptions& options, const GeneticOptions& genetic)
@@ -86,10 +86,10 @@ class GeneticMatcher : public WindowMatcher {
   }
 };
 
-// The middle mode of the paper (section 3.2): ranks coarse cells exhaustively, as the coarse stage of
-// correlative matching does, then searches the best of them genetically. The paper's variant searches each of
-// the best 32 cells by the paper's GA. A window of one block (see WindowTiles) leaves only headings to rank;
-// the genetic search of the whole window does that too, so there the two modes are one.
+// Matcher csm_ga, the middle mode of the paper (section 3.2). Ranks coarse cells exhaustively, as the coarse
+// stage of correlative matching does, then searches the best of them genetically. The paper's variant runs
+// the paper's genetic algorithm in each of the best 32 cells. In a window of one block (see WindowTiles),
+// only headings remain to be ranked. memetic_search() ranks them too, so it searches such windows.
 class CoarseToGeneticMatcher : public GeneticMatcher {
  public:
   using GeneticMatcher::GeneticMatcher;
@@ -135,7 +135,7 @@ std::unique_ptr<Matcher> make_matcher(MatcherKind kind, const MatcherOptions& op
     case MatcherKind::kGa:
       return std::make_unique<GeneticMatcher>(options, genetic);
   }
-  throw std::invalid_argument("no such kind of matcher");
+  throw std::invalid_argument("make_matcher: unknown kind of matcher, expected kCsm, kCsmGa or kGa");
 }
 
 }  // namespace psi_slam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The matchers of the paper, by the names that `.ini` files and records give them.
+// Creates the matchers of the paper. `.ini` files and records use the same names.
 #pragma once
 
 #include <memory>
@@ -21,6 +21,7 @@ class CorrelativeMatcher : public WindowMatcher {
   FoundPeaks find_peaks(const SearchLattice& lattice, const PeakRequest& request) const override;
 };
 
+/// Creates a matcher. `genetic` has no effect on kCsm.
 std::unique_ptr<Matcher> make_matcher(MatcherKind kind, const MatcherOptions& options,
                                       const GeneticOptions& genetic);
 

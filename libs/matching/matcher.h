@@ -18,44 +18,45 @@
 
 namespace psi_slam {
 
-/// Seeds the generator of a random matcher, so that results depend neither on threads nor on their order.
+/// Seed of the random generator for one match. It makes results independent of the number and order of
+/// threads.
 struct MatchSeed {
-  std::uint64_t run = 0;
-  std::uint64_t scan = 0;
-  std::uint64_t local_map = 0;
+  std::uint64_t run = 0;        ///< seed of the whole run
+  std::uint64_t scan = 0;       ///< number of the scan in the log
+  std::uint64_t local_map = 0;  ///< number of the local map
 };
 
 struct MatchProblem {
-  const ScoreGrid& grid;                ///< in the frame of its local map, called "map" here
-  const ScanPoints& scan;               ///< in the robot's frame
-  mrpt::math::TPose2D map_T_robot;      ///< predicted pose: the centre of the window
-  SearchExtent extent;                  ///< half-widths of the window
-  double min_response = 0;              ///< smallest response of a match; higher values speed up the search
-  bool measure_ambiguity = false;       ///< also finds the second best distinct peak
-  std::optional<PosePrior> prior = {};  ///< constrains the refinement where the scan does not
+  const ScoreGrid& grid;   ///< in the frame of its local map; `map` in names of poses means this frame
+  const ScanPoints& scan;  ///< in the robot's frame
+  mrpt::math::TPose2D map_T_robot;  ///< predicted pose: the centre of the window
+  SearchExtent extent;              ///< half-widths of the window
+  double min_response = 0;  ///< smallest response of a match, in [0, 1]; higher values speed up the search
+  bool measure_ambiguity = false;       ///< whether to find the second-best distinct peak too
+  std::optional<PosePrior> prior = {};  ///< determines the refined pose where the scan does not
   MatchSeed seed = {};
 };
 
 /// Effort of a genetic search; zero for other searches.
 struct GeneticEffort {
   int generations = 0;
-  std::int64_t decoded = 0;   ///< chromosomes that became poses
-  std::int64_t repaired = 0;  ///< decoded chromosomes whose code was outside the window
+  std::int64_t decoded = 0;   ///< number of decoded chromosomes
+  std::int64_t repaired = 0;  ///< number of decoded chromosomes with a code outside the window
 };
 
 struct MatchResult {
   bool found = false;                ///< false: no pose of the window reaches min_response
   mrpt::math::TPose2D map_T_robot;   ///< matched pose, refined below a cell
   mrpt::math::TPose2D lattice_pose;  ///< best pose of the search lattice, before refinement
-  double response = 0;               ///< R_v of equation 11 at the lattice pose, in [0, 1]
+  double response = 0;               ///< R_v of equation 11 at lattice_pose, in [0, 1]
   double refined_response = 0;       ///< mean interpolated score at map_T_robot
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();   ///< of map_T_robot: m^2, m rad, rad^2
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the scan alone; see refine()
-  /// Response of the second best distinct pose of the window (see MatcherOptions), divided by `response`.
-  /// Empty if not measured; 0 if no other pose reaches MatcherOptions::ambiguity_floor.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< information of the scan alone; see refine()
+  /// Response of the second-best distinct pose of the window (see MatcherOptions), divided by `response`.
+  /// Empty if not measured. 0 if no distinct pose reaches MatcherOptions::ambiguity_floor.
   std::optional<double> ambiguity;
   SearchWindow window;           ///< window that was searched
-  std::int64_t evaluations = 0;  ///< poses scored on any level of the grid
+  std::int64_t evaluations = 0;  ///< number of poses scored, on all levels of the grid
   GeneticEffort genetic;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 struct Individual {
   Chromosome chromosome = 0;
-  Candidate best;  // pose of its tile
+  Candidate best;  // best pose of its tile
 };
 
 bool fitter(const Individual& a, const Individual& b) {
@@ -49,7 +49,7 @@ class Evolution {
     }
     if (pooled) {
       evolve(chromosomes, TileLevel::kPooled);
-      if (population_.front().best.sum < request_.min_sum) return finish();  // no pose reaches it
+      if (population_.front().best.sum < request_.min_sum) return finish();  // no pose reaches min_sum
       chromosomes.clear();
       for (const Individual& one : population_) chromosomes.push_back(one.chromosome);
     }
@@ -88,8 +88,8 @@ class Evolution {
     }
   }
 
-  // If tiles are as large as the window, only the heading varies. Descents from the best headings then find
-  // what generations would find. Stops at a bound below the best sum found.
+  // Searches a window of one tile, where only the heading varies. Local searches from the best headings
+  // replace the generations. Stops at the first heading whose upper bound is below the best sum found.
   void search_headings(const std::vector<Chromosome>& chromosomes, bool pooled) {
     level_ = pooled ? TileLevel::kPooled : TileLevel::kFinest;
     for (const Chromosome chromosome : chromosomes) population_.push_back(born(chromosome));
@@ -126,7 +126,8 @@ class Evolution {
     return best;
   }
 
-  // Keeps the fittest individuals, one per neighbourhood, up to the size of the population.
+  // Keeps the fittest individuals up to the size of the population. With niches, keeps only one individual
+  // per neighbourhood.
   void select() {
     std::sort(population_.begin(), population_.end(), fitter);
     std::vector<Individual> kept;
@@ -165,7 +166,8 @@ class Evolution {
     return children;
   }
 
-  // Pattern search along the heading. The chromosome keeps the heading found (Lamarckian evolution).
+  // Improves the best individuals by a pattern search along the heading. Each chromosome takes over the
+  // heading found (Lamarckian evolution).
   void descend() {
     const std::size_t count = std::min(population_.size(), size(options_.descents));
     for (std::size_t i = 0; i < count; ++i) descend(population_[i]);
@@ -186,7 +188,8 @@ class Evolution {
     return true;
   }
 
-  // Moves the best poses, one per neighbourhood, to the exact best pose around them, across tile borders.
+  // Moves the best poses, one per neighbourhood, to the best pose nearby, found exactly and also across tile
+  // borders.
   void polish() {
     std::vector<Candidate> ranked = scored_;
     std::sort(ranked.begin(), ranked.end(),
@@ -227,11 +230,11 @@ class Evolution {
   const MemeticGeneticOptions& options_;
   Random& random_;
   TileScorer scorer_;
-  bool whole_;  // tiles are as large as the window
+  bool whole_;  // whether tiles are as large as the window
   TileLevel level_ = TileLevel::kFinest;
   std::vector<Individual> population_;
   std::unordered_map<Chromosome, Candidate> known_;
-  std::vector<Candidate> scored_;  // on the finest level
+  std::vector<Candidate> scored_;  // candidates scored on the finest level
   GeneticEffort effort_;
 };
 

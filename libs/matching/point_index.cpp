@@ -12,7 +12,7 @@ namespace {
 
 using Point = mrpt::math::TPoint2Df;
 
-/// Data source in the form that nanoflann expects.
+/// Points as the data source that nanoflann expects.
 struct PointSource {
   const Point* first = nullptr;
   std::size_t count = 0;
@@ -28,7 +28,7 @@ struct PointSource {
   // NOLINTEND
 };
 
-/// Result set of nanoflann: all points within a distance.
+/// Result set for nanoflann that collects all points within a distance.
 class Within {
  public:
   explicit Within(float square) : square_(square) {}
@@ -53,7 +53,7 @@ class Within {
 struct PointIndex::Tree {
   explicit Tree(const std::vector<Point>& points) : source{points.data(), points.size()} {}
 
-  PointSource source;  // stays valid when the vector moves, because its heap memory does not
+  PointSource source;  // stays valid when the vector moves, because its heap memory does not move
   nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointSource>, PointSource, 2,
                                       std::size_t>
       index{2, source};

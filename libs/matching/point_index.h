@@ -9,7 +9,7 @@
 
 namespace psi_slam {
 
-/// Points of the plane in a k-d tree. Searches are thread-safe.
+/// Points of the plane in a k-d tree, metres. Searches are thread-safe.
 class PointIndex {
  public:
   /// All points must be finite; an empty vector is valid.
@@ -20,8 +20,8 @@ class PointIndex {
 
   const std::vector<mrpt::math::TPoint2Df>& points() const { return points_; }
 
-  /// Puts the indices of the at most `count` points nearest to `at`, and not farther than `max_distance_m`,
-  /// into `found`; nearest first.
+  /// Sets `found` to the indices of the points nearest to `at`, nearest first: at most `count` points, each
+  /// at most `max_distance_m` away.
   void nearest(const mrpt::math::TPoint2Df& at, std::size_t count, float max_distance_m,
                std::vector<std::size_t>& found) const;
 

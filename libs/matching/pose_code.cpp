@@ -7,7 +7,7 @@
 namespace psi_slam {
 namespace {
 
-// The smallest l with 2^l > count.
+// Returns the smallest l with 2^l > count.
 int bits_beyond(std::uint64_t count) {
   int bits = 0;
   while (bits < 64 && (count >> bits) != 0) ++bits;

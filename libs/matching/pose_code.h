@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The chromosome of equations 9, 10 and 12: a pose of the search window as two binary integers, the linear
-// index of its cell and the index of its angle.
+// The chromosome of equations 9, 10 and 12 encodes a pose of the search window as two binary integers: the
+// linear index of its cell and the index of its angle.
 //
 //     L = (y + n_y) 2 n_x + (x + n_x),   0 <= L < L_max = 2 n_x 2 n_y
 //     R = theta + n_theta,               0 <= R < R_max = 2 n_theta
 //     smallest l_1, l_2 with 2^l_1 > L_max, 2^l_2 > R_max
 //
-// with x, y, theta in steps from the window's centre. Cells are half open: the last column, row and angle of
-// the exhaustive search, +n, have no code, so a genetic search never finds a pose there. With them, +n would
-// alias onto the next row. Codes outside the window are repaired by the modulus.
+// with x, y, theta in steps from the window's centre. Cells are half open: the exhaustive search includes the
+// last column, row and angle +n, but they have no code. A genetic search therefore never finds a pose there.
+// If +n had a code, it would equal the code of the first column of the next row. Codes outside the window are
+// repaired by the modulus.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,8 @@
 
 namespace psi_slam {
 
-/// Bits, least significant first: l_1 of the position, then l_2 of the angle.
+/// Code of a pose as a bit string. From the least significant bit: l_1 bits of the position, then l_2 bits of
+/// the angle.
 using Chromosome = std::uint64_t;
 
 class PoseCode {
@@ -26,8 +28,8 @@ class PoseCode {
   /// Throws std::invalid_argument if the window needs more than 64 bits or has no steps along an axis.
   explicit PoseCode(const SearchWindow& window);
 
-  int position_bits() const { return position_bits_; }  ///< l_1
-  int angle_bits() const { return angle_bits_; }        ///< l_2
+  int position_bits() const { return position_bits_; }  ///< number of bits of the position, l_1
+  int angle_bits() const { return angle_bits_; }        ///< number of bits of the angle, l_2
   int bits() const { return position_bits_ + angle_bits_; }
 
   /// Encodes a pose with -n <= steps < n on each axis.
@@ -36,7 +38,7 @@ class PoseCode {
   /// Decodes any bits() bits: codes outside the window are replaced by their remainder.
   LatticePose decode(Chromosome chromosome) const;
 
-  /// False for codes that decode() repairs.
+  /// Returns whether the chromosome is a code of the window; decode() repairs all others.
   bool inside(Chromosome chromosome) const;
 
  private:
@@ -46,8 +48,8 @@ class PoseCode {
   int n_x_;
   int n_y_;
   int n_theta_;
-  std::uint64_t positions_;  // L_max
-  std::uint64_t angles_;     // R_max
+  std::uint64_t positions_;  // number of positions, L_max
+  std::uint64_t angles_;     // number of angles, R_max
   int position_bits_;
   int angle_bits_;
 };

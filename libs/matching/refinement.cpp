@@ -13,17 +13,17 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// The cost at one pose and its Gauss-Newton approximation.
+// The cost at one pose, and its Gauss-Newton approximation around that pose.
 struct Linearisation {
   double cost = 0;
   double mean_score = 0;
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // of the scan
-  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();      // with the prior
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // information of the scan alone
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();      // of the scan and the prior together
   Eigen::Vector3d descent = Eigen::Vector3d::Zero();
 };
 
-// Removes the slope along a straight surface: a point does not determine the position along it, so this slope
-// is noise.
+// Removes the slope of the score along a straight surface. A point does not determine the position along its
+// surface, so this slope is noise.
 void keep_normal_part(ScoreGrid::Sample& sample, const mrpt::math::TPoint2Df& normal, double c, double s) {
   if (normal.x == 0.0F && normal.y == 0.0F) return;
   const double x = c * static_cast<double>(normal.x) - s * static_cast<double>(normal.y);
@@ -66,7 +66,8 @@ Linearisation linearise(const ScoreGrid& grid, const ScanPoints& scan, const TPo
   return result;
 }
 
-// Prior at the start, against noise in directions that the scan does not determine, as along a corridor.
+// Returns the default prior, at the start pose. It suppresses noise in directions that the scan does not
+// determine, as along a corridor.
 PosePrior held_at(const TPose2D& map_T_robot) {
   constexpr double kSigma_m = 0.15;
   PosePrior prior;
@@ -87,7 +88,8 @@ RefinedPose refine(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D&
   int iterations = 0;
   while (iterations < options.max_iterations) {
     ++iterations;
-    // Keeps rounding errors from moving the pose in directions that the scan does not determine.
+    // Small additional damping keeps rounding errors from moving the pose where the scan does not determine
+    // it.
     const double least = 1e-6 * (1 + std::max(here.hessian(0, 0), here.hessian(1, 1)));
     const Eigen::Vector3d undetermined(least, least, 1e-6 * (1 + here.hessian(2, 2)));
     Eigen::Matrix3d damped = here.hessian;
@@ -116,7 +118,7 @@ RefinedPose refine(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D&
 
 Eigen::Matrix3d bounded_covariance(const Eigen::Matrix3d& information, double min_sigma_m, double max_sigma_m,
                                    double lever_m) {
-  const Eigen::Vector3d scale(1, 1, 1 / lever_m);  // radians to metres at the end of the lever
+  const Eigen::Vector3d scale(1, 1, 1 / lever_m);  // converts radians to metres at the end of the lever
   const Eigen::Matrix3d scaled = scale.asDiagonal() * information * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scaled);
   Eigen::Vector3d variances;

@@ -12,7 +12,8 @@ int ceil_divide(int a, int b) {
   return (a + b - 1) / b;
 }
 
-// Maximum over aligned stride x stride blocks of `fine`, then over 2 x 2 neighbouring blocks.
+// Returns a pyramid level: maxima over aligned stride x stride blocks of `fine`, then over 2 x 2 neighbouring
+// blocks.
 ScoreLevel pool(const ScoreLevel& fine, int stride) {
   const int blocks_x = ceil_divide(fine.width(), stride);
   const int blocks_y = ceil_divide(fine.height(), stride);
@@ -22,7 +23,8 @@ ScoreLevel pool(const ScoreLevel& fine, int stride) {
     std::uint8_t* block = blocks.cell(0, y / stride);
     for (int x = 0; x < fine.width(); ++x) block[x / stride] = std::max(block[x / stride], row[x]);
   }
-  // Cell -1 in the margin covers points just left of or below the grid, so it includes the first block.
+  // Cells with x or y = -1 lie in the margin. They cover points just left of or below the grid, so they
+  // include the first blocks.
   ScoreLevel pooled(blocks_x, blocks_y, stride);
   for (int y = -1; y < blocks_y; ++y)
     for (int x = -1; x < blocks_x; ++x)
@@ -34,7 +36,8 @@ ScoreLevel pool(const ScoreLevel& fine, int stride) {
 using Four = float __attribute__((vector_size(16)));
 using FourBytes = std::uint8_t __attribute__((vector_size(4)));
 
-// Catmull-Rom weights of four neighbours, and their derivatives, for u in [0, 1) between the middle two.
+// Catmull-Rom weights of four neighbouring values and their derivatives, at the position u in [0, 1) between
+// the middle two values.
 struct CubicWeights {
   Four value;
   Four slope;
@@ -92,7 +95,7 @@ ScoreGrid::Sample ScoreGrid::interpolate(double x_m, double y_m) const {
   if (!finest_.inside(column - 1, row - 1) || !finest_.inside(column + 2, row + 2)) return {0, 0, 0};
   const CubicWeights wx = cubic_weights(static_cast<float>(x - column));
   const CubicWeights wy = cubic_weights(static_cast<float>(y - row));
-  Four across = {};  // sums of the columns, weighted by row
+  Four across = {};  // weighted sums over the rows, one per column
   Four across_slope = {};
   for (int j = 0; j < 4; ++j) {
     FourBytes bytes;

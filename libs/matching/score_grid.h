@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The score grid M of equation 1: for each cell of a local map, the probability that a scan point falls
-// there. A max-pooled pyramid over it bounds the response of whole blocks of poses (Olson 2009; Hess et al.
-// 2016).
+// there. A max-pooled pyramid of the grid bounds the response of whole blocks of poses (Olson 2009; Hess et
+// al. 2016).
 //
 // The memory layout serves the inner loop of the matcher, which sums runs of neighbouring cells for all
-// points of a scan: one byte per cell, contiguous rows, and a margin of zeros, so that runs need no bounds
-// check.
+// points of a scan. It has one byte per cell, contiguous rows, and a margin around the grid, so runs need no
+// bounds check.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@
 
 namespace psi_slam {
 
-/// Returns the largest integer not above `value`, which must fit an int. It is faster than std::floor, which
-/// is a library call on baseline processors.
+/// Returns the largest integer not above `value`, which must fit an int. Faster than std::floor, which is a
+/// library call on baseline x86-64.
 inline int floor_to_int(double value) {
   const int towards_zero = static_cast<int>(value);
   return towards_zero - (value < towards_zero ? 1 : 0);
@@ -26,11 +26,13 @@ inline int floor_to_int(double value) {
 /// One level of the pyramid. Cell (x, y) of a level with `stride_cells` = s > 1 holds the largest score among
 /// the finest cells [x s, (x + 2) s) x [y s, (y + 2) s); for s = 1, it holds the score. The factor 2 is
 /// needed because s shifts of an arbitrary point reach into two aligned blocks. A level takes 1 / s^2 of the
-/// memory of the finest one, so that it stays in the cache.
+/// memory of the finest level.
 class ScoreLevel {
  public:
-  /// Cells of zeros on every side, and further ones at the end for vector loads that read past a run.
+  /// Width of the margin on every side, in cells. It holds zeros, except column -1 and row -1 of the pyramid
+  /// levels.
   static constexpr int kMargin = 16;
+  /// Bytes after the last row, for vector loads that read past a run.
   static constexpr int kRunPadding = 64;
 
   ScoreLevel() = default;
@@ -39,12 +41,12 @@ class ScoreLevel {
   int width() const { return width_; }
   int height() const { return height_; }
   int stride_cells() const { return stride_cells_; }
-  /// Number of bytes from a cell to the one above it.
+  /// Number of bytes from a cell to the cell at y + 1.
   std::ptrdiff_t row_bytes() const { return row_bytes_; }
 
-  /// The score of a cell, 0 .. 255; 0 outside.
+  /// Returns the score of a cell, 0 .. 255; 0 outside the grid and its margin.
   std::uint8_t at(int x, int y) const { return inside(x, y) ? *cell(x, y) : std::uint8_t{0}; }
-  /// Whether cell(x, y) is valid: inside the grid or its margin.
+  /// Returns whether cell(x, y) is valid: inside the grid or its margin.
   bool inside(int x, int y) const {
     return x >= -kMargin && x < width_ + kMargin && y >= -kMargin && y < height_ + kMargin;
   }
@@ -52,7 +54,7 @@ class ScoreLevel {
   std::uint8_t* cell(int x, int y) { return bytes_.data() + index(x, y); }
   std::size_t memory_bytes() const { return bytes_.size(); }
 
-  /// All cells with margin and padding. After take_bytes() the level has no cells until give_bytes().
+  /// Moves all cells out, with margin and padding. The level then has no cells until give_bytes().
   std::vector<std::uint8_t> take_bytes() { return std::move(bytes_); }
   void give_bytes(std::vector<std::uint8_t> bytes) { bytes_ = std::move(bytes); }
 
@@ -70,11 +72,11 @@ class ScoreLevel {
 /// The finest grid and its pyramid, in the frame of its local map. Score 255 is probability 1.
 class ScoreGrid {
  public:
-  /// Strides of the levels above the finest, from fine to coarse.
+  /// Strides of the pyramid levels in finest cells, from fine to coarse.
   static constexpr std::array<int, 2> kStrides = {2, 8};
 
   ScoreGrid() = default;
-  /// Makes a grid of zeros whose cell (0, 0) covers [origin, origin + resolution) on both axes, in metres.
+  /// Makes a grid of zeros. Cell (0, 0) covers [origin, origin + resolution) on both axes, in metres.
   ScoreGrid(double origin_x_m, double origin_y_m, double resolution_m, int width, int height);
 
   double origin_x_m() const { return origin_x_m_; }
@@ -83,18 +85,19 @@ class ScoreGrid {
   const ScoreLevel& finest() const { return finest_; }
   ScoreLevel& finest() { return finest_; }
 
-  /// Returns the cells [x, x + width) x [y, y + height), which must lie inside, without a pyramid.
+  /// Returns a grid of the cells [x, x + width) x [y, y + height), without a pyramid. They must lie inside
+  /// the grid.
   ScoreGrid cropped(int x, int y, int width, int height) const;
 
-  /// Builds the levels above the finest. Call it when the finest grid is final.
+  /// Builds the pyramid from the finest level. Call it when the finest level is final.
   void build_pyramid();
   void drop_pyramid() { pyramid_.clear(); }
   bool has_pyramid() const { return !pyramid_.empty(); }
-  /// Level i has stride kStrides[i].
+  /// Returns level i of the pyramid, which has stride kStrides[i].
   const ScoreLevel& pyramid(std::size_t i) const { return pyramid_[i]; }
 
-  /// Score in [0, 1], interpolated between cell centres by Catmull-Rom cubic splines, and its gradient in
-  /// 1/m. Zero outside the grid.
+  /// Score interpolated between cell centres by Catmull-Rom cubic splines, where 1 is score 255, and its
+  /// gradient in 1/m. Value and gradient are zero outside the grid.
   struct Sample {
     double value;
     double d_dx;

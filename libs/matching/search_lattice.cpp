@@ -18,7 +18,8 @@ std::int64_t squared_distance(const LatticePose& pose) {
   return x * x + y * y + theta * theta;
 }
 
-// Logarithm of a stride that is a power of two. A right shift by it rounds down, also for negative numbers.
+// Returns the binary logarithm of a stride, which is a power of two. Shifting right by it divides and rounds
+// down, also for negative numbers.
 int log2_of(int stride) {
   int log2 = 0;
   while ((1 << log2) < stride) ++log2;
@@ -101,7 +102,7 @@ void ShiftSums::compute(const ScoreLevel& level, const Cell* cells, std::size_t 
   std::size_t inside = 0;
   const int log2 = log2_of(level.stride_cells());
   const auto row_bytes = static_cast<std::int32_t>(level.row_bytes());
-  // Up to these cells, the run of every row lies inside the grid and its margin and needs no clipping.
+  // Up to these cells, all runs lie inside the grid and its margin and need no clipping.
   const int x_end = level.width() + ScoreLevel::kMargin - width;
   const int y_end = level.height() + ScoreLevel::kMargin - height;
   for (std::size_t p = 0; p < points; ++p) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Poses of a search window as integers: shifts by cells and turns by angular steps around the predicted pose.
-// The scan is rotated once per angle, then only shifted (the look-up table of the paper).
+// The lattice: poses of a search window as integers, which count cells and angular steps from the predicted
+// pose. The scan is rotated once per angle and then only shifted (the look-up table of the paper).
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -28,8 +28,8 @@ struct LatticePose {
   int theta = 0;
 };
 
-/// A scored pose. Candidates have a total order, so that every search finds the same one: the higher sum,
-/// then the pose nearer to the window's centre, then the lower (theta, y, x).
+/// A scored pose. A total order makes every search find the same best candidate. The higher sum is better,
+/// then the pose nearer to the window's centre in steps, then the lower (theta, y, x).
 struct Candidate {
   std::uint32_t sum = 0;  ///< sum of the scores under the points, each 0 .. 255
   LatticePose pose;
@@ -37,8 +37,8 @@ struct Candidate {
   bool better_than(const Candidate& other) const;
 };
 
-/// Poses that a search skips: those less than `cells` from `centre` along both axes and less than `turns` in
-/// angle.
+/// Poses that a search skips: they differ from `centre` by less than `cells` along x and y, and by less than
+/// `turns` steps in angle.
 struct ExcludedRegion {
   LatticePose centre;
   int cells = 0;
@@ -54,13 +54,14 @@ struct ShiftBlock {
   int height = 0;
 };
 
-/// Returns the part of a block outside the region at a heading: the whole block, or the strips below, above,
-/// left and right of the excluded square. Strips can be empty.
+/// Returns the part of a block outside the region, at the heading `theta`. This is the whole block, or the
+/// strips below, above, left and right of the excluded square. Strips can be empty.
 std::array<ShiftBlock, 4> outside(const ExcludedRegion& excluded, int theta, const ShiftBlock& block);
 
+/// The lattice of a search window, with the scan turned by each of its headings.
 class SearchLattice {
  public:
-  /// Keeps references to the grid and the scan.
+  /// Keeps references to the grid and the scan. `map_T_robot` is the centre of the window.
   SearchLattice(const ScoreGrid& grid, const ScanPoints& scan, const mrpt::math::TPose2D& map_T_robot,
                 const SearchWindow& window);
 
@@ -71,18 +72,19 @@ class SearchLattice {
   const ScanPoints& scan() const { return *scan_; }
   const SearchWindow& window() const { return window_; }
   std::size_t points() const { return points_; }
-  /// The largest possible sum: every point on a cell of probability 1.
+  /// Largest possible sum: every point on a cell with score 255.
   std::uint32_t goal_max() const { return static_cast<std::uint32_t>(255 * points_); }
 
-  /// Finest cells of all points, turned by `theta` steps and not shifted. Computed at the first call for each
-  /// `theta`, so a lattice is not thread-safe.
+  /// Returns the finest cells of all points, turned by `theta` steps and not shifted. The first call for each
+  /// `theta` computes them, so a lattice is not thread-safe.
   const Cell* cells(int theta) const {
     const auto turn = static_cast<std::size_t>(theta + window_.n_theta);
     if (!turned_[turn]) turn_scan(theta);
     return cells_.get() + turn * points_;
   }
+  /// Returns a pose of the lattice in the map frame, with its heading in (-pi, pi].
   mrpt::math::TPose2D pose(const LatticePose& steps) const;
-  /// Response R_v of equation 11.
+  /// Returns the response R_v of equation 11 for a sum of scores.
   double response(std::uint32_t sum) const { return static_cast<double>(sum) / goal_max(); }
 
  private:
@@ -93,15 +95,16 @@ class SearchLattice {
   SearchWindow window_;
   mrpt::math::TPose2D centre_;
   std::size_t points_;
-  mutable std::unique_ptr<Cell[]> cells_;  // uninitialised until turned
+  // Cells by heading and point. The cells of a heading are uninitialised before turn_scan().
+  mutable std::unique_ptr<Cell[]> cells_;
   mutable std::vector<bool> turned_;
 };
 
-/// Sums of scores for a block of neighbouring shifts. A search reuses the memory from block to block.
+/// Sums of scores for a block of neighbouring shifts. Repeated calls of compute() reuse the memory.
 class ShiftSums {
  public:
-  /// Computes, for x < width and y < height, the sum over all cells of the level's score at cell + shift +
-  /// (x, y) strides. `shift` is in finest cells.
+  /// Computes one sum for each x < width and y < height: the sum over all `cells` of the level's score at
+  /// cell + shift + (x, y) strides. `cells` and `shift` are in finest cells.
   void compute(const ScoreLevel& level, const Cell* cells, std::size_t points, Cell shift, int width,
                int height);
 

@@ -8,9 +8,10 @@
 namespace psi_slam {
 namespace {
 
-constexpr double kMaxSteps = 1e6;  // far more than any search needs, and fits an int
+constexpr double kMaxSteps = 1e6;  // more than any search needs; fits an int
 
-// Number of steps, rounded up. The tolerance keeps rounding errors from adding a step.
+// Returns the number of steps that cover a half-width, rounded up. The tolerance keeps rounding errors from
+// adding a step.
 double covering_steps(double half_width, double step) {
   return std::ceil(half_width / step - 1e-9);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The body of the sum kernel, with GCC's vector types, compiled once per instruction set. Everything here has
-// internal linkage and calls no template of the standard library, because the linker must not merge code that
-// was compiled for different instruction sets.
+// The body of the sum kernel, with GCC's vector types. It is compiled once for each instruction set. All
+// functions have internal linkage and call no templates of the standard library, because the linker must not
+// merge code for different instruction sets.
 #pragma once
 
 #include <cstring>
@@ -14,7 +14,7 @@ namespace {
 using Bytes16 = std::uint8_t __attribute__((vector_size(16)));
 using Sums16 = std::uint16_t __attribute__((vector_size(32)));
 
-// 16 bits hold the sum of at most 257 scores of 255.
+// A 16-bit sum holds at most 257 scores of 255.
 constexpr std::size_t kPointsPerPass = 257;
 
 inline void add_cells(Sums16& sum, const std::uint8_t* cells) {

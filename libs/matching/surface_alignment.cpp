@@ -40,10 +40,10 @@ float dot(const Point& a, const Point& b) {
   return a.x * b.x + a.y * b.y;
 }
 
-/// Mean of the surface points near a point.
+/// Mean point and mean normal of the surface points near a point.
 struct Surface {
   Point point;
-  Point normal;  // unit
+  Point normal;  // unit vector
 };
 
 class SurfaceSearch {
@@ -51,7 +51,8 @@ class SurfaceSearch {
   SurfaceSearch(const SurfaceMap& map, const SurfaceAlignmentOptions& options)
       : map_(map), options_(options), least_cosine_(static_cast<float>(std::cos(options.max_turn_rad))) {}
 
-  /// Averages the surface points near `at` whose normals agree with `facing`.
+  /// Averages the surface points near `at` whose normals agree with `facing`. Returns nothing if there are
+  /// none.
   std::optional<Surface> near(const Point& at, const Point& facing) {
     map_.index().nearest(at, options_.neighbours, static_cast<float>(options_.max_distance_m), found_);
     Surface sum{{0, 0}, {0, 0}};
@@ -63,7 +64,8 @@ class SurfaceSearch {
       ++count;
     }
     if (count == 0) return std::nullopt;
-    const float length = std::hypot(sum.normal.x, sum.normal.y);  // not 0: all agree with `facing`
+    // The sum is not 0, because all normals agree with `facing`.
+    const float length = std::hypot(sum.normal.x, sum.normal.y);
     return Surface{{sum.point.x / count, sum.point.y / count},
                    {sum.normal.x / length, sum.normal.y / length}};
   }
@@ -75,7 +77,7 @@ class SurfaceSearch {
   std::vector<std::size_t> found_;
 };
 
-/// Normal equations of the scan without the prior, for unit variance of the noise of a point.
+/// Normal equations of the scan without the prior, for points with unit variance.
 struct Normals {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   Eigen::Vector3d descent = Eigen::Vector3d::Zero();

@@ -7,7 +7,7 @@
 namespace psi_slam {
 namespace {
 
-// Smallest number of bits that hold 0 .. count - 1.
+// Returns the smallest number of bits that hold 0 .. count - 1.
 int bits_for(std::size_t count) {
   int bits = 0;
   while ((std::uint64_t{1} << bits) < count) ++bits;
@@ -23,7 +23,7 @@ Chromosome code_of(std::size_t number, bool gray) {
   return gray ? number ^ (number >> 1) : number;
 }
 
-// The number in the bits [first, first + bits), repaired to be less than `count`.
+// Decodes the number in the bits [first, first + bits). Takes it modulo `count`.
 int number_in(Chromosome chromosome, int first, int bits, std::size_t count, bool gray) {
   const Chromosome code = (chromosome >> first) & ((Chromosome{1} << bits) - 1);
   return static_cast<int>((gray ? from_gray(code) : code) % count);
@@ -100,7 +100,7 @@ Chromosome CellTiles::encode(const Place& place) const {
   return code_of(static_cast<std::size_t>(place.turn), gray_) | (code_of(place.cell, gray_) << turn_bits_);
 }
 
-// Clamps headings to the window.
+// Decodes a cell and a heading. Limits the heading to the window.
 CellTiles::Place CellTiles::decode(Chromosome chromosome) const {
   const auto cell =
       static_cast<std::size_t>(number_in(chromosome, turn_bits_, cell_bits_, cells_.size(), gray_));

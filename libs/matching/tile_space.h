@@ -11,10 +11,10 @@
 
 namespace psi_slam {
 
-/// All shifts of a block at one heading. The sum kernel scores them together at little more than the cost of
-/// one pose.
+/// All shifts of a block at one heading. The sum kernel scores a tile at little more than the cost of one
+/// pose.
 struct Tile {
-  int theta = 0;  ///< steps from the window's centre
+  int theta = 0;  ///< heading, in angular steps from the window's centre
   ShiftBlock block;
 };
 
@@ -25,11 +25,13 @@ class TileSpace {
 
   virtual std::int64_t size() const = 0;  ///< number of tiles
   virtual int bits() const = 0;
-  /// Decodes any bits() bits: numbers beyond the last are replaced by their remainder.
+  /// Decodes any bits() bits: replaces a number beyond the last one by its remainder.
   virtual Tile tile(Chromosome chromosome) const = 0;
-  /// Returns the canonical chromosome of the tile, which differs if the chromosome was repaired.
+  /// Returns the unique code of the tile that the chromosome decodes to. It differs from a chromosome that
+  /// decoding repairs.
   virtual Chromosome repaired(Chromosome chromosome) const = 0;
-  /// Returns the tile turned by `steps`; empty if it is outside the space.
+  /// Returns the chromosome of the tile turned by `steps` angular steps; empty if that tile is outside the
+  /// space.
   virtual std::optional<Chromosome> turned(Chromosome chromosome, int steps) const = 0;
 };
 
@@ -37,10 +39,10 @@ class TileSpace {
 /// in as few bits as possible.
 class WindowTiles : public TileSpace {
  public:
-  static constexpr int kSide = 16;   ///< side of a block in shifts: the number of lanes of the kernel
-  static constexpr int kWhole = 32;  ///< a window of at most this many shifts a side is one block
+  static constexpr int kSide = 16;   ///< side of a block in shifts: the lanes of the sum kernel
+  static constexpr int kWhole = 32;  ///< a window with at most this many shifts per side is one block
 
-  /// With `gray`, neighbours along each axis differ in one bit (Gray code).
+  /// If `gray` is true, codes of neighbours along each axis differ in one bit (Gray code).
   WindowTiles(const SearchWindow& window, bool gray);
 
   int columns() const { return columns_; }
@@ -69,7 +71,7 @@ class WindowTiles : public TileSpace {
 
   SearchWindow window_;
   bool gray_;
-  int width_;  // of a block
+  int width_;  // of a block, in shifts
   int height_;
   int columns_;
   int rows_;
@@ -78,16 +80,16 @@ class WindowTiles : public TileSpace {
   int row_bits_;
 };
 
-/// Some coarse cells of a window. A chromosome holds the heading inside a cell and the number of the cell,
-/// each in as few bits as possible. The lengths of equation 10, which PoseCode uses, are sometimes one bit
+/// A selection of coarse cells of a window. A chromosome holds the number of a cell and the heading inside
+/// it, each in as few bits as possible. PoseCode uses the lengths of equation 10, which are sometimes one bit
 /// longer.
 class CellTiles : public TileSpace {
  public:
-  /// `cells` must not be empty. A cell has the middle heading theta and spans [theta - turns / 2,
+  /// `cells` must not be empty. A cell with the middle heading theta spans the headings [theta - turns / 2,
   /// theta - turns / 2 + turns).
   CellTiles(const SearchWindow& window, std::vector<Tile> cells, int turns, bool gray);
 
-  /// Chromosome of the middle heading of a cell.
+  /// Returns the chromosome of the middle heading of a cell.
   Chromosome encode(std::size_t cell) const;
 
   std::int64_t size() const override { return static_cast<std::int64_t>(cells_.size()) * turns_; }
@@ -99,7 +101,7 @@ class CellTiles : public TileSpace {
  private:
   struct Place {
     std::size_t cell;
-    int turn;  // 0 .. turns - 1
+    int turn;  // heading inside the cell, 0 .. turns - 1
   };
   Place decode(Chromosome chromosome) const;
   Chromosome encode(const Place& place) const;
@@ -113,8 +115,8 @@ class CellTiles : public TileSpace {
 };
 
 enum class TileLevel {
-  kPooled,  ///< upper bound for the tile's poses, from the first level of the pyramid
-  kFinest,  ///< best pose of the tile
+  kPooled,  ///< upper bound of the tile's sums, from the first level of the pyramid
+  kFinest,  ///< largest sum of the tile's poses
 };
 
 /// Scores tiles on a lattice.
@@ -122,11 +124,12 @@ class TileScorer {
  public:
   explicit TileScorer(const SearchLattice& lattice) : lattice_(lattice) {}
 
-  /// Returns the best sum of the tile with its pose; on the pooled level, the first pose of the pooled block.
+  /// Returns the best sum of the tile and its pose. On the pooled level, the pose is the first of its 2 x 2
+  /// block.
   Candidate score(const Tile& tile, TileLevel level);
 
-  /// Returns the best of the 16 x 16 poses at -8 .. 7 shifts around `pose`, at its heading. The heading must
-  /// be inside the window.
+  /// Returns the best of the poses at -8 .. 7 shifts from `pose` along x and y, at its heading and inside the
+  /// window. The heading must be inside the window.
   Candidate best_near(const LatticePose& pose);
 
   std::int64_t evaluations() const { return evaluations_; }

@@ -11,12 +11,14 @@ std::uint32_t smallest_sum(const SearchLattice& lattice, double response) {
   return static_cast<std::uint32_t>(std::ceil(std::clamp(response, 0.0, 1.0) * lattice.goal_max()));
 }
 
-// Number of steps to a distance, rounded up. The tolerance keeps rounding errors from adding a step.
+// Returns the number of steps to a distance, rounded up. The tolerance keeps rounding errors from adding a
+// step.
 int steps_to(double distance, double step) {
   return std::max(1, static_cast<int>(std::ceil(distance / step - 1e-9)));
 }
 
-// If the best response is 0, every pose is as good as the best.
+// Returns the ratio of the second-best sum to the best. If the best sum is 0, all poses are equal and the
+// ratio is 1.
 double ambiguity_of(const Candidate& best, const std::optional<Candidate>& next) {
   if (!next) return 0;
   return best.sum == 0 ? 1 : static_cast<double>(next->sum) / best.sum;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Base of all matchers that search a lattice for the best pose: computes the window, the refinement below a
-// cell, the covariance and the ambiguity. The matchers differ in find_peaks() only.
+// Base class of all matchers: computes the window, the refinement below a cell, the covariance and the
+// ambiguity. The derived matchers differ only in find_peaks(), which searches the lattice.
 #pragma once
 
 #include <vector>
@@ -16,36 +16,36 @@ namespace psi_slam {
 struct MatcherOptions {
   RefinementOptions refinement;
   double distinct_m = 0.5;                            ///< smallest distance along x or y of a distinct peak
-  double distinct_rad = radians_from_degrees(10.0L);  ///< or smallest turn of a distinct peak
-  double ambiguity_floor = 0.6;  ///< smallest response of a second peak, as a share of the best
-  double min_sigma_m = 0.005;    ///< lower bound of the covariance's standard deviations
+  double distinct_rad = radians_from_degrees(10.0L);  ///< or smallest difference in heading
+  double ambiguity_floor = 0.6;  ///< smallest response of a second peak, divided by the best response
+  double min_sigma_m = 0.005;    ///< bounds of the standard deviations of the covariance, metres
   double max_sigma_m = 2.0;
 };
 
 /// The peaks of the response that a search must find.
 struct PeakRequest {
-  std::uint32_t min_sum = 0;  ///< smallest sum of the best peak
+  std::uint32_t min_sum = 0;  ///< smallest sum that the best peak may have
 
-  /// Conditions for a second peak: at least `cells` away from the best along x or y, or turned by at least
-  /// `turns` steps; and a sum of at least `share` of the best sum.
+  /// Conditions for a second peak. It is at least `cells` away from the best peak along x or y, or at least
+  /// `turns` angular steps. Its sum is at least `share` of the best sum.
   struct Next {
     int cells = 1;
     int turns = 1;
     double share = 0;
   };
-  std::optional<Next> next;
+  std::optional<Next> next;  ///< conditions for the second peak; empty: it is not needed
 
-  MatchSeed seed;  ///< for random searches
+  MatchSeed seed;  ///< seed of random searches
 };
 
 struct FoundPeaks {
-  std::optional<Candidate> best;
-  std::optional<Candidate> next;
-  std::int64_t evaluations = 0;  ///< poses scored on any level of the grid
+  std::optional<Candidate> best;  ///< empty if no pose reaches PeakRequest::min_sum
+  std::optional<Candidate> next;  ///< second peak; empty if none meets the conditions
+  std::int64_t evaluations = 0;   ///< number of poses scored, on all levels of the grid
   GeneticEffort genetic;
 };
 
-/// Puts the requested peaks among `scored` into `peaks`.
+/// Selects the requested peaks from `scored`. Sets `best` and `next` of `peaks`.
 void pick_peaks(const std::vector<Candidate>& scored, const PeakRequest& request, FoundPeaks& peaks);
 
 class WindowMatcher : public Matcher {

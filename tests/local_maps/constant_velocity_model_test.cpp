@@ -12,7 +12,7 @@ using mrpt::math::TPose2D;
 
 constexpr TimeUs kSecond = 1'000'000;
 
-/// Pose on a circle of 2 m at the given angular velocity.
+/// Pose on a circle with a radius of 2 m, after a turn of `turn_rad` from the origin.
 TPose2D on_circle(double turn_rad) {
   return {2 * std::sin(turn_rad), 2 * (1 - std::cos(turn_rad)), turn_rad};
 }
@@ -53,7 +53,7 @@ TEST(ConstantVelocityModel, predicted_poses_do_not_change_the_speed) {
   robot.moved(kSecond, {1, 0, 0}, true);
   robot.moved(2 * kSecond, {1.5, 0, 0}, false);
   EXPECT_NEAR(robot.predict(3 * kSecond).motion.x, 1, 1e-9);
-  EXPECT_EQ(robot.predict(4 * kSecond).motion.x, 0) << "too long without a match";
+  EXPECT_EQ(robot.predict(4 * kSecond).motion.x, 0) << "the speed is unknown after 3 s without a match";
 }
 
 TEST(ConstantVelocityModel, scans_at_one_time_give_no_speed) {

@@ -11,8 +11,8 @@ namespace {
 using mrpt::math::TPoint2Df;
 using mrpt::math::TPose2D;
 
-// A scan of a person at (2, 0) and other objects, and a grid with all of them as seen from one pose. Objects
-// with `both` are also in the grid as seen from the other pose, half a metre further on.
+// A scan of a person at (2, 0) and of other objects. The grid holds all of them as seen from the pose
+// kMatched. Objects with `both` are also in the grid as seen from the pose kHeld, half a metre ahead.
 const TPose2D kMatched(0, 0, 0);
 const TPose2D kHeld(0.5, 0, 0);
 const std::vector<TPoint2Df> kPerson = {{2, 0}, {2, 0.1F}, {2, 0.2F}, {2, -0.1F}, {2, -0.2F}};
@@ -29,7 +29,7 @@ class CorrectionSupport : public testing::Test {
   }
 
  private:
-  // A patch, because interpolation uses neighbouring cells.
+  // Marks a patch of cells, because interpolation uses neighbouring cells.
   void mark(float x, float y) {
     const int column = static_cast<int>((static_cast<double>(x) + 5) / 0.05);
     const int row = static_cast<int>((static_cast<double>(y) + 5) / 0.05);
@@ -45,7 +45,7 @@ TEST_F(CorrectionSupport, one_spot_alone_is_no_support) {
   for (const TPoint2Df& point : kPerson) stand(point, false);
   for (const float y : {-3.0F, -2.0F, 2.0F, 3.0F}) stand({-1, y}, true);
   EXPECT_NEAR(scores().matched, 1, 1e-6);
-  EXPECT_NEAR(scores().held, 1, 1e-6) << "without the person, both poses are equal";
+  EXPECT_NEAR(scores().held, 1, 1e-6) << "without the person, both poses score the same";
 }
 
 TEST_F(CorrectionSupport, two_spots_support_without_the_better_one) {

@@ -21,7 +21,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 struct Outcome {
   std::vector<FrontEndStep> steps;
-  std::vector<PlacedLocalMap> maps;  // all, in the order in which they were finished
+  std::vector<PlacedLocalMap> maps;  // all local maps, in the order in which they were finished
 };
 
 Outcome follow(const SimulatedDrive& drive, const FrontEndOptions& options = {}) {
@@ -92,8 +92,8 @@ TEST(FrontEnd, follows_a_robot_whose_scans_are_far_apart) {
   EXPECT_LT(off.largest_rad, 0.04);
 }
 
-// A hall of 70 m by 50 m and a robot that scans once a metre. 20 to 40 m away, the beams hit the walls 20 to
-// 60 cm apart: each scan's hits fall between those of the last.
+// A hall of 70 m by 50 m, and a robot that scans once per metre. At distances of 20 to 40 m, the beams hit
+// the walls 20 to 60 cm apart. So the hits of each scan fall between the hits of the scan before.
 TEST(FrontEnd, follows_a_robot_through_a_large_hall_with_one_scan_a_metre) {
   SimulatedWalls hall;
   hall.add_box(-35, -25, 35, 25);
@@ -121,20 +121,23 @@ TEST(FrontEnd, finds_the_robot_again_where_odometry_is_wrong_by_a_whole_step) {
   TPose2D odom_T_robot = drive.frames.front().odom_T_robot;
   for (std::size_t i = 1; i < drive.frames.size(); ++i) {
     TPose2D motion = drive.map_T_robot[i] - drive.map_T_robot[i - 1];
-    if (i % 8 == 5) motion = {-motion.x, -motion.y, motion.phi};  // odometry reports a step backwards
+    // In every eighth step, odometry reports the opposite translation.
+    if (i % 8 == 5) motion = {-motion.x, -motion.y, motion.phi};
     odom_T_robot = odom_T_robot + motion;
     drive.frames[i].odom_T_robot = odom_T_robot;
-    drive.frames[i].time_us = static_cast<TimeUs>(i) * 2'000'000;  // the last motion tells little after 2 s
+    // After 2 s, the last motion predicts little.
+    drive.frames[i].time_us = static_cast<TimeUs>(i) * 2'000'000;
   }
   EXPECT_GT(errors_of_odometry(drive).largest_m, 3);
   EXPECT_LT(errors_of(follow(drive), drive).largest_m, 0.3);
   FrontEndOptions narrow;
   narrow.poor_response_share = 0;
-  EXPECT_GT(errors_of(follow(drive, narrow), drive).largest_m, 1) << "without the wide window";
+  EXPECT_GT(errors_of(follow(drive, narrow), drive).largest_m, 1)
+      << "without the wide window, the robot is not found again";
 }
 
-// More than half of the beams end at leaves, which the next scan sees elsewhere. Some matches do not reach a
-// response of 0.25, yet the walls behind determine the pose.
+// More than half of the beams end at random shorter ranges, as on moving leaves. Some matches do not reach a
+// response of 0.25, but the remaining beams to the walls determine the pose.
 TEST(FrontEnd, matches_where_only_a_part_of_each_scan_can_match) {
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 14);
   std::mt19937_64 random(1);
@@ -145,14 +148,14 @@ TEST(FrontEnd, matches_where_only_a_part_of_each_scan_can_match) {
   const Outcome outcome = follow(drive);
   EXPECT_LT(errors_of(outcome, drive).largest_m, 0.3);
   std::size_t low = 0;
-  for (std::size_t i = 5; i < outcome.steps.size(); ++i) {  // by then the front end expects such responses
+  for (std::size_t i = 5; i < outcome.steps.size(); ++i) {  // the expected response is low from here on
     EXPECT_TRUE(outcome.steps[i].matched) << "scan " << i;
     if (outcome.steps[i].response < 0.25) ++low;
   }
   EXPECT_GT(low, 0U);
 }
 
-// An encoder that stalls, then catches up.
+// Odometry with an encoder that stalls and then catches up.
 TEST(FrontEnd, tolerates_odometry_that_stalls_and_jumps) {
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 3);
   for (std::size_t i = 0; i < drive.frames.size(); ++i)
@@ -162,7 +165,7 @@ TEST(FrontEnd, tolerates_odometry_that_stalls_and_jumps) {
   EXPECT_LT(off.largest_rad, 0.03);
 }
 
-// A reset of the wheel encoders makes one increment meaningless.
+// After a reset of the wheel encoders, one increment of odometry is meaningless.
 TEST(FrontEnd, tolerates_a_jump_of_odometry) {
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 4);
   const std::size_t leap = drive.frames.size() / 3;
@@ -186,7 +189,7 @@ TEST(FrontEnd, ignores_poses_of_frames_without_odometry) {
   const auto path = path_along({{2, 1.5}, {6, 1.6}, {2, 1.4}}, 0.03, 0.03);
   SimulatedDrive drive = drive_along(office_floor(), path, {}, 5);
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
-    if (i / 10 % 2 == 0) continue;  // odometry is available only some of the time
+    if (i / 10 % 2 == 0) continue;  // odometry is available in blocks of ten scans
     drive.frames[i].has_odometry = false;
     drive.frames[i].odom_T_robot = {7, -3, 0.5};
   }
@@ -206,7 +209,8 @@ TEST(FrontEnd, a_robot_at_rest_stays_and_adds_no_nodes) {
   EXPECT_EQ(outcome.maps.size(), 1U);
 }
 
-// Along a bare corridor, odometry determines the position; the walls determine the rest.
+// Along a bare corridor, odometry determines the position. The walls determine the position across the
+// corridor and the heading.
 TEST(FrontEnd, in_a_bare_corridor_odometry_determines_the_way_along_it) {
   SimulatedWalls corridor;
   corridor.add_wall(-100, 0, 140, 0);
@@ -220,7 +224,7 @@ TEST(FrontEnd, in_a_bare_corridor_odometry_determines_the_way_along_it) {
   FrontEndOptions options;
   options.prediction_share = 0.8;
   // Far beams at grazing angles hit the walls at separate points, which look like objects that move with the
-  // robot. They would hold it back.
+  // robot. Matches of these points would shorten the path.
   options.scan.max_range_m = 8;
   const Outcome outcome = follow(drive, options);
   double across_m = 0;
@@ -235,16 +239,16 @@ TEST(FrontEnd, in_a_bare_corridor_odometry_determines_the_way_along_it) {
   EXPECT_LT(across_m, 0.3) << "odometry alone is 6 m off";
   EXPECT_LT(heading_rad, 0.02);
   const TPose2D& last = outcome.steps.back().local_T_robot;
-  EXPECT_NEAR(last.x, 0.98 * 25, 0.6) << "the length by odometry";
+  EXPECT_NEAR(last.x, 0.98 * 25, 0.6) << "odometry determines the length of the path";
 }
 
-// A person walks ahead at a constant distance. About eight beams of each scan hit the person at three metres,
-// twice as many at half of that: more than a tenth of the scan.
+// A person walks ahead of the robot at a constant distance. About eight beams of each scan hit the person at
+// 3 m. At 1.5 m, twice as many beams do, more than a tenth of the scan's points.
 SimulatedDrive behind_a_person(double ahead_m) {
   SimulatedWalls corridor;
   corridor.add_wall(-100, 0, 140, 0);
   corridor.add_wall(-100, 2.4, 140, 2.4);
-  std::vector<TPose2D> path;  // weaves, so that beams hit the walls at varying places
+  std::vector<TPose2D> path;  // the robot weaves, so beams hit the walls at varying places
   for (double x = 0; x < 25; x += 0.11)
     path.emplace_back(x, 1.2 + 0.2 * std::sin(x), std::atan(0.2 * std::cos(x)));
   SimulatedDrive drive = drive_along(corridor, path, {}, 11);
@@ -268,13 +272,13 @@ TEST(FrontEnd, a_person_who_walks_ahead_along_a_bare_corridor_does_not_hold_the_
   for (const double ahead_m : {3.0, 1.5}) {
     const SimulatedDrive drive = behind_a_person(ahead_m);
     FrontEndOptions options;
-    options.scan.max_range_m = 8;  // as above
+    options.scan.max_range_m = 8;  // leaves out far beams at grazing angles
     const double let_pass_m = 25 * options.max_doubtful_correction_m / options.doubtful_correction_travel_m;
-    EXPECT_LT(errors_of(follow(drive, options), drive).largest_m, let_pass_m) << "of 25 m";
+    EXPECT_LT(errors_of(follow(drive, options), drive).largest_m, let_pass_m) << "error over a path of 25 m";
     options.held_share = 1;
     options.max_doubtful_correction_m = 100;
     EXPECT_GT(errors_of(follow(drive, options), drive).largest_m, 4)
-        << "without the limit, the robot is held back";
+        << "without the limit, the mapped path is too short";
   }
 }
 
@@ -286,7 +290,7 @@ TEST(FrontEnd, the_same_way_is_as_uncertain_at_every_rate_of_scans) {
     FrontEnd front_end(options);
     Eigen::Matrix3d last = Eigen::Matrix3d::Zero();
     for (int i = 0; i <= scans; ++i) {
-      const double share = static_cast<double>(i) / scans;  // of 10 m in 20 s
+      const double share = static_cast<double>(i) / scans;  // share of a path of 10 m in 20 s
       Frame frame;
       frame.index = static_cast<std::size_t>(i);
       frame.time_us = static_cast<TimeUs>(20'000'000 * share);
@@ -348,7 +352,8 @@ TEST(FrontEnd, every_step_reports_its_result) {
   drive.frames.resize(100);
   const Outcome outcome = follow(drive, options);
   EXPECT_FALSE(outcome.steps[0].matched) << "there is no local map yet";
-  EXPECT_EQ(outcome.steps[0].local_T_robot, TPose2D(0, 0, 0)) << "its frame begins with the first scan";
+  EXPECT_EQ(outcome.steps[0].local_T_robot, TPose2D(0, 0, 0))
+      << "the first scan is the origin of the local frame";
   std::size_t nodes = 0;
   TPose2D last_node;
   for (std::size_t i = 0; i < outcome.steps.size(); ++i) {
@@ -402,7 +407,7 @@ TEST(FrontEnd, local_maps_overlap_by_half_and_two_at_most_are_active) {
       EXPECT_EQ(map.last_node - map.first_node, 30U);
     }
     if (i > 0) {
-      EXPECT_EQ(map.first_node, outcome.maps[i - 1].first_node + 15) << "half a map later";
+      EXPECT_EQ(map.first_node, outcome.maps[i - 1].first_node + 15) << "begins at half of the map before";
     }
     double travelled_m = 0;
     for (std::size_t node = map.first_node + 1; node <= map.last_node; ++node)
@@ -426,7 +431,7 @@ TEST(FrontEnd, local_maps_overlap_by_half_and_two_at_most_are_active) {
         EXPECT_LT(step.memberships[k - 1].local_map, membership.local_map) << "older first";
       }
     }
-    // Each node except the first is a member of every map that holds it.
+    // Every node except the anchor is a member of each local map that holds it.
     if (step.node) {
       const auto holding =
           std::count_if(outcome.maps.begin(), outcome.maps.end(), [&](const PlacedLocalMap& map) {
@@ -449,7 +454,7 @@ TEST(FrontEnd, local_maps_end_when_the_robot_has_travelled_far) {
   }
 }
 
-// After a stretch without matches, odometry's error would distort the map.
+// A local map across a stretch without matches would contain the error of odometry.
 TEST(FrontEnd, no_local_map_spans_a_stretch_without_matches) {
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 17);
   const std::size_t first_blind = 100;
@@ -462,7 +467,7 @@ TEST(FrontEnd, no_local_map_spans_a_stretch_without_matches) {
   options.local_map_travel_m = 1000;
   const Outcome outcome = follow(drive, options);
   ASSERT_GT(outcome.maps.size(), 2U);
-  double travelled_m = 0;  // until the robot is lost
+  double travelled_m = 0;  // path by odometry over the stretch without matches
   std::size_t node_before = 0;
   std::size_t node_after = 0;
   for (std::size_t i = 0; i < outcome.steps.size(); ++i) {
@@ -476,7 +481,7 @@ TEST(FrontEnd, no_local_map_spans_a_stretch_without_matches) {
   for (const PlacedLocalMap& map : outcome.maps)
     EXPECT_FALSE(map.first_node <= node_before && map.last_node >= node_after)
         << "local map " << map.id << " holds nodes from before and after";
-  // Every node except the first is linked: it is a member of an older map.
+  // Every node except the first is linked to the graph, because it is a member of an older local map.
   for (const FrontEndStep& step : outcome.steps)
     EXPECT_TRUE(!step.node || *step.node == 0 || !step.memberships.empty()) << "node " << *step.node;
 }

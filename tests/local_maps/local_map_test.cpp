@@ -20,21 +20,21 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-// Without smoothing, the score of a cell is its evidence.
+// Options without smoothing, so the score of a cell is its evidence.
 LocalMapOptions without_smoothing() {
   LocalMapOptions options;
   options.smoothing_sigma_m = 1e-4;
   return options;
 }
 
-// One hit is not full evidence.
+// Options with which one hit is not full evidence.
 LocalMapOptions with_weak_hits() {
   LocalMapOptions options = without_smoothing();
   options.hit_probability = 0.56;
   return options;
 }
 
-// Middle of a cell of 5 cm.
+// Centre of a cell with a side of 5 cm.
 TPoint2D middle(int x, int y) {
   return {0.05 * x + 0.025, 0.05 * y + 0.025};
 }
@@ -118,7 +118,7 @@ TEST(LocalMap, the_pyramid_of_an_active_map_follows_what_is_drawn) {
   map.insert(beam(middle(0, 0), middle(40, 0)));
   EXPECT_TRUE(map.scores_with_pyramid().has_pyramid());
   map.insert(beam(middle(0, 0), middle(0, 40)));
-  EXPECT_FALSE(map.scores().has_pyramid()) << "it would be out of date";
+  EXPECT_FALSE(map.scores().has_pyramid()) << "an old pyramid would be out of date";
   const ScoreGrid& scores = map.scores_with_pyramid();
   const int x = static_cast<int>(std::floor((middle(0, 40).x - scores.origin_x_m()) / scores.resolution_m()));
   const int y = static_cast<int>(std::floor((middle(0, 40).y - scores.origin_y_m()) / scores.resolution_m()));
@@ -137,7 +137,7 @@ TEST(LocalMap, every_beam_is_a_line_without_holes_to_beside_its_end) {
     LocalMap map(without_smoothing());
     map.insert(beam(middle(x0, y0), middle(x1, y1)));
     map.scores();
-    // Cells well inside the path of the beam are observed, cells farther than one cell from it are not.
+    // Cells on the path of the beam are observed. Cells farther than one cell from the path are not.
     const double length = std::hypot(x1 - x0, y1 - y0);
     for (int y = std::min(y0, y1) - 2; y <= std::max(y0, y1) + 2; ++y) {
       for (int x = std::min(x0, x1) - 2; x <= std::max(x0, x1) + 2; ++x) {
@@ -165,7 +165,7 @@ TEST(LocalMap, more_hits_are_more_evidence_and_passes_take_it_away) {
   const int passed = score_at(map.scores(), middle(40, 0));
   EXPECT_LE(passed, twice);
   for (int i = 0; i < 8; ++i) map.insert(beam(middle(0, 0), middle(50, 0)));
-  EXPECT_EQ(score_at(map.scores(), middle(40, 0)), 0) << "a door: closed twice, then open";
+  EXPECT_EQ(score_at(map.scores(), middle(40, 0)), 0) << "a door, seen closed twice and then open, is free";
 }
 
 TEST(LocalMap, in_a_scan_ends_take_precedence_over_beams) {
@@ -217,7 +217,7 @@ TEST(LocalMap, growing_keeps_what_was_drawn) {
   for (int y = -80; y < 80; ++y)
     for (int x = -80; x < 80; ++x) before[{x, y}] = score_at(small, middle(x, y));
 
-  // Beams far away, outside the room.
+  // Draws beams far away, outside the room, so the grid must grow.
   map.insert(beam({30, 0}, {47, 3}) + beam({30, 0}, {30, -28}));
   map.insert(beam({-25, 30}, {-38, 31}));
   const ScoreGrid& large = map.scores();
@@ -324,7 +324,7 @@ TEST(LocalMap, agreement_counts_points_in_observed_space_and_those_on_walls) {
   LocalMap map({});
   for (int i = 0; i < 3; ++i) map.insert(square_room_scan(3, {0, 0, 0.01 * i}));
   const ScanPoints scan = points_at({{2.99, 0},    // on the wall
-                                     {0.5, 2.96},  // on another
+                                     {0.5, 2.96},  // on another wall
                                      {1, 1},       // in free space
                                      {-2, 0.5},    // also in free space
                                      {4.5, 0},     // beyond the wall: not observed
@@ -350,7 +350,7 @@ TEST(LocalMap, agreement_looks_from_the_pose) {
   const ScanPoints scan =
       matching_points(simulated_scan(room, pose, even_bearings(-3, 3, 200), {0.1, 0, 0}, 0.01, random), {});
   EXPECT_GT(map.agreement(scan, pose).share(), 0.98);
-  // Some cells between the beams, and beyond walls because of range noise, are not observed.
+  // Some points lie in cells that are not observed: between beams, or beyond walls because of range noise.
   EXPECT_GT(map.agreement(scan, pose).observed, 0.7 * static_cast<double>(scan.points.size()));
   EXPECT_LT(map.agreement(scan, {0.2, -0.1, 0.3}).share(), 0.5);
   EXPECT_EQ(map.agreement(scan, {100, 0, 0}).observed, 0U);
@@ -366,7 +366,7 @@ TEST(LocalMap, an_empty_map_is_all_unknown) {
   EXPECT_EQ(map.agreement(points_at({{1, 1}}), {0, 0, 0}).observed, 0U);
 }
 
-// Compares with the square room as drawn by MRPT: same walls, same free space.
+// Compares the square room with MRPT's drawing of it: both must have the same walls and the same free space.
 TEST(LocalMap, agrees_with_MRPTs_own_drawing_of_a_square_room) {
   constexpr double kHalfSide_m = 2.5;
   LocalMap ours(without_smoothing());
@@ -398,7 +398,7 @@ TEST(LocalMap, agrees_with_MRPTs_own_drawing_of_a_square_room) {
           static_cast<double>(theirs.getPos(static_cast<float>(place.x), static_cast<float>(place.y)));
       if (their_free < 0.3) {
         ++walls;
-        int best = 0;  // beam ends are rounded, and MRPT's beams are half a beam off
+        int best = 0;  // best score nearby: MRPT's beams are half a beam off
         for (int dy = -1; dy <= 1; ++dy)
           for (int dx = -1; dx <= 1; ++dx) best = std::max(best, score_at(scores, middle(x + dx, y + dy)));
         walls_shared += best > 100;
@@ -415,7 +415,7 @@ TEST(LocalMap, agrees_with_MRPTs_own_drawing_of_a_square_room) {
 }
 
 TEST(LocalMap, every_laser_clears_space_from_its_own_origin) {
-  // Front and rear laser, half a metre from the robot's centre; only the rear laser sees the rear wall.
+  // Front and rear laser, each half a metre from the robot's centre. Each laser sees one wall.
   const Beams front = beam(middle(10, 0), middle(60, 0));
   const Beams rear = beam(middle(-10, 0), middle(-60, 0));
   LocalMap map(without_smoothing());
@@ -433,7 +433,7 @@ TEST(LocalMap, every_laser_clears_space_from_its_own_origin) {
 
 TEST(LocalMap, no_laser_erases_simultaneous_hits_of_another) {
   const Beams hit = beam(middle(0, 0), middle(40, 0));
-  const Beams through = beam(middle(0, 1), middle(80, -1));  // passes the cell of the hit
+  const Beams through = beam(middle(0, 1), middle(80, -1));  // crosses the cell of the hit
   LocalMap together(with_weak_hits());
   together.insert(std::vector<Beams>{hit, through});
   LocalMap alone(with_weak_hits());

@@ -41,14 +41,15 @@ double distance(const TPoint2Df& a, const TPoint2Df& b) {
   return length({a.x - b.x, a.y - b.y});
 }
 
-// Difference of a normal from a direction, regardless of its sign; 1 without a normal.
+// Returns 1 minus the cosine of the angle between a normal and a direction, regardless of sign; 1 without a
+// normal.
 double off_direction(const TPoint2Df& normal, double direction_rad) {
   return 1 - std::abs(static_cast<double>(normal.x) * std::cos(direction_rad) +
                       static_cast<double>(normal.y) * std::sin(direction_rad));
 }
 
 TEST(MatchingPoints, lie_where_the_beams_ended_in_the_robots_frame) {
-  // A laser at the front of the robot, turned to the left.
+  // The laser is at the front of the robot and turned to the left.
   const ScanPoints scan = matching_points(scan_of({2, 3, 4}, {0.5, -0.25, M_PI / 2}), without_thinning());
   ASSERT_EQ(scan.points.size(), 3U);
   EXPECT_NEAR(distance(scan.points[0], {2.5F, -0.25F}), 0, 1e-6);
@@ -166,14 +167,14 @@ TEST(MatchingPointNormals, a_corner_has_none_but_its_walls_do) {
 TEST(MatchingPointNormals, isolated_points_have_none) {
   std::vector<float> ranges(181, kNan);
   for (const std::size_t i : {20U, 60U, 61U, 62U, 120U})
-    ranges[i] = 5;  // a post, three beams wide, among them
+    ranges[i] = 5;  // three of the points belong to a post
   const ScanPoints points = matching_points(scan_of(ranges), without_thinning());
   ASSERT_EQ(points.points.size(), 5U);
   for (const TPoint2Df& normal : points.normals) EXPECT_EQ(normal, TPoint2Df(0, 0));
 }
 
 TEST(MatchingPointNormals, a_line_is_not_drawn_across_a_gap) {
-  // Two parallel walls: at the edge, a point has neighbours on one side only.
+  // Two parallel walls with an edge between them. Points at the edge have neighbours on one side only.
   SimulatedWalls steps;
   steps.add_wall(-4, 2, 0, 2);
   steps.add_wall(0, 4, 4, 4);
@@ -205,8 +206,8 @@ TEST(DrawingBeams, are_cut_at_the_largest_range_and_dropped_below_the_smallest) 
   EXPECT_NEAR(beams.ends[2].norm(), 6, 1e-6);
 }
 
-/// The front laser sees a wall 2 m ahead; the rear laser sees one at 3 m in its backward direction. Between
-/// the two scans, the robot turned left by 0.1.
+/// The ranges of the front laser are 2 m, those of the rear laser 3 m. Between the two scans, the robot
+/// turned left by 0.1 rad.
 Frame two_laser_frame() {
   Frame frame;
   frame.scan = scan_of({2, 2, 2}, {0.5, 0, 0});

@@ -24,7 +24,7 @@ void occupy(Grid& grid, int x, int y, double probability) {
   grid.setCell(x, y, static_cast<float>(1 - probability));  // MRPT stores the probability of being free
 }
 
-// Random occupancy in a share of the cells, the rest unknown.
+// Random occupancy in a share of the cells; the other cells are unknown.
 Grid random_grid(std::mt19937_64& random, int width, int height, double share) {
   Grid grid = grid_of_cells(width, height);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -34,7 +34,7 @@ Grid random_grid(std::mt19937_64& random, int width, int height, double share) {
   return grid;
 }
 
-// Evidence of every cell, from a painter without smoothing.
+// Returns the evidence of every cell, computed by a painter without smoothing.
 std::vector<int> evidence_of(const Grid& grid) {
   const int width = static_cast<int>(grid.getSizeX());
   const int height = static_cast<int>(grid.getSizeY());
@@ -70,7 +70,7 @@ TEST(ScorePainter, equals_a_slow_dense_gaussian) {
 
     const int reach = painter.reach_cells();
     const double sigma_cells = sigma_m / 0.05;
-    EXPECT_GE(reach, 2 * sigma_cells) << "the kernel is below a seventh beyond";
+    EXPECT_GE(reach, 2 * sigma_cells) << "beyond the reach, the kernel is below 0.14";
     const auto gauss = [&](int d) { return std::exp(-0.5 * d * d / (sigma_cells * sigma_cells)); };
     double line = 0;
     for (int d = -reach; d <= reach; ++d) line += gauss(d);
@@ -85,7 +85,8 @@ TEST(ScorePainter, equals_a_slow_dense_gaussian) {
             if (here > 0) ++contributions;
           }
         }
-        // The painter uses integers: each contribution can lose one, and a half by its weight.
+        // The painter computes with integers. Each contribution can lose up to 1, and 0.5 by rounding its
+        // weight.
         ASSERT_NEAR(scores.at(x, y), std::min(expected, 255.0), 0.5 + 1.5 * contributions)
             << "sigma " << sigma_m << " at " << x << ", " << y;
         ASSERT_TRUE(contributions > 0 || scores.at(x, y) == 0);
@@ -101,7 +102,7 @@ TEST(ScorePainter, a_straight_wall_one_cell_thick_scores_one_in_its_middle) {
     ScorePainter painter(sigma_m, 0.05);
     ScoreLevel scores(60, 41, 1);
     painter.paint(grid, 0, 0, 60, 41, scores);
-    const double rounding = 1.5 * (2 * painter.reach_cells() + 1);  // as above, for the contributing cells
+    const double rounding = 1.5 * (2 * painter.reach_cells() + 1);  // 1.5 for each contributing cell
     EXPECT_GE(scores.at(30, 20), 255 - rounding);
     const double sigma_cells = sigma_m / 0.05;
     for (int d = 1; d <= painter.reach_cells(); ++d) {

@@ -16,7 +16,7 @@ namespace {
 constexpr double kMaxRange_m = 40;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// A scan of 181 beams, one degree apart, of what `range_at` returns for a bearing.
+// Returns a scan of 181 beams, one degree apart. `range_at` gives the range for a bearing.
 template <class RangeAt>
 LaserScan scan_of(RangeAt range_at) {
   LaserScan scan;
@@ -27,7 +27,7 @@ LaserScan scan_of(RangeAt range_at) {
   return scan;
 }
 
-// Range to a wall across the robot's way at `x_m`; NaN beyond 60 m.
+// Returns the range to a wall across the robot's way at `x_m`; NaN beyond 60 m.
 double wall_across(double x_m, double bearing_rad) {
   const double range = x_m / std::cos(bearing_rad);
   return range > 0 && range < 60 ? range : kNan;
@@ -59,7 +59,7 @@ TEST(SeenSurfaces, need_no_join_where_beams_hit_every_cell) {
 }
 
 TEST(SeenSurfaces, do_not_join_across_an_open_door) {
-  // The door lets the beams between 2 and 6 degrees pass to a wall 5 m behind.
+  // The beams from 2 to 6 degrees pass through the door to a wall 5 m behind it.
   const auto joined = ends_on_one_surface(scan_of([](double b) {
                                             const double deg = b * 180 / M_PI;
                                             return wall_across(deg > 1.5 && deg < 6.5 ? 15 : 10, b);
@@ -67,20 +67,21 @@ TEST(SeenSurfaces, do_not_join_across_an_open_door) {
                                           kMaxRange_m);
   EXPECT_TRUE(joined[beam_at(1)]);
   EXPECT_FALSE(joined[beam_at(2)]);
-  EXPECT_TRUE(joined[beam_at(4)]) << "the wall behind";
+  EXPECT_TRUE(joined[beam_at(4)]) << "beams on the wall behind the door are joined";
   EXPECT_FALSE(joined[beam_at(7)]);
   EXPECT_TRUE(joined[beam_at(8)]);
 }
 
 TEST(SeenSurfaces, do_not_join_beams_on_scattered_objects) {
-  // Trunks and legs: no two neighbouring ends continue straight to a third.
+  // Ranges as from trunks and legs: the line through two neighbouring ends rarely meets a third end.
   const auto joined = ends_on_one_surface(
       scan_of([](double b) { return 15 + 4 * std::cos(40 * b) * std::cos(17 * b); }), kMaxRange_m);
-  EXPECT_LE(std::count(joined.begin(), joined.end(), true), 36) << "a fifth of them by chance";
+  EXPECT_LE(std::count(joined.begin(), joined.end(), true), 36)
+      << "a fifth of the beams may be joined by chance";
 }
 
 TEST(SeenSurfaces, do_not_join_along_a_wall_at_a_grazing_angle) {
-  // A corridor wall 1 m beside the robot: 20 m ahead, the beams are 7 m apart along it.
+  // A corridor wall 1 m beside the robot. 20 m ahead, neighbouring beams hit it 7 m apart.
   const auto joined =
       ends_on_one_surface(scan_of([](double b) { return b > 0.01 ? 1 / std::sin(b) : kNan; }), kMaxRange_m);
   for (int deg = 2; deg <= 10; ++deg) EXPECT_FALSE(joined[beam_at(deg)]) << deg;

@@ -21,7 +21,7 @@ struct SimulatedDrive {
   std::vector<mrpt::math::TPose2D> map_T_robot;  ///< true poses by frame; the first is the origin
 };
 
-/// Evenly spaced bearings.
+/// Returns `count` evenly spaced bearings.
 inline BeamBearings even_bearings(double first_rad, double last_rad, int count) {
   std::vector<float> bearings;
   for (int i = 0; i < count; ++i)
@@ -47,8 +47,8 @@ inline LaserScan simulated_scan(const SimulatedWalls& walls, const mrpt::math::T
   return scan;
 }
 
-/// Errors of odometry. Each share is the standard deviation of a factor on the motion, one per step and one
-/// for the whole run.
+/// Errors of odometry. The factors scale the length and the turn of every motion. Each share is the standard
+/// deviation of a random term that is added to the factor and drawn for each step.
 struct OdometryErrors {
   double length_factor = 1;
   double turn_factor = 1;
@@ -57,7 +57,7 @@ struct OdometryErrors {
   double drift_rad_per_m = 0;
 };
 
-/// Moves the robot from one true pose to the next, at ten scans per second.
+/// Simulates a robot that moves from one true pose to the next, at ten scans per second.
 inline SimulatedDrive drive_along(const SimulatedWalls& walls,
                                   const std::vector<mrpt::math::TPose2D>& world_T_robot,
                                   const OdometryErrors& errors, std::uint64_t seed) {
@@ -88,7 +88,8 @@ inline SimulatedDrive drive_along(const SimulatedWalls& walls,
   return result;
 }
 
-/// Poses along straight legs between corners, `step_m` apart, turning on the spot by `step_rad` in between.
+/// Returns poses along straight legs between corners, `step_m` apart. At the corners, the robot turns on the
+/// spot in steps of `step_rad`.
 inline std::vector<mrpt::math::TPose2D> path_along(const std::vector<mrpt::math::TPoint2D>& corners,
                                                    double step_m = 0.08, double step_rad = 0.08) {
   std::vector<mrpt::math::TPose2D> path;

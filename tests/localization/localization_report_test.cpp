@@ -65,7 +65,7 @@ TEST(LocalizationReport, a_robot_found_once_may_be_lost_at_the_end) {
       localization_text(unsure),
       HasSubstr("Not localized at the end: tracked, but with a confidence of only 0.40, less than 0.50"));
 
-  // The last three of the five seconds are predicted by the motion only.
+  // In the last three of the five seconds at the end, poses are only predictions.
   auto steps = run_that_ends(State::kTracking, 0.9);
   for (auto step = steps.end() - 3; step != steps.end(); ++step) {
     step->fits = false;
@@ -83,7 +83,7 @@ TEST(LocalizationReport, ambiguity_is_that_of_the_last_search) {
   rival.objection = "another place fits as well";
   steps.back().search = rival;
   EXPECT_TRUE(summarize(steps).found());
-  EXPECT_TRUE(summarize(steps).ambiguous) << "it was lost, and two places fit";
+  EXPECT_TRUE(summarize(steps).ambiguous) << "the robot was lost, and two places fitted";
   EXPECT_EQ(summarize(steps).why_not, rival.objection);
   FoundPlace none = rival;
   none.ambiguous = false;

@@ -16,9 +16,9 @@ using testing::HasSubstr;
 using State = LocalizationStep::State;
 
 constexpr std::uint64_t kBuilding = 1;
-constexpr double kTracked_m = 0.2;  // largest distance from the truth
+constexpr double kTracked_m = 0.2;  // largest distance of a tracked pose from the true pose
 
-/// Map of the first building, made once for all tests.
+/// Map of the building kBuilding, made once for all tests.
 const mrpt::maps::COccupancyGridMap2D& building_map() {
   static const auto kMap = map_of(run_through(kBuilding, 1, 200));
   return kMap;
@@ -93,11 +93,11 @@ TEST(Localizer, does_not_find_a_robot_in_the_map_of_another_building) {
   EXPECT_THAT(localization_text(summary), HasSubstr("Not found"));
 }
 
-// Odometry does not measure the move by hand and continues from before it.
+// The robot is moved by hand in the middle of the run. Odometry does not measure this move.
 TEST(Localizer, recovers_when_the_robot_is_moved_by_hand) {
   TrueRun run = run_through(kBuilding, 103, 90);
   const std::size_t third = run.frames.size() / 3;
-  std::size_t away = third;  // farthest place that leaves a third of the run
+  std::size_t away = third;  // frame in the second third of the run that is farthest from frame `third`
   for (std::size_t i = third; i < 2 * third; ++i)
     if (distance_m(run.world_T_robot[i], run.world_T_robot[third]) >
         distance_m(run.world_T_robot[away], run.world_T_robot[third]))

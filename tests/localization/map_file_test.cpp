@@ -14,7 +14,7 @@ namespace {
 using mrpt::maps::COccupancyGridMap2D;
 using testing::HasSubstr;
 
-/// Free space with one wall and an unknown top; the corner is not at the origin.
+/// Map with free space, one wall and unknown cells at the top. Its corner is not at the origin.
 COccupancyGridMap2D small_map() {
   COccupancyGridMap2D grid(-1.5F, 2.5F, 4, 7, 0.05F);
   for (int y = 0; y < 50; ++y)
@@ -35,7 +35,7 @@ TEST(MapFile, reads_both_formats_with_all_cells_in_place) {
     EXPECT_NEAR(read.getYMin(), map.getYMin(), 1e-4) << name;
     EXPECT_LT(read.getCell(30, 10), 0.35F) << name;
     EXPECT_GT(read.getCell(31, 10), 0.65F) << name;
-    EXPECT_NEAR(read.getCell(31, 55), 0.5F, 0.01F) << name << ": unknown stays unknown";
+    EXPECT_NEAR(read.getCell(31, 55), 0.5F, 0.01F) << name << ": unknown cells stay unknown";
   }
 }
 
@@ -80,7 +80,8 @@ TEST(MapFile, checks_the_cell_counts_of_a_gridmap) {
   std::string whole;
   CompressedFile file(path);
   for (char byte = 0; file.read(&byte, 1) == 1;) whole += byte;
-  const std::size_t counts = whole.find("Map2D") + 7;  // after version and bits of a cell
+  // Place of the cell counts, after version and bits of a cell.
+  const std::size_t counts = whole.find("Map2D") + 7;
   const auto sentence_with = [&](std::size_t at, char byte) {
     std::string bytes = whole;
     bytes.at(counts + at) = byte;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs through simulated buildings with the true pose of each scan, and maps drawn at the true poses, in the
-// frame of the floor plan.
+// Runs through simulated buildings with the true pose of each scan, and maps drawn at the true poses. All
+// poses are in the frame of the floor plan.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -18,10 +18,10 @@ namespace psi_slam {
 
 struct TrueRun {
   std::vector<Frame> frames;
-  std::vector<mrpt::math::TPose2D> world_T_robot;  ///< by frame
+  std::vector<mrpt::math::TPose2D> world_T_robot;  ///< true pose of the robot at each frame
 };
 
-/// `plan` is the seed of the building, `run` the seed of path and noise.
+/// Simulates a run through a building. `plan` is the seed of the building, `run` the seed of path and noise.
 inline TrueRun run_through(std::uint64_t plan, std::uint64_t run, double path_m) {
   constexpr double kCorridors_m = 90;
   SimulatedLogOptions options = simulated_log_options(path_m, run);

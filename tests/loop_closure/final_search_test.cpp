@@ -20,7 +20,7 @@ bool is_late(std::size_t node) {
   return node >= two_rounds().node;
 }
 
-// The exact matcher searches everywhere, under two names.
+// Matcher name of a node. The exact matcher is used under both names.
 MatcherKind kind_of(std::size_t node) {
   return is_late(node) ? MatcherKind::kGa : MatcherKind::kCsm;
 }
@@ -47,7 +47,7 @@ TEST(FinalSearch, finds_true_loops_and_nothing_else) {
   EXPECT_GT(accepted, 10U);
 }
 
-// Compares with a test of every pair.
+// Counts the pairs within reach by testing every pair, and compares the counts.
 TEST(FinalSearch, matches_all_pairs_near_each_other) {
   const TwoRounds& rounds = two_rounds();
   const PoseGraph graph = rounds.graph();

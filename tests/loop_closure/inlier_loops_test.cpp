@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kMaxChi = 5;
 
-// Ten nodes one metre apart at wrong poses. Each constraint has standard deviations of 0.1 m and 0.01 rad.
+// A chain of ten nodes, one metre apart by its constraints, but at wrong poses. Each constraint has standard
+// deviations of 0.1 m and 0.01 rad.
 PoseGraph chain() {
   PoseGraph graph;
   for (std::size_t i = 0; i < 10; ++i) {
@@ -99,7 +100,7 @@ TEST(InlierLoops, many_contradictions_lead_to_the_selection_of_inliers) {
   PoseGraph graph = chain();
   std::vector<std::size_t> loops;
   for (const std::size_t to : {7U, 8U, 9U}) loops.push_back(add_loop(graph, to, 0.01));
-  for (std::size_t i = 0; i < 30; ++i)  // five groups, each consistent in itself
+  for (std::size_t i = 0; i < 30; ++i)  // five groups of false loops, each consistent in itself
     loops.push_back(add_loop(graph, 3 + i % 6, 6 + 4 * static_cast<double>(i / 6), -8));
   SparsePoseAdjustment solver;
   const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kMaxChi);

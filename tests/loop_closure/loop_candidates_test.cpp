@@ -12,7 +12,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Thirty metres along x and back one metre beside. A node every metre, a local map every ten nodes.
+// A path of 30 m along x and back, one metre beside the way out. There is a node every metre and a local map
+// every ten nodes.
 struct ThereAndBack {
   KeyframeStore keyframes;
   PoseGraph graph;
@@ -55,9 +56,9 @@ using Maps = std::vector<std::size_t>;
 
 TEST(LoopCandidates, only_local_maps_near_the_node_are_tried) {
   const ThereAndBack drive;
-  EXPECT_EQ(drive.local_maps(59, {0.01, 0.001}), Maps({0}));     // at x = 0
-  EXPECT_EQ(drive.local_maps(53, {0.01, 0.001}), Maps({0, 1}));  // at x = 6
-  EXPECT_EQ(drive.local_maps(44, {0.01, 0.001}), Maps({1, 2}));  // at x = 15: 6.1 m from the first map
+  EXPECT_EQ(drive.local_maps(59, {0.01, 0.001}), Maps({0}));     // node at x = 0
+  EXPECT_EQ(drive.local_maps(53, {0.01, 0.001}), Maps({0, 1}));  // node at x = 6
+  EXPECT_EQ(drive.local_maps(44, {0.01, 0.001}), Maps({1, 2}));  // node at x = 15: 6.1 m from local map 0
 }
 
 TEST(LoopCandidates, an_uncertain_node_may_see_farther_local_maps) {
@@ -75,7 +76,7 @@ TEST(LoopCandidates, asks_for_the_uncertainty_of_local_maps_in_reach_only) {
     for (std::size_t node = 0; node < 60; ++node) {
       Maps asked;
       loop_candidates(node, drive.keyframes, drive.graph, options, [&](const Maps& local_maps) {
-        EXPECT_TRUE(asked.empty()) << "asks once";
+        EXPECT_TRUE(asked.empty()) << "the uncertainties are computed only once";
         asked = local_maps;
         return std::vector<PositionSigma>(local_maps.size());
       });
@@ -157,7 +158,7 @@ TEST(LoopCandidates, local_maps_of_the_path_nearby_are_left_out) {
 
 TEST(LoopCandidates, predicts_from_the_graph) {
   ThereAndBack drive;
-  drive.graph.set_pose(0, {1, 2, M_PI / 2});  // the graph has moved, the front end's frame has not
+  drive.graph.set_pose(0, {1, 2, M_PI / 2});  // moves poses of the graph, but not the front end's frame
   drive.graph.set_pose(59, {2, 5, M_PI});
   const auto candidates = drive.candidates(59, {0.01, 0.001});
   ASSERT_EQ(candidates.size(), 1U);
@@ -167,8 +168,8 @@ TEST(LoopCandidates, predicts_from_the_graph) {
   EXPECT_NEAR(candidates[0].distance_m, std::hypot(1, 3), 1e-9) << "the local map's node moved to (1, 2)";
 }
 
-// The same places, but the robot travelled 100 m from node to node. All chains of constraints have one
-// length.
+// Far candidates of node 59 if the robot travelled 100 m from node to node. All chains of constraints are
+// `chain_m` long.
 std::vector<LoopCandidate> far_of_node_59(double chain_m, const LoopCandidateOptions& options) {
   ThereAndBack drive;
   for (NodeScan& node : drive.keyframes.nodes) node.travelled_m *= 100;
@@ -186,7 +187,7 @@ Maps far_maps_of_node_59(double chain_m, const LoopCandidateOptions& options) {
 TEST(FarCandidates, are_searched_only_once_drift_may_exceed_the_largest_window) {
   LoopCandidateOptions options;
   options.drift_per_metre = 0.02;
-  EXPECT_TRUE(far_of_node_59(399, options).empty());  // 8 m
+  EXPECT_TRUE(far_of_node_59(399, options).empty());  // a drift of 8 m
   EXPECT_FALSE(far_of_node_59(401, options).empty());
 }
 
@@ -194,8 +195,8 @@ TEST(FarCandidates, are_the_local_maps_within_drift_and_reach) {
   LoopCandidateOptions options;
   options.drift_per_metre = 0.02;
   options.reach_m = 2;
-  // Node 59 is at x = 0, y = 1. The maps 0, 1 and 2 begin at x = 0, 10 and 20, y = 0; 4 ends at x = 10, y
-  // = 1.
+  // Node 59 is at x = 0, y = 1. The local maps 0, 1 and 2 begin at x = 0, 10 and 20, at y = 0. Local map 4
+  // ends at x = 10, y = 1.
   EXPECT_EQ(far_maps_of_node_59(401, options), Maps({0, 4}));
   EXPECT_EQ(far_maps_of_node_59(1000, options), Maps({0, 1, 2, 3, 4}));
   EXPECT_EQ(far_maps_of_node_59(std::numeric_limits<double>::infinity(), options), Maps({0, 1, 2, 3, 4}));

@@ -16,7 +16,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Finds nothing, and records the questions.
+// Matcher that finds no match and records the problems it is asked to solve.
 class AskedMatcher : public Matcher {
  public:
   struct Question {
@@ -146,11 +146,11 @@ TEST(LoopCloser, a_node_searches_few_wide_windows_and_the_next_nodes_the_others)
     const LoopCloser::Outcome outcome =
         closer.close(two_rounds().node, two_rounds().keyframes, graph, {MatcherKind::kCsm, matcher}, pool);
     ASSERT_EQ(outcome.loops.size(), 1U);
-    EXPECT_TRUE(searched.insert(outcome.loops.front().local_map).second) << "in turn";
+    EXPECT_TRUE(searched.insert(outcome.loops.front().local_map).second) << "every local map gets its turn";
   }
 }
 
-// Drift has carried the node farther than the largest window from where it was before.
+// Drift has moved the node in the graph farther from its true place than the largest window reaches.
 TEST(LoopCloser, finds_a_place_that_drift_has_moved_out_of_the_largest_window) {
   PoseGraph graph = two_rounds().graph();
   const std::size_t node = two_rounds().node;

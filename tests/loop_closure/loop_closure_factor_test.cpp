@@ -64,7 +64,7 @@ TEST(LoopClosureFactor, back_at_its_start_eta_is_at_its_bound) {
   factor.move(10, {5, 15});
   EXPECT_EQ(factor.value().eta, 1);
   factor.move(10, {5, 5});
-  EXPECT_EQ(factor.value().eta, 20) << "20 m over nothing";
+  EXPECT_EQ(factor.value().eta, 20) << "20 m of path, 0 m from the start";
   EXPECT_EQ(factor.value().psi, 40);
   factor.move(0.5, {5, 5.5});
   EXPECT_EQ(factor.value().eta, 20) << "20.5 m / 0.5 m = 41";
@@ -78,7 +78,7 @@ TEST(LoopClosureFactor, at_the_very_start_eta_is_at_its_bound_and_psi_is_zero) {
   LoopClosureFactor factor(options_of(2, 7));
   EXPECT_EQ(factor.value().eta, 7) << "before the first scan";
   factor.move(0, {3, -2});
-  EXPECT_EQ(factor.value().eta, 7) << "0 m over nothing";
+  EXPECT_EQ(factor.value().eta, 7) << "0 m of path, 0 m from the start";
   EXPECT_EQ(factor.value().psi, 0);
 }
 

@@ -12,9 +12,10 @@ namespace {
 using Loops = std::vector<std::size_t>;
 using mrpt::math::TPose2D;
 
-// Pose of the front end's frame in the map. Anchors 0 and 1 are far apart and have different headings.
+// True pose of the front end's frame in the map.
 const TPose2D kMapTLocal(2, -1, 0.8);
 
+// Graph with two anchors, which are far apart and have different headings.
 PoseGraph two_anchors() {
   PoseGraph graph;
   graph.add_node({0, 0, 0});
@@ -22,7 +23,8 @@ PoseGraph two_anchors() {
   return graph;
 }
 
-// The robot moves straight through the front end's frame. The match has an `error` along the map's axes.
+// Vote of a robot that moves straight through the front end's frame. The matched pose has an `error` along
+// the map's axes.
 LoopConsensus::Vote vote(std::size_t loop, double travelled_m, double ambiguity = 0, std::size_t anchor = 0,
                          const TPose2D& error = {0, 0, 0}) {
   LoopConsensus::Vote result;
@@ -80,7 +82,7 @@ TEST(LoopConsensus, confirmed_matches_are_forgotten) {
 
 TEST(LoopConsensus, ambiguous_matches_need_many_others) {
   const PoseGraph graph = two_anchors();
-  for (const double ambiguity : {0.95, 1.0}) {  // each weighs 0.05
+  for (const double ambiguity : {0.95, 1.0}) {  // each match weighs 0.05
     LoopConsensus consensus({});
     std::size_t votes = 0;
     Loops confirmed;
@@ -120,7 +122,7 @@ TEST(LoopConsensus, another_place_blocks_until_it_is_outweighed) {
 TEST(LoopConsensus, scattered_other_places_do_not_block_together) {
   const PoseGraph graph = two_anchors();
   LoopConsensus consensus({});
-  for (std::size_t i = 0; i < 4; ++i)  // each at another place
+  for (std::size_t i = 0; i < 4; ++i)  // four matches, each at a different wrong place
     consensus.add(vote(i, 5.0, 0.6, 0, {3.0 + 2.0 * static_cast<double>(i), 0, 0}), graph);
   consensus.add(vote(4, 5.2, 0.5), graph);
   EXPECT_EQ(consensus.add(vote(5, 6.5, 0.5), graph), Loops({4, 5}));
@@ -162,14 +164,14 @@ TEST(LoopConsensus, uses_the_present_poses_of_anchors) {
   LoopConsensus consensus({});
   consensus.add(vote(0, 5, 0.2, 0), moved);
   consensus.add(vote(1, 5, 0, 1), moved);
-  moved.set_pose(0, {2, 0, 0});  // moves all matches of anchor 0
-  EXPECT_EQ(consensus.add(vote(2, 6.5, 0, 0), moved), Loops()) << "anchor 1 says otherwise now";
+  moved.set_pose(0, {2, 0, 0});  // moves the places of all matches with anchor 0
+  EXPECT_EQ(consensus.add(vote(2, 6.5, 0, 0), moved), Loops()) << "the match with anchor 1 now disagrees";
   EXPECT_EQ(consensus.add(vote(3, 7.5, 0, 0), moved), Loops({0, 2, 3}));
 
   PoseGraph joined = two_anchors();
   LoopConsensus apart({});
   apart.add(vote(0, 5, 0, 0, {2, 0, 0}), joined);
-  joined.set_pose(0, {-2, 0, 0});  // which compensates the error
+  joined.set_pose(0, {-2, 0, 0});  // compensates the error of the first match
   EXPECT_EQ(apart.add(vote(1, 6.5, 0, 1), joined), Loops({0, 1}));
 }
 

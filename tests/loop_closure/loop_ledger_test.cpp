@@ -10,8 +10,8 @@ using Verdict = LoopVerdict;
 
 constexpr LoopNoise kNoise{0.02, 0.01};
 
-/// Three nodes: the second one metre from the first, the third at the first. True loops connect first and
-/// third.
+/// Three nodes: node 1 is one metre from node 0, and node 2 is at the place of node 0. True loops connect
+/// nodes 0 and 2.
 class LoopLedgerTest : public ::testing::Test {
  protected:
   LoopLedgerTest() {
@@ -96,7 +96,7 @@ TEST_F(LoopLedgerTest, a_deleted_loop_is_disabled_until_restored) {
   EXPECT_EQ(verdict(number), Verdict::kAccepted);
   EXPECT_FALSE(ledger_.loops()[number].by_hand);
   EXPECT_EQ(loops_in_force(), 1U);
-  EXPECT_EQ(graph_.num_constraints(), 3U) << "it is the same constraint";
+  EXPECT_EQ(graph_.num_constraints(), 3U) << "the loop keeps its constraint";
   EXPECT_FALSE(ledger_.restore(pair(), graph_));
 }
 
@@ -108,7 +108,8 @@ TEST_F(LoopLedgerTest, edits_hold_for_later_matches) {
   EXPECT_EQ(verdict(ledger_.add(loop(Verdict::kRefused, 0, 1))), Verdict::kAccepted);
   EXPECT_TRUE(ledger_.forced_in_vain().empty());
   EXPECT_TRUE(ledger_.restore(pair(1), graph_));
-  EXPECT_EQ(ledger_.find(pair(1))->verdict, Verdict::kRefused) << "as it came";
+  EXPECT_EQ(ledger_.find(pair(1))->verdict, Verdict::kRefused)
+      << "without a force, its own verdict counts again";
 }
 
 TEST_F(LoopLedgerTest, a_match_by_hand_replaces_earlier_attempts) {

@@ -102,7 +102,8 @@ TEST(LoopVerification, the_response_needed_depends_on_the_window) {
 
 TEST(LoopVerification, a_position_known_in_one_direction_only_is_refused) {
   LoopRecord loop = two_rounds().loop(kNarrow_m);
-  // Standard deviations of 0.4 m along a corridor at 45 degrees and 0.01 m across give 0.28 m along x and y.
+  // Standard deviations of 0.4 m along a corridor at 45 degrees and of 0.01 m across it. Along x and y, they
+  // are 0.28 m.
   loop.covariance(0, 0) = loop.covariance(1, 1) = 0.5 * (0.16 + 0.0001);
   loop.covariance(0, 1) = loop.covariance(1, 0) = 0.5 * (0.16 - 0.0001);
   judge(loop);

@@ -12,7 +12,7 @@ using mrpt::math::TPose2D;
 
 constexpr double kMaxChi = 5;
 
-// Twenty nodes one metre apart. Odometry has a standard deviation of 0.1 m per metre.
+// A chain of twenty nodes, one metre apart. Each constraint of odometry has a standard deviation of 0.1 m.
 PoseGraph chain() {
   PoseGraph graph;
   for (std::size_t i = 0; i < 20; ++i) {
@@ -28,7 +28,8 @@ PoseGraph chain() {
   return graph;
 }
 
-// A loop from the first node with a standard deviation of 0.02 m and an error of `off_m` across the path.
+// Adds a loop from the first node, with a standard deviation of 0.02 m and an error of `off_m` across the
+// path.
 std::size_t add_loop(PoseGraph& graph, std::size_t to, double off_m) {
   Constraint loop;
   loop.to = to;
@@ -65,13 +66,14 @@ TEST(OutlierLoops, keeps_true_loops_near_a_false_one) {
   PoseGraph bent = graph;
   SparsePoseAdjustment solver = plain_solver();
   const std::vector<ConstraintFit> fits = solver.optimize(bent).fits;
-  EXPECT_GT(fits[loops[0]].chi2, kMaxChi * kMaxChi) << "after one optimisation true loops look wrong too";
+  EXPECT_GT(fits[loops[0]].chi2, kMaxChi * kMaxChi)
+      << "after one optimisation, true loops have large residuals too";
 
   const std::vector<double> chi = switch_off_outlier_loops(graph, solver, loops, kMaxChi);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     EXPECT_EQ(graph.enabled(loops[i]), i != 2) << i;
     if (i == 2)
-      EXPECT_NEAR(chi[i], 8 / 0.02, 1) << "of the graph without it";
+      EXPECT_NEAR(chi[i], 8 / 0.02, 1) << "residual in the graph without the loop";
     else
       EXPECT_LT(chi[i], 0.1) << i;
   }

@@ -20,7 +20,7 @@ ScanPoints scan_of(const std::vector<TPoint2Df>& points) {
   return scan;
 }
 
-// A wall across x = 5, from y = -3 to y = 3.
+// Points of a wall at x = 5, from y = -3 to y = 3.
 std::vector<TPoint2Df> wall_ahead() {
   std::vector<TPoint2Df> points;
   for (int i = -300; i <= 300; ++i) points.emplace_back(5.0F, 0.01F * static_cast<float>(i));
@@ -63,14 +63,14 @@ TEST(RangeImage, uses_the_given_tolerance) {
 TEST(RangeImage, places_the_other_scan_by_its_pose) {
   const RangeImage image(scan_of(wall_ahead()));
   const TPose2D this_T_other(4, -1, M_PI / 2);
-  // In its (y, x) plane a point at (1, -1) lies at (5, 0), one at (1, 1) at (3, 0), one at (1, -3) at (7, 0).
+  // Points of the other scan at (1, -1), (1, 1) and (1, -3) lie at (5, 0), (3, 0) and (7, 0) of this scan.
   expect_agreement(image.compare(scan_of({{1, -1}}), this_T_other, kTolerance_m), 1, 0);
   expect_agreement(image.compare(scan_of({{1, 1}}), this_T_other, kTolerance_m), 0, 1);
   expect_agreement(image.compare(scan_of({{1, -3}}), this_T_other, kTolerance_m), 0, 0);
 }
 
 TEST(RangeImage, points_between_an_edge_and_its_background_are_not_contradicted) {
-  // One degree of bearings holds the edge of a pillar at 2 m and the wall at 5 m.
+  // One bin of bearings holds the edge of a pillar at 2 m and the wall behind it at 5 m.
   const RangeImage image(scan_of({{2, 0.01F}, {5, 0.07F}}));
   expect_agreement(image.compare(scan_of({{3.5F, 0.03F}}), {0, 0, 0}, kTolerance_m), 1, 0);
   expect_agreement(image.compare(scan_of({{1.5F, 0.01F}}), {0, 0, 0}, kTolerance_m), 0, 1);
@@ -78,7 +78,7 @@ TEST(RangeImage, points_between_an_edge_and_its_background_are_not_contradicted)
 }
 
 TEST(RangeImage, beams_start_at_the_laser_not_at_the_robot) {
-  // The laser, at (0, 2), sees a pillar at (2, 2) and, past it, a wall across x = 6.
+  // The laser at (0, 2) sees a pillar at (2, 2) and, beside it, a wall at x = 6.
   ScanPoints scan;
   scan.origin = {0, 2};
   for (int i = -10; i <= 10; ++i) scan.points.emplace_back(2.0F, 2 + 0.01F * static_cast<float>(i));
@@ -87,9 +87,9 @@ TEST(RangeImage, beams_start_at_the_laser_not_at_the_robot) {
     if (std::abs(y - 2) > 0.6F) scan.points.emplace_back(6.0F, y);
   }
   const RangeImage image(scan);
-  // Behind the pillar seen from the robot, but in free space seen from the laser:
+  // As seen from the robot, (4, 4) is behind the pillar; as seen from the laser, it is in free space.
   expect_agreement(image.compare(scan_of({{4, 4}}), {0, 0, 0}, kTolerance_m), 0, 1);
-  // In front of the wall seen from the robot, but hidden by the pillar seen from the laser:
+  // As seen from the robot, (4, 2) is in front of the wall; as seen from the laser, the pillar hides it.
   expect_agreement(image.compare(scan_of({{4, 2}}), {0, 0, 0}, kTolerance_m), 0, 0);
 }
 
@@ -123,7 +123,7 @@ TEST(RangeImage, scans_without_points_do_not_count) {
 }
 
 TEST(RangeImage, every_laser_has_its_own_position) {
-  // The front laser, at (1, 0), sees a wall across x = 5; the rear one, at (-1, 0), one across x = -6.
+  // The front laser at (1, 0) sees a wall at x = 5. The rear laser at (-1, 0) sees a wall at x = -6.
   ScanPoints scan = scan_of(wall_ahead());
   scan.origin = {1, 0};
   scan.other_lasers.push_back({scan.points.size(), {-1, 0}});
@@ -136,7 +136,8 @@ TEST(RangeImage, every_laser_has_its_own_position) {
   expect_agreement(judge(-6, 0), 1, 0);
   expect_agreement(judge(-4, 0), 0, 1);
   expect_agreement(judge(-7, 0), 0, 0);
-  // The front laser sees no points at its back, although the rear laser sees points at those bearings.
+  // Neither laser has points in the direction of (0, 0), although the other laser has points at the same
+  // bearing.
   expect_agreement(judge(0, 0), 0, 0);
 }
 

@@ -30,7 +30,7 @@ NodeScan node_with(const TPose2D& local_T_robot, double travelled_m, const std::
   return node;
 }
 
-// A straight path in a turned frame. Every node sees one point of its own, at (2, 1).
+// A straight path in a turned frame. The scan of every node has one point, at (2, 1) in the robot's frame.
 KeyframeStore straight_drive(int nodes, double step_m) {
   KeyframeStore keyframes;
   for (int i = 0; i < nodes; ++i)
@@ -58,7 +58,7 @@ TEST(ScanContext, holds_points_of_earlier_nodes_in_the_frame_of_the_node) {
   options.travel_m = 4.25;
   options.node_spacing_m = 0.75;
   const ScanPoints context = scan_context(20, straight_drive(30, 0.5), options);
-  expect_x(context, {-2, -1, 0, 1, 2});  // one metre apart: the nodes half a metre away are too near
+  expect_x(context, {-2, -1, 0, 1, 2});  // nodes of the context are one metre apart
   EXPECT_NEAR(context.farthest_m, std::sqrt(5), 1e-5);
 }
 
@@ -87,7 +87,7 @@ TEST(ScanContext, of_an_early_node_is_shorter) {
 
 TEST(ScanContext, a_point_seen_several_times_counts_once) {
   KeyframeStore keyframes;
-  for (int i = 0; i < 5; ++i) {  // all see (5.53, 1.53) and (5.53, 1.75)
+  for (int i = 0; i < 5; ++i) {  // all nodes see the points (5.53, 1.53) and (5.53, 1.75)
     const float x = 5.53F - static_cast<float>(i);
     keyframes.nodes.push_back(node_with({1.0 * i, 0, 0}, i, {{x, 1.53F}, {x, 1.75F}}, {{0, -1}, {0, -1}}));
   }
@@ -95,7 +95,7 @@ TEST(ScanContext, a_point_seen_several_times_counts_once) {
   options.node_spacing_m = 0.75;
   options.point_spacing_m = 0.1;
   EXPECT_EQ(scan_context(4, keyframes, options).points.size(), 2U);
-  options.point_spacing_m = 1;  // from x = 4: both in the square from (1, 1) to (2, 2)
+  options.point_spacing_m = 1;  // seen from x = 4, both points lie in the square from (1, 1) to (2, 2)
   EXPECT_EQ(scan_context(4, keyframes, options).points.size(), 1U);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using Maps = std::vector<std::size_t>;
 
-// Candidates with the local maps 0, 1, 2, ...; the higher ones are nearer.
+// Returns candidates with the local maps 0, 1, 2, ...; local maps with higher numbers are nearer.
 std::vector<LoopCandidate> candidates(std::size_t count) {
   std::vector<LoopCandidate> result(count);
   for (std::size_t m = 0; m < count; ++m) {
@@ -56,9 +56,9 @@ TEST(WideSearchSchedule, searches_again_where_it_found_a_match) {
   schedule.searched(6, false);
   EXPECT_EQ(choose(schedule, 8, 2), Maps({1, 7}));
   schedule.searched(1, true);
-  EXPECT_EQ(choose(schedule, 8, 1), Maps({7})) << "others in between";
+  EXPECT_EQ(choose(schedule, 8, 1), Maps({7})) << "the local map of the very last search is not preferred";
   schedule.searched(1, false);
-  EXPECT_EQ(choose(schedule, 8, 2), Maps({5, 7})) << "no longer promising";
+  EXPECT_EQ(choose(schedule, 8, 2), Maps({5, 7})) << "local map 1 found no match again and is not preferred";
 }
 
 }  // namespace

@@ -19,13 +19,13 @@ BackEndOptions near_maps_too() {
   return options;
 }
 
-/// Closes the loops of all nodes in order.
+/// Closes the loops of all nodes in order. Returns the number of new constraints.
 std::size_t close_all(BackEnd& back_end, PoseGraph& graph) {
   const TwoRounds& rounds = two_rounds();
   std::size_t made = 0;
   for (std::size_t node = 0; node < graph.num_nodes(); ++node) {
     back_end.move(0.15, {graph.pose(node).x, graph.pose(node).y});
-    // Only local maps that were finished before this node.
+    // Keeps only local maps that were finished before this node.
     KeyframeStore keyframes = rounds.keyframes;
     while (!keyframes.local_maps.empty() && keyframes.local_maps.back().last_node >= node)
       keyframes.local_maps.pop_back();
@@ -94,7 +94,7 @@ TEST(BackEnd, a_loop_that_the_graph_contradicts_is_switched_off_at_the_end) {
   for (std::size_t i = graph.num_constraints(); i-- > 0;)
     if (graph.constraint(i).kind == Constraint::Kind::kLoop) loop = i;
   ASSERT_LT(loop, graph.num_constraints());
-  // A tight constraint between the same nodes, half a metre longer.
+  // Contradicts the loop: a tight constraint between the same nodes that is half a metre longer.
   Constraint other = graph.constraint(loop);
   other.kind = Constraint::Kind::kLocalMap;
   other.from_T_to.x += 0.5;
@@ -114,8 +114,8 @@ TEST(BackEnd, loops_pending_at_the_end_are_refused) {
   PoseGraph graph = two_rounds().graph();
   BackEndOptions options = near_maps_too();
   options.final_search.passes = 0;
-  options.loop_closure.verification.wide_window_m = 0;  // every window is wide, so all loops wait
-  options.loop_consensus.min_weight = 1e6;              // no loop is ever confirmed
+  options.loop_closure.verification.wide_window_m = 0;  // every window is wide, so all loops are pending
+  options.loop_consensus.min_weight = 1e6;              // so high that no loop is confirmed
   BackEnd back_end(options);
   EXPECT_EQ(close_all(back_end, graph), 0U);
   const auto pending = [&] {

@@ -17,7 +17,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// A run through an office, with a small error on every pose.
+// A run through an office, with small random errors of all poses.
 struct NoisyPoses {
   SimulatedDrive drive =
       drive_along(office_floor(), path_along({{1.6, 1.6}, {8, 1.6}, {1.6, 1.6}}, 0.05, 0.08), {}, 3);
@@ -36,12 +36,12 @@ struct NoisyPoses {
 };
 
 struct Errors {
-  double along_m = 0;  // the corridor lies along x
+  double along_m = 0;  // along x, the direction of the corridor
   double across_m = 0;
   double rad = 0;
 };
 
-// Mean error of the motion from each frame to the fifth frame after it.
+// Mean errors of the motion from each frame to the fifth frame after it.
 Errors errors_of(const std::vector<TPose2D>& poses, const std::vector<TPose2D>& truth) {
   Errors errors;
   const std::size_t count = poses.size() - 5;

@@ -20,7 +20,7 @@ using testing::IsEmpty;
 using State = LoopEditOutcome::State;
 using Kind = LoopEdit::Kind;
 
-// One and a half rounds of a room: the last half round sees everything a second time.
+// One and a half rounds through a room. In the last half round, the robot sees the same places again.
 const SimulatedDrive& round_drive() {
   static const SimulatedDrive drive = [] {
     OdometryErrors errors;
@@ -119,10 +119,11 @@ TEST_F(MapperEditsTest, the_graph_is_optimised_at_once) {
     const TPose2D now = mapper_.graph().poses().back();
     return std::hypot(now.x - closed.x, now.y - closed.y);
   };
-  EXPECT_GT(for_accepted(Kind::kDelete), 0.05) << "without any loop the map drifts apart";
+  EXPECT_GT(for_accepted(Kind::kDelete), 0.05) << "without loops, the map is distorted";
   const TPose2D robot = mapper_.map_T_robot();
-  EXPECT_GT(std::hypot(robot.x - closed.x, robot.y - closed.y), 0.05) << "and the robot with it";
-  EXPECT_LT(for_accepted(Kind::kRestore), 0.01) << "with them it is closed again";
+  EXPECT_GT(std::hypot(robot.x - closed.x, robot.y - closed.y), 0.05)
+      << "the pose of the robot changes with the map";
+  EXPECT_LT(for_accepted(Kind::kRestore), 0.01) << "the restored loops correct the map again";
 }
 
 TEST_F(MapperEditsTest, a_loop_deleted_before_it_is_found_never_becomes_a_constraint) {
@@ -181,11 +182,11 @@ TEST_F(MapperEditsTest, a_match_by_hand_searches_the_given_place) {
   edit.place = LoopPlace{loop.anchor_T_node + TPose2D(0.8, -0.6, 0.2), {1.5, 1.5, 0.5}};
   ASSERT_EQ(mapper_.edit(edit).state, State::kDone);
   EXPECT_NEAR(attempt(edit).anchor_T_node.x, loop.anchor_T_node.x, 0.05);
-  EXPECT_EQ(attempt(edit).verdict, LoopVerdict::kAccepted) << "a person vouches for the wide window";
+  EXPECT_EQ(attempt(edit).verdict, LoopVerdict::kAccepted) << "a match by hand needs no consensus";
   edit.place->anchor_T_node = loop.anchor_T_node + TPose2D(300, 0, 0);
   ASSERT_EQ(mapper_.edit(edit).state, State::kDone);
   EXPECT_EQ(attempt(edit).verdict, LoopVerdict::kNotFound);
-  EXPECT_FALSE(is_constraint(loop)) << "the match that it had no longer counts";
+  EXPECT_FALSE(is_constraint(loop)) << "the earlier match no longer counts";
 }
 
 TEST_F(MapperEditsTest, a_restored_loop_is_as_the_mapper_found_it) {
@@ -213,7 +214,7 @@ TEST_F(MapperEditsTest, explains_impossible_edits) {
   while (mapper_.frames()[between].node) ++between;
   const LoopEditOutcome no_node = mapper_.edit({Kind::kDelete, between, 0});
   EXPECT_EQ(no_node.state, State::kImpossible);
-  EXPECT_THAT(no_node.reason, HasSubstr("is no node of the graph"));
+  EXPECT_THAT(no_node.reason, HasSubstr("is not a node of the graph"));
   const LoopEditOutcome itself = mapper_.edit({Kind::kForce, 0, 0});
   EXPECT_EQ(itself.state, State::kImpossible);
   EXPECT_THAT(itself.reason, HasSubstr("scan 0 is part of local map 0"));
@@ -257,14 +258,15 @@ TEST_F(MapperEditsTest, an_edit_after_reopening_gives_the_same_map_as_before_fin
   const auto deleted = std::find_if(edited.loops.begin(), edited.loops.end(), [&](const LoopRecord& loop) {
     return loop.frame == edit.frame && loop.local_map == edit.local_map;
   });
-  ASSERT_NE(deleted, edited.loops.end()) << "it is still listed, to be taken back";
+  ASSERT_NE(deleted, edited.loops.end()) << "a deleted loop stays in the list, so it can be restored";
   EXPECT_EQ(deleted->verdict, LoopVerdict::kDeleted);
 }
 
 TEST_F(MapperEditsTest, forcing_a_loop_of_the_final_search_takes_its_match) {
   map_all();
   MappingResult result = mapper_.finish({}, Mapper::AfterFinish::kReopen);
-  // A pair refused while mapping and matched by the final search: the edit means the second match.
+  // Searches for a pair that was refused while mapping and accepted by the final search. The edit must force
+  // the second match.
   std::optional<LoopRecord> chosen;
   for (const LoopRecord& loop : result.loops) {
     if (!loop.in_final_search || loop.verdict != LoopVerdict::kAccepted) continue;

@@ -24,7 +24,7 @@ double distance_m(const TPose2D& a, const TPose2D& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-// One round of the corridor and its first part a second time, with biased and noisy odometry.
+// A run once around the corridor and along its first part again, with biased and noisy odometry.
 const SimulatedDrive& office_drive() {
   static const SimulatedDrive drive = [] {
     OdometryErrors errors;
@@ -84,7 +84,7 @@ void expect_consistent(const MappingResult& result, std::size_t frames) {
     EXPECT_EQ(loop.anchor, result.local_maps[loop.local_map].anchor);
     EXPECT_EQ(loop.frame, result.node_frames[loop.node]);
     EXPECT_EQ(loop.verdict == LoopVerdict::kAccepted, !loop.refusal.has_value()) << text_of(loop.refusal);
-    EXPECT_NE(loop.verdict, LoopVerdict::kPending) << "nothing is pending at the end";
+    EXPECT_NE(loop.verdict, LoopVerdict::kPending) << "no loop is pending at the end";
   }
 }
 
@@ -202,8 +202,8 @@ TEST(Mapper, any_number_of_threads_makes_the_same_map) {
 
 TEST(Mapper, counts_the_loops_that_became_constraints_at_each_frame) {
   MapperOptions options;
-  options.back_end.loop_closure.verification.wide_window_m =
-      options.back_end.final_search.window_m;  // many loops wait for others
+  // Most windows count as wide, so many loops are pending.
+  options.back_end.loop_closure.verification.wide_window_m = options.back_end.final_search.window_m;
   const MappingResult result = map_of(office_drive().frames, options);
   std::size_t counted = 0;
   bool several_at_once = false;
@@ -256,7 +256,8 @@ TEST(Mapper, counts_attempts_without_a_match) {
   EXPECT_GT(sum.evaluations, of_loops);
 }
 
-// Computes the factor directly: the mean over earlier nodes, and eta until a loop moves the map.
+// Computes the factor directly: the mean over earlier nodes, and eta for the frames before a loop moves the
+// map.
 TEST(Mapper, records_the_factor_of_loop_closing) {
   const MappingResult& result = office_map();
   const auto window = static_cast<std::size_t>(PsiOptions().window_frames);
@@ -347,7 +348,7 @@ TEST(Mapper, without_loop_closing_poses_are_those_of_the_front_end) {
   }
 }
 
-// The laser is covered for some metres of the far corridor, so only odometry is available there.
+// The laser is covered along some metres of the corridor, so only odometry is available there.
 TEST(Mapper, loops_correct_the_error_of_a_blind_stretch) {
   SimulatedDrive drive = office_drive();
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -365,7 +366,7 @@ TEST(Mapper, loops_correct_the_error_of_a_blind_stretch) {
   expect_consistent(result, drive.frames.size());
   EXPECT_EQ(result.frames[0].match, ScanMatch::kNoMap);
   for (std::size_t i = 1; i < result.frames.size(); ++i) {
-    const bool blind = i >= 190 && i <= 250;  // scan 250 finds a local map of blind scans only
+    const bool blind = i >= 190 && i <= 250;  // scan 250 meets a local map without any points
     EXPECT_EQ(result.frames[i].match, blind ? ScanMatch::kUnmatched : ScanMatch::kMatched) << "frame " << i;
   }
   EXPECT_GT(lost_m, 0.5) << "the front end alone has this error";
@@ -433,7 +434,7 @@ TEST(Mapper, the_final_search_can_be_cut_short) {
   expect_consistent(result, office_drive().frames.size());
   EXPECT_LT(result.loops.size(), office_map().loops.size());
   EXPECT_LT(distance_m(result.frames.back().map_T_robot, office_drive().map_T_robot.back()), 0.2)
-      << "keeps the loops found before";
+      << "the result keeps the loops found before the stop";
 }
 
 TEST(Mapper, an_empty_log_gives_an_empty_map) {

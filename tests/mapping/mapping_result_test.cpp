@@ -6,8 +6,8 @@
 namespace psi_slam {
 namespace {
 
-/// Three runs of four, three and two frames. Nodes are every second frame of the first run and every other
-/// frame.
+/// Three runs of four, three and two frames. Nodes are every second frame of the first run and all frames of
+/// the later runs.
 MappingResult three_drives() {
   MappingResult result;
   result.frames.resize(9);
@@ -37,9 +37,9 @@ TEST(MappingResult, gives_the_frames_of_each_run) {
 
 TEST(MappingResult, only_accepted_loops_with_other_runs_join_a_run) {
   MappingResult result = three_drives();
-  EXPECT_EQ(unjoined_run(result), 1U) << "the others are joined to the first";
+  EXPECT_EQ(unjoined_run(result), 1U) << "without loops, run 1 is the first unjoined run";
   result.loops = {loop(0, 2), loop(5, 6)};
-  EXPECT_EQ(unjoined_run(result), 2U) << "a loop within the third run joins it to no other";
+  EXPECT_EQ(unjoined_run(result), 2U) << "a loop within run 2 does not join it to another run";
   result.loops.push_back(loop(3, 5, LoopVerdict::kSwitchedOff));
   EXPECT_EQ(unjoined_run(result), 2U);
   result.loops.push_back(loop(6, 3));
@@ -55,7 +55,7 @@ TEST(MappingResult, runs_joined_in_two_groups_are_not_one_map) {
   result.loops.push_back(loop(1, 5));
   EXPECT_EQ(unjoined_run(result), std::nullopt);
   result.loops = {loop(5, 2), loop(1, 5), loop(0, 2)};
-  EXPECT_EQ(unjoined_run(result), std::nullopt) << "in whatever order";
+  EXPECT_EQ(unjoined_run(result), std::nullopt) << "the order of the loops does not matter";
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using mrpt::math::TPose2D;
 
 struct Drive {
   std::vector<Frame> frames;
-  std::vector<TPose2D> start_T_robot;  // the truth
+  std::vector<TPose2D> start_T_robot;  // true poses
 };
 
 const Drive& drive() {
@@ -49,7 +49,7 @@ struct Errors {
   double mean_rad = 0;
 };
 
-/// Mean error of the motion over 20 scans, which does not depend on the origin of the map.
+/// Mean errors of the motion over 20 scans. They do not depend on the origin of the map.
 Errors errors_of(const std::vector<Frame>& frames) {
   Mapper mapper;
   for (const Frame& frame : frames) mapper.add(frame);
@@ -82,7 +82,7 @@ TEST(TwoLasers, map_at_least_as_well_as_one) {
   EXPECT_LE(both.mean_m, one.mean_m);
   EXPECT_LE(both.mean_rad, one.mean_rad);
   EXPECT_LT(both.mean_m, 0.02);
-  EXPECT_LT(both.mean_m, wrong.mean_m) << "the second laser's scans are moved by odometry";
+  EXPECT_LT(both.mean_m, wrong.mean_m) << "odometry places the scans of the second laser";
 }
 
 TEST(TwoLasers, mapping_continues_while_one_is_silent) {

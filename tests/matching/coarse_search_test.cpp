@@ -16,7 +16,7 @@
 namespace psi_slam {
 namespace {
 
-// Sum of a block by its definition: the scores of the coarsest level under all points.
+// Computes the sum of a block by its definition: the scores of the coarsest level under all points.
 std::uint32_t slow_block_sum(const SearchLattice& lattice, const Tile& cell) {
   const ScoreLevel& level = lattice.grid().pyramid(1);
   std::uint32_t sum = 0;
@@ -40,12 +40,13 @@ struct Problem {
 TEST(CoarseCells, cover_the_window_in_the_order_of_their_sums) {
   const Problem problem;
   const CoarseCells coarse = rank_coarse_cells(problem.lattice, 4, 1'000'000, 0);
-  ASSERT_EQ(coarse.best.size(), 6U * 5U * 4U) << "43 x 37 shifts in blocks of 8, 15 headings in fours";
+  ASSERT_EQ(coarse.best.size(), 6U * 5U * 4U)
+      << "43 x 37 shifts in blocks of 8 x 8, and 15 headings in groups of 4";
   EXPECT_EQ(coarse.evaluations, 120);
   for (std::size_t i = 1; i < coarse.best.size(); ++i)
     EXPECT_GE(slow_block_sum(problem.lattice, coarse.best[i - 1]),
               slow_block_sum(problem.lattice, coarse.best[i]));
-  // The cells cover the window: every shift is in one block of every heading.
+  // The cells cover the window: at each of the four headings, every shift is in exactly one block.
   std::set<std::tuple<int, int, int>> shifts;
   std::set<int> headings;
   for (const Tile& cell : coarse.best) {
@@ -81,7 +82,7 @@ TEST(CoarseCells, cells_below_the_smallest_sum_are_dropped) {
   EXPECT_EQ(static_cast<std::ptrdiff_t>(upper.best.size()), reach);
 }
 
-// The sum of a cell bounds the sums of its poses at its own heading.
+// The sum of a cell is an upper bound of the sums of its poses at its middle heading.
 TEST(CoarseCells, sums_bound_the_poses_of_their_cells) {
   const Problem problem;
   for (const Tile& cell : rank_coarse_cells(problem.lattice, 4, 20, 0).best)

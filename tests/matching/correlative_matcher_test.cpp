@@ -46,7 +46,8 @@ TEST(CorrelativeMatcher, finds_fifty_random_poses) {
   for (int trial = 0; trial < 50; ++trial) {
     const TPose2D truth(x(random), y(random), heading(random));
     const ScanPoints scan = scan_of(room.walls, truth, 360, 0.01, random);
-    const double half_m = trial % 2 == 0 ? 0.4 : 2.0;  // below and above the limit for exhaustive search
+    // Windows below and above the limit of exhaustive searches.
+    const double half_m = trial % 2 == 0 ? 0.4 : 2.0;
     const TPose2D predicted(truth.x + share(random) * half_m, truth.y + share(random) * half_m,
                             truth.phi + share(random) * 0.4);
     const MatchResult match = matcher.match({room.grid, scan, predicted, {half_m, half_m, 0.4}});
@@ -85,7 +86,7 @@ TEST(CorrelativeMatcher, fills_in_every_field) {
   EXPECT_EQ(match.information, refined.information);
   EXPECT_EQ(match.covariance, bounded_covariance(refined.information, options.min_sigma_m,
                                                  options.max_sigma_m, scan.farthest_m));
-  EXPECT_FALSE(match.ambiguity) << "not requested";
+  EXPECT_FALSE(match.ambiguity) << "the ambiguity was not requested";
 }
 
 TEST(CorrelativeMatcher, passes_the_prior_on_to_the_refinement) {
@@ -126,12 +127,12 @@ TEST(CorrelativeMatcher, below_the_least_response_nothing_is_found) {
     MatchProblem problem{room.grid, scan, {4, 3, 0.3}, {half_m, half_m, 0.2}};
     const double response = CorrelativeMatcher({}).match(problem).response;
     problem.min_response = response;
-    EXPECT_TRUE(CorrelativeMatcher({}).match(problem).found) << "just reached";
+    EXPECT_TRUE(CorrelativeMatcher({}).match(problem).found) << "the smallest response is just reached";
     problem.min_response = response + 1e-6;
     const MatchResult match = CorrelativeMatcher({}).match(problem);
     EXPECT_FALSE(match.found);
     EXPECT_GT(match.evaluations, 0);
-    EXPECT_GT(match.window.n_x, 0) << "the searched window is reported without a match too";
+    EXPECT_GT(match.window.n_x, 0) << "the result holds the searched window also without a match";
   }
 }
 
@@ -144,7 +145,7 @@ TEST(CorrelativeMatcher, one_room_is_not_ambiguous) {
   MatcherOptions options;
   const MatchResult match = CorrelativeMatcher(options).match(problem);
   ASSERT_TRUE(match.ambiguity);
-  EXPECT_EQ(*match.ambiguity, 0) << "no other pose reaches the floor";
+  EXPECT_EQ(*match.ambiguity, 0) << "no distinct pose reaches the ambiguity floor";
 
   options.ambiguity_floor = 0.05;
   const MatchResult with_low_floor = CorrelativeMatcher(options).match(problem);
@@ -159,7 +160,7 @@ TEST(CorrelativeMatcher, two_equal_rooms_are_ambiguous) {
   const ScoreGrid grid = grid_of(rooms);
   std::mt19937_64 random(77);
   const ScanPoints scan = scan_of(one, {4, 3, 0.3}, 180, 0.01, random);
-  // Between the rooms, so that the window contains both.
+  // The window is centred between the rooms and contains both.
   MatchProblem problem{grid, scan, {10.3, 2.8, 0.2}, {8, 8, 0.5}};
   problem.measure_ambiguity = true;
   const MatchResult match = CorrelativeMatcher({}).match(problem);
@@ -199,7 +200,7 @@ TEST(CorrelativeMatcher, without_observations_every_pose_is_equal) {
   MatchProblem problem{room.grid, scan, {400, 3, 0.3}, {1, 1, 0.3}};
   problem.measure_ambiguity = true;
   const MatchResult match = CorrelativeMatcher({}).match(problem);
-  EXPECT_TRUE(match.found) << "every pose reaches a smallest response of 0";
+  EXPECT_TRUE(match.found) << "every pose reaches a minimum response of 0";
   EXPECT_EQ(match.response, 0);
   EXPECT_EQ(match.map_T_robot.x, 400) << "the centre is the best of equal poses";
   EXPECT_EQ(match.map_T_robot.y, 3);

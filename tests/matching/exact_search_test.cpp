@@ -20,7 +20,7 @@ TEST(ExhaustiveSearch, equals_three_plain_loops_including_ties) {
   std::uniform_real_distribution<double> metres(-2, 3);
   int ties = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    // With two score levels and few points, many poses reach the highest sum.
+    // With two score values and few points, many poses reach the highest sum.
     const ScoreGrid grid = random_grid(random, 40, 30, trial % 3 == 0 ? 256 : 2);
     const ScanPoints scan = random_points(random, 1 + random() % 30, 1.0);
     const SearchLattice lattice(grid, scan, {metres(random), metres(random), metres(random)},
@@ -89,8 +89,8 @@ TEST(ExhaustiveSearch, far_from_the_grid_the_centre_wins_the_tie) {
 
 using mrpt::math::TPose2D;
 
-// Compares both searches with and without an excluded region, and with smallest sums of zero, the best sum
-// and one more.
+// Compares both searches, with and without an excluded region. The smallest sums are zero, the best sum, and
+// the best sum plus one.
 void expect_equal_outcomes(const SearchLattice& lattice, const std::string& where) {
   const SearchOutcome exhaustive = exhaustive_search(lattice, 0);
   const SearchOutcome fast = branch_and_bound_search(lattice, 0);
@@ -123,7 +123,7 @@ TEST(BranchAndBound, equals_the_exhaustive_search_on_random_grids) {
   }
 }
 
-// Few points on few walls give many poses equal sums.
+// With few points and few walls, many poses have equal sums.
 TEST(BranchAndBound, equals_the_exhaustive_search_with_many_ties) {
   std::mt19937_64 random(42);
   std::uniform_int_distribution<int> cell(0, 79);
@@ -190,11 +190,13 @@ TEST(BranchAndBound, equals_the_exhaustive_search_on_real_scans) {
     std::int64_t fast_poses = 0;
     for (int trial = 0; trial < window.cases; ++trial) {
       const PlacedLocalMap& placed = real.maps[random() % real.maps.size()];
-      // A node of the map with a wrong prediction, or any node, which need not match.
+      // Two of three trials use a node of the local map with a wrong prediction. The third uses any node,
+      // which need not match.
       const std::size_t within = placed.first_node + random() % (placed.last_node - placed.first_node + 1);
       const std::size_t node = trial % 3 < 2 ? within : random() % real.nodes.size();
       ScanPoints scan = *real.nodes[node].points;
-      if (window.extent.x_m > 5 && window.extent.theta_rad > 0.1) {  // the slow search takes long
+      // In large windows, uses fewer points, because the slow search takes long.
+      if (window.extent.x_m > 5 && window.extent.theta_rad > 0.1) {
         ScanPoints thinned;
         for (std::size_t p = 0; p < scan.points.size(); p += 3) thinned.points.push_back(scan.points[p]);
         thinned.farthest_m = std::min(scan.farthest_m, 15.0);

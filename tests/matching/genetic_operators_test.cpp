@@ -11,8 +11,8 @@
 namespace psi_slam {
 namespace {
 
-// Chi-square of counts against expected counts, and the limit that chance exceeds once in a million trials
-// (approximation of Wilson and Hilferty). Draws are seeded, so that the tests are deterministic.
+// Returns the chi-square statistic of counts against expected counts. All draws are seeded, so the tests are
+// deterministic.
 double chi_square(const std::vector<double>& counts, const std::vector<double>& expected) {
   double sum = 0;
   for (std::size_t i = 0; i < counts.size(); ++i)
@@ -20,6 +20,8 @@ double chi_square(const std::vector<double>& counts, const std::vector<double>& 
   return sum;
 }
 
+// Returns the limit that chi_square() exceeds by chance once in a million trials (approximation of Wilson and
+// Hilferty). `z` is the corresponding quantile of the normal distribution.
 double chi_square_limit(std::size_t categories, double z = 4.75) {
   const double degrees = static_cast<double>(categories - 1);
   const double a = 2 / (9 * degrees);
@@ -55,7 +57,7 @@ TEST(GeneticOperators, integers_are_drawn_uniformly) {
   }
 }
 
-// Near 2^64, where a plain modulus would prefer small numbers.
+// For counts near 2^64, a plain modulus would draw small numbers more often.
 TEST(GeneticOperators, large_ranges_are_drawn_uniformly_too) {
   Random random(2);
   const std::uint64_t count = 3ULL << 62;
@@ -112,10 +114,10 @@ TEST(GeneticOperators, crossover_exchanges_one_run_of_bits_uniformly) {
     ASSERT_EQ(a ^ b, ones) << "the parents exchange bits";
     const Chromosome filled = a | (a - 1);  // fills the zeros below the run
     ASSERT_NE(a, 0U);
-    ASSERT_EQ(filled & (filled + 1), 0U) << "one run";
+    ASSERT_EQ(filled & (filled + 1), 0U) << "the exchanged bits form one run";
     ++runs[a];
   }
-  ASSERT_EQ(runs.size(), 21U) << "7 cuts, 2 of them";
+  ASSERT_EQ(runs.size(), 21U) << "pairs of 7 cuts";
   std::vector<double> counts;
   for (const auto& [run, count] : runs) counts.push_back(count);
   EXPECT_LT(chi_square(counts, std::vector<double>(21, draws / 21.0)), chi_square_limit(21));
@@ -155,7 +157,7 @@ TEST(GeneticOperators, mutation_flips_every_bit_at_its_rate_and_none_beyond) {
     }
     ++flips_at_once[std::min<std::size_t>(3, count)];
   }
-  // The variance of a binomial count is (1 - rate) times that of a multinomial one.
+  // The variance of a binomial count is (1 - rate) times the variance of a multinomial count.
   EXPECT_LT(chi_square(flips, std::vector<double>(kBits, draws * rate)) / (1 - rate),
             chi_square_limit(kBits + 1));
   std::vector<double> expected;

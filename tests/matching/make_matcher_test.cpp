@@ -85,7 +85,8 @@ TEST_P(EveryMatcher, returns_the_response_of_its_pose_and_a_covariance) {
     as_it_is.max_iterations = 0;
     return refine(grid, scan, match.lattice_pose, as_it_is);
   }();
-  EXPECT_NEAR(match.response, at_lattice.mean_score, 0.1) << "one is of cells, the other interpolated";
+  EXPECT_NEAR(match.response, at_lattice.mean_score, 0.1)
+      << "the response is a mean over cells, the score is interpolated";
   EXPECT_GE(match.refined_response, at_lattice.mean_score);
   EXPECT_GT(match.covariance(0, 0), 0);
   EXPECT_GT(match.information(2, 2), 0);
@@ -96,7 +97,7 @@ TEST_P(EveryMatcher, returns_the_response_of_its_pose_and_a_covariance) {
   EXPECT_EQ(match.genetic.decoded > 0, GetParam().kind != MatcherKind::kCsm);
 }
 
-// In a corridor with doors 1.2 m apart, a scan also matches one door further on. Verification rejects such
+// In a corridor with doors 1.2 m apart, a scan also matches 1.2 m farther along. Verification rejects such
 // matches by their ambiguity, which must not depend on the matcher.
 TEST_P(EveryMatcher, finds_the_second_peak_of_a_narrow_window_exactly) {
   SimulatedWalls corridor;

@@ -44,7 +44,7 @@ TEST(MemeticSearch, its_best_pose_has_the_returned_sum) {
   EXPECT_GT(peaks.genetic.decoded, 0);
 }
 
-// Every switch has an effect, and none leads to a wrong result.
+// Every switch changes the search. No search reports a sum above that of the exact search.
 TEST(MemeticSearch, every_switch_changes_the_search_and_no_result_exceeds_the_best) {
   const Room room;
   const std::optional<Candidate> best = branch_and_bound_search(room.lattice, 0).best;
@@ -148,7 +148,7 @@ TEST(MemeticSearch, the_second_peak_is_distinct_from_the_first) {
   EXPECT_LE(peaks.next->sum, peaks.best->sum);
 }
 
-// In two equal rooms, niches keep both peaks.
+// With two equal rooms, niches keep both peaks.
 TEST(MemeticSearch, finds_two_places_that_match_equally) {
   SimulatedWalls walls = furnished_room();
   const std::vector<SimulatedWalls::Wall> one_room = walls.walls;

@@ -53,7 +53,7 @@ TEST(PaperGeneticSearch, its_best_pose_has_the_returned_sum_and_does_not_exceed_
   }
 }
 
-// With selection, the search finds better poses than the same number of random draws.
+// With selection, the search finds better poses than an equal number of random draws.
 TEST(PaperGeneticSearch, does_better_than_chance) {
   const Room room;
   PaperGeneticOptions options;

@@ -36,11 +36,11 @@ TEST(PoseCode, every_pose_of_the_window_has_a_unique_code_that_decodes_to_it) {
         }
       }
     }
-    EXPECT_EQ(codes.size(), 8U * window.n_x * window.n_y * window.n_theta) << "2 n on each axis";
+    EXPECT_EQ(codes.size(), 8U * window.n_x * window.n_y * window.n_theta) << "2 n codes on each axis";
   }
 }
 
-// All strings of bits, including those outside the window.
+// Decodes all strings of bits, including codes outside the window.
 TEST(PoseCode, every_code_is_a_pose_of_the_window) {
   for (const SearchWindow& window : windows()) {
     const PoseCode code(window);
@@ -71,7 +71,8 @@ TEST(PoseCode, lengths_are_the_smallest_of_equation_10) {
   }
 }
 
-// The window of the paper, by hand: r_t = 5 cm, W = 8 m gives n = 160; L_max = 320^2 = 102,400 < 2^17.
+// The window of the paper, computed by hand. r_t = 5 cm and W = 8 m give n = 160.
+// L_max = 320^2 = 102,400 is less than 2^17.
 TEST(PoseCode, the_window_of_the_paper_takes_17_bits_for_positions) {
   const PoseCode code(window_of_steps(160, 160, 184, 0.003));
   EXPECT_EQ(code.position_bits(), 17);
@@ -79,7 +80,7 @@ TEST(PoseCode, the_window_of_the_paper_takes_17_bits_for_positions) {
   EXPECT_EQ(code.bits(), 26);
 }
 
-// Equations 9 and 12 by hand.
+// Expected codes are computed by hand from equations 9 and 12.
 TEST(PoseCode, bits_are_least_significant_first_position_before_angle) {
   const PoseCode code(window_of_steps(4, 4, 2, 0.05));  // 8 x 8 cells: 7 bits; 4 angles: 3 bits
   EXPECT_EQ(code.encode({-4, -4, -2}), 0U);
@@ -95,7 +96,7 @@ TEST(PoseCode, codes_outside_are_repaired_by_the_modulus) {
   const LatticePose position = code.decode(64 + 5);
   EXPECT_EQ(code.encode(position), 5U);
   EXPECT_FALSE(code.inside(6U << 7));
-  EXPECT_EQ(code.decode(6U << 7).theta, 0) << "6 modulo 4 angles is the third";
+  EXPECT_EQ(code.decode(6U << 7).theta, 0) << "6 modulo 4 is 2, the third angle";
 }
 
 TEST(PoseCode, refuses_windows_without_cells_and_codes_of_more_than_64_bits) {

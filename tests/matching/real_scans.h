@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real scans and local maps of them, from a benchmark log if available, otherwise from MRPT's sample rawlog.
+// Real scans and the local maps made from them. They come from a benchmark log if available, otherwise from
+// MRPT's sample rawlog.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +20,7 @@ struct RealScans {
     std::shared_ptr<const ScanPoints> points;
   };
   std::vector<Node> nodes;
-  std::vector<PlacedLocalMap> maps;  ///< finished
+  std::vector<PlacedLocalMap> maps;  ///< finished local maps
 };
 
 inline constexpr const char* kNeedsRealScans =

@@ -39,7 +39,7 @@ TPose2D moved(const TPose2D& pose, double dx, double dy, double dphi) {
   return {pose.x + dx, pose.y + dy, pose.phi + dphi};
 }
 
-// J^T J / s^2 with derivatives by central differences.
+// Returns J^T J / s^2, with derivatives by central differences.
 Eigen::Matrix3d numeric_information(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D& pose,
                                     double score_sigma) {
   constexpr double kStep = 1e-4;
@@ -54,10 +54,10 @@ Eigen::Matrix3d numeric_information(const ScoreGrid& grid, const ScanPoints& sca
   return jacobian.transpose() * jacobian / (score_sigma * score_sigma);
 }
 
-// A corridor along x, 2 m wide, whose walls were observed with varying frequency.
+// A corridor along x, 2 m wide. The scores along its walls vary randomly.
 struct Corridor {
   ScoreGrid grid{-12, -2, 0.05, 480, 80};
-  ScanPoints scan;  // with the robot in the middle, at the origin
+  ScanPoints scan;  // scan of a robot in the middle, at the origin
 
   explicit Corridor(std::mt19937_64& random) {
     std::uniform_int_distribution<int> seen(200, 255);
@@ -146,8 +146,8 @@ TEST(Refinement, information_equals_that_of_numeric_derivatives) {
   }
 }
 
-// If the scores are linear in the position, Gauss-Newton is exact: twice the information is the second
-// derivative of the cost.
+// If the scores are linear in the position, the Gauss-Newton approximation is exact: the information is half
+// the second derivative of the cost.
 TEST(Refinement, information_is_half_the_numeric_second_derivative_of_the_cost_on_a_ramp) {
   ScoreGrid grid(-1, -1, 0.05, 60, 60);
   for (int y = 0; y < 60; ++y)
@@ -159,7 +159,8 @@ TEST(Refinement, information_is_half_the_numeric_second_derivative_of_the_cost_o
   const TPose2D pose(0.5, 0.4, 0.3);
   const RefinedPose refined = refine(grid, scan, pose, options);
 
-  constexpr double kStep = 0.02;  // large: the cost is a parabola, and the grid computes in single precision
+  // The step is large, because the cost is a parabola and the grid computes in single precision.
+  constexpr double kStep = 0.02;
   const auto cost = [&](double dx, double dy) {
     return cost_at(grid, scan, moved(pose, dx, dy, 0), options.score_sigma);
   };
@@ -182,16 +183,17 @@ TEST(Refinement, with_normals_a_corridor_gives_no_information_along_it) {
   corridor.scan.normals.clear();
   const RefinedPose without = refine(corridor.grid, corridor.scan, {0, 0.01, 0.002}, {});
   EXPECT_GT(without.information(0, 0), 10 * with.information(0, 0))
-      << "noise of the walls, mistaken for a slope";
+      << "without normals, noise of the walls counts as information";
 }
 
-// Along the corridor there is only noise, which must neither move the minimisation nor stop it.
+// Along the corridor, the scores contain only noise. Noise must neither move the pose nor stop the
+// minimisation.
 TEST(Refinement, without_a_prior_a_corridor_is_refined_across_it) {
   std::mt19937_64 random(65);
   for (int trial = 0; trial < 20; ++trial) {
     const Corridor corridor(random);
     const RefinedPose refined = refine(corridor.grid, corridor.scan, {0.01 * trial, 0.012, 0.003}, {});
-    EXPECT_NEAR(refined.map_T_robot.x, 0.01 * trial, 0.01) << "a fifth of a cell";
+    EXPECT_NEAR(refined.map_T_robot.x, 0.01 * trial, 0.01) << "x moves by at most a fifth of a cell";
     EXPECT_NEAR(refined.map_T_robot.y, 0, 0.005);
     EXPECT_NEAR(refined.map_T_robot.phi, 0, 0.002);
   }
@@ -200,7 +202,7 @@ TEST(Refinement, without_a_prior_a_corridor_is_refined_across_it) {
 TEST(Refinement, normals_turn_with_the_robot) {
   std::mt19937_64 random(57);
   Corridor corridor(random);
-  // The scan of a robot turned by 0.7: in its frame, points and normals are turned back.
+  // Makes the scan of a robot turned by 0.7 rad: turns points and normals back into the robot's frame.
   const double c = std::cos(-0.7);
   const double s = std::sin(-0.7);
   for (auto* vectors : {&corridor.scan.points, &corridor.scan.normals})
@@ -235,8 +237,8 @@ TEST(Refinement, the_prior_holds_the_pose_along_a_corridor) {
   prior.map_T_robot = {0.07, 0.04, 0.003};
   prior.information.diagonal() << 1 / (0.03 * 0.03), 1 / (0.03 * 0.03), 1 / (0.1 * 0.1);
   const RefinedPose refined = refine(corridor.grid, corridor.scan, {0, 0.02, 0}, {}, prior);
-  EXPECT_NEAR(refined.map_T_robot.x, 0.07, 0.002) << "from the prior";
-  EXPECT_NEAR(refined.map_T_robot.y, 0, 0.004) << "from the scan";
+  EXPECT_NEAR(refined.map_T_robot.x, 0.07, 0.002) << "the prior determines x";
+  EXPECT_NEAR(refined.map_T_robot.y, 0, 0.004) << "the scan determines y";
   EXPECT_LT(refined.information(0, 0), 1e-3 * refined.information(1, 1))
       << "the information of the scan excludes the prior";
 }
@@ -271,7 +273,8 @@ TEST(Refinement, farther_than_the_largest_shift_is_another_peak) {
   EXPECT_EQ(refused.mean_score, unmoved.mean_score);
   EXPECT_EQ(refused.information, unmoved.information);
   options = {};
-  EXPECT_LT(refine(grid, scan, start, options).map_T_robot.x, 4.01) << "without the limit it would move";
+  EXPECT_LT(refine(grid, scan, start, options).map_T_robot.x, 4.01)
+      << "without the limit, the pose would move to the other peak";
 }
 
 TEST(Refinement, without_points_or_off_the_grid_the_start_is_returned) {
@@ -300,7 +303,8 @@ TEST(BoundedCovariance, within_the_bounds_is_the_inverse) {
   std::mt19937_64 random(63);
   for (int trial = 0; trial < 100; ++trial) {
     const double lever_m = 1 + trial % 7;
-    Eigen::Matrix3d information = random_information(random, 2.0, 3e4);  // sigmas of 6 mm to 0.7 m
+    // Standard deviations of 6 mm to 0.7 m.
+    Eigen::Matrix3d information = random_information(random, 2.0, 3e4);
     const Eigen::Vector3d to_radians(1, 1, lever_m);
     information = to_radians.asDiagonal() * information * to_radians.asDiagonal();
     const Eigen::Matrix3d covariance = bounded_covariance(information, 0.005, 2.0, lever_m);
@@ -322,7 +326,7 @@ TEST(BoundedCovariance, of_endless_information_has_the_smallest_deviations) {
 }
 
 TEST(BoundedCovariance, a_direction_without_information_stays_apart_from_the_others) {
-  // There is no information along the diagonal.
+  // The information is zero along the diagonal of x and y.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   const Eigen::Vector3d across = Eigen::Vector3d(1, -1, 0).normalized();
   information += 400 * across * across.transpose();

@@ -13,7 +13,7 @@
 namespace psi_slam {
 namespace {
 
-// Cell of a pyramid level by its definition.
+// Computes a cell of a pyramid level by its definition.
 std::uint8_t brute_force_maximum(const ScoreLevel& finest, int x, int y, int stride) {
   std::uint8_t largest = 0;
   for (int fine_y = y * stride; fine_y < (y + 2) * stride; ++fine_y)
@@ -22,7 +22,8 @@ std::uint8_t brute_force_maximum(const ScoreLevel& finest, int x, int y, int str
   return largest;
 }
 
-// Catmull-Rom spline through four values: Hermite's cubic with central differences as tangents.
+// Interpolates by the Catmull-Rom spline through four values: Hermite's cubic with central differences as
+// tangents.
 double hermite(const std::array<double, 4>& p, double u) {
   const double m1 = (p[2] - p[0]) / 2;
   const double m2 = (p[3] - p[1]) / 2;
@@ -143,7 +144,7 @@ TEST(ScoreGridInterpolation, gradient_equals_numeric_derivatives) {
   const ScoreGrid grid = random_grid(random, 30, 20, 256);
   std::uniform_real_distribution<double> x(-0.2, 1.7);
   std::uniform_real_distribution<double> y(-0.2, 1.2);
-  constexpr double kStep = 1e-6;  // m
+  constexpr double kStep = 1e-6;  // metres
   for (int i = 0; i < 5000; ++i) {
     const double x_m = grid.origin_x_m() + x(random);
     const double y_m = grid.origin_y_m() + y(random);
@@ -151,7 +152,7 @@ TEST(ScoreGridInterpolation, gradient_equals_numeric_derivatives) {
     const auto slope = [&](double dx, double dy) {
       return (slow_value(grid, x_m + dx, y_m + dy) - slow_value(grid, x_m - dx, y_m - dy)) / (2 * kStep);
     };
-    EXPECT_NEAR(sample.d_dx, slope(kStep, 0), 2e-3) << x_m << ", " << y_m;  // of up to 30 per metre
+    EXPECT_NEAR(sample.d_dx, slope(kStep, 0), 2e-3) << x_m << ", " << y_m;  // slopes reach 30 per metre
     EXPECT_NEAR(sample.d_dy, slope(0, kStep), 2e-3) << x_m << ", " << y_m;
   }
 }

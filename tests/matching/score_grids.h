@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Score grids, scans and windows for the tests of matching: random ones, and ideal ones of walls.
+// Score grids, scans and windows for the tests of matching: random grids and points, and ideal grids and
+// scans of walls.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 namespace psi_slam {
 
-/// Random cells with `levels` scores from 0 to 255. Few levels give many ties.
+/// Makes a grid of random cells with `levels` different scores from 0 to 255. Few levels give many ties.
 inline ScoreGrid random_grid(std::mt19937_64& random, int width, int height, int levels) {
   std::uniform_real_distribution<double> place(-2, 2);
   ScoreGrid grid(place(random), place(random), 0.05, width, height);
@@ -26,7 +27,7 @@ inline ScoreGrid random_grid(std::mt19937_64& random, int width, int height, int
   return grid;
 }
 
-/// Random points around the robot, at most `reach_m` away along each axis.
+/// Makes random points around the robot, at most `reach_m` away along each axis.
 inline ScanPoints random_points(std::mt19937_64& random, std::size_t count, double reach_m) {
   std::uniform_real_distribution<float> coordinate(-static_cast<float>(reach_m), static_cast<float>(reach_m));
   ScanPoints scan;
@@ -39,7 +40,7 @@ inline ScanPoints random_points(std::mt19937_64& random, std::size_t count, doub
   return scan;
 }
 
-/// Window with the given steps to each side of the centre.
+/// Makes a window with the given numbers of steps to each side of the centre, and cells of 0.05 m.
 inline SearchWindow window_of_steps(int n_x, int n_y, int n_theta, double angular_step_rad) {
   SearchWindow window;
   window.linear_step_m = 0.05;
@@ -50,7 +51,7 @@ inline SearchWindow window_of_steps(int n_x, int n_y, int n_theta, double angula
   return window;
 }
 
-/// Score grid of walls that were observed many times: a Gaussian of the distance to the nearest wall.
+/// Makes an ideal score grid of walls: each score is a Gaussian of the distance to the nearest wall.
 inline ScoreGrid grid_of(const SimulatedWalls& walls, double margin_m = 1.0, double sigma_m = 0.05) {
   constexpr double kResolution_m = 0.05;
   const auto box = walls.bounding_box();
@@ -71,7 +72,7 @@ inline ScoreGrid grid_of(const SimulatedWalls& walls, double margin_m = 1.0, dou
   return grid;
 }
 
-/// Scan of the walls by a laser at the robot's centre, over 360 degrees, one point per beam.
+/// Simulates a scan of walls by a laser at the robot's centre, over 360 degrees. Each beam gives one point.
 inline ScanPoints scan_of(const SimulatedWalls& walls, const mrpt::math::TPose2D& map_T_robot, int beams,
                           double noise_m, std::mt19937_64& random) {
   std::normal_distribution<double> noise(0, 1);

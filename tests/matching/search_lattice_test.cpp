@@ -18,7 +18,8 @@ double floor_divide(int a, int b) {
   return std::floor(static_cast<double>(a) / b);
 }
 
-// Cell under a point of the scan at a pose of the robot. `clear` is false if rounding can change the cell.
+// Returns the cell under a point of the scan at a pose of the robot. Sets `clear` to false if rounding errors
+// can change the cell.
 Cell slow_cell(const ScoreGrid& grid, const TPose2D& map_T_robot, const mrpt::math::TPoint2Df& point,
                bool& clear) {
   const auto x = static_cast<double>(point.x);
@@ -128,7 +129,7 @@ TEST(ShiftSums, of_no_points_are_zero) {
   sums.compute(grid.finest(), &cell, 1, {0, 0}, 5, 5);
   sums.compute(grid.finest(), &cell, 0, {0, 0}, 5, 5);
   for (int y = 0; y < 5; ++y)
-    for (int x = 0; x < 5; ++x) EXPECT_EQ(sums.row(y)[x], 0U) << "left over from the previous block";
+    for (int x = 0; x < 5; ++x) EXPECT_EQ(sums.row(y)[x], 0U) << "sums of the previous block are cleared";
 }
 
 TEST(Candidate, the_higher_sum_is_better_then_the_nearer_pose_then_the_lower_one) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A building of straight walls, and laser ranges in it by intersecting every beam with every wall.
+// A building of straight walls. Laser ranges are computed by intersecting every beam with every wall.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -47,7 +47,7 @@ struct SimulatedWalls {
     return box;
   }
 
-  /// Distance to the nearest wall.
+  /// Returns the distance to the nearest wall.
   double distance_m(double x, double y) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Wall& wall : walls) {
@@ -61,7 +61,7 @@ struct SimulatedWalls {
     return nearest;
   }
 
-  /// Distance along a beam to the first wall; infinite without one.
+  /// Returns the distance along a beam to the first wall; infinite if it meets no wall.
   double range_m(const mrpt::math::TPose2D& map_T_laser, double bearing_rad) const {
     const double c = std::cos(map_T_laser.phi + bearing_rad);
     const double s = std::sin(map_T_laser.phi + bearing_rad);
@@ -81,7 +81,7 @@ struct SimulatedWalls {
   }
 };
 
-/// A room of 8 m x 6 m with furniture, in which all places look different.
+/// Returns a room of 8 m x 6 m with furniture, in which all places look different.
 inline SimulatedWalls furnished_room() {
   SimulatedWalls room;
   room.add_box(0, 0, 8, 6);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Equation 1 in its simplest form: three loops over the window, one over the points.
+// Evaluates equation 1 in its simplest form: three loops over the window, one over the points.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ inline std::uint32_t slow_sum(const SearchLattice& lattice, const LatticePose& p
   return sum;
 }
 
-/// Of the poses with the highest sum, which must reach `min_sum`, the one nearest to the centre in steps; of
-/// those, the one with the lowest theta, then y, then x.
+/// Returns the pose with the highest sum, if that reaches `min_sum`. Of equal poses, takes the one nearest to
+/// the centre in steps, then the one with the lowest theta, then y, then x.
 inline std::optional<Candidate> slow_search(const SearchLattice& lattice, std::uint32_t min_sum,
                                             const std::optional<ExcludedRegion>& excluded = {}) {
   const SearchWindow& window = lattice.window();
@@ -54,7 +54,7 @@ inline bool same(const std::optional<Candidate>& a, const std::optional<Candidat
          a->pose.theta == b->pose.theta;
 }
 
-/// For messages of failed tests.
+/// Returns a candidate as text, for messages of failed tests.
 inline std::string to_text(const std::optional<Candidate>& candidate) {
   if (!candidate) return "none";
   const LatticePose& pose = candidate->pose;

@@ -25,7 +25,7 @@ int rounded_up(int width) {
   return (width + kSumLanes - 1) / kSumLanes * kSumLanes;
 }
 
-// A block of sums to compute: random cells and initial values of the sums.
+// Input of a kernel: a block of sums to compute, with random cells and random initial sums.
 struct Problem {
   std::ptrdiff_t row_bytes = 0;
   std::vector<std::uint8_t> cells;
@@ -90,7 +90,7 @@ TEST(SumKernel, every_set_equals_a_plain_loop_at_every_height) {
   }
 }
 
-// 16 bits hold the sum of at most 257 scores of 255.
+// The kernel adds up in 16 bits, which hold at most 257 scores of 255.
 TEST(SumKernel, many_points_of_the_highest_score_do_not_overflow) {
   std::mt19937_64 random(13);
   for (const std::size_t points : {0, 1, 255, 256, 257, 258, 513, 514, 515, 771, 2000, 5000}) {
@@ -123,7 +123,7 @@ TEST(SumKernel, offsets_may_point_before_the_first_cell) {
 TEST(SumKernel, the_one_in_use_is_the_widest_of_this_machine) {
   const std::vector<InstructionSet> sets = sets_of_this_machine();
   ASSERT_FALSE(sets.empty());
-  EXPECT_EQ(sets.front(), InstructionSet::kBaseline) << "runs everywhere";
+  EXPECT_EQ(sets.front(), InstructionSet::kBaseline) << "the baseline kernel runs on every machine";
   EXPECT_EQ(sum_kernel(), sum_kernel_for(sets.back()));
 }
 

@@ -25,7 +25,7 @@ ScanPoints scan_at(const SimulatedWalls& walls, const TPose2D& map_T_robot, doub
   return matching_points(simulated_scan(walls, map_T_robot, bearings, {0.1, 0, 0}, noise_m, random), {});
 }
 
-// Surfaces seen from several poses of the room, placed at the true poses.
+// Surfaces seen from several poses in a room, placed at the true poses.
 class SeenRoom {
  public:
   SeenRoom(const SimulatedWalls& walls, const std::vector<TPose2D>& poses, double noise_m) {
@@ -44,7 +44,7 @@ class SeenRoom {
 
 const std::vector<TPose2D> kViews = {{3, 2, 0.5}, {3.2, 2.1, 0.7}, {3.5, 2.4, 0.3}, {2.8, 1.9, 0.4}};
 
-// Sum of rho over all points without the prior, by comparing all pairs.
+// Returns the sum of rho over all points, without the prior. Finds near points by comparing all pairs.
 double slow_cost(const SurfaceMap& map, const SurfacePoints& scan, const TPose2D& pose,
                  const SurfaceAlignmentOptions& options) {
   const auto& surface = map.index().points();
@@ -94,7 +94,7 @@ TEST(SurfaceAlignment, moves_a_scan_to_its_true_pose) {
   const TPose2D truth(3.1, 2.2, 0.55);
   const SurfacePoints scan = surface_points(scan_at(walls, truth, 0.005, 7));
   SurfaceAlignmentOptions options;
-  options.prior_sigma_m = 1;  // hardly any prior knowledge
+  options.prior_sigma_m = 1;  // a weak prior, which hardly matters
   options.prior_sigma_rad = 1;
   options.iterations = 10;
   for (const TPose2D& off : {TPose2D(0.04, 0, 0), TPose2D(-0.02, 0.03, 0.01), TPose2D(0, -0.04, -0.015)}) {
@@ -171,7 +171,7 @@ TEST(SurfacePoints, face_the_laser_that_saw_them) {
   scan.origin = {2, 0};
   scan.points = {{1, 0}, {1, 0}};
   scan.normals = {{1, 0}, {1, 0}};
-  scan.other_lasers.push_back({1, {-2, 0}});  // on the other side of the wall
+  scan.other_lasers.push_back({1, {-2, 0}});  // this laser is on the other side of the wall
   const SurfacePoints surfaces = surface_points(scan);
   ASSERT_EQ(surfaces.normals.size(), 2U);
   EXPECT_EQ(surfaces.normals[0].x, 1.0F);

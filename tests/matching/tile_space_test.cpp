@@ -20,14 +20,14 @@ Key key(const Tile& tile) {
   return {tile.theta, tile.block.first.x, tile.block.first.y};
 }
 
-// All tiles of a space, from all strings of bits; checks each of them.
+// Returns all tiles of a space by decoding all strings of bits. Checks each chromosome.
 std::map<Key, Tile> all_tiles(const TileSpace& space) {
   std::map<Key, Tile> tiles;
   std::map<Key, Chromosome> code_of;
   for (Chromosome chromosome = 0; chromosome < (Chromosome{1} << space.bits()); ++chromosome) {
     const Chromosome repaired = space.repaired(chromosome);
     EXPECT_EQ(code_of.emplace(key(space.tile(chromosome)), repaired).first->second, repaired)
-        << "a tile has one chromosome";
+        << "each tile has only one repaired chromosome";
     EXPECT_EQ(space.repaired(repaired), repaired);
     EXPECT_EQ(repaired >> space.bits(), 0U);
     EXPECT_EQ(key(space.tile(chromosome)), key(space.tile(repaired)));

@@ -17,19 +17,19 @@ struct LogOptions;
 struct MapperOptions;
 struct Settings;
 
-/// All settings of psi-slam: by default, from settings files, and changed one by one.
+/// Holds all settings of psi-slam. Every option starts with its default; load() and set() change values.
 ///
 ///     psi_slam::Configuration configuration;
 ///     configuration.load("my.ini");
 ///     configuration.set("map.resolution_m", "0.1");
 ///     psi_slam::MappingSession session("my.log", configuration);
 ///
-/// Pass it wherever the library expects options: MappingSession, Mapper, Localizer, open_log() and
-/// draw_grid_map() take their part of it. The manual page psi-slam.ini(5) lists all options with units,
-/// ranges and defaults.
+/// Pass a Configuration wherever the library expects options: MappingSession, Mapper, Localizer, open_log()
+/// and draw_grid_map() each read the options that they need. The manual page psi-slam.ini(5) lists all
+/// options with units, ranges and defaults.
 class Configuration {
  public:
-  /// Every option has its default.
+  /// Sets every option to its default.
   Configuration();
   /// Copies all values.
   Configuration(const Configuration& other);
@@ -37,23 +37,24 @@ class Configuration {
   Configuration& operator=(const Configuration& other);
   ~Configuration();
 
-  /// Takes the values of a settings file; other options keep theirs. Throws UserError with file and line for
-  /// an unknown section or key and for a value that its option does not accept. Then nothing has changed.
+  /// Loads the values of a settings file. Options that the file does not name keep their values. Throws
+  /// UserError with file and line for an unknown section or key, and for a value that its option does not
+  /// accept. After an error, all options keep their values.
   void load(const std::filesystem::path& ini);
 
-  /// Gives one option a value: set("map.resolution_m", "0.1"). Angles are in degrees, "auto" and "true" are
-  /// written as in a file. Throws UserError if there is no such option (with the nearest name), or if it does
-  /// not accept the value. Then nothing has changed.
+  /// Sets one option: set("map.resolution_m", "0.1"). Write the value as in a settings file: angles in
+  /// degrees, "auto", "true". Throws UserError if the option does not accept the value, or does not exist;
+  /// the message then suggests the nearest name. After an error, all options keep their values.
   void set(std::string_view name, std::string_view value);
 
-  /// Returns the present value of an option as text. Throws UserError if there is no such option.
+  /// Returns the current value of an option as text. Throws UserError if the option does not exist.
   std::string value(std::string_view name) const;
 
-  /// Returns a settings file of all options with help, unit, range, default and present value. Loading it
-  /// restores the present values exactly.
+  /// Returns the text of a settings file with all options: help, unit, range, default and current value.
+  /// Loading this text restores the current values exactly.
   std::string text() const;
 
-  /// Returns one sentence without full stop for each old name of an option that was used so far.
+  /// Returns one warning, a sentence without full stop, for each outdated option name used so far.
   const std::vector<std::string>& warnings() const;
 
   /// Throws UserError if two options contradict each other.

@@ -22,19 +22,18 @@ namespace psi_slam {
 /// the same order. All scans of one laser share them.
 using BeamBearings = std::shared_ptr<const std::vector<float>>;
 
-/// One planar range scan. `ranges_m[i]`, metres, was measured along `(*bearings_rad)[i]`. Only returns are
-/// finite. +infinity is no return: the reading was at or beyond the maximum range, so the beam met nothing up
-/// to there. NaN is an invalid reading, which says nothing: zero, negative, below the minimum range or
-/// flagged as invalid.
+/// One planar range scan. `ranges_m[i]`, metres, was measured along `(*bearings_rad)[i]`. A finite value is a
+/// return. +infinity means no return: the reading was at or beyond the maximum range. NaN means an invalid
+/// reading: zero, negative, below the minimum range or flagged as invalid.
 struct LaserScan {
   std::vector<float> ranges_m;  ///< one range for each beam, metres; infinity: no return; NaN: invalid
   BeamBearings bearings_rad;    ///< one bearing for each beam
-  float max_range_m = 0;        ///< maximum range of the sensor, metres: readings from here on are no returns
+  float max_range_m = 0;  ///< maximum range of the sensor, metres; readings at or beyond it are no returns
   mrpt::math::TPose2D robot_T_laser;  ///< pose of the laser on the robot
-  /// Time from the first beam to the last, seconds; the time stamp is the first beam's. 0: all beams at once,
-  /// or unknown.
+  /// Time from the first beam to the last, seconds. The time stamp belongs to the first beam. 0: all beams
+  /// are simultaneous, or the time is unknown.
   float sweep_time_s = 0;
-  std::size_t laser = 0;  ///< number of the laser among those that are read, from 0
+  std::size_t laser = 0;  ///< number of the laser among the lasers that are read, from 0
 };
 
 /// Scan of another laser of the robot, taken at nearly the time of a frame.
@@ -54,9 +53,9 @@ struct Frame {
   std::vector<CompanionScan> companions{};  ///< scans of later lasers, ordered by LaserScan::laser
 };
 
-/// Calls `take(scan, map_T_robot)` for each scan of a frame, with the robot's pose when that scan was taken.
-/// The argument `map_T_robot` is the pose at the frame's time. The beams of a scan start at the position of
-/// map_T_robot + scan.robot_T_laser.
+/// Calls `take(scan, map_T_robot)` for each scan of a frame, with the robot's pose at the time of that scan.
+/// The parameter `map_T_robot` is the robot's pose at the frame's time. The beams of a scan start at the
+/// position of map_T_robot + scan.robot_T_laser.
 template <class Take>
 void for_each_scan(const Frame& frame, const mrpt::math::TPose2D& map_T_robot, Take take) {
   take(frame.scan, map_T_robot);

@@ -12,20 +12,21 @@
 namespace psi_slam {
 
 /// Parts of a log that the reader skipped: messages that do not parse and odometry without a valid pose.
-/// Long-running programs write a few such messages. Spare scans are counted separately; they are no fault.
+/// Logs of long recordings usually hold a few such messages. Spare scans are counted separately, because they
+/// are not errors.
 struct SkippedLines {
-  std::size_t count = 0;        ///< skipped messages
-  std::string first;            ///< "path:line: ...": place and fault of the first skipped message
-  std::size_t spare_scans = 0;  ///< scans of later lasers that joined no frame
+  std::size_t count = 0;        ///< number of skipped messages
+  std::string first;            ///< "path:line: ...": place and error of the first skipped message
+  std::size_t spare_scans = 0;  ///< number of scans of companion lasers that joined no frame
 
-  /// One sentence without its full stop; empty if no message was skipped.
+  /// Returns one sentence without its full stop; empty if no message was skipped.
   std::string sentence() const {
     if (count == 0) return {};
     if (count == 1) return "1 message of the log does not parse and is skipped: " + first;
     return std::to_string(count) + " messages of the log do not parse and are skipped, the first: " + first;
   }
 
-  /// Sum over two logs that are read one after the other.
+  /// Adds the skipped parts of two logs that are read one after the other.
   friend SkippedLines operator+(SkippedLines first_log, const SkippedLines& second_log) {
     if (first_log.count == 0) first_log.first = second_log.first;
     first_log.count += second_log.count;
@@ -48,7 +49,7 @@ class FrameSource {
   /// Fraction of the log that has been read, in [0, 1], by bytes of the file on disk.
   virtual double progress() const = 0;
 
-  /// What the reader has skipped so far.
+  /// Returns what the reader has skipped so far.
   virtual SkippedLines skipped_lines() const { return {}; }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Adapters for MRPT's graph-slam engine: the front end as a node registration decider, loop closing as an
-/// edge registration decider, and sparse pose adjustment as an optimizer.
+/// Adapters for MRPT's graph-slam engine. The front end becomes a node registration decider, loop closing an
+/// edge registration decider, and sparse pose adjustment an optimizer.
 ///
 ///     connect_deciders(node_decider, edge_decider, optimizer);
 ///     mrpt::graphslam::CGraphSlamEngine<MrptGraph> engine(ini, rawlog, "", nullptr, &node_decider, ...);
@@ -38,15 +38,16 @@ using EdgeDecider = mrpt::graphslam::deciders::CEdgeRegistrationDecider<MrptGrap
 /// Base class of optimizers.
 using GraphOptimizer = mrpt::graphslam::optimizers::CGraphSlamOptimizer<MrptGraph>;
 
-/// Data that the three classes share; connect_deciders() gives all of them the same.
+/// Map data of the node decider, the edge decider and the optimizer. connect_deciders() makes them share one
+/// object.
 struct SharedMap;
 
 /// Matches each scan with the active local map. Registers a node when the robot has moved or turned enough.
 ///
 /// The edges of a node lead to the anchors of the local maps that hold its scan, not to the node before.
-/// Scans matched with one map share its errors, so additional edges between neighbours would count them
-/// twice. The engine takes the first two nodes together and then one node per entry; a second node that is
-/// ready waits for the next entry.
+/// Scans matched with one local map share its errors, so edges between successive nodes would count these
+/// errors twice. The engine takes the first two nodes together, then one node per entry. If an entry yields a
+/// second node, that node waits for the next entry.
 class CPsiFrontEndNRD : public NodeDecider {
  public:
   CPsiFrontEndNRD();
@@ -57,29 +58,33 @@ class CPsiFrontEndNRD : public NodeDecider {
   /// Prints the options in use.
   void printParams() const override;
 
-  /// Replaces the log options of the `.ini` file, for entries made from a log that was already read.
+  /// Replaces the log options of the `.ini` file. Use it if the entries were converted from frames that
+  /// open_log() read.
   void set_log_options(const LogOptions& options);
 
-  /// Throws UserError if a scan has no time stamp or no rays, its laser is tilted, or odometry is missing.
+  /// Matches the scans of one entry. Returns true if a node was registered. Throws UserError if a scan has no
+  /// time stamp or no rays, its laser is tilted, or odometry is missing.
   bool updateState(mrpt::obs::CActionCollection::Ptr action, mrpt::obs::CSensoryFrame::Ptr observations,
                    mrpt::obs::CObservation::Ptr observation) override;
-  /// Appends the state of the object as text for people.
+  /// Appends the state of the node decider as readable text.
   void getDescriptiveReport(std::string* report_str) const override;
 
-  /// Maps the scans that still wait, and finishes the active local maps. Call after the last entry.
+  /// Maps the scans that still wait for odometry or a companion scan, and finishes the active local maps.
+  /// Call after the last entry.
   void finish();
 
-  /// All scans, with poses from the nodes of the graph.
+  /// Returns the records of all scans, with poses interpolated between the nodes of the graph.
   std::vector<FrameRecord> frames() const;
 
-  /// Number of scans that could not be matched; their poses come from odometry.
+  /// Number of scans that were not matched; their poses come from odometry. Includes the first scan of a log.
   std::size_t unmatched() const;
 
-  /// The data that connect_deciders() hands to the other classes.
+  /// The map data that connect_deciders() passes to the edge decider and the optimizer.
   const std::shared_ptr<SharedMap>& shared_map() const { return map_; }
 
  protected:
-  /// Registers the scan matched last, unless it is the very first.
+  /// Returns true if the last scan became a node that the engine must register now. Returns false for the
+  /// first node, which the engine registers together with the second.
   bool checkRegistrationCondition() override;
 
  private:
@@ -92,10 +97,11 @@ class CPsiFrontEndNRD : public NodeDecider {
 };
 
 /// Matches each new node with the local maps near it by the matcher that the factor Psi chooses, and verifies
-/// the match. A match in a wide window waits until others agree. Needs the local maps of CPsiFrontEndNRD.
+/// the match. A match in a wide window waits until other matches agree. Needs the local maps of
+/// CPsiFrontEndNRD.
 ///
-/// The engine does not tell when a log ends: call finish_deciders() then. Without it the final loop search is
-/// missing.
+/// The engine does not signal the end of a log. Call finish_deciders() after the last entry; otherwise the
+/// final loop search is missing.
 class CPsiLoopCloserERD : public EdgeDecider {
  public:
   CPsiLoopCloserERD();
@@ -106,24 +112,25 @@ class CPsiLoopCloserERD : public EdgeDecider {
   /// Prints the options in use.
   void printParams() const override;
 
-  /// Takes the map of CPsiFrontEndNRD. Call before the first entry.
+  /// Takes the shared map data of CPsiFrontEndNRD. Call before the first entry.
   void share(std::shared_ptr<SharedMap> map) { map_ = std::move(map); }
 
-  /// Throws UserError if there is no shared map.
+  /// Closes the loops of the new nodes. Throws UserError if share() was not called.
   bool updateState(mrpt::obs::CActionCollection::Ptr action, mrpt::obs::CSensoryFrame::Ptr observations,
                    mrpt::obs::CObservation::Ptr observation) override;
 
   /// Sets "LC" and "ICP2D", the engine's names for loops, to the number of accepted loops.
   void getEdgesStats(std::map<std::string, int>* edge_type_to_num) const override;
-  /// Appends the state of the object as text for people.
+  /// Appends the state of the edge decider as readable text.
   void getDescriptiveReport(std::string* report_str) const override;
 
   /// Runs the final loop search, removes outlier loops, and refines the scans of all nodes jointly. Call
   /// after the last entry and the node decider's finish(). Without CPsiSpaGSO it only refuses pending loops.
-  /// `progress` gets the share done; if it returns false, the remaining steps are left out.
+  /// `progress` gets the completed share of the work, in [0, 1]; if it returns false, the remaining steps are
+  /// skipped.
   void finish(const std::function<bool(double)>& progress = {});
 
-  /// All attempts to close loops.
+  /// Returns the records of all attempts to close loops.
   const std::vector<LoopRecord>& loops() const;
   /// Number of loops that are constraints of the graph.
   std::size_t accepted_loops() const;
@@ -137,11 +144,12 @@ class CPsiLoopCloserERD : public EdgeDecider {
   std::shared_ptr<SharedMap> map_;
 };
 
-/// Sparse pose adjustment for the edges of any deciders. Optimises at once when the graph contradicts a new
-/// edge by five or more standard deviations; for smaller residuals after the graph has grown by a thousandth.
+/// Optimises the graph by sparse pose adjustment, for the edges of any deciders. Optimises at once when the
+/// graph contradicts a new edge by five or more standard deviations. Smaller residuals wait until the graph
+/// has grown by a thousandth.
 ///
-/// The engine resets all poses after each new node. Optimised poses return with the next entry, and with
-/// finish() after the last one.
+/// The engine resets all poses after each new node. The next entry restores the optimised poses; finish()
+/// restores them after the last entry.
 class CPsiSpaGSO : public GraphOptimizer {
  public:
   CPsiSpaGSO();
@@ -152,19 +160,20 @@ class CPsiSpaGSO : public GraphOptimizer {
   /// Prints the options in use.
   void printParams() const override;
 
-  /// Takes the map of CPsiFrontEndNRD. Call before loadParams().
+  /// Takes the shared map data of CPsiFrontEndNRD. Call before loadParams().
   void share(std::shared_ptr<SharedMap> map);
 
-  /// Throws UserError if nodes are not numbered from 0 without a gap, or a node is not linked to the root.
+  /// Optimises the graph if new edges make it necessary. Throws UserError if nodes are not numbered from 0
+  /// without a gap, or if a node is not linked to the root.
   bool updateState(mrpt::obs::CActionCollection::Ptr action, mrpt::obs::CSensoryFrame::Ptr observations,
                    mrpt::obs::CObservation::Ptr observation) override;
   /// Whether the last updateState() optimised the graph.
   bool justFullyOptimizedGraph() const override;
-  /// Appends the state of the object as text for people.
+  /// Appends the state of the optimizer as readable text.
   void getDescriptiveReport(std::string* report_str) const override;
 
-  /// Optimises if constraints came since the last time, and leaves the poses in the graph. Call after the
-  /// last entry.
+  /// Optimises the graph if edges were added since the last optimisation, and writes the poses to the graph.
+  /// Call after the last entry.
   void finish();
 
  protected:
@@ -177,12 +186,12 @@ class CPsiSpaGSO : public GraphOptimizer {
   std::shared_ptr<SharedMap> map_;
 };
 
-/// Lets those of the three that are of psi-slam share one map. Throws UserError if the edge decider is
-/// CPsiLoopCloserERD and the node decider is not CPsiFrontEndNRD.
+/// Makes the psi-slam classes among the three arguments share one map. Throws UserError if the edge decider
+/// is CPsiLoopCloserERD and the node decider is not CPsiFrontEndNRD.
 void connect_deciders(NodeDecider& node_decider, EdgeDecider& edge_decider, GraphOptimizer& optimizer);
 
-/// Finishes those of the three that are of psi-slam. Call after the last entry, when the engine is at rest.
-/// `progress` is that of CPsiLoopCloserERD::finish().
+/// Finishes the psi-slam classes among the three arguments. Call after the last entry, when the engine is
+/// idle. `progress` is passed to CPsiLoopCloserERD::finish().
 void finish_deciders(NodeDecider& node_decider, EdgeDecider& edge_decider, GraphOptimizer& optimizer,
                      const std::function<bool(double)>& progress = {});
 

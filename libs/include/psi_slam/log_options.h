@@ -13,20 +13,20 @@ namespace psi_slam {
 
 /// How n beams divide a field of view F. Bearings run counter-clockwise from the right.
 enum class BeamAngles {
-  kAuto,                  ///< as the log states; if it does not, see usual_beam_angles()
-  kCentredStepInclusive,  ///< -F/2 ... +F/2 in steps F/(n-1): a beam at either end
+  kAuto,                  ///< as the log states, otherwise as usual for the number of beams
+  kCentredStepInclusive,  ///< -F/2 ... +F/2 in steps F/(n-1): a beam at each end
   kCentredHalfStep,       ///< -F/2 + s/2 ... +F/2 - s/2 in steps s = F/n (180 beams: -89.5 ... +89.5 degrees)
   kLeftOpen,              ///< -F/2 ... +F/2 - s in steps s = F/n (180 beams: -90 ... +89 degrees)
   kSkipZero,              ///< as kLeftOpen without the beam at 0 (180 beams: -90 ... -1, +1 ... +90 degrees)
 };
 
-/// What the user states about a log of any format. The log itself provides what the user does not state. If
-/// the log does not state it either, the convention of its format applies, as described at each member.
+/// Options for reading a log of any format. A member without a value takes the value that the log states. If
+/// the log states none, the default described at the member applies.
 struct LogOptions {
-  /// Pose of the laser on the robot, metres and radians; for a single laser. Default: the log's own.
+  /// Pose of the laser on the robot, metres and radians; only for a single laser. Default: as the log states.
   /// CARMEN: PARAM robot_frontlaser_offset and its kind, or the difference of the poses of raw ROBOTLASER
-  /// lines. Rawlog: the pose of the sensor. ROS: the transforms. In a CARMEN log without a statement, the
-  /// front laser is at the robot's centre, and the rear laser is there too and looks backwards.
+  /// lines. Rawlog: the pose of the sensor. ROS: the transforms. If a CARMEN log states none, both lasers are
+  /// at the robot's centre, and the rear laser looks backwards.
   std::optional<mrpt::math::TPose2D> robot_T_laser;
 
   /// How the beams divide the field of view. Default: as the log states, otherwise the usual convention for
@@ -37,14 +37,14 @@ struct LogOptions {
   /// for the number of beams.
   std::optional<double> field_of_view_rad;
 
-  /// Maximum range, metres: readings at or beyond it are no returns. Default: as the log states. If it states
-  /// none, `kUnstatedMaxRange_m`; for CARMEN logs more if their readings go farther, see carmen_lasers.h.
+  /// Maximum range, metres: readings at or beyond it are no returns. Default: as the log states, otherwise
+  /// `kUnstatedMaxRange_m`. Longer readings of a CARMEN log raise this default, see carmen_lasers.h.
   std::optional<double> max_range_m;
 
-  /// Minimum range, metres: readings below it are invalid, for a robot that sees its own bumper.
+  /// Minimum range, metres: readings below it are invalid. Use it if the laser sees the robot's own bumper.
   double min_range_m = 0;
 
-  /// The readings run clockwise: a laser is mounted upside down and the log does not say so.
+  /// True: the readings run clockwise, because the laser is mounted upside down and the log does not say so.
   bool mirrored = false;
 
   /// Which laser to read. CARMEN: "front", "rear" or a message name such as "RAWLASER2". Rawlog: a sensor
@@ -52,9 +52,9 @@ struct LogOptions {
   /// Default: CARMEN: the front laser if there is one; rawlog: the first laser; ROS: the only topic of scans.
   std::string laser;
 
-  /// Poses of lasers that the log states wrongly or not at all: "NAME X Y YAW" in metres and degrees,
-  /// followed by "mirrored" if the laser is mounted upside down; several separated by commas. Names are those
-  /// of `laser`. `robot_T_laser` overrides this option.
+  /// Poses of lasers that the log states wrongly or not at all: "NAME X Y YAW" in metres and degrees. Append
+  /// "mirrored" if the laser is mounted upside down. Separate several lasers by commas. Names are those of
+  /// `laser`. `robot_T_laser` overrides this option.
   std::string laser_mounts;
 
   /// Time from the first beam of a scan to its last, seconds, in [0, 1]. The robot's motion during this time
@@ -65,28 +65,28 @@ struct LogOptions {
   // The next four options apply to ROS bags only. If empty, the reader finds topics by their types and frames
   // by the transforms.
 
-  /// Topic of the scans (sensor_msgs/LaserScan), or several as in `laser`, which this option overrides.
+  /// Topic of the scans (sensor_msgs/LaserScan), or several topics separated by commas. Overrides `laser`.
   std::string scan_topic;
 
   /// Topic of the odometry (nav_msgs/Odometry). A topic of transforms ("/tf") selects the transform from
   /// odom_frame to base_frame instead.
   std::string odometry_topic;
 
-  /// Frame in which odometry is given. Default: the nearest frame above the laser whose name contains "odom".
+  /// Frame of the odometry poses. Default: the nearest frame above the laser whose name contains "odom".
   std::string odom_frame;
 
-  /// Frame of the robot, which odometry moves. Default: the child frame of the odometry messages, or of the
-  /// transform from odom_frame.
+  /// Frame of the robot, whose pose odometry measures. Default: the child frame of the odometry messages, or
+  /// of the transform from odom_frame.
   std::string base_frame;
 
   /// Reads every nth scan; 1 reads all. Each scan keeps the odometry of its own time.
   std::size_t every_nth_scan = 1;
 };
 
-/// Smallest maximum range, metres, for logs that state none.
+/// Maximum range, metres, for logs that state none; longer readings of CARMEN logs raise it.
 inline constexpr double kUnstatedMaxRange_m = 50.0;
 
-/// Throws UserError that names the first option with an invalid value.
+/// Checks the options. Throws UserError that names the first option with an invalid value.
 void check_log_options(const LogOptions& options);
 
 }  // namespace psi_slam

@@ -6,8 +6,8 @@
 ///     for each scan:  const psi_slam::FrameRecord& record = mapper.add(frame);
 ///     psi_slam::MappingResult result = mapper.finish();
 ///
-/// Front end, local maps, loop closing and pose graph work together here. The command line, the window and
-/// CMetricMapBuilderPsi all drive this class. It reads and writes no files.
+/// Mapper combines the front end, local maps, loop closing and the pose graph. The command line, the window
+/// and CMetricMapBuilderPsi all use it. It reads and writes no files.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -29,33 +29,34 @@ struct KeyframeStore;
 struct MapperOptions;
 struct PlacedLocalMap;
 
-/// Where a run begins in a map made before, relative to a node of the graph. No odometry connects the run to
+/// Start of another run in an existing map, relative to a node of the graph. No odometry connects the run to
 /// the map.
 struct RunStart {
-  std::size_t node = 0;              ///< node of the map
-  mrpt::math::TPose2D node_T_robot;  ///< robot at the start of the run, relative to the node
-  /// Pose at which the place was found, relative to the start of the run. There the pose is known best.
+  std::size_t node = 0;              ///< node of the existing map, near the start of the run
+  mrpt::math::TPose2D node_T_robot;  ///< pose of the robot at the start of the run, in the frame of the node
+  /// Pose of the robot when its place in the map was found, in the frame of its start pose. The place in the
+  /// map is known best at this pose.
   mrpt::math::TPose2D robot_T_found;
 };
 
 /// Outcome of an edit.
 struct LoopEditOutcome {
-  /// What happened to the edit.
+  /// State of an edit.
   enum class State {
     kDone,        ///< the loop is changed
-    kWaits,       ///< until its scan, local map or match exists
-    kImpossible,  ///< nothing was changed
+    kWaits,       ///< the edit waits until its scan, local map or match exists
+    kImpossible,  ///< the edit cannot be made; nothing was changed
   };
-  State state = State::kDone;  ///< what happened to the edit
+  State state = State::kDone;  ///< state of the edit
   std::string reason;          ///< why the edit is not done, as a clause
 };
 
 /// Maps scans with odometry, one by one, into a pose graph.
 class Mapper {
  public:
-  /// Maps with the default options.
+  /// Creates a mapper with the default options.
   Mapper();
-  /// Maps with the given options: pass a Configuration.
+  /// Creates a mapper with the given options: pass a Configuration.
   explicit Mapper(const MapperOptions& options);
   ~Mapper();
   /// Moves the mapper. The moved-from mapper can only be assigned to or destroyed.
@@ -63,41 +64,41 @@ class Mapper {
   /// Moves the mapper. The moved-from mapper can only be assigned to or destroyed.
   Mapper& operator=(Mapper&& other) noexcept;
 
-  /// The per-scan step. Takes frames in the log's order and returns the record of this frame so far. The
-  /// reference is valid until the next call.
+  /// Maps one frame and returns its record. Call it for all frames in the order of the log. finish()
+  /// completes the record. The reference is valid until the next call of a non-const function.
   const FrameRecord& add(Frame frame);
 
-  /// Begins another run: the next frame starts at about this place. Loops join the run to the map. The
-  /// odometry in its records continues from there, see FrameRecord::odom_T_robot.
+  /// Begins another run, whose first frame is near `start`. Loops join the run to the map. In the records of
+  /// the run, odometry continues from `start`, see FrameRecord::odom_T_robot.
   void begin_run(const RunStart& start);
 
   /// Changes a loop by hand and optimises the graph. An edit waits if its scan, its local map or the match to
-  /// force does not exist yet. The next edit of the same scan and local map replaces it.
+  /// force does not exist yet. A later edit of the same scan and local map replaces the waiting edit.
   LoopEditOutcome edit(const LoopEdit& edit);
 
-  /// What would prevent an edit now. Changes nothing. `frames` are frames() or, after finish(), those of the
-  /// result.
+  /// Returns whether an edit could be made now, and if not, why. Changes nothing. Pass frames() as `frames`
+  /// or, after finish(), the frames of the result.
   LoopEditOutcome judge(const LoopEdit& edit, const std::vector<FrameRecord>& frames) const;
 
-  /// Finishes the active local maps. Call after the last scan; finish() does so too.
+  /// Finishes the active local maps. Call after the last scan, unless finish() follows at once.
   void end_log();
 
-  /// What remains possible after finish().
+  /// Functions that remain available after finish().
   enum class AfterFinish {
     kNothing,  ///< only graph() may be called afterwards
-    kReopen,   ///< reopen() is possible; costs the memory of a second graph
+    kReopen,   ///< reopen() may be called too; needs the memory of a second graph
   };
   /// Finishes the map: final loop search, optimisation and joint refinement of all scans. `progress` gets the
-  /// share done, in [0, 1]. If it returns false, the remaining steps are left out, and the result says that
-  /// it was cut short.
+  /// completed share of the work, in [0, 1]. If it returns false, the remaining steps are skipped, and
+  /// MappingResult::final_search_cut_short is true.
   MappingResult finish(const std::function<bool(double)>& progress = {},
                        AfterFinish after = AfterFinish::kNothing);
 
-  /// Restores the state before finish(), so that loops can be edited and the map be finished again. `result`
-  /// is what finish() returned; it must have been called with AfterFinish::kReopen.
+  /// Restores the state before finish(). Then loops can be edited, and the map can be finished again. Needs a
+  /// call of finish() with AfterFinish::kReopen; pass its return value as `result`.
   void reopen(MappingResult&& result);
 
-  /// Current pose of the robot in the map.
+  /// Pose of the robot in the map at the last frame; zero before the first frame.
   mrpt::math::TPose2D map_T_robot() const;
   /// Pose graph so far.
   const PoseGraph& graph() const;
@@ -109,9 +110,9 @@ class Mapper {
   const std::vector<std::size_t>& later_run_frames() const;
   /// Attempts to close loops so far.
   const std::vector<LoopRecord>& loops() const;
-  /// Nodes with their scans and local maps; its type is internal.
+  /// Keyframe store: the nodes with their scans, and the finished local maps. Its type is internal.
   const KeyframeStore& keyframes() const;
-  /// The local maps that scans are inserted into, older first, at most two; their type is internal.
+  /// The at most two local maps that scans are inserted into, older first. Their type is internal.
   const std::vector<PlacedLocalMap>& active_local_maps() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The result of a mapping run: plain values that exports, reports and views read.
+/// The result of mapping: plain values that exports, reports and views read.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -21,61 +21,61 @@ namespace psi_slam {
 
 /// Whether the front end matched a scan with a local map.
 enum class ScanMatch {
-  kNoMap,      ///< there was nothing to match with: the first scan of a run
+  kNoMap,      ///< no local map existed yet: the first scan of a run
   kMatched,    ///< the match gives the pose
   kUnmatched,  ///< odometry, or constant velocity without odometry, gives the pose
 };
 
-/// What happened to one scan of the log.
+/// Poses, matches, loops and times of one scan of the log.
 struct FrameRecord {
   TimeUs time_us = 0;  ///< time of the scan, microseconds
-  /// Raw odometry; without odometry the front end's pose. Odometry of a later run continues from the place in
-  /// the map where that run begins.
+  /// Pose by odometry; if there is none, the front end's pose. Odometry of a later run continues from the
+  /// place in the map where that run begins.
   mrpt::math::TPose2D odom_T_robot;
   mrpt::math::TPose2D front_end_T_robot;  ///< the front end's pose, without loop closing
-  /// The result. finish() refines it with the scans nearby, see refine_jointly().
+  /// Pose of the robot in the map. Mapper::finish() corrects and refines it.
   mrpt::math::TPose2D map_T_robot;
-  std::optional<std::size_t> node;  ///< its node in the graph, if it became one
+  std::optional<std::size_t> node;  ///< node of this scan in the pose graph; empty if it is no node
 
   ScanMatch match = ScanMatch::kNoMap;  ///< whether the scan was matched with a local map
 
-  double response = 0;    ///< of the front end's match, in [0, 1]; 0 if it was not matched
-  SearchExtent window;    ///< the front end's search window (half-widths)
-  double psi = 0;         ///< equation 13, before the loops of this frame
-  double eta = 0;         ///< equation 14
+  double response = 0;    ///< response of the front end's match, in [0, 1]; 0 without a match
+  SearchExtent window;    ///< half-widths of the front end's search window
+  double psi = 0;         ///< factor Psi (equation 13), before the loops of this frame
+  double eta = 0;         ///< factor eta (equation 14)
   double mean_loops = 0;  ///< the mean of C_i in equation 13
-  int loops_tried = 0;    ///< local maps matched with this frame to close a loop
-  /// C_i of equation 13: loops that became constraints at this frame, found here or confirmed here. Loops
-  /// that are switched off later count too.
+  int loops_tried = 0;    ///< number of local maps matched with this frame to close loops
+  /// C_i of equation 13: number of loops that became constraints at this frame. Includes pending loops of
+  /// earlier frames that this frame confirmed, and loops that are switched off later.
   int loops_accepted = 0;
-  std::optional<MatcherKind> matcher;  ///< that searches for loops at this frame; none at other frames
-  std::int64_t loop_evaluations = 0;   ///< poses scored to close loops
-  std::int64_t evaluations = 0;        ///< poses scored by loop closing and the front end
+  std::optional<MatcherKind> matcher;  ///< matcher chosen for the loops of this frame; empty if it is no node
+  std::int64_t loop_evaluations = 0;   ///< number of poses scored to close loops
+  std::int64_t evaluations = 0;        ///< number of poses scored by loop closing and the front end
 
-  double front_end_ms = 0;      ///< matching and insertion into the local maps
-  double loop_matching_ms = 0;  ///< sum over the matches, which may run at the same time
-  double loop_closing_ms = 0;   ///< wall time, candidates and verification included
-  double pose_graph_ms = 0;     ///< optimisation of the graph
+  double front_end_ms = 0;      ///< time of matching and of insertion into the local maps
+  double loop_matching_ms = 0;  ///< time of loop matching, summed over matches that may run in parallel
+  double loop_closing_ms = 0;   ///< wall time of loop closing, with candidates and verification
+  double pose_graph_ms = 0;     ///< time of optimising the graph
 };
 
-/// What one matcher did to close loops, over the whole run.
+/// Loop searches of one matcher, over the whole mapping.
 struct LoopMatcherRecord {
   LoopEffort effort;                         ///< cost of all its searches
   LoopEffort final_search_effort;            ///< part of `effort` spent in the final search
-  std::size_t accepted = 0;                  ///< constraints in the finished graph
+  std::size_t accepted = 0;                  ///< accepted loops in the finished graph
   std::size_t accepted_in_final_search = 0;  ///< part of `accepted` found in the final search
 };
 
-/// One local map: its anchor node and the nodes whose scans it holds, [first_node, last_node].
+/// Node numbers of one local map.
 struct LocalMapRecord {
-  std::size_t anchor = 0;      ///< node that carries the frame of the local map
-  std::size_t first_node = 0;  ///< first node whose scan it holds
-  std::size_t last_node = 0;   ///< last node whose scan it holds
+  std::size_t anchor = 0;      ///< node whose pose is the frame of the local map
+  std::size_t first_node = 0;  ///< first node whose scan the map holds
+  std::size_t last_node = 0;   ///< last node whose scan the map holds
 };
 
 /// Time spent in one stage of the work, over all its calls.
 struct StageTiming {
-  std::string name;       ///< for people: "match scan to local map"
+  std::string name;       ///< label of the stage, such as "match and insert scan"
   std::size_t calls = 0;  ///< number of calls
   double mean_ms = 0;     ///< mean time of a call
   double std_ms = 0;      ///< standard deviation of the time of a call
@@ -86,28 +86,28 @@ struct StageTiming {
 
 /// Thresholds of the factor Psi, see PsiOptions.
 struct PsiThresholds {
-  double psi_1 = 0;  ///< up to this Psi, loops are searched exhaustively
-  double psi_2 = 0;  ///< from this Psi on, loops are searched genetically
+  double psi_1 = 0;  ///< up to this Psi, kCsm searches for loops
+  double psi_2 = 0;  ///< from this Psi on, kGa searches for loops
 };
 
-/// A finished map: scans, poses, graph and loops, and how they came about.
+/// A finished map: scans, poses, graph and loops, with statistics of the mapping.
 struct MappingResult {
-  std::vector<Frame> log;           ///< the scans themselves, same order and count as `frames`
+  std::vector<Frame> log;           ///< all scans, in the same order as `frames`
   std::vector<FrameRecord> frames;  ///< one record for each scan, with its pose in the map
-  /// Optimised, then refined with the scans. Optimising the graph again undoes that refinement.
+  /// Pose graph, optimised and then refined with the scans. Optimising it again undoes the refinement.
   PoseGraph graph;
-  std::vector<std::size_t> node_frames;       ///< the frame of each node
-  std::vector<std::size_t> later_run_frames;  ///< the first frame of each run after the first
-  std::vector<LocalMapRecord> local_maps;     ///< all local maps, in the order of their beginnings
-  std::vector<LoopRecord> loops;              ///< all attempts to close loops that found a match
-  std::vector<std::string> unmet_edits;       ///< edits that could not be made, a sentence each
+  std::vector<std::size_t> node_frames;       ///< frame number of each node
+  std::vector<std::size_t> later_run_frames;  ///< number of the first frame of each run after the first
+  std::vector<LocalMapRecord> local_maps;     ///< all local maps, in the order in which they began
+  std::vector<LoopRecord> loops;              ///< all attempts to close loops; see LoopRecord
+  std::vector<std::string> unmet_edits;       ///< edits that could not be made, one sentence each
   PsiThresholds psi;                          ///< thresholds that chose the matchers
-  std::map<MatcherKind, LoopMatcherRecord> loop_matchers;  ///< of the matchers that were used
+  std::map<MatcherKind, LoopMatcherRecord> loop_matchers;  ///< for each matcher that was used
   std::vector<StageTiming> stages;                         ///< times of the stages of the work
-  double wall_s = 0;                                       ///< of the whole run so far, loading included
-  bool interrupted = false;               ///< stopped before the log's end, or final search cut short
-  bool final_search_cut_short = false;    ///< pairs were left untried, or scans unrefined
-  std::optional<std::string> broken_off;  ///< what is wrong with the log after its last scan, as a sentence
+  double wall_s = 0;                      ///< wall time of the mapping so far, loading included
+  bool interrupted = false;               ///< stopped before the end of the log, or finish() cut short
+  bool final_search_cut_short = false;    ///< true: finish() skipped loop searches or the refinement
+  std::optional<std::string> broken_off;  ///< damage of the log after its last readable scan, as a sentence
 };
 
 /// Consecutive frames, [begin, end).
@@ -116,12 +116,12 @@ struct FrameSpan {
   std::size_t end = 0;    ///< frame after the last
 };
 
-/// The frames of each run: one span unless several runs were merged.
+/// Returns the frames of each run: one span unless several runs were merged.
 std::vector<FrameSpan> runs_of(const MappingResult& result);
-/// The frames of each run among the first `frames`. `later_run_frames` is as in MappingResult.
+/// Returns the frames of each run, for `frames` frames in total. `later_run_frames` is as in MappingResult.
 std::vector<FrameSpan> runs_of(std::size_t frames, const std::vector<std::size_t>& later_run_frames);
 
-/// The number of the first run that no chain of loops joins to run 0; none if all are joined.
+/// Returns the number of the first run that no chain of loops joins to run 0; empty if all runs are joined.
 std::optional<std::size_t> unjoined_run(const MappingResult& result);
 
 }  // namespace psi_slam

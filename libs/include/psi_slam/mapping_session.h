@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// One run from a log to a map. psi-slam and psi-slam-gui both drive this class scan by scan.
+/// Maps a log from its first scan to the finished map. psi-slam and psi-slam-gui both drive this class scan
+/// by scan.
 ///
 ///     psi_slam::Configuration configuration;
 ///     psi_slam::MappingSession session("my.log", configuration);
@@ -39,23 +40,23 @@ struct TimedEdit;
 struct SessionProgress {
   /// Part of the work.
   enum class Phase {
-    kMapping,      ///< reads the log and maps its scans
-    kFinalSearch,  ///< final loop search, last optimisation and final scan refinement
-    kWriting,      ///< draws the map and writes all files
+    kMapping,      ///< reading the log and mapping its scans
+    kFinalSearch,  ///< final loop search, last optimisation and joint refinement
+    kWriting,      ///< drawing the map and writing all files
   };
 
-  Phase phase = Phase::kMapping;      ///< present part of the work
-  double share = 0;                   ///< done of the phase, in [0, 1]; while mapping, of the log
-  std::size_t scans = 0;              ///< mapped so far
-  double scans_per_s = 0;             ///< average over elapsed_s
-  double elapsed_s = 0;               ///< time of work, without pauses between calls
-  std::optional<double> remaining_s;  ///< estimate for the phase; empty while share is 0
+  Phase phase = Phase::kMapping;  ///< current part of the work
+  double share = 0;        ///< completed share of the phase, in [0, 1]; while mapping, share of the log read
+  std::size_t scans = 0;   ///< number of scans mapped so far
+  double scans_per_s = 0;  ///< scans mapped per second, averaged over elapsed_s
+  double elapsed_s = 0;    ///< working time, without the pauses between calls
+  std::optional<double> remaining_s;  ///< estimated rest of the phase; empty while share is 0
 };
 
 /// Content of a session file that was written.
 struct SavedSession {
-  std::size_t scans = 0;  ///< all recorded scans, even if not all were mapped again
-  std::string remark;     ///< what the file lacks, a sentence without full stop; empty if nothing
+  std::size_t scans = 0;  ///< number of saved scans, including recorded scans not mapped again
+  std::string remark;     ///< what the file lacks, a sentence without full stop; empty if complete
 };
 
 /// Maps a log, a recorded session, or a recorded session and a log that continues it. A resumed session
@@ -66,13 +67,13 @@ class MappingSession {
   /// Function that receives the progress.
   using Observer = std::function<void(const SessionProgress&)>;
 
-  /// Opens a log. Throws UserError if it is unreadable or if settings contradict each other. warnings() holds
-  /// those of the configuration.
+  /// Opens a log. Throws UserError if it is unreadable or if settings contradict each other. warnings()
+  /// includes the warnings of the configuration.
   MappingSession(const std::filesystem::path& log, const Configuration& configuration);
   /// Opens a log. Throws UserError if it is unreadable or if settings contradict each other.
   MappingSession(const std::filesystem::path& log, const Settings& settings);
-  /// Opens a log or a recorded session. Throws UserError as the constructor for logs. warnings() begins with
-  /// `settings_warnings`.
+  /// Opens a log or a recorded session. Throws UserError like the constructor for logs. warnings() begins
+  /// with `settings_warnings`.
   MappingSession(const SessionInput& input, const Settings& settings,
                  std::vector<std::string> settings_warnings = {});
   ~MappingSession();
@@ -80,7 +81,7 @@ class MappingSession {
   MappingSession& operator=(const MappingSession&) = delete;
 
   /// Sets the function that is called after every scan, at the start of every phase and sometimes within a
-  /// phase, in the thread that drives the session.
+  /// phase. It is called in the thread that drives the session.
   void set_observer(Observer observer);
 
   /// Maps the next scan. Returns false at the end of the log and where the log is damaged (see broken_off()).
@@ -91,50 +92,52 @@ class MappingSession {
   const std::optional<std::string>& broken_off() const;
   /// Whether the current log or one before it is damaged.
   bool breaks_off() const;
-  /// What is missing of the logs before the current one, a sentence each: damage, or scans left unread.
+  /// Warnings about the logs before the current one, one sentence each: damage, or scans that were not read.
   std::vector<std::string> warnings_of_logs_before() const;
-  /// Lines and scans that were skipped in all logs read so far.
+  /// Messages and scans that were skipped in all logs read so far.
   SkippedLines skipped_lines() const;
 
-  /// Adds edits, each made at its time, to those of the input. Call before the first step().
+  /// Adds planned edits to the edits of the input; each is made at its time. Call before the first step().
   void add_edits(const EditJournal& edits);
-  /// Changes a loop by hand now. After finish(), which needs stay_open(), this reopens the map: call finish()
+  /// Changes a loop by hand now. An edit after finish() needs stay_open() and reopens the map: call finish()
   /// again.
   LoopEditOutcome edit(const LoopEdit& edit);
-  /// Plans edits again that an edit removed from the journal. Edits whose time has passed are made now.
+  /// Restores planned edits that a later edit removed from the journal. Makes edits whose time has passed at
+  /// once.
   void plan(const std::vector<TimedEdit>& edits);
   /// All edits, made and planned. The same log, settings and edits give the same map.
   const EditJournal& edits() const;
-  /// Edits that could not be made, a sentence each. Complete after finish().
+  /// Edits that could not be made, one sentence each. The list is complete after finish().
   std::vector<std::string> unmet_edits() const;
 
-  /// All warnings about this run, a sentence each: renamed settings, damaged logs, skipped lines, edits that
-  /// could not be made and, after finish(), scans that matched no local map.
+  /// All warnings about this run, one sentence each: renamed settings, damaged logs, skipped messages and
+  /// edits that could not be made. After finish(), also scans that matched no local map.
   std::vector<std::string> warnings() const;
 
-  /// Number of runs through the building: this one and those merged before.
+  /// Number of runs through the building: this run and the runs merged before it.
   std::size_t runs() const;
 
   /// Keeps the mapper after finish(), so that edits, reopen() and begin_run() remain possible. Needs the
   /// memory of a second graph.
   void stay_open();
-  /// Whether finish() was called, and not undone since.
+  /// Whether finish() was called and not undone by reopen(), edit() or begin_run().
   bool finished() const;
-  /// Undoes finish(), which must be called again. Needs stay_open().
+  /// Undoes finish(). Needs stay_open(). Call finish() again afterwards.
   void reopen();
 
   /// Ends the mapping and makes result(). Sets result().interrupted if readable scans of the log were left
   /// unread or if `stop` became true and cut the final search short. Throws UserError if no scan has a
   /// return.
   void finish(const std::atomic<bool>& stop);
-  /// Ends the mapping without a way to cut the final search short.
+  /// Ends the mapping like finish(stop), with a final search that cannot be cut short.
   void finish();
 
   /// Maps at least one scan, continues to the end of the log or until `stop` is true, then calls finish().
   void run(const std::atomic<bool>& stop);
 
   /// Continues the finished map with another run through the same building, which begins at `start` (see
-  /// place_run()). Needs stay_open(). Call finish() again. Throws UserError if the run's log is unreadable.
+  /// place_run()). Needs stay_open(). Call finish() again after the last scan. Throws UserError if the run's
+  /// log is unreadable.
   void begin_run(const SessionInput& run, const RunStart& start);
 
   /// Draws the map and writes all results. Needs finish(); may be called for several folders. Returns the
@@ -145,11 +148,11 @@ class MappingSession {
   void export_to(const std::filesystem::path& folder, bool force = false);
 
   /// Writes the mapped scans, all edits and settings to a session file. If only a part of a recorded session
-  /// was mapped again, all its recorded scans are written. Throws SystemFailure if the file cannot be
+  /// was mapped again, still writes all its recorded scans. Throws SystemFailure if the file cannot be
   /// written.
   SavedSession save(const std::filesystem::path& file) const;
 
-  /// Poses, graph and loops so far. Valid until finish(), and after it with stay_open().
+  /// Mapper with the poses, graph and loops so far. Valid until finish(); with stay_open() also afterwards.
   const Mapper& mapper() const;
 
   /// The finished map. Needs finish().

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The terms in which records describe a search for a match: the matcher and the search window.
+/// Matcher and search window of a match, as records describe them.
 #pragma once
 
 #include <array>
@@ -9,9 +9,9 @@ namespace psi_slam {
 
 /// Algorithm that searches for a match.
 enum class MatcherKind {
-  kCsm,    ///< exhaustive: the best pose of the search window
-  kCsmGa,  ///< coarse cells ranked exhaustively, the best of them searched by the genetic algorithm
-  kGa,     ///< the whole search window searched by the genetic algorithm
+  kCsm,    ///< finds the best pose of the search window exactly
+  kCsmGa,  ///< ranks coarse cells exhaustively, then searches the best of them genetically
+  kGa,     ///< searches the whole window by the genetic algorithm
 };
 
 /// All matchers.
@@ -24,11 +24,11 @@ constexpr const char* name(MatcherKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-/// Half-widths of the region searched around a predicted pose.
+/// Half-widths of the search window around a predicted pose.
 struct SearchExtent {
-  double x_m = 0;        ///< along x
-  double y_m = 0;        ///< along y
-  double theta_rad = 0;  ///< in heading
+  double x_m = 0;        ///< half-width along x, metres
+  double y_m = 0;        ///< half-width along y, metres
+  double theta_rad = 0;  ///< half-width in heading, radians
 };
 
 }  // namespace psi_slam

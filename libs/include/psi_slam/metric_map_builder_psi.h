@@ -9,14 +9,14 @@
 ///     builder.saveCurrentMapToFile("map.simplemap.gz");
 ///     builder.saveCurrentEstimationToImage("map.png");
 ///
-/// Input is CObservation2DRangeScan with odometry, either as actions or as CObservationOdometry. The kind of
-/// odometry that comes first is used, the other is ignored. Other observations are kept in the map with their
-/// scan, but not used. With odometry in observations, a scan waits for the next odometry; the estimate is
-/// that of the last scan with odometry.
+/// Input is CObservation2DRangeScan with odometry, either as actions or as CObservationOdometry. The builder
+/// uses the kind of odometry that comes first and ignores the other kind. It keeps other observations in the
+/// map with their scan, but does not use them. If odometry comes as observations, each scan waits for the
+/// next odometry. The pose estimate then belongs to the last scan with odometry.
 ///
-/// Closed loops move the whole map, and so does finish(). Poses and maps are those at the time of the call.
-/// The only option of the base class with an effect is enableMapUpdating. It must stay true, since psi-slam
-/// does not localise in a fixed map.
+/// Closed loops and finish() change poses of the whole map. Functions return poses and maps as of the time of
+/// the call. The only option of the base class with an effect is enableMapUpdating. It must stay true, since
+/// psi-slam does not localise in a fixed map.
 ///
 /// All functions may be called from several threads at once. The map that getCurrentlyBuiltMetricMap()
 /// returns changes only at the next call of that function by any thread. A map returned by grid() never
@@ -44,23 +44,23 @@ namespace psi_slam {
 
 struct MapperOptions;
 
-/// Named like MRPT's other map builders.
+/// Builds a map with psi_slam::Mapper. The name follows MRPT's own map builders.
 class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
  public:
   /// Options of the builder. A Configuration has all of them.
   struct Options {
-    LogOptions log;                               ///< the laser, its mount and ranges; ignores every_nth_scan
-    GridMapOptions map;                           ///< the grid that is drawn
+    LogOptions log;                               ///< laser, mount and ranges; every_nth_scan has no effect
+    GridMapOptions map;                           ///< options of the drawn grid map
     std::shared_ptr<const MapperOptions> mapper;  ///< Configuration::mapper_options(); null: the defaults
   };
 
-  /// Throws UserError if an option of the log is invalid.
+  /// Creates a builder. Throws UserError if an option of the log is invalid.
   explicit CMetricMapBuilderPsi(const Options& psi_options);
-  /// Maps with the default options.
+  /// Creates a builder with the default options.
   CMetricMapBuilderPsi();
   ~CMetricMapBuilderPsi() override;
 
-  /// Begins another map with the robot at `x0`, or at the current estimate if `x0` is null. Throws UserError
+  /// Begins a new map with the robot at `x0`, or at the current estimate if `x0` is null. Throws UserError
   /// if `initial_map` is not empty: psi-slam cannot extend an earlier map.
   void initialize(const mrpt::maps::CSimpleMap& initial_map = {},
                   const mrpt::poses::CPosePDF* x0 = nullptr) override;
@@ -69,7 +69,7 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   /// odometry is missing; std::logic_error after finish().
   void processActionObservation(mrpt::obs::CActionCollection& action,
                                 mrpt::obs::CSensoryFrame& observations) override;
-  /// Maps a single observation. Throws as processActionObservation().
+  /// Maps a single observation. Throws like processActionObservation().
   void processObservation(const mrpt::obs::CObservation::Ptr& observation);
 
   /// Finishes the map: final loop search, optimisation and joint refinement of all scans. Afterwards only
@@ -87,15 +87,16 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   /// Number of nodes of the graph.
   unsigned int getCurrentlyBuiltMapSize() override;
 
-  /// An occupancy grid of all scans at their current poses; valid as long as the builder. The first call
-  /// after a new scan draws the whole log, so do not call this at every scan.
+  /// Returns an occupancy grid of all scans at their current poses. The reference is valid as long as the
+  /// builder. The first call after a new scan draws the whole log, so do not call this function at every
+  /// scan.
 #if MRPT_VERSION >= 0x292
   const mrpt::maps::CMultiMetricMap& getCurrentlyBuiltMetricMap() const override;
 #else
   const mrpt::maps::CMultiMetricMap* getCurrentlyBuiltMetricMap() const override;
 #endif
 
-  /// The grid of getCurrentlyBuiltMetricMap() as an object that never changes.
+  /// Returns the grid of getCurrentlyBuiltMetricMap() as an object that never changes.
   mrpt::maps::COccupancyGridMap2D::ConstPtr grid() const;
 
   /// Writes the grid as PNG with a scale bar, or in another format by MRPT, chosen by the file's extension.

@@ -11,7 +11,7 @@
 
 namespace psi_slam {
 
-/// Opens a CARMEN log, an MRPT rawlog or a ROS bag; the content of the file decides, not its name. Throws
+/// Opens a CARMEN log, an MRPT rawlog or a ROS bag. Detects the format from the content of the file. Throws
 /// UserError if the file cannot be opened, has none of these formats, or an option is invalid.
 std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const LogOptions& options = {});
 

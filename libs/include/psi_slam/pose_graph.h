@@ -3,7 +3,7 @@
 /// The pose graph: the poses of the nodes, and the measured relative poses between them (equations 3 to 6).
 ///
 /// The graph uses flat arrays, because MRPT's CNetworkOfPoses2DInf has no place for the kind, kernel and
-/// switch of an edge. The deciders for MRPT's graph-slam engine convert it.
+/// switch of an edge. The deciders for MRPT's graph-slam engine convert between the two.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -16,26 +16,27 @@
 
 namespace psi_slam {
 
-/// Robust kernel: the cost rho(s) that a constraint adds to the error sum instead of its squared error
-/// s = e^T Omega e, so that a false constraint cannot bend the whole map. All kernels approach rho(s) = s for
+/// Robust kernel: a constraint adds the cost rho(s) to the error sum instead of its squared error s = e^T
+/// Omega e. This limits the effect of a false constraint on the map. All kernels approach rho(s) = s for
 /// small s.
 struct RobustKernel {
-  /// Form of the cost.
+  /// Form of the cost function.
   enum class Type {
     kNone,            ///< rho(s) = s
-    kHuber,           ///< grows as sqrt(s) beyond the width; convex in the error
-    kCauchy,          ///< grows logarithmically
+    kHuber,           ///< rho(s) grows as sqrt(s) beyond the width; convex in the error
+    kCauchy,          ///< rho(s) grows logarithmically
     kDynamicScaling,  ///< dynamic covariance scaling (Agarwal et al., ICRA 2013): bounded by 3 width^2
-    kGemanMcClure,    ///< bounded by width^2; kernel of graduated non-convexity (Yang et al., RA-L 2020)
+    kGemanMcClure,    ///< rho(s) is bounded by width^2; for graduated non-convexity (Yang et al., RA-L 2020)
   };
 
-  Type type = Type::kNone;  ///< form of the cost
-  double width = 1;         ///< > 0, in standard deviations, the unit of sqrt(e^T Omega e)
+  Type type = Type::kNone;  ///< form of the cost function
+  double width = 1;         ///< width of the kernel, > 0, in the unit of sqrt(e^T Omega e)
 
-  /// rho(chi2), chi2 >= 0.
+  /// Returns rho(chi2) for chi2 >= 0.
   double cost(double chi2) const;
 
-  /// drho/dchi2 in [0, 1]: the factor on the information matrix in iteratively reweighted least squares.
+  /// Returns drho/dchi2, in [0, 1]: the factor on the information matrix in iteratively reweighted least
+  /// squares.
   double weight(double chi2) const;
 };
 
@@ -43,19 +44,19 @@ struct RobustKernel {
 struct Constraint {
   /// Origin of the measurement.
   enum class Kind {
-    kOdometry,  ///< between successive nodes
-    kLocalMap,  ///< from the anchor of a local map to a node whose scan the map holds
-    kRunStart,  ///< from a node of another run to the start of a run
-    kLoop,      ///< from a recognised place; only this kind can be entirely false
+    kOdometry,  ///< odometry between successive nodes
+    kLocalMap,  ///< from the anchor of a local map to a node placed in that map
+    kRunStart,  ///< from a node of an earlier run to the first node of a later run
+    kLoop,      ///< from a loop closure; only this kind can be entirely false
   };
 
-  std::size_t from = 0;           ///< node in whose frame the other is measured
-  std::size_t to = 0;             ///< measured node
-  mrpt::math::TPose2D from_T_to;  ///< metres, radians
+  std::size_t from = 0;           ///< node in whose frame `to` is measured
+  std::size_t to = 0;             ///< node whose pose is measured
+  mrpt::math::TPose2D from_T_to;  ///< measured pose of `to` in the frame of `from`: metres, radians
   /// Inverse covariance of (x, y, theta) of from_T_to, in the axes of `from`: 1/m^2, 1/(m rad), 1/rad^2.
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
   Kind kind = Kind::kOdometry;         ///< origin of the measurement
-  std::optional<RobustKernel> kernel;  ///< replaces the solver's kernel for this kind
+  std::optional<RobustKernel> kernel;  ///< replaces the solver's kernel for this kind; empty: keeps it
 };
 
 /// Symmetric 3x3 covariance of (x, y, theta): m^2, m rad, rad^2.
@@ -68,16 +69,17 @@ struct PoseCovariance {
   double tt = 0;  ///< variance of theta, rad^2
 };
 
-/// The part of a constraint that graph searches read, packed for them.
+/// The part of a constraint that graph searches read, in a compact form.
 struct GraphLink {
-  std::uint32_t from = 0;     ///< node where the constraint begins
-  std::uint32_t to = 0;       ///< node where the constraint ends
-  PoseCovariance covariance;  ///< of from_T_to in the axes of `from`; infinite if the information is singular
+  std::uint32_t from = 0;  ///< node where the constraint begins
+  std::uint32_t to = 0;    ///< node where the constraint ends
+  /// Covariance of from_T_to along the axes of `from`; infinite if the information is singular.
+  PoseCovariance covariance;
 };
 
-/// Nodes and constraints are numbered from 0 in the order of their insertion and are never removed;
-/// constraints can be switched off. The solver holds the pose of the root, which is node 0 unless set_root()
-/// changes it. Functions throw std::out_of_range for an index that does not exist.
+/// Graph of nodes and constraints, both numbered from 0 in the order of insertion. They are never removed,
+/// but constraints can be switched off. The solver keeps the pose of the root fixed, which is node 0 unless
+/// set_root() changes it. Functions throw std::out_of_range for an index that does not exist.
 class PoseGraph {
  public:
   /// Adds a node and returns its number. Throws std::invalid_argument if the pose is not finite.
@@ -87,15 +89,15 @@ class PoseGraph {
   /// to itself, if its pose is not finite, or if its information is not symmetric and positive semi-definite.
   std::size_t add_constraint(const Constraint& constraint);
 
-  /// Switches a constraint on or off. Solvers and searches ignore a constraint that is off; it keeps its
-  /// number.
+  /// Switches a constraint on or off. Solvers and searches ignore a constraint that is off. Its number stays
+  /// valid.
   void set_enabled(std::size_t constraint, bool enabled) { enabled_.at(constraint) = enabled ? 1 : 0; }
   /// Whether a constraint is switched on.
   bool enabled(std::size_t constraint) const { return enabled_.at(constraint) != 0; }
 
-  /// Chooses the node whose pose the solver holds.
+  /// Chooses the node whose pose the solver keeps fixed.
   void set_root(std::size_t node);
-  /// Number of the node whose pose the solver holds.
+  /// Number of the node whose pose the solver keeps fixed.
   std::size_t root() const { return root_; }
 
   /// Number of nodes.
@@ -107,12 +109,13 @@ class PoseGraph {
 
   /// Pose of a node in the map frame: metres, radians in (-pi, pi].
   const mrpt::math::TPose2D& pose(std::size_t node) const { return poses_.at(node); }
-  /// Wraps the heading to (-pi, pi]. Throws std::invalid_argument if the pose is not finite.
+  /// Sets the pose of a node and wraps its heading to (-pi, pi]. Throws std::invalid_argument if the pose is
+  /// not finite.
   void set_pose(std::size_t node, const mrpt::math::TPose2D& map_T_node);
   /// Poses of all nodes in the map frame.
   const std::vector<mrpt::math::TPose2D>& poses() const { return poses_; }
 
-  /// A constraint by its number.
+  /// Returns a constraint by its number.
   const Constraint& constraint(std::size_t index) const { return constraints_.at(index); }
   /// All constraints, enabled or not.
   const std::vector<Constraint>& constraints() const { return constraints_; }
@@ -121,7 +124,7 @@ class PoseGraph {
   /// Constraints that begin or end at a node, enabled or not, in the order of their insertion.
   const std::vector<std::uint32_t>& constraints_of(std::size_t node) const { return incident_.at(node); }
 
-  /// Sum of e^T Omega e over the enabled constraints: E of equation 5 without robust kernels.
+  /// Returns the sum of e^T Omega e over the enabled constraints: E of equation 5 without robust kernels.
   double chi2() const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// All of psi-slam except the adapters to MRPT's interfaces. Include one of these two for an adapter:
-/// `psi_slam/metric_map_builder_psi.h` and `psi_slam/graphslam_deciders.h`.
+/// Includes all of psi-slam except the adapters to MRPT's interfaces. For an adapter, include
+/// `psi_slam/metric_map_builder_psi.h` or `psi_slam/graphslam_deciders.h`.
 #pragma once
 
 #include "psi_slam/configuration.h"

@@ -14,14 +14,14 @@ namespace psi_slam {
 /// Microseconds since the log's epoch.
 using TimeUs = std::int64_t;
 
-/// Seconds with six decimals: "976052905.167303".
+/// Returns the time in seconds with six decimals: "976052905.167303".
 std::string format_seconds(TimeUs time_us);
 
-/// Reads decimal seconds ("976052905.167303", "12", "1.5e9", "-0.25") to the nearest microsecond, exactly
-/// unless there is an exponent. Empty if the text is not a number, or above 9e12 seconds.
+/// Reads decimal seconds ("976052905.167303", "12", "1.5e9", "-0.25") to the nearest microsecond; exact for
+/// text without an exponent. Returns nothing if the text is not a number, or exceeds 9e12 seconds.
 std::optional<TimeUs> parse_seconds(std::string_view text);
 
-/// Seconds as a double, for durations.
+/// Returns a duration in seconds.
 inline double seconds(TimeUs time_us) {
   return static_cast<double>(time_us) * 1e-6;
 }

@@ -8,7 +8,7 @@
 namespace psi_slam {
 
 /// An error that the user can correct: a missing file, an unknown key, a log without laser scans. Its text
-/// says what is wrong, where, and what was expected. Programs print it and exit with 2.
+/// says what is wrong, where, what was expected and what to do next. Programs print it and exit with 2.
 class UserError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

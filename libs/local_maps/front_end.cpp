@@ -152,8 +152,8 @@ std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Mot
   const PlacedLocalMap& older = active_.front();
   PosePrior unknown;
   unknown.map_T_robot = last_local_T_robot_ + motion.predicted - older.local_T_map;
-  const double needed = std::max(options_.poor_response_share * expected_response_,
-                                 options_.wide_response_gain * poor_response);
+  const double needed =
+      options_.wide_response_gain * std::max(poor_response, options_.min_response_share * expected_response_);
   const MatchResult match = search(step, older.map->scores_with_pyramid(), unknown, wide, needed);
   if (!match.found) return {};
   step.window = wide;
@@ -304,15 +304,14 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
   };
   if (active_.empty() || (active_.size() == 1 && share(active_.front()) >= 0.5))
     begin_local_map(node, step.local_T_robot);
-  for (PlacedLocalMap& active : active_) {
-    active.map->insert(drawing_beams(frame, step.local_T_robot - active.local_T_map,
-                                     options_.scan.min_range_m, options_.local_map.max_insert_range_m));
-  }
+  const DrawingOptions drawing = {options_.scan.min_range_m, options_.local_map.max_insert_range_m,
+                                  options_.local_map.smoothing_sigma_m};
+  for (PlacedLocalMap& active : active_)
+    active.map->insert(drawing_beams(frame, step.local_T_robot - active.local_T_map, drawing));
   if (share(active_.front()) >= 1.0 && active_.size() > 1) {
     end_local_maps(step, 1);
     begin_local_map(node, step.local_T_robot);
-    active_.back().map->insert(drawing_beams(frame, TPose2D(0, 0, 0), options_.scan.min_range_m,
-                                             options_.local_map.max_insert_range_m));
+    active_.back().map->insert(drawing_beams(frame, TPose2D(0, 0, 0), drawing));
   }
 }
 

@@ -45,9 +45,11 @@ struct FrontEndOptions {
   // the last scans. A scan without a match counts as 0. The expected response is at least 0.25.
   double min_response_share = 0.3;  ///< share of the expected response that a match needs
   /// A match below this share of the expected response is poor: the error of odometry may exceed the window.
-  /// The front end then searches a wide window, whose match must reach this share.
+  /// The front end then searches a wide window.
   double poor_response_share = 0.75;
-  double wide_response_gain = 1.6;      ///< smallest ratio of the response in the wide window to the poor one
+  /// Smallest ratio of the response in the wide window to the poor response. Without a match, it is the ratio
+  /// to the response that a match needs.
+  double wide_response_gain = 1.6;
   double wide_window_per_motion = 2.0;  ///< growth of the wide window per metre or radian of motion
   double max_wide_window_m = 2.5;
   double max_wide_window_rad = radians_from_degrees(60.0L);

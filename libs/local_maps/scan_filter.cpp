@@ -106,32 +106,32 @@ ScanPoints matching_points(const Frame& frame, const ScanFilterOptions& options)
   return all;
 }
 
-Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, double min_range_m,
-                    double max_range_m) {
+Beams drawing_beams(const LaserScan& scan, const TPose2D& map_T_robot, const DrawingOptions& options) {
   Beams beams;
   const TPose2D map_T_laser = map_T_robot + scan.robot_T_laser;
   beams.origin = {map_T_laser.x, map_T_laser.y};
-  const std::vector<bool> joined = ends_on_one_surface(scan, max_range_m);
+  const std::vector<bool> joined =
+      ends_on_one_surface(scan, options.max_range_m, options.min_surface_spacing_m);
   bool drew_last = false;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    const bool drew_before = std::exchange(drew_last, range >= min_range_m && std::isfinite(range));
+    const bool drew_before = std::exchange(drew_last, range >= options.min_range_m && std::isfinite(range));
     if (!drew_last) continue;
-    const double drawn = std::min(range, max_range_m);
+    const double drawn = std::min(range, options.max_range_m);
     const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + map_T_laser.phi;
     beams.ends.emplace_back(map_T_laser.x + drawn * std::cos(bearing),
                             map_T_laser.y + drawn * std::sin(bearing));
-    beams.hits.push_back(range <= max_range_m);
+    beams.hits.push_back(range <= options.max_range_m);
     beams.joined.push_back(drew_before && joined[i]);
   }
   return beams;
 }
 
-std::vector<Beams> drawing_beams(const Frame& frame, const TPose2D& map_T_robot, double min_range_m,
-                                 double max_range_m) {
+std::vector<Beams> drawing_beams(const Frame& frame, const TPose2D& map_T_robot,
+                                 const DrawingOptions& options) {
   std::vector<Beams> beams;
   for_each_scan(frame, map_T_robot, [&](const LaserScan& scan, const TPose2D& map_T_robot_then) {
-    beams.push_back(drawing_beams(scan, map_T_robot_then, min_range_m, max_range_m));
+    beams.push_back(drawing_beams(scan, map_T_robot_then, options));
   });
   return beams;
 }

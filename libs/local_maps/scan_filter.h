@@ -27,13 +27,20 @@ ScanPoints matching_points(const LaserScan& scan, const ScanFilterOptions& optio
 /// separately.
 ScanPoints matching_points(const Frame& frame, const ScanFilterOptions& options);
 
-/// Converts all returns of a scan of at least `min_range_m` to beams in the frame of a local map. Cuts beams
-/// at `max_range_m`.
-Beams drawing_beams(const LaserScan& scan, const mrpt::math::TPose2D& map_T_robot, double min_range_m,
-                    double max_range_m);
+struct DrawingOptions {
+  double min_range_m = 0.1;    ///< beams with a shorter range are left out
+  double max_range_m = 200.0;  ///< longer beams are cut at this range
+  /// Surfaces between beams are drawn where the beams are at least this far apart. Where they are nearer, the
+  /// smoothing of the local map closes the gaps: use the standard deviation of the smoothing.
+  double min_surface_spacing_m = 0.03;
+};
+
+/// Converts all returns of a scan to beams in the frame of a local map.
+Beams drawing_beams(const LaserScan& scan, const mrpt::math::TPose2D& map_T_robot,
+                    const DrawingOptions& options);
 
 /// Returns the beams of each scan of a frame, in the order of for_each_scan().
 std::vector<Beams> drawing_beams(const Frame& frame, const mrpt::math::TPose2D& map_T_robot,
-                                 double min_range_m, double max_range_m);
+                                 const DrawingOptions& options);
 
 }  // namespace psi_slam

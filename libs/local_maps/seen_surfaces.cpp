@@ -30,7 +30,7 @@ bool in_line(const TPoint2D& a, const TPoint2D& b, const TPoint2D& third) {
 
 }  // namespace
 
-std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m) {
+std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m, double min_spacing_m) {
   const std::size_t beams = scan.ranges_m.size();
   const auto range = [&](std::size_t i) { return static_cast<double>(scan.ranges_m[i]); };
   const auto bearing = [&](std::size_t i) { return static_cast<double>((*scan.bearings_rad)[i]); };
@@ -46,7 +46,8 @@ std::vector<bool> ends_on_one_surface(const LaserScan& scan, double max_range_m)
     if (!hit(i - 1) || !hit(i)) continue;
     const double gap = gap_m(ends[i - 1], ends[i]);
     const double spacing = std::abs(bearing(i) - bearing(i - 1)) * std::min(range(i - 1), range(i));
-    if (gap < kMinGap_m || gap > kMaxGap_m || gap > kMaxGapPerSpacing * spacing) continue;
+    if (spacing < min_spacing_m || gap < kMinGap_m || gap > kMaxGap_m || gap > kMaxGapPerSpacing * spacing)
+      continue;
     joined[i] = (i >= 2 && hit(i - 2) && in_line(ends[i - 1], ends[i], ends[i - 2])) ||
                 (hit(i + 1) && in_line(ends[i - 1], ends[i], ends[i + 1]));
   }

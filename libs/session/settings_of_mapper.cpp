@@ -56,11 +56,11 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
           "worse keeps its predicted pose.")
       .number("poor_response_share", front_end.poor_response_share, between(0, 1), "",
               "A scan whose response is below this share of the mean response of the last scans is searched "
-              "again in a wide window, unless this window is hardly wider than the first one. The match in "
-              "the wide window must exceed this share too.")
-      .number(
-          "wide_response_gain", front_end.wide_response_gain, at_least(1), "",
-          "A match in the wide window of a scan must exceed the response of the poor match by this factor.")
+              "again in a wide window, unless this window is hardly wider than the first one.")
+      .number("wide_response_gain", front_end.wide_response_gain, at_least(1), "",
+              "A match in the wide window of a scan must exceed the response of the poor match by this "
+              "factor. If "
+              "there is no poor match, it must exceed the least response of a match by this factor.")
       .number("wide_window_per_motion", front_end.wide_window_per_motion, between(0, 100), "",
               "Growth of the wide window of a scan: metres added to window_m for each metre moved, degrees "
               "added to window_theta_deg for each degree turned, and a factor on window_theta_per_metre_deg.")

@@ -186,7 +186,7 @@ TEST(MatchingPointNormals, a_line_is_not_drawn_across_a_gap) {
 
 TEST(DrawingBeams, start_at_the_laser_and_end_at_the_returns) {
   const TPose2D map_T_robot(1, 2, M_PI / 2);
-  const Beams beams = drawing_beams(scan_of({2, 3, 4}, {0.5, 0, 0}), map_T_robot, 0.1, 40);
+  const Beams beams = drawing_beams(scan_of({2, 3, 4}, {0.5, 0, 0}), map_T_robot, {0.1, 40});
   EXPECT_NEAR(beams.origin.x, 1, 1e-9);
   EXPECT_NEAR(beams.origin.y, 2.5, 1e-9);
   ASSERT_EQ(beams.ends.size(), 3U);
@@ -200,7 +200,7 @@ TEST(DrawingBeams, start_at_the_laser_and_end_at_the_returns) {
 }
 
 TEST(DrawingBeams, are_cut_at_the_largest_range_and_dropped_below_the_smallest) {
-  const Beams beams = drawing_beams(scan_of({0.2F, 5, 6, 7, kNan, kInfinity}), {0, 0, 0}, 0.3, 6);
+  const Beams beams = drawing_beams(scan_of({0.2F, 5, 6, 7, kNan, kInfinity}), {0, 0, 0}, {0.3, 6});
   ASSERT_EQ(beams.ends.size(), 3U);
   EXPECT_EQ(beams.hits, (std::vector<bool>{true, true, false}));
   EXPECT_NEAR(beams.ends[2].norm(), 6, 1e-6);
@@ -243,7 +243,7 @@ TEST(MatchingPoints, of_a_frame_are_those_of_all_its_lasers_each_seen_from_its_o
 }
 
 TEST(DrawingBeams, of_a_frame_begin_at_each_of_its_lasers) {
-  const auto beams = drawing_beams(two_laser_frame(), {10, 20, M_PI / 2}, 0.1, 40);
+  const auto beams = drawing_beams(two_laser_frame(), {10, 20, M_PI / 2}, {0.1, 40});
   ASSERT_EQ(beams.size(), 2U);
   EXPECT_NEAR(beams[0].origin.y, 20.5, 1e-9);
   EXPECT_NEAR(beams[1].origin.x, 10 + 0.5 * std::sin(0.1), 1e-9);

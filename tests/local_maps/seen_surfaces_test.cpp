@@ -37,9 +37,13 @@ std::size_t beam_at(double bearing_deg) {
   return static_cast<std::size_t>(std::lround(bearing_deg + 90));
 }
 
+std::vector<bool> joined_ends(const LaserScan& scan, double max_range_m) {
+  return ends_on_one_surface(scan, max_range_m, 0.03);
+}
+
 TEST(SeenSurfaces, join_all_ends_on_a_far_wall_seen_head_on) {
   for (const double x_m : {5.0, 10.0, 20.0, 35.0}) {
-    const auto joined = ends_on_one_surface(scan_of([&](double b) { return wall_across(x_m, b); }), 40);
+    const auto joined = joined_ends(scan_of([&](double b) { return wall_across(x_m, b); }), 40);
     for (int deg = -25; deg <= 25; ++deg) EXPECT_TRUE(joined[beam_at(deg)]) << x_m << " m, " << deg;
   }
 }
@@ -48,23 +52,32 @@ TEST(SeenSurfaces, join_the_ends_on_a_wall_despite_range_noise) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0, 0.02);
   const auto joined =
-      ends_on_one_surface(scan_of([&](double b) { return wall_across(20, b) + noise(random); }), kMaxRange_m);
+      joined_ends(scan_of([&](double b) { return wall_across(20, b) + noise(random); }), kMaxRange_m);
   const auto count = std::count(joined.begin() + 70, joined.begin() + 111, true);
   EXPECT_GE(count, 39);
 }
 
 TEST(SeenSurfaces, need_no_join_where_beams_hit_every_cell) {
-  const auto joined = ends_on_one_surface(scan_of([](double b) { return wall_across(2, b); }), kMaxRange_m);
+  const auto joined = joined_ends(scan_of([](double b) { return wall_across(2, b); }), kMaxRange_m);
   for (int deg = -20; deg <= 20; ++deg) EXPECT_FALSE(joined[beam_at(deg)]) << deg;
+}
+
+TEST(SeenSurfaces, do_not_join_beams_nearer_than_the_spacing) {
+  const LaserScan scan = scan_of([](double b) { return wall_across(10, b); });  // spacing 0.17 m
+  const auto wider = ends_on_one_surface(scan, kMaxRange_m, 0.16);
+  const auto narrower = ends_on_one_surface(scan, kMaxRange_m, 0.18);
+  EXPECT_TRUE(wider[beam_at(0)]);
+  EXPECT_FALSE(narrower[beam_at(0)]);
+  EXPECT_TRUE(narrower[beam_at(-30)]) << "the beams are 0.2 m apart there";
 }
 
 TEST(SeenSurfaces, do_not_join_across_an_open_door) {
   // The beams from 2 to 6 degrees pass through the door to a wall 5 m behind it.
-  const auto joined = ends_on_one_surface(scan_of([](double b) {
-                                            const double deg = b * 180 / M_PI;
-                                            return wall_across(deg > 1.5 && deg < 6.5 ? 15 : 10, b);
-                                          }),
-                                          kMaxRange_m);
+  const auto joined = joined_ends(scan_of([](double b) {
+                                    const double deg = b * 180 / M_PI;
+                                    return wall_across(deg > 1.5 && deg < 6.5 ? 15 : 10, b);
+                                  }),
+                                  kMaxRange_m);
   EXPECT_TRUE(joined[beam_at(1)]);
   EXPECT_FALSE(joined[beam_at(2)]);
   EXPECT_TRUE(joined[beam_at(4)]) << "beams on the wall behind the door are joined";
@@ -74,7 +87,7 @@ TEST(SeenSurfaces, do_not_join_across_an_open_door) {
 
 TEST(SeenSurfaces, do_not_join_beams_on_scattered_objects) {
   // Ranges as from trunks and legs: the line through two neighbouring ends rarely meets a third end.
-  const auto joined = ends_on_one_surface(
+  const auto joined = joined_ends(
       scan_of([](double b) { return 15 + 4 * std::cos(40 * b) * std::cos(17 * b); }), kMaxRange_m);
   EXPECT_LE(std::count(joined.begin(), joined.end(), true), 36)
       << "a fifth of the beams may be joined by chance";
@@ -83,15 +96,15 @@ TEST(SeenSurfaces, do_not_join_beams_on_scattered_objects) {
 TEST(SeenSurfaces, do_not_join_along_a_wall_at_a_grazing_angle) {
   // A corridor wall 1 m beside the robot. 20 m ahead, neighbouring beams hit it 7 m apart.
   const auto joined =
-      ends_on_one_surface(scan_of([](double b) { return b > 0.01 ? 1 / std::sin(b) : kNan; }), kMaxRange_m);
+      joined_ends(scan_of([](double b) { return b > 0.01 ? 1 / std::sin(b) : kNan; }), kMaxRange_m);
   for (int deg = 2; deg <= 10; ++deg) EXPECT_FALSE(joined[beam_at(deg)]) << deg;
   EXPECT_TRUE(joined[beam_at(20)]);
 }
 
 TEST(SeenSurfaces, join_no_ends_without_return_or_beyond_the_range) {
-  const auto far = ends_on_one_surface(scan_of([](double b) { return wall_across(20, b); }), 19);
+  const auto far = joined_ends(scan_of([](double b) { return wall_across(20, b); }), 19);
   EXPECT_EQ(std::count(far.begin(), far.end(), true), 0);
-  const auto gap = ends_on_one_surface(
+  const auto gap = joined_ends(
       scan_of([](double b) { return std::lround(b * 180 / M_PI) == 3 ? kNan : wall_across(20, b); }),
       kMaxRange_m);
   EXPECT_FALSE(gap[beam_at(3)]);
@@ -106,7 +119,7 @@ TEST(SeenSurfaces, of_scans_with_few_beams_are_none) {
     for (int i = 0; i < beams; ++i) bearings.push_back(0.02F * static_cast<float>(i));
     scan.bearings_rad = std::make_shared<const std::vector<float>>(bearings);
     scan.ranges_m.assign(static_cast<std::size_t>(beams), 10);
-    const auto joined = ends_on_one_surface(scan, kMaxRange_m);
+    const auto joined = joined_ends(scan, kMaxRange_m);
     EXPECT_EQ(std::count(joined.begin(), joined.end(), true), 0) << beams;
   }
 }

@@ -78,6 +78,7 @@ bool CPsiFrontEndNRD::updateState(mrpt::obs::CActionCollection::Ptr action,
 }
 
 bool CPsiFrontEndNRD::add(const Frame& frame) {
+  const bool has_map = !state_->front_end->active().empty();
   state_->step = state_->front_end->add(frame);
   FrameRecord record;
   record.time_us = frame.time_us;
@@ -89,7 +90,7 @@ bool CPsiFrontEndNRD::add(const Frame& frame) {
     const TPose2D motion = record.odom_T_robot - state_->frames.back().odom_T_robot;
     state_->odometry_m += std::hypot(motion.x, motion.y);
   }
-  if (!state_->step.matched) ++state_->unmatched;
+  if (has_map && !state_->step.matched) ++state_->unmatched;
   state_->frames.push_back(record);
   return checkRegistrationCondition();
 }

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -63,18 +65,26 @@ TEST(AtomicFile, a_failing_writer_keeps_the_old_file_and_leaves_no_temporary_fil
   EXPECT_EQ(files_in(folder.path()), 1);
 }
 
-TEST(AtomicFile, a_full_disk_is_an_error_with_the_file_name) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+// A limit on the size of files makes writing fail as a full disk does.
+TEST(AtomicFile, a_failing_write_is_an_error_with_the_file_name) {
   const TemporaryFolder folder;
+  const fs::path path = folder.path() / "map.pgm";
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 4096;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::string message;
   try {
-    write_atomically(folder.path() / "map.pgm", [](const fs::path& temporary) {
-      fs::create_symlink("/dev/full", temporary);
-      write_text_atomically(temporary.parent_path() / "missing" / "x", "y");
-    });
-    FAIL() << "no exception";
+    write_text_atomically(path, std::string(1 << 20, 'x'));
   } catch (const SystemFailure& failure) {
-    EXPECT_NE(std::string(failure.what()).find("cannot write"), std::string::npos);
+    message = failure.what();
   }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(message.find("cannot write"), std::string::npos) << message;
+  EXPECT_NE(message.find(path.string()), std::string::npos) << message;
   EXPECT_EQ(files_in(folder.path()), 0);
 }
 

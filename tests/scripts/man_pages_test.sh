@@ -30,7 +30,6 @@ expect psi-slam-eval.1.gz "psi-slam-eval [OPTION]... TRAJECTORY RELATIONS"
 expect psi-slam-gui.1.gz "--set SECTION.KEY=VALUE"
 expect psi-slam-bench.1.gz "psi-slam-bench freiburg [OPTION]..."
 expect psi-graphslam.1.gz "psi-graphslam - runs MRPT's graph-slam engine with the deciders of MRPT and of psi-slam"
-expect psi-graphslam.1.gz "psi-graphslam - runs MRPT's graph-slam engine with the deciders of MRPT and of psi-slam"
 expect psi-slam.1.gz "psi-graphslam(1)"
 if [ -e "$build/apps/psi-slam-sweep-mpi/psi-slam-sweep-mpi" ]; then
   expect psi-slam-sweep-mpi.1.gz "psi-slam-sweep-mpi - maps many logs with many settings on the ranks of an MPI job"

@@ -76,7 +76,7 @@ class CPsiFrontEndNRD : public NodeDecider {
   /// Returns the records of all scans, with poses interpolated between the nodes of the graph.
   std::vector<FrameRecord> frames() const;
 
-  /// Number of scans that were not matched; their poses come from odometry. Includes the first scan of a log.
+  /// Number of scans that were not matched although there was a local map. Their poses come from odometry.
   std::size_t unmatched() const;
 
   /// The map data that connect_deciders() passes to the edge decider and the optimizer.

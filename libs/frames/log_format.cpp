@@ -112,7 +112,7 @@ std::vector<fs::path> files_of_bag_folder(const fs::path& folder) {
 LogFormat detect_log_format(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored))
-    throw UserError(path.string() + " does not exist" + kExpected + ". Check the path");
+    throw UserError(path.string() + " does not exist, expected a log. Check the path");
   if (fs::is_directory(path, ignored)) {
     if (!files_of_bag_folder(path).empty()) return LogFormat::kRos2Folder;
     throw UserError(path.string() + " is a folder" + kExpected + ". Name a log file");

@@ -98,11 +98,11 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(TimeUs time_us) const {
 }
 
 SearchExtent FrontEnd::search_extent(const Motion& motion) const {
-  const double lost = 1 + misses_;
+  const double widening = 1 + misses_;  // with each successive scan without a match
   const double half_m =
-      lost * (options_.window_m + options_.window_per_metre * motion.length_m + motion.disagreement_m);
-  const double half_rad = lost * (options_.window_rad + options_.window_rad_per_metre * motion.length_m +
-                                  options_.window_per_radian * motion.turn_rad + motion.disagreement_rad);
+      widening * (options_.window_m + options_.window_per_metre * motion.length_m + motion.disagreement_m);
+  const double half_rad = widening * (options_.window_rad + options_.window_rad_per_metre * motion.length_m +
+                                      options_.window_per_radian * motion.turn_rad + motion.disagreement_rad);
   return {std::min(half_m, options_.max_window_m), std::min(half_m, options_.max_window_m),
           std::min(half_rad, options_.max_window_rad)};
 }
@@ -143,8 +143,8 @@ MatchResult FrontEnd::search(FrontEndStep& step, const ScoreGrid& grid, const Po
   return match;
 }
 
-/// Returns the match in the wide window. Returns nothing if this window is hardly wider than the window
-/// before, or if its match is not much better than the poor one.
+/// Searches the wide window, and stores it in step.window if it has a match. Returns nothing if the window is
+/// hardly wider than step.window, or if no response exceeds the poor response by wide_response_gain.
 std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Motion& motion,
                                                    double poor_response) {
   const SearchExtent wide = wide_extent(motion);
@@ -164,6 +164,7 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const PlacedLocalMap& older = active_.front();
   const ScoreGrid& grid = older.map->scores();
   std::vector<TPose2D> hypotheses = {motion.predicted};
+  // Odometry that disagrees so much with the last motion may be wrong.
   if (motion.disagreement_m > options_.max_window_m || motion.disagreement_rad > options_.max_window_rad)
     hypotheses.push_back(last_motion_);
   MatchResult best;

@@ -22,7 +22,8 @@ namespace psi_slam {
 struct RefinementOptions {
   int max_iterations = 12;
   double score_sigma = 0.5;  ///< standard deviation s of a point's score, enlarged for correlated neighbours
-  /// Stops at a smaller step, if the turn of the step in radians is below a tenth of this value.
+  /// The iteration stops after a step shorter than this that turns by less than a tenth of this value, in
+  /// radians. A step that does not lower the cost stops it if the step is shorter than this.
   double converged_step_m = 2e-5;
   double max_shift_m = 0.15;  ///< returns the start if the pose moved farther, to another peak
 };

@@ -7,7 +7,8 @@
 //
 // The sum is over the points p_j of the scan, and T is the pose x as a transform. q_j and n_j are the mean
 // point and the mean normal of the surface points nearest to T p_j. rho is the kernel of Geman and McClure. s
-// is the standard deviation of one point, estimated from the residuals.
+// is the standard deviation of one point, estimated from the residuals at every iteration. x_held is the pose
+// of the prior. sigma_prior is prior_sigma_m for x and y, and prior_sigma_rad for the heading.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

@@ -188,7 +188,7 @@ PoseGraphFile read_pose_graph(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
     throw UserError(path.string() +
-                    " does not exist, expected a pose graph in g2o or TORO format. Correct the path");
+                    " does not exist, expected a pose graph in g2o or TORO format. Check the path");
   Contents contents = read_lines(path);
   if (contents.vertices.empty() && contents.edges.empty())
     throw UserError(path.string() +

@@ -38,7 +38,7 @@ class TransformTree {
   /// Returns the pose of a frame in the frame that is `steps` above it.
   mrpt::poses::CPose3D above_T_frame(std::string frame, std::size_t steps) const;
 
-  std::map<std::string, Link> links_;  // index: name of the frame
+  std::map<std::string, Link> links_;  // key: name of the child frame
 };
 
 /// The topics and frames of a ROS bag that are read.

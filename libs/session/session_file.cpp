@@ -271,9 +271,9 @@ std::string packed(const std::string& bytes) {
 std::string all_bytes(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored))
-    throw UserError(path.string() + " does not exist, expected a session. Correct the path");
+    throw UserError(path.string() + " does not exist, expected a session. Check the path");
   if (fs::is_directory(path, ignored))
-    throw UserError(path.string() + " is a folder, expected a session. Correct the path");
+    throw UserError(path.string() + " is a folder, expected a session. Check the path");
   std::ifstream file(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw UserError("cannot read " + path.string() + ", expected a session. Check its permissions");

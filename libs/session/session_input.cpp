@@ -88,7 +88,8 @@ class RecordedSource : public FrameSource {
   std::unique_ptr<FrameSource> log_;  ///< null if no log continues the recording
   bool is_last_;                      ///< whether log_ is the last log of the recording
   std::filesystem::path path_;
-  /// First frame of a log that continues the recording; empty once it was returned.
+  /// First frame of `log_`, which the constructor reads if `log_` is not the last log of the recording. Empty
+  /// otherwise, and after next() has returned the frame.
   std::optional<Frame> first_;
   std::size_t next_ = 0;
 };
@@ -105,7 +106,7 @@ SessionInput::SessionInput(std::shared_ptr<const SessionRecording> recording, st
   edits_.rewind();
   if (log_.empty()) return;
   if (!std::filesystem::exists(log_))
-    throw UserError(log_.string() + " does not exist, expected a log file. Correct the path");
+    throw UserError(log_.string() + " does not exist, expected a log file. Check the path");
   const std::string sha256 = sha256_of_log(log_);
   same_log_ = logs_.back().sha256 == sha256;
   if (same_log_) {  // the log is read from its beginning, which finds its skipped lines and damage again

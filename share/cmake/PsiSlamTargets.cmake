@@ -63,6 +63,15 @@ function(psi_slam_add_app name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${ARG_COMPONENT})
 endfunction()
 
+# Sets the compiler options of a test program. Little optimisation is enough for tests, and it compiles faster.
+function(psi_slam_configure_test target)
+  psi_slam_configure_target(${target})
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(TARGET psi_slam_test_headers AND NOT target STREQUAL "psi_slam_test_headers")
+    target_precompile_headers(${target} REUSE_FROM psi_slam_test_headers)
+  endif()
+endfunction()
+
 # psi_slam_add_tests(NAME LINK dependency...)
 # Adds one program NAME_tests with all tests/NAME/*_test.cpp. CTest lists each test under its own name.
 function(psi_slam_add_tests name)
@@ -73,6 +82,6 @@ function(psi_slam_add_tests name)
   endif()
   add_executable(${name}_tests ${sources})
   target_link_libraries(${name}_tests PRIVATE ${ARG_LINK} psi_slam_test_support GTest::gmock_main)
-  psi_slam_configure_target(${name}_tests)
+  psi_slam_configure_test(${name}_tests)
   gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
 endfunction()

@@ -20,7 +20,8 @@ std::string contents(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A map of 3 m x 2 m with corner (-1.5, 4): free below, unknown above, one obstacle at (-0.5, 4.25).
+/// Map of 3 m x 2 m with its lower left corner at (-1.5, 4) m and cells of 0.25 m. The lower half is free,
+/// the upper half unknown. The lower left corner of the only occupied cell is at (-0.5, 4.25) m.
 COccupancyGridMap2D lopsided_map() {
   COccupancyGridMap2D grid(-1.5F, 1.5F, 4, 6, 0.25F);
   for (int x = 0; x < 12; ++x)

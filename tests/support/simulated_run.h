@@ -123,8 +123,8 @@ inline SimulatedRun simulated_run(const std::vector<RunPart>& parts,
   return run;
 }
 
-/// Steps once around the block in the room, with a turn on the spot at each corner, one full turn and some
-/// reversing.
+/// Returns one counter-clockwise lap around the block in the room. It starts with a full turn on the spot,
+/// turns by 90 degrees at each corner, and reverses by 0.5 m once.
 inline std::vector<RunPart> round_trip() {
   const RunPart corner{0.0, 3.0, 30};
   return {{0.0, -4.0, 90},  {0.08, 0.0, 95}, corner,          {0.08, 0.2, 10},

@@ -6,8 +6,8 @@
 ///     for each scan:  const psi_slam::FrameRecord& record = mapper.add(frame);
 ///     psi_slam::MappingResult result = mapper.finish();
 ///
-/// Mapper combines the front end, local maps, loop closing and the pose graph. The command line, the window
-/// and CMetricMapBuilderPsi all use it. It reads and writes no files.
+/// Mapper combines the front end, local maps, loop closing and the pose graph. psi-slam, psi-slam-gui and
+/// CMetricMapBuilderPsi use it. Mapper reads and writes no files.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -34,8 +34,8 @@ struct PlacedLocalMap;
 struct RunStart {
   std::size_t node = 0;              ///< node of the existing map, near the start of the run
   mrpt::math::TPose2D node_T_robot;  ///< pose of the robot at the start of the run, in the frame of the node
-  /// Pose of the robot when its place in the map was found, in the frame of its start pose. The place in the
-  /// map is known best at this pose.
+  /// Pose of the robot at the scan that located it in the map, in the frame of its start pose. The place of
+  /// the run in the map is most certain there.
   mrpt::math::TPose2D robot_T_found;
 };
 
@@ -56,7 +56,8 @@ class Mapper {
  public:
   /// Creates a mapper with the default options.
   Mapper();
-  /// Creates a mapper with the given options: pass a Configuration.
+  /// Creates a mapper with the given options. A Configuration converts to MapperOptions, whose definition is
+  /// internal.
   explicit Mapper(const MapperOptions& options);
   ~Mapper();
   /// Moves the mapper. The moved-from mapper can only be assigned to or destroyed.
@@ -68,8 +69,9 @@ class Mapper {
   /// completes the record. The reference is valid until the next call of a non-const function.
   const FrameRecord& add(Frame frame);
 
-  /// Begins another run, whose first frame is near `start`. Loops join the run to the map. In the records of
-  /// the run, odometry continues from `start`, see FrameRecord::odom_T_robot.
+  /// Begins another run, whose first frame is near `start`. At least one frame must have been added. Loops
+  /// join the run to the map. In the records of the run, odometry continues from `start`, see
+  /// FrameRecord::odom_T_robot.
   void begin_run(const RunStart& start);
 
   /// Changes a loop by hand and optimises the graph. An edit waits if its scan, its local map or the match to
@@ -106,7 +108,7 @@ class Mapper {
   const std::vector<Frame>& log() const;
   /// Records of all frames so far, in the same order as log().
   const std::vector<FrameRecord>& frames() const;
-  /// The first frame of each run after the first run.
+  /// Number of the first frame of each run after the first run.
   const std::vector<std::size_t>& later_run_frames() const;
   /// Attempts to close loops so far.
   const std::vector<LoopRecord>& loops() const;

@@ -99,9 +99,10 @@ struct MappingResult {
   std::vector<std::size_t> node_frames;       ///< frame number of each node
   std::vector<std::size_t> later_run_frames;  ///< number of the first frame of each run after the first
   std::vector<LocalMapRecord> local_maps;     ///< all local maps, in the order in which they began
-  std::vector<LoopRecord> loops;              ///< all attempts to close loops; see LoopRecord
-  std::vector<std::string> unmet_edits;       ///< edits that could not be made, one sentence each
-  PsiThresholds psi;                          ///< thresholds that chose the matchers
+  /// Attempts to close loops. Those of the final loop search are kept only if they found a match.
+  std::vector<LoopRecord> loops;
+  std::vector<std::string> unmet_edits;  ///< edits that could not be made, one sentence each
+  PsiThresholds psi;                     ///< thresholds that chose the matchers
   std::map<MatcherKind, LoopMatcherRecord> loop_matchers;  ///< for each matcher that was used
   std::vector<StageTiming> stages;                         ///< times of the stages of the work
   double wall_s = 0;                      ///< wall time of the mapping so far, loading included

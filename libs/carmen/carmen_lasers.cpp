@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <set>
@@ -35,6 +36,7 @@ constexpr double kSameMount_rad = 0.002;
 // such as 81.83 and 81.91 m.
 constexpr double kBelowNoReturn = 0.97;
 constexpr float kLargestReading_m = 1000;  // a larger reading is damaged or in another unit
+constexpr std::size_t kRepeated = 3;       // fewer readings near the largest one are damaged, too
 
 Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) {
   LineReader lines(path);
@@ -212,7 +214,7 @@ std::optional<TPose2D> mount_by_robotlaser(const std::filesystem::path& path, st
 
 double max_range_by_readings_m(const std::filesystem::path& path, std::string_view message) {
   LineReader lines(path);
-  float largest_m = 0;
+  std::vector<float> far_m;
   std::string_view line;
   for (std::size_t i = 0; i < kLinesOfHead && lines.next_readable(line); ++i) {
     CarmenFields fields(line, lines);
@@ -220,9 +222,16 @@ double max_range_by_readings_m(const std::filesystem::path& path, std::string_vi
     const auto laser = readable_laser(fields);
     if (!laser) continue;
     for (const float range_m : laser->ranges_m)
-      if (range_m > largest_m && range_m <= kLargestReading_m) largest_m = range_m;
+      if (static_cast<double>(range_m) > kUnstatedMaxRange_m && range_m <= kLargestReading_m)
+        far_m.push_back(range_m);
   }
-  return std::max(kUnstatedMaxRange_m, kBelowNoReturn * static_cast<double>(largest_m));
+  std::sort(far_m.begin(), far_m.end(), std::greater<>());
+  for (std::size_t i = 0; i + kRepeated <= far_m.size(); ++i) {
+    const double below_m = kBelowNoReturn * static_cast<double>(far_m[i]);
+    if (static_cast<double>(far_m[i + kRepeated - 1]) >= below_m)
+      return std::max(kUnstatedMaxRange_m, below_m);
+  }
+  return kUnstatedMaxRange_m;
 }
 
 CarmenLasers::CarmenLasers(const std::filesystem::path& path, const LogOptions& options)

@@ -34,7 +34,8 @@ std::optional<mrpt::math::TPose2D> mount_by_robotlaser(const std::filesystem::pa
 /// Estimates the maximum range, metres, of a laser whose log states none. Uses the messages with this name in
 /// the first 500 lines. Lasers write codes of 50 m or more for "no return", which differ between logs and
 /// settings of the laser: 50.00, 51.06, 81.83, 81.91. Returns 0.97 times the largest reading, to exclude such
-/// codes, but at least kUnstatedMaxRange_m. Skips malformed lines and readings beyond 1000 m.
+/// codes, but at least kUnstatedMaxRange_m. Skips malformed lines, readings beyond 1000 m, and large readings
+/// with fewer than two others within 3 % below them.
 double max_range_by_readings_m(const std::filesystem::path& path, std::string_view message);
 
 /// Turns the messages of one laser into scans. The user's options override PARAM lines and messages.

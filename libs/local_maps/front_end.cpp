@@ -147,8 +147,10 @@ MatchResult FrontEnd::search(FrontEndStep& step, const ScoreGrid& grid, const Po
 /// hardly wider than step.window, or if no response exceeds the poor response by wide_response_gain.
 std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Motion& motion,
                                                    double poor_response) {
-  const SearchExtent wide = wide_extent(motion);
+  SearchExtent wide = wide_extent(motion);
   if (wide.x_m <= kWiderBy * step.window.x_m && wide.theta_rad <= kWiderBy * step.window.theta_rad) return {};
+  wide = {std::max(wide.x_m, step.window.x_m), std::max(wide.y_m, step.window.y_m),
+          std::max(wide.theta_rad, step.window.theta_rad)};
   const PlacedLocalMap& older = active_.front();
   PosePrior unknown;
   unknown.map_T_robot = last_local_T_robot_ + motion.predicted - older.local_T_map;

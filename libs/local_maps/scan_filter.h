@@ -30,8 +30,8 @@ ScanPoints matching_points(const Frame& frame, const ScanFilterOptions& options)
 struct DrawingOptions {
   double min_range_m = 0.1;    ///< beams with a shorter range are left out
   double max_range_m = 200.0;  ///< longer beams are cut at this range
-  /// Surfaces between beams are drawn where the beams are at least this far apart. Where they are nearer, the
-  /// smoothing of the local map closes the gaps: use the standard deviation of the smoothing.
+  /// Surfaces between beams are drawn where the beams are at least this far apart, see ends_on_one_surface().
+  /// Use the standard deviation of range noise, which the smoothing of the local map states.
   double min_surface_spacing_m = 0.03;
 };
 

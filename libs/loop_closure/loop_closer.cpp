@@ -11,40 +11,27 @@
 namespace psi_slam {
 namespace {
 
-// Returns the uncertainty of the node relative to the anchors of local maps. The position sigma includes the
-// heading sigma, multiplied by the distance.
-std::vector<PositionSigma> sigmas_of_anchors(std::size_t node, const std::vector<std::size_t>& local_maps,
-                                             const KeyframeStore& keyframes, const PoseGraph& graph,
-                                             PathCovarianceSearch& search) {
-  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
+// Returns the node's uncertainty relative to the anchors of the local maps, in their order.
+std::vector<RelativeUncertainty> relative_to_anchors(std::size_t node,
+                                                     const std::vector<std::size_t>& local_maps,
+                                                     const KeyframeStore& keyframes, const PoseGraph& graph,
+                                                     PathCovarianceSearch& search) {
   PathCovarianceOptions to_anchors;
   for (const std::size_t m : local_maps) to_anchors.targets.push_back(keyframes.local_maps[m].anchor);
   search.run(graph, node, to_anchors);
-  std::vector<PositionSigma> sigmas;
-  for (const std::size_t anchor : to_anchors.targets) {
-    PositionSigma& sigma = sigmas.emplace_back(PositionSigma{kUnknown, kUnknown});
-    const RelativeUncertainty uncertainty = search.of(anchor);
-    if (!uncertainty.reached) continue;
-    const double heading = std::sqrt(uncertainty.covariance(2, 2));
-    const mrpt::math::TPose2D between = graph.pose(node) - graph.pose(anchor);
-    sigma = {std::hypot(uncertainty.position_sigma_m(), heading * std::hypot(between.x, between.y)), heading};
-  }
-  return sigmas;
+  std::vector<RelativeUncertainty> uncertainties;
+  for (const std::size_t anchor : to_anchors.targets) uncertainties.push_back(search.of(anchor));
+  return uncertainties;
 }
 
-// Lengths of the chains of constraints from the node to the local maps' anchors.
-std::vector<double> chains_to_anchors(std::size_t node, const std::vector<std::size_t>& local_maps,
-                                      const KeyframeStore& keyframes, const PoseGraph& graph,
-                                      PathCovarianceSearch& search) {
-  PathCovarianceOptions to_anchors;
-  for (const std::size_t m : local_maps) to_anchors.targets.push_back(keyframes.local_maps[m].anchor);
-  search.run(graph, node, to_anchors);
-  std::vector<double> chains_m;
-  for (const std::size_t anchor : to_anchors.targets) {
-    const RelativeUncertainty uncertainty = search.of(anchor);
-    chains_m.push_back(uncertainty.reached ? uncertainty.chain_m : std::numeric_limits<double>::infinity());
-  }
-  return chains_m;
+// Returns the standard deviations of a node relative to an anchor. A heading error at the node counts with
+// the distance.
+PositionSigma sigma_of(const RelativeUncertainty& uncertainty, double distance_m) {
+  if (!uncertainty.reached) return {kUnknown, kUnknown};
+  const double heading = std::sqrt(uncertainty.covariance(2, 2));
+  return {std::hypot(uncertainty.position_sigma_m(), heading * distance_m), heading};
 }
 
 }  // namespace
@@ -53,20 +40,31 @@ std::vector<double> chains_to_anchors(std::size_t node, const std::vector<std::s
 // has a narrow window, the others include whole local maps within the drift.
 std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const KeyframeStore& keyframes,
                                                   const PoseGraph& graph) {
+  const auto sigmas_of_anchors = [&](const std::vector<std::size_t>& local_maps) {
+    const auto uncertainties = relative_to_anchors(node, local_maps, keyframes, graph, search_);
+    std::vector<PositionSigma> sigmas;
+    for (std::size_t i = 0; i < local_maps.size(); ++i) {
+      const auto between = graph.pose(node) - graph.pose(keyframes.local_maps[local_maps[i]].anchor);
+      sigmas.push_back(sigma_of(uncertainties[i], std::hypot(between.x, between.y)));
+    }
+    return sigmas;
+  };
+  const auto chains_to_anchors = [&](const std::vector<std::size_t>& local_maps) {
+    std::vector<double> chains_m;
+    for (const auto& uncertainty : relative_to_anchors(node, local_maps, keyframes, graph, search_))
+      chains_m.push_back(uncertainty.reached ? uncertainty.chain_m : kUnknown);
+    return chains_m;
+  };
   std::vector<LoopCandidate> chosen =
-      loop_candidates(node, keyframes, graph, options_.candidates, [&](const std::vector<std::size_t>& near) {
-        return sigmas_of_anchors(node, near, keyframes, graph, search_);
-      });
+      loop_candidates(node, keyframes, graph, options_.candidates, sigmas_of_anchors);
   const auto first_wide = std::stable_partition(chosen.begin(), chosen.end(), [&](const LoopCandidate& one) {
     return !is_wide(one.extent, options_.verification);
   });
   std::vector<LoopCandidate> wide(first_wide, chosen.end());
   chosen.erase(first_wide, chosen.end());
   if (chosen.empty()) {
-    const std::vector<LoopCandidate> far = far_candidates(
-        node, keyframes, graph, options_.candidates, [&](const std::vector<std::size_t>& local_maps) {
-          return chains_to_anchors(node, local_maps, keyframes, graph, search_);
-        });
+    const std::vector<LoopCandidate> far =
+        far_candidates(node, keyframes, graph, options_.candidates, chains_to_anchors);
     const auto is_far = [&](const LoopCandidate& one) {
       return std::any_of(far.begin(), far.end(),
                          [&](const LoopCandidate& other) { return other.local_map == one.local_map; });

@@ -16,13 +16,13 @@ namespace psi_slam {
 class WideSearchSchedule {
  public:
   /// Returns at most `count` of the candidates, in ascending order of local maps. First come local maps whose
-  /// last search found a match, because further matches must agree with it. The local map of the very last
-  /// search is not preferred, so the others get their turn. Then come local maps not searched for longest,
-  /// then the nearest.
+  /// last search found a match, because further matches must agree with it. Of two successive searches, only
+  /// one prefers such a local map, so the others get their turn. Then come local maps not searched for
+  /// longest, then the nearest.
   std::vector<LoopCandidate> choose(std::vector<LoopCandidate> candidates, std::size_t count) const;
 
   /// Records the outcome of a search in a local map.
-  void searched(std::size_t local_map, bool found) { last_[local_map] = {++searches_, found}; }
+  void searched(std::size_t local_map, bool found);
 
  private:
   struct Search {
@@ -36,6 +36,7 @@ class WideSearchSchedule {
 
   std::map<std::size_t, Search> last_;  ///< last search of each local map
   std::size_t searches_ = 0;
+  bool was_preferred_ = false;  ///< whether the last search was in a local map with an earlier match
 };
 
 }  // namespace psi_slam

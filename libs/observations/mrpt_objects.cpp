@@ -62,7 +62,7 @@ CObservation2DRangeScan::Ptr observation_of(const LaserScan& scan, TimeUs time_u
   observation->timestamp = mrpt_clock_time(time_us);
   observation->sensorLabel = scan.laser == 0 ? "LASER" : "LASER" + std::to_string(scan.laser + 1);
   observation->maxRange = scan.max_range_m;
-  observation->resizeScanAndAssign(rays.count, scan.max_range_m, false);
+  observation->resizeScanAndAssign(rays.count, 0, false);
   float middle = 0;
   if (!bearings.empty()) {
     observation->aperture = std::abs(bearings.back() - bearings.front());
@@ -72,9 +72,10 @@ CObservation2DRangeScan::Ptr observation_of(const LaserScan& scan, TimeUs time_u
   observation->sensorPose = mrpt::poses::CPose3D(
       robot_T_laser + mrpt::math::TPose2D(0, 0, std::abs(middle) < 1e-6F ? 0 : static_cast<double>(middle)));
   for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
-    if (!std::isfinite(scan.ranges_m[beam])) continue;
-    observation->setScanRange(rays.ray_of_beam[beam], scan.ranges_m[beam]);
-    observation->setScanRangeValidity(rays.ray_of_beam[beam], true);
+    const float range_m = scan.ranges_m[beam];
+    if (std::isnan(range_m)) continue;
+    observation->setScanRange(rays.ray_of_beam[beam], std::min(range_m, scan.max_range_m));
+    observation->setScanRangeValidity(rays.ray_of_beam[beam], std::isfinite(range_m));
   }
   return observation;
 }

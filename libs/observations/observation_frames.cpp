@@ -53,8 +53,11 @@ LaserScan RawlogLaser::scan(const mrpt::obs::CObservation2DRangeScan& observatio
   scan.robot_T_laser = options_.robot_T_laser.value_or(mount.robot_T_laser);
   scan.ranges_m.resize(beams);
   for (std::size_t i = 0; i < beams; ++i) {
-    scan.ranges_m[i] = observation.getScanRangeValidity(i) ? observation.getScanRange(i)
-                                                           : std::numeric_limits<float>::quiet_NaN();
+    const float range_m = observation.getScanRange(i);
+    // MRPT marks a ray without return as invalid too, with the maximum range.
+    const bool is_reading =
+        observation.getScanRangeValidity(i) || (observation.maxRange > 0 && range_m >= observation.maxRange);
+    scan.ranges_m[i] = is_reading ? range_m : std::numeric_limits<float>::quiet_NaN();
   }
   limit_ranges(scan, options_, static_cast<double>(observation.maxRange));
   return scan;

@@ -151,8 +151,6 @@ void describe(OptionTable& table, Settings& settings) {
   describe_localization(table, settings.localization);
   describe_run(table, settings.run);
   table.alias("last_pass", "final_search")
-      .alias("front_end.min_response", "front_end.min_response_share")
-      .alias("front_end.odometry_sigma_theta_per_turn", "front_end.odometry_sigma_theta_per_radian_deg")
       .alias("front_end.max_strain_m", "front_end.max_doubtful_correction_m")
       .alias("front_end.strain_travel_m", "front_end.doubtful_correction_travel_m")
       .alias("consensus.max_rival_share", "consensus.max_other_place_share");

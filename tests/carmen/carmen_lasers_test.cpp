@@ -132,8 +132,8 @@ TEST_F(CarmenLaserTest, maximum_range_comes_from_user_then_message_then_paramete
 TEST_F(CarmenLaserTest, maximum_range_follows_the_largest_reading_of_the_first_lines) {
   const auto with_readings = [&](const std::string& readings, const std::string& before = "") {
     const auto path = folder_.path() / "readings.clf";
-    write_file(path, before + "RLASER 1 300 0 0 0 0 0 0 1 host 1\nFLASER 1 cut off\nFLASER 3 " + readings +
-                         " 0 0 0 0 0 0 1 host 1\n");
+    const std::string scan = "FLASER 3 " + readings + " 0 0 0 0 0 0 1 host 1\n";
+    write_file(path, before + "RLASER 1 300 0 0 0 0 0 0 1 host 1\nFLASER 1 cut off\n" + scan + scan + scan);
     return max_range_by_readings_m(path, "FLASER");
   };
   EXPECT_EQ(with_readings("1 8 7.5"), 50) << "at least the range for logs that state none";
@@ -143,8 +143,11 @@ TEST_F(CarmenLaserTest, maximum_range_follows_the_largest_reading_of_the_first_l
   EXPECT_LT(with_readings("81.91 81.83 81.87"), 81.83) << "all codes for no return are beyond the range";
   EXPECT_NEAR(with_readings("81.91 8191 nan"), 79.4527, 1e-5) << "8191 m is a damaged reading";
   EXPECT_EQ(with_readings("inf nan -1"), 50);
+  const std::string outliers = "FLASER 3 300 299 1 0 0 0 0 0 0 1 host 1\n";
+  EXPECT_NEAR(with_readings("81.91 1 1", outliers), 79.4527, 1e-5) << "two readings of 300 m are damaged";
+  EXPECT_NEAR(with_readings("300 1 1"), 291, 1e-5);
   std::string head;
-  for (int i = 0; i < 498; ++i) head += "# a comment\n";
+  for (int i = 0; i < 496; ++i) head += "# a comment\n";
   EXPECT_GT(with_readings("81.91 1 1", head.substr(0, head.size() - 12)), 79);
   EXPECT_EQ(with_readings("81.91 1 1", head), 50) << "readings after the first 500 lines do not count";
 }

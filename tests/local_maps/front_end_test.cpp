@@ -155,6 +155,30 @@ TEST(FrontEnd, matches_where_only_a_part_of_each_scan_can_match) {
   EXPECT_GT(low, 0U);
 }
 
+// The robot is carried from an office to a hall, and odometry does not notice.
+TEST(FrontEnd, does_not_match_scans_of_another_place) {
+  SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 15);
+  constexpr std::size_t kCarried = 60;
+  SimulatedWalls hall;
+  hall.add_box(-9, -13, 14, 12);
+  hall.add_box(3, 2, 5, 3);
+  const SimulatedDrive after = drive_along(hall, path_along({{0, 0}, {8, -3}}, 0.1, 0.1), {}, 16);
+  ASSERT_GT(after.frames.size(), 20U);
+  const Frame last = drive.frames[kCarried - 1];
+  drive.frames.resize(kCarried);
+  for (const Frame& frame : after.frames) {
+    drive.frames.push_back(frame);
+    drive.frames.back().time_us += last.time_us + 100'000;
+    drive.frames.back().odom_T_robot =
+        last.odom_T_robot + (frame.odom_T_robot - after.frames.front().odom_T_robot);
+  }
+  const Outcome outcome = follow(drive);
+  for (std::size_t i = 1; i < kCarried; ++i) EXPECT_TRUE(outcome.steps[i].matched) << "scan " << i;
+  EXPECT_FALSE(outcome.steps[kCarried].matched);
+  EXPECT_FALSE(outcome.steps[kCarried + 1].matched);
+  EXPECT_TRUE(outcome.steps.back().matched) << "with the local maps of the hall";
+}
+
 // Odometry with an encoder that stalls and then catches up.
 TEST(FrontEnd, tolerates_odometry_that_stalls_and_jumps) {
   SimulatedDrive drive = drive_along(office_floor(), round_the_office(), {}, 3);

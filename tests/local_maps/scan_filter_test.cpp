@@ -206,6 +206,20 @@ TEST(DrawingBeams, are_cut_at_the_largest_range_and_dropped_below_the_smallest) 
   EXPECT_NEAR(beams.ends[2].norm(), 6, 1e-6);
 }
 
+TEST(DrawingBeams, join_the_ends_on_a_wall_but_not_to_a_dropped_beam) {
+  LaserScan scan;
+  scan.bearings_rad = even_bearings(-0.03, 0.03, 4);
+  scan.max_range_m = 80;
+  scan.ranges_m.assign(4, 10);
+  EXPECT_EQ(drawing_beams(scan, {0, 0, 0}, {}).joined, (std::vector<bool>{false, true, true, true}));
+  scan.ranges_m[0] = 9.99F;
+  DrawingOptions options;
+  options.min_range_m = 9.995;
+  EXPECT_EQ(drawing_beams(scan, {0, 0, 0}, options).joined, (std::vector<bool>{false, true, true}));
+  options.min_surface_spacing_m = 0.3;
+  EXPECT_EQ(drawing_beams(scan, {0, 0, 0}, options).joined, std::vector<bool>(3, false));
+}
+
 /// The ranges of the front laser are 2 m, those of the rear laser 3 m. Between the two scans, the robot
 /// turned left by 0.1 rad.
 Frame two_laser_frame() {

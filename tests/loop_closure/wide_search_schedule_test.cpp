@@ -61,5 +61,17 @@ TEST(WideSearchSchedule, searches_again_where_it_found_a_match) {
   EXPECT_EQ(choose(schedule, 8, 2), Maps({5, 7})) << "local map 1 found no match again and is not preferred";
 }
 
+TEST(WideSearchSchedule, searches_every_local_map_although_two_always_have_matches) {
+  WideSearchSchedule schedule;
+  std::set<std::size_t> searched;
+  for (int node = 0; node < 16; ++node) {
+    for (const std::size_t m : choose(schedule, 8, 1)) {
+      searched.insert(m);
+      schedule.searched(m, m >= 6);  // the two nearest
+    }
+  }
+  EXPECT_EQ(searched.size(), 8U);
+}
+
 }  // namespace
 }  // namespace psi_slam

@@ -90,10 +90,9 @@ TEST(RangeObservation, beams_without_return_are_invalid_and_the_time_is_exact) {
   frame.scan.ranges_m[2] = std::numeric_limits<float>::infinity();
   const auto observation = range_observation(frame);
   EXPECT_TRUE(observation->getScanRangeValidity(0));
-  for (const std::size_t beam : {1, 2}) {
-    EXPECT_FALSE(observation->getScanRangeValidity(beam));
-    EXPECT_EQ(observation->getScanRange(beam), frame.scan.max_range_m);
-  }
+  for (const std::size_t beam : {1, 2}) EXPECT_FALSE(observation->getScanRangeValidity(beam));
+  EXPECT_EQ(observation->getScanRange(1), 0) << "an invalid reading";
+  EXPECT_EQ(observation->getScanRange(2), frame.scan.max_range_m) << "no return";
   EXPECT_EQ(observation->timestamp - mrpt::Clock::fromDouble(976052905), std::chrono::microseconds(167303));
 }
 

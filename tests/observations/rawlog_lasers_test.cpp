@@ -67,7 +67,8 @@ TEST(RawlogLaser, marks_readings_without_a_return) {
   observation->setScanRangeValidity(5, false);
   const auto ranges_m = scan_of(*observation).ranges_m;
   EXPECT_EQ(ranges_m[0], 1);
-  for (std::size_t i = 1; i < 6; ++i) EXPECT_TRUE(std::isnan(ranges_m[i])) << i;
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_TRUE(std::isnan(ranges_m[i])) << i;
+  EXPECT_TRUE(std::isinf(ranges_m[5])) << "MRPT marks rays without return as invalid";
   EXPECT_TRUE(std::isinf(ranges_m[6])) << "a valid reading at the maximum range counts as no return";
 }
 

@@ -113,7 +113,9 @@ TEST(PastSessions, version_3_has_faults_of_each_log_and_gives_the_same_map) {
   ASSERT_EQ(facts.runs.size(), 1U);
   BoundSettings bound;
   EXPECT_THAT(facts.settings, testing::HasSubstr("[last_pass]")) << "options have their old names";
-  EXPECT_THAT(load_recorded(bound, facts, file), testing::IsEmpty());
+  EXPECT_THAT(load_recorded(bound, facts, file),
+              testing::ElementsAre(testing::HasSubstr("min_response is obsolete"),
+                                   testing::HasSubstr("odometry_sigma_theta_per_turn is obsolete")));
   EXPECT_THAT(bound.table.take_warnings(), testing::IsEmpty()) << "users cannot edit a session's settings";
   MappingSession session(input, bound.settings);
   session.run(std::atomic<bool>(false));

@@ -13,6 +13,7 @@
 #include "exports/unmatched_scans.h"
 #include "psi_slam/grid_map.h"
 #include "psi_slam/open_log.h"
+#include "psi_slam/user_error.h"
 #include "rendering/map_image.h"
 
 namespace psi_slam {
@@ -92,6 +93,8 @@ class Benchmark {
   }
 
   SparseBenchmark run() {
+    if (all_ == 0)
+      throw UserError("--parts and --logs leave nothing to run: choose other parts, or logs that they use");
     if (options_.has(kThinnedPart))
       for (const BenchmarkLog& log : logs_.dense) run_thinned_log(log);
     if (options_.has(kEveryNthPart))

@@ -11,7 +11,7 @@
 #   LIMIT_S         limit of a run in seconds of processor time; default: 900
 #   LIMIT_TIMES     limit of a run in multiples of the time of team 1; default: 10
 #   SET             more settings for psi-slam's node decider, for example
-#                   "front_end.min_response_share=0.1 local_maps.smoothing_sigma_m=0.3"
+#                   "local_maps.smoothing_sigma_m=0.2"
 #   TEAMS           numbers of the combinations to run, in the order of the table; default: "1 2 3 4 5 6 7".
 #                   Team 1 has psi-slam's deciders only
 #   PSI_SLAM_BUILD  the build folder with the programs of share/scripts/build.sh; default: build/release

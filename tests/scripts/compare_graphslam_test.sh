@@ -21,8 +21,7 @@ status=0
 "$root/share/scripts/compare-graphslam.sh" "$work/empty" "$work/none" >"$work/table" 2>"$work/messages" || status=$?
 [ "$status" -eq 2 ] || fail "compare-graphslam.sh ends with exit code $status if the folder has no logs, expected 2"
 
-# Simulated logs with true poses. The ranges of the second log have noise of 0.3 m, so that no scan matches with default
-# settings. With settings for this noise the path is nearer to the truth than odometry, which is 10.9 m off.
+# Simulated logs with true poses. The ranges of the second log have noise of 0.3 m. The path of odometry is 10.9 m off.
 # error_with LOG SETTINGS: prints the error of psi-slam's path in millimetres.
 error_with() {
   LOGS=$1 TEAMS=1 SET=$2 "$root/share/scripts/compare-graphslam.sh" "$demos" "$work/$1" >"$work/table" 2>"$work/messages" ||
@@ -34,9 +33,12 @@ if [ -d "$demos" ]; then
   error_mm=$(error_with simul "")
   [ -n "$error_mm" ] && [ "$error_mm" -lt 100 ] ||
     fail "simul: the error is ${error_mm:-unknown} mm, expected less than 100 mm"
-  error_mm=$(error_with range_030_bearing_015 "front_end.min_response_share=0.1 local_maps.smoothing_sigma_m=0.3")
-  [ -n "$error_mm" ] && [ "$error_mm" -lt 3000 ] ||
-    fail "range_030_bearing_015: the error is ${error_mm:-unknown} mm, expected less than 3000 mm"
+  error_mm=$(error_with range_030_bearing_015 "")
+  [ -n "$error_mm" ] && [ "$error_mm" -lt 800 ] ||
+    fail "range_030_bearing_015 with default settings: the error is ${error_mm:-unknown} mm, expected less than 800 mm"
+  error_mm=$(error_with range_030_bearing_015 "local_maps.smoothing_sigma_m=0.2")
+  [ -n "$error_mm" ] && [ "$error_mm" -lt 600 ] ||
+    fail "range_030_bearing_015: the error is ${error_mm:-unknown} mm, expected less than 600 mm"
 fi
 
 if [ ! -r "${PSI_SLAM_DATA:-}/intel.clf.gz" ] || [ ! -r "${PSI_SLAM_DATA:-}/intel.relations" ]; then

@@ -30,6 +30,22 @@ constexpr double kResponseWeight = 0.2;  // weight of one scan in the expected r
 constexpr double kLeastExpected = 0.25;  // lower bound of the expected response
 constexpr double kWiderBy = 1.5;         // smallest ratio of wide to narrow half-widths for a wide search
 constexpr double kHalfWeight_s = 0.5;    // time after which the disagreement with the last step counts half
+// For the search of a wide window: largest number of points, and largest distance that determines the step of
+// the heading. The match is refined with all points.
+constexpr std::size_t kCoarsePoints = 120;
+constexpr double kCoarseFarthest_m = 30;
+
+// Returns a part of a scan that a wide window is searched with: evenly spread points.
+ScanPoints coarse_scan(const ScanPoints& scan) {
+  ScanPoints coarse;
+  coarse.farthest_m = std::min(scan.farthest_m, kCoarseFarthest_m);
+  const std::size_t step = (scan.points.size() + kCoarsePoints - 1) / kCoarsePoints;
+  for (std::size_t i = 0; i < scan.points.size(); i += step) {
+    coarse.points.push_back(scan.points[i]);
+    if (!scan.normals.empty()) coarse.normals.push_back(scan.normals[i]);
+  }
+  return coarse;
+}
 
 }  // namespace
 
@@ -133,9 +149,9 @@ SearchExtent FrontEnd::wide_extent(const Motion& motion) const {
   return {half_m, half_m, half_rad};
 }
 
-MatchResult FrontEnd::search(FrontEndStep& step, const ScoreGrid& grid, const PosePrior& prior,
-                             const SearchExtent& window, double min_response) const {
-  MatchProblem problem{grid, *step.points, prior.map_T_robot, window};
+MatchResult FrontEnd::search(FrontEndStep& step, const ScanPoints& scan, const ScoreGrid& grid,
+                             const PosePrior& prior, const SearchExtent& window, double min_response) const {
+  MatchProblem problem{grid, scan, prior.map_T_robot, window};
   problem.min_response = min_response;
   problem.prior = prior;
   const MatchResult match = matcher_.match(problem);
@@ -156,8 +172,14 @@ std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Mot
   unknown.map_T_robot = last_local_T_robot_ + motion.predicted - older.local_T_map;
   const double needed =
       options_.wide_response_gain * std::max(poor_response, options_.min_response_share * expected_response_);
-  const MatchResult match = search(step, older.map->scores_with_pyramid(), unknown, wide, needed);
+  const ScoreGrid& grid = older.map->scores_with_pyramid();
+  MatchResult match = search(step, coarse_scan(*step.points), grid, unknown, wide, needed);
   if (!match.found) return {};
+  const RefinedPose refined = refine(grid, *step.points, match.map_T_robot, options_.refinement, unknown);
+  if (refined.mean_score < needed) return {};
+  match.map_T_robot = refined.map_T_robot;
+  match.refined_response = refined.mean_score;
+  match.information = refined.information;
   step.window = wide;
   return match;
 }
@@ -173,8 +195,8 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   PosePrior best_prior;
   for (const TPose2D& hypothesis : hypotheses) {
     const PosePrior prior = this->prior(last_local_T_robot_ + hypothesis - older.local_T_map, motion);
-    const MatchResult match =
-        search(step, grid, prior, step.window, options_.min_response_share * expected_response_);
+    const MatchResult match = search(step, *step.points, grid, prior, step.window,
+                                     options_.min_response_share * expected_response_);
     if (!match.found || (best.found && match.response <= best.response)) continue;
     best = match;
     best_prior = prior;

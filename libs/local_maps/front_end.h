@@ -161,8 +161,8 @@ class FrontEnd {
   PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
   SearchExtent wide_extent(const Motion& motion) const;
   void match(FrontEndStep& step, const Motion& motion);
-  MatchResult search(FrontEndStep& step, const ScoreGrid& grid, const PosePrior& prior,
-                     const SearchExtent& window, double min_response) const;
+  MatchResult search(FrontEndStep& step, const ScanPoints& scan, const ScoreGrid& grid,
+                     const PosePrior& prior, const SearchExtent& window, double min_response) const;
   std::optional<MatchResult> search_widely(FrontEndStep& step, const Motion& motion, double poor_response);
   /// Decides whether to apply the correction of odometry by a match, and updates the sum of doubtful
   /// corrections. Returns nothing if the correction is applied. If the sum would become too large (see

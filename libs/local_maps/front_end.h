@@ -75,7 +75,7 @@ struct FrontEndOptions {
   // correct a scale error of odometry of at most max_doubtful_correction_m / doubtful_correction_travel_m.
   double held_share = 0.9;
   double max_doubtful_correction_m = 0.2;
-  double doubtful_correction_travel_m = 3.0;
+  double doubtful_correction_travel_m = 4.5;
 
   // Standard deviations of odometry, for the covariance of the poses where scans do not determine the pose.
   // The variance grows with time, path and turns, and does not depend on the rate of scans.

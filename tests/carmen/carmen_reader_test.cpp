@@ -145,7 +145,8 @@ TEST_F(CarmenReaderTest, uses_parameters_before_and_between_scans) {
 }
 
 TEST_F(CarmenReaderTest, a_log_that_states_no_maximum_range_has_one_below_its_largest_readings) {
-  const std::string log = "FLASER 3 81.83 79 1 0 0 0 0 0 0 1 host 1\n";
+  const std::string scan = "FLASER 3 81.83 79 1 0 0 0 0 0 0 1 host 1\n";
+  const std::string log = scan + scan + scan;
   LogOptions options;
   options.field_of_view_rad = M_PI;
   const auto frames = read(log, options);

@@ -70,7 +70,7 @@ TEST_F(LogFormatTest, reports_empty_files_and_unknown_formats) {
 
 TEST_F(LogFormatTest, reports_missing_files_and_folders_without_a_bag) {
   EXPECT_EQ(sentence_of([&] { detect_log_format(path_); }),
-            path_.string() + " does not exist" + expected_ + ". Check the path");
+            path_.string() + " does not exist, expected a log. Check the path");
   EXPECT_EQ(sentence_of([&] { detect_log_format(folder_.path()); }),
             folder_.path().string() + " is a folder" + expected_ + ". Name a log file");
   write_file(folder_.path() / "metadata.yaml", "rosbag2_bagfile_information:\n");

@@ -71,7 +71,7 @@ TEST(OpenLog, reports_missing_and_empty_files) {
       ", expected a CARMEN log or an MRPT .rawlog, plain or gzipped, or a ROS bag (.bag, .db3, .mcap, or the "
       "folder of a ROS 2 bag)";
   EXPECT_EQ(sentence_of([&] { open_log(path); }),
-            path.string() + " does not exist" + expected + ". Check the path");
+            path.string() + " does not exist, expected a log. Check the path");
   write_file(path, "");
   EXPECT_EQ(sentence_of([&] { open_log(path); }),
             path.string() + " is empty" + expected + ". Fetch or record it again");

@@ -30,7 +30,7 @@ struct Curve {
 
 struct Plot {
   wxString title;
-  double least_top = 1;  ///< least upper end of the axis
+  double least_top = 1;  ///< smallest upper limit of the vertical axis
   std::vector<Curve> curves;
   bool stacked = false;  ///< each curve is drawn on top of the sum of the curves before it
 

@@ -26,7 +26,7 @@ struct MemeticGeneticOptions {
   double mutation_rate = 0.1;  ///< probability per bit
   bool gray_code = true;  ///< codes of neighbouring tiles differ in one bit; false: the paper's binary code
   bool niches = true;     ///< keeps only one individual per neighbourhood, so several peaks survive
-  bool remember = true;   ///< scores each chromosome only once
+  bool remember = true;   ///< scores each chromosome at most once per pyramid level
   bool pooled_fitness = true;  ///< evolves on the first level of the pyramid first
   int descents = 64;           ///< number of best individuals improved by a local search along the heading
   int polished = 3;            ///< number of best poses around which an exact search ends the evolution

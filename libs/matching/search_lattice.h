@@ -47,7 +47,7 @@ struct ExcludedRegion {
   bool contains(const LatticePose& pose) const;
 };
 
-/// A block of shifts, [first, first + width) x [first, first + height).
+/// A block of shifts in cells: x in [first.x, first.x + width), y in [first.y, first.y + height).
 struct ShiftBlock {
   Cell first = {0, 0};
   int width = 0;

@@ -41,8 +41,8 @@ struct RelativeUncertainty {
   double position_sigma_m() const;
 };
 
-/// Searches from a node. Keeps its memory between searches, so that the cost of a search depends on the
-/// number of nodes visited, not on the size of the graph.
+/// Finds the covariances of nodes relative to a source node. Reuses its memory, so that the time of a search
+/// depends on the number of nodes visited, not on the size of the graph.
 class PathCovarianceSearch {
  public:
   /// Runs the search from `source`. Chains use the enabled constraints, and the current poses for lever arms.

@@ -38,8 +38,9 @@ SeenCells seen_cells(const mrpt::maps::COccupancyGridMap2D& grid);
 struct MapPictureOptions {
   /// Largest width and height; larger maps are reduced, but walls of one cell stay visible.
   int max_side_px = 6000;
-  int min_side_px = 1200;  ///< smaller maps are enlarged by a whole number of pixels per cell
-  double margin_m = 0.5;   ///< width of the unknown space around the observed part
+  /// Smallest length of the longer side. In smaller maps, each cell becomes a whole number of pixels wide.
+  int min_side_px = 1200;
+  double margin_m = 0.5;  ///< width of the unknown space around the observed part
   bool transparent_unknown = false;
   bool scale_bar = true;  ///< whether to draw a scale bar in a strip below the map
 };

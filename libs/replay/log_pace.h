@@ -24,8 +24,8 @@ class LogPace {
   void restart() { last_.reset(); }
 
   /// Returns when the next scan is due after a scan with time stamp `time_us` was shown at `now`. A gap in
-  /// the log makes it wait at most one second; time stamps that run backwards cause no wait. If mapping is
-  /// too slow, at most one second of the delay is caught up.
+  /// the log causes a wait of at most one second; time stamps that run backwards cause no wait. If mapping is
+  /// too slow, the following scans make up at most one second of the delay.
   Clock::time_point due_after(TimeUs time_us, Clock::time_point now) {
     if (speed_ <= 0) return now;
     if (last_) {

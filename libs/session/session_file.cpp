@@ -326,7 +326,7 @@ bool is_session_file(const fs::path& path) {
 
 void write_session_file(const fs::path& path, const SessionFacts& facts, const std::vector<Frame>& frames) {
   std::string content;
-  // File names and quoted lines of logs may have any encoding.
+  // Replaces invalid UTF-8: file names and quoted lines of logs may have any encoding.
   const std::string json = json_of(facts).dump(-1, ' ', false, Json::error_handler_t::replace);
   append_number(content, std::uint64_t{json.size()});
   content += json;

@@ -74,14 +74,14 @@ std::string settings_file_text(const Settings& settings);
 /// Throws UserError if two options contradict each other. Each single option is checked when it is set.
 void check(const Settings& settings);
 
-/// Checks as check() does, except the coordinate system map.epsg, which only GDAL knows.
+/// Makes all checks of check() except that of map.epsg, which needs GDAL.
 void check_values(const Settings& settings);
 
-/// Returns the options of the log's reader. If the laser's mount is stated in part, its other coordinates are
-/// 0.
+/// Returns the options of the log's reader. If only some coordinates of the laser's mount are set, the others
+/// are 0.
 LogOptions log_options(const Settings& settings);
 
-/// Returns the options of the mapper, with seed and threads of `run`.
+/// Returns the options of the mapper, with the seed and the threads of `settings.run`.
 MapperOptions mapper_options(const Settings& settings);
 
 /// Returns the options of the localizer, with the mapper's front end, consensus and genetic search, and the

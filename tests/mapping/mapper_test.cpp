@@ -366,7 +366,7 @@ TEST(Mapper, loops_correct_the_error_of_a_blind_stretch) {
   expect_consistent(result, drive.frames.size());
   EXPECT_EQ(result.frames[0].match, ScanMatch::kNoMap);
   for (std::size_t i = 1; i < result.frames.size(); ++i) {
-    const bool blind = i >= 190 && i <= 250;  // scan 250 meets a local map without any points
+    const bool blind = i >= 190 && i <= 250;  // scan 250 has returns, but its local map has none
     EXPECT_EQ(result.frames[i].match, blind ? ScanMatch::kUnmatched : ScanMatch::kMatched) << "frame " << i;
   }
   EXPECT_GT(lost_m, 0.5) << "the front end alone has this error";

@@ -26,9 +26,9 @@ struct ScanSimulatorOptions {
   mrpt::math::TPose2D robot_T_laser{0.1, 0, 0};
   double resolution_m = 0.02;       ///< cell size of the occupancy grid
   double noise_m = 0.01;            ///< standard deviation of a range, not negative
-  double dropout_share = 0.005;     ///< share of beams that get lost at random
+  double dropout_share = 0.005;     ///< share of beams without return, at random
   double glass_return_share = 0.3;  ///< share of the beams at glass that the glass returns
-  double glass_loss_share = 0.2;    ///< share of the beams at glass that get lost; the rest pass
+  double glass_loss_share = 0.2;    ///< share of the beams at glass without return; the rest pass through
 };
 
 class ScanSimulator {

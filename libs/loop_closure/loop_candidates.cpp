@@ -98,23 +98,25 @@ std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore&
     const double drift_m = options.drift_per_metre * path_m;
     return drift_m > largest_window_m && distance_m <= drift_m + options.reach_m;
   };
-  std::vector<LoopCandidate> in_reach;
   std::vector<std::size_t> local_maps;
+  std::vector<double> distances_m;
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
     const double travel_m = travel_between_m(node, keyframes.local_maps[m], keyframes);
     if (travel_m < options.min_travel_m) continue;
     const double distance_m = nearest_node_m(keyframes.local_maps[m], map_T_node, graph);
     if (!may_have_drifted(travel_m, distance_m)) continue;
-    in_reach.push_back(whole_local_map(m, map_T_node, keyframes, graph, options));
-    in_reach.back().distance_m = distance_m;
     local_maps.push_back(m);
+    distances_m.push_back(distance_m);
   }
-  if (in_reach.empty()) return {};
+  if (local_maps.empty()) return {};
 
   const std::vector<double> chains_m = chains_to_anchors(local_maps);
   std::vector<LoopCandidate> candidates;
-  for (std::size_t i = 0; i < in_reach.size(); ++i)
-    if (may_have_drifted(chains_m[i], in_reach[i].distance_m)) candidates.push_back(in_reach[i]);
+  for (std::size_t i = 0; i < local_maps.size(); ++i) {
+    if (!may_have_drifted(chains_m[i], distances_m[i])) continue;
+    candidates.push_back(whole_local_map(local_maps[i], map_T_node, keyframes, graph, options));
+    candidates.back().distance_m = distances_m[i];
+  }
   return candidates;
 }
 

@@ -20,12 +20,12 @@
 
 namespace psi_slam {
 
-/// A short real log from MRPT's data package.
+/// Path of a short real rawlog that Debian's package mrpt-common installs.
 inline constexpr const char* kQuickstartLog =
     "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
 inline constexpr const char* kNeedsQuickstartLog = "needs the rawlogs of Debian's package mrpt-common";
 
-/// Names of all result files of a run, in alphabetical order.
+/// Names of all result files of a run with default settings, in alphabetical order.
 inline const std::vector<std::string>& result_names() {
   static const std::vector<std::string> kNames{
       "frames.csv",  "graph.g2o",    "loops.csv",         "map.dxf",       "map.gridmap.gz",
@@ -59,10 +59,10 @@ inline AppRun run_app(const std::vector<std::string>& arguments, bool err_is_ter
   return {code, out.str(), err.str()};
 }
 
-/// The program as a child process with standard output and error in files.
+/// Runs the program as a child process. Its standard output and error go to files in `folder`.
 class AppProcess {
  public:
-  /// `prepare` runs in the new process before the program does.
+  /// Starts `program` in a new process. `prepare` runs in this process before the program does.
   AppProcess(
       const std::vector<std::string>& arguments, std::filesystem::path folder,
       const std::function<void()>& prepare = [] {}, const std::string& program = PSI_SLAM_PROGRAM)

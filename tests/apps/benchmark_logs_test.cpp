@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the program on the logs of the Freiburg benchmark with their settings files.
+// Maps the logs of the Freiburg benchmark with their settings files, and limits errors and memory.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@ namespace {
 
 struct Benchmark {
   const char* log;
-  double max_error_m;  ///< largest accepted mean error over all relations
+  double max_error_m;  ///< largest accepted mean translational error over all relations
   int every_nth_scan = 1;
   double max_gap_s = 2;  ///< longest gap in the path over which a pose is interpolated
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Manual page and completion of an imaginary program.
+// Tests the manual page and the bash completion that are generated for an imaginary program.
 #include <gmock/gmock.h>
 
 #include "command_words.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole runs of psi-slam localize.
+// Tests whole runs of psi-slam localize.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -19,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// Makes a map of the room, in the frame of the first scan, and the log of a faster run in the same room.
+/// Maps the room, in the frame of the first scan. Writes the log of a faster run in the same room.
 class LocalizeApp : public testing::Test {
  protected:
   void SetUp() override {
@@ -77,7 +77,7 @@ TEST_F(LocalizeApp, takes_a_start_and_prints_json) {
 
 TEST_F(LocalizeApp, a_robot_that_is_not_found_gives_exit_code_1) {
   std::vector<std::string> lines = room_log_lines(60, 80);
-  for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, "1.3");  // a round room
+  for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, "1.3");  // as in a round room
   write_lines(folder_.path() / "new.log", lines);
   const AppRun run = localize("map.yaml");
   EXPECT_EQ(run.code, 1);
@@ -104,11 +104,11 @@ TEST_F(LocalizeApp, warns_if_it_was_interrupted) {
                                  std::to_string(summary["scans"].get<int>()) + " scans"));
 }
 
-/// The robot is found and tracked, then moved outside the map.
+/// The robot is found and tracked. From scan 80 on, it sees a round room that is not in the map.
 TEST_F(LocalizeApp, a_robot_lost_at_the_end_gives_exit_code_1) {
   std::vector<std::string> lines = room_log_lines(120, 80);
   for (std::size_t i = 80; i < lines.size(); ++i)
-    lines[i] = with_ranges(lines[i], 0, kRoomBeams, "1.3");  // a round room
+    lines[i] = with_ranges(lines[i], 0, kRoomBeams, "1.3");  // as in a round room
   write_lines(folder_.path() / "new.log", lines);
   const AppRun run = localize("map.yaml", {"--start", "0,0,0"});
   EXPECT_EQ(run.code, 1);

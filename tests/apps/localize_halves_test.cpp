@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps the first half of real logs, and localizes the robot of the second half in this map. The truth is the
-// path in a map of the whole log. Each true pose is taken relative to the nearest pose of the first half,
+// Maps the first half of real logs, and localizes the robot of the second half in this map. A map of the
+// whole log gives the true poses. Each true pose is taken relative to the nearest pose of the first half,
 // because the two maps differ by some centimetres. The test prints the figures of share/doc/localize.md.
 #include <gtest/gtest.h>
 
@@ -24,8 +24,8 @@ using mrpt::math::TPose2D;
 
 constexpr std::size_t kStarts = 12;
 constexpr std::size_t kThreads = 4;
-constexpr double kWay_m = 20;   // longest path of a robot
-constexpr double kFalse_m = 1;  // error above which a tracked pose is at a false place
+constexpr double kWay_m = 20;   // path length after which each localization ends
+constexpr double kFalse_m = 1;  // position error above which a tracked pose counts as wrong
 // Tracking is expected up to this distance from the path of the first half.
 constexpr double kNear_m = 1;
 
@@ -41,7 +41,7 @@ struct Figures {
   std::size_t found = 0;
   std::size_t within_5_m = 0;
   std::size_t wrong = 0;
-  std::vector<double> errors_m;  ///< errors of all tracked poses
+  std::vector<double> errors_m;  ///< position errors of all tracked poses
   std::vector<double> found_after_m;
   std::vector<double> found_after_s;
 
@@ -160,7 +160,8 @@ TEST(LocalizeHalves, finds_robots_of_the_second_half_in_the_map_of_the_first) {
   EXPECT_LT(median(figures.errors_m), 0.1);
 }
 
-/// Localizes the robot through the whole second half. With `told`, the robot gets its start pose.
+/// Localizes the robot through the whole second half. With `told`, the localizer gets the start pose, taken
+/// from the map of the whole log.
 void follow_second_half(const Halves& log, const ReferenceMap& map, const LocalizerOptions& options,
                         bool told) {
   SCOPED_TRACE(told ? "told start" : "no start");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole runs of psi-slam merge.
+// Tests whole runs of psi-slam merge.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -19,8 +19,8 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// Two runs in the room. The second run is faster and begins after a quarter of the round. Its odometry
-/// begins at zero, and its time stamps repeat those of the first run.
+/// Writes the logs of two runs in the room. The second run is faster and begins after a quarter of the round.
+/// The time stamps of both runs overlap.
 class MergeApp : public testing::Test {
  protected:
   void SetUp() override {
@@ -40,7 +40,7 @@ class MergeApp : public testing::Test {
     return run_app(arguments);
   }
 
-  /// Compares the poses of the second run with the truth in the frame of the first run.
+  /// Expects poses of the second run within 5 cm of the true poses, relative to the first run's first scan.
   void expect_second_run_in_place(const std::string& out) {
     const Trajectory second = read_trajectory(file(out) + "/trajectory-2.tum");
     ASSERT_EQ(second.size(), 120U);
@@ -140,7 +140,7 @@ TEST_F(MergeApp, warns_of_changed_settings_of_a_session) {
                          default_text("run.seed") + ", and 1 more\n");
 }
 
-/// Time stamps and odometry of each corrected CARMEN log must be continuous.
+/// In each corrected CARMEN log, time stamps must increase, and odometry must move less than 0.5 m per scan.
 TEST_F(MergeApp, writes_a_corrected_log_for_each_run) {
   ASSERT_EQ(merge({"first.log", "second.log"}, "out").code, 0);
   EXPECT_FALSE(std::filesystem::exists(file("out") + "/trajectory.carmen"));
@@ -159,7 +159,7 @@ TEST_F(MergeApp, writes_a_corrected_log_for_each_run) {
     for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_NEAR(poses[i].pose.x, tum[i].pose.x, 1e-6);
   }
   EXPECT_THAT(bytes_of(file("out") + "/report.html"), HasSubstr("href=\"trajectory-2.carmen\""));
-  // A map of one run, written to the same folder, removes the files of the two runs.
+  // Mapping one run into the same folder removes the files of the two runs.
   ASSERT_EQ(run_app({file("first.log"), "-q", "-o", file("out"), "--force"}).code, 0);
   EXPECT_TRUE(std::filesystem::exists(file("out") + "/trajectory.carmen"));
   EXPECT_FALSE(std::filesystem::exists(file("out") + "/trajectory-1.carmen"));
@@ -174,7 +174,7 @@ TEST_F(MergeApp, shows_the_progress_of_the_search_for_the_start) {
 
 TEST_F(MergeApp, rejects_another_building_and_writes_nothing) {
   std::vector<std::string> lines = room_log_lines(60, 80);
-  for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, "1.3");  // a round room
+  for (std::string& line : lines) line = with_ranges(line, 0, kRoomBeams, "1.3");  // as in a round room
   write_lines(folder_.path() / "second.log", lines);
   const AppRun run = merge({"first.log", "second.log"}, "out", {"--save-session", file("both.session")});
   EXPECT_EQ(run.code, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole runs of psi-slam.
+// Tests whole runs of psi-slam.
 #include "psi_slam_app.h"
 
 #include <gmock/gmock.h>
@@ -52,7 +52,7 @@ class PsiSlamApp : public testing::Test {
 
   fs::path output(const std::string& name) const { return folder_.path() / name; }
 
-  /// Compares all results of two runs except times.
+  /// Expects equal results of two runs, except times and other entries that may differ.
   void expect_same_bytes(const std::string& a, const std::string& b) const {
     expect_same_results(output(a), output(b));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole runs with --save-session and --resume.
+// Tests whole runs of psi-slam with --save-session and --resume.
 #include <gmock/gmock.h>
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped settings files, and the texts that the program prints about settings.
+// Tests the shipped settings files and the texts that the program prints about settings.
 #include <gmock/gmock.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole sweeps of small logs, also with killed processes and interrupts.
+// Tests whole sweeps of small logs, also with killed processes and interrupts.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -51,7 +51,7 @@ class SweepCommand : public testing::Test {
                               std::regex(",[^,\n]*,[^,\n]*,[^,\n]*\n"), "\n");
   }
 
-  /// The report up to its times.
+  /// report.md up to the section with times.
   std::string page(const std::string& output) const {
     const std::string text = bytes_of(folder_.path() / output / "report.md");
     return text.substr(0, text.find("## Times"));
@@ -79,7 +79,7 @@ class SweepCommand : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// The processes that `parent` has started.
+/// Ids of the child processes of `parent`. Empty if `parent` has ended.
 std::vector<pid_t> children_of(pid_t parent) {
   std::vector<pid_t> children;
   std::error_code gone;
@@ -236,7 +236,7 @@ TEST_F(SweepByMpi, prints_help_and_version_once) {
 TEST_F(SweepByMpi, a_killed_rank_keeps_finished_runs) {
   ASSERT_EQ(sweep("undisturbed").code, 0);
   const AppProcess job(mpi_words("mpi"), folder_.path(), prepare, PSI_SLAM_MPIRUN);
-  std::optional<pid_t> working;  // a rank that is working on a run
+  std::optional<pid_t> working;  // an MPI rank that is working on a run
   ASSERT_TRUE(wait_for([&] {
     if (finished("mpi") < 1) return false;
     for (const pid_t rank : children_of(job.pid()))

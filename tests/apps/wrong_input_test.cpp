@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faults of logs, folders and disks give an error message of one line, and exit code 2 for wrong input or 1
-// for a failure of the system.
+// Tests faults of logs, folders and disks. Each must give an error message of one line and an exit code: 2
+// for wrong input, 1 for a failure of the system.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 

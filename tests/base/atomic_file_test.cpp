@@ -65,7 +65,7 @@ TEST(AtomicFile, a_failing_writer_keeps_the_old_file_and_leaves_no_temporary_fil
   EXPECT_EQ(files_in(folder.path()), 1);
 }
 
-// A limit on the size of files makes writing fail as a full disk does.
+// A limit on the file size makes writes fail, like a full disk.
 TEST(AtomicFile, a_failing_write_is_an_error_with_the_file_name) {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "map.pgm";

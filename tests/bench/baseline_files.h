@@ -10,8 +10,8 @@
 
 namespace psi_slam {
 
-/// Installs a program that prints its version, and runs `script` if it gets settings and a log: $1 is the
-/// settings file, $2 the log and $output the output folder.
+/// Installs settings and a program that prints a version. With two arguments, a settings file ($1) and a log
+/// ($2), the program also runs `script`, in which $output is the output folder.
 inline void install_baseline(const std::filesystem::path& prefix, const BaselineKind& kind,
                              const std::string& script) {
   namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ inline void install_baseline(const std::filesystem::path& prefix, const Baseline
              "[MappingApplication]\nlogOutput_dir = LOG // a remark\nSAVE_3D_SCENE = 1\n[ICP]\nALFA = 0.8\n");
 }
 
-/// A script that writes a number of poses at the origin.
+/// Script that writes one pose per scan: the scan's index and `columns`, which are x, y and heading.
 inline std::string standing_still(std::size_t scans, const std::string& columns = "0 0 0") {
   return "i=0; while [ $i -lt " + std::to_string(scans) + " ]; do echo \"$i " + columns +
          "\"; i=$((i+1)); done > \"$output/log_estimated_path.txt\"";

@@ -65,7 +65,7 @@ TEST(CovarianceCheck, is_zero_without_errors) {
   EXPECT_EQ(errors.beyond_95, 0);
 }
 
-// A chain of nodes whose measurements have noise of the stated covariance, and one loop.
+// Checks a chain of nodes with one loop. The noise of each measurement has the covariance of its constraint.
 TEST(CovarianceCheck, distinguishes_local_maps_loops_and_pairs) {
   RandomDraws random(9, "chain", 0);
   constexpr std::size_t kNodes = 400;

@@ -19,7 +19,7 @@ using mrpt::math::TPose2D;
 constexpr std::size_t kStepsAhead = 30;
 constexpr std::size_t kStepsInAll = 40;
 
-/// Motion to pose i. The motions alternate between 3 m straight ahead and 3 rad on the spot.
+/// Motion from pose i - 1 to pose i. Motions of 3 m straight ahead and 3 rad on the spot alternate.
 TPose2D step(std::size_t i) {
   return i % kStepsInAll < kStepsAhead ? TPose2D(0.1, 0, 0) : TPose2D(0, 0, 0.3);
 }
@@ -108,7 +108,7 @@ TEST(DegradedSource, marks_frames_without_odometry) {
   }
 }
 
-/// Root mean squares of the errors of odometry over several stretches.
+/// Root mean square errors of odometry over several stretches of the path.
 struct StretchErrors {
   double way_m = 0;
   double turn_rad = 0;
@@ -151,7 +151,8 @@ TEST(DegradedSource, multiplies_the_error_of_odometry) {
   const std::vector<TPose2D> truth = truth_of(odometry, {0.01, 0.02, 0.03});
   DegradationOptions options;
   options.natural_noise = measure_odometry_noise(odometry, truth);
-  // Step i leads to pose i. Stretches: straight ahead, rotations, and both, where rotations affect positions.
+  // Step i leads to pose i. The stretches are straight ahead, rotations only, and both. With both, errors of
+  // the heading also affect positions.
   constexpr std::size_t kLast = kStepsInAll - 1;
   for (const auto& [first, steps] :
        {std::pair(kLast, kStepsAhead), std::pair(kStepsAhead - 1, std::size_t{10}),

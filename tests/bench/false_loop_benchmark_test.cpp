@@ -20,7 +20,7 @@ LoopTrial building_trial() {
   const KnownGraph known = building(1000, 2, 2);
   LoopTrial trial;
   trial.graph = known.graph;
-  trial.unlooped = spanning_tree_poses(trial.graph);  // by odometry
+  trial.unlooped = spanning_tree_poses(trial.graph);
   SparsePoseAdjustment solver;
   solver.optimize(trial.graph);
   trial.error = [truth = known.truth](const std::vector<TPose2D>& map_T_node) {

@@ -29,7 +29,7 @@ ComparisonRow row_of(const Comparison& comparison, const std::string& log, std::
   throw std::invalid_argument("no row of " + log);
 }
 
-/// The heads of the columns marked as best.
+/// Names of the columns that `row` marks as best.
 std::vector<std::string> best_of(const Comparison& comparison, const ComparisonRow& row) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < row.best.size(); ++i)

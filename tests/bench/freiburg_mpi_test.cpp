@@ -74,7 +74,7 @@ TEST_F(FreiburgByMpi, gives_the_same_figures_as_processes_and_a_page) {
   EXPECT_THAT(mpi.out, HasSubstr("| room | ga | 3 | 0.0"));
 
   const auto made = times("processes");
-  const ChildEnd again = by_mpi("processes");  // the kept runs were made one at a time
+  const ChildEnd again = by_mpi("processes");  // all runs exist already, made without MPI
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(times("processes"), made) << "kept runs are not repeated";
 }

@@ -10,7 +10,7 @@
 namespace psi_slam {
 namespace {
 
-/// A matcher that records the order of calls.
+/// Matcher that adds its name to `calls` and checks the options of the problem. It finds no match.
 class NotedMatcher : public Matcher {
  public:
   NotedMatcher(std::string name, std::vector<std::string>& calls) : name_(std::move(name)), calls_(calls) {}

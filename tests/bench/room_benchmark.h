@@ -12,7 +12,7 @@
 
 namespace psi_slam {
 
-/// Line of a relations file for two scans of the run, given by their numbers.
+/// Line of a relations file. `motion` leads from scan `from` to scan `to`, which are 0-based indices.
 inline std::string room_relation(int from, int to, const mrpt::math::TPose2D& motion) {
   return format_seconds(1'000'000'000 + 200'000 * from) + ' ' + format_seconds(1'000'000'000 + 200'000 * to) +
          ' ' + std::to_string(motion.x) + ' ' + std::to_string(motion.y) + " 0 0 0 " +
@@ -34,8 +34,8 @@ inline void write_room_benchmark(const std::filesystem::path& data, const std::f
   write_file(data / "room.relations", relations);
 }
 
-/// Writes relations between scans of the second round and scans almost one round earlier. The relations are
-/// wrong by `lie_m` metres.
+/// Writes relations between scans of the second round and scans almost one round earlier. The x component of
+/// each relation is wrong by `lie_m` metres.
 inline void write_room_passes(const std::filesystem::path& data, double lie_m = 0) {
   std::string relations;
   for (int i = 100; i < 190; i += 3) {

@@ -20,8 +20,8 @@ class SparseCommand : public BenchCommand {
  protected:
   SparseCommand() : BenchCommand("sparse") {}
 
-  /// Writes the log of the room three times: as a dense log, as a log for the part every-nth, and as a sparse
-  /// log.
+  /// Writes the log of the room three times: as the dense log "room", as "mit-csail" for the part every-nth,
+  /// and as the sparse log "hall".
   void write_rooms() const {
     write_room();
     fs::create_directories(data_ / "sparse");

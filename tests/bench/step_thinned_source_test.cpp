@@ -16,7 +16,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// Odometry that jumps, turns, stands still and crosses +-180 degrees.
+/// Odometry of random steps that turns, stands still and crosses +-180 degrees.
 std::vector<TPose2D> random_odometry(std::uint64_t seed, std::size_t scans) {
   RandomDraws draws(seed, "odometry", 0);
   std::vector<TPose2D> poses{{3, -4, 3}};
@@ -53,7 +53,8 @@ StepThinnedSource thinned(const std::vector<TPose2D>& odometry, const ThinningSt
   return {std::make_unique<PoseSource>(odometry), step};
 }
 
-/// Reference for the kept scans: compares each scan with the last kept scan, and angles by their cosine.
+/// Indices of the kept scans, as a reference. Compares each scan with the last kept scan, and angles by their
+/// cosine.
 std::vector<std::size_t> slowly_kept(const std::vector<TPose2D>& odometry, const ThinningStep& step) {
   std::vector<std::size_t> kept{0};
   for (std::size_t i = 1; i < odometry.size(); ++i) {
@@ -66,8 +67,8 @@ std::vector<std::size_t> slowly_kept(const std::vector<TPose2D>& odometry, const
   return kept;
 }
 
-/// Reference for the pose of a removed scan: moves the last kept scan by odometry, with the rotation written
-/// out.
+/// Map pose of a removed scan, as a reference. Moves the last kept scan by odometry, with the rotation
+/// written out.
 TPose2D slowly_put_back(const TPose2D& odom_T_kept, const TPose2D& odom_T_scan, const TPose2D& map_T_kept) {
   const double turn_rad = map_T_kept.phi - odom_T_kept.phi;
   const double x = odom_T_scan.x - odom_T_kept.x;

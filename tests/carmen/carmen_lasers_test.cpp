@@ -183,8 +183,8 @@ std::string robotlaser(const TPose2D& laser, const TPose2D& robot) {
   return text;
 }
 
-/// Log of a robot that drives a curve. At each step, the laser's pose departs from odometry by a further
-/// `drift`.
+/// Log of a robot that drives along a curve. With each step, the laser's pose departs from odometry by a
+/// further `drift`.
 std::string log_with_drift(const TPose2D& robot_T_laser, const TPose2D& drift) {
   std::string text = "# comment\n";
   TPose2D robot{10, 20, 2};

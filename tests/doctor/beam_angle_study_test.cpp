@@ -13,8 +13,8 @@ using mrpt::math::TPose2D;
 
 class BeamAngleStudyTest : public testing::Test {
  protected:
-  /// Studies a log whose beams have the bearings `truth_rad`, read with the bearings `used_rad`. The true
-  /// laser looks straight ahead. Under `used_rad`, its heading is off by the difference of the mean bearings.
+  /// Studies a simulated log with the true bearings `truth_rad`, read with the bearings `used_rad`. The laser
+  /// looks straight ahead. With `with_heading`, the study gets the heading error that `used_rad` causes.
   BeamAngleStudy study(const std::vector<float>& truth_rad, const std::vector<float>& used_rad,
                        bool with_heading = true) {
     SimulatedRun run = round_trips(2);

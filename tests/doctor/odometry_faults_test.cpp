@@ -33,7 +33,7 @@ class OdometryFaultsTest : public testing::Test {
   std::vector<FrameMark> marks_;
 };
 
-/// Moves the odometry of frame `from` and all later frames by the pose `by`, relative to the robot.
+/// Moves the odometry of frame `from` and all later frames by the motion `by`, in the robot's frame.
 void jump(SimulatedRun& run, std::size_t from, const TPose2D& by) {
   const TPose2D old = run.odometry[from];
   const TPose2D moved = old + by;

@@ -81,7 +81,7 @@ TEST(LoopJudgement, judges_a_true_loop_true) {
 }
 
 TEST(LoopJudgement, a_loop_is_false_beyond_the_limits_and_the_drift) {
-  // The relation ends at node and anchor of the loop: no drift.
+  // The relation joins the anchor and the node of the loop, so the limits include no drift.
   const std::vector<Relation> relations{relation(4, 71)};
   const auto is_false = [&](const TPose2D& moved) {
     MappingResult result = run();
@@ -146,8 +146,8 @@ TEST(LoopJudgement, judges_accepted_loops_only) {
 TEST(LoopJudgement, recall_counts_relations_between_two_passes) {
   MappingResult result = run();
   add_loop(result, 71);
-  // Relations that a loop joins, with ends too near along the path, with ends too far apart, and that no loop
-  // joins.
+  // In this order: a relation that the loop joins, one with ends too near along the path, one with ends too
+  // far apart, and one that no loop joins.
   const LoopJudgement judgement =
       judge_loops(result, {relation(10, 71), relation(10, 20), relation(0, 40), relation(30, 51)});
   EXPECT_EQ(judgement.passes, 2U);

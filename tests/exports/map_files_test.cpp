@@ -22,7 +22,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 constexpr double kCell_m = 0.05;
-/// The walls lie on borders of cells and may fall into either cell; 1 % allows for rounding.
+/// Tolerance of one cell, because walls on the border of two cells may fall into either. 1 % is for rounding.
 constexpr double kClose_m = 1.01 * kCell_m;
 
 class MapFiles : public testing::Test {
@@ -36,12 +36,12 @@ class MapFiles : public testing::Test {
     return folder_.path() / name;
   }
 
-  /// Output of a Python script that measures the file.
+  /// Runs the Python script that measures a map file. Returns its exit code and output.
   static ForeignRun measured(const std::filesystem::path& file) {
     return run_foreign("/usr/bin/python3 '" PSI_SLAM_MEASURE_MAP "' '" + file.string() + "'");
   }
 
-  /// `numbers` begins with the walls' x_min, x_max, y_min, y_max.
+  /// Expects the room's x_min, x_max, y_min and y_max, in metres, at the beginning of `numbers`.
   void expect_room(const std::vector<double>& numbers, double tolerance_m) const {
     EXPECT_NEAR(numbers[0], room_.x_min, tolerance_m);
     EXPECT_NEAR(numbers[1], room_.x_max, tolerance_m);

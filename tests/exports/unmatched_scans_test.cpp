@@ -58,7 +58,7 @@ TEST(UnmatchedScans, of_two_runs_are_two_stretches) {
   EXPECT_EQ(unmatched.stretches[1].run_start_us, 976052907'000000);
 }
 
-/// Compares stretches with all patterns of eight matched and unmatched scans.
+/// Checks the stretches for each of the 256 patterns of eight matched or unmatched scans.
 TEST(UnmatchedScans, cover_exactly_the_unmatched_scans) {
   for (int pattern = 0; pattern < 256; ++pattern) {
     std::string scans = "|";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands of the File menu, with answers to their file dialogs.
+// Tests the commands of the File menu with prepared answers to their file dialogs.
 #include <gmock/gmock.h>
 
 #include <deque>
@@ -133,7 +133,7 @@ TEST_F(FileQuestionsTest, edits_made_while_a_session_is_read_are_not_lost) {
       .when_phase(ReplayPhase::kPaused)
       .then([=](MainFrame& frame) {
         frame.resume_with(log);
-        frame.replay()->edit(edit);  // takes effect before or after the log is compared with the session
+        frame.replay()->edit(edit);  // may take effect before the log is compared with the session
       })
       .when("the session is resumed with the log",
             [=](MainFrame& frame) {

@@ -42,7 +42,7 @@ class GuiRun {
   std::ostringstream out;
   std::ostringstream err;
 
-  /// Waits until `condition` is true.
+  /// Adds a step that waits until `condition` is true. `what` names the step in error messages.
   GuiRun& when(std::string what, std::function<bool(MainFrame&)> condition) {
     steps_.push_back({std::move(what), std::move(condition)});
     return *this;
@@ -50,7 +50,7 @@ class GuiRun {
   GuiRun& then(std::function<void(MainFrame&)> action) {
     return when("", [action](MainFrame& frame) { return action(frame), true; });
   }
-  /// Chooses a command of a menu once it is enabled.
+  /// Waits until a menu command is enabled, and chooses it.
   GuiRun& command(int id) {
     when("command " + std::to_string(id) + " is enabled",
          [id](MainFrame& frame) { return frame.GetMenuBar()->IsEnabled(id); });
@@ -69,7 +69,7 @@ class GuiRun {
       return frame.replay() && frame.replay()->snapshot()->phase == phase;
     });
   }
-  /// Waits until the window is drawn, and saves a picture of it.
+  /// Waits 0.7 s for the window to be drawn, and saves a picture of it as `name`.png in pictures().
   GuiRun& screenshot(const std::string& name) {
     pause(700);
     return then([name](MainFrame& frame) {
@@ -80,7 +80,7 @@ class GuiRun {
       EXPECT_TRUE(image.SaveFile((pictures() / (name + ".png")).string(), wxBITMAP_TYPE_PNG));
     });
   }
-  /// Moves the real mouse pointer to a point of a window, given as shares of its size.
+  /// Moves the real mouse pointer to a point of a window, given as fractions of its width and height.
   GuiRun& mouse_to(const std::string& window, double x_share, double y_share) {
     then([=](MainFrame& frame) {
       const wxWindow* const target = wxWindow::FindWindowByName(window, &frame);
@@ -115,7 +115,7 @@ class GuiRun {
     });
     return when("a pause", [until](MainFrame&) { return std::chrono::steady_clock::now() >= *until; });
   }
-  /// From now on, records the longest gap between events as `name`. The gaps include the time of the steps.
+  /// Starts to record the longest gap between events as `name`. The gaps include the time of the steps.
   GuiRun& gauge(const std::string& name) {
     return then([this, name](MainFrame&) {
       gauges_.push_back({name, {}});

@@ -568,7 +568,7 @@ TEST_F(MainFrameTest, a_dropped_log_is_listed_among_recent_logs) {
   EXPECT_EQ(gui_.run({}), 0);
 }
 
-/// Tip of the arrow that shows the robot.
+/// Tip of the arrow that shows the robot, in the map frame.
 mrpt::math::TPoint2D drawn_robot(MainFrame& frame) {
   const auto& layer = frame.map().map_scene().layer(MapLayer::kRobot);
   const auto arrow = std::dynamic_pointer_cast<mrpt::opengl::CSetOfTriangles>(*layer.begin());

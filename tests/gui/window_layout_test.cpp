@@ -21,7 +21,7 @@ class WindowLayoutTest : public testing::Test {
   void SetUp() override {
     if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run from Debian's package xvfb";
   }
-  /// Writes the configuration file of an earlier start of the program.
+  /// Writes the configuration file that an earlier start of the program would have left.
   void write_choices(const std::string& lines) {
     std::filesystem::create_directories(gui_.folder() / "config");
     write_file(gui_.folder() / "config" / "psi-slam-gui.conf", lines);

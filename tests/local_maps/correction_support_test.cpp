@@ -11,8 +11,8 @@ namespace {
 using mrpt::math::TPoint2Df;
 using mrpt::math::TPose2D;
 
-// A scan of a person at (2, 0) and of other objects. The grid holds all of them as seen from the pose
-// kMatched. Objects with `both` are also in the grid as seen from the pose kHeld, half a metre ahead.
+// A scan of a person at (2, 0) and of other objects. The grid holds all of them as seen from kMatched, the
+// matched pose. Objects with `both` are also in the grid as seen from kHeld, the pose kept close to odometry.
 const TPose2D kMatched(0, 0, 0);
 const TPose2D kHeld(0.5, 0, 0);
 const std::vector<TPoint2Df> kPerson = {{2, 0}, {2, 0.1F}, {2, 0.2F}, {2, -0.1F}, {2, -0.2F}};

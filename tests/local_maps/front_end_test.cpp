@@ -93,7 +93,7 @@ TEST(FrontEnd, follows_a_robot_whose_scans_are_far_apart) {
 }
 
 // A hall of 70 m by 50 m, and a robot that scans once per metre. At distances of 20 to 40 m, the beams hit
-// the walls 20 to 60 cm apart. So the hits of each scan fall between the hits of the scan before.
+// the walls 20 to 60 cm apart. So the hits of each scan fall between the hits of the previous scan.
 TEST(FrontEnd, follows_a_robot_through_a_large_hall_with_one_scan_a_metre) {
   SimulatedWalls hall;
   hall.add_box(-35, -25, 35, 25);
@@ -125,7 +125,7 @@ TEST(FrontEnd, finds_the_robot_again_where_odometry_is_wrong_by_a_whole_step) {
     if (i % 8 == 5) motion = {-motion.x, -motion.y, motion.phi};
     odom_T_robot = odom_T_robot + motion;
     drive.frames[i].odom_T_robot = odom_T_robot;
-    // After 2 s, the last motion predicts little.
+    // The scans are 2 s apart, so the last motion hardly predicts the next one.
     drive.frames[i].time_us = static_cast<TimeUs>(i) * 2'000'000;
   }
   EXPECT_GT(errors_of_odometry(drive).largest_m, 3);
@@ -213,7 +213,7 @@ TEST(FrontEnd, ignores_poses_of_frames_without_odometry) {
   const auto path = path_along({{2, 1.5}, {6, 1.6}, {2, 1.4}}, 0.03, 0.03);
   SimulatedDrive drive = drive_along(office_floor(), path, {}, 5);
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
-    if (i / 10 % 2 == 0) continue;  // odometry is available in blocks of ten scans
+    if (i / 10 % 2 == 0) continue;  // every second block of ten scans has odometry
     drive.frames[i].has_odometry = false;
     drive.frames[i].odom_T_robot = {7, -3, 0.5};
   }
@@ -455,7 +455,7 @@ TEST(FrontEnd, local_maps_overlap_by_half_and_two_at_most_are_active) {
         EXPECT_LT(step.memberships[k - 1].local_map, membership.local_map) << "older first";
       }
     }
-    // Every node except the anchor is a member of each local map that holds it.
+    // A node is a member of each local map that holds it, except the local map that it anchors.
     if (step.node) {
       const auto holding =
           std::count_if(outcome.maps.begin(), outcome.maps.end(), [&](const PlacedLocalMap& map) {

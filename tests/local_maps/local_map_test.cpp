@@ -398,7 +398,7 @@ TEST(LocalMap, agrees_with_MRPTs_own_drawing_of_a_square_room) {
           static_cast<double>(theirs.getPos(static_cast<float>(place.x), static_cast<float>(place.y)));
       if (their_free < 0.3) {
         ++walls;
-        int best = 0;  // best score nearby: MRPT's beams are half a beam off
+        int best = 0;  // best score nearby, because MRPT's bearings are off by half a beam
         for (int dy = -1; dy <= 1; ++dy)
           for (int dx = -1; dx <= 1; ++dx) best = std::max(best, score_at(scores, middle(x + dx, y + dy)));
         walls_shared += best > 100;

@@ -166,8 +166,7 @@ TEST(MatchingPointNormals, a_corner_has_none_but_its_walls_do) {
 
 TEST(MatchingPointNormals, isolated_points_have_none) {
   std::vector<float> ranges(181, kNan);
-  for (const std::size_t i : {20U, 60U, 61U, 62U, 120U})
-    ranges[i] = 5;  // three of the points belong to a post
+  for (const std::size_t i : {20U, 60U, 61U, 62U, 120U}) ranges[i] = 5;  // beams 60 to 62 hit one post
   const ScanPoints points = matching_points(scan_of(ranges), without_thinning());
   ASSERT_EQ(points.points.size(), 5U);
   for (const TPoint2Df& normal : points.normals) EXPECT_EQ(normal, TPoint2Df(0, 0));
@@ -220,8 +219,8 @@ TEST(DrawingBeams, join_the_ends_on_a_wall_but_not_to_a_dropped_beam) {
   EXPECT_EQ(drawing_beams(scan, {0, 0, 0}, options).joined, std::vector<bool>(3, false));
 }
 
-/// The ranges of the front laser are 2 m, those of the rear laser 3 m. Between the two scans, the robot
-/// turned left by 0.1 rad.
+/// The ranges of the front laser are 2 m, those of the rear laser 3 m, with one beam without return. Between
+/// the two scans, the robot turned left by 0.1 rad.
 Frame two_laser_frame() {
   Frame frame;
   frame.scan = scan_of({2, 2, 2}, {0.5, 0, 0});

@@ -24,7 +24,7 @@ void occupy(Grid& grid, int x, int y, double probability) {
   grid.setCell(x, y, static_cast<float>(1 - probability));  // MRPT stores the probability of being free
 }
 
-// Random occupancy in a share of the cells; the other cells are unknown.
+// Grid in which each cell has a random occupancy with probability `share`. The other cells are unknown.
 Grid random_grid(std::mt19937_64& random, int width, int height, double share) {
   Grid grid = grid_of_cells(width, height);
   std::uniform_real_distribution<double> uniform(0, 1);

@@ -27,7 +27,7 @@ LaserScan scan_of(RangeAt range_at) {
   return scan;
 }
 
-// Returns the range to a wall across the robot's way at `x_m`; NaN beyond 60 m.
+// Returns the range in metres to a wall across the robot's path, `x_m` ahead. Returns NaN beyond 60 m.
 double wall_across(double x_m, double bearing_rad) {
   const double range = x_m / std::cos(bearing_rad);
   return range > 0 && range < 60 ? range : kNan;

@@ -21,7 +21,7 @@ struct SimulatedDrive {
   std::vector<mrpt::math::TPose2D> map_T_robot;  ///< true poses by frame; the first is the origin
 };
 
-/// Returns `count` evenly spaced bearings.
+/// Returns `count` evenly spaced bearings from first to last, both included. `count` is at least 2.
 inline BeamBearings even_bearings(double first_rad, double last_rad, int count) {
   std::vector<float> bearings;
   for (int i = 0; i < count; ++i)
@@ -47,8 +47,8 @@ inline LaserScan simulated_scan(const SimulatedWalls& walls, const mrpt::math::T
   return scan;
 }
 
-/// Errors of odometry. The factors scale the length and the turn of every motion. Each share is the standard
-/// deviation of a random term that is added to the factor and drawn for each step.
+/// Errors of odometry. The factors scale the length and the rotation of every step. Each share is the
+/// standard deviation of a random term that is added to the factor of each step.
 struct OdometryErrors {
   double length_factor = 1;
   double turn_factor = 1;

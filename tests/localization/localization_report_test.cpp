@@ -22,7 +22,7 @@ LocalizationStep step_at(double time_s, State state, double confidence) {
   return step;
 }
 
-/// One scan each second: lost, tracked well, and then tracked with the given confidence or lost again.
+/// One scan per second. The robot is lost for 4 s, tracked for 16 s, and in the given state for 20 s.
 std::vector<LocalizationStep> run_that_ends(State state, double confidence) {
   std::vector<LocalizationStep> steps;
   for (int i = 0; i < 4; ++i) steps.push_back(step_at(i, State::kLost, 0));

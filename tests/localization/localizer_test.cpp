@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using State = LocalizationStep::State;
 
 constexpr std::uint64_t kBuilding = 1;
-constexpr double kTracked_m = 0.2;  // largest distance of a tracked pose from the true pose
+constexpr double kTracked_m = 0.2;  // largest accepted distance of a tracked pose from the true pose
 
 /// Map of the building kBuilding, made once for all tests.
 const mrpt::maps::COccupancyGridMap2D& building_map() {

@@ -14,7 +14,7 @@ namespace {
 using mrpt::maps::COccupancyGridMap2D;
 using testing::HasSubstr;
 
-/// Map with free space, one wall and unknown cells at the top. Its corner is not at the origin.
+/// Map with free space, one wall and unknown cells at the top. The lower left corner is at (-1.5, 4) m.
 COccupancyGridMap2D small_map() {
   COccupancyGridMap2D grid(-1.5F, 2.5F, 4, 7, 0.05F);
   for (int y = 0; y < 50; ++y)
@@ -80,7 +80,7 @@ TEST(MapFile, checks_the_cell_counts_of_a_gridmap) {
   std::string whole;
   CompressedFile file(path);
   for (char byte = 0; file.read(&byte, 1) == 1;) whole += byte;
-  // Place of the cell counts, after version and bits of a cell.
+  // Byte offset of the cell counts. The version and the bits per cell precede them.
   const std::size_t counts = whole.find("Map2D") + 7;
   const auto sentence_with = [&](std::size_t at, char byte) {
     std::string bytes = whole;

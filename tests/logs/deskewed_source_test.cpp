@@ -38,8 +38,8 @@ LaserScan sweep(const TPose2D& start, const TPose2D& motion, const TPose2D& moun
   return scan;
 }
 
-/// Largest distance of a beam's end from the nearest wall, if all beams start at the robot's pose at the
-/// first beam, `world_T_robot`.
+/// Largest distance in metres of a beam's end from the nearest wall. Takes `world_T_robot` as the robot's
+/// pose at every beam.
 double farthest_from_walls_m(const LaserScan& scan, const TPose2D& world_T_robot) {
   const std::vector<Wall> walls = furnished_room();
   double farthest = 0;

@@ -20,7 +20,7 @@ using mrpt::math::TPose2D;
 using testing::HasSubstr;
 using Path = std::filesystem::path;
 
-/// Largest distance of a return from the nearest wall, with the true pose of the robot at the frame's time.
+/// Largest distance in metres of a return from the nearest wall, with the frame at its true pose.
 double farthest_from_walls_m(const Frame& frame) {
   static const std::vector<Wall> walls = furnished_room();
   double farthest = 0;

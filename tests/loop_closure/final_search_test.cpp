@@ -20,7 +20,7 @@ bool is_late(std::size_t node) {
   return node >= two_rounds().node;
 }
 
-// Matcher name of a node. The exact matcher is used under both names.
+// Matcher kind recorded for a node. The exact matcher does the work under both kinds.
 MatcherKind kind_of(std::size_t node) {
   return is_late(node) ? MatcherKind::kGa : MatcherKind::kCsm;
 }

@@ -12,8 +12,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// A path of 30 m along x and back, one metre beside the way out. There is a node every metre and a local map
-// every ten nodes.
+// A path of 29 m along x and back, with the way back one metre to the left of the way out. There is a node
+// every metre and a local map every ten nodes.
 struct ThereAndBack {
   KeyframeStore keyframes;
   PoseGraph graph;
@@ -187,7 +187,7 @@ Maps far_maps_of_node_59(double chain_m, const LoopCandidateOptions& options) {
 TEST(FarCandidates, are_searched_only_once_drift_may_exceed_the_largest_window) {
   LoopCandidateOptions options;
   options.drift_per_metre = 0.02;
-  EXPECT_TRUE(far_of_node_59(399, options).empty());  // a drift of 8 m
+  EXPECT_TRUE(far_of_node_59(399, options).empty());  // the drift is just below the largest window of 8 m
   EXPECT_FALSE(far_of_node_59(401, options).empty());
 }
 

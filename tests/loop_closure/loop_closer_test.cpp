@@ -159,7 +159,7 @@ TEST(LoopCloser, finds_a_place_that_drift_has_moved_out_of_the_largest_window) {
   const KeyframeStore& keyframes = two_rounds().keyframes;
   const CorrelativeMatcher matcher({});
   LoopClosureOptions options = near_maps_too();
-  options.candidates.drift_per_metre = 5;  // the path is short
+  options.candidates.drift_per_metre = 5;  // large, because the path is short
   LoopCloser closer(options, 5);
   WorkerPool pool(1);
   bool found = false;

@@ -113,7 +113,7 @@ TEST(LoopConsensus, matches_of_different_places_do_not_add_up) {
 TEST(LoopConsensus, another_place_blocks_until_it_is_outweighed) {
   const PoseGraph graph = two_anchors();
   LoopConsensus consensus({});
-  EXPECT_EQ(consensus.add(vote(0, 5.0, 0.4, 0, {3, 0, 0}), graph), Loops());  // the other place weighs 0.6
+  EXPECT_EQ(consensus.add(vote(0, 5.0, 0.4, 0, {3, 0, 0}), graph), Loops());  // this wrong place weighs 0.6
   EXPECT_EQ(consensus.add(vote(1, 5.2, 0.5), graph), Loops());
   EXPECT_EQ(consensus.add(vote(2, 6.5, 0.5), graph), Loops()) << "0.6 against 1.0";
   EXPECT_EQ(consensus.add(vote(3, 7.5, 0.5), graph), Loops({1, 2, 3})) << "0.6 against 1.5";

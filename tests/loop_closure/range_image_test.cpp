@@ -63,7 +63,7 @@ TEST(RangeImage, uses_the_given_tolerance) {
 TEST(RangeImage, places_the_other_scan_by_its_pose) {
   const RangeImage image(scan_of(wall_ahead()));
   const TPose2D this_T_other(4, -1, M_PI / 2);
-  // Points of the other scan at (1, -1), (1, 1) and (1, -3) lie at (5, 0), (3, 0) and (7, 0) of this scan.
+  // The other scan's points (1, -1), (1, 1) and (1, -3) are (5, 0), (3, 0) and (7, 0) in this scan's frame.
   expect_agreement(image.compare(scan_of({{1, -1}}), this_T_other, kTolerance_m), 1, 0);
   expect_agreement(image.compare(scan_of({{1, 1}}), this_T_other, kTolerance_m), 0, 1);
   expect_agreement(image.compare(scan_of({{1, -3}}), this_T_other, kTolerance_m), 0, 0);

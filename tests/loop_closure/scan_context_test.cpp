@@ -30,7 +30,7 @@ NodeScan node_with(const TPose2D& local_T_robot, double travelled_m, const std::
   return node;
 }
 
-// A straight path in a turned frame. The scan of every node has one point, at (2, 1) in the robot's frame.
+// A straight path from the pose (3, 4, 0.7). Each node's scan has one point, at (2, 1) in the robot's frame.
 KeyframeStore straight_drive(int nodes, double step_m) {
   KeyframeStore keyframes;
   for (int i = 0; i < nodes; ++i)

@@ -41,7 +41,7 @@ struct Errors {
   double rad = 0;
 };
 
-// Mean errors of the motion from each frame to the fifth frame after it.
+// Mean absolute errors of the motion from each frame to the fifth frame after it.
 Errors errors_of(const std::vector<TPose2D>& poses, const std::vector<TPose2D>& truth) {
   Errors errors;
   const std::size_t count = poses.size() - 5;

@@ -20,7 +20,7 @@ using testing::IsEmpty;
 using State = LoopEditOutcome::State;
 using Kind = LoopEdit::Kind;
 
-// One and a half rounds through a room. In the last half round, the robot sees the same places again.
+// One lap around the corridor of the office and again along its first side, with biased odometry.
 const SimulatedDrive& round_drive() {
   static const SimulatedDrive drive = [] {
     OdometryErrors errors;

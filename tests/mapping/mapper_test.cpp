@@ -256,8 +256,8 @@ TEST(Mapper, counts_attempts_without_a_match) {
   EXPECT_GT(sum.evaluations, of_loops);
 }
 
-// Computes the factor directly: the mean over earlier nodes, and eta for the frames before a loop moves the
-// map.
+// Computes Psi directly from equations 13 and 14. Checks the mean of accepted loops at every frame, and eta
+// at the frames before the first loop moves the map.
 TEST(Mapper, records_the_factor_of_loop_closing) {
   const MappingResult& result = office_map();
   const auto window = static_cast<std::size_t>(PsiOptions().window_frames);

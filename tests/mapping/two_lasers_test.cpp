@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot with a front and a rear laser of 180 degrees each, which scan at different times.
+// Maps a simulated run with a front and a rear laser of 180 degrees each, which scan at different times.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using mrpt::math::TPose2D;
 
 struct Drive {
   std::vector<Frame> frames;
-  std::vector<TPose2D> start_T_robot;  // true poses
+  std::vector<TPose2D> start_T_robot;  // true poses relative to the first scan
 };
 
 const Drive& drive() {
@@ -49,7 +49,7 @@ struct Errors {
   double mean_rad = 0;
 };
 
-/// Mean errors of the motion over 20 scans. They do not depend on the origin of the map.
+/// Mean errors of the mapped motion over 20 scans, which do not depend on the origin of the map.
 Errors errors_of(const std::vector<Frame>& frames) {
   Mapper mapper;
   for (const Frame& frame : frames) mapper.add(frame);

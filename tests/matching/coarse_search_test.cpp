@@ -16,7 +16,7 @@
 namespace psi_slam {
 namespace {
 
-// Computes the sum of a block by its definition: the scores of the coarsest level under all points.
+// Computes the sum of a coarse cell by its definition: adds the scores of the coarsest level at all points.
 std::uint32_t slow_block_sum(const SearchLattice& lattice, const Tile& cell) {
   const ScoreLevel& level = lattice.grid().pyramid(1);
   std::uint32_t sum = 0;

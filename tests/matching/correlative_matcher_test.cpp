@@ -46,7 +46,7 @@ TEST(CorrelativeMatcher, finds_fifty_random_poses) {
   for (int trial = 0; trial < 50; ++trial) {
     const TPose2D truth(x(random), y(random), heading(random));
     const ScanPoints scan = scan_of(room.walls, truth, 360, 0.01, random);
-    // Windows below and above the limit of exhaustive searches.
+    // Small windows are searched exhaustively, large windows by branch and bound.
     const double half_m = trial % 2 == 0 ? 0.4 : 2.0;
     const TPose2D predicted(truth.x + share(random) * half_m, truth.y + share(random) * half_m,
                             truth.phi + share(random) * 0.4);

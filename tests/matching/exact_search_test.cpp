@@ -89,8 +89,8 @@ TEST(ExhaustiveSearch, far_from_the_grid_the_centre_wins_the_tie) {
 
 using mrpt::math::TPose2D;
 
-// Compares both searches, with and without an excluded region. The smallest sums are zero, the best sum, and
-// the best sum plus one.
+// Compares both searches with the `min_sum` 0, the best sum, and the best sum plus one. Also compares them
+// with an excluded region around the best pose.
 void expect_equal_outcomes(const SearchLattice& lattice, const std::string& where) {
   const SearchOutcome exhaustive = exhaustive_search(lattice, 0);
   const SearchOutcome fast = branch_and_bound_search(lattice, 0);

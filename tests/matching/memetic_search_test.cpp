@@ -44,7 +44,6 @@ TEST(MemeticSearch, its_best_pose_has_the_returned_sum) {
   EXPECT_GT(peaks.genetic.decoded, 0);
 }
 
-// Every switch changes the search. No search reports a sum above that of the exact search.
 TEST(MemeticSearch, every_switch_changes_the_search_and_no_result_exceeds_the_best) {
   const Room room;
   const std::optional<Candidate> best = branch_and_bound_search(room.lattice, 0).best;

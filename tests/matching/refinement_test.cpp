@@ -39,7 +39,7 @@ TPose2D moved(const TPose2D& pose, double dx, double dy, double dphi) {
   return {pose.x + dx, pose.y + dy, pose.phi + dphi};
 }
 
-// Returns J^T J / s^2, with derivatives by central differences.
+// Returns J^T J / s^2. J is the Jacobian of the scores by central differences, and s is `score_sigma`.
 Eigen::Matrix3d numeric_information(const ScoreGrid& grid, const ScanPoints& scan, const TPose2D& pose,
                                     double score_sigma) {
   constexpr double kStep = 1e-4;

@@ -13,7 +13,7 @@
 namespace psi_slam {
 namespace {
 
-// Computes a cell of a pyramid level by its definition.
+// Computes a cell of a pyramid level by its definition: the maximum over a square with sides of 2 `stride`.
 std::uint8_t brute_force_maximum(const ScoreLevel& finest, int x, int y, int stride) {
   std::uint8_t largest = 0;
   for (int fine_y = y * stride; fine_y < (y + 2) * stride; ++fine_y)

@@ -18,7 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(SearchWindow, equations_7_and_8_by_hand) {
-  // A turn by 60 degrees moves a point one cell away by one cell (equilateral triangle).
+  // A turn by 60 degrees moves a point at a distance of one cell by one cell (equilateral triangle).
   const SearchWindow window = make_search_window({8.0, 2.5, M_PI}, 1.0, 1.0);
   EXPECT_DOUBLE_EQ(window.linear_step_m, 1.0);
   EXPECT_NEAR(window.angular_step_rad, M_PI / 3, 1e-12);

@@ -47,7 +47,7 @@ struct SimulatedWalls {
     return box;
   }
 
-  /// Returns the distance to the nearest wall.
+  /// Returns the distance of a point to the nearest wall, in metres. Infinite without walls.
   double distance_m(double x, double y) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Wall& wall : walls) {
@@ -61,7 +61,7 @@ struct SimulatedWalls {
     return nearest;
   }
 
-  /// Returns the distance along a beam to the first wall; infinite if it meets no wall.
+  /// Returns the distance in metres along a beam to the first wall. Infinite if the beam hits no wall.
   double range_m(const mrpt::math::TPose2D& map_T_laser, double bearing_rad) const {
     const double c = std::cos(map_T_laser.phi + bearing_rad);
     const double s = std::sin(map_T_laser.phi + bearing_rad);

@@ -21,8 +21,8 @@ inline std::uint32_t slow_sum(const SearchLattice& lattice, const LatticePose& p
   return sum;
 }
 
-/// Returns the pose with the highest sum, if that reaches `min_sum`. Of equal poses, takes the one nearest to
-/// the centre in steps, then the one with the lowest theta, then y, then x.
+/// Returns the pose outside `excluded` with the highest sum, if this sum reaches `min_sum`. Of poses with
+/// equal sums, takes the one nearest to the centre in steps, then with the lowest theta, then y, then x.
 inline std::optional<Candidate> slow_search(const SearchLattice& lattice, std::uint32_t min_sum,
                                             const std::optional<ExcludedRegion>& excluded = {}) {
   const SearchWindow& window = lattice.window();

@@ -44,7 +44,8 @@ class SeenRoom {
 
 const std::vector<TPose2D> kViews = {{3, 2, 0.5}, {3.2, 2.1, 0.7}, {3.5, 2.4, 0.3}, {2.8, 1.9, 0.4}};
 
-// Returns the sum of rho over all points, without the prior. Finds near points by comparing all pairs.
+// Returns the cost without the prior: the sum of the robust kernel rho over all points. Finds near points by
+// comparing all pairs.
 double slow_cost(const SurfaceMap& map, const SurfacePoints& scan, const TPose2D& pose,
                  const SurfaceAlignmentOptions& options) {
   const auto& surface = map.index().points();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Complete runs of MRPT's engine with deciders of psi-slam and MRPT.
+// Tests complete runs of MRPT's graph-slam engine with deciders of psi-slam and MRPT.
 #include "mrpt/graphslam_run.h"
 
 #include <gmock/gmock.h>

@@ -43,7 +43,7 @@ using testing::HasSubstr;
 constexpr const char* kRawlog =
     "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
 
-// The example program: maps a rawlog of either form and writes the map.
+// Maps a rawlog of either form, actions or single observations, and writes the map, as a user's program does.
 void map_rawlog(const std::string& rawlog, CMetricMapBuilderPsi& builder, const std::string& folder) {
   mrpt::io::CFileGZInputStream file(rawlog);
   auto archive = mrpt::serialization::archiveFrom(file);
@@ -260,7 +260,7 @@ TEST(MetricMapBuilderPsi, starts_at_the_given_pose) {
   expect_pose(estimate.mean.asTPose(), start + estimate_of(at_origin).mean.asTPose());
   EXPECT_GT(estimate.cov(0, 0), 0.04) << "the robot's uncertainty includes that of the start";
 
-  // The grid is shifted too: it is free at the robot.
+  // The grid must be moved by the start pose too, so the robot's cell is free.
   const TPose2D stood = poses.back();
   EXPECT_GT(elsewhere.grid()->getPos(static_cast<float>(stood.x), static_cast<float>(stood.y)), 0.6F);
 }
@@ -321,7 +321,7 @@ TEST(MetricMapBuilderPsi, its_metric_map_is_one_grid_drawn_when_asked_for) {
   // robot's path.
   const auto last = builder.grid();
   EXPECT_LT(last->getPos(1.5F, -1.62F), 0.4F);
-  // Skips the start, since no scan saw the space before it.
+  // Skips the first poses, because no scan observed the space around the start.
   for (std::size_t i = 10; i < drive.frames.size(); i += 10) {
     const TPose2D& pose = drive.map_T_robot[i];
     EXPECT_GT(last->getPos(static_cast<float>(pose.x), static_cast<float>(pose.y)), 0.6F);

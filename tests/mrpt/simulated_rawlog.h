@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a simulated run as a rawlog of either form. The true pose of each scan is known.
+// Test helpers that write a simulated run as a rawlog of either form. The true pose of each scan is known.
 #pragma once
 
 #include <mrpt/io/CFileOutputStream.h>
@@ -105,7 +105,7 @@ inline Frame seen_on_the_left(const Frame& frame) {
   return seen_by_part(frame, frame.scan.ranges_m.size() / 2, frame.scan.ranges_m.size());
 }
 
-/// Writes a rawlog as write_rawlog() does, of a robot with one or two lasers, "right" and "left". Each has
+/// Writes a rawlog like write_rawlog(), of a robot with one or two lasers, "right" and "left". Each laser has
 /// half of the beams.
 inline std::filesystem::path write_rawlog_of_lasers(const std::filesystem::path& path,
                                                     const std::vector<Frame>& frames, int form, bool right,

@@ -14,8 +14,8 @@
 namespace psi_slam {
 namespace {
 
-// Returns a random positive definite matrix. `density` is the share of its blocks off the diagonal that are
-// not zero.
+// Returns a random positive definite matrix. Blocks next to the diagonal are nonzero, other blocks with the
+// probability `density`.
 SymmetricBlockMatrix random_matrix(std::size_t n, double density, std::uint64_t seed) {
   Measurer measurer(seed);
   SymmetricBlockMatrix matrix;

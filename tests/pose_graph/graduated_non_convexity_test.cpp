@@ -14,8 +14,8 @@ namespace {
 
 enum class Falsehood { kAnywhere, kNearby };
 
-// Adds false loops until they are this share of all loops. kAnywhere joins arbitrary nodes. kNearby joins
-// nodes of a true loop with an error of metres, as a match in a corridor can have.
+// Adds false loops until the fraction `share` of all loops is false. kAnywhere joins arbitrary nodes. kNearby
+// joins nodes of a true loop with an error of metres, as a match in a corridor can have.
 PoseGraph with_false_loops(const PoseGraph& graph, double share, Falsehood falsehood) {
   PoseGraph result = graph;
   Measurer measurer(7);

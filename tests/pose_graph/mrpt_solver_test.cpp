@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares the solver with MRPT's optimize_graph_spa_levmarq where MRPT's solver converges: exact
-// measurements and disturbed poses. MRPT's error is the logarithm of P1 D P2^-1 in the axes of the map. With
-// noise, its minimum is therefore another one.
+// measurements and disturbed poses. MRPT's error is the logarithm of P1 D P2^-1 in the axes of the map, with
+// the poses P1 and P2 and the measurement D. So noisy measurements move the minimum of MRPT's error.
 #include <gtest/gtest.h>
 #include <mrpt/graphs/CNetworkOfPoses.h>
 #include <mrpt/graphslam/levmarq.h>

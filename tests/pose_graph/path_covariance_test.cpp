@@ -55,7 +55,8 @@ Eigen::Matrix3d propagated(const PoseGraph& graph, const std::vector<std::size_t
   return sum;
 }
 
-// Returns the chain from the source to a node, as `nodes` and `constraints`.
+// Fills `constraints` with the chain from `source` to `node`, and `nodes` with the node at which each
+// constraint starts.
 void trace_back(const std::vector<RelativeUncertainty>& all, std::size_t source, std::size_t node,
                 std::vector<std::size_t>& nodes, std::vector<std::size_t>& constraints) {
   for (; node != source; node = all[node].previous) {
@@ -80,7 +81,8 @@ PoseGraph with_skewed_information(const PoseGraph& graph) {
   return result;
 }
 
-// Returns the costs by a greedy search without a queue, with the cost computed by its definition.
+// Returns the cost of the chain to each node, or -1 if there is none. Searches greedily without a queue, and
+// computes each cost by its definition.
 std::vector<double> slow_costs(const PoseGraph& graph, std::size_t source, double lever) {
   struct State {
     std::vector<std::size_t> nodes, constraints;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Solves public benchmark pose graphs.
+// Solves public benchmark pose graphs and compares the errors with those of undamped Gauss-Newton.
 #include <gtest/gtest.h>
 
 #include <ostream>

@@ -96,8 +96,8 @@ inline KnownGraph ring(std::size_t nodes, std::size_t loops, double noise, doubl
 }
 
 /// Returns the graph of a random walk over a grid of corridors, which are 4 m apart, with steps of 0.5 m.
-/// Each node has odometry and `local_maps` constraints to the anchors of the last local maps of 40 nodes. It
-/// also has loops to the anchors of older local maps within 6 m.
+/// Each local map has 40 nodes. Constraints lead to each node from the previous node, from the anchors of the
+/// last `local_maps` local maps, and as loops from the anchors of older local maps within 6 m.
 inline KnownGraph building(std::size_t nodes, std::size_t local_maps, std::size_t max_loops_per_node,
                            std::uint64_t seed = 1, double noise = 1) {
   constexpr std::size_t kMapNodes = 40;

@@ -123,7 +123,7 @@ TEST(GridMap, beams_without_return_free_the_unknown_cells_on_their_way_and_no_ot
   std::mt19937_64 random(9);
   std::uniform_real_distribution<float> near(0.2F, 3.9F);
   std::vector<Frame> log(poses.size());
-  // Beams without return, as returns beyond the range of the map.
+  // Holds the beams without return, as returns at 20 m, beyond the range of the map.
   std::vector<Frame> only_no_returns(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     log[i].scan.bearings_rad = even_bearings(-M_PI, M_PI, 90);

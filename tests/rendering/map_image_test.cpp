@@ -12,8 +12,8 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 
-/// Returns a map of 3 m x 2 m with lower left corner (-1.5, 4) and cells of 0.25 m. 2 m x 1 m of it is free,
-/// with one obstacle at (-0.5, 4.25).
+/// Returns a map of 3 m x 2 m with its lower left corner at (-1.5, 4) m and cells of 0.25 m. The 2 m x 1 m at
+/// this corner are free, except for one cell with its lower left corner at (-0.5, 4.25) m.
 COccupancyGridMap2D lopsided_map() {
   COccupancyGridMap2D grid(-1.5F, 1.5F, 4, 6, 0.25F);
   for (int x = 0; x < 8; ++x)

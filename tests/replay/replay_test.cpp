@@ -24,7 +24,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using SnapshotPtr = std::shared_ptr<const ReplaySnapshot>;
 
-/// Returns the first snapshot that fulfils `expected`. Fails the test after four minutes.
+/// Returns the first snapshot that fulfils `expected`. Fails the test after four minutes, or if the replay
+/// fails.
 SnapshotPtr wait_for(const Replay& replay, const std::function<bool(const ReplaySnapshot&)>& expected) {
   const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(4);  // sanitizers are slow
   SnapshotPtr snapshot = replay.snapshot();
@@ -325,7 +326,7 @@ TEST_F(ReplayTest, can_be_closed_at_any_moment) {
 
 class HeldFinalSearch : public ReplayTest {
  protected:
-  /// Returns a run that is paused in its final loop search.
+  /// Returns a replay that is paused in its final loop search.
   std::unique_ptr<Replay> held() {
     auto replay = std::make_unique<Replay>(log(room_log_lines()), settings_);
     replay->set_speed(0);

@@ -49,8 +49,8 @@ class DamagedBag : public testing::TestWithParam<Kind> {
     whole_ = read_file(path_);
   }
 
-  /// Reads a bag of these `bytes`, which must be as many as the undamaged bag has. Overwriting the file is
-  /// faster than creating one.
+  /// Overwrites the bag with `bytes`, which must have the size of the undamaged bag, and reads it. That is
+  /// faster than creating a file.
   Reading read(const std::string& bytes) const {
     std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -23,7 +23,7 @@ using mrpt::math::TPose3D;
 using testing::HasSubstr;
 using Path = std::filesystem::path;
 
-/// Returns the frames of the recording after it was written as a CARMEN log.
+/// Writes the recording as a CARMEN log and returns the frames that are read from this log.
 std::vector<Frame> carmen_frames(const Recording& recording, const TPose2D& mount = {0.2, 0, 0.3}) {
   TemporaryFolder folder;
   write_carmen(folder.path() / "log.clf", recording);

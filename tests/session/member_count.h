@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-// The conversions of Anything are only declared, never called.
+// The conversions of Anything are only declared, never called, so -Wconversion does not apply.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 
@@ -38,7 +38,7 @@ constexpr std::size_t counted_from() {
 
 }  // namespace member_count_detail
 
-/// Number of members of an aggregate. A struct inside counts as one.
+/// Number of members of an aggregate. A member that is a struct counts as one.
 template <class Struct>
 constexpr std::size_t member_count() {
   return member_count_detail::counted_from<Struct, 0>();

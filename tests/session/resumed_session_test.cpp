@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run that was interrupted, saved and resumed gives the same bytes as one without interruption.
+// Tests that a run that is interrupted, saved and resumed gives the same results as one without interruption.
 #include <gmock/gmock.h>
 
 #include "psi_slam/mapping_session.h"
@@ -170,7 +170,8 @@ TEST_F(ResumedSession, reports_damage_and_skipped_lines_again) {
   }
 }
 
-/// Two logs of 40 scans each. The first one ends after 40 scans for the given reason.
+/// Resumes a session with a second log of 30 scans. The first log is damaged at its end, or its mapping was
+/// interrupted.
 class ContinuedWithAnotherLog : public ResumedSession {
  protected:
   void expect_told_again_and_again(const std::string& what, bool interrupted) {

@@ -63,7 +63,7 @@ inline mrpt::math::TPose2D room_pose(double turn_rad) {
 }
 
 /// Returns the FLASER lines of a run with five scans a second. `scans_a_round` scans make one round. The
-/// odometry turns slightly too far.
+/// rotations of odometry are 2 % too large.
 inline std::vector<std::string> room_log_lines(int scans = 150, int scans_a_round = 100) {
   std::vector<std::string> lines;
   mrpt::math::TPose2D odom_T_robot(0, 0, 0);

@@ -31,7 +31,7 @@ LaserScan scan_of(std::vector<float> ranges_m, float max_range_m) {
   return scan;
 }
 
-/// Returns scans of a second laser; for frame 2 also of a third laser.
+/// Returns a scan of a second laser. For frame 2, adds a scan of a third laser.
 std::vector<CompanionScan> companions_of(std::size_t frame) {
   std::vector<CompanionScan> companions(frame == 2 ? 2 : 1);
   for (std::size_t i = 0; i < companions.size(); ++i) {
@@ -43,7 +43,7 @@ std::vector<CompanionScan> companions_of(std::size_t frame) {
   return companions;
 }
 
-/// Returns a recording with scans of two sensors, with numbers that a text would round.
+/// Returns a recording with scans of up to three lasers and with numbers that a text would round.
 SessionRecording small_recording() {
   SessionRecording recording;
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -92,7 +92,7 @@ class SessionFileTest : public testing::Test {
     return sentence_of([&] { read_session_file(path_); });
   }
 
-  /// Replaces the checksum at the end by the correct one.
+  /// Returns `bytes` with the checksum at the end replaced by the correct one.
   static std::string sealed(const std::string& bytes) {
     const std::string content = bytes.substr(0, bytes.size() - 64);
     return content + sha256_of_text(content);

@@ -33,14 +33,15 @@ inline double distance_m(const mrpt::math::TPoint2D& point, const PlanSegment& w
   return std::hypot(off.x - share * way.x, off.y - share * way.y);
 }
 
-/// Distance to the nearest segment.
+/// Distance of a point to the nearest segment, in metres. Infinite if the plan has no segments.
 inline double clearance_m(const FloorPlan& plan, const mrpt::math::TPoint2D& point) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const PlanSegment& wall : plan.segments) nearest = std::min(nearest, distance_m(point, wall));
   return nearest;
 }
 
-/// Distance along a ray to the first segment, with or without glass; infinite if the ray hits nothing.
+/// Distance in metres along a ray to the first segment. With `pass_glass`, the ray passes glass. Infinite if
+/// the ray hits nothing.
 inline double ray_m(const FloorPlan& plan, const mrpt::math::TPose2D& ray, bool pass_glass) {
   const mrpt::math::TPoint2D direction(std::cos(ray.phi), std::sin(ray.phi));
   double nearest = std::numeric_limits<double>::infinity();

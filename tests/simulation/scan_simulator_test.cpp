@@ -173,7 +173,7 @@ TEST(ScanSimulator, refuses_impossible_lasers) {
   refuses(&Options::robot_T_laser, TPose2D(0, nan, 0));
   for (const auto share : {&Options::dropout_share, &Options::glass_return_share, &Options::glass_loss_share})
     for (const double value : {-0.1, 1.1, nan}) refuses(share, value);
-  refuses(&Options::glass_return_share, 0.9);  // with glass_loss_share = 0.2 above 1 in total
+  refuses(&Options::glass_return_share, 0.9);  // the sum with glass_loss_share = 0.2 exceeds 1
 }
 
 TEST(ScanSimulator, accepts_options_at_their_bounds) {

@@ -17,8 +17,8 @@ struct Moments {
 };
 
 constexpr int kRuns = 4000;
-constexpr double kMeanBound = 5;         // bound for a mean over kRuns runs, in its standard deviations
-constexpr double kVarianceShare = 0.12;  // bound for a variance: more than five of its standard deviations
+constexpr double kMeanBound = 5;         // largest accepted error of a mean, in its standard deviations
+constexpr double kVarianceShare = 0.12;  // largest accepted relative error of a variance: over five sigma
 
 Moments moments(const std::vector<double>& values) {
   Moments result;

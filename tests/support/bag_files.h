@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Test helpers that write the recording of a robot as a ROS 2 bag in SQLite or MCAP, by the specifications,
-// or as a CARMEN log. For ROS 1 bags see ros1_files.h.
+// Test helpers that write a recording of a robot as a CARMEN log or as a ROS 2 bag, in SQLite or MCAP. They
+// follow the format specifications and use no ROS library. For ROS 1 bags see ros1_files.h.
 #pragma once
 
 #include <lz4frame.h>
@@ -38,7 +38,7 @@ struct RecordedScan {
   float scan_time_s = 0.1F;
 };
 
-/// An odometry message, or a transform on a topic of transforms.
+/// An odometry message, or a transform if the topic begins with "/tf".
 struct RecordedPose {
   std::string topic = "/odom";
   TimeUs time_us = 0;
@@ -66,7 +66,7 @@ inline std::string ros2_type_of(const Recorded& message) {
   return pose->is_transform() ? "tf2_msgs/msg/TFMessage" : "nav_msgs/msg/Odometry";
 }
 
-/// Transform of a laser 0.2 m ahead of the robot's centre, turned left by 0.3 rad.
+/// Static transform from base_link to a laser 0.2 m ahead and 0.4 m above, turned left by 0.3 rad.
 inline RecordedPose static_mount(const std::string& frame = "laser",
                                  const mrpt::math::TPose3D& pose = {0.2, 0, 0.4, 0.3, 0, 0}) {
   return {"/tf_static", 1'000'000'000'000'000, "base_link", frame, pose};
@@ -93,7 +93,7 @@ inline Recording recorded_run(int scans = 20) {
   return recording;
 }
 
-/// Returns x, y, z and the quaternion's x, y, z, w.
+/// Returns the pose as x, y, z in metres and the components x, y, z, w of its unit quaternion.
 inline std::array<double, 7> place_and_quaternion(const mrpt::math::TPose3D& pose) {
   const double cy = std::cos(pose.yaw / 2), sy = std::sin(pose.yaw / 2);
   const double cp = std::cos(pose.pitch / 2), sp = std::sin(pose.pitch / 2);
@@ -115,8 +115,8 @@ inline std::string lz4_frame(const std::string& bytes) {
 
 // ---- CDR ----
 
-/// Writes a ROS 2 message in CDR: numbers are aligned to their size after a header of four bytes, in either
-/// byte order.
+/// Writes a ROS 2 message in CDR, in either byte order. Each number is aligned to its size, counted from the
+/// end of the header of four bytes.
 class CdrWriter {
  public:
   explicit CdrWriter(bool little_endian = true) : little_endian_(little_endian) {}

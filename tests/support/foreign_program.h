@@ -26,7 +26,7 @@ struct ForeignRun {
   }
 };
 
-/// Runs a shell command and returns its exit code and standard output.
+/// Runs a shell command and returns its exit code, 128 after a signal, and its standard output.
 inline ForeignRun run_foreign(const std::string& command) {
   FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);

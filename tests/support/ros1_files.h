@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Test helpers that write recordings as ROS 1 bags, by the specification. write_ros1_bag.py in tests/rosbag
-// writes bags with ROS's library.
+// Test helpers that write recordings as ROS 1 bags. They follow the format specification, whereas
+// write_ros1_bag.py in tests/rosbag writes bags with ROS's own library.
 #pragma once
 
 #include <bzlib.h>
@@ -61,7 +61,7 @@ inline std::string ros1_message(const Recorded& message) {
 struct Ros1Layout {
   std::string compression = "none";  ///< "none", "bz2" or "lz4"
   std::size_t messages_per_chunk = 7;
-  bool is_closed = true;  ///< false: without index, as if the recorder was killed
+  bool is_closed = true;  ///< false: no index, as after a recorder was killed
 };
 
 class Ros1Writer {

@@ -41,7 +41,7 @@ inline std::string without_times_of_frames(const std::string& csv) {
   return text;
 }
 
-/// A summary without the entries in which equal runs can differ: times, memory, threads, and names of logs.
+/// summary.json without the entries in which equal runs can differ: times, memory, threads and log name.
 inline std::string summary_without_times(const std::string& text) {
   nlohmann::json summary = nlohmann::json::parse(text);
   for (const char* key : {"wall_s", "real_time_factor", "peak_memory_mib", "stages"}) summary.erase(key);
@@ -54,7 +54,7 @@ inline std::string summary_without_times(const std::string& text) {
   return summary.dump(1);
 }
 
-/// The cards of a report without times, settings and the name of the log.
+/// Three cards of report.html and the table of facts about the log. Leaves out times, settings and log name.
 inline std::string report_without_times(const std::string& html) {
   const std::string begin = "<section class=\"card\"><h2>";
   std::string text;
@@ -69,7 +69,8 @@ inline std::string report_without_times(const std::string& html) {
   return text;
 }
 
-/// The contents of a result file that must be equal in equal runs: everything except times.
+/// The contents of a result file that must be equal in equal runs. Leaves out entries that may differ, such
+/// as times.
 inline std::string comparable(const std::filesystem::path& file) {
   constexpr int kTimesOfLoops = 1;
   const std::string bytes = read_file(file);
@@ -87,7 +88,7 @@ inline std::set<std::string> names_of_files(const std::filesystem::path& folder)
   return names;
 }
 
-/// Names of the files that only one of two result folders has, or that differ in more than times.
+/// Names of the files that only one of two result folders has, or whose `comparable` contents differ.
 inline std::set<std::string> differing_files(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::set<std::string> names = names_of_files(a);
   names.merge(names_of_files(b));
@@ -99,7 +100,7 @@ inline std::set<std::string> differing_files(const std::filesystem::path& a, con
   return differing;
 }
 
-/// Expects that the result folders of two runs hold the same files with the same bytes, except times.
+/// Expects that the result folders of two runs hold the same files with the same `comparable` contents.
 inline void expect_same_results(const std::filesystem::path& a, const std::filesystem::path& b) {
   EXPECT_EQ(differing_files(a, b), std::set<std::string>()) << a << " and " << b;
   for (const char* name : {"trajectory.tum", "graph.g2o", "frames.csv", "summary.json", "report.html"})

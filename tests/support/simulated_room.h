@@ -45,7 +45,7 @@ struct SimulatedRoom {
   }
 };
 
-/// `count` evenly spaced bearings from first to last.
+/// `count` evenly spaced bearings from first to last, both included. `count` is at least 2.
 inline BeamBearings even_bearings(double first_rad, double last_rad, int count) {
   std::vector<float> bearings;
   for (int i = 0; i < count; ++i)

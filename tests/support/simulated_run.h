@@ -103,7 +103,8 @@ struct RunPart {
   std::size_t steps;
 };
 
-/// Simulates a run. Its odometry has errors of two percent and a drift of the heading.
+/// Simulates a run. The error of its odometry is 2 % of each step (standard deviation) plus a heading drift
+/// of 0.004 rad/m.
 inline SimulatedRun simulated_run(const std::vector<RunPart>& parts,
                                   const mrpt::math::TPose2D& start = {2, 1.8, 0}) {
   SimulatedRun run;
@@ -139,7 +140,7 @@ inline SimulatedRun round_trips(std::size_t count) {
   return simulated_run(parts);
 }
 
-/// FLASER log of the run with a scan every 0.2 s.
+/// CARMEN log of the run, with a FLASER line every 0.2 s.
 inline std::string carmen_log(const SimulatedRun& run) {
   std::string log = "# simulated\n";
   char text[200];

@@ -34,7 +34,7 @@ inline void write_gzipped(const std::filesystem::path& path, const std::string& 
   if (!done || gzclose(file) != Z_OK) throw std::runtime_error("cannot write " + path.string());
 }
 
-/// Returns the message of the UserError that `action` throws. Without one, the test fails and "" is returned.
+/// Returns the text of the UserError that `action` throws. If it throws none, fails the test and returns "".
 inline std::string sentence_of(const std::function<void()>& action) {
   try {
     action();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simulates a robot that drives along a curve through the furnished room. It has a front laser and a rear
-// laser that is mounted upside down. Writes its recordings in every log format.
+// Simulates a robot that drives along a curve through the furnished room. The robot has a front laser and a
+// rear laser that is mounted upside down. Functions write its recording in every log format.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct TwoLasers {
   TimeUs rear_later_us = 40'000;
   int scans = 20;
   TimeUs sweep_us = 0;  ///< time from a scan's first beam to its last
-  /// Intervals without scans of a laser, counted from kStart_us.
+  /// Half-open intervals without scans of the front or rear laser, counted from kStart_us.
   TimeUs front_silent_from_us = 0, front_silent_to_us = 0;
   TimeUs rear_silent_from_us = 0, rear_silent_to_us = 0;
 
@@ -31,7 +31,7 @@ struct TwoLasers {
   static constexpr double kHalfView_rad = M_PI / 2;
   static constexpr std::size_t kBeams = 181;
 
-  /// True pose of the robot, which moves 0.5 m and turns 1 rad per second.
+  /// True pose of the robot, which moves at 0.5 m/s and turns left at 1 rad/s.
   static mrpt::math::TPose2D world_T_robot(TimeUs time_us) {
     const double t = seconds(time_us - kStart_us);
     return {2 + 0.5 * std::sin(t), 6 + 0.5 * (1 - std::cos(t)), mrpt::math::wrapToPi(t)};

@@ -45,7 +45,7 @@ struct TwoRounds {
     while (keyframes.nodes[node].travelled_m < 12) ++node;
   }
 
-  /// A match at the true pose moved by `off` in the robot's frame.
+  /// A match in a window of `half_width_m`, at the true pose moved by `off` in the robot's frame.
   LoopRecord loop(double half_width_m, const mrpt::math::TPose2D& off = {0, 0, 0}) const {
     LoopRecord result;
     result.node = node;
@@ -60,7 +60,7 @@ struct TwoRounds {
     return result;
   }
 
-  /// All nodes at their true poses, each with a constraint from the node before.
+  /// Graph of all nodes at their true poses. An exact constraint leads from each node to the next.
   PoseGraph graph() const {
     PoseGraph result;
     for (const mrpt::math::TPose2D& pose : truth) result.add_node(pose);

@@ -51,7 +51,7 @@ class MapRenderingTest : public ReplayedRoom {
     renderer_->render_RGB(*scene_->scene(), picture_);
   }
 
-  /// Whether a pixel within 2 px of the place has about this colour.
+  /// True if a pixel within 2 px of the place, given in the map frame, has about this colour.
   bool seen(const mrpt::math::TPoint2D& place, const mrpt::img::TColor& colour) const {
     const auto middle = ground_at(camera_, kSize, kSize.x / 2.0, kSize.y / 2.0);
     const auto beside = ground_at(camera_, kSize, kSize.x / 2.0 + 100, kSize.y / 2.0);

@@ -63,6 +63,7 @@ int localize(const CommandLine& line, const Streams& streams) {
     streams.out << localization_text(summary);
   if (const SkippedLines skipped = log->skipped_lines(); skipped.count > 0 && !localized.broken_off)
     streams.err << "psi-slam: " << skipped.sentence() << '\n';
+  for (const std::string& assumption : log->assumptions()) streams.err << "psi-slam: " << assumption << '\n';
   if (localized.interrupted)
     streams.err << "psi-slam: interrupted: \"end of the log\" stands for the last of the " << summary.scans
                 << " scans read so far\n";

@@ -57,6 +57,15 @@ void print_result(const MappingSession& session, const RunSummary& summary, cons
     streams.out << "The session is saved as " << line.save_session << ". Resume it with --resume.\n";
 }
 
+/// Returns the diagnosis of a log. Throws UserError with the verdict if the log cannot be mapped.
+LogDiagnosis diagnosis_of(const std::filesystem::path& log, const LogOptions& options) {
+  try {
+    return diagnose(log, options);
+  } catch (const UserError& error) {
+    throw UserError("verdict: cannot be mapped: " + std::string(error.what()));
+  }
+}
+
 }  // namespace
 
 void check_session_to_save(const CommandLine& line) {
@@ -113,6 +122,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   if (!saved.remark.empty()) warn(saved.remark);
   if (const SkippedLines skipped = session.skipped_lines(); skipped.count > 0 && !session.broken_off())
     warn(skipped.sentence());
+  for (const std::string& assumption : session.assumptions()) warn(assumption);
   for (const std::string& unmet : session.unmet_edits()) warn("an edit was not made: " + unmet);
   if (const auto coarser = coarser_cells_text(summary.map)) warn(*coarser);
   if (const auto unmatched = unmatched_scans_text(session.result())) warn(*unmatched);
@@ -140,7 +150,7 @@ int map_log(const CommandLine& line, const Streams& streams) {
 int check_log(const CommandLine& line, const Streams& streams) {
   BoundSettings bound;
   load_settings(line, bound, streams);
-  const LogDiagnosis diagnosis = diagnose(line.log, log_options(bound.settings));
+  const LogDiagnosis diagnosis = diagnosis_of(line.log, log_options(bound.settings));
   if (line.json)
     streams.out << json_file_text(to_json(diagnosis));
   else

@@ -7,8 +7,9 @@
 // messages, and ignores the scans of other lasers.
 //
 // A scan line states the odometry at the time of the scan, except RAWLASER lines: their odometry is
-// interpolated between ODOM lines. FLASER lines state a second pose, which a mapper may have corrected. It is
-// never taken as odometry.
+// interpolated between ODOM lines. Without ODOM lines among the first 1000 scans, RAWLASER scans have no
+// odometry. FLASER lines state a second pose, which a mapper may have corrected. It is never taken as
+// odometry.
 //
 // The reader skips malformed lines if they are few: one line, or at most 1 % of the lines that it needs. It
 // throws UserError if there are more malformed lines, or if the last line is truncated.
@@ -31,7 +32,9 @@ constexpr std::size_t kSkippedBeforeTheEnd = 100;
 class CarmenReader : public LogReader {
  public:
   CarmenReader(const std::filesystem::path& path, const LogOptions& options)
-      : lasers_(path, options), lines_(path) {}
+      : lasers_(path, options), lines_(path), with_odometry_(!ignores_odometry(options)) {
+    if (!with_odometry_) interpolator_.expect_no_odometry();
+  }
 
   double progress() const override { return lines_.progress(); }
 
@@ -125,10 +128,11 @@ class CarmenReader : public LogReader {
     frame.odom_T_robot = message.odom_T_robot;
     frame.scan = laser.laser.scan(std::move(message), fields);
     frame.scan.laser = laser.number;
+    frame.has_odometry = with_odometry_;
     if (!is_raw) return frame;
     interpolator_.add_scan(std::move(frame));
     if (!interpolator_.has_odometry() && interpolator_.waiting() > OdometryInterpolator::kMaxWaiting)
-      fail_without_odometry("none is among the first " + std::to_string(interpolator_.waiting()) + " scans");
+      interpolator_.expect_no_odometry();
     return std::nullopt;
   }
 
@@ -148,12 +152,12 @@ class CarmenReader : public LogReader {
 
   void end_of_log() {
     at_end_ = interpolator_.waiting() == 0;
-    const bool gives_nothing = frames_given() == 0 && (at_end_ || !interpolator_.has_odometry());
+    const bool gives_nothing = frames_given() == 0 && at_end_;
     if (gives_nothing && contents_.skipped.count > 0) throw UserError(contents_.skipped.first);
     if (at_end_ && contents_.skipped.count > std::max<std::size_t>(1, lines_needed_ / kLinesForOneSkipped))
       fail_as_garbled();
     if (at_end_ && frames_given() == 0) fail_without_scans();
-    if (!at_end_ && !interpolator_.has_odometry()) fail_without_odometry("there is none");
+    if (!interpolator_.has_odometry()) interpolator_.expect_no_odometry();
     interpolator_.end_of_log();
   }
 
@@ -163,12 +167,6 @@ class CarmenReader : public LogReader {
         " of its first " + std::to_string(lines_needed_) +
         " messages do not parse, expected at most 1 %. Fetch the log again or repair it. The first one: " +
         contents_.skipped.first);
-  }
-
-  [[noreturn]] void fail_without_odometry(const std::string& found) const {
-    throw UserError(lines_.path().string() + " has no odometry for its " + contents_.laser +
-                    " lines, expected ODOM lines: " + found +
-                    ". Log the odometry too, or select a laser whose lines state it with log.laser");
   }
 
   [[noreturn]] void fail_without_mount(const CarmenLaser& laser) const {
@@ -195,6 +193,7 @@ class CarmenReader : public LogReader {
   OdometryInterpolator interpolator_;
   // By number of the laser; point into contents_.messages to avoid a search.
   std::vector<std::size_t*> scan_counts_;
+  bool with_odometry_;
   std::size_t lines_needed_ = 0;  // lines parsed so far, malformed ones included
   bool at_end_ = false;
 };

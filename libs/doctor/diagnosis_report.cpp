@@ -4,8 +4,11 @@
 #include <mrpt/core/bits_math.h>
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+
+#include "base/number_text.h"
 
 namespace psi_slam {
 namespace {
@@ -47,7 +50,8 @@ Json facts_json(const LogFacts& facts) {
             {"repeated_stamps", time.repeated_stamps},
             {"repeated_scans", time.repeated_scans}}},
           {"odometry",
-           {{"path_length_m", facts.odometry.path_length_m},
+           {{"scans_without", facts.scans_without_odometry},
+            {"path_length_m", facts.odometry.path_length_m},
             {"turned_rad", facts.odometry.turned_rad},
             {"largest_step_m", facts.odometry.largest_step_m},
             {"largest_turn_rad", facts.odometry.largest_turn_rad}}},
@@ -95,8 +99,10 @@ std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis) {
                                RAD2DEG(facts.last_bearing_rad)));
   lines.push_back(mrpt::format("time: %.1f s from %s, a scan every %.3f s", time.duration_s,
                                format_seconds(time.first_us).c_str(), time.median_period_s));
-  lines.push_back(mrpt::format("odometry: path of %.1f m, %.0f degrees of turns",
-                               facts.odometry.path_length_m, RAD2DEG(facts.odometry.turned_rad)));
+  lines.push_back(facts.scans_without_odometry == facts.scans
+                      ? "odometry: none"
+                      : mrpt::format("odometry: path of %.1f m, %.0f degrees of turns",
+                                     facts.odometry.path_length_m, RAD2DEG(facts.odometry.turned_rad)));
   lines.push_back(
       mrpt::format("ranges: maximum %.2f m, median %.2f m, %.1f %% of the readings are no returns",
                    static_cast<double>(ranges.max_range_m), static_cast<double>(ranges.median_return_m),
@@ -130,6 +136,13 @@ std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study) {
   return lines;
 }
 
+std::string verdict(const LogDiagnosis& diagnosis) {
+  const auto warnings = static_cast<std::size_t>(
+      std::count_if(diagnosis.findings.begin(), diagnosis.findings.end(),
+                    [](const Finding& finding) { return finding.severity == Severity::kWarning; }));
+  return warnings == 0 ? "ready to map" : "maps with " + counted(warnings, "warning");
+}
+
 std::vector<std::string> describe(const LogDiagnosis& diagnosis) {
   std::vector<std::string> lines = describe_facts(diagnosis);
   for (std::string& line : describe_beam_angles(diagnosis.beam_angles)) lines.push_back(std::move(line));
@@ -138,6 +151,7 @@ std::vector<std::string> describe(const LogDiagnosis& diagnosis) {
                     finding.sentence);
     if (!finding.remedy.empty()) lines.push_back("  remedy: " + finding.remedy);
   }
+  lines.push_back("verdict: " + verdict(diagnosis));
   return lines;
 }
 
@@ -159,6 +173,7 @@ Json to_json(const LogDiagnosis& diagnosis) {
                                     {"odometry_scale", diagnosis.mount->odometry_scale}};
   }
   json["beam_angles"] = beam_angles_json(diagnosis.beam_angles);
+  json["verdict"] = verdict(diagnosis);
   json["findings"] = Json::array();
   for (const Finding& finding : diagnosis.findings) {
     json["findings"].push_back({{"code", finding.code},

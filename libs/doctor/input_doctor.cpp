@@ -83,22 +83,10 @@ double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
       .value_or(std::abs(static_cast<double>(bearings_rad.back() - bearings_rad.front())));
 }
 
-}  // namespace
-
-LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options) {
-  LogDiagnosis diagnosis;
-  diagnosis.path = path;
-  diagnosis.options = options_of_first_laser(path, options);
-  diagnosis.options.every_nth_scan = 1;
-  diagnosis.options.sweep_time_s = 0;  // judge the log as recorded
-  FirstPass pass = read_once(path, diagnosis.options);
-  diagnosis.facts = pass.facts;
-  if (!pass.facts.contents.states_beam_angles) {
-    diagnosis.used_beam_angles =
-        options.beam_angles == BeamAngles::kAuto ? usual_beam_angles(pass.facts.beams) : options.beam_angles;
-  }
+/// Aligns scans with each other and compares their motions with odometry. Sets the members of `diagnosis`
+/// that depend on odometry.
+void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& options, LogDiagnosis& diagnosis) {
   const std::vector<FrameMark>& marks = pass.marks;
-
   const auto tracks = tracks_from(frames_in_motion(marks, kTracks), marks.size());
   const auto pairs = pairs_by_motion(marks, kPairDistance_m, kPairTurn_rad, kPairs);
   const auto suspects = suspected_jumps(marks, pass.facts.time.median_period_s, 100);
@@ -112,7 +100,7 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
   library.want(revisits);
   library.want(evidence.turning_pairs);
   for (const auto& turn : evidence.full_turns) library.want(turn);
-  library.fetch(path, diagnosis.options);
+  library.fetch(diagnosis.path, diagnosis.options);
 
   diagnosis.odometry = check_odometry(marks, tracks, library);
   diagnosis.odometry_is_sound = is_sound(diagnosis.odometry);
@@ -129,6 +117,23 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
                                                 field_of_view_rad(pass, options), laser_heading_rad);
     }
   }
+}
+
+}  // namespace
+
+LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options) {
+  LogDiagnosis diagnosis;
+  diagnosis.path = path;
+  diagnosis.options = options_of_first_laser(path, options);
+  diagnosis.options.every_nth_scan = 1;
+  diagnosis.options.sweep_time_s = 0;  // judge the log as recorded
+  FirstPass pass = read_once(path, diagnosis.options);
+  diagnosis.facts = pass.facts;
+  if (!pass.facts.contents.states_beam_angles) {
+    diagnosis.used_beam_angles =
+        options.beam_angles == BeamAngles::kAuto ? usual_beam_angles(pass.facts.beams) : options.beam_angles;
+  }
+  if (pass.facts.scans_without_odometry == 0) compare_odometry_with_scans(pass, options, diagnosis);
   diagnosis.marks = std::move(pass.marks);
   diagnosis.findings = judge(diagnosis);
   return diagnosis;

@@ -62,7 +62,10 @@ std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis);
 /// Table of the beam angle study with one convention per line; the best is marked. Empty without a study.
 std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study);
 
-/// Facts, beam angles and findings with their remedies, as `psi-slam check` prints them.
+/// Judgement in one line: "ready to map" or "maps with 2 warnings".
+std::string verdict(const LogDiagnosis& diagnosis);
+
+/// Facts, beam angles, findings with their remedies and the verdict, as `psi-slam check` prints them.
 std::vector<std::string> describe(const LogDiagnosis& diagnosis);
 
 /// All measurements and findings as JSON, in SI units with the unit in each key.

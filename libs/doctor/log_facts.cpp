@@ -102,6 +102,7 @@ void LogFactsCollector::add(const Frame& frame, float max_range_m) {
     facts_.last_bearing_rad = static_cast<double>(scan.bearings_rad->back());
     facts_.robot_T_laser = scan.robot_T_laser;
   }
+  if (!frame.has_odometry) ++facts_.scans_without_odometry;
   if (scan.ranges_m.size() != facts_.beams) ++facts_.scans_of_other_shape;
   if (!marks_.empty() && frame.time_us == marks_.back().time_us) {
     ++facts_.time.repeated_stamps;

@@ -60,6 +60,7 @@ struct LogFacts {
   std::size_t beams = 0;  ///< number of beams of the first scan
   double first_bearing_rad = 0;
   double last_bearing_rad = 0;
+  std::size_t scans_without_odometry = 0;
   std::size_t scans_of_other_shape = 0;  ///< scans whose number of beams differs from the first
   mrpt::math::TPose2D robot_T_laser;
   TimeFacts time;

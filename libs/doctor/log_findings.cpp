@@ -74,6 +74,7 @@ class Judge {
            "fetch the log again, or map the readable part");
     }
     if (facts_.contents.skipped.count > 0) note("skipped_lines", facts_.contents.skipped.sentence());
+    for (const std::string& assumption : facts_.contents.assumptions) note("assumption", assumption);
   }
 
   void judge_time() {
@@ -151,13 +152,22 @@ class Judge {
   }
 
   void judge_motion() {
+    if (facts_.scans_without_odometry > 0) {
+      note("no_odometry",
+           (facts_.scans_without_odometry == facts_.scans
+                ? "the log has no odometry"
+                : counted(facts_.scans_without_odometry, "scan") +
+                      (facts_.scans_without_odometry == 1 ? " has" : " have") + " no odometry") +
+               "; there, the motion of the robot follows from the scans alone");
+      return;
+    }
     const OdometryAgreement& odometry = diagnosis_.odometry;
     const OdometryFacts& facts = facts_.odometry;
     const bool odometry_stands = facts.path_length_m < 0.02 && facts.turned_rad < 0.02;
     const bool scans_move =
         odometry.scan_path_m > 0.05 * static_cast<double>(std::max<std::size_t>(odometry.tracks, 1));
     if (odometry_stands && scans_move) {
-      warn("odometry_still", "odometry never moves, but the scans do", "record the log again with odometry");
+      warn("odometry_still", "odometry never moves, but the scans do", "log.odometry = none");
       return;
     }
     if (odometry_stands) {

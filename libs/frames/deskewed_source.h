@@ -30,6 +30,7 @@ class DeskewedSource : public FrameSource {
   std::optional<Frame> next() override;
   double progress() const override { return source_->progress(); }
   SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
+  std::vector<std::string> assumptions() const override { return source_->assumptions(); }
 
  private:
   struct Mark {

@@ -5,11 +5,23 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "psi_slam/frame_source.h"
 #include "psi_slam/log_options.h"
 
 namespace psi_slam {
+
+/// Returns whether the user wants no odometry.
+inline bool ignores_odometry(const LogOptions& options) {
+  return options.odometry == "none";
+}
+
+/// Returns whether the reader chooses the odometry.
+inline bool chooses_odometry(const LogOptions& options) {
+  return options.odometry.empty() || options.odometry == "auto";
+}
 
 /// Facts that a reader has found in a log so far, besides the frames.
 struct LogContents {
@@ -17,7 +29,9 @@ struct LogContents {
   /// CARMEN log before the first scan, and in a rawlog whose label is empty.
   std::string laser;
   bool states_beam_angles = true;
+  bool several_lasers = false;  ///< whether frames may be scans of several lasers
   SkippedLines skipped;
+  std::vector<std::string> assumptions;             ///< see FrameSource::assumptions()
   std::map<std::string, std::size_t> messages;      ///< CARMEN: lines of each kind, ignored ones included
   std::size_t scans_with_two_poses = 0;             ///< CARMEN: scans whose pose differs from their odometry
   std::map<std::string, std::size_t> other_lasers;  ///< rawlog: scans of lasers that are not read, by label
@@ -33,6 +47,7 @@ class LogReader : public FrameSource {
     return frame;
   }
   SkippedLines skipped_lines() const override { return contents_.skipped; }
+  std::vector<std::string> assumptions() const override { return contents_.assumptions; }
   const LogContents& contents() const { return contents_; }
 
  protected:
@@ -52,8 +67,8 @@ class LogReader : public FrameSource {
 std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options);
 
 // Each function opens a log of one format. It throws UserError if a selected laser does not exist.
-// open_rawlog() and open_bag_log() read until scans, odometry and, in a bag, coordinate frames have appeared.
-// They throw UserError if one of these is missing.
+// open_rawlog() and open_bag_log() read until scans, odometry and, in a bag, coordinate frames have appeared,
+// or to the end of the log. They throw UserError if scans are missing.
 std::unique_ptr<LogReader> open_carmen_log(const std::filesystem::path& path, const LogOptions& options);
 std::unique_ptr<LogReader> open_rawlog(const std::filesystem::path& path, const LogOptions& options);
 std::unique_ptr<LogReader> open_bag_log(const std::filesystem::path& path, const LogOptions& options);

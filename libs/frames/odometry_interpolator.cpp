@@ -14,6 +14,7 @@ constexpr std::size_t kKeptMessages = 1000;
 }  // namespace
 
 void OdometryInterpolator::add_odometry(TimeUs time_us, const mrpt::math::TPose2D& odom_T_robot) {
+  if (!expects_odometry_) return;
   const Odometry message{time_us, odom_T_robot};
   const bool clock_was_set = !odometry_.empty() && time_us < odometry_.back().time_us;
   for (Scan& scan : scans_) {
@@ -73,10 +74,13 @@ bool OdometryInterpolator::must_wait(const Scan& scan) const {
 }
 
 std::optional<Frame> OdometryInterpolator::take() {
-  if (scans_.empty() || odometry_.empty() || must_wait(scans_.front())) return std::nullopt;
+  const bool is_ready =
+      !scans_.empty() && (!expects_odometry_ || (!odometry_.empty() && !must_wait(scans_.front())));
+  if (!is_ready) return std::nullopt;
   Scan scan = std::move(scans_.front());
   scans_.pop_front();
-  if (!scan.is_placed) place(scan);
+  scan.frame.has_odometry = expects_odometry_;
+  if (expects_odometry_ && !scan.is_placed) place(scan);
   return std::move(scan.frame);
 }
 

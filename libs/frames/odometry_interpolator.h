@@ -29,7 +29,10 @@ class OdometryInterpolator {
   void add_scan(Frame frame);
   void end_of_log() { ended_ = true; }
 
-  /// Returns the next scan if its odometry is known.
+  /// Expects no odometry: from now on, take() returns every scan at once without odometry.
+  void expect_no_odometry() { expects_odometry_ = false; }
+
+  /// Returns the next scan if its odometry is known or not expected.
   std::optional<Frame> take();
 
   bool has_odometry() const { return !odometry_.empty(); }
@@ -60,6 +63,7 @@ class OdometryInterpolator {
   std::deque<Scan> scans_;
   std::optional<TimeUs> last_scan_us_;
   bool ended_ = false;
+  bool expects_odometry_ = true;
 };
 
 }  // namespace psi_slam

@@ -88,6 +88,7 @@ class SynchronizedSource : public FrameSource {
   std::optional<Frame> next() override;
   double progress() const override { return source_->progress(); }
   SkippedLines skipped_lines() const override;
+  std::vector<std::string> assumptions() const override { return source_->assumptions(); }
 
  private:
   std::unique_ptr<FrameSource> source_;

@@ -11,7 +11,10 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kShortest_s = 1e-3;  // smallest time between scans for computing a speed
+constexpr double kShortest_s = 1e-3;          // smallest time between scans for computing a speed
+constexpr double kMedianStep = 0.05;          // relative change of the running median with each scan
+constexpr double kBackwardStepsKept = 0.995;  // factor of the number of backward steps with each scan
+constexpr double kUnreliableBackwardSteps = 0.3;
 
 /// Rotates the translation of a motion by an angle. Rotated by minus half its turn, the translation of an arc
 /// points straight ahead.
@@ -23,11 +26,31 @@ TPose2D turned(const TPose2D& motion, double angle_rad) {
 
 }  // namespace
 
+double ConstantVelocityModel::passed_s(TimeUs time_us) const {
+  if (!last_time_us_) return 0;
+  const bool is_reliable = backward_steps_ < kUnreliableBackwardSteps || usual_step_s_ <= 0;
+  return is_reliable ? std::max(0.0, seconds(time_us - *last_time_us_)) : usual_step_s_;
+}
+
+void ConstantVelocityModel::update_clock(TimeUs time_us) {
+  clock_s_ += passed_s(time_us);
+  if (last_time_us_) {
+    const double step_s = seconds(time_us - *last_time_us_);
+    backward_steps_ = kBackwardStepsKept * backward_steps_ + (step_s < 0 ? 1 : 0);
+    if (usual_step_s_ > 0)
+      usual_step_s_ *= step_s > usual_step_s_ ? 1 + kMedianStep : 1 - kMedianStep;
+    else
+      usual_step_s_ = std::max(0.0, step_s);
+  }
+  last_time_us_ = time_us;
+}
+
 void ConstantVelocityModel::moved(TimeUs time_us, const TPose2D& local_T_robot, bool matched) {
-  const Place here{time_us, local_T_robot};
+  update_clock(time_us);
+  const Place here{clock_s_, local_T_robot};
   if (matched || !last_) {
     if (last_matched_) {
-      const double passed_s = seconds(time_us - last_matched_->time_us);
+      const double passed_s = clock_s_ - last_matched_->clock_s;
       TPose2D motion = local_T_robot - last_matched_->local_T_robot;
       motion.phi = mrpt::math::wrapToPi(motion.phi);
       const TPose2D straight = turned(motion, -motion.phi / 2);
@@ -42,11 +65,13 @@ void ConstantVelocityModel::moved(TimeUs time_us, const TPose2D& local_T_robot, 
 PredictedMotion ConstantVelocityModel::predict(TimeUs time_us) const {
   PredictedMotion predicted;
   if (!last_) return predicted;
-  const double passed_s = std::max(0.0, seconds(time_us - last_->time_us));
-  const double unmatched_s = std::max(0.0, seconds(time_us - last_matched_->time_us));
+  const double passed_s = this->passed_s(time_us);
+  const double unmatched_s = clock_s_ + passed_s - last_matched_->clock_s;
   if (!speed_ || unmatched_s > options_.longest_s) {
-    predicted.sigma_m = options_.first_speed_mps * passed_s;
-    predicted.sigma_rad = options_.first_turn_radps * passed_s;
+    predicted.sigma_m = options_.unknown_speed_mps * passed_s;
+    predicted.sigma_rad = options_.unknown_turn_radps * passed_s;
+    predicted.sigma_since_match_m = options_.unknown_speed_mps * unmatched_s;
+    predicted.sigma_since_match_rad = options_.unknown_turn_radps * unmatched_s;
     return predicted;
   }
   const TPose2D straight{speed_->x_mps * passed_s, speed_->y_mps * passed_s,
@@ -54,6 +79,8 @@ PredictedMotion ConstantVelocityModel::predict(TimeUs time_us) const {
   predicted.motion = turned(straight, straight.phi / 2);
   predicted.sigma_m = options_.acceleration_mps2 * passed_s * passed_s;
   predicted.sigma_rad = options_.turn_acceleration_radps2 * passed_s * passed_s;
+  predicted.sigma_since_match_m = options_.acceleration_mps2 * unmatched_s * unmatched_s;
+  predicted.sigma_since_match_rad = options_.turn_acceleration_radps2 * unmatched_s * unmatched_s;
   return predicted;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predicts the motion of a robot without odometry, from the velocity between the last two matched scans.
+// Predicts the motion of a robot without odometry, from the velocity between the last two matched scans. If
+// time stamps have stepped back lately, they are unreliable, and scans are taken to be evenly spaced in time.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -14,15 +15,17 @@ namespace psi_slam {
 struct ConstantVelocityOptions {
   double acceleration_mps2 = 1.0;  ///< standard deviation of the acceleration
   double turn_acceleration_radps2 = radians_from_degrees(90.0L);
-  double first_speed_mps = 0.5;  ///< standard deviation of the speed while it is unknown
-  double first_turn_radps = radians_from_degrees(30.0L);
+  double unknown_speed_mps = 0.5;  ///< standard deviation of the speed while it is unknown
+  double unknown_turn_radps = radians_from_degrees(30.0L);
   double longest_s = 2.0;  ///< after this time without a match, the speed counts as unknown
 };
 
 struct PredictedMotion {
   mrpt::math::TPose2D motion;  ///< motion along an arc, in the frame of the last pose
-  double sigma_m = 0;
+  double sigma_m = 0;          ///< standard deviations of the motion since the last pose
   double sigma_rad = 0;
+  double sigma_since_match_m = 0;  ///< standard deviations of the motion since the last matched pose
+  double sigma_since_match_rad = 0;
 };
 
 class ConstantVelocityModel {
@@ -44,14 +47,21 @@ class ConstantVelocityModel {
     double turn_radps = 0;
   };
   struct Place {
-    TimeUs time_us = 0;
+    double clock_s = 0;
     mrpt::math::TPose2D local_T_robot;
   };
+
+  double passed_s(TimeUs time_us) const;
+  void update_clock(TimeUs time_us);
 
   ConstantVelocityOptions options_;
   std::optional<Place> last_;
   std::optional<Place> last_matched_;
   std::optional<Speed> speed_;
+  std::optional<TimeUs> last_time_us_;
+  double clock_s_ = 0;         ///< sum of the times between scans
+  double usual_step_s_ = 0;    ///< running estimate of the median time between scans; 0 if unknown
+  double backward_steps_ = 0;  ///< decaying number of time stamps that were earlier than the previous one
 };
 
 }  // namespace psi_slam

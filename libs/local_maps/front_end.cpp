@@ -49,7 +49,8 @@ ScanPoints coarse_scan(const ScanPoints& scan) {
 
 }  // namespace
 
-FrontEnd::FrontEnd(const FrontEndOptions& options) : options_(options), matcher_(matcher_options(options)) {}
+FrontEnd::FrontEnd(const FrontEndOptions& options)
+    : options_(options), matcher_(matcher_options(options)), constant_velocity_(options.constant_velocity) {}
 
 FrontEndStep FrontEnd::add(const Frame& frame) {
   FrontEndStep step;
@@ -106,8 +107,8 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(TimeUs time_us) const {
   motion.predicted = predicted.motion;
   motion.length_m = std::hypot(motion.predicted.x, motion.predicted.y);
   motion.turn_rad = std::abs(motion.predicted.phi);
-  motion.disagreement_m = predicted.sigma_m;
-  motion.disagreement_rad = predicted.sigma_rad;
+  motion.disagreement_m = predicted.sigma_since_match_m;
+  motion.disagreement_rad = predicted.sigma_since_match_rad;
   motion.sigma_m = predicted.sigma_m;
   motion.sigma_rad = predicted.sigma_rad;
   return motion;
@@ -142,7 +143,7 @@ SearchExtent FrontEnd::wide_extent(const Motion& motion) const {
       std::min(options_.max_wide_window_m,
                options_.window_m + options_.wide_window_per_motion * motion.length_m + motion.disagreement_m);
   const double half_rad =
-      std::min(options_.max_wide_window_rad,
+      std::min(motion.measured ? options_.max_wide_window_rad : M_PI,
                options_.window_rad + motion.disagreement_rad +
                    options_.wide_window_per_motion *
                        (motion.turn_rad + options_.window_rad_per_metre * motion.length_m));
@@ -214,7 +215,7 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
     const RefinedPose predicted =
         refine(grid, *step.points, best_prior.map_T_robot, options_.refinement, best_prior);
     if (predicted.mean_score >= options_.prediction_share * best.refined_response) chosen = predicted;
-    if (motion.measured && motion.length_m > 0)  // zero motion may mean a stalled encoder
+    if (motion.length_m > 0)  // zero motion may mean a stalled encoder
       if (const auto held = held_to_odometry(grid, *step.points, chosen, best_prior)) chosen = *held;
   }
   step.matched = true;

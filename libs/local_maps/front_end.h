@@ -53,6 +53,8 @@ struct FrontEndOptions {
   double wide_window_per_motion = 2.0;  ///< growth of the wide window per metre or radian of motion
   double max_wide_window_m = 2.5;
   double max_wide_window_rad = radians_from_degrees(60.0L);
+  /// Prediction for scans without odometry. Their wide window may span all headings.
+  ConstantVelocityOptions constant_velocity;
 
   // Standard deviations of the prediction, for a robot at rest, and their growth with the motion and with its
   // disagreement (see Motion). The prediction determines the pose where the scan does not, as along a

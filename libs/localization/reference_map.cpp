@@ -56,6 +56,17 @@ void check_resolution(const std::filesystem::path& path, double resolution_m) {
         " m, expected 0.001 to 1 m. Export the map again with psi-slam, or correct the resolution");
 }
 
+/// Throws UserError if the image that `map.yaml` names does not exist. MRPT reports this on the terminal
+/// only.
+void check_image(const std::filesystem::path& path, const std::filesystem::path& image) {
+  const std::filesystem::path file = path.parent_path() / image;  // an absolute image replaces the parent
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    throw UserError(
+        path.string() + ": the image " + file.string() +
+        " does not exist, expected the image of the map. Copy the image, or correct the key image");
+}
+
 Grid read_yaml(const std::filesystem::path& path) {
   CompressedFile readable(path, kExpected);  // throws UserError for an unreadable file
   Grid grid;
@@ -66,10 +77,11 @@ Grid read_yaml(const std::filesystem::path& path) {
       throw UserError(path.string() +
                       ": the origin is rotated, expected yaw 0. Rotate the image instead, and set the third "
                       "value of origin to 0");
+    check_image(path, yaml["image"].as<std::string>());
     if (!grid.loadFromROSMapServerYAML(path.string()))
       throw UserError(path.string() +
-                      ": the image that it names is unreadable, expected an image next to it. Copy the "
-                      "image, or correct the key image");
+                      ": the image that it names is unreadable, expected an image file such as map.pgm. "
+                      "Export the map again with psi-slam");
   } catch (const UserError&) {
     throw;
   } catch (const std::exception&) {

@@ -7,6 +7,7 @@
 #include "frames/laser_choice.h"
 #include "frames/log_reader.h"
 #include "frames/scan_synchronizer.h"
+#include "psi_slam/user_error.h"
 
 namespace psi_slam {
 namespace {
@@ -28,6 +29,7 @@ class ThinnedSource : public FrameSource {
 
   double progress() const override { return source_->progress(); }
   SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
+  std::vector<std::string> assumptions() const override { return source_->assumptions(); }
 
  private:
   std::unique_ptr<FrameSource> source_;
@@ -38,6 +40,9 @@ class ThinnedSource : public FrameSource {
 
 std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options) {
   const LogFormat format = detect_log_format(path);
+  if (!is_bag(format) && !chooses_odometry(options) && !ignores_odometry(options))
+    throw UserError("log.odometry is \"" + options.odometry + "\", expected auto or none for " +
+                    path.string() + ", because topics apply to ROS bags only");
   if (format == LogFormat::kCarmen) return open_carmen_log(path, options);
   if (format == LogFormat::kMrptRawlog) return open_rawlog(path, options);
   return open_bag_log(path, options);
@@ -46,8 +51,10 @@ std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, co
 std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const LogOptions& options) {
   check_log_options(options);
   const LogFormat format = detect_log_format(path);
-  std::unique_ptr<FrameSource> source = open_log_reader(path, options);
-  if (reads_several_lasers(options, format)) source = std::make_unique<SynchronizedSource>(std::move(source));
+  std::unique_ptr<LogReader> reader = open_log_reader(path, options);
+  const bool several_lasers = reads_several_lasers(options, format) || reader->contents().several_lasers;
+  std::unique_ptr<FrameSource> source = std::move(reader);
+  if (several_lasers) source = std::make_unique<SynchronizedSource>(std::move(source));
   // Only bags may state a sweep time.
   const bool may_be_skewed = options.sweep_time_s ? *options.sweep_time_s > 0 : is_bag(format);
   if (may_be_skewed) source = std::make_unique<DeskewedSource>(std::move(source), options.sweep_time_s);

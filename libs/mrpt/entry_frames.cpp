@@ -17,7 +17,7 @@ EntryFrames::EntryFrames(const LogOptions& options, std::string speaker)
 void EntryFrames::take(const mrpt::obs::CActionCollection::Ptr& action,
                        const mrpt::obs::CSensoryFrame::Ptr& observations,
                        const mrpt::obs::CObservation::Ptr& observation) {
-  if (action) scans_.take(*action);
+  if (action) scans_.take(*action, speaker_ + ": action " + std::to_string(++actions_));
   if (observation) take(*observation);
   if (!observations) return;
   for (const mrpt::obs::CObservation::Ptr& one : *observations) take(*one);
@@ -43,7 +43,7 @@ std::optional<Frame> EntryFrames::next() {
 }
 
 void EntryFrames::end_of_log() {
-  scans_.end_of_log(speaker_);
+  scans_.end_of_log();
   ended_ = true;
 }
 

@@ -18,8 +18,8 @@ class EntryFrames {
   /// Error messages start with `speaker`. Throws UserError if an option is invalid.
   explicit EntryFrames(const LogOptions& options, std::string speaker = "entries");
 
-  /// Takes one entry; each argument may be null. Throws UserError if a scan has no time stamp or no rays, its
-  /// laser is tilted, or odometry is missing.
+  /// Takes one entry; each argument may be null. Throws UserError if a scan has no time stamp or no rays, or
+  /// its laser is tilted.
   void take(const mrpt::obs::CActionCollection::Ptr& action,
             const mrpt::obs::CSensoryFrame::Ptr& observations,
             const mrpt::obs::CObservation::Ptr& observation);
@@ -34,8 +34,10 @@ class EntryFrames {
   /// to frame.
   std::size_t opened_by() const { return opened_by_; }
 
-  /// Lets next() return the scans that still wait for odometry or for scans of other lasers. Throws UserError
-  /// if scans wait and the log has no odometry.
+  /// Odometry that was skipped because it is not finite.
+  const SkippedLines& skipped() const { return scans_.skipped(); }
+
+  /// Lets next() return the scans that still wait for odometry or for scans of other lasers.
   void end_of_log();
 
  private:
@@ -46,6 +48,7 @@ class EntryFrames {
   bool several_lasers_;
   ScanSynchronizer synchronizer_;
   bool ended_ = false;
+  std::size_t actions_ = 0;
   std::size_t observations_ = 0;
   std::size_t frames_ = 0;
   std::size_t opened_by_ = 0;

@@ -140,8 +140,7 @@ auto in_engine(const Work& work) {
 std::size_t check_ground_truth(const fs::path& path) {
   constexpr std::size_t kWords = 4;
   std::ifstream file(path);
-  if (!file)
-    throw UserError(path.string() + " cannot be read, expected a ground truth file. Check the path");
+  if (!file) throw UserError(path.string() + " cannot be read, expected a ground truth file. Check the path");
   std::size_t lines = 0;
   for (std::string line; std::getline(file, line);) {
     ++lines;
@@ -194,6 +193,7 @@ class EngineRun : public GraphSlamRun {
     if (front_end_ != nullptr && entries_->are_made()) {
       LogOptions of_made_entries;
       if (reads_several_lasers(options, detect_log_format(setup.log))) of_made_entries.laser = "all";
+      if (!entries_->have_odometry()) of_made_entries.odometry = "none";
       front_end_->set_log_options(of_made_entries);
     }
     if (setup.visuals) window_ = std::make_unique<GraphSlamWindow>();

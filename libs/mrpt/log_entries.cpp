@@ -7,6 +7,7 @@
 #include <iterator>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
@@ -68,6 +69,7 @@ class RawlogEntries : public LogEntries {
 
   double progress() const override { return archive_.progress(); }
   bool are_made() const override { return false; }
+  bool have_odometry() const override { return true; }
 
  private:
   bool is_of_another_laser(const CObservation& observation) {
@@ -92,10 +94,13 @@ class RawlogEntries : public LogEntries {
 
 class FrameEntries : public LogEntries {
  public:
-  explicit FrameEntries(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+  explicit FrameEntries(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {
+    ahead_ = source_->next();
+    has_odometry_ = ahead_ && ahead_->has_odometry;
+  }
 
   std::optional<LogEntry> next() override {
-    const std::optional<Frame> frame = source_->next();
+    const std::optional<Frame> frame = ahead_ ? std::exchange(ahead_, std::nullopt) : source_->next();
     if (!frame) return std::nullopt;
     mrpt::math::TPose2D motion;
     if (last_ && frame->has_odometry) motion = frame->odom_T_robot - *last_;
@@ -109,9 +114,12 @@ class FrameEntries : public LogEntries {
 
   double progress() const override { return source_->progress(); }
   bool are_made() const override { return true; }
+  bool have_odometry() const override { return has_odometry_; }
 
  private:
   std::unique_ptr<FrameSource> source_;
+  std::optional<Frame> ahead_;  ///< first frame until next() returns it
+  bool has_odometry_ = false;   ///< whether the first frame has odometry
   std::optional<mrpt::math::TPose2D> last_;
 };
 

@@ -31,6 +31,9 @@ class LogEntries {
   /// Whether the entries are made from frames. The log options have then been applied and must not be applied
   /// again.
   virtual bool are_made() const = 0;
+  /// Whether the robot's movements in the actions are measured. Entries that are made from frames without
+  /// odometry contain zero movements, because MRPT needs an action with each scan.
+  virtual bool have_odometry() const = 0;
 };
 
 /// Opens a log. If one laser of a rawlog is read, entries are unchanged, but scans of other lasers are left

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <ratio>
 #include <string>
 #include <type_traits>
@@ -25,19 +27,20 @@ constexpr std::int64_t kTicksPerMicrosecond = 10;
 struct EvenRays {
   std::size_t count = 0;
   std::vector<std::size_t> ray_of_beam;
-  double worst_rad = 0;  ///< largest angle between a beam and its ray
 };
 
-/// Assigns each beam to the nearest of `count` even rays from the first to the last bearing.
-EvenRays spread(const std::vector<float>& bearings, std::size_t count) {
+/// Assigns each beam to the nearest of `count` even rays from the first to the last bearing. Returns nothing
+/// if a beam is farther than `tolerance_rad` from its ray; most unsuitable counts fail at one of the first
+/// beams.
+std::optional<EvenRays> spread(const std::vector<float>& bearings, std::size_t count, double tolerance_rad) {
   const auto first = static_cast<double>(bearings.front());
   const double step = (static_cast<double>(bearings.back()) - first) / static_cast<double>(count - 1);
-  EvenRays rays{count, {}, 0};
+  EvenRays rays{count, {}};
   for (const float bearing : bearings) {
     const double place =
         std::clamp((static_cast<double>(bearing) - first) / step, 0.0, static_cast<double>(count - 1));
+    if (!(std::abs((place - std::round(place)) * step) < tolerance_rad)) return std::nullopt;
     rays.ray_of_beam.push_back(static_cast<std::size_t>(std::lround(place)));
-    rays.worst_rad = std::max(rays.worst_rad, std::abs((place - std::round(place)) * step));
   }
   return rays;
 }
@@ -46,11 +49,11 @@ EvenRays even_rays(const std::vector<float>& bearings) {
   constexpr double kMeets_rad = 1e-3;
   constexpr std::size_t kFinest = 4;
   const std::size_t beams = bearings.size();
-  if (beams < 2 || bearings.front() == bearings.back()) return {beams, std::vector<std::size_t>(beams, 0), 0};
-  for (std::size_t count = beams;; ++count) {
-    EvenRays rays = spread(bearings, count);
-    if (rays.worst_rad < kMeets_rad || count >= kFinest * (beams - 1) + 1) return rays;
-  }
+  if (beams < 2 || bearings.front() == bearings.back()) return {beams, std::vector<std::size_t>(beams, 0)};
+  const std::size_t most = kFinest * (beams - 1) + 1;
+  for (std::size_t count = beams; count < most; ++count)
+    if (std::optional<EvenRays> rays = spread(bearings, count, kMeets_rad)) return *std::move(rays);
+  return *spread(bearings, most, std::numeric_limits<double>::infinity());
 }
 
 CObservation2DRangeScan::Ptr observation_of(const LaserScan& scan, TimeUs time_us,

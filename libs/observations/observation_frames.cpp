@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "observations/observation_frames.h"
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
 
 #include "frames/laser_readings.h"
+#include "frames/log_reader.h"
 #include "observations/mrpt_objects.h"
 #include "psi_slam/user_error.h"
 
@@ -18,10 +20,8 @@ TimeUs stamp_of(const mrpt::obs::CObservation& observation, const char* what, co
                   " has no time stamp, expected one on every observation. Record the log with time stamps");
 }
 
-[[noreturn]] void throw_no_odometry(std::size_t scans, const std::string& place) {
-  throw UserError(place + ": no odometry came with " + std::to_string(scans) +
-                  " scans, expected actions of class CActionRobotMovement2D or observations of class "
-                  "CObservationOdometry. Record the odometry with the scans");
+bool is_finite(const mrpt::math::TPose2D& pose) {
+  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.phi);
 }
 
 }  // namespace
@@ -87,9 +87,20 @@ RawlogLasers::Laser& RawlogLasers::laser(std::size_t number, const mrpt::obs::CO
 }
 
 ObservationFrames::ObservationFrames(const LogOptions& options, Odometry odometry)
-    : lasers_(options), odometry_(odometry) {}
+    : lasers_(options), odometry_(odometry) {
+  if (ignores_odometry(options) || odometry == Odometry::kNone) decide_for_none();
+}
 
-void ObservationFrames::take(const mrpt::obs::CActionCollection& action) {
+void ObservationFrames::decide_for_none() {
+  odometry_ = Odometry::kNone;
+  waiting_.expect_no_odometry();
+}
+
+void ObservationFrames::skip(const std::string& place) {
+  if (skipped_.count++ == 0) skipped_.first = place + ": the odometry is not finite";
+}
+
+void ObservationFrames::take(const mrpt::obs::CActionCollection& action, const std::string& place) {
   const std::optional<mrpt::math::TPose2D> motion = movement_of(action);
   if (motion && odometry_ == Odometry::kUndecided) {
     odometry_ = Odometry::kActions;
@@ -98,7 +109,13 @@ void ObservationFrames::take(const mrpt::obs::CActionCollection& action) {
     while (std::optional<Frame> frame = waiting_.take()) ready_.push_back(*std::move(frame));
     waiting_ = {};
   }
-  if (motion && odometry_ == Odometry::kActions) odom_T_robot_ = odom_T_robot_ + *motion;
+  if (!motion || odometry_ != Odometry::kActions) return;
+  if (is_finite(*motion)) {
+    odom_T_robot_ = odom_T_robot_ + *motion;
+  } else {
+    is_motion_unknown_ = true;
+    skip(place);
+  }
 }
 
 void ObservationFrames::take(const mrpt::obs::CObservation& observation, const std::string& place) {
@@ -117,8 +134,9 @@ void ObservationFrames::take_scan(const mrpt::obs::CObservation2DRangeScan& obse
   frame.time_us = stamp_of(observation, "scan", place);
   frame.scan = *std::move(scan);
   frame.odom_T_robot = odom_T_robot_;
+  frame.has_odometry = !std::exchange(is_motion_unknown_, false);
   if (odometry_ == Odometry::kUndecided && waiting_.waiting() == OdometryInterpolator::kMaxWaiting)
-    throw_no_odometry(waiting_.waiting() + 1, place);
+    decide_for_none();
   ++scans_;
   if (odometry_ == Odometry::kActions)
     ready_.push_back(std::move(frame));
@@ -128,9 +146,10 @@ void ObservationFrames::take_scan(const mrpt::obs::CObservation2DRangeScan& obse
 
 void ObservationFrames::take_odometry(const mrpt::obs::CObservationOdometry& observation,
                                       const std::string& place) {
-  if (odometry_ == Odometry::kActions) return;
+  if (odometry_ == Odometry::kActions || odometry_ == Odometry::kNone) return;
   if (!odometry_label_) odometry_label_ = observation.sensorLabel;
   if (observation.sensorLabel != *odometry_label_) return;
+  if (!is_finite(observation.odometry.asTPose())) return skip(place);
   odometry_ = Odometry::kObservations;
   waiting_.add_odometry(stamp_of(observation, "odometry", place), observation.odometry.asTPose());
 }
@@ -142,9 +161,8 @@ std::optional<Frame> ObservationFrames::next() {
   return frame;
 }
 
-void ObservationFrames::end_of_log(const std::string& place) {
-  if (odometry_ == Odometry::kUndecided && waiting_.waiting() > 0)
-    throw_no_odometry(waiting_.waiting(), place);
+void ObservationFrames::end_of_log() {
+  if (odometry_ == Odometry::kUndecided) decide_for_none();
   waiting_.end_of_log();
 }
 

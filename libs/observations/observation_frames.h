@@ -18,6 +18,7 @@
 #include "frames/laser_choice.h"
 #include "frames/odometry_interpolator.h"
 #include "psi_slam/frame.h"
+#include "psi_slam/frame_source.h"
 #include "psi_slam/log_options.h"
 
 namespace psi_slam {
@@ -69,19 +70,21 @@ class RawlogLasers {
 
 /// Makes frames from MRPT's actions and observations. Odometry is either the sum of the actions, or
 /// interpolated between the odometry observations of the first label. In the second case, a scan waits for
-/// the next odometry.
+/// the next odometry. Odometry that is not finite is skipped.
 class ObservationFrames {
  public:
-  enum class Odometry { kUndecided, kActions, kObservations };
+  enum class Odometry { kUndecided, kActions, kObservations, kNone };
 
-  /// If `odometry` is kUndecided, the kind of odometry that comes first is used.
+  /// If `odometry` is kUndecided, the kind of odometry that comes first is used; there is none if
+  /// OdometryInterpolator::kMaxWaiting scans come before it. If the options ask for no odometry, kNone
+  /// applies.
   explicit ObservationFrames(const LogOptions& options, Odometry odometry = Odometry::kUndecided);
 
-  void take(const mrpt::obs::CActionCollection& action);
+  /// Takes the movement of the robot, if there is one. `place` says where the action is in the log.
+  void take(const mrpt::obs::CActionCollection& action, const std::string& place);
 
   /// Takes a scan or odometry, and ignores other observations. Throws UserError, starting with `place`, if
-  /// the observation has no time stamp, a scan is invalid (see RawlogLasers), or many scans came without
-  /// odometry.
+  /// the observation has no time stamp or a scan is invalid (see RawlogLasers).
   void take(const mrpt::obs::CObservation& observation, const std::string& place);
 
   /// Returns the next complete frame, with the scan of one laser, or nothing if there is none yet. Its index
@@ -91,13 +94,17 @@ class ObservationFrames {
   /// Number of scans taken. Scans of lasers that are not read do not count.
   std::size_t scans() const { return scans_; }
 
-  /// Lets next() return the scans that still wait for odometry. Throws UserError, starting with `place`, if
-  /// scans wait and the log has no odometry.
-  void end_of_log(const std::string& place);
+  /// Odometry that was skipped because it is not finite.
+  const SkippedLines& skipped() const { return skipped_; }
+
+  /// Lets next() return the scans that still wait for odometry.
+  void end_of_log();
 
  private:
   void take_scan(const mrpt::obs::CObservation2DRangeScan& observation, const std::string& place);
   void take_odometry(const mrpt::obs::CObservationOdometry& observation, const std::string& place);
+  void skip(const std::string& place);
+  void decide_for_none();
 
   RawlogLasers lasers_;
   Odometry odometry_;
@@ -106,6 +113,8 @@ class ObservationFrames {
   OdometryInterpolator waiting_;
   std::deque<Frame> ready_;
   std::size_t scans_ = 0;
+  bool is_motion_unknown_ = false;  ///< whether an action since the last scan was skipped
+  SkippedLines skipped_;
 };
 
 }  // namespace psi_slam

@@ -6,7 +6,8 @@
 // - Single observations, in sensory frames or not. Odometry is absolute and comes in observations of its own.
 //   It is interpolated at each scan's time.
 //
-// The kind of odometry that appears first is used; the other kind is ignored. By default scans come from the
+// The kind of odometry that appears first is used; the other kind is ignored. A rawlog without odometry has
+// scans only. By default scans come from the
 // first laser in the log. Time stamps, ticks of 100 ns since 1601, become Unix time rounded to the nearest
 // microsecond.
 #include <mrpt/obs/CActionCollection.h>
@@ -57,12 +58,12 @@ std::vector<std::pair<std::string, std::string>> named_labels(const LogOptions& 
 }
 
 /// Finds the lasers to read and the kind of odometry. Reads the rawlog until a laser, all lasers that the
-/// user names, and odometry have appeared. Throws UserError if one of these is missing.
+/// user names, and odometry have appeared, or to its end. Throws UserError if a laser is missing.
 LasersAndOdometry find_lasers_and_odometry(const std::filesystem::path& path, const LogOptions& options) {
   RawlogArchive archive(path);
   const auto named = named_labels(options);
   ChosenLasers chosen(laser_choice("log.laser", options.laser));
-  auto odometry = Odometry::kUndecided;
+  auto odometry = ignores_odometry(options) ? Odometry::kNone : Odometry::kUndecided;
   std::set<std::string> labels;
   const auto is_missing = [&](const auto& name) { return labels.count(name.first) == 0; };
   while (odometry == Odometry::kUndecided || labels.empty() ||
@@ -90,12 +91,7 @@ LasersAndOdometry find_lasers_and_odometry(const std::filesystem::path& path, co
     throw UserError(missing->second + " is \"" + missing->first + "\", expected the label of a laser of " +
                     path.string() + ": " + quoted_list({labels.begin(), labels.end()}));
   }
-  if (odometry == Odometry::kUndecided) {
-    throw UserError(
-        path.string() +
-        " has no odometry, expected actions of class CActionRobotMovement2D or observations of class "
-        "CObservationOdometry. Record the odometry with the scans");
-  }
+  if (odometry == Odometry::kUndecided) odometry = Odometry::kNone;
   return {name_list(chosen.names()), odometry};
 }
 
@@ -117,20 +113,22 @@ class RawlogReader : public LogReader {
         take(*object);
       } else {
         at_end_ = true;
-        frames_.end_of_log(archive_.path().string());
+        frames_.end_of_log();
       }
     }
   }
 
  private:
   void take(mrpt::serialization::CSerializable& object) {
-    if (const auto* actions = dynamic_cast<const CActionCollection*>(&object)) frames_.take(*actions);
+    if (const auto* actions = dynamic_cast<const CActionCollection*>(&object))
+      frames_.take(*actions, archive_.place());
     for_each_observation(object, [&](const CObservation& observation) {
       const std::size_t scans = frames_.scans();
       frames_.take(observation, archive_.place());
       const bool is_scan = dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
       if (is_scan && frames_.scans() == scans) ++contents_.other_lasers[observation.sensorLabel];
     });
+    contents_.skipped = frames_.skipped();
   }
 
   RawlogArchive archive_;

@@ -6,10 +6,13 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "base/byte_cursor.h"
 #include "base/text_parts.h"
 #include "frames/laser_choice.h"
+#include "frames/log_reader.h"
 #include "psi_slam/user_error.h"
 #include "rosbag/ros_messages.h"
 
@@ -31,10 +34,15 @@ std::string as_in_bag(const std::string& name, const Names& all) {
   return contains(all, '/' + name) ? '/' + name : name;
 }
 
-bool is_named_like_odometry(std::string frame) {
+/// Returns whether the last part of a frame's name contains a word, in letters of any case.
+bool has_word(std::string frame, const char* word) {
   frame.erase(0, frame.rfind('/') + 1);
   std::transform(frame.begin(), frame.end(), frame.begin(), [](unsigned char c) { return std::tolower(c); });
-  return frame.find("odom") != std::string::npos;
+  return frame.find(word) != std::string::npos;
+}
+
+bool is_named_like_odometry(std::string frame) {
+  return has_word(std::move(frame), "odom");
 }
 
 class Planner {
@@ -51,7 +59,12 @@ class Planner {
     plan_.odom_frame = options_.odom_frame;
     plan_.base_frame = options_.base_frame;
     read_until_complete();
-    require_complete();
+    require_scans();
+    if (expects_odometry_ && !plan_.has_odometry) find_odometry_elsewhere();
+    require_odometry();
+    if (plan_.base_frame.empty()) plan_.base_frame = base_frame_by_name();
+    if (chooses_lasers_) keep_usable_lasers();
+    settle_mounts();
     return std::move(plan_);
   }
 
@@ -74,20 +87,30 @@ class Planner {
         throw UserError(std::string(option) + " names the topic " + topic + " twice. Name each topic once");
       plan_.scan_topics.push_back(topic);
     }
-    if (plan_.scan_topics.empty()) plan_.scan_topics = {choose("log.scan_topic", "", all, kRosLaserScan)};
+    if (plan_.scan_topics.empty() && options_.robot_T_laser)
+      plan_.scan_topics = {choose("log.scan_topic", "", all, kRosLaserScan)};
+    if (plan_.scan_topics.empty()) {
+      plan_.scan_topics = all;
+      chooses_lasers_ = all.size() > 1;
+    }
     for (const StatedMount& mount : stated_mounts(options_))
       choose("log.laser_mounts", mount.name, all, kRosLaserScan);
   }
 
   void choose_odometry_topic() {
     const Names all = topics_of_type(topics_, kRosOdometry);
-    const std::string& wanted = options_.odometry_topic;
+    const std::string wanted = chooses_odometry(options_) ? "" : options_.odometry;
+    expects_odometry_ =
+        !ignores_odometry(options_) && !(wanted.empty() && all.empty() && plan_.transform_topics.empty());
     const bool by_transform = contains(plan_.transform_topics, as_in_bag(wanted, plan_.transform_topics));
-    if (by_transform || (all.empty() && wanted.empty() && !plan_.transform_topics.empty())) return;
-    if (all.empty() && wanted.empty())
-      throw UserError(path_ + " has no odometry, expected a topic of type " + kRosOdometry + " or " +
-                      kRosTransforms + ". Record one of them with the scans.");
-    plan_.odometry_topic = choose("log.odometry_topic", wanted, all, kRosOdometry);
+    if (!expects_odometry_ || by_transform || (wanted.empty() && all.empty())) return;
+    if (!wanted.empty() || all.size() == 1) {
+      plan_.odometry_topic = choose("log.odometry", wanted, all, kRosOdometry);
+      return;
+    }
+    plan_.odometry_topic = contains(all, "/odom") ? "/odom" : all.front();
+    plan_.assumptions.push_back("odometry comes from " + plan_.odometry_topic + ", one of the topics " +
+                                name_list(all) + ". Name another one with log.odometry");
   }
 
   std::string choose(const char* option, const std::string& wanted, const Names& all,
@@ -108,11 +131,11 @@ class Planner {
         if (!bag_->next(message)) return;
         take(message);
       } catch (const MalformedBytes& error) {
-        if (is_enough()) return;
+        if (has_scans()) return;
         throw UserError(bag_->place() + ": the message on " + message.topic->name +
                         " is damaged: " + error.what() + ". Record the bag again");
       } catch (const UserError&) {
-        if (!is_enough()) throw;
+        if (!has_scans()) throw;
         return;
       }
     }
@@ -126,7 +149,7 @@ class Planner {
     } else {
       scan_frames_.emplace(message.topic->name, read_ros_laser_scan(message).header.frame);
     }
-    if (plan_.odometry_topic.empty() && !has_odometry_) find_odometry_transform();
+    if (expects_odometry_ && plan_.odometry_topic.empty() && !plan_.has_odometry) find_odometry_transform();
   }
 
   void take_odometry(const BagMessage& message) {
@@ -134,7 +157,7 @@ class Planner {
     if (!odometry && invalid_pose_.empty())
       invalid_pose_ = bag_->place() + ": " + invalid_pose_text(message.topic->name);
     if (!odometry) return;
-    has_odometry_ = true;
+    plan_.has_odometry = true;
     if (plan_.odom_frame.empty()) plan_.odom_frame = odometry->header.frame;
     if (plan_.base_frame.empty()) plan_.base_frame = odometry->child_frame;
   }
@@ -153,7 +176,7 @@ class Planner {
                                      ? is_stated_base || is_named_like_odometry(way[i])
                                      : way[i] == options_.odom_frame;
         if (!is_odometry) continue;
-        has_odometry_ = true;
+        plan_.has_odometry = true;
         plan_.odom_frame = way[i];
         plan_.base_frame = way[i - 1];
         return;
@@ -169,44 +192,127 @@ class Planner {
     return options_of_topic(options_, topic).robot_T_laser.has_value();
   }
 
-  /// Whether is_enough() holds and all mounts are known. Transforms are needed even for a stated mount,
-  /// because they show whether the laser is upside down.
+  /// Returns whether odometry, scans of all lasers and all mounts are known. Transforms are needed even for a
+  /// stated mount, because they show whether the laser is upside down.
   bool is_complete() const {
     const bool has_transforms = !plan_.transform_topics.empty();
-    return is_enough() && std::all_of(scan_frames_.begin(), scan_frames_.end(), [&](const auto& scan) {
-             return knows_mount(scan.second) || (!has_transforms && states_mount(scan.first));
-           });
+    return (plan_.has_odometry || !expects_odometry_) && has_scans() &&
+           std::all_of(scan_frames_.begin(), scan_frames_.end(),
+                       [&](const auto& scan) { return !has_transforms || knows_mount(scan.second); });
   }
 
-  /// Returns whether the plan is usable if the bag ends here.
-  bool is_enough() const { return has_odometry_ && scan_frames_.size() == plan_.scan_topics.size(); }
+  /// Returns whether scans of all lasers were read.
+  bool has_scans() const { return scan_frames_.size() == plan_.scan_topics.size(); }
 
-  void require_complete() const {
+  /// Searches all transforms for odometry, because the topic has none, or because no transform connects it
+  /// with a laser.
+  void find_odometry_elsewhere() {
+    if (chooses_odometry(options_)) plan_.odometry_topic.clear();
+    if (!plan_.odometry_topic.empty()) return;
+    const auto is_parent = [&](const std::string& parent) {
+      return options_.odom_frame.empty() ? is_named_like_odometry(parent) : parent == options_.odom_frame;
+    };
+    const std::optional<std::string> base = plan_.transforms.child_of(is_parent);
+    if (!base || (!options_.base_frame.empty() && *base != options_.base_frame)) return;
+    plan_.has_odometry = true;
+    plan_.base_frame = *base;
+    plan_.odom_frame = plan_.transforms.parent_of(*base);
+  }
+
+  /// Returns the robot's frame for a bag without odometry: the topmost frame above the first laser whose name
+  /// contains "base". Otherwise the nearest frame above all lasers, such as the frame of a single laser.
+  std::string base_frame_by_name() const {
+    const Names way = plan_.transforms.way_up(first_scan_frame());
+    const auto base = std::find_if(way.rbegin(), way.rend(),
+                                   [](const std::string& frame) { return has_word(frame, "base"); });
+    if (base != way.rend()) return *base;
+    const auto is_above_all = [&](const std::string& frame) {
+      return std::all_of(scan_frames_.begin(), scan_frames_.end(), [&](const auto& scan) {
+        return contains(plan_.transforms.way_up(scan.second), frame);
+      });
+    };
+    const auto common = std::find_if(way.begin(), way.end(), is_above_all);
+    return common == way.end() ? way.front() : *common;
+  }
+
+  std::string first_scan_frame() const {
     for (const std::string& topic : plan_.scan_topics)
-      if (scan_frames_.count(topic) == 0)
-        throw UserError(path_ + " has no message on the topic " + topic +
-                        ". Select another topic of scans with log.scan_topic.");
-    if (!has_odometry_ && !invalid_pose_.empty())
-      throw UserError(invalid_pose_ +
-                      ", as in all of its messages. Select another topic with log.odometry_topic");
-    if (!has_odometry_ && !plan_.odometry_topic.empty())
-      throw UserError(path_ + " has no message on the topic " + plan_.odometry_topic +
-                      ". Select another topic with log.odometry_topic.");
-    if (!has_odometry_) {
-      throw UserError(
-          path_ + " has no odometry, expected a topic of type " + kRosOdometry +
-          " or a transform from a frame named like \"odom\" to the robot's frame. Name the frames with "
-          "log.odom_frame and log.base_frame. Transforms of the bag: " +
-          plan_.transforms.text());
+      if (const auto known = scan_frames_.find(topic); known != scan_frames_.end()) return known->second;
+    return {};
+  }
+
+  /// Keeps the lasers with a known mount, or the first laser if no mount is known. Keeps one of several
+  /// topics with scans of the same laser.
+  void keep_usable_lasers() {
+    Names kept;
+    Names left_out;
+    std::set<std::string> frames;
+    for (const bool known : {true, false}) {
+      if (!kept.empty()) break;
+      for (const std::string& topic : plan_.scan_topics) {
+        const auto scan = scan_frames_.find(topic);
+        const bool is_usable = scan != scan_frames_.end() &&
+                               (!known || states_mount(topic) || knows_mount(scan->second)) &&
+                               (known || kept.empty());
+        if (is_usable && frames.insert(scan->second).second) kept.push_back(topic);
+      }
     }
-    for (const auto& [topic, frame] : scan_frames_) {
+    for (const std::string& topic : plan_.scan_topics)
+      if (!contains(kept, topic) && scan_frames_.count(topic) > 0) left_out.push_back(topic);
+    plan_.scan_topics = kept;
+    if (!left_out.empty())
+      plan_.assumptions.push_back(
+          "the scans of " + name_list(left_out) + " are not used, because " +
+          (left_out.size() == 1 ? "their laser is" : "their lasers are") +
+          " the laser of a topic that is used or the mount is unknown. Select topics with log.scan_topic");
+  }
+
+  void require_scans() const {
+    const auto is_missing = [&](const std::string& topic) { return scan_frames_.count(topic) == 0; };
+    const Names& topics = plan_.scan_topics;
+    if (chooses_lasers_ && !std::all_of(topics.begin(), topics.end(), is_missing)) return;
+    if (const auto missing = std::find_if(topics.begin(), topics.end(), is_missing); missing != topics.end())
+      throw UserError(path_ + " has no message on the topic " + *missing +
+                      ". Select another topic of scans with log.scan_topic.");
+  }
+
+  /// Throws UserError if odometry that the user or the bag states is missing.
+  void require_odometry() const {
+    if (plan_.has_odometry || !expects_odometry_) return;
+    if (!plan_.odometry_topic.empty() && !invalid_pose_.empty())
+      throw UserError(invalid_pose_ +
+                      ", as in all of its messages. Select another topic with log.odometry, or map without "
+                      "odometry with log.odometry=none");
+    if (!plan_.odometry_topic.empty())
+      throw UserError(path_ + " has no message on the topic " + plan_.odometry_topic +
+                      ". Select another topic with log.odometry, or map without odometry with "
+                      "log.odometry=none");
+    if (!chooses_odometry(options_) || !options_.odom_frame.empty())
+      throw UserError(
+          path_ + " has no odometry, expected a transform from " +
+          (options_.odom_frame.empty() ? "a frame named like \"odom\"" : '"' + options_.odom_frame + '"') +
+          " to the robot's frame. Name the frames with log.odom_frame and log.base_frame, or map "
+          "without odometry with log.odometry=none. Transforms of the bag: " +
+          plan_.transforms.text());
+  }
+
+  /// Throws UserError if the mount of one of several lasers is unknown, or if the user names the robot's
+  /// frame and no transform leads to the laser. Otherwise an unknown mount is the robot's centre.
+  void settle_mounts() {
+    for (const std::string& topic : plan_.scan_topics) {
+      const std::string& frame = scan_frames_.at(topic);
       if (states_mount(topic) || knows_mount(frame)) continue;
-      throw UserError(path_ + " does not state where the laser of " + topic +
-                      " is mounted: no transform leads from \"" + plan_.base_frame + "\" to \"" + frame +
-                      "\". Name the robot's frame with log.base_frame, or state the mount with " +
-                      (plan_.scan_topics.size() > 1 ? "log.laser_mounts, such as \"" + topic + " 0.2 0 0\""
-                                                    : "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg") +
-                      ". Transforms of the bag: " + plan_.transforms.text());
+      const bool several = plan_.scan_topics.size() > 1;
+      const std::string reason = "no transform leads from \"" + plan_.base_frame + "\" to \"" + frame + "\"";
+      const std::string remedy = several ? "log.laser_mounts, such as \"" + topic + " 0.2 0 0\""
+                                         : "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg";
+      if (several || !options_.base_frame.empty())
+        throw UserError(path_ + " does not state where the laser of " + topic + " is mounted: " + reason +
+                        ". Name the robot's frame with log.base_frame, or state the mount with " + remedy +
+                        ". Transforms of the bag: " + plan_.transforms.text());
+      plan_.assumptions.push_back("the laser of " + topic +
+                                  " is assumed at the robot's centre, facing ahead, because " + reason +
+                                  ". State its mount with " + remedy);
     }
   }
 
@@ -217,7 +323,8 @@ class Planner {
   BagPlan plan_;
   std::map<std::string, std::string> scan_frames_;  // index: topic of the scans
   std::string invalid_pose_;                        // message about the first odometry with an invalid pose
-  bool has_odometry_ = false;
+  bool expects_odometry_ = true;                    // whether the user wants odometry and the bag may hold it
+  bool chooses_lasers_ = false;  // whether the user selects none of several topics of scans
 };
 
 }  // namespace
@@ -236,6 +343,20 @@ std::vector<std::string> TransformTree::way_up(const std::string& frame) const {
     way.push_back(link->second.parent);
   }
   return way;
+}
+
+std::optional<std::string> TransformTree::child_of(
+    const std::function<bool(const std::string& parent)>& is_parent) const {
+  std::optional<std::string> found;
+  for (const auto& [frame, link] : links_)
+    if (is_parent(link.parent) && (!found || (has_word(frame, "base") && !has_word(*found, "base"))))
+      found = frame;
+  return found;
+}
+
+std::string TransformTree::parent_of(const std::string& frame) const {
+  const auto link = links_.find(frame);
+  return link == links_.end() ? "" : link->second.parent;
 }
 
 CPose3D TransformTree::above_T_frame(std::string frame, std::size_t steps) const {

@@ -4,6 +4,7 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,6 +23,12 @@ class TransformTree {
 
   /// Returns `frame` and the frames above it, up to the root.
   std::vector<std::string> way_up(const std::string& frame) const;
+
+  /// Returns a frame whose parent satisfies a predicate, or nothing. Prefers frames with "base" in the name.
+  std::optional<std::string> child_of(const std::function<bool(const std::string& parent)>& is_parent) const;
+
+  /// Returns the parent of `frame`; empty if it has none.
+  std::string parent_of(const std::string& frame) const;
 
   /// Returns the pose of `frame` in `base`, or nothing if they are not connected.
   std::optional<mrpt::poses::CPose3D> base_T_frame(const std::string& base, const std::string& frame) const;
@@ -44,11 +51,13 @@ class TransformTree {
 /// The topics and frames of a ROS bag that are read.
 struct BagPlan {
   std::vector<std::string> scan_topics;  ///< index: LaserScan::laser
+  bool has_odometry = false;             ///< false: scans have no odometry
   std::string odometry_topic;            ///< empty: odometry is the transform from odom_frame to base_frame
   std::vector<std::string> transform_topics;
   std::string odom_frame;
-  std::string base_frame;    ///< the robot's frame, which odometry moves
-  TransformTree transforms;  ///< transforms that were read while the frames were searched
+  std::string base_frame;                ///< the robot's frame, which odometry moves
+  TransformTree transforms;              ///< transforms that were read while the frames were searched
+  std::vector<std::string> assumptions;  ///< see FrameSource::assumptions()
 
   /// Names of all topics to read.
   std::vector<std::string> topics() const;
@@ -64,8 +73,9 @@ bool is_transforms(const BagTopic& topic);
 LogOptions options_of_topic(const LogOptions& options, const std::string& topic);
 
 /// Plans how to read a bag. Finds the topics by their types, or by the names that the user states. Then reads
-/// until all frames are known. Throws UserError if something is missing, or if several topics match and the
-/// user names none.
+/// until all frames are known, or to the end. If the user names no topic, plans to read all lasers whose
+/// mounts are known. Assumes that the only laser is at the robot's centre if its mount is unknown. Throws
+/// UserError if there are no scans, or if something that the user names is missing.
 BagPlan plan_bag(const std::filesystem::path& path, const LogOptions& options);
 
 }  // namespace psi_slam

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads ROS bags of any kind (see bag_file.h): scans of sensor_msgs/LaserScan. Odometry of nav_msgs/Odometry,
 // or of the transform odom -> base_link, is interpolated at the header stamp of each scan. The laser's mount
-// comes from the transforms. A message without a stamp has the time at which it was recorded.
+// comes from the transforms. A bag without odometry has scans only. A message without a stamp has the time at
+// which it was recorded.
 //
 // A damaged or truncated bag yields all frames before the damage, then a UserError. Odometry with an invalid
 // pose is skipped.
@@ -103,7 +104,10 @@ class RosbagReader : public LogReader {
   RosbagReader(const std::filesystem::path& path, const LogOptions& options)
       : plan_(plan_bag(path, options)), bag_(open_bag(path)) {
     bag_->want(plan_.topics());
+    if (!plan_.has_odometry) interpolator_.expect_no_odometry();
     contents_.laser = name_list(plan_.scan_topics);
+    contents_.several_lasers = plan_.scan_topics.size() > 1;
+    contents_.assumptions = plan_.assumptions;
     for (const std::string& topic : plan_.scan_topics) lasers_.emplace_back(options_of_topic(options, topic));
   }
 
@@ -148,7 +152,8 @@ class RosbagReader : public LogReader {
   }
 
   void take_transform(const RosTransform& transform) {
-    const bool is_odometry = plan_.odometry_topic.empty() && transform.child_frame == plan_.base_frame &&
+    const bool is_odometry = plan_.has_odometry && plan_.odometry_topic.empty() &&
+                             transform.child_frame == plan_.base_frame &&
                              transform.header.frame == plan_.odom_frame;
     if (is_odometry) {
       interpolator_.add_odometry(transform.header.time_us, on_floor(transform.pose));

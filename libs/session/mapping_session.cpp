@@ -9,6 +9,7 @@
 
 #include "base/file_checksum.h"
 #include "exports/unmatched_scans.h"
+#include "frames/log_reader.h"
 #include "pose_graph/g2o_file.h"
 #include "psi_slam/configuration.h"
 #include "psi_slam/frame_source.h"
@@ -98,6 +99,9 @@ struct MappingSession::Members {
   void make_due_edits(EditTime now);
   void begin_recorded_run();
   SessionFacts facts() const;
+  const std::vector<Frame>& mapped_log() const {
+    return state == State::kFinished ? result.log : mapper->log();
+  }
   /// SHA-256 of the log; empty if the log is no longer readable.
   std::string checksum_of_log() const;
   void write_edits(const fs::path& file) const;
@@ -382,7 +386,7 @@ void MappingSession::Members::write_edits(const fs::path& file) const {
 }
 
 SavedSession MappingSession::save(const fs::path& file) const {
-  const std::vector<Frame>& mapped = finished() ? m_->result.log : m_->mapper->log();
+  const std::vector<Frame>& mapped = m_->mapped_log();
   const bool all_of_recording = !m_->recording || mapped.size() >= m_->recording->frames.size();
   const std::vector<Frame>& frames = all_of_recording ? mapped : m_->recording->frames;
   const SessionFacts facts = m_->facts();
@@ -458,11 +462,26 @@ std::vector<std::string> MappingSession::unmet_edits() const {
   return unmet;
 }
 
+std::vector<std::string> MappingSession::assumptions() const {
+  std::vector<std::string> assumptions = m_->source->assumptions();
+  const std::vector<Frame>& log = m_->mapped_log();
+  const auto without = static_cast<std::size_t>(
+      std::count_if(log.begin(), log.end(), [](const Frame& frame) { return !frame.has_odometry; }));
+  if (without == log.size() && without > 0 && !ignores_odometry(log_options(m_->settings)))
+    assumptions.push_back(
+        "the log has no odometry, so the motion between scans follows from the scans alone");
+  else if (without > 0 && without < log.size())
+    assumptions.push_back(std::to_string(without) + " of " + std::to_string(log.size()) +
+                          " scans have no odometry");
+  return assumptions;
+}
+
 std::vector<std::string> MappingSession::warnings() const {
   std::vector<std::string> warnings = m_->settings_warnings;
   for (const std::string& warning : warnings_of_logs_before()) warnings.push_back(warning);
   if (m_->broken_off) warnings.push_back(*m_->broken_off);
   if (const SkippedLines skipped = skipped_lines(); skipped.count > 0) warnings.push_back(skipped.sentence());
+  for (const std::string& assumption : assumptions()) warnings.push_back(assumption);
   for (const std::string& complaint : unmet_edits()) warnings.push_back("an edit was not made: " + complaint);
   if (const auto unmatched = unmatched_scans_text(m_->result)) warnings.push_back(*unmatched);
   return warnings;

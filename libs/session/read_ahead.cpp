@@ -26,6 +26,7 @@ std::optional<Frame> ReadAhead::next() {
   const bool is_last = !ahead_.front().frame.has_value();
   progress_ = ahead_.front().progress;
   skipped_ = ahead_.front().skipped;
+  assumptions_ = ahead_.front().assumptions;
   if (is_last) {  // the last entry stays in the queue for further calls
     if (ahead_.front().failure) std::rethrow_exception(ahead_.front().failure);
     return std::nullopt;
@@ -60,6 +61,7 @@ ReadAhead::Read ReadAhead::read_one() noexcept {
   }
   read.progress = source_->progress();
   read.skipped = source_->skipped_lines();
+  read.assumptions = source_->assumptions();
   return read;
 }
 

@@ -10,7 +10,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "psi_slam/frame_source.h"
 
@@ -28,12 +30,14 @@ class ReadAhead : public FrameSource {
   /// Progress of the frames that next() has returned, not of the frames read ahead.
   double progress() const override { return progress_; }
   SkippedLines skipped_lines() const override { return skipped_; }
+  std::vector<std::string> assumptions() const override { return assumptions_; }
 
  private:
   struct Read {
     std::optional<Frame> frame;  ///< empty at the end of the log
     double progress = 0;
     SkippedLines skipped;
+    std::vector<std::string> assumptions;
     std::exception_ptr failure;
   };
 
@@ -44,6 +48,7 @@ class ReadAhead : public FrameSource {
   const std::size_t capacity_;
   double progress_ = 0;
   SkippedLines skipped_;
+  std::vector<std::string> assumptions_;
 
   std::mutex mutex_;  ///< protects the members below
   std::condition_variable changed_;

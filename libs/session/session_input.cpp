@@ -73,6 +73,9 @@ class RecordedSource : public FrameSource {
   SkippedLines skipped_lines() const override {
     return log_ ? log_->skipped_lines() : recording_->facts.logs.back().skipped;
   }
+  std::vector<std::string> assumptions() const override {
+    return log_ ? log_->assumptions() : std::vector<std::string>();
+  }
 
  private:
   // Reads the log along with its recorded frames, so that its progress and skipped lines are correct.

@@ -56,11 +56,13 @@ void describe_log(OptionTable& table, Settings& settings) {
       .optional_number("sweep_time_s", log.sweep_time_s, between(0, 1), "s",
                        "Time from the first to the last beam of a scan. The scan is corrected for the "
                        "robot's motion during this time. auto: the log's value; 0: no correction.")
-      .text("scan_topic", log.scan_topic,
-            "ROS bags: topic of the scans. Several with commas, or all. Empty: log.laser, or the only topic "
-            "of scans.")
-      .text("odometry_topic", log.odometry_topic,
-            "ROS bags: topic of the odometry, or /tf. Empty: the only topic of odometry, or /tf.")
+      .text(
+          "scan_topic", log.scan_topic,
+          "ROS bags: topic of the scans. Several with commas, or all. Empty: log.laser, or all topics whose "
+          "lasers have a known mount.")
+      .text("odometry", log.odometry,
+            "Odometry to use. auto: the log's odometry, or none if it has none. none: scans only. ROS bags: "
+            "a topic of odometry, or /tf.")
       .text("odom_frame", log.odom_frame,
             "ROS bags: frame that odometry is relative to. Empty: the nearest frame above the laser with "
             "odom in its name.")
@@ -151,6 +153,7 @@ void describe(OptionTable& table, Settings& settings) {
   describe_localization(table, settings.localization);
   describe_run(table, settings.run);
   table.alias("last_pass", "final_search")
+      .alias("log.odometry_topic", "log.odometry")
       .alias("front_end.max_strain_m", "front_end.max_doubtful_correction_m")
       .alias("front_end.strain_travel_m", "front_end.doubtful_correction_travel_m")
       .alias("consensus.max_rival_share", "consensus.max_other_place_share");

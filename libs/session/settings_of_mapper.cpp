@@ -68,6 +68,20 @@ void describe_front_end(OptionTable& table, FrontEndOptions& front_end) {
               "Largest half-width of the wide window of a scan along x and y.")
       .angle_deg("max_wide_window_theta_deg", front_end.max_wide_window_rad, above(0).at_most(180),
                  "Largest half-width of the wide window of a scan in heading.")
+      .number("acceleration_mps2", front_end.constant_velocity.acceleration_mps2, above(0).at_most(100),
+              "m/s²", "Without odometry: standard deviation of the robot's acceleration.")
+      .angle_deg(
+          "turn_acceleration_deg", front_end.constant_velocity.turn_acceleration_radps2,
+          above(0).at_most(10'000),
+          "Without odometry: standard deviation of the robot's angular acceleration, per second squared.")
+      .number("unknown_speed_mps", front_end.constant_velocity.unknown_speed_mps, above(0).at_most(100),
+              "m/s", "Without odometry: standard deviation of the robot's speed while no match gives it.")
+      .angle_deg(
+          "unknown_turn_deg", front_end.constant_velocity.unknown_turn_radps, above(0).at_most(10'000),
+          "Without odometry: standard deviation of the robot's turn in one second while no match gives "
+          "it.")
+      .number("known_speed_s", front_end.constant_velocity.longest_s, at_least(0), "s",
+              "Without odometry: after this time without a match, the robot's speed counts as unknown.")
       .number("prior_sigma_m", front_end.prior_sigma_m, above(0).at_most(100), "m",
               "Standard deviation of the predicted position. The prediction fixes the pose where the scan "
               "does not, as along a corridor.")

@@ -59,6 +59,7 @@ class DegradedSource : public FrameSource {
   std::optional<Frame> next() override;
   double progress() const override { return source_->progress(); }
   SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
+  std::vector<std::string> assumptions() const override { return source_->assumptions(); }
 
  private:
   void spoil_odometry(Frame& frame);

@@ -39,6 +39,7 @@ class StepThinnedSource : public FrameSource {
   std::optional<Frame> next() override;
   double progress() const override { return source_->progress(); }
   SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
+  std::vector<std::string> assumptions() const override { return source_->assumptions(); }
 
   /// All scans read so far, in the order of the log.
   const std::vector<ThinnedScan>& scans() const { return scans_; }

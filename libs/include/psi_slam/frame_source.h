@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "psi_slam/frame.h"
 
@@ -51,6 +52,10 @@ class FrameSource {
 
   /// Returns what the reader has skipped so far.
   virtual SkippedLines skipped_lines() const { return {}; }
+
+  /// Returns what the reader assumed because the log does not state it, and what it left unused: one sentence
+  /// each, without its full stop, that names the option to change it.
+  virtual std::vector<std::string> assumptions() const { return {}; }
 };
 
 }  // namespace psi_slam

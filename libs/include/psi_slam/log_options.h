@@ -62,21 +62,24 @@ struct LogOptions {
   /// scans unchanged.
   std::optional<double> sweep_time_s;
 
-  // The next four options apply to ROS bags only. If empty, the reader finds topics by their types and frames
-  // by the transforms.
+  /// Odometry to use. "auto": the odometry of the log; without any, scans have none (see
+  /// Frame::has_odometry). "none": no odometry, even if the log has some. ROS bags: a topic
+  /// (nav_msgs/Odometry), or a topic of transforms ("/tf"), which selects the transform from odom_frame to
+  /// base_frame. An empty text means "auto".
+  std::string odometry = "auto";
+
+  // The next three options apply to ROS bags only. If empty, the reader finds topics by their types and
+  // frames by the transforms.
 
   /// Topic of the scans (sensor_msgs/LaserScan), or several topics separated by commas. Overrides `laser`.
   std::string scan_topic;
-
-  /// Topic of the odometry (nav_msgs/Odometry). A topic of transforms ("/tf") selects the transform from
-  /// odom_frame to base_frame instead.
-  std::string odometry_topic;
 
   /// Frame of the odometry poses. Default: the nearest frame above the laser whose name contains "odom".
   std::string odom_frame;
 
   /// Frame of the robot, whose pose odometry measures. Default: the child frame of the odometry messages, or
-  /// of the transform from odom_frame.
+  /// of the transform from odom_frame. Without odometry: the topmost frame above the laser whose name
+  /// contains "base", otherwise the laser's own frame.
   std::string base_frame;
 
   /// Reads every nth scan; 1 reads all. Each scan keeps the odometry of its own time.

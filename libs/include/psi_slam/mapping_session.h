@@ -110,8 +110,12 @@ class MappingSession {
   /// Edits that could not be made, one sentence each. The list is complete after finish().
   std::vector<std::string> unmet_edits() const;
 
-  /// All warnings about this run, one sentence each: renamed settings, damaged logs, skipped messages and
-  /// edits that could not be made. After finish(), also scans that matched no local map.
+  /// What the reader assumed because the log does not state it, such as the mount of a laser, and scans
+  /// without odometry; one sentence each.
+  std::vector<std::string> assumptions() const;
+
+  /// All warnings about this run, one sentence each: renamed settings, damaged logs, skipped messages,
+  /// assumptions() and edits that could not be made. After finish(), also scans that matched no local map.
   std::vector<std::string> warnings() const;
 
   /// Number of runs through the building: this run and the runs merged before it.

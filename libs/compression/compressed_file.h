@@ -23,8 +23,8 @@ class CompressedFile {
   explicit CompressedFile(std::filesystem::path path, const std::string& expected = "a log file");
 
   /// Reads the next `size` decompressed bytes and returns their number. The number is smaller than `size`
-  /// only at the end of the file and before damaged or truncated data. The call after that throws UserError
-  /// for such data.
+  /// only at the end of the file and before damaged or truncated data. Throws UserError if such data come
+  /// first.
   std::size_t read(char* bytes, std::size_t size);
 
   const std::filesystem::path& path() const { return path_; }

@@ -36,7 +36,7 @@ constexpr double kSameMount_rad = 0.002;
 // such as 81.83 and 81.91 m.
 constexpr double kBelowNoReturn = 0.97;
 constexpr float kLargestReading_m = 1000;  // a larger reading is damaged or in another unit
-constexpr std::size_t kRepeated = 3;       // fewer readings near the largest one are damaged, too
+constexpr std::size_t kRepeated = 3;       // fewer readings near the largest one count as damaged, too
 
 Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) {
   LineReader lines(path);

@@ -62,7 +62,7 @@ std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis);
 /// Table of the beam angle study with one convention per line; the best is marked. Empty without a study.
 std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study);
 
-/// Facts, beam angles and findings with their remedies, as `psi-slam check` prints them.
+/// Lines with facts, beam angles, and findings with their remedies, as `psi-slam check` prints them.
 std::vector<std::string> describe(const LogDiagnosis& diagnosis);
 
 /// All measurements and findings as JSON, in SI units with the unit in each key.

@@ -79,7 +79,8 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
                                                        const TPose2D& stated_mount) {
   // A is the robot's motion by odometry, B the laser's motion by scans, X the mount: A X = X B. For the
   // translations, (R_A - 1) t_X - s R_X t_B = -t_A with the scale s of odometry. This is linear in t_X and in
-  // (s cos, s sin) of the mount's heading. Both sides use the turns of the scans, which are more accurate.
+  // (s cos, s sin) of the mount's heading. Both sides use the turns of the scans, which are more accurate
+  // than those of odometry.
   constexpr std::size_t kFewestPairs = 40;
   constexpr double kNoise_m = 0.02;  // noise of odometry between the frames of a pair
   constexpr int kIterations = 20;
@@ -99,7 +100,7 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
     const TPose2D laser = (scans.reference_T_scan + stated_mount) - stated_mount;
     const double turn = laser.phi;
     if (std::abs(turn) > 0.1) ++turning;
-    // An error of odometry's turn rotates its translation by half of the error.
+    // An error of odometry's turn rotates odometry's translation by half of the error.
     const double bend = off_rad / 2;
     const TPose2D& odometry = pair.by_odometry;
     Equation equation;

@@ -17,9 +17,9 @@ namespace psi_slam {
 /// the log: the odometry message before or after it, whichever is nearer in time. take() returns scans in the
 /// order of the log.
 ///
-/// If the time of odometry steps back, the clock was set; all earlier odometry is forgotten. A scan near the
-/// step has the same clock as its neighbour in the log that is nearer in time. A scan whose time steps back
-/// therefore waits for the next odometry message.
+/// If the time of odometry steps back, the clock was set; all earlier odometry is discarded. A scan near this
+/// step belongs to the clock of the odometry message before or after it, whichever is nearer in time. A scan
+/// whose time steps back therefore waits for the next odometry message.
 class OdometryInterpolator {
  public:
   /// Largest number of scans that wait for odometry. If more scans arrive, odometry is taken to have stopped.
@@ -55,7 +55,7 @@ class OdometryInterpolator {
   void place(Scan& scan) const;
   bool place_between_messages(Frame& frame) const;
 
-  // Messages since time last stepped back; never empty after the first message.
+  // The last messages since time stepped back; never empty after the first message.
   std::deque<Odometry> odometry_;
   std::deque<Scan> scans_;
   std::optional<TimeUs> last_scan_us_;

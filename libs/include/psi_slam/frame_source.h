@@ -40,9 +40,9 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// Returns the next frame, or nothing at the end of the log. Throws UserError (file, place, what was
-  /// expected) if the log is malformed. CARMEN logs and bags may hold a few malformed messages, which are
-  /// skipped: see skipped_lines().
+  /// Returns the next frame, or nothing at the end of the log. Throws UserError if the log is malformed; the
+  /// message names file, place and what was expected. CARMEN logs and bags may hold a few malformed messages,
+  /// which are skipped: see skipped_lines().
   virtual std::optional<Frame> next() = 0;
 
   /// Fraction of the log that has been read, in [0, 1], measured in bytes on disk.

@@ -40,8 +40,8 @@ struct GridMapOptions {
 /// Draws the scans of each frame of `log` at the robot pose with the same index. A cell holds the probability
 /// that it is free: near 0 if occupied, 0.5 if never observed, near 1 if free. The corners of the map lie on
 /// multiples of the resolution and include the margin. Invalid readings draw nothing. Throws
-/// std::invalid_argument if the numbers of frames and poses differ, or those of ranges and bearings, if a
-/// pose is not finite, or if an option is out of range.
+/// std::invalid_argument if the numbers of frames and poses differ, or those of a scan's ranges and bearings.
+/// Throws std::invalid_argument also if a pose is not finite or an option is out of range.
 mrpt::maps::COccupancyGridMap2D::Ptr draw_grid_map(const std::vector<Frame>& log,
                                                    const std::vector<mrpt::math::TPose2D>& map_T_robot,
                                                    const GridMapOptions& options = {});

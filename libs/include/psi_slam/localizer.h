@@ -39,7 +39,7 @@ struct FoundPlace {
   double response = 0;              ///< response of the scans at this pose, in [0, 1]
   double ambiguity = 0;             ///< response of the next best place, divided by `response`
   double observed_share = 0;        ///< share of the scans' points in space that the map shows
-  double agree = 0;                 ///< share of the points in that space on or beside occupied cells
+  double agree = 0;                 ///< share of points in observed space that lie on or beside walls
   double clear_share = 0;           ///< share of the scans' beams that cross no wall of the map
   std::string objection;            ///< why the place was rejected, as a clause; empty if accepted
   bool ambiguous = false;           ///< true: rejected because another place fits equally well
@@ -51,7 +51,7 @@ struct FoundPlace {
 
 /// Result of the localizer for one scan.
 struct LocalizationStep {
-  /// Whether the pose of the robot is known.
+  /// State of the localizer: whether the pose of the robot is known.
   enum class State { kLost, kTracking };
   TimeUs time_us = 0;               ///< time of the scan, microseconds
   State state = State::kLost;       ///< state after this scan

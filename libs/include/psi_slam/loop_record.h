@@ -46,7 +46,7 @@ struct LoopRefusal {
     kAmbiguous,           ///< value: response of the second-best distinct pose, divided by the best
     kUncertainPosition,   ///< value: largest standard deviation of the position, metres
     kUnobserved,          ///< value: share of the scan's points in space that the local map observed
-    kNeighboursDisagree,  ///< value: share of the neighbouring scans' points that fit the local map
+    kNeighboursDisagree,  ///< value: share of the points of scans nearby on the path that fit the local map
     kReverseDisagrees,    ///< value: share of the local map's points that fit the scan
     kNoConsensus,         ///< too few other matches agree with this match in a wide window
     kContradicted,        ///< value: residual in the optimised graph, standard deviations
@@ -84,7 +84,7 @@ struct LoopRecord {
   double response = 0;           ///< response of the match, in [0, 1]
   double ambiguity = 0;          ///< response of the second-best distinct peak, divided by the best
   double observed_share = 0;     ///< share of the scan's points in space that the local map observed
-  double neighbours_agree = 0;   ///< share of the neighbouring scans' points that fit the local map
+  double neighbours_agree = 0;   ///< share of the points of scans nearby on the path that fit the local map
   double reverse_agree = 0;      ///< share of the local map's points in view of the scan that fit the scan
   double moved_m = 0;            ///< distance from the predicted to the matched position
   std::int64_t evaluations = 0;  ///< number of poses scored

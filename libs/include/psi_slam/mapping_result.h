@@ -19,7 +19,7 @@
 
 namespace psi_slam {
 
-/// Whether the front end matched a scan with a local map.
+/// Outcome of matching a scan with a local map in the front end.
 enum class ScanMatch {
   kNoMap,      ///< no local map existed yet: the first scan of a run
   kMatched,    ///< the match gives the pose
@@ -32,7 +32,7 @@ struct FrameRecord {
   /// Pose by odometry; without odometry, the front end's pose. The odometry of a later run continues from the
   /// place in the map where that run begins.
   mrpt::math::TPose2D odom_T_robot;
-  mrpt::math::TPose2D front_end_T_robot;  ///< the front end's pose, without loop closing
+  mrpt::math::TPose2D front_end_T_robot;  ///< pose of the robot by the front end, without loop closing
   /// Pose of the robot in the map. Mapper::finish() corrects and refines it.
   mrpt::math::TPose2D map_T_robot;
   std::optional<std::size_t> node;  ///< node of this scan in the pose graph; empty if it is no node
@@ -43,7 +43,7 @@ struct FrameRecord {
   SearchExtent window;    ///< half-widths of the front end's search window
   double psi = 0;         ///< factor Psi (equation 13), computed before the loops of this frame
   double eta = 0;         ///< factor eta (equation 14)
-  double mean_loops = 0;  ///< the mean of C_i in equation 13
+  double mean_loops = 0;  ///< mean of C_i (see loops_accepted) over the last frames, equation 13
   int loops_tried = 0;    ///< number of local maps matched with this frame to close loops
   /// C_i of equation 13: number of loops that became constraints at this frame. Includes pending loops of
   /// earlier frames that this frame confirmed, and loops that are switched off later.
@@ -79,9 +79,9 @@ struct StageTiming {
   std::size_t calls = 0;  ///< number of calls
   double mean_ms = 0;     ///< mean time of a call
   double std_ms = 0;      ///< standard deviation of the time of a call
-  double min_ms = 0;      ///< shortest call
-  double max_ms = 0;      ///< longest call
-  double total_s = 0;     ///< sum over all calls
+  double min_ms = 0;      ///< time of the shortest call
+  double max_ms = 0;      ///< time of the longest call
+  double total_s = 0;     ///< sum of the times of all calls
 };
 
 /// Thresholds of the factor Psi, see PsiOptions.
@@ -100,7 +100,7 @@ struct MappingResult {
   std::vector<std::size_t> node_frames;       ///< frame number of each node
   std::vector<std::size_t> later_run_frames;  ///< number of the first frame of each run after the first
   std::vector<LocalMapRecord> local_maps;     ///< all local maps, in the order in which they began
-  /// Attempts to close loops. Those of the final loop search are kept only if they found a match.
+  /// Attempts to close loops. Attempts of the final loop search are kept only if they found a match.
   std::vector<LoopRecord> loops;
   std::vector<std::string> unmet_edits;  ///< edits that could not be made, one sentence each
   PsiThresholds psi;                     ///< thresholds by which Psi chose the matchers

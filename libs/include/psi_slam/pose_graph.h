@@ -17,8 +17,8 @@
 namespace psi_slam {
 
 /// Robust kernel: a constraint adds the cost rho(s) to the error sum instead of its squared error s = e^T
-/// Omega e. This limits the effect of a false constraint on the map. All kernels approach rho(s) = s for
-/// small s.
+/// Omega e. The kernel limits the effect of a false constraint on the map. All kernels approach rho(s) = s
+/// for small s.
 struct RobustKernel {
   /// Form of the cost function.
   enum class Type {
@@ -90,8 +90,8 @@ class PoseGraph {
   /// to itself, if its pose is not finite, or if its information is not symmetric and positive semi-definite.
   std::size_t add_constraint(const Constraint& constraint);
 
-  /// Switches a constraint on or off. Solvers and searches ignore a constraint that is off. Its number stays
-  /// valid.
+  /// Switches a constraint on or off. Solvers and searches ignore a constraint that is off. The numbers of
+  /// all constraints stay valid.
   void set_enabled(std::size_t constraint, bool enabled) { enabled_.at(constraint) = enabled ? 1 : 0; }
   /// Returns whether a constraint is switched on.
   bool enabled(std::size_t constraint) const { return enabled_.at(constraint) != 0; }
@@ -120,9 +120,9 @@ class PoseGraph {
   const Constraint& constraint(std::size_t index) const { return constraints_.at(index); }
   /// All constraints, enabled or not.
   const std::vector<Constraint>& constraints() const { return constraints_; }
-  /// One link per constraint, enabled or not.
+  /// One link per constraint, enabled or not, with the same index.
   const std::vector<GraphLink>& links() const { return links_; }
-  /// Constraints that begin or end at a node, enabled or not, in the order of their insertion.
+  /// Numbers of the constraints that begin or end at a node, enabled or not, in the order of insertion.
   const std::vector<std::uint32_t>& constraints_of(std::size_t node) const { return incident_.at(node); }
 
   /// Returns the sum of e^T Omega e over the enabled constraints: E of equation 5 without robust kernels.

@@ -41,7 +41,7 @@ class Pipe {
 
 /// Exit of a process, and the resources that the operating system counted for it.
 struct EndedChild {
-  int status = 0;  ///< as waitpid() reports it
+  int status = 0;  ///< exit status in the format of waitpid()
   double cpu_s = 0;
   double peak_memory_mib = 0;
 };

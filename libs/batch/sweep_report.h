@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Report files of a finished or interrupted sweep. Apart from times and memory, they do not depend on
+// Report files of a finished or interrupted sweep. Apart from times and memory, the reports do not depend on
 // interruptions or on the workers that made the runs.
 #pragma once
 

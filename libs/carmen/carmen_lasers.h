@@ -44,7 +44,7 @@ class CarmenLaser {
   CarmenLaser(std::string message_name, const LogOptions& options);
 
   const std::string& message_name() const { return message_name_; }
-  const std::string& position() const { return position_; }  ///< "front", "rear", or empty
+  const std::string& position() const { return position_; }  ///< "front", "rear", or empty for others
 
   /// Returns whether the user or the log states the pose of the laser on the robot.
   bool knows_mount() const;

@@ -14,9 +14,8 @@ struct gzFile_s;  // file handle of zlib
 
 namespace psi_slam {
 
-/// Reads a plain or gzipped file once from its beginning. The content of the file, not its name, tells
-/// whether it is gzipped. The constructor throws UserError if the file does not exist, is a folder or is not
-/// readable.
+/// Reads a plain or gzipped file once from its beginning. Recognises gzip by the content of the file, not by
+/// its name. The constructor throws UserError if the file does not exist, is a folder or is not readable.
 class CompressedFile {
  public:
   /// `expected` names the kind of file in the messages about a missing file and about a folder.

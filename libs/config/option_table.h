@@ -97,8 +97,8 @@ struct OptionSection {
 /// All options of a program, by section. Functions that describe an option take its member by reference. The
 /// settings must outlive the table and have their default values when they are described. These functions
 /// throw std::logic_error that names the option for a contradictory description. Contradictions are a default
-/// outside its range, a key described twice, a key with suffix "_deg" that is not an angle, and an angle
-/// without this suffix.
+/// outside its range, a key described twice, an angle without the suffix "_deg", and any other option with
+/// this suffix.
 class OptionTable {
  public:
   /// Begins a section; the options described next belong to it.

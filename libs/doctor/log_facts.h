@@ -81,7 +81,7 @@ class LogFactsCollector {
 
   const std::vector<FrameMark>& marks() const { return marks_; }
 
-  /// Returns the facts of all frames so far. The caller sets the members that only the reader knows:
+  /// Returns the facts of all frames so far. The caller sets the members that come from the reader:
   /// `broken_off`, `format` and `contents`.
   LogFacts facts() const;
 

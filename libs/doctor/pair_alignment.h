@@ -70,7 +70,7 @@ OdometryJumps confirm_jumps(const std::vector<FrameMark>& marks, const std::vect
 /// Agreement of odometry with the scans at revisited places. Very good agreement shows that a mapper has
 /// corrected the odometry.
 struct RevisitAgreement {
-  std::size_t revisits = 0;    ///< pairs that odometry puts in one place, far apart along the path
+  std::size_t revisits = 0;    ///< pairs at one place by odometry, but far apart along the path
   std::size_t agreeing = 0;    ///< revisits that the scans confirm to 5 cm and 1 degree
   double median_offset_m = 0;  ///< median offset of odometry from the scans at the agreeing revisits
 };

@@ -21,7 +21,7 @@ class AlignableScan {
  public:
   struct Point {
     Eigen::Vector2d position_m;
-    Eigen::Vector2d normal;  ///< unit length, or zero without a wall
+    Eigen::Vector2d normal;  ///< unit normal of the wall in the laser's frame; zero if unknown
     double bearing_rad;
   };
 

@@ -4,7 +4,7 @@
 // A relation can judge a loop if one of its ends lies near the loop's node on the robot's path, and its other
 // end near the nodes of the loop's local map. The relation is predicted from the loop as it was matched, and
 // from the front end's motion between the loop and the ends of the relation. The optimised graph is not used.
-// Distances are measured along the path: the front end is accurate over short paths.
+// Distances are measured along the path, because the front end is accurate over short paths.
 #pragma once
 
 #include <cstddef>

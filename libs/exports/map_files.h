@@ -31,7 +31,7 @@ struct MapFileOptions {
   bool dxf = true;           ///< map.dxf: walls and path as lines, for CAD programs
   bool print = false;        ///< map_print.png, true to scale
   bool geotiff = false;      ///< map.tif
-  double print_scale = 100;  ///< scale of map_print.png and map.svg: 1:100
+  double print_scale = 100;  ///< scale of map_print.png and map.svg; 100 means 1:100
   int print_dpi = 300;       ///< resolution of map_print.png, pixels per inch of paper
   MapDrawingOptions lines;   ///< lines of map.svg and map.dxf
   GeoReference earth;        ///< place of map.tif on the earth, and direction of north in map_print.png
@@ -42,9 +42,10 @@ struct MapFileOptions {
 void write_map_files(const std::filesystem::path& folder, const MappingResult& result,
                      const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options = {});
 
-/// Writes NAME.pgm (binary P5, row 0 on top; 0 occupied, 254 free, 205 unknown) and NAME.yaml (mode trinary,
-/// origin at the lower left corner, in metres in the map) for `yaml_path` NAME.yaml, as map_server of ROS 1
-/// and nav2 read them. Writes the image first, so the pair is complete once the YAML file exists.
+/// Writes NAME.pgm and NAME.yaml, as map_server of ROS 1 and nav2 read them; `yaml_path` is NAME.yaml. The
+/// image is binary (P5) with row 0 on top: 0 occupied, 254 free, 205 unknown. The YAML file states mode
+/// trinary and the lower left corner as origin, in metres in the map. Writes the image first, so the pair is
+/// complete once the YAML file exists.
 void write_map_server_pair(const std::filesystem::path& yaml_path,
                            const mrpt::maps::COccupancyGridMap2D& grid);
 

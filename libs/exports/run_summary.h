@@ -108,8 +108,8 @@ std::optional<std::string> coarser_cells_text(const MapExtent& map);
 /// Returns the largest memory of this process so far, in MiB.
 double peak_memory_mib();
 
-/// Returns the length of a path, metres. Measures in steps of at least 0.1 m: the jitter of a robot at rest
-/// does not add up.
+/// Returns the length of a path, metres. Measures in steps of at least 0.1 m, so that the jitter of a robot
+/// at rest does not add up.
 double path_length_m(const std::vector<mrpt::math::TPose2D>& poses);
 
 }  // namespace psi_slam

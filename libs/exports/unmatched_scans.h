@@ -18,8 +18,8 @@ struct UnmatchedStretch {
   std::size_t run = 0;          ///< number of the run, from 0
   std::size_t first_frame = 0;  ///< index; never the first scan of the run, which has no local map yet
   std::size_t last_frame = 0;
-  TimeUs first_time_us = 0;      ///< time of the first scan
-  TimeUs last_time_us = 0;       ///< time of the last scan
+  TimeUs first_time_us = 0;      ///< time of the first scan of the stretch
+  TimeUs last_time_us = 0;       ///< time of the last scan of the stretch
   TimeUs run_start_us = 0;       ///< time of the first scan of the run
   double odometry_length_m = 0;  ///< path by odometry, from the scan before the stretch to the last scan
 

@@ -32,8 +32,8 @@ namespace psi_slam {
 class ScanSynchronizer {
  public:
   static constexpr double kMaxApart_s = 0.15;
-  /// Limit for successive scans of a laser that are passed on to the next frame: the sum, in seconds, of how
-  /// much farther the next frame is in time than the nearest frame.
+  /// Largest sum of extra time distances, seconds, for successive scans of a laser that are passed on to the
+  /// next frame. The extra distance is how much farther in time the next frame is than the nearest frame.
   static constexpr double kMaxDetour_s = 0.15;
   static constexpr double kMaxMotion_m = 1.0;
   static constexpr double kMaxTurn_rad = M_PI / 3;
@@ -51,7 +51,7 @@ class ScanSynchronizer {
   /// Returns the next frame if all its scans have arrived. Frames have the order of the scans that open them.
   std::optional<Frame> take();
 
-  /// Number of scans of later lasers that joined no frame.
+  /// Number of scans that were dropped because they joined no frame.
   std::size_t spare_scans() const { return spare_scans_; }
 
  private:

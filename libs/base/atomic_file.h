@@ -27,7 +27,8 @@ void write_text_atomically(const std::filesystem::path& path, std::string_view t
 void write_files_atomically(const std::filesystem::path& folder,
                             const std::function<void(const std::filesystem::path& temporary_folder)>& write);
 
-/// Removes temporary files and folders that are older than an hour and whose writer has ended.
+/// Removes from `folder` the temporary files and folders that are older than an hour and whose writer has
+/// ended. Ignores errors.
 void remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace psi_slam

@@ -19,8 +19,9 @@ class MalformedBytes : public std::runtime_error {
 
 enum class ByteOrder { kLittleEndian, kBigEndian };
 
-/// Reads numbers and byte strings one after the other from bytes in memory. Throws MalformedBytes if a read
-/// would pass the end, for instance because a length in the bytes is wrong.
+/// Reads numbers and byte strings one after the other from bytes in memory. The bytes must outlive the
+/// cursor. Throws MalformedBytes if a read would pass the end, for instance because a length in the bytes is
+/// wrong.
 class ByteCursor {
  public:
   explicit ByteCursor(std::string_view bytes, ByteOrder order = ByteOrder::kLittleEndian)

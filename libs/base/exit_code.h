@@ -5,7 +5,7 @@
 namespace psi_slam {
 
 inline constexpr int kExitDone = 0;
-inline constexpr int kExitFailed = 1;  ///< system failure, or not localised at the end of psi-slam localize
-inline constexpr int kExitWrongUsageOrInput = 2;  ///< UserError, or a log that ends early
+inline constexpr int kExitFailed = 1;  ///< system failure, or psi-slam localize ended without a known pose
+inline constexpr int kExitWrongUsageOrInput = 2;  ///< UserError, or a truncated or damaged log
 
 }  // namespace psi_slam

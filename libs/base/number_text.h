@@ -20,8 +20,8 @@ std::string shortest_text(float value);
 /// "1e999", "0x10".
 std::optional<double> parse_number(std::string_view text);
 
-/// The shortest decimal text that parse_number() reads as exactly `value`. "nan", "inf" or "-inf" if `value`
-/// is not finite.
+/// Decimal text with the fewest digits that parse_number() reads as exactly `value`. The text has an exponent
+/// only below 1e-5 and from 1e15 on. "nan", "inf" or "-inf" if `value` is not finite.
 std::string exact_text(double value);
 
 /// Reads an angle in degrees and returns the nearest double in radians. Empty for a text that parse_number()

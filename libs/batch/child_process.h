@@ -29,8 +29,8 @@ class Pipe {
   void close_reading() { close_end(0); }
   void close_writing() { close_end(1); }
 
-  /// Waits for bytes and appends them to `text`. Returns false at the end of the data and after a read error,
-  /// true if a signal interrupts the wait.
+  /// Waits for bytes and appends them to `text`. Returns false at the end of the data and after a read error.
+  /// Returns true after bytes, and if a signal interrupts the wait.
   bool read_to(std::string& text);
 
  private:
@@ -41,7 +41,7 @@ class Pipe {
 
 /// Exit of a process, and the resources that the operating system counted for it.
 struct EndedChild {
-  int status = 0;  ///< as waitpid() reports it
+  int status = 0;  ///< exit status in the format of waitpid()
   double cpu_s = 0;
   double peak_memory_mib = 0;
 };
@@ -77,8 +77,8 @@ struct ChildEnd {
   int signal = 0;          ///< signal that ended the child; 0: none
   bool over_time = false;  ///< killed at the time limit
   bool stopped = false;    ///< killed because `stop` returned true
-  std::string out;         ///< standard output, at least its last 16 MiB
-  std::string err;         ///< standard error, at least its last 64 KiB
+  std::string out;         ///< standard output; of a long output, at least the last 16 MiB
+  std::string err;         ///< standard error; of a long output, at least the last 64 KiB
   double wall_s = 0;
   double cpu_s = 0;            ///< processor time of all threads, in user and kernel mode
   double peak_memory_mib = 0;  ///< largest resident set size

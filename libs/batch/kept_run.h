@@ -16,7 +16,7 @@ struct RunKey {
 };
 
 /// Contents of `file` if it has the text of `key` and was made with at most `key.processes` runs at a time.
-/// Times measured on a busier machine are not comparable. Empty otherwise.
+/// Empty otherwise: times measured on a busier machine are not comparable.
 std::optional<nlohmann::ordered_json> kept_run(const std::filesystem::path& file, const RunKey& key);
 
 /// Writes the JSON object `content` and the key to `file`. Throws SystemFailure when the file cannot be

@@ -44,8 +44,8 @@ struct ReportTable {
   std::string html() const;
   /// An array with an object for each row.
   nlohmann::ordered_json json() const;
-  /// A header line, then a line for each row. Each member of an object is a column, named by its path:
-  /// "a.mean". Elements of arrays are separated by spaces.
+  /// A header line, then a line for each row. Each member of a JSON object has a column of its own, named by
+  /// its path: "a.mean". Elements of arrays are separated by spaces.
   std::string csv() const;
 };
 

@@ -21,7 +21,7 @@ struct MeanAndStd {
 /// Mean and standard deviation with four decimals: "0.0200 ± 0.0150".
 std::string errors_text(const MeanAndStd& errors);
 
-/// Errors of a path over the true relations, each with its square.
+/// Errors of a path over the true relations, and their squares.
 struct PathErrors {
   MeanAndStd translation_abs_m;
   MeanAndStd translation_sq_m2;

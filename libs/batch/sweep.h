@@ -50,7 +50,7 @@ struct SweepResult {
 
 /// Locks an output folder: no other sweep can write to it during the lifetime of this object. Throws
 /// UserError if the lock file cannot be written. Throws UserError also if another sweep holds the lock, on
-/// this machine or on one that shares its file locks.
+/// this machine or on another machine that shares its file locks.
 class SweepLock {
  public:
   explicit SweepLock(const std::filesystem::path& folder);
@@ -62,8 +62,8 @@ class SweepLock {
   int file_ = -1;
 };
 
-/// Makes the runs of the plan that have no kept result. Runs that have not ended when `stop` returns true get
-/// no outcome. Calls `progress` from one thread at a time.
+/// Makes the runs of the plan that have no result from an earlier sweep. Runs that have not ended when `stop`
+/// returns true get no outcome. Calls `progress` from one thread at a time.
 SweepResult run_sweep(const SweepPlan& plan, const SweepOptions& options, const SweepWorkers& workers,
                       const std::function<bool()>& stop, const ProgressObserver& progress);
 

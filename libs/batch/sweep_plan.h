@@ -47,7 +47,7 @@ struct SweepRun {
 
 struct SweepPlan {
   std::vector<SweepLog> logs;
-  /// Options that vary, besides log and seed: "config", "map.resolution_m".
+  /// Names of the options that vary, besides log and seed: "config", "map.resolution_m".
   std::vector<std::string> columns;
   std::vector<SweepRun> runs;         ///< sorted by log, then setting, then seed
   std::vector<std::string> warnings;  ///< warnings about renamed settings, each only once

@@ -92,7 +92,7 @@ struct Measure {
   const char* head;
   double (*value_of)(const SweepFigures&);
   int decimals;
-  bool is_error = false;  ///< known only with relations; the smallest value is the best
+  bool is_error = false;  ///< known only with true relations; the smallest value is the best
 };
 
 SeedSpread spread_of(const Measure& measure, const Group& group) {
@@ -106,7 +106,7 @@ std::string mean_and_std(const SeedSpread& spread, int decimals) {
   return spread.count == 1 ? mean : mean + " ± " + fixed_text(spread.std, decimals);
 }
 
-/// True if several groups of the log have a mean of the measure and this group has the smallest.
+/// Returns whether several groups of the log have a mean of the measure and this group has the smallest.
 bool is_best(const Measure& measure, const Group& group, const std::vector<Group>& groups) {
   const SeedSpread own = spread_of(measure, group);
   bool compared = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Report files of a finished or interrupted sweep. Apart from times and memory, they do not depend on
+// Report files of a finished or interrupted sweep. Apart from times and memory, the reports do not depend on
 // interruptions or on the workers that made the runs.
 #pragma once
 
@@ -16,8 +16,8 @@ std::string sweep_csv(const SweepPlan& plan, const SweepResult& result);
 /// JSON with all runs, the checksums of the logs, the keys of the runs and all errors.
 std::string sweep_json(const SweepPlan& plan, const SweepResult& result);
 
-/// Tables with statistics over the seeds in a row for each log and setting: errors and loops, failed runs,
-/// times and memory. The smallest error of each log is marked.
+/// Tables of errors and loops, failed runs, times and memory. A row holds the statistics over the seeds for
+/// one log and one setting. The smallest error of each log is marked.
 std::string sweep_markdown(const SweepPlan& plan, const SweepResult& result);
 std::string sweep_html(const SweepPlan& plan, const SweepResult& result);
 

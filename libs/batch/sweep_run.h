@@ -32,7 +32,7 @@ struct SweepOrder {
 };
 
 struct SweepFigures : RunFigures {
-  bool has_errors = false;  ///< the log has true relations
+  bool has_errors = false;  ///< whether the log has true relations; if not, `errors` is not set
   std::size_t nodes = 0;
   std::size_t loops_accepted = 0;
   std::size_t loops_refused = 0;
@@ -53,7 +53,7 @@ struct SweepFigures : RunFigures {
 struct SweepOutcome {
   std::optional<SweepFigures> figures;
   std::string failure;  ///< reason why there are no figures
-  int attempts = 0;     ///< attempts of this sweep; 0: the result was kept from an earlier sweep
+  int attempts = 0;     ///< number of attempts in this sweep; 0: result of an earlier sweep
 };
 
 /// Finished result in the folder of the order, if it has the key of the order and all files to keep. Empty
@@ -62,7 +62,8 @@ std::optional<SweepOutcome> kept_outcome(const SweepOrder& order);
 
 /// Makes the run. The folder of the finished run replaces an older one. Starts the process a second time if
 /// it fails for a reason other than wrong input. Calls `stop` a few times a second. If `stop` returns true,
-/// returns nothing and leaves no unfinished folder. A failed run throws nothing.
+/// returns nothing and leaves no unfinished folder. A failed run throws nothing; its outcome states the
+/// reason.
 std::optional<SweepOutcome> make_run(const SweepOrder& order, const std::function<bool()>& stop);
 
 /// JSON conversions for messages to and from workers in other processes.

@@ -32,11 +32,11 @@ constexpr double kEnoughPath_m = 3.0;
 constexpr double kEnoughTurn_rad = 1.0;
 constexpr double kSameMount_m = 0.002;  // poses in logs are rounded to a micrometre or a millimetre
 constexpr double kSameMount_rad = 0.002;
-// Maximum range as a fraction of the largest reading. It lies below all codes for "no return" of a laser,
-// such as 81.83 and 81.91 m.
+// Maximum range as a fraction of the largest reading. This maximum lies below all codes for "no return" of a
+// laser, such as 81.83 and 81.91 m.
 constexpr double kBelowNoReturn = 0.97;
 constexpr float kLargestReading_m = 1000;  // a larger reading is damaged or in another unit
-constexpr std::size_t kRepeated = 3;       // fewer readings near the largest one are damaged, too
+constexpr std::size_t kRepeated = 3;       // fewer readings near the largest one count as damaged, too
 
 Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) {
   LineReader lines(path);
@@ -49,7 +49,7 @@ Messages messages_in(const std::filesystem::path& path, std::size_t most_lines) 
   return found;
 }
 
-/// First of the preferred messages that is among those found. Empty if none is.
+/// Returns the first of the preferred messages that was found; empty if none was found.
 std::string first_of(const std::vector<std::string>& preferred, const Messages& found) {
   for (const std::string& name : preferred)
     if (found.count(name) != 0) return name;

@@ -44,7 +44,7 @@ class CarmenLaser {
   CarmenLaser(std::string message_name, const LogOptions& options);
 
   const std::string& message_name() const { return message_name_; }
-  const std::string& position() const { return position_; }  ///< "front", "rear", or empty
+  const std::string& position() const { return position_; }  ///< "front", "rear", or empty for others
 
   /// Returns whether the user or the log states the pose of the laser on the robot.
   bool knows_mount() const;
@@ -68,7 +68,7 @@ class CarmenLaser {
   mrpt::math::TPose2D robot_T_laser() const;
   std::vector<float> bearings_rad(const CarmenLaserMessage& message, const CarmenFields& fields) const;
 
-  // Number of beams, first bearing, field of view, step.
+  // Number of beams; first bearing, field of view and step, radians.
   using Geometry = std::tuple<std::size_t, double, double, double>;
 
   std::string message_name_;
@@ -93,7 +93,7 @@ class CarmenLasers {
     CarmenLaser laser;
     std::size_t number = 0;            ///< number of the laser, see LaserScan::laser
     std::size_t early_parameters = 0;  ///< number of PARAM lines before the laser was known
-    bool began = false;                ///< whether a scan of the laser has been reached
+    bool began = false;                ///< whether a scan of the laser has been read
   };
 
   /// Throws UserError for a selected laser that CARMEN does not have. If several lasers are named, throws
@@ -106,7 +106,7 @@ class CarmenLasers {
   bool several() const { return slots_.size() > 1; }
   bool any_known() const;
   bool all_known() const;
-  bool any_needs_odometry() const;  ///< RAWLASER messages do not state odometry
+  bool any_needs_odometry() const;  ///< whether a laser has RAWLASER messages, which state no odometry
 
   template <class Do>
   void for_each(Do action) {

@@ -73,10 +73,11 @@ struct CarmenOdometryMessage {
   mrpt::math::TPose2D odom_T_robot;
 };
 
-// Each function parses the fields after the name of the message and throws MalformedLine.
+// Each function parses the fields after the name of the message. It throws MalformedLine for a missing or
+// invalid field.
 CarmenLaserMessage read_flaser(CarmenFields& fields);    ///< reads FLASER and RLASER lines
 CarmenLaserMessage read_rawlaser(CarmenFields& fields);  ///< reads RAWLASER lines, which have no poses
-/// Reads ROBOTLASER lines; odom_T_robot is odometry.
+/// Reads ROBOTLASER lines. odom_T_robot is odometry; a mapper may have corrected odom_T_laser.
 CarmenLaserMessage read_robotlaser(CarmenFields& fields);
 CarmenLaserMessage read_laser(CarmenFields& fields);  ///< reads any laser line, by the name of its message
 CarmenOdometryMessage read_odometry(CarmenFields& fields);

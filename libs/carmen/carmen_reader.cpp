@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CARMEN logs: text, one message a line; '#' starts a comment.
+// CARMEN logs: text, one message per line; '#' starts a comment.
 //
 // The scans of a laser come from one kind of message. By default the front laser is read: ROBOTLASER1, else
 // FLASER, else RAWLASER1, depending on the first 500 lines of the log. If these lines have none of the three,
@@ -8,8 +8,8 @@
 //
 // A scan line states the odometry at the time of the scan, except RAWLASER lines: their odometry is
 // interpolated between ODOM lines. Without ODOM lines among the first 1000 scans, RAWLASER scans have no
-// odometry. FLASER lines state a second pose, which a mapper may have corrected. It is never taken as
-// odometry.
+// odometry. FLASER lines state a second pose, which a mapper may have corrected. This second pose is never
+// taken as odometry.
 //
 // The reader skips malformed lines if they are few: one line, or at most 1 % of the lines that it needs. It
 // throws UserError if there are more malformed lines, or if the last line is truncated.
@@ -25,8 +25,8 @@ namespace psi_slam {
 namespace {
 
 constexpr std::size_t kLinesForOneSkipped = 100;
-// Number of skipped lines that is allowed before the end of the log. Damage may be local: the fraction of
-// skipped lines can sink later.
+// Number of skipped lines that are always allowed before the end of the log. Damage may be local: the
+// fraction of skipped lines can fall later.
 constexpr std::size_t kSkippedBeforeTheEnd = 100;
 
 class CarmenReader : public LogReader {
@@ -191,10 +191,10 @@ class CarmenReader : public LogReader {
   CarmenLasers lasers_;
   LineReader lines_;
   OdometryInterpolator interpolator_;
-  // By number of the laser; point into contents_.messages to avoid a search.
+  // Pointers into contents_.messages, by number of the laser, to avoid a search.
   std::vector<std::size_t*> scan_counts_;
   bool with_odometry_;
-  std::size_t lines_needed_ = 0;  // lines parsed so far, malformed ones included
+  std::size_t lines_needed_ = 0;  // number of lines needed so far, malformed ones included
   bool at_end_ = false;
 };
 

@@ -14,17 +14,16 @@ struct gzFile_s;  // file handle of zlib
 
 namespace psi_slam {
 
-/// Reads a plain or gzipped file once from its beginning. The content of the file, not its name, tells
-/// whether it is gzipped. The constructor throws UserError if the file does not exist, is a folder or is not
-/// readable.
+/// Reads a plain or gzipped file once from its beginning. Recognises gzip by the content of the file, not by
+/// its name. The constructor throws UserError if the file does not exist, is a folder or is not readable.
 class CompressedFile {
  public:
   /// `expected` names the kind of file in the messages about a missing file and about a folder.
   explicit CompressedFile(std::filesystem::path path, const std::string& expected = "a log file");
 
   /// Reads the next `size` decompressed bytes and returns their number. The number is smaller than `size`
-  /// only at the end of the file and before damaged or truncated data. The call after that throws UserError
-  /// for such data.
+  /// only at the end of the file and before damaged or truncated data. Throws UserError if such data come
+  /// first.
   std::size_t read(char* bytes, std::size_t size);
 
   const std::filesystem::path& path() const { return path_; }

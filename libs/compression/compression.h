@@ -9,19 +9,19 @@
 
 namespace psi_slam {
 
-/// Decompresses data of the compression "bz2", "lz4" (frames) or "zstd" to exactly `size` bytes. Memory grows
-/// with the decompressed bytes, not with `size`, which may be wrong. Throws MalformedBytes for any other
-/// compression, for damaged data, and for data of another size.
+/// Decompresses data to exactly `size` bytes. `name` is the compression: "bz2", "lz4" (frames) or "zstd".
+/// Memory grows with the decompressed bytes, not with `size`, which may be wrong. Throws MalformedBytes for
+/// any other compression, for damaged data, and for data of another size.
 std::string decompress(std::string_view name, std::string_view compressed, std::uint64_t size);
 
 /// Returns whether the bytes start like a zstd frame.
 bool is_zstd(std::string_view bytes);
 
 /// Decompresses a zstd frame, with or without a stated size, to at most `most` bytes. Throws MalformedBytes
-/// if the frame is damaged or longer.
+/// if the frame is damaged or holds more bytes.
 std::string decompress_zstd_frame(std::string_view compressed, std::uint64_t most);
 
-/// Returns the contents of a gzip file with the bytes, without name and time in its header. Throws
+/// Returns `count` bytes as the contents of a gzip file, without name and time in the header. Throws
 /// SystemFailure if memory runs out.
 std::string gzipped(const void* bytes, std::size_t count);
 

@@ -20,13 +20,13 @@ class LineReader {
   /// Reads the next line; returns false at the end of the file. The view is valid until the next call.
   bool next(std::string_view& line);
 
-  /// Reads the next line as next() does, but treats a read error as the end of the file. Used to look ahead.
+  /// Reads the next line as next() does, but treats a read error as the end of the file. For looking ahead.
   bool next_readable(std::string_view& line);
 
   /// Number of the last line read, from 1.
   std::size_t line_number() const { return line_number_; }
 
-  /// Whether the last line read had a line end. Only the last line of a file can lack it.
+  /// Returns whether the last line read had a line end. Only the last line of a file can lack a line end.
   bool line_was_ended() const { return line_was_ended_; }
 
   /// Place of the last line read: "path:line".

@@ -44,7 +44,7 @@ struct IniFile {
 /// readable or includes itself. Throws UserError with the file name if `path` is not readable.
 IniFile read_ini(const std::filesystem::path& path);
 
-/// Parses a text as the contents of a file called `path`. Throws as read_ini().
+/// Parses a text as the contents of a file called `path`. Throws like read_ini().
 IniFile parse_ini(std::string_view text, const std::filesystem::path& path);
 
 /// Returns `text` as the value of a "key = value" line, quoted if necessary. `text` must be one line.

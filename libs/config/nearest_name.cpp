@@ -14,8 +14,8 @@ char lower(char c) {
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  // Three rows of the table of distances between the first i letters of `a` and the first j letters of `b`:
-  // row i and the two rows above it.
+  // Row i of a table and the two rows above it. Entry j of row i is the distance between the first i letters
+  // of `a` and the first j letters of `b`.
   std::array<std::vector<std::size_t>, 3> rows;
   for (auto& row : rows) row.resize(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) rows[0][j] = j;

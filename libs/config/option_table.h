@@ -38,7 +38,7 @@ struct NumberRange {
 
   bool contains(double value) const;
 
-  /// "between 0.01 and 20", "0 or more", "above 0 and at most 20", …; "" for any_number().
+  /// Text of the range: "between 0.01 and 20", "0 or more", "above 0 and at most 20", …; "" for any_number().
   std::string words() const;
 };
 
@@ -65,7 +65,7 @@ struct Option {
   std::string help{};        ///< description in one line
   std::string unit{};        ///< unit of an integer or number: "m", "deg", "scans"; "" for pure numbers
   NumberRange range{};       ///< accepted values of an integer or number, in `unit`
-  bool may_be_auto = false;  ///< the text "auto" means the empty std::optional
+  bool may_be_auto = false;  ///< whether the text "auto" stands for an empty std::optional
   std::vector<std::string> choices{};  ///< accepted texts of an option of type kChoice
   std::string section{};
   std::string default_text{};  ///< the member's value when the option was described
@@ -97,8 +97,8 @@ struct OptionSection {
 /// All options of a program, by section. Functions that describe an option take its member by reference. The
 /// settings must outlive the table and have their default values when they are described. These functions
 /// throw std::logic_error that names the option for a contradictory description. Contradictions are a default
-/// outside its range, a key described twice, a key with suffix "_deg" that is not an angle, and an angle
-/// without this suffix.
+/// outside its range, a key described twice, an angle without the suffix "_deg", and any other option with
+/// this suffix.
 class OptionTable {
  public:
   /// Begins a section; the options described next belong to it.
@@ -106,14 +106,14 @@ class OptionTable {
 
   OptionTable& flag(std::string key, bool& member, std::string help);
 
-  /// `Integer` is any integer type except bool.
+  /// Describes a whole number. `Integer` is any integer type except bool.
   template <class Integer>
   OptionTable& integer(std::string key, Integer& member, NumberRange range, std::string unit,
                        std::string help);
 
   OptionTable& number(std::string key, double& member, NumberRange range, std::string unit, std::string help);
 
-  /// The member is in radians; the text and the range are in degrees.
+  /// Describes an angle. The member is in radians; the text and the range are in degrees.
   OptionTable& angle_deg(std::string key, double& member_rad, NumberRange range_deg, std::string help);
 
   /// Describes a number that the program can choose itself: the text "auto" makes the member empty.
@@ -136,7 +136,7 @@ class OptionTable {
 
   const std::vector<OptionSection>& sections() const { return sections_; }
 
-  /// Present name of the option that is or was called `name`. Returns an unknown name unchanged.
+  /// Current name of the option that is or was called `name`. Returns an unknown name unchanged.
   std::string current_name(std::string_view name) const;
 
   /// Returns whether an option is or was called `name`, "section.key".

@@ -12,9 +12,9 @@
 namespace psi_slam {
 
 /// Sets every value of the file. Throws UserError with file and line for an unknown section or key (with the
-/// nearest name), for a value that the option does not accept, and for an option that one file sets by both
-/// its old and its new name. If it throws, no setting has changed. `table` collects a warning for each old
-/// name.
+/// nearest name), and for a value that the option does not accept. Throws UserError also if one file sets an
+/// option by both its old and its new name. After an error, no setting has changed. `table` collects a
+/// warning for each old name.
 void apply(const IniFile& file, OptionTable& table);
 
 /// Sets one value as given on the command line: "section.key=value". Throws UserError that begins with
@@ -33,7 +33,7 @@ std::string dump(const OptionTable& table);
 /// Returns all options with their help, range and default, for a terminal.
 std::string help_text(const OptionTable& table);
 
-/// Returns a Markdown page with a heading and a table for each section.
+/// Returns a Markdown page of all options, with a heading and a table for each section.
 std::string markdown_reference(const OptionTable& table);
 
 }  // namespace psi_slam

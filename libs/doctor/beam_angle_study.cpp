@@ -22,7 +22,8 @@ using mrpt::math::wrapToPi;
 constexpr std::size_t kFewestPairs = 20;
 constexpr double kSight_m = 20;  // maximum range of the points used
 constexpr std::size_t kPoints = 400;
-// Walls rule out a convention if its distance exceeds the smallest one by more than both limits.
+// The walls rule out a convention if its mean distance to walls exceeds the smallest mean distance by more
+// than both limits.
 constexpr double kWorseFraction = 0.004;  // as a fraction of the smallest distance
 constexpr double kWorseErrors = 5;        // in standard errors
 const double kTurnError_rad = DEG2RAD(1.0);

@@ -35,7 +35,7 @@ struct BeamAngleStudy {
   std::size_t pairs = 0;  ///< pairs of scans that every convention aligned reliably
   std::size_t full_turns = 0;
   bool knows_heading = false;      ///< whether laser_heading_rad is set
-  std::vector<BeamAngleFit> fits;  ///< one for each convention; empty if there were fewer than 20 pairs
+  std::vector<BeamAngleFit> fits;  ///< one for each possible convention; empty with fewer than 20 pairs
   BeamAngles best = BeamAngles::kAuto;
 };
 
@@ -45,7 +45,7 @@ struct BeamAngleEvidence {
   std::vector<std::vector<std::size_t>> full_turns;
 };
 
-/// Selects the frames for a study by odometry, which must be sound.
+/// Selects the frames for a study by odometry, whose units and signs must be right.
 BeamAngleEvidence choose_beam_angle_evidence(const std::vector<FrameMark>& marks);
 
 /// Compares the conventions. `library` must hold the frames of `evidence`, read with the bearings `used_rad`.

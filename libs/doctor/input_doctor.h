@@ -65,7 +65,8 @@ std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study);
 /// Judgement in one line: "ready to map" or "maps with 2 warnings".
 std::string verdict(const LogDiagnosis& diagnosis);
 
-/// Facts, beam angles, findings with their remedies and the verdict, as `psi-slam check` prints them.
+/// Lines with facts, beam angles, findings with their remedies and the verdict, as `psi-slam check` prints
+/// them.
 std::vector<std::string> describe(const LogDiagnosis& diagnosis);
 
 /// All measurements and findings as JSON, in SI units with the unit in each key.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLeastGap_s = 1.0;
 constexpr double kGapPeriods = 10.0;
-// 10 km, which suffices for ranges that are millimetres by mistake.
+// Longer readings count as 10 km. This suffices to recognise ranges that are millimetres by mistake.
 constexpr std::size_t kCentimetresKept = 1'000'000;
 
 bool same_readings(const std::vector<float>& a, const std::vector<float>& b) {

@@ -14,7 +14,7 @@
 
 namespace psi_slam {
 
-/// Times of consecutive scans, in the order of the file.
+/// Times of consecutive scans, in the order of the log.
 struct TimeFacts {
   TimeUs first_us = 0;
   TimeUs last_us = 0;
@@ -41,9 +41,9 @@ struct RangeFacts {
   std::size_t empty_scans = 0;  ///< scans without any return
   float max_range_m = 0;        ///< readings of at least this range are no returns
   float median_return_m = 0;
-  float largest_reading_m = 0;  ///< largest finite reading, including no returns; rounded to 1 cm
-  /// Number of readings within 1 % of the largest reading, if they are far more than the readings just below.
-  /// Such readings are the laser's code for "no return". Otherwise 0.
+  float largest_reading_m = 0;  ///< largest finite reading, including codes for "no return"; rounded to 1 cm
+  /// Number of readings within 1 % of the largest reading, if they far outnumber the readings just below;
+  /// otherwise 0. Readings that pile up in this way are the laser's code for "no return".
   std::size_t readings_at_ceiling = 0;
   float ceiling_m = 0;  ///< smallest frequent value of the readings at the ceiling; 0 if there are none
 
@@ -76,13 +76,13 @@ struct FrameMark {
 
 class LogFactsCollector {
  public:
-  /// Adds a frame whose ranges were read with an unlimited maximum. `max_range_m` is the maximum range of a
-  /// return.
+  /// Adds a frame whose ranges were read with an unlimited maximum. Readings below `max_range_m` count as
+  /// returns.
   void add(const Frame& frame, float max_range_m);
 
   const std::vector<FrameMark>& marks() const { return marks_; }
 
-  /// Returns the facts of all frames so far. The caller sets the members that only the reader knows:
+  /// Returns the facts of all frames so far. The caller sets the members that come from the reader:
   /// `broken_off`, `format` and `contents`.
   LogFacts facts() const;
 

@@ -122,9 +122,9 @@ bool fits(const Step& step, double factor) {
   return std::abs(wrapToPi(step.odometry_turn_rad - factor * step.scan_turn_rad)) <= tolerance_rad;
 }
 
-/// Returns how well the turns of odometry match the turns of the scans if odometry is in degrees, wrapped as
-/// radians: 1 for perfect agreement, about 0 for unrelated turns. Tries small turns first: degrees enlarge
-/// the errors of turns 57 times.
+/// Returns how well the turns of odometry match the turns of the scans if odometry is in degrees that were
+/// wrapped as radians. 1: perfect agreement; about 0: unrelated turns. Tries small turns first: degrees
+/// enlarge the errors of turns 57 times.
 double degrees_resultant(const std::vector<Step>& steps, double factor) {
   for (const double most_rad : {DEG2RAD(2.5), DEG2RAD(6.0)}) {
     std::complex<double> sum = 0;

@@ -30,15 +30,15 @@ struct OdometryAgreement {
   double length_ratio = 0;  ///< median over tracks of displacement by odometry / by scans; 0 if unknown
   std::size_t turn_samples = 0;
   HeadingRelation heading = HeadingRelation::kUnknown;
-  /// Fraction of turns with this relation; for degrees, quality of the match in [0, 1].
+  /// Fraction of turns with this relation; for kDegrees and kOppositeDegrees, quality of the match in [0, 1].
   double heading_share = 0;
-  /// Mean direction of motion by scans minus direction by odometry, both in the frame of the robot. It is the
-  /// error of the stated heading of the laser. The concentration is 1 if all tracks have the same difference,
-  /// and about 0 if the differences are random.
+  /// Mean direction of motion by scans minus direction by odometry, both in the frame of the robot. This
+  /// difference is the error of the stated heading of the laser. The concentration is 1 if all tracks have
+  /// the same difference, and about 0 if the differences are random.
   double direction_offset_rad = 0;
   double direction_concentration = 0;
-  /// Median angle between the motion by odometry and the axis of the robot, in [0, pi/2]. It is large if the
-  /// headings of odometry do not match its positions.
+  /// Median angle between the motion by odometry and the axis of the robot, in [0, pi/2]. The angle is large
+  /// if the headings of odometry do not match the positions of odometry.
   double odometry_slip_rad = 0;
 };
 

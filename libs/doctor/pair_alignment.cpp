@@ -41,7 +41,8 @@ LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const S
   constexpr double kLeastMotion_m = 0.12;
   constexpr double kMaxMotion_m = 0.8;  // for a larger motion, the opposite guess is too far off
   constexpr double kDetermined_m = 0.02;
-  // Largest cost, as a fraction of the cost with odometry's motion as the guess.
+  // Largest cost of a clearly better alignment, as a fraction of the cost with odometry's motion as the
+  // guess.
   constexpr double kClearlyBetter = 0.7;
   LostReversals reversals;
   for (const AlignedPair& pair : pairs) {
@@ -78,8 +79,9 @@ LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const S
 std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<AlignedPair>& pairs,
                                                        const TPose2D& stated_mount) {
   // A is the robot's motion by odometry, B the laser's motion by scans, X the mount: A X = X B. For the
-  // translations, (R_A - 1) t_X - s R_X t_B = -t_A with the scale s of odometry. This is linear in t_X and in
-  // (s cos, s sin) of the mount's heading. Both sides use the turns of the scans, which are more accurate.
+  // translations, (R_A - 1) t_X - s R_X t_B = -t_A with the scale s of odometry. This equation is linear in
+  // t_X and in (s cos, s sin) of the mount's heading. Both sides use the turns of the scans, which are more
+  // accurate than those of odometry.
   constexpr std::size_t kFewestPairs = 40;
   constexpr double kNoise_m = 0.02;  // noise of odometry between the frames of a pair
   constexpr int kIterations = 20;
@@ -99,7 +101,7 @@ std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<Aligned
     const TPose2D laser = (scans.reference_T_scan + stated_mount) - stated_mount;
     const double turn = laser.phi;
     if (std::abs(turn) > 0.1) ++turning;
-    // An error of odometry's turn rotates its translation by half of the error.
+    // An error of odometry's turn rotates odometry's translation by half of the error.
     const double bend = off_rad / 2;
     const TPose2D& odometry = pair.by_odometry;
     Equation equation;

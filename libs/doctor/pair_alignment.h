@@ -33,8 +33,8 @@ struct LostReversals {
   double reversed_m = 0;         ///< distance by scans over the reversed pairs
 };
 
-/// Aligns every moving pair again with the opposite motion as the guess. A pair counts as reversed if both
-/// alignments move backwards, or if the second alignment does and is clearly better.
+/// Aligns every pair that moves by 0.12 to 0.8 m again, with the opposite motion as the guess. A pair counts
+/// as reversed if both alignments move backwards, or if the second alignment does and is clearly better.
 LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const ScanLibrary& library);
 
 /// Pose of the laser on the robot that best explains the motions of scans and odometry (hand-eye
@@ -48,7 +48,7 @@ struct LaserMountEstimate {
 };
 
 /// Estimates the mount from pairs of scans that were read with the mount `stated_mount`. Empty if fewer than
-/// 40 pairs turn or fewer than 40 pairs move straight.
+/// 40 reliably aligned pairs turn, or fewer than 40 of them move straight.
 std::optional<LaserMountEstimate> estimate_laser_mount(const std::vector<AlignedPair>& pairs,
                                                        const mrpt::math::TPose2D& stated_mount);
 
@@ -70,7 +70,7 @@ OdometryJumps confirm_jumps(const std::vector<FrameMark>& marks, const std::vect
 /// Agreement of odometry with the scans at revisited places. Very good agreement shows that a mapper has
 /// corrected the odometry.
 struct RevisitAgreement {
-  std::size_t revisits = 0;    ///< pairs that odometry puts in one place, far apart along the path
+  std::size_t revisits = 0;    ///< pairs at one place by odometry, but far apart along the path
   std::size_t agreeing = 0;    ///< revisits that the scans confirm to 5 cm and 1 degree
   double median_offset_m = 0;  ///< median offset of odometry from the scans at the agreeing revisits
 };

@@ -25,8 +25,8 @@ constexpr double kDamping_m = 1e-4;  // damping per matched point; holds the gue
 constexpr std::size_t kFewestMatches = 20;
 constexpr std::size_t kNeighbours = 2;  // points on either side of a point that define the normal of its wall
 
-/// Returns whether two neighbouring beams hit one surface. The distance of their points is limited to that on
-/// a surface whose normal is 75 degrees from the beams, plus 5 cm.
+/// Returns whether two neighbouring beams hit one surface. The limit of the distance between their points is
+/// the distance on a surface whose normal is 75 degrees from the beams, plus 5 cm.
 bool on_one_surface(const Point& a, const Point& b) {
   const double range = std::min(a.position_m.norm(), b.position_m.norm());
   const double spacing = range * std::abs(b.bearing_rad - a.bearing_rad);
@@ -153,7 +153,7 @@ AlignableScan::AlignableScan(const LaserScan& scan, double max_range_m, std::siz
   points_.reserve(beams / step + 1);
   for (std::size_t i = 0; i < beams; i += step) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    if (!(range <= max_range_m)) continue;  // true also for a beam without return
+    if (!(range <= max_range_m)) continue;  // also skips beams without return
     const double bearing = mrpt::math::wrapToPi(static_cast<double>((*scan.bearings_rad)[i]));
     points_.push_back(
         {range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)), Eigen::Vector2d::Zero(), bearing});

@@ -21,7 +21,7 @@ class AlignableScan {
  public:
   struct Point {
     Eigen::Vector2d position_m;
-    Eigen::Vector2d normal;  ///< unit length, or zero without a wall
+    Eigen::Vector2d normal;  ///< unit normal of the wall in the laser's frame; zero if unknown
     double bearing_rad;
   };
 
@@ -39,23 +39,24 @@ class AlignableScan {
 /// Pose of the robot at one scan relative to its pose at another, the reference.
 struct ScanAlignment {
   mrpt::math::TPose2D reference_T_scan;
-  /// Mean distance from the visible points to walls. Each distance is limited to 0.15 m. Each unmatched point
-  /// counts as 0.15 m.
+  /// Mean distance to walls of the points in the reference's field of view. Distances are limited to 0.15 m,
+  /// and unmatched points count as 0.15 m.
   double cost_m = 0;
   double residual_m = 0;     ///< mean distance from the matched points to walls
-  double matched_share = 0;  ///< fraction of the points visible from the reference that match, in [0, 1]
-  /// Covariance of (x, y, heading), m and rad. Huge in directions that no wall determines.
+  double matched_share = 0;  ///< fraction of the points in the reference's field of view that match
+  /// Covariance of (x, y, heading) of the laser, in the frame of the reference's laser: m^2, m rad, rad^2.
+  /// Huge in directions that no wall determines.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
-  /// Standard deviation of the translation in the direction of `heading_rad`, metres.
+  /// Standard deviation of the translation along `heading_rad`, in the frame of `covariance`, metres.
   double deviation_along_m(double heading_rad) const;
   double heading_deviation_rad() const;
 
-  /// Returns whether more than 60 % of the visible points match and their cost is below `max_cost_m`.
+  /// Returns whether matched_share exceeds 60 % and cost_m is below `max_cost_m`.
   bool is_reliable(double max_cost_m = 0.05) const { return cost_m < max_cost_m && matched_share > 0.6; }
 };
 
-/// Aligns two scans from a guess that is off by at most about 0.6 m and 10 degrees.
+/// Aligns two scans. `guess`, a guess of reference_T_scan, may be off by about 0.6 m and 10 degrees.
 ScanAlignment align_scans(const AlignableScan& reference, const AlignableScan& scan,
                           const mrpt::math::TPose2D& guess);
 

@@ -26,12 +26,12 @@ mrpt::math::TPose2D odometry_between(const std::vector<FrameMark>& marks, const 
 /// Returns the sum of turns by odometry from frame 0 to each frame, radians, not wrapped.
 std::vector<double> unwrapped_headings(const std::vector<FrameMark>& marks);
 
-/// Returns up to `count` frames, spread evenly over all motion by odometry; its unit of length does not
-/// matter. If odometry never moves, the frames are spread evenly over the log.
+/// Returns up to `count` frames, spread evenly over all motion by odometry. The unit of length of odometry
+/// does not matter. If odometry never moves, the frames are spread evenly over the log.
 std::vector<std::size_t> frames_in_motion(const std::vector<FrameMark>& marks, std::size_t count);
 
-/// Returns consecutive pairs of frames, each at least `distance_m` or `turn_rad` apart. Selects `most` of
-/// them evenly if there are more.
+/// Returns pairs of frames that are at least `distance_m` or `turn_rad` apart; each pair begins where the
+/// pair before it ends. Selects `most` of them evenly if there are more.
 std::vector<FramePair> pairs_by_motion(const std::vector<FrameMark>& marks, double distance_m,
                                        double turn_rad, std::size_t most);
 

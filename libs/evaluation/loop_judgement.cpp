@@ -118,7 +118,8 @@ double way_m(const PlacedLoop& loop, const PlacedRelation& relation) {
          std::abs(relation.map_end.travelled_m - loop.anchor.travelled_m);
 }
 
-/// Predicts the relation from the loop as matched and the front end's motion to the ends of the relation.
+/// Returns the relation as predicted by the matched loop and the front end's motion to the ends of the
+/// relation.
 TPose2D predicted(const PlacedLoop& loop, const PlacedRelation& relation) {
   const TPose2D map_end_T_anchor = loop.anchor.front_end_T_robot - relation.map_end.front_end_T_robot;
   const TPose2D node_T_node_end = relation.node_end.front_end_T_robot - loop.node.front_end_T_robot;

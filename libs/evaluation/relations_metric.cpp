@@ -35,7 +35,7 @@ RelationError error_of(const Relation& relation, const PoseAtTime& pose1, const 
   return result;
 }
 
-/// Summarises one value of all errors, and its squares.
+/// Summarises the member `value` of all errors, and its squares.
 void summarize_value(const std::vector<RelationError>& errors, double RelationError::*value,
                      ErrorSummary& plain, ErrorSummary& squared) {
   std::vector<double> values;

@@ -7,8 +7,8 @@
 //   depend on the map's frame.
 //
 // Cartographer's tool uses d * d*^-1 instead. This error has the same angle but another length, which grows
-// with |d*| times the angle. The metric has both lengths, for comparison with published figures of either
-// kind.
+// with |d*| times the angle. RelationsMetric holds both lengths, for comparison with published figures of
+// either kind.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -34,7 +34,7 @@ struct Relation {
 /// file has no relation.
 std::vector<Relation> read_relations(const std::filesystem::path& path);
 
-/// Default of the longest gap between two poses that is interpolated.
+/// Longest gap between two poses that is interpolated by default, seconds.
 inline constexpr double kMaxGap_s = 2.0;
 
 /// The error of one relation.

@@ -5,8 +5,8 @@
 //     FLASER n r1..rn  x y theta  odom_x odom_y odom_theta  timestamp host logger_timestamp
 //
 // Both poses are the robot's: first in the map, then raw odometry. A beam without return is written as the
-// sensor's maximum range, an invalid reading as 0. The format has no room for bearings and mount: PARAM lines
-// at the top state the mount and the beam spacing, and a comment states the bearings. Ranges are always
+// sensor's maximum range, an invalid reading as 0. Scan lines cannot hold bearings and mount. PARAM lines at
+// the top state the mount and the beam spacing, and a comment states the bearings. Ranges are always
 // counter-clockwise, so log.mirrored must not be set for this file. RLASER lines hold the scans of a second
 // laser, with the poses at their own time. CARMEN has no message with poses for a third laser, so the scans
 // of further lasers are left out.
@@ -23,8 +23,8 @@
 
 namespace psi_slam {
 
-/// Writes the scans of `log` in their order, each with the pose of the same index in `map_T_robot`,
-/// atomically. With `run`, writes only that run: between runs odometry jumps and times decrease, which
+/// Writes the scans of `log` in their order, atomically. Each scan gets the pose of the same index in
+/// `map_T_robot`. With `run`, writes only that run: between runs odometry jumps and times decrease, which
 /// readers of CARMEN logs do not expect. Throws std::invalid_argument if the counts differ, SystemFailure if
 /// the file cannot be written.
 void write_corrected_log(const std::filesystem::path& path, const std::vector<Frame>& log,

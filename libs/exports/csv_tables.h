@@ -14,8 +14,8 @@ namespace psi_slam {
 std::string csv_field(const std::string& text);
 
 /// Returns frames.csv: one row per scan in the order of the log, with its poses, match, loop closure factor
-/// Psi, loops and times. `node` and `matcher` may be empty. `matched` is 1 if the scan matched a local map, 0
-/// if it did not, and empty for the first scan of a run, which has no local map to match with.
+/// Psi, loops and times. `node` and `matcher` may be empty. `matched` is 1 if the scan matched a local map
+/// and 0 if not. For the first scan of a run, which has no local map to match with, `matched` is empty.
 std::string frames_csv(const std::vector<FrameRecord>& frames);
 
 /// Returns loops.csv: one row per attempt to close a loop in the order of the records, with its match,

@@ -31,7 +31,7 @@ struct MapFileOptions {
   bool dxf = true;           ///< map.dxf: walls and path as lines, for CAD programs
   bool print = false;        ///< map_print.png, true to scale
   bool geotiff = false;      ///< map.tif
-  double print_scale = 100;  ///< scale of map_print.png and map.svg: 1:100
+  double print_scale = 100;  ///< scale of map_print.png and map.svg; 100 means 1:100
   int print_dpi = 300;       ///< resolution of map_print.png, pixels per inch of paper
   MapDrawingOptions lines;   ///< lines of map.svg and map.dxf
   GeoReference earth;        ///< place of map.tif on the earth, and direction of north in map_print.png
@@ -42,9 +42,10 @@ struct MapFileOptions {
 void write_map_files(const std::filesystem::path& folder, const MappingResult& result,
                      const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options = {});
 
-/// Writes NAME.pgm (binary P5, row 0 on top; 0 occupied, 254 free, 205 unknown) and NAME.yaml (mode trinary,
-/// origin at the lower left corner, in metres in the map) for `yaml_path` NAME.yaml, as map_server of ROS 1
-/// and nav2 read them. Writes the image first, so the pair is complete once the YAML file exists.
+/// Writes NAME.pgm and NAME.yaml, as map_server of ROS 1 and nav2 read them; `yaml_path` is NAME.yaml. The
+/// image is binary (P5) with row 0 on top: 0 occupied, 254 free, 205 unknown. The YAML file states mode
+/// trinary and the lower left corner as origin, in metres in the map. Writes the image first, so the pair is
+/// complete once the YAML file exists.
 void write_map_server_pair(const std::filesystem::path& yaml_path,
                            const mrpt::maps::COccupancyGridMap2D& grid);
 
@@ -56,26 +57,26 @@ mrpt::maps::CSimpleMap simple_map(const MappingResult& result);
 /// CSimpleMap::loadFromFile read it. Equal maps give equal bytes.
 void write_mrpt_map(const std::filesystem::path& path, const mrpt::serialization::CSerializable& map);
 
-/// Returns the drawing as DXF release 12, which every CAD program reads, in metres in the map's frame: closed
-/// polylines on layer WALLS, open polylines on layer TRAJECTORY. Outlines of two points become lines.
+/// Returns the drawing as DXF release 12, which every CAD program reads, in metres in the map's frame. Layer
+/// WALLS has closed polylines, layer TRAJECTORY open polylines. Outlines of two points become lines.
 std::string map_dxf(const MapDrawing& drawing);
 
-/// Returns the drawing as SVG that prints at 1:`scale`, with scale bar and axes below the map. The unit is
-/// one metre, and groups "walls" and "trajectory" use map coordinates; width and height are millimetres of
-/// paper.
+/// Returns the drawing as SVG that prints at 1:`scale`, with scale bar and axes below the map. Width and
+/// height are millimetres of paper, all coordinates metres. The groups "walls" and "trajectory" use map
+/// coordinates.
 std::string map_svg(const MapDrawing& drawing, double scale);
 
-/// Returns map_print.png: the part of the grid that was seen, true to scale (the file states its pixels per
-/// metre of paper), and below it a strip with scale bar, axes and, if `options.earth` has a coordinate
-/// system, north. A picture of more than 150 million pixels gets fewer pixels per inch. Equal grids give
-/// equal bytes. Throws SystemFailure if the picture cannot be encoded.
+/// Returns map_print.png: the observed part of the grid at 1:print_scale. The file states its pixels per
+/// metre of paper. A strip below the map shows a scale bar and the axes, and also north if `options.earth`
+/// has a coordinate system. A picture of more than 150 million pixels gets fewer pixels per inch. Equal grids
+/// give equal bytes. Throws SystemFailure if the picture cannot be encoded.
 std::string print_map(const mrpt::maps::COccupancyGridMap2D& grid, const MapFileOptions& options);
 
 /// Throws UserError unless `epsg` is 0 or the number of a projected coordinate system in metres.
 void check_epsg(int epsg);
 
-/// Writes a GeoTIFF file with one band of bytes: the probability of occupied space in percent, 255 where
-/// nothing was seen. Throws UserError as check_epsg().
+/// Writes a GeoTIFF file with one band of bytes: the probability of occupied space in percent, 255 in unknown
+/// cells. Throws UserError like check_epsg().
 void write_geo_tiff(const std::filesystem::path& path, const mrpt::maps::COccupancyGridMap2D& grid,
                     const GeoReference& reference = {});
 

@@ -43,6 +43,7 @@ int dpi_that_fits(const MapRaster& raster, const MapFileOptions& options) {
 }
 
 /// Draws an arrow from `from` in a direction counter-clockwise from the x axis, with `name` at the tip.
+/// `from` and `length` are in pixels.
 void draw_arrow(cv::Mat& image, const cv::Point2d& from, double length, double direction_rad,
                 const std::string& name, double px_per_mm) {
   const cv::Scalar ink = kWallInk;

@@ -35,13 +35,13 @@ struct MappedLogFacts {
   double last_bearing_rad = 0;
   double max_range_m = 0;
   mrpt::math::TPose2D robot_T_laser;
-  double returns = 0;               ///< share of the beams of all lasers with a return, in [0, 1]
+  double returns = 0;               ///< share of beams with a return, over all lasers, in [0, 1]
   std::size_t companion_scans = 0;  ///< scans of further lasers that are part of a frame
   std::size_t spare_scans = 0;      ///< scans of further lasers in no frame; set by the caller
   TimeUs first_time_us = 0;
   TimeUs last_time_us = 0;
-  double duration_s = 0;        ///< duration of all runs together
-  std::size_t stamps_back = 0;  ///< scans with an earlier time than the previous scan
+  double duration_s = 0;        ///< sum of the durations of all runs
+  std::size_t stamps_back = 0;  ///< scans with an earlier time than the previous scan of their run
   double odometry_length_m = 0;
 };
 
@@ -63,10 +63,10 @@ struct LoopCounts {
   std::vector<ReasonCount> reasons;  ///< reasons of loops refused or switched off, the most frequent first
 };
 
-/// Extent of the part of the map that was seen.
+/// Extent of the observed part of the map.
 struct MapExtent : MapRectangle {
   double resolution_m = 0;
-  double asked_resolution_m = 0;  ///< size of a cell that the settings ask for
+  double asked_resolution_m = 0;  ///< side of a cell that the settings ask for
   double free_m2 = 0;             ///< area of free space
 };
 
@@ -80,14 +80,14 @@ struct RunSummary {
   LoopCounts loops;
   UnmatchedScans unmatched;
   double mean_response = 0;      ///< mean response of the matched frames
-  std::int64_t evaluations = 0;  ///< poses scored, including the final search
+  std::int64_t evaluations = 0;  ///< number of poses scored, including the final search
   MapExtent map;
   double wall_s = 0;
   double real_time_factor = 0;  ///< seconds of the log per second of work; 0 if unknown
   double peak_memory_mib = 0;   ///< largest memory of this process so far
   bool interrupted = false;
   bool final_search_cut_short = false;
-  std::optional<std::string> broken_off;  ///< why the log cannot be read after its last scan
+  std::optional<std::string> broken_off;  ///< damage of the log after its last readable scan
 };
 
 /// Computes the figures. `grid` is the map of `result`, drawn with the options `asked`.
@@ -108,8 +108,8 @@ std::optional<std::string> coarser_cells_text(const MapExtent& map);
 /// Returns the largest memory of this process so far, in MiB.
 double peak_memory_mib();
 
-/// Returns the length of a path, metres. Measures in steps of at least 0.1 m: the jitter of a robot at rest
-/// does not add up.
+/// Returns the length of a path, metres. Measures in steps of at least 0.1 m, so that the jitter of a robot
+/// at rest does not add up.
 double path_length_m(const std::vector<mrpt::math::TPose2D>& poses);
 
 }  // namespace psi_slam

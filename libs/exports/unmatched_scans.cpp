@@ -23,7 +23,7 @@ std::string stretch_text(const UnmatchedStretch& stretch, bool of_several_runs) 
          counted(stretch.scans(), "scan") + ", " + fixed_text(stretch.odometry_length_m, 1) + " m)";
 }
 
-/// Drops all but the stretches with the longest paths, and returns how many were dropped.
+/// Drops all but the kMostListed stretches with the longest paths, and returns how many were dropped.
 std::size_t keep_longest(std::vector<UnmatchedStretch>& stretches) {
   if (stretches.size() <= kMostListed) return 0;
   const std::size_t dropped = stretches.size() - kMostListed;

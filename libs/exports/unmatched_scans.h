@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scans that matched no local map. Odometry, or the constant-velocity model, places these scans: the map may
-// be wrong where they are.
+// Scans that matched no local map. Odometry, or the constant-velocity model, places these scans, so the map
+// may be wrong there.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,10 @@ namespace psi_slam {
 /// Successive unmatched scans of one run.
 struct UnmatchedStretch {
   std::size_t run = 0;          ///< number of the run, from 0
-  std::size_t first_frame = 0;  ///< never the first scan of the run, which has no local map to match with
+  std::size_t first_frame = 0;  ///< index; never the first scan of the run, which has no local map yet
   std::size_t last_frame = 0;
-  TimeUs first_time_us = 0;      ///< time of the first scan
-  TimeUs last_time_us = 0;       ///< time of the last scan
+  TimeUs first_time_us = 0;      ///< time of the first scan of the stretch
+  TimeUs last_time_us = 0;       ///< time of the last scan of the stretch
   TimeUs run_start_us = 0;       ///< time of the first scan of the run
   double odometry_length_m = 0;  ///< path by odometry, from the scan before the stretch to the last scan
 
@@ -32,12 +32,12 @@ struct UnmatchedScans {
   std::vector<UnmatchedStretch> stretches;  ///< in the order of the log
 };
 
-/// Finds the unmatched scans of each run. runs_of() returns the runs of a result.
+/// Finds the unmatched scans of each run. `runs` comes from runs_of().
 UnmatchedScans unmatched_scans(const std::vector<FrameRecord>& frames, const std::vector<FrameSpan>& runs);
 
 /// Returns a warning about the unmatched scans of a result: a sentence without full stop that lists the
 /// stretches with the longest paths. Empty if there are no unmatched scans, or if the robot moved less than
-/// 0.1 m during all of them.
+/// 0.1 m in total during these scans.
 std::optional<std::string> unmatched_scans_text(const MappingResult& result);
 
 }  // namespace psi_slam

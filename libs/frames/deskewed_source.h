@@ -12,8 +12,8 @@ namespace psi_slam {
 
 /// Returns the scan that the laser would have measured from its pose at the first beam if the robot had stood
 /// still. `motion` is the robot's pose at the last beam relative to its pose at the first; the beams are
-/// evenly spread over this motion. Each beam keeps its index and gets the range and bearing of its point. The
-/// bearing of a beam without a return turns with the robot. All beams of the result start at the laser's
+/// evenly spread over this motion. Each beam keeps its index and gets the range and bearing of its end point.
+/// The bearing of a beam without a return turns with the robot. All beams of the result start at the laser's
 /// first position. The free space along them is therefore a few centimetres off.
 LaserScan deskewed(const LaserScan& scan, const mrpt::math::TPose2D& motion);
 

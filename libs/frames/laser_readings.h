@@ -2,9 +2,9 @@
 // Steps that the readers of all formats share when they turn a message of a laser into a LaserScan.
 //
 // Some logs do not state the bearings of the beams: FLASER lines of CARMEN state only the number of beams.
-// For about half of the usual numbers, public readers disagree on the bearings. An error of one degree bends
-// the map at every turn. The user therefore chooses the convention, and `psi-slam check` measures which one
-// fits: see beam_angle_study.h.
+// For about half of the usual numbers of beams, public readers disagree on the bearings. An error of one
+// degree bends the map at every turn. The user therefore chooses the convention, and `psi-slam check`
+// measures which one fits: see beam_angle_study.h.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

@@ -25,8 +25,8 @@ constexpr const char* kExpected =
     "folder of a ROS 2 bag)";
 constexpr std::size_t kHeadBytes = std::size_t{256} * 1024;
 
-/// Returns whether the bytes start like an MRPT archive, with an object: one byte with the length of its
-/// class name and the highest bit set, followed by the class name.
+/// Returns whether the bytes start like an MRPT archive, which begins with an object. The first byte holds
+/// the length of the class name, with the highest bit set. The class name follows.
 bool is_mrpt_archive(std::string_view head) {
   if (head.empty()) return false;
   const auto first = static_cast<unsigned char>(head[0]);

@@ -20,9 +20,9 @@ bool is_bag(LogFormat format);
 /// formats.
 LogFormat detect_log_format(const std::filesystem::path& path);
 
-/// Files in the folder of a ROS 2 bag, in the order of its metadata.yaml. If there is no metadata.yaml, since
-/// the recorder was killed: the .db3 and .mcap files in the order of the numbers in their names. Empty if the
-/// folder has no such files.
+/// Files in the folder of a ROS 2 bag, in the order of its metadata.yaml. Without metadata.yaml, which a
+/// killed recorder does not write: the .db3 and .mcap files in the order of the numbers in their names. Empty
+/// if the folder has no such files. Throws UserError if metadata.yaml is damaged.
 std::vector<std::filesystem::path> files_of_bag_folder(const std::filesystem::path& folder);
 
 }  // namespace psi_slam

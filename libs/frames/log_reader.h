@@ -62,7 +62,7 @@ class LogReader : public FrameSource {
   std::size_t frames_given_ = 0;
 };
 
-/// Opens a log of any format with the reader of this format. Each frame is a scan of one laser as recorded;
+/// Opens a log of any format with the reader of its format. Each frame is a scan of one laser as recorded;
 /// `every_nth_scan` and `sweep_time_s` do not apply. Throws UserError as open_log() does.
 std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options);
 

@@ -12,14 +12,14 @@
 namespace psi_slam {
 
 /// Finds odometry at the time of each scan, for logs with odometry and scans in separate messages. A scan
-/// waits until odometry of its time or later has arrived. Its pose is interpolated between the messages
-/// before and after its time. A scan whose time lies between no two messages gets the pose of a neighbour in
-/// the log: the odometry message before or after it, whichever is nearer in time. take() returns scans in the
-/// order of the log.
+/// waits until odometry of its time or later has arrived. The pose is interpolated between the messages
+/// before and after the time of the scan. If the time lies between no two messages, the scan gets the pose of
+/// the message before or after it in the log, whichever is nearer in time. take() returns scans in the order
+/// of the log.
 ///
-/// If the time of odometry steps back, the clock was set; all earlier odometry is forgotten. A scan near the
-/// step has the same clock as its neighbour in the log that is nearer in time. A scan whose time steps back
-/// therefore waits for the next odometry message.
+/// If the time of odometry steps back, the clock was set; all earlier odometry is discarded. A scan near this
+/// step belongs to the clock of the odometry message before or after it, whichever is nearer in time. A scan
+/// whose time steps back therefore waits for the next odometry message.
 class OdometryInterpolator {
  public:
   /// Largest number of scans that wait for odometry. If more scans arrive, odometry is taken to have stopped.
@@ -58,7 +58,7 @@ class OdometryInterpolator {
   void place(Scan& scan) const;
   bool place_between_messages(Frame& frame) const;
 
-  // Messages since time last stepped back; never empty after the first message.
+  // The last messages since time stepped back; never empty after the first message.
   std::deque<Odometry> odometry_;
   std::deque<Scan> scans_;
   std::optional<TimeUs> last_scan_us_;

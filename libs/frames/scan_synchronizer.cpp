@@ -15,15 +15,15 @@ namespace {
 
 constexpr auto kMaxApart_us = static_cast<TimeUs>(ScanSynchronizer::kMaxApart_s * 1e6);
 constexpr auto kMaxDetour_us = static_cast<TimeUs>(ScanSynchronizer::kMaxDetour_s * 1e6);
-/// A scan may join the next frame only if this frame is at most this many times as far in time as the nearest
-/// frame.
+/// The next frame of a scan that is passed on is at most this many times as far in time as the nearest frame.
 constexpr TimeUs kFarther = 2;
 constexpr auto kClockWasSet_us = static_cast<TimeUs>(ScanSynchronizer::kClockWasSet_s * 1e6);
-/// Scans of a frame are at most kMaxApart_us from its opener. Other frames that these scans may join are at
-/// most 2 * kMaxApart_us from it. The third kMaxApart_us allows for different delays of the lasers' messages.
+/// A scan waits for scans that are this much later. Scans of a frame are at most kMaxApart_us from its
+/// opener. Other frames that these scans may join are at most 2 * kMaxApart_us from the opener. The third
+/// kMaxApart_us allows for different delays of the lasers' messages.
 constexpr TimeUs kWait_us = 3 * kMaxApart_us;
 
-/// Distance of two scans in time; if two distances are equal, the distance in the log decides.
+/// Distance between two scans, for comparison: first in time, then by position in the log.
 template <class Scan>
 std::pair<TimeUs, std::size_t> distance(const Scan& a, const Scan& b) {
   return {std::abs(a.frame.time_us - b.frame.time_us),

@@ -2,14 +2,14 @@
 // Combines the scans of a robot's lasers into frames (scan synchronisation).
 //
 // Each scan of the first laser opens a frame. One scan of every other laser may join it if it is at most
-// `kMaxApart_s` away in time. Odometry at both times gives the robot's motion in between. If the motion
-// exceeds `kMaxMotion_m` or `kMaxTurn_rad`, odometry has jumped, and the scan is dropped.
+// `kMaxApart_s` away in time. Odometry at both times gives the robot's motion between the two scans. If the
+// motion exceeds `kMaxMotion_m` or `kMaxTurn_rad`, odometry has jumped, and the scan is dropped.
 //
 // A scan belongs to the frame nearest in time. Several scans of one laser may belong to one frame; this is
-// usual if lasers scan half a period apart. Those about half-way to the next frame are then passed on to the
-// next frame, until the extra time distances of passed-on scans sum to `kMaxDetour_s`. The nearest of the
-// remaining scans joins the frame. The other remaining scans are dropped, such as the surplus scans of a
-// laser that is faster than the first.
+// usual if lasers scan half a period apart. Such scans that are about half-way to the next frame are passed
+// on to the next frame, although it is farther in time. These extra time distances of successive scans must
+// not sum to more than `kMaxDetour_s`. The nearest of the remaining scans joins the frame. The other
+// remaining scans are dropped, such as the surplus scans of a laser that is faster than the first.
 //
 // A scan opens a frame itself if no scan of a laser with a smaller number is within `kMaxApart_s`. If the
 // first laser stops, the other lasers continue without it. Lasers that rarely scan together open frames in
@@ -32,8 +32,8 @@ namespace psi_slam {
 class ScanSynchronizer {
  public:
   static constexpr double kMaxApart_s = 0.15;
-  /// Largest sum of the extra time distances, seconds, by which consecutive scans of a laser join a frame
-  /// later than the nearest one.
+  /// Largest sum of extra time distances, seconds, for successive scans of a laser that are passed on to the
+  /// next frame. The extra distance is how much farther in time the next frame is than the nearest frame.
   static constexpr double kMaxDetour_s = 0.15;
   static constexpr double kMaxMotion_m = 1.0;
   static constexpr double kMaxTurn_rad = M_PI / 3;
@@ -51,7 +51,7 @@ class ScanSynchronizer {
   /// Returns the next frame if all its scans have arrived. Frames have the order of the scans that open them.
   std::optional<Frame> take();
 
-  /// Number of scans of later lasers that joined no frame.
+  /// Number of scans that were dropped because they joined no frame.
   std::size_t spare_scans() const { return spare_scans_; }
 
  private:
@@ -73,7 +73,7 @@ class ScanSynchronizer {
   std::size_t places_ = 0;
   std::size_t clock_ = 0;
   std::size_t spare_scans_ = 0;
-  // Sum of the extra time distances of each laser since it last passed on no scan.
+  // Sum of the extra time distances of each laser since its last frame that passed on no scan.
   std::map<std::size_t, TimeUs> detours_us_;
   bool ended_ = false;
 };

@@ -57,13 +57,14 @@ class Configuration {
   /// Returns one warning, a sentence without full stop, for each outdated option name used so far.
   const std::vector<std::string>& warnings() const;
 
-  /// Throws UserError if two options contradict each other.
+  /// Checks that no two options contradict each other. Throws UserError if they do.
   void check() const;
 
   /// Returns a copy of the options of Mapper, for CMetricMapBuilderPsi::Options. Throws like check().
   std::shared_ptr<const MapperOptions> mapper_options() const;
 
-  /// Returns all settings, unchecked: MappingSession checks them.
+  /// Returns all settings, unchecked: MappingSession checks them. The references stay valid as long as the
+  /// object.
   operator const Settings&() const;
   /// Returns the options of Mapper. Throws like check().
   operator const MapperOptions&() const;

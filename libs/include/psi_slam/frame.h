@@ -19,7 +19,7 @@
 namespace psi_slam {
 
 /// Bearings of the beams in the laser's frame, radians, counter-clockwise positive, one for each range and in
-/// the same order. All scans of one laser share them.
+/// the same order. Successive scans of one laser usually share one vector.
 using BeamBearings = std::shared_ptr<const std::vector<float>>;
 
 /// One planar range scan. `ranges_m[i]`, metres, was measured along `(*bearings_rad)[i]`. A finite value is a
@@ -27,11 +27,11 @@ using BeamBearings = std::shared_ptr<const std::vector<float>>;
 /// reading: zero, negative, below the minimum range or flagged as invalid.
 struct LaserScan {
   std::vector<float> ranges_m;  ///< one range for each beam, metres; infinity: no return; NaN: invalid
-  BeamBearings bearings_rad;    ///< one bearing for each beam
+  BeamBearings bearings_rad;    ///< one bearing for each beam, radians
   float max_range_m = 0;  ///< maximum range of the sensor, metres; readings at or beyond it are no returns
   mrpt::math::TPose2D robot_T_laser;  ///< pose of the laser on the robot
-  /// Time from the first beam to the last, seconds. The time stamp belongs to the first beam. 0: all beams
-  /// are simultaneous, or the time is unknown.
+  /// Time from the first beam to the last, seconds. The time stamp of the scan is the time of its first beam.
+  /// 0: all beams are simultaneous, or the time is unknown.
   float sweep_time_s = 0;
   std::size_t laser = 0;  ///< number of the laser among the lasers that are read, from 0
 };
@@ -45,12 +45,12 @@ struct CompanionScan {
 
 /// One scan with the robot's odometry at the scan's time.
 struct Frame {
-  std::size_t index = 0;                    ///< position in the log, from 0
+  std::size_t index = 0;                    ///< number of the frame among the frames read, from 0
   TimeUs time_us = 0;                       ///< time of the scan, microseconds
   mrpt::math::TPose2D odom_T_robot;         ///< pose of the robot by odometry, at `time_us`
-  LaserScan scan;                           ///< scan of the first laser
+  LaserScan scan;                           ///< scan of the laser with the smallest number in this frame
   bool has_odometry = true;                 ///< false: the motion is unknown and odom_T_robot is meaningless
-  std::vector<CompanionScan> companions{};  ///< scans of later lasers, ordered by LaserScan::laser
+  std::vector<CompanionScan> companions{};  ///< scans of other lasers, sorted by LaserScan::laser
 };
 
 /// Calls `take(scan, map_T_robot)` for each scan of a frame, with the robot's pose at the time of that scan.

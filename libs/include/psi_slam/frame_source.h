@@ -12,15 +12,14 @@
 
 namespace psi_slam {
 
-/// Parts of a log that the reader skipped: messages that do not parse and odometry without a valid pose.
-/// Logs of long recordings usually hold a few such messages. Spare scans are counted separately, because they
-/// are not errors.
+/// Parts of a log that the reader skipped: messages that do not parse and odometry without a valid pose. Long
+/// logs usually hold a few such messages. Spare scans are counted separately, because they are not errors.
 struct SkippedLines {
   std::size_t count = 0;        ///< number of skipped messages
-  std::string first;            ///< "path:line: ...": place and error of the first skipped message
+  std::string first;            ///< place and error of the first skipped message: "my.log:12: ..."
   std::size_t spare_scans = 0;  ///< number of scans of companion lasers that joined no frame
 
-  /// Returns one sentence without its full stop; empty if no message was skipped.
+  /// Returns a sentence about the skipped messages, without full stop; empty if no message was skipped.
   std::string sentence() const {
     if (count == 0) return {};
     if (count == 1) return "1 message of the log does not parse and is skipped: " + first;
@@ -36,18 +35,18 @@ struct SkippedLines {
   }
 };
 
-/// Reads a log once, from its beginning. Frames have the order of the file, even where time stamps run
-/// backwards. The log is never held in memory as a whole.
+/// Reads a log once, from its beginning. Frames have the order of the log, even where time stamps run
+/// backwards. Readers of files never hold the whole log in memory.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// Returns the next frame, or nothing at the end of the log. Throws UserError (file, place, what was
-  /// expected) if the log is malformed. CARMEN logs and bags may hold a few malformed messages, which are
-  /// skipped: see skipped_lines().
+  /// Returns the next frame, or nothing at the end of the log. Throws UserError if the log is malformed; the
+  /// message names file, place and what was expected. CARMEN logs and bags may hold a few malformed messages,
+  /// which are skipped: see skipped_lines().
   virtual std::optional<Frame> next() = 0;
 
-  /// Fraction of the log that has been read, in [0, 1], by bytes of the file on disk.
+  /// Fraction of the log that has been read, in [0, 1], measured in bytes on disk.
   virtual double progress() const = 0;
 
   /// Returns what the reader has skipped so far.

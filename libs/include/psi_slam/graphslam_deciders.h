@@ -44,10 +44,10 @@ struct SharedMap;
 
 /// Matches each scan with the active local map. Registers a node when the robot has moved or turned enough.
 ///
-/// The edges of a node lead to the anchors of the local maps that hold its scan, not to the node before.
+/// Edges connect a node with the anchors of the local maps that hold its scan, not with the previous node.
 /// Scans matched with one local map share its errors, so edges between successive nodes would count these
-/// errors twice. The engine takes the first two nodes together, then one node per entry. If an entry yields a
-/// second node, that node waits for the next entry.
+/// errors twice. The engine registers the first two nodes together, then one node per entry. If an entry
+/// yields a second node, that node waits for the next entry.
 class CPsiFrontEndNRD : public NodeDecider {
  public:
   CPsiFrontEndNRD();
@@ -76,7 +76,7 @@ class CPsiFrontEndNRD : public NodeDecider {
   /// Returns the records of all scans, with poses interpolated between the nodes of the graph.
   std::vector<FrameRecord> frames() const;
 
-  /// Number of scans that were not matched although there was a local map. Their poses come from odometry.
+  /// Number of scans that matched no local map although one existed. Their poses come from odometry.
   std::size_t unmatched() const;
 
   /// The map data that connect_deciders() passes to the edge decider and the optimizer.
@@ -96,8 +96,8 @@ class CPsiFrontEndNRD : public NodeDecider {
   std::shared_ptr<SharedMap> map_;
 };
 
-/// Matches each new node with the local maps near it by the matcher that the factor Psi chooses, and verifies
-/// the match. A match in a wide window waits until other matches agree. Needs the local maps of
+/// Matches the scan of each new node with the local maps near the node and verifies each match. The factor
+/// Psi chooses the matcher. A match in a wide window waits until other matches agree. Needs the local maps of
 /// CPsiFrontEndNRD.
 ///
 /// The engine does not signal the end of a log. Call finish_deciders() after the last entry; otherwise the
@@ -115,7 +115,7 @@ class CPsiLoopCloserERD : public EdgeDecider {
   /// Takes the shared map data of CPsiFrontEndNRD. Call before the first entry.
   void share(std::shared_ptr<SharedMap> map) { map_ = std::move(map); }
 
-  /// Closes the loops of the new nodes. Throws UserError if share() was not called.
+  /// Closes the loops of the new nodes. Always returns true. Throws UserError if share() was not called.
   bool updateState(mrpt::obs::CActionCollection::Ptr action, mrpt::obs::CSensoryFrame::Ptr observations,
                    mrpt::obs::CObservation::Ptr observation) override;
 
@@ -130,9 +130,9 @@ class CPsiLoopCloserERD : public EdgeDecider {
   /// skipped.
   void finish(const std::function<bool(double)>& progress = {});
 
-  /// Returns the records of all attempts to close loops.
+  /// Returns the records of all attempts to close loops. Needs loadParams().
   const std::vector<LoopRecord>& loops() const;
-  /// Number of loops that are constraints of the graph.
+  /// Number of accepted loops, which are constraints of the graph. Needs loadParams().
   std::size_t accepted_loops() const;
 
  private:
@@ -145,8 +145,8 @@ class CPsiLoopCloserERD : public EdgeDecider {
 };
 
 /// Optimises the graph by sparse pose adjustment, for the edges of any deciders. Optimises at once when the
-/// graph contradicts a new edge by five or more standard deviations. Smaller residuals wait until the graph
-/// has grown by a thousandth.
+/// graph contradicts a new edge by five or more standard deviations. Residuals between one and five wait
+/// until the graph has grown by a thousandth. Smaller residuals alone cause no optimisation.
 ///
 /// The engine resets all poses after each new node. The next entry restores the optimised poses; finish()
 /// restores them after the last entry.
@@ -167,7 +167,7 @@ class CPsiSpaGSO : public GraphOptimizer {
   /// without a gap, or if a node is not linked to the root.
   bool updateState(mrpt::obs::CActionCollection::Ptr action, mrpt::obs::CSensoryFrame::Ptr observations,
                    mrpt::obs::CObservation::Ptr observation) override;
-  /// Whether the last updateState() optimised the graph.
+  /// Returns whether the last updateState() optimised the graph.
   bool justFullyOptimizedGraph() const override;
   /// Appends the state of the optimizer as readable text.
   void getDescriptiveReport(std::string* report_str) const override;

@@ -6,10 +6,10 @@
 ///     auto localizer = Localizer::open("out/map.yaml", configuration);
 ///     LocalizationStep step = localizer.add(frame);
 ///
-/// The front end measures the robot's motion in its own frame. While the robot is lost, its last scans are
-/// matched with the whole map after every metre of travel. The robot counts as found when several searches
-/// from different places agree. From then on, each scan is matched in a small window around the predicted
-/// pose. If no scan fits for too long, the robot counts as lost again.
+/// The front end measures the robot's motion without the map. While the robot is lost, its last scans are
+/// matched with the whole map, by default after every metre of travel. The robot counts as found when several
+/// searches from different places agree. From then on, each scan is matched in a small window around the
+/// predicted pose. After too much time or travel without a fitting scan, the robot counts as lost again.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -39,19 +39,19 @@ struct FoundPlace {
   double response = 0;              ///< response of the scans at this pose, in [0, 1]
   double ambiguity = 0;             ///< response of the next best place, divided by `response`
   double observed_share = 0;        ///< share of the scans' points in space that the map shows
-  double agree = 0;                 ///< share of points in such space on or beside occupied cells
+  double agree = 0;                 ///< share of points in observed space that lie on or beside walls
   double clear_share = 0;           ///< share of the scans' beams that cross no wall of the map
   std::string objection;            ///< why the place was rejected, as a clause; empty if accepted
   bool ambiguous = false;           ///< true: rejected because another place fits equally well
   std::int64_t evaluations = 0;     ///< number of poses scored
 
-  /// Whether a place was found and passed all checks.
+  /// Returns whether a place was found and passed all checks.
   bool believed() const { return found && objection.empty(); }
 };
 
 /// Result of the localizer for one scan.
 struct LocalizationStep {
-  /// Whether the pose of the robot is known.
+  /// State of the localizer: whether the pose of the robot is known.
   enum class State { kLost, kTracking };
   TimeUs time_us = 0;               ///< time of the scan, microseconds
   State state = State::kLost;       ///< state after this scan
@@ -67,7 +67,7 @@ struct LocalizationStep {
 class Localizer {
  public:
   /// Opens a map file: map.yaml with its image, or map.gridmap.gz. Pass a Configuration as `options`. Throws
-  /// UserError if the file is unreadable, of another kind, rotated or without any wall.
+  /// UserError if the file is unreadable or is not a map file, or if the map is rotated or has no wall.
   static Localizer open(const std::filesystem::path& map, const LocalizerOptions& options);
 
   /// Prepares a grid map, for example a result of draw_grid_map(). Pass a Configuration as `options`.
@@ -78,7 +78,7 @@ class Localizer {
   Localizer(const Localizer&) = delete;
   Localizer& operator=(const Localizer&) = delete;
 
-  /// Sets the approximate start pose of the robot. Call before the first scan.
+  /// Sets the approximate start pose of the robot in the map: metres, radians. Call before the first scan.
   void start_at(const mrpt::math::TPose2D& map_T_robot);
 
   /// Localizes the robot at the next scan. Frames must come in the order of the log.

@@ -24,9 +24,9 @@ enum class BeamAngles {
 /// the log states none, the default described at the member applies.
 struct LogOptions {
   /// Pose of the laser on the robot, metres and radians; only for a single laser. Default: as the log states.
-  /// CARMEN: PARAM robot_frontlaser_offset and its kind, or the difference of the poses of raw ROBOTLASER
-  /// lines. Rawlog: the pose of the sensor. ROS: the transforms. If a CARMEN log states none, both lasers are
-  /// at the robot's centre, and the rear laser looks backwards.
+  /// CARMEN: PARAM lines such as robot_frontlaser_offset, else the difference between the laser pose and the
+  /// robot pose in ROBOTLASER lines. Rawlog: the pose of the sensor. ROS: the transforms. If a CARMEN log
+  /// states none, both lasers are at the robot's centre, and the rear laser looks backwards.
   std::optional<mrpt::math::TPose2D> robot_T_laser;
 
   /// How the beams divide the field of view. Default: as the log states, otherwise the usual convention for
@@ -48,8 +48,9 @@ struct LogOptions {
   bool mirrored = false;
 
   /// Which laser to read. CARMEN: "front", "rear" or a message name such as "RAWLASER2". Rawlog: a sensor
-  /// label. ROS: a topic of scans. "all", or several names separated by commas, combine lasers into frames.
-  /// Default: CARMEN: the front laser if there is one; rawlog: the first laser; ROS: the only topic of scans.
+  /// label. ROS: a topic of scans. "all", or several names separated by commas: each frame combines scans of
+  /// these lasers. Default: CARMEN: the front laser if there is one; rawlog: the first laser; ROS: the only
+  /// topic of scans.
   std::string laser;
 
   /// Poses of lasers that the log states wrongly or not at all: "NAME X Y YAW" in metres and degrees. Append
@@ -71,10 +72,12 @@ struct LogOptions {
   // The next three options apply to ROS bags only. If empty, the reader finds topics by their types and
   // frames by the transforms.
 
-  /// Topic of the scans (sensor_msgs/LaserScan), or several topics separated by commas. Overrides `laser`.
+  /// Topic of the scans (sensor_msgs/LaserScan), several topics separated by commas, or "all". Overrides
+  /// `laser`.
   std::string scan_topic;
 
-  /// Frame of the odometry poses. Default: the nearest frame above the laser whose name contains "odom".
+  /// Frame of the odometry poses. Default: the nearest ancestor of the laser's frame whose name contains
+  /// "odom".
   std::string odom_frame;
 
   /// Frame of the robot, whose pose odometry measures. Default: the child frame of the odometry messages, or

@@ -19,10 +19,10 @@ namespace psi_slam {
 /// Outcome of an attempt to close a loop.
 enum class LoopVerdict {
   kAccepted,     ///< a constraint of the pose graph
-  kPending,      ///< matched in a wide window; waits until other matches agree
+  kPending,      ///< matched in a wide window, where one match proves little; waits until others agree
   kRefused,      ///< failed verification, or too few matches agreed; never a constraint
   kSwitchedOff,  ///< was accepted; later contradicted by the rest of the graph
-  kNotFound,     ///< no pose of the window scored high enough; anchor_T_node is the prediction
+  kNotFound,     ///< no pose of the window scored high enough; anchor_T_node is the predicted pose
   kDeleted,      ///< deleted by a person
 };
 /// All verdicts.
@@ -30,25 +30,25 @@ inline constexpr std::array<LoopVerdict, 6> kLoopVerdicts{LoopVerdict::kAccepted
                                                           LoopVerdict::kRefused,  LoopVerdict::kSwitchedOff,
                                                           LoopVerdict::kNotFound, LoopVerdict::kDeleted};
 
-/// "accepted", "pending", "refused", "switched off", "not found" or "deleted".
+/// Returns "accepted", "pending", "refused", "switched off", "not found" or "deleted".
 constexpr const char* verdict_text(LoopVerdict verdict) {
   constexpr std::array<const char*, kLoopVerdicts.size()> kTexts{"accepted",     "pending",   "refused",
                                                                  "switched off", "not found", "deleted"};
   return kTexts[static_cast<std::size_t>(verdict)];
 }
 
-/// Why an attempt is not a constraint.
+/// Reason why an attempt to close a loop is not a constraint of the graph.
 struct LoopRefusal {
   /// Test that the match failed, or edit that removed the loop.
   enum class Reason {
     kNothingFound,        ///< no match in the window; limit: minimum response
     kLowResponse,         ///< value: response of the match
-    kAmbiguous,           ///< value: response of the second-best place, divided by the best
+    kAmbiguous,           ///< value: response of the second-best distinct pose, divided by the best
     kUncertainPosition,   ///< value: largest standard deviation of the position, metres
-    kUnobserved,          ///< value: share of the scan in space that the local map observed
-    kNeighboursDisagree,  ///< value: share of the neighbouring scans' points that fit the local map
+    kUnobserved,          ///< value: share of the scan's points in space that the local map observed
+    kNeighboursDisagree,  ///< value: share of the points of scans nearby on the path that fit the local map
     kReverseDisagrees,    ///< value: share of the local map's points that fit the scan
-    kNoConsensus,         ///< too few other matches agree with a match in a wide window
+    kNoConsensus,         ///< too few other matches agree with this match in a wide window
     kContradicted,        ///< value: residual in the optimised graph, standard deviations
     kDeletedByHand,       ///< a person deleted the loop
     kOtherMatchForced,    ///< a person forced another match of the same scan and local map
@@ -57,7 +57,7 @@ struct LoopRefusal {
   };
   Reason reason = Reason::kNothingFound;  ///< the test or edit
   double value = 0;                       ///< measured value; 0 for reasons without a value
-  double limit = 0;                       ///< limit that the value violates, in the same unit
+  double limit = 0;                       ///< limit that the value violates, in the unit of the value
 };
 
 /// Returns the reason as a clause without figures: "the response is too low".
@@ -67,28 +67,28 @@ std::string text_of(LoopRefusal::Reason reason);
 std::string text_of(const std::optional<LoopRefusal>& refusal);
 
 /// One attempt to close a loop, and its outcome. Attempts of the final search are recorded only if they found
-/// a match.
+/// a match. Values that an attempt did not reach are 0.
 struct LoopRecord {
   std::size_t frame = 0;      ///< number of the scan in the log, from 0
   std::size_t node = 0;       ///< number of the node in the pose graph
   std::size_t local_map = 0;  ///< number of the matched local map
   std::size_t anchor = 0;     ///< anchor node of the local map; the constraint leads from anchor to node
   MatcherKind matcher = MatcherKind::kCsm;  ///< matcher that searched the window
-  bool in_final_search = false;             ///< found in the final loop search
+  bool in_final_search = false;             ///< whether the final loop search found this match
 
-  mrpt::math::TPose2D anchor_T_predicted;  ///< pose predicted by the graph: centre of the window
-  mrpt::math::TPose2D anchor_T_node;       ///< matched pose
+  mrpt::math::TPose2D anchor_T_predicted;  ///< predicted pose of the node: centre of the search window
+  mrpt::math::TPose2D anchor_T_node;       ///< matched pose of the node
   /// Covariance of (x, y, theta) of anchor_T_node, along the anchor's axes: m^2, m rad, rad^2.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   SearchExtent window;           ///< half-widths of the search window
   double response = 0;           ///< response of the match, in [0, 1]
   double ambiguity = 0;          ///< response of the second-best distinct peak, divided by the best
   double observed_share = 0;     ///< share of the scan's points in space that the local map observed
-  double neighbours_agree = 0;   ///< share of the neighbouring scans' points that fit the local map
-  double reverse_agree = 0;      ///< share of the local map's points visible from the scan that fit the scan
+  double neighbours_agree = 0;   ///< share of the points of scans nearby on the path that fit the local map
+  double reverse_agree = 0;      ///< share of the local map's points in view of the scan that fit the scan
   double moved_m = 0;            ///< distance from the predicted to the matched position
   std::int64_t evaluations = 0;  ///< number of poses scored
-  double milliseconds = 0;       ///< time of the match
+  double milliseconds = 0;       ///< time of the match, without verification
 
   LoopVerdict verdict = LoopVerdict::kRefused;  ///< outcome so far
   std::optional<LoopRefusal> refusal;           ///< empty for accepted and pending loops
@@ -114,17 +114,17 @@ struct LoopEffort {
 
 /// Search window of a match by hand.
 struct LoopPlace {
-  mrpt::math::TPose2D anchor_T_node;  ///< centre of the window
+  mrpt::math::TPose2D anchor_T_node;  ///< centre of the window: pose of the node in the anchor's frame
   SearchExtent window;                ///< half-widths of the window
 };
 
-/// A person's correction of one loop. Scan and local map identify the loop. Their numbers are the same
-/// whenever a log is mapped with the same front-end options.
+/// A person's correction of one loop. Scan and local map identify the loop. Scans and local maps have the
+/// same numbers whenever a log is mapped with the same front-end options.
 struct LoopEdit {
   /// What to do with the loop.
   enum class Kind {
     kDelete,   ///< removes the loop, even if it passed verification
-    kForce,    ///< makes the match a constraint, even if it was refused; nothing switches it off
+    kForce,    ///< makes the match a constraint, even if it was refused; forced loops are never switched off
     kMatch,    ///< matches again with `matcher` and `place`; accepts a verified match at once
     kRestore,  ///< undoes an earlier edit of this loop
   };
@@ -143,11 +143,11 @@ struct LoopEdit {
   std::optional<LoopPlace> place{};
 };
 
-/// Whether two edits concern the same loop.
+/// Returns whether two edits concern the same loop.
 inline bool same_loop(const LoopEdit& a, const LoopEdit& b) {
   return a.frame == b.frame && a.local_map == b.local_map;
 }
-/// Whether the edit concerns the loop.
+/// Returns whether the edit concerns the loop.
 inline bool same_loop(const LoopRecord& loop, const LoopEdit& edit) {
   return loop.frame == edit.frame && loop.local_map == edit.local_map;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The mapping engine: turns scans with odometry into a pose graph and a map, scan by scan.
+/// The mapping engine: turns scans, with or without odometry, into a pose graph and a map, scan by scan.
 ///
 ///     psi_slam::Mapper mapper;
 ///     for each scan:  const psi_slam::FrameRecord& record = mapper.add(frame);
@@ -34,12 +34,12 @@ struct PlacedLocalMap;
 struct RunStart {
   std::size_t node = 0;              ///< node of the existing map, near the start of the run
   mrpt::math::TPose2D node_T_robot;  ///< pose of the robot at the start of the run, in the frame of the node
-  /// Pose of the robot at the scan that located it in the map, in the frame of its start pose. The place of
-  /// the run in the map is most certain there.
+  /// Pose at which the localizer found the robot in the map, in the frame of the start pose of the robot. Of
+  /// all poses of the run, this one is known best.
   mrpt::math::TPose2D robot_T_found;
 };
 
-/// Outcome of an edit.
+/// Outcome of an edit of a loop.
 struct LoopEditOutcome {
   /// State of an edit.
   enum class State {
@@ -48,10 +48,10 @@ struct LoopEditOutcome {
     kImpossible,  ///< the edit cannot be made; nothing was changed
   };
   State state = State::kDone;  ///< state of the edit
-  std::string reason;          ///< why the edit is not done, as a clause
+  std::string reason;          ///< why the edit is not done, as a clause; empty if done
 };
 
-/// Maps scans with odometry, one by one, into a pose graph.
+/// Maps scans, with or without odometry, one by one into a pose graph.
 class Mapper {
  public:
   /// Creates a mapper with the default options.
@@ -70,19 +70,21 @@ class Mapper {
   const FrameRecord& add(Frame frame);
 
   /// Begins another run, whose first frame is near `start`. At least one frame must have been added. Loops
-  /// join the run to the map. In the records of the run, odometry continues from `start`, see
-  /// FrameRecord::odom_T_robot.
+  /// with earlier runs join the run to the map. In the records of the run, odometry continues from `start`,
+  /// see FrameRecord::odom_T_robot.
   void begin_run(const RunStart& start);
 
   /// Changes a loop by hand and optimises the graph. An edit waits if its scan, its local map or the match to
   /// force does not exist yet. A later edit of the same scan and local map replaces the waiting edit.
   LoopEditOutcome edit(const LoopEdit& edit);
 
-  /// Returns whether an edit could be made now, and if not, why. Changes nothing. Pass frames() as `frames`
+  /// Returns whether the scan and the local map of an edit exist and can form a loop, and if not, why. Does
+  /// not check whether a match to force or an edit to undo exists. Changes nothing. Pass frames() as `frames`
   /// or, after finish(), the frames of the result.
   LoopEditOutcome judge(const LoopEdit& edit, const std::vector<FrameRecord>& frames) const;
 
-  /// Finishes the active local maps. Call after the last scan, unless finish() follows at once.
+  /// Finishes the active local maps and makes the edits that wait for them. Call after the last scan, unless
+  /// finish() follows at once.
   void end_log();
 
   /// Functions that remain available after finish().
@@ -100,7 +102,7 @@ class Mapper {
   /// call of finish() with AfterFinish::kReopen; pass its return value as `result`.
   void reopen(MappingResult&& result);
 
-  /// Pose of the robot in the map at the last frame; zero before the first frame.
+  /// Pose of the robot in the map at the last frame; the zero pose before the first frame.
   mrpt::math::TPose2D map_T_robot() const;
   /// Pose graph so far.
   const PoseGraph& graph() const;
@@ -114,7 +116,7 @@ class Mapper {
   const std::vector<LoopRecord>& loops() const;
   /// Keyframe store: the nodes with their scans, and the finished local maps. Its type is internal.
   const KeyframeStore& keyframes() const;
-  /// The at most two local maps that scans are inserted into, older first. Their type is internal.
+  /// Local maps into which scans are inserted, older first; at most two. Their type is internal.
   const std::vector<PlacedLocalMap>& active_local_maps() const;
 
  private:

@@ -19,7 +19,7 @@
 
 namespace psi_slam {
 
-/// Whether the front end matched a scan with a local map.
+/// Outcome of matching a scan with a local map in the front end.
 enum class ScanMatch {
   kNoMap,      ///< no local map existed yet: the first scan of a run
   kMatched,    ///< the match gives the pose
@@ -29,10 +29,10 @@ enum class ScanMatch {
 /// Poses, matches, loops and times of one scan of the log.
 struct FrameRecord {
   TimeUs time_us = 0;  ///< time of the scan, microseconds
-  /// Pose by odometry; if there is none, the front end's pose. Odometry of a later run continues from the
+  /// Pose by odometry; without odometry, the front end's pose. The odometry of a later run continues from the
   /// place in the map where that run begins.
   mrpt::math::TPose2D odom_T_robot;
-  mrpt::math::TPose2D front_end_T_robot;  ///< the front end's pose, without loop closing
+  mrpt::math::TPose2D front_end_T_robot;  ///< pose of the robot by the front end, without loop closing
   /// Pose of the robot in the map. Mapper::finish() corrects and refines it.
   mrpt::math::TPose2D map_T_robot;
   std::optional<std::size_t> node;  ///< node of this scan in the pose graph; empty if it is no node
@@ -41,14 +41,14 @@ struct FrameRecord {
 
   double response = 0;    ///< response of the front end's match, in [0, 1]; 0 without a match
   SearchExtent window;    ///< half-widths of the front end's search window
-  double psi = 0;         ///< factor Psi (equation 13), before the loops of this frame
+  double psi = 0;         ///< factor Psi (equation 13), computed before the loops of this frame
   double eta = 0;         ///< factor eta (equation 14)
-  double mean_loops = 0;  ///< the mean of C_i in equation 13
+  double mean_loops = 0;  ///< mean of C_i (see loops_accepted) over the last frames, equation 13
   int loops_tried = 0;    ///< number of local maps matched with this frame to close loops
   /// C_i of equation 13: number of loops that became constraints at this frame. Includes pending loops of
   /// earlier frames that this frame confirmed, and loops that are switched off later.
   int loops_accepted = 0;
-  std::optional<MatcherKind> matcher;  ///< matcher chosen for the loops of this frame; empty if it is no node
+  std::optional<MatcherKind> matcher;  ///< matcher for the loops of this frame; empty without loop search
   std::int64_t loop_evaluations = 0;   ///< number of poses scored to close loops
   std::int64_t evaluations = 0;        ///< number of poses scored by loop closing and the front end
 
@@ -58,9 +58,9 @@ struct FrameRecord {
   double pose_graph_ms = 0;     ///< time of optimising the graph
 };
 
-/// Loop searches of one matcher, over the whole mapping.
+/// Loop searches of one matcher, over the whole run.
 struct LoopMatcherRecord {
-  LoopEffort effort;                         ///< cost of all its searches
+  LoopEffort effort;                         ///< cost of all searches by this matcher
   LoopEffort final_search_effort;            ///< part of `effort` spent in the final search
   std::size_t accepted = 0;                  ///< accepted loops in the finished graph
   std::size_t accepted_in_final_search = 0;  ///< part of `accepted` found in the final search
@@ -79,9 +79,9 @@ struct StageTiming {
   std::size_t calls = 0;  ///< number of calls
   double mean_ms = 0;     ///< mean time of a call
   double std_ms = 0;      ///< standard deviation of the time of a call
-  double min_ms = 0;      ///< shortest call
-  double max_ms = 0;      ///< longest call
-  double total_s = 0;     ///< sum over all calls
+  double min_ms = 0;      ///< time of the shortest call
+  double max_ms = 0;      ///< time of the longest call
+  double total_s = 0;     ///< sum of the times of all calls
 };
 
 /// Thresholds of the factor Psi, see PsiOptions.
@@ -94,20 +94,21 @@ struct PsiThresholds {
 struct MappingResult {
   std::vector<Frame> log;           ///< all scans, in the same order as `frames`
   std::vector<FrameRecord> frames;  ///< one record for each scan, with its pose in the map
-  /// Pose graph, optimised and then refined with the scans. Optimising it again undoes the refinement.
+  /// Pose graph, optimised and then refined jointly with all scans. Optimising the graph again undoes the
+  /// refinement.
   PoseGraph graph;
   std::vector<std::size_t> node_frames;       ///< frame number of each node
   std::vector<std::size_t> later_run_frames;  ///< number of the first frame of each run after the first
   std::vector<LocalMapRecord> local_maps;     ///< all local maps, in the order in which they began
-  /// Attempts to close loops. Those of the final loop search are kept only if they found a match.
+  /// Attempts to close loops. Attempts of the final loop search are kept only if they found a match.
   std::vector<LoopRecord> loops;
   std::vector<std::string> unmet_edits;  ///< edits that could not be made, one sentence each
-  PsiThresholds psi;                     ///< thresholds that chose the matchers
-  std::map<MatcherKind, LoopMatcherRecord> loop_matchers;  ///< for each matcher that was used
+  PsiThresholds psi;                     ///< thresholds by which Psi chose the matchers
+  std::map<MatcherKind, LoopMatcherRecord> loop_matchers;  ///< loop searches of each matcher that was used
   std::vector<StageTiming> stages;                         ///< times of the stages of the work
-  double wall_s = 0;                      ///< wall time of the mapping so far, loading included
-  bool interrupted = false;               ///< stopped before the end of the log, or finish() cut short
-  bool final_search_cut_short = false;    ///< true: finish() skipped loop searches or the refinement
+  double wall_s = 0;                    ///< wall time of the work up to the last export; 0 before an export
+  bool interrupted = false;             ///< true: the log was not read to its end, or finish() was cut short
+  bool final_search_cut_short = false;  ///< true: finish() skipped loop searches or the refinement
   std::optional<std::string> broken_off;  ///< damage of the log after its last readable scan, as a sentence
 };
 
@@ -122,7 +123,8 @@ std::vector<FrameSpan> runs_of(const MappingResult& result);
 /// Returns the frames of each run, for `frames` frames in total. `later_run_frames` is as in MappingResult.
 std::vector<FrameSpan> runs_of(std::size_t frames, const std::vector<std::size_t>& later_run_frames);
 
-/// Returns the number of the first run that no chain of loops joins to run 0; empty if all runs are joined.
+/// Returns the number of the first run that no chain of accepted loops joins to run 0; empty if all runs are
+/// joined.
 std::optional<std::size_t> unjoined_run(const MappingResult& result);
 
 }  // namespace psi_slam

@@ -9,8 +9,8 @@
 ///     session.finish();
 ///     session.export_to("out");
 ///
-/// The class knows neither windows nor signals. To stop early, call finish() instead of step(): the map is
-/// then made of the scans that were read.
+/// The class depends on neither windows nor signals. To stop early, call finish() instead of step(): the map
+/// then holds the scans that were read.
 #pragma once
 
 #include <atomic>
@@ -50,12 +50,12 @@ struct SessionProgress {
   std::size_t scans = 0;   ///< number of scans mapped so far
   double scans_per_s = 0;  ///< scans mapped per second, averaged over elapsed_s
   double elapsed_s = 0;    ///< working time, without the pauses between calls
-  std::optional<double> remaining_s;  ///< estimated rest of the phase; empty while share is 0
+  std::optional<double> remaining_s;  ///< estimated time left in the phase; empty while share is 0
 };
 
 /// Content of a session file that was written.
 struct SavedSession {
-  std::size_t scans = 0;  ///< number of saved scans, including recorded scans not mapped again
+  std::size_t scans = 0;  ///< number of saved scans, including recorded scans that were not mapped again
   std::string remark;     ///< what the file lacks, a sentence without full stop; empty if complete
 };
 
@@ -81,7 +81,7 @@ class MappingSession {
   MappingSession& operator=(const MappingSession&) = delete;
 
   /// Sets the function that is called after every scan, at the start of every phase and sometimes within a
-  /// phase. It is called in the thread that drives the session.
+  /// phase. The function runs in the thread that drives the session.
   void set_observer(Observer observer);
 
   /// Maps the next scan. Returns false at the end of the log and where the log is damaged (see broken_off()).
@@ -90,14 +90,15 @@ class MappingSession {
 
   /// Damage of the log after its last readable scan, as a sentence. Empty if there is none.
   const std::optional<std::string>& broken_off() const;
-  /// Whether the current log or one before it is damaged.
+  /// Returns whether the current log or an earlier log of the session is damaged.
   bool breaks_off() const;
   /// Warnings about the logs before the current one, one sentence each: damage, or scans that were not read.
   std::vector<std::string> warnings_of_logs_before() const;
   /// Messages and scans that were skipped in all logs read so far.
   SkippedLines skipped_lines() const;
 
-  /// Adds planned edits to the edits of the input; each is made at its time. Call before the first step().
+  /// Adds planned edits to the edits of the input. Each edit is made after the scan that it names. Call
+  /// before the first step().
   void add_edits(const EditJournal& edits);
   /// Changes a loop by hand now. An edit after finish() needs stay_open() and reopens the map: call finish()
   /// again.
@@ -105,7 +106,7 @@ class MappingSession {
   /// Restores planned edits that a later edit removed from the journal. Makes edits whose time has passed at
   /// once.
   void plan(const std::vector<TimedEdit>& edits);
-  /// All edits, made and planned. The same log, settings and edits give the same map.
+  /// All edits, made and planned. Equal logs, settings and edits give equal maps.
   const EditJournal& edits() const;
   /// Edits that could not be made, one sentence each. The list is complete after finish().
   std::vector<std::string> unmet_edits() const;
@@ -124,7 +125,7 @@ class MappingSession {
   /// Keeps the mapper after finish(), so that edits, reopen() and begin_run() remain possible. Needs the
   /// memory of a second graph.
   void stay_open();
-  /// Whether finish() was called and not undone by reopen(), edit() or begin_run().
+  /// Returns whether finish() was called and not undone by reopen(), edit() or begin_run().
   bool finished() const;
   /// Undoes finish(). Needs stay_open(). Call finish() again afterwards.
   void reopen();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Matcher and search window of a match, as records describe them.
+/// Kinds of matchers, and half-widths of search windows.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@ namespace psi_slam {
 
 /// Algorithm that searches for a match.
 enum class MatcherKind {
-  kCsm,    ///< finds the best pose of the search window exactly
+  kCsm,    ///< correlative scan matching: always finds the best pose of the search window
   kCsmGa,  ///< ranks coarse cells exhaustively, then searches the best of them genetically
   kGa,     ///< searches the whole window by the genetic algorithm
 };
@@ -24,7 +24,8 @@ constexpr const char* name(MatcherKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-/// Half-widths of the search window around a predicted pose.
+/// Half-widths of the search window around a predicted pose, along the axes of the local map or map that is
+/// searched.
 struct SearchExtent {
   double x_m = 0;        ///< half-width along x, metres
   double y_m = 0;        ///< half-width along y, metres

@@ -10,17 +10,16 @@
 ///     builder.saveCurrentEstimationToImage("map.png");
 ///
 /// Input is CObservation2DRangeScan with odometry, either as actions or as CObservationOdometry. The builder
-/// uses the kind of odometry that comes first and ignores the other kind. It keeps other observations in the
-/// map with their scan, but does not use them. If odometry comes as observations, each scan waits for the
-/// next odometry. The pose estimate then belongs to the last scan with odometry.
+/// uses the kind of odometry that comes first and ignores the other kind. It stores other observations with
+/// the scan that they arrived with, but does not use them. If odometry comes as observations, each scan waits
+/// for the next odometry. The pose estimate then belongs to the last scan with odometry.
 ///
 /// Closed loops and finish() change poses of the whole map. Functions return poses and maps as of the time of
 /// the call. The only option of the base class with an effect is enableMapUpdating. It must stay true, since
 /// psi-slam does not localise in a fixed map.
 ///
-/// All functions may be called from several threads at once. The map that getCurrentlyBuiltMetricMap()
-/// returns changes only at the next call of that function by any thread. A map returned by grid() never
-/// changes.
+/// All functions may be called from several threads at once. The map returned by getCurrentlyBuiltMetricMap()
+/// changes only when any thread calls that function again. A map returned by grid() never changes.
 #pragma once
 
 #include <mrpt/maps/CMultiMetricMap.h>
@@ -47,9 +46,10 @@ struct MapperOptions;
 /// Builds a map with psi_slam::Mapper. The name follows MRPT's own map builders.
 class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
  public:
-  /// Options of the builder. A Configuration has all of them.
+  /// Options of the builder. A Configuration provides all members.
   struct Options {
-    LogOptions log;                               ///< laser, mount and ranges; every_nth_scan has no effect
+    /// Options of the laser, its mount and its ranges. every_nth_scan and sweep_time_s have no effect.
+    LogOptions log;
     GridMapOptions map;                           ///< options of the drawn grid map
     std::shared_ptr<const MapperOptions> mapper;  ///< Configuration::mapper_options(); null: the defaults
   };
@@ -65,8 +65,8 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   void initialize(const mrpt::maps::CSimpleMap& initial_map = {},
                   const mrpt::poses::CPosePDF* x0 = nullptr) override;
 
-  /// Maps the scans. Throws UserError if a scan has no time stamp or no rays, its laser is tilted, or
-  /// odometry is missing; std::logic_error after finish().
+  /// Maps the scans. Throws UserError if a scan has no time stamp or no rays, its laser is tilted, if
+  /// odometry is missing, or if enableMapUpdating is false. Throws std::logic_error after finish().
   void processActionObservation(mrpt::obs::CActionCollection& action,
                                 mrpt::obs::CSensoryFrame& observations) override;
   /// Maps a single observation. Throws like processActionObservation().
@@ -76,13 +76,14 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
   /// results are available, until initialize(). Further calls have no effect.
   void finish();
 
-  /// Pose of the robot at the last mapped scan, a CPose3DPDFGaussian. Its covariance combines those of `x0`,
-  /// of the newest node in the graph, and of a scan in its local map. The first call after a new node or loop
-  /// factorises the whole graph; later calls are cheap.
+  /// Pose of the robot at the last mapped scan, a CPose3DPDFGaussian. Before the first scan, the pose `x0` of
+  /// initialize(). The covariance combines those of `x0`, of the newest node in the graph, and of a scan in
+  /// its local map. The first call after a new node or loop factorises the whole graph; later calls are
+  /// cheap.
   mrpt::poses::CPose3DPDF::Ptr getCurrentPoseEstimation() const override;
 
-  /// The nodes of the graph with their observations. Every pose has a covariance of (1 mm)^2 and (1 mrad)^2,
-  /// a placeholder that MRPT can invert.
+  /// Stores the nodes of the graph with their observations in `out_map`. Every pose gets a placeholder
+  /// covariance that MRPT can invert: 1 mm and 1 mrad, squared.
   void getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map) const override;
   /// Number of nodes of the graph.
   unsigned int getCurrentlyBuiltMapSize() override;

@@ -12,7 +12,8 @@
 namespace psi_slam {
 
 /// Opens a CARMEN log, an MRPT rawlog or a ROS bag. Detects the format from the content of the file. Throws
-/// UserError if the file cannot be opened, has none of these formats, or an option is invalid.
+/// UserError if the file cannot be opened or has none of these formats, or if an option is invalid. A log
+/// without the selected scans or their odometry causes UserError here or in FrameSource::next().
 std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const LogOptions& options = {});
 
 }  // namespace psi_slam

@@ -2,8 +2,8 @@
 /// @file
 /// The pose graph: the poses of the nodes, and the measured relative poses between them (equations 3 to 6).
 ///
-/// The graph uses flat arrays, because MRPT's CNetworkOfPoses2DInf has no place for the kind, kernel and
-/// switch of an edge. The deciders for MRPT's graph-slam engine convert between the two.
+/// The graph uses flat arrays, because MRPT's CNetworkOfPoses2DInf cannot store the kind, the kernel and the
+/// on/off state of an edge. The deciders for MRPT's graph-slam engine convert between the two types.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -17,8 +17,8 @@
 namespace psi_slam {
 
 /// Robust kernel: a constraint adds the cost rho(s) to the error sum instead of its squared error s = e^T
-/// Omega e. This limits the effect of a false constraint on the map. All kernels approach rho(s) = s for
-/// small s.
+/// Omega e. The kernel limits the effect of a false constraint on the map. All kernels approach rho(s) = s
+/// for small s.
 struct RobustKernel {
   /// Form of the cost function.
   enum class Type {
@@ -56,7 +56,7 @@ struct Constraint {
   /// Inverse covariance of (x, y, theta) of from_T_to, in the axes of `from`: 1/m^2, 1/(m rad), 1/rad^2.
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
   Kind kind = Kind::kOdometry;         ///< origin of the measurement
-  std::optional<RobustKernel> kernel;  ///< replaces the solver's kernel for this kind; empty: keeps it
+  std::optional<RobustKernel> kernel;  ///< kernel of this constraint; empty: the solver's kernel for its kind
 };
 
 /// Symmetric 3x3 covariance of (x, y, theta): m^2, m rad, rad^2.
@@ -69,17 +69,18 @@ struct PoseCovariance {
   double tt = 0;  ///< variance of theta, rad^2
 };
 
-/// The part of a constraint that graph searches read, in a compact form.
+/// Ends and covariance of a constraint, stored compactly for graph searches.
 struct GraphLink {
   std::uint32_t from = 0;  ///< node where the constraint begins
   std::uint32_t to = 0;    ///< node where the constraint ends
-  /// Covariance of from_T_to along the axes of `from`; infinite if the information is singular.
+  /// Covariance of from_T_to along the axes of `from`. The variances are infinite if the information is
+  /// singular.
   PoseCovariance covariance;
 };
 
-/// Graph of nodes and constraints, both numbered from 0 in the order of insertion. They are never removed,
-/// but constraints can be switched off. The solver keeps the pose of the root fixed, which is node 0 unless
-/// set_root() changes it. Functions throw std::out_of_range for an index that does not exist.
+/// Graph of nodes and constraints, both numbered from 0 in the order of insertion. Nodes and constraints are
+/// never removed, but constraints can be switched off. The solver keeps the pose of the root fixed, which is
+/// node 0 unless set_root() changes it. Functions throw std::out_of_range for an index that does not exist.
 class PoseGraph {
  public:
   /// Adds a node and returns its number. Throws std::invalid_argument if the pose is not finite.
@@ -89,10 +90,10 @@ class PoseGraph {
   /// to itself, if its pose is not finite, or if its information is not symmetric and positive semi-definite.
   std::size_t add_constraint(const Constraint& constraint);
 
-  /// Switches a constraint on or off. Solvers and searches ignore a constraint that is off. Its number stays
-  /// valid.
+  /// Switches a constraint on or off. Solvers and searches ignore a constraint that is off. The numbers of
+  /// all constraints stay valid.
   void set_enabled(std::size_t constraint, bool enabled) { enabled_.at(constraint) = enabled ? 1 : 0; }
-  /// Whether a constraint is switched on.
+  /// Returns whether a constraint is switched on.
   bool enabled(std::size_t constraint) const { return enabled_.at(constraint) != 0; }
 
   /// Chooses the node whose pose the solver keeps fixed.
@@ -119,9 +120,9 @@ class PoseGraph {
   const Constraint& constraint(std::size_t index) const { return constraints_.at(index); }
   /// All constraints, enabled or not.
   const std::vector<Constraint>& constraints() const { return constraints_; }
-  /// One link per constraint, enabled or not.
+  /// One link per constraint, enabled or not, with the same index.
   const std::vector<GraphLink>& links() const { return links_; }
-  /// Constraints that begin or end at a node, enabled or not, in the order of their insertion.
+  /// Numbers of the constraints that begin or end at a node, enabled or not, in the order of insertion.
   const std::vector<std::uint32_t>& constraints_of(std::size_t node) const { return incident_.at(node); }
 
   /// Returns the sum of e^T Omega e over the enabled constraints: E of equation 5 without robust kernels.

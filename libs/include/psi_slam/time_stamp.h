@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Time stamps: integer microseconds since the epoch of the log, usually Unix time. The benchmark identifies
-/// scans by them, so the conversion to decimal seconds in text and back is exact.
+/// scans by their time stamps, so the conversion to decimal seconds in text and back is exact.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,12 @@ using TimeUs = std::int64_t;
 /// Returns the time in seconds with six decimals: "976052905.167303".
 std::string format_seconds(TimeUs time_us);
 
-/// Reads decimal seconds ("976052905.167303", "12", "1.5e9", "-0.25") to the nearest microsecond; exact for
-/// text without an exponent. Returns nothing if the text is not a number, or exceeds 9e12 seconds.
+/// Converts decimal seconds ("976052905.167303", "12", "1.5e9", "-0.25") to microseconds. Rounds to the
+/// nearest microsecond, exactly if the text has no exponent. Returns nothing if the text is not a number, or
+/// if its magnitude exceeds 9e12 seconds.
 std::optional<TimeUs> parse_seconds(std::string_view text);
 
-/// Returns a duration in seconds.
+/// Converts microseconds to seconds.
 inline double seconds(TimeUs time_us) {
   return static_cast<double>(time_us) * 1e-6;
 }

@@ -13,8 +13,8 @@ using mrpt::math::TPose2D;
 
 constexpr double kShortest_s = 1e-3;  // smallest time between scans for computing a speed
 
-/// Rotates the translation of a motion by an angle. Rotated by minus half its turn, the translation of an arc
-/// points straight ahead.
+/// Rotates the translation of a motion by an angle. Rotation by minus half the turn of an arc makes its chord
+/// point straight ahead.
 TPose2D turned(const TPose2D& motion, double angle_rad) {
   const double c = std::cos(angle_rad);
   const double s = std::sin(angle_rad);

@@ -8,8 +8,7 @@
 namespace psi_slam {
 namespace {
 
-// Whether a scan can be searched: it needs a point farther than one cell from the robot (see
-// make_search_window).
+// Returns whether a scan has a point farther than one cell from the robot, as make_search_window() needs.
 bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
   return !scan.points.empty() && scan.farthest_m > std::as_const(*local_map.map).scores().resolution_m();
 }

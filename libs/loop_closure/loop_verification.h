@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Verification of a match (method, section 7). A single false loop ruins a map, and in corridors even false
-// matches have high responses. So a high response is not enough. A match must also be unique in its window,
-// and the scan must determine the position. The scan must lie in space that the local map observed.
+// Verification of a match. A single false loop ruins a map, and in corridors even false matches have high
+// responses. So a high response is not enough. A match must also be unique in its window, and the scan must
+// determine the position. The scan must lie in space that the local map observed.
 // Neighbouring scans must fit the local map, and points of the local map must fit the scan.
 #pragma once
 
@@ -24,7 +24,7 @@ struct LoopVerificationOptions {
   double min_neighbours_agree = 0.75;
   /// Minimum share of the local map's points visible from the scan that agree with its ranges.
   double min_reverse_agree = 0.75;
-  double neighbourhood_m = 3.0;  ///< scans this far along the path, before and after, are neighbours
+  double neighbourhood_m = 3.0;  ///< scans within this path length, before and after, are neighbours
 };
 
 bool is_wide(const SearchExtent& extent, const LoopVerificationOptions& options);

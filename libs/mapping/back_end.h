@@ -36,7 +36,7 @@ struct BackEndOptions {
   LoopConsensusOptions loop_consensus;
   FinalSearchOptions final_search;
   JointRefinementOptions joint_refinement;
-  double loop_sigma_m = 0.02;  ///< standard deviation added to the covariance of each loop match
+  double loop_sigma_m = 0.02;  ///< standard deviations of extra noise of each loop match, see LoopNoise
   double loop_sigma_rad = radians_from_degrees(0.25L);
   double max_loop_chi = 5.0;  ///< residual in standard deviations above which a loop is switched off
   std::uint64_t seed = 1;     ///< seed of all random numbers
@@ -47,7 +47,7 @@ struct BackEndOptions {
 struct NodeLoops {
   MatcherKind matcher = MatcherKind::kCsm;
   LoopEffort effort;
-  int accepted = 0;  ///< number of new constraints, including loops of earlier nodes
+  int accepted = 0;  ///< number of new constraints, including pending loops of earlier nodes now confirmed
   double milliseconds = 0;
 };
 
@@ -95,7 +95,7 @@ class BackEnd {
   double optimize(PoseGraph& graph, SparsePoseAdjustment& solver);
 
   /// Runs the final loop search after the last scan. Optimises the graph and switches off outlier loops
-  /// before and after every pass. Refuses all pending loops. Returns the effort of each matcher.
+  /// first and after every pass. Refuses all pending loops. Returns the effort of each matcher.
   std::map<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
                                                  SparsePoseAdjustment& solver, FinalProgress& progress);
 

@@ -85,8 +85,8 @@ class ScoreGrid {
   const ScoreLevel& finest() const { return finest_; }
   ScoreLevel& finest() { return finest_; }
 
-  /// Returns a grid of the cells [x, x + width) x [y, y + height), without a pyramid. They must lie inside
-  /// the grid.
+  /// Returns a grid of the cells [x, x + width) x [y, y + height), without a pyramid. These cells must lie
+  /// inside the grid.
   ScoreGrid cropped(int x, int y, int width, int height) const;
 
   /// Builds the pyramid from the finest level. Call it when the finest level is final.

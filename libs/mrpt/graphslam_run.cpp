@@ -140,8 +140,7 @@ auto in_engine(const Work& work) {
 std::size_t check_ground_truth(const fs::path& path) {
   constexpr std::size_t kWords = 4;
   std::ifstream file(path);
-  if (!file)
-    throw UserError(path.string() + " cannot be read, expected a ground truth file. Check the path");
+  if (!file) throw UserError(path.string() + " cannot be read, expected a ground truth file. Check the path");
   std::size_t lines = 0;
   for (std::string line; std::getline(file, line);) {
     ++lines;
@@ -155,7 +154,7 @@ std::size_t check_ground_truth(const fs::path& path) {
   return lines;
 }
 
-/// Calls a writer of MRPT, which may add suffixes to the file name. Its files appear complete or not at all.
+/// Calls a writer of MRPT, which may add suffixes to the file name. The files appear complete or not at all.
 void write_named(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   write_files_atomically(path.parent_path(),
                          [&](const fs::path& temporary) { write(temporary / path.filename()); });

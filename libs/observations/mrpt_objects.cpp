@@ -28,7 +28,7 @@ struct EvenRays {
   double worst_rad = 0;  ///< largest angle between a beam and its ray
 };
 
-/// Assigns each beam to the nearest of `count` even rays from the first to the last bearing.
+/// Assigns each beam to the nearest of `count` evenly spaced rays from the first to the last bearing.
 EvenRays spread(const std::vector<float>& bearings, std::size_t count) {
   const auto first = static_cast<double>(bearings.front());
   const double step = (static_cast<double>(bearings.back()) - first) / static_cast<double>(count - 1);

@@ -47,8 +47,8 @@ class RawlogLasers {
       : options_(options), chosen_(laser_choice("log.laser", options.laser)) {}
 
   /// Converts a scan, or returns nothing if its laser is not read. Throws UserError that starts with `place`
-  /// if RawlogLaser does. Also throws if two lasers have the same pose on the robot, which means that the
-  /// poses were never set.
+  /// for the errors of RawlogLaser::scan(). Also throws it if two lasers without a mount in the options have
+  /// the same pose on the robot, which means that the poses were never set.
   std::optional<LaserScan> scan(const mrpt::obs::CObservation2DRangeScan& observation,
                                 const std::string& place);
 
@@ -56,7 +56,7 @@ class RawlogLasers {
   struct Laser {
     std::string label;
     RawlogLaser reader;
-    mrpt::poses::CPose3D robot_T_sensor;  // of the laser's first scan
+    mrpt::poses::CPose3D robot_T_sensor;  // sensor pose in the laser's first scan
     bool is_stated = false;               // whether the user states the laser's mount
   };
 

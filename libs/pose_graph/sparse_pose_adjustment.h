@@ -4,12 +4,12 @@
 // minimises the weighted error with a sparse Cholesky factorisation; robust kernels rho enter by iterative
 // reweighting.
 //
-// It differs from the paper in three points, which handle the large first errors of a long loop. Steps are
-// Gauss-Newton steps until one fails. If E after a step far exceeds the linearised prediction, it solves for
-// the headings alone and then for the positions alone. These two linear problems are solved at most once per
-// call (Carlone et al., "A fast and accurate approximation for planar pose graph optimization", IJRR 2014). E
-// may rise for two steps if it then reaches a new minimum (the watchdog of Chamberlain et al., 1982);
-// otherwise the steps are damped.
+// The solver differs from the paper in three points, which handle the large first errors of a long loop.
+// Steps are Gauss-Newton steps until one fails. If E after a step far exceeds the linearised prediction, it
+// solves for the headings alone and then for the positions alone. These two linear problems are solved at
+// most once per call (Carlone et al., "A fast and accurate approximation for planar pose graph optimization",
+// IJRR 2014). E may rise for two steps if it then reaches a new minimum (the watchdog of Chamberlain et al.,
+// 1982); otherwise the steps are damped.
 #pragma once
 
 #include <vector>
@@ -26,8 +26,8 @@ struct PoseAdjustmentOptions {
   double initial_lambda = 0;         ///< damping of the first step; 0 is a Gauss-Newton step
   RobustKernel odometry_kernel;      ///< kernel for constraints between successive nodes
   RobustKernel local_map_kernel;     ///< kernel for constraints of local maps and of starts of runs
-  /// Kernel for loops. Huber's kernel is convex, so that a true loop is closed after any drift; with a kernel
-  /// that bounds the cost it may stay open. If loops can be false, use optimize_graduated().
+  /// Kernel for loops. Huber's kernel is convex, so that a true loop is closed after any drift. With a kernel
+  /// that bounds the cost, a true loop may stay open. If loops can be false, use optimize_graduated().
   RobustKernel loop_kernel{RobustKernel::Type::kHuber, 3};
 };
 

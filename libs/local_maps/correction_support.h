@@ -15,8 +15,8 @@ inline constexpr double kPersonReach_m = 0.4;
 
 /// Mean scores of the scan's points at two poses, in [0, 1].
 struct CorrectionScores {
-  double matched = 0;  ///< at the matched pose
-  double held = 0;     ///< at the pose kept close to odometry
+  double matched = 0;  ///< mean score at the matched pose
+  double held = 0;     ///< mean score at the pose kept close to odometry
 };
 
 /// Returns the mean scores at two poses in the frame of `grid`. Excludes the points within kPersonReach_m of

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The front end predicts the pose of each scan and matches the scan with the active local map (equations 1
-// and 2). It inserts the scan if the robot moved enough. Odometry gives the prediction, or else the
-// constant-velocity model.
+// and 2). It inserts the scan if the robot moved enough. Odometry gives the prediction; without odometry, the
+// constant-velocity model does.
 //
 // The front end works in a continuous frame, "local", which loop closing never moves. The mapper knows the
 // pose of this frame in the map. At most two local maps are active at a time, and successive local maps
@@ -72,7 +72,7 @@ struct FrontEndOptions {
   // the robot along a bare corridor causes such corrections: the mapped path becomes too short. A correction
   // is doubtful if the pose held to odometry scores at least `held_share` of the matched pose's score. It is
   // also doubtful if this holds without the person-sized spot of the scan that supports the match most. The
-  // sum of doubtful corrections decays by 1/e per `doubtful_correction_travel_m` of travel. A correction that
+  // sum of doubtful corrections falls to 1/e over `doubtful_correction_travel_m` of travel. A correction that
   // would raise the sum above `max_doubtful_correction_m` is not applied. So doubtful corrections can correct
   // a scale error of odometry of at most max_doubtful_correction_m / doubtful_correction_travel_m.
   double held_share = 0.9;
@@ -91,8 +91,8 @@ struct FrontEndOptions {
   // A scan becomes a node if the robot moved this far or turned by this angle since the last node.
   double node_distance_m = 0.15;
   double node_rotation_rad = radians_from_degrees(6.0L);
-  /// A local map ends after this number of nodes or after this path of the robot. The next local map begins
-  /// when the map has reached half of either limit.
+  /// A local map ends after this number of nodes or after this path length. The next local map begins when
+  /// the current one has reached half of either limit.
   std::size_t nodes_per_local_map = 80;
   double local_map_travel_m = 15.0;
   /// All active local maps end if at least two successive scans were not matched and the robot has travelled
@@ -145,7 +145,7 @@ class FrontEnd {
  private:
   /// Predicted motion since the last scan.
   struct Motion {
-    mrpt::math::TPose2D predicted;  ///< by odometry or the constant-velocity model, in the last pose's frame
+    mrpt::math::TPose2D predicted;  ///< motion by odometry or constant velocity, in the last pose's frame
     bool measured = true;           ///< false: there is no odometry
     double length_m = 0;
     double turn_rad = 0;

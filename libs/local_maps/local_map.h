@@ -64,7 +64,7 @@ class LocalMap {
   const ScoreGrid& scores();
   /// Returns the updated score grid with its pyramid, for a search in a wide window.
   const ScoreGrid& scores_with_pyramid();
-  const ScoreGrid& scores() const { return scores_; }  ///< score grid of a finished map
+  const ScoreGrid& scores() const { return scores_; }  ///< score grid without update, for a finished map
 
   /// Ends the insertion of scans: builds the pyramid and frees the occupancy grid.
   void finish();
@@ -119,7 +119,7 @@ class LocalMap {
   std::uint16_t scan_ = 0;
   Region dirty_;
   ScoreGrid scores_;
-  std::vector<std::uint8_t> observed_;  ///< of a finished map: 1 for each 2 x 2 block with an observed cell
+  std::vector<std::uint8_t> observed_;  ///< 1 for each 2 x 2 block with an observed cell; finished maps only
   PackedBytes packed_scores_;           ///< filled by the first pack(), like packed_observed_
   PackedBytes packed_observed_;
   bool packed_ = false;

@@ -15,7 +15,7 @@ using Point = mrpt::math::TPoint2Df;
 
 constexpr std::ptrdiff_t kReach = 3;      // largest number of neighbours on each side used to fit a line
 constexpr float kMaxGap_m = 0.4F;         // largest gap between neighbours on one surface
-constexpr float kMaxGapPerMetre = 0.15F;  // largest gap per metre of range, if larger; for grazing angles
+constexpr float kMaxGapPerMetre = 0.15F;  // the same limit per metre of range; the larger limit applies
 constexpr float kMaxResidual_m = 0.04F;   // largest root mean square distance of points from their line
 
 bool on_one_surface(const Point& a, const Point& b) {

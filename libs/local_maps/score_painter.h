@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Converts occupancy to scores, M of equation 1. The evidence of a cell grows from 0 at an occupancy
-// probability of 0.5 to 1 at kCertain. Free and unknown cells have no evidence, so unobserved space attracts
-// no scans. A Gaussian with the standard deviation of the range noise spreads the evidence. A straight wall,
-// one cell thick, scores 1 at its middle.
+// probability of 0.5 to 1 at 0.65. Free and unknown cells have no evidence, so unobserved space attracts no
+// scans. A Gaussian with the standard deviation of the range noise spreads the evidence. A straight wall, one
+// cell thick, scores 1 at its middle.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

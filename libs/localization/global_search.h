@@ -35,8 +35,8 @@ class GlobalSearch {
  public:
   GlobalSearch(ReferenceMap map, const GlobalSearchOptions& options);
 
-  /// Finds the pose of the robot at `node` from the scan of the node and the scans before it. Returns the
-  /// best place even if it is rejected, with the objection.
+  /// Finds the pose of the robot at `node` from the scan of the node and the scans before it. Also returns a
+  /// rejected place; FoundPlace::objection then says why.
   FoundPlace find(std::size_t node, const KeyframeStore& memory, const MatchSeed& seed) const;
 
   const ReferenceMap& map() const { return map_; }

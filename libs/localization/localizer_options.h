@@ -24,7 +24,7 @@ struct GlobalSearchOptions {
   double min_response = 0.5;        ///< smallest response at the place found
   double max_ambiguity = 0.87;      ///< largest ratio of the next best place's response to the best response
   double min_observed_share = 0.5;  ///< smallest share of the scans' points in space that the map shows
-  double min_agree = 0.75;          ///< of the points in space that the map shows: smallest share on walls
+  double min_agree = 0.75;          ///< smallest share of the points in mapped space that lie on walls
   double min_clear_share = 0.9;     ///< smallest share of the scans' beams that cross no wall of the map
 };
 
@@ -45,7 +45,7 @@ struct LocalizerOptions {
   double start_window_rad = radians_from_degrees(15.0L);
   double min_response = 0.3;
   double min_observed_share = 0.5;  ///< smallest share of a scan's points in space that the map shows
-  double min_agree = 0.6;           ///< of the points in space that the map shows: smallest share on walls
+  double min_agree = 0.6;           ///< smallest share of the points in mapped space that lie on walls
   double max_misfit_m = 2.0;        ///< the robot counts as lost after more travel without a fitting scan
   double max_misfit_s = 5.0;        ///< the robot counts as lost after more time without a fitting scan
 };

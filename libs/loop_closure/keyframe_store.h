@@ -29,7 +29,7 @@ struct KeyframeStore {
   std::shared_ptr<LocalMapCache> cache;    ///< holds the same local maps; null: no local map is ever packed
 };
 
-/// Returns an empty store with a cache. The cache keeps 48 local maps unpacked, enough for one area.
+/// Returns an empty store with a cache, which keeps the 48 most recently used local maps unpacked.
 KeyframeStore make_keyframe_store();
 
 /// Appends the node of a front-end step. `frame` is the number of the scan in the log, from 0.

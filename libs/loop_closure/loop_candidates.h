@@ -33,7 +33,7 @@ struct LoopCandidateOptions {
 
 struct LoopCandidate {
   std::size_t local_map = 0;          ///< index in KeyframeStore::local_maps
-  mrpt::math::TPose2D anchor_T_node;  ///< centre of the window; loop_candidates() predicts it by the graph
+  mrpt::math::TPose2D anchor_T_node;  ///< centre of the window: predicted pose, or middle of the local map
   SearchExtent extent;
   double distance_m = 0;  ///< distance from the predicted position to the nearest node of the local map
 };

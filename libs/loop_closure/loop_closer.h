@@ -29,7 +29,7 @@ struct LoopClosureOptions {
 
 class LoopCloser {
  public:
-  /// `run_seed` becomes MatchSeed::run.
+  /// Creates a loop closer. `run_seed` becomes MatchSeed::run.
   LoopCloser(const LoopClosureOptions& options, std::uint64_t run_seed)
       : options_(options), run_seed_(run_seed) {}
 

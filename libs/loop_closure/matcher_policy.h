@@ -36,7 +36,7 @@ class MatcherPolicy {
  private:
   std::optional<MatcherKind> choice_;
   PsiOptions psi_;
-  /// Matchers by kind; null if never chosen.
+  /// Matchers by kind; null for a kind that is never chosen.
   std::array<std::unique_ptr<const Matcher>, kMatcherKinds.size()> matchers_;
 };
 

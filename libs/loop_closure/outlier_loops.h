@@ -19,7 +19,7 @@ namespace psi_slam {
 /// Share of contradicted loops above which select_inlier_loops() is needed.
 inline constexpr double kDoubtfulShare = 0.2;
 
-/// Optimises the graph. Enables and disables the constraints `loops` until no enabled one has a residual
+/// Optimises the graph. Enables and disables the constraints `loops` until no enabled loop has a residual
 /// above `max_chi` standard deviations. Returns the residuals in the order of `loops`. If `doubtful_share` is
 /// 1, never calls select_inlier_loops().
 std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,

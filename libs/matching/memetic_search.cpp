@@ -15,7 +15,7 @@ namespace {
 
 struct Individual {
   Chromosome chromosome = 0;
-  Candidate best;  // best pose of its tile
+  Candidate best;  // best pose of the individual's tile
 };
 
 bool fitter(const Individual& a, const Individual& b) {

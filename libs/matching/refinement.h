@@ -6,7 +6,7 @@
 //
 // Here s is the standard deviation of one point's score, T the pose x as a transform, and P the covariance of
 // the prior. The information matrix of the match is J^T J / s^2, the Gauss-Newton approximation of the second
-// derivative. Along a corridor it is nearly singular.
+// derivative. In a corridor, this matrix is nearly singular.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

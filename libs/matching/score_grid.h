@@ -96,8 +96,8 @@ class ScoreGrid {
   /// Returns level i of the pyramid, which has stride kStrides[i].
   const ScoreLevel& pyramid(std::size_t i) const { return pyramid_[i]; }
 
-  /// Score interpolated between cell centres by Catmull-Rom cubic splines, where 1 is score 255, and its
-  /// gradient in 1/m. Value and gradient are zero outside the grid.
+  /// Score, divided by 255, and its gradient in 1/m, interpolated between cell centres by Catmull-Rom cubic
+  /// splines. Value and gradient are zero outside the grid.
   struct Sample {
     double value;
     double d_dx;

@@ -42,7 +42,8 @@ class WindowTiles : public TileSpace {
   static constexpr int kSide = 16;   ///< side of a block in shifts: the lanes of the sum kernel
   static constexpr int kWhole = 32;  ///< a window with at most this many shifts per side is one block
 
-  /// If `gray` is true, codes of neighbours along each axis differ in one bit (Gray code).
+  /// Cuts a window into blocks. If `gray` is true, codes of neighbours along each axis differ in one bit
+  /// (Gray code).
   WindowTiles(const SearchWindow& window, bool gray);
 
   int columns() const { return columns_; }

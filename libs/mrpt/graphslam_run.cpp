@@ -60,7 +60,7 @@ class NoStandardInput {
 /// The window that MRPT's graph-slam engine draws into.
 class GraphSlamWindow {
  public:
-  /// Throws UserError if there is no display.
+  /// Opens the window. Throws UserError if there is no display.
   GraphSlamWindow() {
     constexpr unsigned kWidth_px = 800;
     constexpr unsigned kHeight_px = 600;

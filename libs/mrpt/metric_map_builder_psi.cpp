@@ -189,7 +189,7 @@ struct CMetricMapBuilderPsi::Implementation {
   CPosePDFGaussian start_;
   std::unique_ptr<Mapper> mapper_;  // null after finish()
   std::optional<EntryFrames> entries_;
-  // Observations that are not mapped yet, with the index of the scan that they arrived with.
+  // Observations that are not mapped yet. Each entry has the index of the scan with which these arrived.
   std::deque<std::pair<std::size_t, CSensoryFrame::Ptr>> waiting_observations_;
 
   std::vector<std::size_t> node_frames_;

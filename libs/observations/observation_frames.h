@@ -74,7 +74,8 @@ class ObservationFrames {
  public:
   enum class Odometry { kUndecided, kActions, kObservations };
 
-  /// If `odometry` is kUndecided, the kind of odometry that comes first is used.
+  /// Prepares to read the lasers that `options` choose. If `odometry` is kUndecided, uses the kind of
+  /// odometry that comes first.
   explicit ObservationFrames(const LogOptions& options, Odometry odometry = Odometry::kUndecided);
 
   void take(const mrpt::obs::CActionCollection& action);

@@ -140,7 +140,8 @@ auto in_engine(const Work& work) {
 std::size_t check_ground_truth(const fs::path& path) {
   constexpr std::size_t kWords = 4;
   std::ifstream file(path);
-  if (!file) throw UserError(path.string() + " cannot be read, expected a ground truth file. Check the path");
+  if (!file)
+    throw UserError(path.string() + " cannot be read, expected a ground truth file. Check the path");
   std::size_t lines = 0;
   for (std::string line; std::getline(file, line);) {
     ++lines;

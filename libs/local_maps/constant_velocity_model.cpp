@@ -16,8 +16,8 @@ constexpr double kMedianStep = 0.05;          // relative change of the running 
 constexpr double kBackwardStepsKept = 0.995;  // factor of the number of backward steps with each scan
 constexpr double kUnreliableBackwardSteps = 0.3;
 
-/// Rotates the translation of a motion by an angle. Rotated by minus half its turn, the translation of an arc
-/// points straight ahead.
+/// Rotates the translation of a motion by an angle. Rotation by minus half the turn of an arc makes its chord
+/// point straight ahead.
 TPose2D turned(const TPose2D& motion, double angle_rad) {
   const double c = std::cos(angle_rad);
   const double s = std::sin(angle_rad);

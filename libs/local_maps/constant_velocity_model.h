@@ -15,7 +15,7 @@ namespace psi_slam {
 struct ConstantVelocityOptions {
   double acceleration_mps2 = 1.0;  ///< standard deviation of the acceleration
   double turn_acceleration_radps2 = radians_from_degrees(90.0L);
-  double unknown_speed_mps = 0.5;  ///< standard deviation of the speed while it is unknown
+  double unknown_speed_mps = 0.5;  ///< standard deviation of the speed while the speed is unknown
   double unknown_turn_radps = radians_from_degrees(30.0L);
   double longest_s = 2.0;  ///< after this time without a match, the speed counts as unknown
 };
@@ -32,12 +32,12 @@ class ConstantVelocityModel {
  public:
   explicit ConstantVelocityModel(const ConstantVelocityOptions& options = {}) : options_(options) {}
 
-  /// Adds the pose of a scan, in any fixed frame. If `matched` is false, the pose was only predicted and does
-  /// not change the speed.
+  /// Adds the pose of a scan, in any fixed frame. If `matched` is false, the pose is only a prediction and
+  /// does not change the speed. The first pose always counts as matched.
   void moved(TimeUs time_us, const mrpt::math::TPose2D& local_T_robot, bool matched);
 
-  /// Predicts the motion since the last pose. Returns zero motion before the first pose. Treats a time before
-  /// that of the last pose as zero elapsed time.
+  /// Predicts the motion from the last pose to `time_us`. Returns zero motion before the first pose and while
+  /// the speed is unknown. A time before the last pose counts as zero elapsed time.
   PredictedMotion predict(TimeUs time_us) const;
 
  private:

@@ -30,12 +30,13 @@ constexpr double kResponseWeight = 0.2;  // weight of one scan in the expected r
 constexpr double kLeastExpected = 0.25;  // lower bound of the expected response
 constexpr double kWiderBy = 1.5;         // smallest ratio of wide to narrow half-widths for a wide search
 constexpr double kHalfWeight_s = 0.5;    // time after which the disagreement with the last step counts half
-// For the search of a wide window: largest number of points, and largest distance that determines the step of
-// the heading. The match is refined with all points.
+// Limits for the search of a wide window: number of points, and the farthest distance from which the heading
+// step is computed. The match is then refined with all points.
 constexpr std::size_t kCoarsePoints = 120;
 constexpr double kCoarseFarthest_m = 30;
 
-// Returns a part of a scan that a wide window is searched with: evenly spread points.
+// Returns at most kCoarsePoints points of a scan, at even steps of the index, for the search of a wide
+// window.
 ScanPoints coarse_scan(const ScanPoints& scan) {
   ScanPoints coarse;
   coarse.farthest_m = std::min(scan.farthest_m, kCoarseFarthest_m);
@@ -59,7 +60,7 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
   doubtful_correction_m_ *= std::exp(-motion.length_m / options_.doubtful_correction_travel_m);
   step.local_T_robot = last_local_T_robot_ + motion.predicted;
   step.window = search_extent(motion);
-  // A scan without points, or with points only at the robot, cannot be matched (see make_search_window).
+  // Without a point farther than one cell from the robot, make_search_window() may throw.
   const bool blind =
       step.points->points.empty() || step.points->farthest_m <= options_.local_map.resolution_m;
   if (!active_.empty() && !blind) match(step, motion);
@@ -115,7 +116,7 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(TimeUs time_us) const {
 }
 
 SearchExtent FrontEnd::search_extent(const Motion& motion) const {
-  const double widening = 1 + misses_;  // with each successive scan without a match
+  const double widening = 1 + misses_;  // grows with each successive scan without a match
   const double half_m =
       widening * (options_.window_m + options_.window_per_metre * motion.length_m + motion.disagreement_m);
   const double half_rad = widening * (options_.window_rad + options_.window_rad_per_metre * motion.length_m +
@@ -136,8 +137,8 @@ PosePrior FrontEnd::prior(const TPose2D& map_T_robot, const Motion& motion) cons
   return prior;
 }
 
-// The error of odometry can be as large as the whole motion, for example if it reports a reversal as forward
-// motion.
+// Returns a window for large errors of odometry. The error can be twice the motion, for example if odometry
+// reports a reversal as forward motion.
 SearchExtent FrontEnd::wide_extent(const Motion& motion) const {
   const double half_m =
       std::min(options_.max_wide_window_m,
@@ -160,8 +161,8 @@ MatchResult FrontEnd::search(FrontEndStep& step, const ScanPoints& scan, const S
   return match;
 }
 
-/// Searches the wide window, and stores it in step.window if it has a match. Returns nothing if the window is
-/// hardly wider than step.window, or if no response exceeds the poor response by wide_response_gain.
+/// Searches the wide window. Stores the window in step.window if it contains a match. Returns nothing if the
+/// window is hardly wider than step.window, or if no response reaches the limit of wide_response_gain.
 std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Motion& motion,
                                                    double poor_response) {
   SearchExtent wide = wide_extent(motion);
@@ -189,7 +190,7 @@ void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const PlacedLocalMap& older = active_.front();
   const ScoreGrid& grid = older.map->scores();
   std::vector<TPose2D> hypotheses = {motion.predicted};
-  // Odometry that disagrees so much with the last motion may be wrong.
+  // If odometry disagrees this much with the last motion, it may be wrong. Then tries the last motion too.
   if (motion.disagreement_m > options_.max_window_m || motion.disagreement_rad > options_.max_window_rad)
     hypotheses.push_back(last_motion_);
   MatchResult best;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The front end predicts the pose of each scan and matches the scan with the active local map (equations 1
-// and 2). It inserts the scan if the robot moved enough. Odometry gives the prediction, or else the
-// constant-velocity model.
+// and 2). It inserts the scan if the robot moved enough. Odometry gives the prediction; without odometry, the
+// constant-velocity model does.
 //
 // The front end works in a continuous frame, "local", which loop closing never moves. The mapper knows the
 // pose of this frame in the map. At most two local maps are active at a time, and successive local maps
@@ -30,8 +30,9 @@ struct FrontEndOptions {
   LocalMapOptions local_map;
   RefinementOptions refinement;
 
-  // Search window: half-widths for a robot at rest, and their growth with the motion by odometry. The
-  // disagreement of odometry with the motion of the last step is added, see Motion.
+  // Half-widths of the search window for a robot at rest, and their growth with the predicted motion. The
+  // disagreement of odometry with the last motion is added, see Motion. Each successive scan without a match
+  // widens the window, up to the maximum.
   double window_m = 0.15;
   double window_rad = radians_from_degrees(7.0L);
   double window_per_metre = 0.3;
@@ -47,34 +48,35 @@ struct FrontEndOptions {
   /// A match below this share of the expected response is poor: the error of odometry may exceed the window.
   /// The front end then searches a wide window.
   double poor_response_share = 0.75;
-  /// Smallest ratio of the response in the wide window to the poor response. Without a match, it is the ratio
-  /// to the response that a match needs.
+  /// A match in the wide window must reach this multiple of the poor response, and this multiple of the
+  /// response that a match needs.
   double wide_response_gain = 1.6;
-  double wide_window_per_motion = 2.0;  ///< growth of the wide window per metre or radian of motion
+  double wide_window_per_motion = 2.0;  ///< growth of the wide half-widths per metre or radian of motion
   double max_wide_window_m = 2.5;
   double max_wide_window_rad = radians_from_degrees(60.0L);
   /// Prediction for scans without odometry. Their wide window may span all headings.
   ConstantVelocityOptions constant_velocity;
 
-  // Standard deviations of the prediction, for a robot at rest, and their growth with the motion and with its
-  // disagreement (see Motion). The prediction determines the pose where the scan does not, as along a
-  // corridor.
+  // Standard deviations of the predicted pose for a robot at rest, and their growth with the motion and with
+  // Motion::disagreement_m and disagreement_rad. The prediction determines the pose where the scan does not,
+  // as along a corridor.
   double prior_sigma_m = 0.02;
   double prior_sigma_rad = radians_from_degrees(6.0L);
   double prior_per_metre = 0.1;
   double prior_per_radian = 0.5;
   double prior_per_surprise = 0.5;
-  /// The pose refined directly from the prediction replaces the searched pose if it reaches this share of the
-  /// searched pose's score. Along a corridor, noise decides where the search finds its best pose.
+  /// The pose refined directly from the prediction replaces the searched pose if its score is at least this
+  /// share of the searched pose's score. Along a corridor, noise decides where the search finds its best
+  /// pose.
   double prediction_share = 0.95;
 
   // Only a small part of the scan supports a doubtful correction of the odometry. A person who walks ahead of
   // the robot along a bare corridor causes such corrections: the mapped path becomes too short. A correction
-  // is doubtful if the pose held to odometry scores at least `held_share` of the match. The comparison is
-  // repeated without the spot of the scan, as small as a person, that supports the match most. Doubtful
-  // corrections are summed, and the sum decays over `doubtful_correction_travel_m` of travel. A correction
-  // that would raise the sum above `max_doubtful_correction_m` is not applied. So doubtful corrections can
-  // correct a scale error of odometry of at most max_doubtful_correction_m / doubtful_correction_travel_m.
+  // is doubtful if the pose held to odometry scores at least `held_share` of the matched pose's score. It is
+  // also doubtful if this holds without the person-sized spot of the scan that supports the match most. The
+  // sum of doubtful corrections falls to 1/e over `doubtful_correction_travel_m` of travel. A correction that
+  // would raise the sum above `max_doubtful_correction_m` is not applied. So doubtful corrections can correct
+  // a scale error of odometry of at most max_doubtful_correction_m / doubtful_correction_travel_m.
   double held_share = 0.9;
   double max_doubtful_correction_m = 0.2;
   double doubtful_correction_travel_m = 4.5;
@@ -88,14 +90,15 @@ struct FrontEndOptions {
   double odometry_sigma_rad_per_metre = radians_from_degrees(1.3L);
   double odometry_sigma_rad_per_radian = radians_from_degrees(2.0L);
 
-  double node_distance_m = 0.15;  ///< a scan becomes a node if the robot moved this far since the last node,
-  double node_rotation_rad = radians_from_degrees(6.0L);  ///< or turned by this angle
-  /// A local map ends after this number of nodes or after this path of the robot. The next local map begins
-  /// when the map has reached half of either limit.
+  // A scan becomes a node if the robot moved this far or turned by this angle since the last node.
+  double node_distance_m = 0.15;
+  double node_rotation_rad = radians_from_degrees(6.0L);
+  /// A local map ends after this number of nodes or after this path length. The next local map begins when
+  /// the current one has reached half of either limit.
   std::size_t nodes_per_local_map = 80;
   double local_map_travel_m = 15.0;
-  /// All local maps end if at least two successive scans were not matched and the robot has travelled this
-  /// far since the last match. The error of odometry over this path would distort the maps.
+  /// All active local maps end if at least two successive scans were not matched and the robot has travelled
+  /// this far since the last match. The error of odometry over this path would distort the maps.
   double max_unmatched_travel_m = 0.5;
 };
 
@@ -106,19 +109,19 @@ struct FrontEndStep {
   double response = 0;
   SearchExtent window;
   std::int64_t evaluations = 0;
-  /// Information matrix of the match, along the axes of the older active map.
+  /// Information matrix of the matched (x, y, theta), along the axes of the older active map; 0 if unmatched.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   std::shared_ptr<const ScanPoints> points;
 
   std::optional<std::size_t> node;  ///< number of the scan's node, from 0; empty if it became no node
   /// Pose of this node in one local map. `memberships` excludes maps that begin with this node. It includes
-  /// maps that end at this node because of unmatched scans: they do not hold this scan, but link the node to
-  /// the graph.
+  /// maps that end at this node because of unmatched scans. Such a map does not hold this scan, but links the
+  /// node to the graph.
   struct Membership {
     std::size_t local_map;
     std::size_t anchor;
     mrpt::math::TPose2D anchor_T_node;
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of anchor_T_node, along the anchor's axes
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of anchor_T_node, anchor's axes
   };
   std::vector<Membership> memberships;   ///< poses of the node in its local maps, older first
   std::vector<PlacedLocalMap> finished;  ///< local maps that ended at this node, older first
@@ -135,7 +138,7 @@ class FrontEnd {
   std::vector<PlacedLocalMap> finish();
 
   /// Begins another run, whose start is unrelated to the last pose. The pose of the next scan becomes the
-  /// origin of the frame "local". Numbers of nodes and local maps continue. Call finish() before.
+  /// origin of the frame "local". The numbering of nodes and local maps continues. Call finish() first.
   void begin_run();
 
   /// Local maps that scans are inserted into, older first, at most two.
@@ -144,16 +147,16 @@ class FrontEnd {
  private:
   /// Predicted motion since the last scan.
   struct Motion {
-    mrpt::math::TPose2D predicted;  ///< by odometry or the constant-velocity model, in the last pose's frame
+    mrpt::math::TPose2D predicted;  ///< motion by odometry or constant velocity, in the last pose's frame
     bool measured = true;           ///< false: there is no odometry
     double length_m = 0;
     double turn_rad = 0;
-    /// Disagreement of odometry with the motion of the last step. It reveals slipping wheels, stalling
-    /// encoders and late time stamps, and counts less the more time has passed. Without odometry: sigma_m and
-    /// sigma_rad.
+    /// Difference between the motion by odometry and the motion of the last step, reduced as the time between
+    /// scans grows. A large difference reveals slipping wheels, stalling encoders or late time stamps.
+    /// Without odometry, the values of sigma_m and sigma_rad.
     double disagreement_m = 0;
     double disagreement_rad = 0;
-    double sigma_m = 0;  ///< standard deviations, for the covariance of the poses
+    double sigma_m = 0;  ///< standard deviations of the motion, for the covariance of the poses
     double sigma_rad = 0;
   };
   Motion motion_to(const Frame& frame) const;
@@ -168,8 +171,8 @@ class FrontEnd {
   std::optional<MatchResult> search_widely(FrontEndStep& step, const Motion& motion, double poor_response);
   /// Decides whether to apply the correction of odometry by a match, and updates the sum of doubtful
   /// corrections. Returns nothing if the correction is applied. If the sum would become too large (see
-  /// FrontEndOptions), returns the pose held to the prediction in the direction of the correction. Its
-  /// information in that direction is zero.
+  /// FrontEndOptions), returns the pose held to the prediction in the direction of the correction. The
+  /// information of this pose is zero in that direction.
   std::optional<RefinedPose> held_to_odometry(const ScoreGrid& grid, const ScanPoints& scan,
                                               const RefinedPose& matched, const PosePrior& prior);
   void propagate_covariances(const FrontEndStep& step, const Motion& motion);

@@ -120,8 +120,8 @@ void LocalMap::insert(const std::vector<Beams>& scans) {
   for (const Way& way : ways) draw_way(way.from_x, way.from_y, way.to_x, way.to_y);
 }
 
-// Draws the hits of one scan. Appends the beams that lead to them to `ways`, which insert() draws after all
-// hits.
+// Draws the hits of one scan and the surfaces between them. Appends all its beams to `ways`, which insert()
+// draws after the hits of all scans.
 void LocalMap::draw_hits(const Beams& beams, std::vector<Way>& ways) {
   const int origin_x = grid_->x2idx(beams.origin.x);
   const int origin_y = grid_->y2idx(beams.origin.y);
@@ -173,6 +173,7 @@ const ScoreGrid& LocalMap::scores_with_pyramid() {
 }
 
 // Returns the smallest region that holds all observed cells and the cells within reach of their smoothing.
+// Returns one cell if no cell was observed.
 LocalMap::Region LocalMap::observed_region() const {
   const int width = static_cast<int>(grid_->getSizeX());
   const int height = static_cast<int>(grid_->getSizeY());

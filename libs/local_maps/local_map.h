@@ -35,7 +35,7 @@ struct LocalMapOptions {
 struct Beams {
   mrpt::math::TPoint2D origin;
   std::vector<mrpt::math::TPoint2D> ends;
-  std::vector<bool> hits;  ///< for each end; false: the beam was cut at the largest range
+  std::vector<bool> hits;  ///< for each end, true: a return; false: the beam was cut at the largest range
   /// For each end, whether it lies on one surface with the end before it. Empty: false for all ends.
   std::vector<bool> joined{};
 };
@@ -48,8 +48,8 @@ class LocalMap {
   LocalMap(const LocalMapOptions& options, const mrpt::maps::COccupancyGridMap2D& drawn);
 
   /// Draws a scan. Cells at beam ends, and between ends on one surface, become more occupied. Cells along the
-  /// beams become less occupied. A scan changes each cell at most once; surfaces take precedence. Must not be
-  /// called after finish().
+  /// beams become less occupied. A scan changes each cell at most once; surfaces take precedence over beams.
+  /// Must not be called after finish().
   void insert(const Beams& beams) { insert(std::vector<Beams>{beams}); }
 
   /// Draws simultaneous scans of several lasers as one scan, so that no beam of one laser erases the beam
@@ -64,14 +64,14 @@ class LocalMap {
   const ScoreGrid& scores();
   /// Returns the updated score grid with its pyramid, for a search in a wide window.
   const ScoreGrid& scores_with_pyramid();
-  const ScoreGrid& scores() const { return scores_; }  ///< score grid of a finished map
+  const ScoreGrid& scores() const { return scores_; }  ///< score grid without update, for a finished map
 
   /// Ends the insertion of scans: builds the pyramid and frees the occupancy grid.
   void finish();
   bool finished() const { return finished_; }
 
-  /// Packs or unpacks a finished map; does nothing if the map already is in that state. A packed map has no
-  /// scores, and agreement() throws std::logic_error. Not thread-safe.
+  /// Packs or unpacks a finished map. Does nothing if the map is unfinished or already in that state. A
+  /// packed map has no scores, and agreement() throws std::logic_error. Not thread-safe.
   void pack();
   void unpack();
   bool packed() const { return packed_; }
@@ -119,7 +119,7 @@ class LocalMap {
   std::uint16_t scan_ = 0;
   Region dirty_;
   ScoreGrid scores_;
-  std::vector<std::uint8_t> observed_;  ///< of a finished map: 1 for each 2 x 2 block with an observed cell
+  std::vector<std::uint8_t> observed_;  ///< 1 for each 2 x 2 block with an observed cell; finished maps only
   PackedBytes packed_scores_;           ///< filled by the first pack(), like packed_observed_
   PackedBytes packed_observed_;
   bool packed_ = false;

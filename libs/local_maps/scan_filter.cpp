@@ -13,9 +13,9 @@ namespace {
 using mrpt::math::TPose2D;
 using Point = mrpt::math::TPoint2Df;
 
-constexpr std::ptrdiff_t kReach = 3;      // largest number of neighbours on each side for a line
-constexpr float kMaxGap_m = 0.4F;         // largest gap between neighbours on one surface,
-constexpr float kMaxGapPerMetre = 0.15F;  // or this share of the range, for walls at grazing angles
+constexpr std::ptrdiff_t kReach = 3;      // largest number of neighbours on each side used to fit a line
+constexpr float kMaxGap_m = 0.4F;         // largest gap between neighbours on one surface
+constexpr float kMaxGapPerMetre = 0.15F;  // the same limit per metre of range; the larger limit applies
 constexpr float kMaxResidual_m = 0.04F;   // largest root mean square distance of points from their line
 
 bool on_one_surface(const Point& a, const Point& b) {
@@ -23,7 +23,8 @@ bool on_one_surface(const Point& a, const Point& b) {
   return gap <= std::max(kMaxGap_m, kMaxGapPerMetre * std::hypot(a.x, a.y));
 }
 
-// Normal of the line through a point and its neighbours; (0, 0) if they do not lie on a line.
+// Returns the unit normal of the line through a point and its neighbours. Returns (0, 0) if these are fewer
+// than 4 points, or do not lie on a line.
 Point normal_at(const std::vector<Point>& points, std::size_t index) {
   const auto size = static_cast<std::ptrdiff_t>(points.size());
   const auto i = static_cast<std::ptrdiff_t>(index);
@@ -67,7 +68,7 @@ ScanPoints points_seen_from(const TPose2D& robot_T_laser, const LaserScan& scan,
   double farthest_squared = 0;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range = static_cast<double>(scan.ranges_m[i]);
-    // Skips beams without a return too.
+    // Also skips beams without a return, whose range is infinite or NaN.
     if (!(range >= options.min_range_m && range <= options.max_range_m)) continue;
     const double bearing = static_cast<double>((*scan.bearings_rad)[i]) + robot_T_laser.phi;
     const double x = robot_T_laser.x + range * std::cos(bearing);

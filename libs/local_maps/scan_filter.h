@@ -31,11 +31,11 @@ struct DrawingOptions {
   double min_range_m = 0.1;    ///< beams with a shorter range are left out
   double max_range_m = 200.0;  ///< longer beams are cut at this range
   /// Surfaces between beams are drawn where the beams are at least this far apart, see ends_on_one_surface().
-  /// Use the standard deviation of range noise, which the smoothing of the local map states.
+  /// Use the standard deviation of range noise: LocalMapOptions::smoothing_sigma_m.
   double min_surface_spacing_m = 0.03;
 };
 
-/// Converts all returns of a scan to beams in the frame of a local map.
+/// Converts the returns of a scan from min_range_m on to beams in the frame of a local map, metres.
 Beams drawing_beams(const LaserScan& scan, const mrpt::math::TPose2D& map_T_robot,
                     const DrawingOptions& options);
 

@@ -27,11 +27,12 @@ MatcherOptions with_quick_ambiguity(MatcherOptions options) {
 }
 
 constexpr int kWallScore = 160;      // of 255; reached inside a wall, but not beside it
-constexpr double kSurface_m = 0.25;  // walls this near to the end of a beam count as the surface that it hit
+constexpr double kSurface_m = 0.25;  // a wall this close in front of the hit surface counts as that surface
 constexpr double kLeastIncidence = 0.05;  // lower bound of the sine of the angle between beam and wall
-constexpr double kNoSurface = 0.5;        // sine of this angle if the surface normal is unknown
+constexpr double kNoSurface = 0.5;        // sine of the angle between beam and wall without a surface normal
 
-/// Returns the length of the last part of a beam that may cross the surface which the beam hit.
+/// Returns the length, in metres, of the end part of a beam in which walls count as the surface that it hit.
+/// (dx, dy) is the unit direction of the beam in the robot's frame.
 double tolerance_m(const ScanPoints& scan, std::size_t i, double dx, double dy) {
   double incidence = kNoSurface;
   if (!scan.normals.empty() && (scan.normals[i].x != 0 || scan.normals[i].y != 0))

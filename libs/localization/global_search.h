@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds a robot in a map without a start pose. The last scans, placed by the robot's own motion, are matched
-// in a window of the whole map and all headings. A coarse grid is searched first, then the map's own cells
-// near the best place. The place is accepted if no other place fits as well, and if the scans do not
-// contradict the map.
+// in a window that covers the whole map and all headings. A coarse grid is searched first, then the map's own
+// cells near the best place. The place is accepted if its response is high enough, no other place fits as
+// well, and the scans do not contradict the map.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace psi_slam {
 
-/// Numbers of beams of a scan that cross no wall of the map. A scan at its true pose has no beam through a
+/// Number of beams of a scan, and of those that cross no wall of the map. At the true pose, no beam crosses a
 /// wall. The ends of the beams alone prove little, because in a large building most ends lie near some wall.
 struct ClearBeams {
   std::size_t beams = 0;  ///< number of all beams
@@ -35,8 +35,8 @@ class GlobalSearch {
  public:
   GlobalSearch(ReferenceMap map, const GlobalSearchOptions& options);
 
-  /// Finds the pose of the robot at `node` from the scan of the node and the scans before it. Returns the
-  /// best place even if it is rejected, with the objection.
+  /// Finds the pose of the robot at `node` from the scan of the node and the scans before it. Also returns a
+  /// rejected place; FoundPlace::objection then says why.
   FoundPlace find(std::size_t node, const KeyframeStore& memory, const MatchSeed& seed) const;
 
   const ReferenceMap& map() const { return map_; }

@@ -14,8 +14,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// The refined prediction replaces the searched pose if it reaches this share of the searched pose's score.
-// Along a corridor, noise decides where the search finds its best pose.
+// The refined prediction replaces the searched pose if its score is at least this share of the searched
+// pose's score. Along a corridor, noise decides where the search finds its best pose.
 constexpr double kPredictionShare = 0.95;
 
 }  // namespace

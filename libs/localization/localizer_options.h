@@ -22,9 +22,9 @@ struct GlobalSearchOptions {
   ScanContextOptions context{15.0, 0.5, 0.2};
 
   double min_response = 0.5;        ///< smallest response at the place found
-  double max_ambiguity = 0.87;      ///< largest response of the next best place, divided by the best
+  double max_ambiguity = 0.87;      ///< largest ratio of the next best place's response to the best response
   double min_observed_share = 0.5;  ///< smallest share of the scans' points in space that the map shows
-  double min_agree = 0.75;          ///< smallest share of points in such space on or beside occupied cells
+  double min_agree = 0.75;          ///< smallest share of the points in mapped space that lie on walls
   double min_clear_share = 0.9;     ///< smallest share of the scans' beams that cross no wall of the map
 };
 
@@ -34,7 +34,7 @@ struct LocalizerOptions {
   LoopConsensusOptions consensus;
   std::uint64_t seed = 1;
 
-  double search_travel_m = 1.0;  ///< while lost: path between searches of the whole map
+  double search_travel_m = 1.0;  ///< while lost: path length per search of the whole map
 
   // Options while tracking.
   double window_m = 0.3;  ///< half-widths of the search window
@@ -45,9 +45,9 @@ struct LocalizerOptions {
   double start_window_rad = radians_from_degrees(15.0L);
   double min_response = 0.3;
   double min_observed_share = 0.5;  ///< smallest share of a scan's points in space that the map shows
-  double min_agree = 0.6;           ///< smallest share of points in such space on or beside occupied cells
-  double max_misfit_m = 2.0;        ///< the robot is lost after more travel without a fitting scan,
-  double max_misfit_s = 5.0;        ///< or after more time without one
+  double min_agree = 0.6;           ///< smallest share of the points in mapped space that lie on walls
+  double max_misfit_m = 2.0;        ///< the robot counts as lost after more travel without a fitting scan
+  double max_misfit_s = 5.0;        ///< the robot counts as lost after more time without a fitting scan
 };
 
 }  // namespace psi_slam

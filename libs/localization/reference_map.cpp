@@ -112,7 +112,7 @@ void check_gridmap(const std::filesystem::path& path, std::string_view bytes) {
   constexpr std::uint8_t kLengthOfName = 0x7F;
   ByteCursor cursor(bytes);
   cursor.take(cursor.number<std::uint8_t>() & kLengthOfName);
-  // Skips the version and, from version 2 on, the bits of a cell.
+  // Skips the version number and, from version 2 on, the number of bits per cell.
   if (cursor.number<std::uint8_t>() >= 2) cursor.number<std::uint8_t>();
   const auto metres = [&] { return static_cast<double>(cursor.number<float>()); };
   const double cells_x = cursor.number<std::uint32_t>();

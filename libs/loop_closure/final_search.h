@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The final loop search (method, step 5): after the last scan, matches every node with every local map near
-// it in a small window. Small windows suffice, because the map is then nearly correct.
+// The final loop search: after the last scan, matches every node with every nearby local map in a small
+// window. Small windows suffice, because the map is then nearly correct.
 #pragma once
 
 #include <cstdint>
@@ -23,19 +23,19 @@ struct FinalSearchOptions {
   int passes = 2;  ///< number of passes, each followed by an optimisation; 0: no final loop search
   double window_m = 0.3;
   double window_rad = radians_from_degrees(3.0L);
-  double reach_m = 5.0;  ///< largest distance between the node and a node of the local map
-  double travel_m = 0;   ///< smallest path between nodes that are matched; 0: matches every node
+  double reach_m = 5.0;  ///< largest distance between a node and the nearest node of a local map
+  double travel_m = 0;   ///< matches the first node of each stretch of this path length; 0: every node
 };
 
 struct FinalSearchOutcome {
-  std::vector<LoopRecord> loops;  ///< all matches, accepted or refused, in the order of local map and node
+  std::vector<LoopRecord> loops;  ///< all matches, accepted or refused, by local map and then by node
   std::map<MatcherKind, LoopEffort> effort;
 };
 
 /// Matches each pair of a node and a nearby local map with `matcher_of(node)`, several pairs in parallel.
-/// Skips pairs for which `known(node, local_map)` is true. `run_seed` becomes MatchSeed::run. Calls
-/// `progress` in the calling thread with the completed share of the pairs; if it returns false, the search
-/// ends.
+/// Skips nodes of the local map itself, and pairs for which `known(node, local_map)` is true. `run_seed`
+/// becomes MatchSeed::run. Calls `progress` in the calling thread with the completed share of the pairs, in
+/// [0, 1]. If `progress` returns false, the search ends.
 FinalSearchOutcome final_search(const KeyframeStore& keyframes, const PoseGraph& graph,
                                 const std::function<ChosenMatcher(std::size_t node)>& matcher_of,
                                 const LoopVerificationOptions& verification,

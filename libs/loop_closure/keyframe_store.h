@@ -29,20 +29,19 @@ struct KeyframeStore {
   std::shared_ptr<LocalMapCache> cache;    ///< holds the same local maps; null: no local map is ever packed
 };
 
-/// Returns an empty store with a cache. The cache keeps the local maps unpacked that a robot needs while it
-/// drives around one place.
+/// Returns an empty store with a cache, which keeps the 48 most recently used local maps unpacked.
 KeyframeStore make_keyframe_store();
 
-/// Appends the node that the front end made of the frame with number `frame`.
+/// Appends the node of a front-end step. `frame` is the number of the scan in the log, from 0.
 void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& keyframes);
 
-/// Standard deviations of a node's pose in a local map, added to the front end's covariance.
+/// Extra noise of a node's pose in a local map. The squares are added to the front end's covariance.
 struct LocalMapNoise {
   double sigma_m = 0;
   double sigma_rad = 0;
 };
 
-/// Adds a constraint to the step's node from the anchor of each of its local maps. The node and the anchors
+/// Adds constraints from the anchors of the step's local maps to the step's node. The node and the anchors
 /// must be in the graph.
 void constrain_to_local_maps(const FrontEndStep& step, const LocalMapNoise& noise, PoseGraph& graph);
 

@@ -21,8 +21,8 @@ class LocalMapCache {
   /// Appends a finished local map. Local maps are numbered from 0.
   void add(std::shared_ptr<LocalMap> map);
 
-  /// Unpacks the given local maps, and packs those unused for longest. Any number of threads may read the
-  /// given local maps until the next call of add() or use(). Ignores unknown numbers.
+  /// Unpacks the given local maps. If too many are then unpacked, packs those unused for longest. Ignores
+  /// unknown numbers. Any number of threads may read the given maps until the next call of add() or use().
   void use(const std::vector<std::size_t>& maps, WorkerPool& pool);
 
   std::size_t unpacked() const { return unpacked_.size(); }

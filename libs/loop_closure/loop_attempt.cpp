@@ -8,8 +8,8 @@
 namespace psi_slam {
 namespace {
 
-// Whether a scan can be searched: it needs a point farther than one cell from the robot (see
-// make_search_window).
+// Returns whether a scan has a point farther than one cell from the robot. make_search_window() throws if all
+// points are within half a cell.
 bool can_be_searched(const ScanPoints& scan, const PlacedLocalMap& local_map) {
   return !scan.points.empty() && scan.farthest_m > std::as_const(*local_map.map).scores().resolution_m();
 }

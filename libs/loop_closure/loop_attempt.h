@@ -17,7 +17,7 @@ struct LoopAttempt {
 };
 
 /// Matches `scan` with one local map and verifies the match. `scan` holds the points of the node or of its
-/// context. `run_seed` becomes MatchSeed::run. Thread-safe.
+/// context. The local map must be unpacked. `run_seed` becomes MatchSeed::run. Thread-safe.
 LoopAttempt attempt_loop(std::size_t node, const ScanPoints& scan, const LoopCandidate& candidate,
                          const KeyframeStore& keyframes, const ChosenMatcher& matcher,
                          const LoopVerificationOptions& verification, std::uint64_t run_seed);

@@ -36,7 +36,7 @@ SearchExtent window_of(const PositionSigma& sigma, const LoopCandidateOptions& o
           half_width(sigma.radians, options.min_window_rad, options.max_window.theta_rad)};
 }
 
-// The window holds all poses within reach of the local map's nodes.
+// Returns a candidate whose window holds all positions within reach_m of the local map's nodes.
 LoopCandidate whole_local_map(std::size_t m, const mrpt::math::TPose2D& map_T_node,
                               const KeyframeStore& keyframes, const PoseGraph& graph,
                               const LoopCandidateOptions& options) {

@@ -33,7 +33,7 @@ struct LoopCandidateOptions {
 
 struct LoopCandidate {
   std::size_t local_map = 0;          ///< index in KeyframeStore::local_maps
-  mrpt::math::TPose2D anchor_T_node;  ///< predicted by the graph: centre of the window
+  mrpt::math::TPose2D anchor_T_node;  ///< centre of the window: predicted pose, or middle of the local map
   SearchExtent extent;
   double distance_m = 0;  ///< distance from the predicted position to the nearest node of the local map
 };
@@ -54,14 +54,14 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore
                                            const PoseGraph& graph, const LoopCandidateOptions& options,
                                            const SigmasOfAnchors& sigmas_of_anchors);
 
-/// Returns the lengths in metres of the chains of constraints from the node to the anchors of these local
-/// maps, in their order. The length is infinite without a chain.
+/// Function that returns the length, in metres, of the chain of constraints from the node to the anchor of
+/// each given local map. The length is infinite without a chain.
 using ChainsToAnchors = std::function<std::vector<double>(const std::vector<std::size_t>& local_maps)>;
 
 /// Returns local maps that drift may have moved out of the reach of loop_candidates(). The assumed drift is
 /// `options.drift_per_metre` times the length of the chain of constraints to the local map. The window covers
 /// the whole local map, because the robot may be near any of its nodes. Calls `chains_to_anchors` at most
-/// once. Asks it only for local maps from which the robot's whole path is long enough for such a drift.
+/// once, for local maps from which the robot's whole path is long enough for such a drift.
 std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore& keyframes,
                                           const PoseGraph& graph, const LoopCandidateOptions& options,
                                           const ChainsToAnchors& chains_to_anchors);

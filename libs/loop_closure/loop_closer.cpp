@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-// Returns the node's uncertainty relative to the anchors of the local maps, in their order.
+// Returns the uncertainty of each local map's anchor relative to the node, in the order of `local_maps`.
 std::vector<RelativeUncertainty> relative_to_anchors(std::size_t node,
                                                      const std::vector<std::size_t>& local_maps,
                                                      const KeyframeStore& keyframes, const PoseGraph& graph,
@@ -26,8 +26,8 @@ std::vector<RelativeUncertainty> relative_to_anchors(std::size_t node,
   return uncertainties;
 }
 
-// Returns the standard deviations of a node relative to an anchor. A heading error at the node counts with
-// the distance.
+// Returns the standard deviations of the relative pose of a node and an anchor. The position error includes
+// the heading error times the distance between node and anchor.
 PositionSigma sigma_of(const RelativeUncertainty& uncertainty, double distance_m) {
   if (!uncertainty.reached) return {kUnknown, kUnknown};
   const double heading = std::sqrt(uncertainty.covariance(2, 2));
@@ -36,8 +36,8 @@ PositionSigma sigma_of(const RelativeUncertainty& uncertainty, double distance_m
 
 }  // namespace
 
-// Returns all candidates with narrow windows, and as many of the others as a node may search. If no candidate
-// has a narrow window, the others include whole local maps within the drift.
+// Returns all candidates with narrow windows, and at most `wide_searches` candidates with wide windows. If no
+// candidate has a narrow window, the wide ones include those of far_candidates().
 std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const KeyframeStore& keyframes,
                                                   const PoseGraph& graph) {
   const auto sigmas_of_anchors = [&](const std::vector<std::size_t>& local_maps) {

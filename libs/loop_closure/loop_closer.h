@@ -23,13 +23,13 @@ struct LoopClosureOptions {
   LoopCandidateOptions candidates;
   LoopVerificationOptions verification;
   ScanContextOptions context;
-  double attempt_distance_m = 0.5;  ///< smallest path between nodes that search for loops
+  double attempt_distance_m = 0.5;  ///< the first node of each stretch of this length searches for loops
   std::size_t wide_searches = 1;    ///< largest number of searches in wide windows per node
 };
 
 class LoopCloser {
  public:
-  /// `run_seed` becomes MatchSeed::run.
+  /// Creates a loop closer. `run_seed` becomes MatchSeed::run.
   LoopCloser(const LoopClosureOptions& options, std::uint64_t run_seed)
       : options_(options), run_seed_(run_seed) {}
 

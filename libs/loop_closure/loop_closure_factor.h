@@ -21,7 +21,7 @@ struct PsiOptions {
   /// exhaustive searches. The windows are widest after a long path without loops, when Psi is 0. In such
   /// windows the other matchers find the same loops in a tenth of the time (psi-slam-bench match).
   double psi_1 = -1;
-  double psi_2 = 1;        ///< kGa searches for Psi >= psi_2, and kCsmGa in between
+  double psi_2 = 1;        ///< kGa searches for Psi >= psi_2, and kCsmGa between psi_1 and psi_2
   int window_frames = 20;  ///< K of equation 13: number of nodes in the mean, >= 1
   double eta_max = 20;     ///< upper bound of eta, which is infinite at the start
 };
@@ -30,8 +30,8 @@ class LoopClosureFactor {
  public:
   explicit LoopClosureFactor(const PsiOptions& options) : options_(options) {}
 
-  /// Adds the motion to a scan. `odometry_m` is the length of the motion by odometry since the last scan.
-  /// `robot` is the robot's position in the map. The first position is t_0. Call for every scan.
+  /// Adds the motion since the last scan, which has the length `odometry_m` by odometry. `robot` is the
+  /// robot's position in the map; the first position is t_0. Call for every scan.
   void move(double odometry_m, const mrpt::math::TPoint2D& robot);
 
   struct Value {

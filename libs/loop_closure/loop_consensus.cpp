@@ -16,8 +16,8 @@ double weight(const LoopConsensus::Vote& vote) {
 
 }  // namespace
 
-// Moves the robot pose of match `a` along the path to the scan of `b`, and compares it with that of match
-// `b`.
+// Returns whether two matches imply the same robot pose at the scan of `b`. The front end's motion carries
+// the pose of match `a` to that scan.
 bool LoopConsensus::agree(const Vote& a, const Vote& b, const PoseGraph& graph) const {
   const mrpt::math::TPose2D carried =
       graph.pose(a.anchor) + a.anchor_T_robot + (b.local_T_robot - a.local_T_robot);

@@ -22,8 +22,8 @@ struct LoopConsensusOptions {
   double same_place_m = 0.5;                             ///< largest distance between poses that agree
   double same_heading_rad = radians_from_degrees(3.5L);  ///< largest turn between poses that agree
   double min_span_m = 1.0;       ///< shortest path between the first and the last match that agree
-  double min_weight = 0.5;       ///< minimum weight of agreeing matches; one weighs max(0.05, 1 - ambiguity)
-  double max_rival_share = 0.5;  ///< largest weight of another place, divided by that of the agreeing matches
+  double min_weight = 0.5;       ///< minimum sum of agreeing weights; a weight is max(0.05, 1 - ambiguity)
+  double max_rival_share = 0.5;  ///< largest weight of another place, divided by the sum of agreeing weights
 };
 
 class LoopConsensus {
@@ -40,7 +40,7 @@ class LoopConsensus {
   };
 
   /// Adds a vote. Returns the loops that it confirms, including its own loop; empty without a confirmation.
-  /// Clears all votes after a confirmation. Votes count only while `still_waits` is true for their loops.
+  /// Clears all votes after a confirmation. Votes for loops for which `still_waits` is false do not count.
   std::vector<std::size_t> add(const Vote& vote, const PoseGraph& graph,
                                const std::function<bool(std::size_t loop)>& still_waits = {});
 

@@ -16,7 +16,7 @@
 
 namespace psi_slam {
 
-/// Standard deviations added to the covariance of each loop match.
+/// Extra noise of each loop match: standard deviations, whose squares are added to the match's covariance.
 struct LoopNoise {
   double sigma_m = 0;
   double sigma_rad = 0;
@@ -33,13 +33,13 @@ class LoopLedger {
   /// Moves the loops out of the ledger. No other function may be called afterwards.
   std::vector<LoopRecord> take_loops() { return std::move(loops_); }
 
-  /// Adds an attempt and returns its number. If a person deleted or forced the loop of this pair, the verdict
-  /// is set accordingly.
+  /// Adds an attempt and returns its number. If a person deleted or forced the loop of the same node and
+  /// local map, the edit determines the verdict.
   std::size_t add(LoopRecord loop);
 
-  /// Makes an accepted or pending loop a constraint of the graph. Returns its residual in standard deviations
-  /// of the loop noise. Does nothing and returns nothing if the loop has another verdict or already is a
-  /// constraint.
+  /// Makes an accepted or pending loop a constraint of the graph. Returns the larger of the loop's position
+  /// and heading residuals at the graph's poses, in standard deviations of LoopNoise. Does nothing and
+  /// returns nothing if the loop has another verdict or already is a constraint.
   std::optional<double> accept(std::size_t loop, PoseGraph& graph);
 
   /// Optimises the graph and switches off loops with residuals above `max_chi` standard deviations. Never
@@ -52,7 +52,7 @@ class LoopLedger {
   /// loop, were matched by an earlier pass, or were edited by a person.
   std::set<LoopPair> searched_pairs() const;
 
-  // Edits by hand. They also apply to later attempts of the pair.
+  // Edits by hand. Each edit also applies to later attempts of the same node and local map.
 
   void remove(const LoopPair& pair, PoseGraph& graph);
   /// Accepts the newest match of the pair. Returns false if there is no match yet; then a later match is
@@ -92,7 +92,7 @@ class LoopLedger {
 
   LoopNoise noise_;
   std::vector<LoopRecord> loops_;
-  std::vector<std::optional<std::size_t>> constraint_of_;  ///< constraint of each loop, if it is one
+  std::vector<std::optional<std::size_t>> constraint_of_;  ///< constraint number of each loop; empty: none
   /// Pairs of constraint and loop, enabled or not, in the order in which they were accepted.
   std::vector<std::pair<std::size_t, std::size_t>> constraints_;
   std::map<LoopPair, ByHand> by_hand_;

@@ -20,8 +20,8 @@ double largest_sigma_m(const Eigen::Matrix3d& covariance) {
   return std::sqrt(mean + std::hypot(half_difference, covariance(0, 1)));
 }
 
-// Returns the agreement of the neighbouring scans with the local map. The match places these scans. If the
-// match is true, they fit too.
+// Returns the agreement of the neighbouring scans with the local map. The matched pose and the front end's
+// motion place these scans. If the match is true, these scans fit the local map too.
 LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeStore& keyframes,
                                          double neighbourhood_m) {
   const LocalMap& map = *keyframes.local_maps[loop.local_map].map;
@@ -42,8 +42,8 @@ LocalMap::Agreement neighbours_agreement(const LoopRecord& loop, const KeyframeS
   return sum;
 }
 
-// Returns the agreement of the local map's scans with the scan. Uses the scans of the nodes nearest to the
-// matched pose.
+// Returns the agreement of scans in the local map with the scan of the loop's node. Uses the node nearest to
+// the matched pose, and up to three nodes before and after it.
 RangeImage::Agreement reverse_agreement(const LoopRecord& loop, const KeyframeStore& keyframes) {
   const PlacedLocalMap& local_map = keyframes.local_maps[loop.local_map];
   const TPose2D& local_T_anchor = keyframes.nodes[local_map.anchor].local_T_robot;

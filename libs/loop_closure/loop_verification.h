@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Verification of a match (method, section 7). A single false loop ruins a map, and in corridors even false
-// matches have high responses. So a high response is not enough. A match must also be unique in its window,
-// and the scan must determine the position. The scan must lie in space that the local map observed.
+// Verification of a match. A single false loop ruins a map, and in corridors even false matches have high
+// responses. So a high response is not enough. A match must also be unique in its window, and the scan must
+// determine the position. The scan must lie in space that the local map observed.
 // Neighbouring scans must fit the local map, and points of the local map must fit the scan.
 #pragma once
 
@@ -12,19 +12,19 @@ namespace psi_slam {
 
 struct LoopVerificationOptions {
   double min_response = 0.5;  ///< minimum response of a scan in a narrow window
-  /// Minimum response of a context in a wide window. It is lower, because the local map holds only part of
-  /// the context.
+  /// Minimum response of a context in a wide window. It is lower than min_response, because the local map
+  /// holds only part of the context.
   double min_context_response = 0.35;
   double max_ambiguity = 0.9;  ///< largest ambiguity in a narrow window; LoopConsensus handles wide windows
-  double wide_window_m = 1.0;  ///< windows with a larger half-width are wide
+  double wide_window_m = 1.0;  ///< windows with a larger half-width along x or y are wide
   double max_sigma_m = 0.3;    ///< largest standard deviation of the matched position
   /// Minimum share of the scan's points in space that the local map observed; only in narrow windows.
   double min_observed_share = 0.5;
   /// Minimum share of the neighbouring scans' points in observed space that fit occupied cells.
   double min_neighbours_agree = 0.75;
-  /// Minimum share of the local map's points visible from the scan that agree with its ranges.
+  /// Of the local map's points visible from the scan, minimum share that agrees with the scan's ranges.
   double min_reverse_agree = 0.75;
-  double neighbourhood_m = 3.0;  ///< scans this far along the path, before and after, are neighbours
+  double neighbourhood_m = 3.0;  ///< scans within this path length, before and after, are neighbours
 };
 
 bool is_wide(const SearchExtent& extent, const LoopVerificationOptions& options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the matcher that searches for loops (method, section 6). Where loops are rare, the paper searches
-// exhaustively, because a missed loop costs much. Where loops are frequent, it uses the genetic matcher; in
-// between, it combines the two. PsiOptions describes how the defaults differ from the paper.
+// Chooses the matcher that searches for loops. Where loops are rare, the paper searches exhaustively, because
+// a missed loop costs much. Where loops are frequent, the paper uses the genetic matcher. Between these
+// cases, it combines both. PsiOptions describes how the defaults differ from the paper.
 #pragma once
 
 #include <array>
@@ -30,13 +30,13 @@ class MatcherPolicy {
 
   MatcherKind kind(double psi) const { return matcher_kind(choice_, psi_, psi); }
 
-  /// Throws std::invalid_argument if kind() never returns `kind`.
+  /// Returns the matcher of a kind. Throws std::invalid_argument if kind() never returns `kind`.
   ChosenMatcher matcher(MatcherKind kind) const;
 
  private:
   std::optional<MatcherKind> choice_;
   PsiOptions psi_;
-  /// Matchers by kind; null if never chosen.
+  /// Matchers by kind; null for a kind that is never chosen.
   std::array<std::unique_ptr<const Matcher>, kMatcherKinds.size()> matchers_;
 };
 

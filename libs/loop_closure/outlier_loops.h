@@ -19,7 +19,7 @@ namespace psi_slam {
 /// Share of contradicted loops above which select_inlier_loops() is needed.
 inline constexpr double kDoubtfulShare = 0.2;
 
-/// Optimises the graph. Enables and disables the constraints `loops` until no enabled one has a residual
+/// Optimises the graph. Enables and disables the constraints `loops` until no enabled loop has a residual
 /// above `max_chi` standard deviations. Returns the residuals in the order of `loops`. If `doubtful_share` is
 /// 1, never calls select_inlier_loops().
 std::vector<double> switch_off_outlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
@@ -41,8 +41,8 @@ inline constexpr double kPathGate = 3;
 void select_inlier_loops(PoseGraph& graph, SparsePoseAdjustment& solver,
                          const std::vector<std::size_t>& loops, double max_chi);
 
-/// Returns the residual of each of the disabled loops at the graph's poses, in standard deviations. The
-/// covariance is that of the best path between the loop's nodes plus that of the loop.
+/// Returns the residual of each loop at the graph's poses, in standard deviations; 0 if no path connects its
+/// nodes. The covariance is the sum of the best path's and the loop's covariance. The loops must be disabled.
 std::vector<double> path_chi(const PoseGraph& graph, const std::vector<std::size_t>& loops);
 
 }  // namespace psi_slam

@@ -36,7 +36,7 @@ NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& keyframes, Pose
       const std::optional<double> residual = ledger_.accept(confirmed, graph);
       if (!residual) continue;
       ++loops.accepted;
-      // Confirmed pending loops have found the robot's place in the map, so the optimisation is urgent.
+      // A match that confirms pending loops locates the robot in the map, so the optimisation is urgent.
       schedule_.add_residual(waits ? std::max(*residual, OptimizationSchedule::kUrgentResidual) : *residual);
     }
   }
@@ -45,7 +45,7 @@ NodeLoops BackEnd::search(std::size_t node, const KeyframeStore& keyframes, Pose
 }
 
 // Returns the loops to accept after the loop `index` was found. An accepted loop confirms only itself. A
-// pending loop confirms itself and all pending loops that agree with it, if they are enough.
+// pending loop confirms itself and all pending loops that agree with it, if LoopConsensus is satisfied.
 std::vector<std::size_t> BackEnd::confirmed_by(std::size_t index, const KeyframeStore& keyframes,
                                                const PoseGraph& graph) {
   const LoopRecord& loop = ledger_.loops()[index];

@@ -36,25 +36,26 @@ struct BackEndOptions {
   LoopConsensusOptions loop_consensus;
   FinalSearchOptions final_search;
   JointRefinementOptions joint_refinement;
-  double loop_sigma_m = 0.02;  ///< standard deviation added to the covariance of each loop match
+  double loop_sigma_m = 0.02;  ///< standard deviations of extra noise of each loop match, see LoopNoise
   double loop_sigma_rad = radians_from_degrees(0.25L);
   double max_loop_chi = 5.0;  ///< residual in standard deviations above which a loop is switched off
   std::uint64_t seed = 1;     ///< seed of all random numbers
-  int threads = 1;            ///< number of threads for matching; results do not depend on it
+  int threads = 1;            ///< number of threads for matching, without effect on the results
 };
 
 /// Result of a node's search for loops.
 struct NodeLoops {
   MatcherKind matcher = MatcherKind::kCsm;
   LoopEffort effort;
-  int accepted = 0;  ///< number of new constraints, including loops of earlier nodes
+  int accepted = 0;  ///< number of new constraints, including pending loops of earlier nodes now confirmed
   double milliseconds = 0;
 };
 
 /// Progress of the steps after the last scan, reported as a share of all steps, in [0, 1].
 class FinalProgress {
  public:
-  /// `report` may be empty. If it returns false, the remaining steps are skipped.
+  /// Creates a progress that calls `report`, which may be empty. If `report` returns false, the remaining
+  /// steps are skipped.
   FinalProgress(const BackEndOptions& options, std::function<bool(double)> report)
       : passes_(options.final_search.passes),
         steps_(passes_ + (options.joint_refinement.rounds > 0 ? 1 : 0)),
@@ -94,8 +95,8 @@ class BackEnd {
   double optimize_if_due(PoseGraph& graph, SparsePoseAdjustment& solver);
   double optimize(PoseGraph& graph, SparsePoseAdjustment& solver);
 
-  /// Runs the final loop search after the last scan. Optimises the graph and switches off outlier loops
-  /// before and after every pass. Refuses all pending loops. Returns the effort of each matcher.
+  /// Runs the final loop search after the last scan. Before the first pass and after each pass, optimises the
+  /// graph and switches off outlier loops. Refuses all pending loops. Returns the effort of each matcher.
   std::map<MatcherKind, LoopEffort> finish_loops(const KeyframeStore& keyframes, PoseGraph& graph,
                                                  SparsePoseAdjustment& solver, FinalProgress& progress);
 

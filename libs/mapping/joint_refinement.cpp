@@ -14,7 +14,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Number of nodes between two reports of progress. Each node is refined with the frames up to the next node.
+// Number of nodes between two reports of progress. The task of a node refines its frame and the frames before
+// the next node.
 constexpr std::size_t kBatch = 64;
 // When the nearest nodes are chosen, a turn by this angle counts like a distance of one metre.
 constexpr double kRadiansPerMetre = 1.0;

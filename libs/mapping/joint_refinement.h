@@ -20,8 +20,8 @@ namespace psi_slam {
 struct JointRefinementOptions {
   int rounds = 1;               ///< number of rounds; 0: no refinement
   std::size_t references = 12;  ///< largest number of nearby nodes that a scan is aligned with
-  double reach_m = 3.0;         ///< largest distance between scan and node
-  double max_turn_rad = radians_from_degrees(70.0L);  ///< largest heading difference of scan and node
+  double reach_m = 3.0;         ///< largest distance of these nodes from the scan's previous node
+  double max_turn_rad = radians_from_degrees(70.0L);  ///< largest heading difference from the previous node
   SurfaceAlignmentOptions alignment;
 };
 
@@ -34,7 +34,7 @@ struct RefinedScans {
 
 /// Aligns every frame with the scans of nodes near its previous node. Each round uses the poses of the round
 /// before, so results do not depend on the order of the frames or the number of threads. `progress` gets the
-/// completed share of the work, in [0, 1]. If it returns false, the unfinished round is discarded.
+/// completed share of the work, in [0, 1]. If `progress` returns false, the unfinished round is discarded.
 void refine_jointly(RefinedScans& scans, const JointRefinementOptions& options, WorkerPool& pool,
                     const std::function<bool(double)>& progress);
 

@@ -15,8 +15,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// Standard deviations of the start of a later run, before any loop joins the run to the map. They determine
-// the windows of the first loop searches.
+// Standard deviations of a later run's pose before any loop joins the run to the map, see information_of().
+// They determine the windows of the first loop searches.
 constexpr double kStartSigma_m = 0.3;
 constexpr double kStartSigma_rad = radians_from_degrees(3.0L);
 
@@ -28,8 +28,8 @@ double between_runs_m(const BackEndOptions& options) {
                        options.loop_closure.verification.neighbourhood_m, options.final_search.travel_m});
 }
 
-/// Information matrix of node_T_robot. The standard deviations apply to the pose at which the robot was
-/// found, which is known best. An error of the start pose moves that pose like the end of a rigid arm.
+/// Returns the information matrix of node_T_robot. The standard deviations apply to the pose at which the
+/// robot was found, which is known best. An error of the start pose moves it like the end of a rigid arm.
 Eigen::Matrix3d information_of(const RunStart& start) {
   const double c = std::cos(start.node_T_robot.phi);
   const double s = std::sin(start.node_T_robot.phi);
@@ -90,8 +90,8 @@ void Mapper::Implementation::begin_run(const RunStart& start) {
   result_.later_run_frames.push_back(result_.frames.size());
 }
 
-// Transforms odometry of a later run into the odometry frame of the first run. The two meet at the place
-// where the run begins in the map.
+// Transforms odometry of a later run into the odometry frame of the first run. Relative to node 0, the first
+// odometry pose of the run then equals the pose in the map where the run begins.
 void Mapper::Implementation::rebase_odometry(FrameRecord& record) {
   if (run_start_) {
     const TPose2D odom_T_start = result_.frames.front().odom_T_robot + (map_T_local_ - graph_.pose(0));
@@ -100,8 +100,8 @@ void Mapper::Implementation::rebase_odometry(FrameRecord& record) {
   if (odom_T_run_) record.odom_T_robot = *odom_T_run_ + record.odom_T_robot;
 }
 
-// Places the front end's frame by the newest node. Before the first scan of a later run, uses the start of
-// that run.
+// Sets the pose of the front end's frame in the map from the newest node. Before the first scan of a later
+// run, uses the start of that run.
 void Mapper::Implementation::follow_graph() {
   if (run_start_) {
     map_T_local_ = graph_.pose(run_start_->node) + run_start_->node_T_robot;

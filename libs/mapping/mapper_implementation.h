@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Implementation of Mapper. Functions without a comment here are described in psi_slam/mapper.h.
+// Implementation of Mapper. Its public functions are described in psi_slam/mapper.h.
 #pragma once
 
 #include <map>
@@ -63,10 +63,10 @@ class Mapper::Implementation {
   std::vector<LoopEdit> waiting_edits_;
   std::vector<std::string> impossible_edits_;  ///< one sentence for each waiting edit that became impossible
   std::optional<Checkpoint> before_finish_;
-  std::optional<RunStart> run_start_;  ///< start of the run of the next frame; empty within a run
+  std::optional<RunStart> run_start_;  ///< start of a run that begins with the next frame; otherwise empty
   /// Odometry frame of a later run, in the odometry frame of the first run.
   std::optional<mrpt::math::TPose2D> odom_T_run_;
-  mrpt::math::TPose2D map_T_local_;  ///< front end's frame, placed by the newest node
+  mrpt::math::TPose2D map_T_local_;  ///< pose of the front end's frame in the map, from the newest node
   MappingResult result_;
   StageClock front_end_clock_{"match and insert scan"};
 };

@@ -25,7 +25,7 @@ std::optional<std::size_t> unjoined_run(const MappingResult& result) {
     const auto next = std::upper_bound(begins.begin(), begins.end(), result.node_frames[node]);
     return static_cast<std::size_t>(next - begins.begin());
   };
-  // For each run, the lowest run joined to it.
+  // For each run, the lowest number of a run joined to it by loops.
   std::vector<std::size_t> group(result.later_run_frames.size() + 1);
   std::iota(group.begin(), group.end(), 0U);
   for (const LoopRecord& loop : result.loops) {

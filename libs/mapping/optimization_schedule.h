@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Decides when to optimise a growing pose graph. If the graph strongly contradicts a new constraint, the
-// optimisation is due at once. If the contradiction is weak, it is due after the graph has grown by a fixed
-// share. The cost per node then hardly depends on the size of the graph.
+// optimisation is due at once. After a weak contradiction, above one standard deviation, the optimisation is
+// due when the graph has grown by a fixed share. The cost per node then hardly depends on the graph's size.
 #pragma once
 
 #include <algorithm>

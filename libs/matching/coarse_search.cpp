@@ -34,7 +34,7 @@ class TileSums {
 
   std::uint32_t& at(int turn, int row, int column) { return sums_[index(turn, row, column)]; }
 
-  // Returns whether no neighbour has a larger sum, including diagonal neighbours.
+  // Returns whether no neighbour has a larger sum. Neighbours differ by at most 1 in turn, row and column.
   bool is_peak(int turn, int row, int column) {
     const std::uint32_t here = at(turn, row, column);
     for (int t = std::max(0, turn - 1); t <= std::min(turns_ - 1, turn + 1); ++t)

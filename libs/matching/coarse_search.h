@@ -30,8 +30,8 @@ struct Seeds {
 
 /// Returns the first generation of the memetic search. Sums a part of the scan's points at every
 /// `options.heading_stride`-th heading, beginning at a random heading. Returns at most `options.seeds` tiles
-/// whose sum no neighbouring tile exceeds. For a window of one block, computes no sums: all these headings
-/// are seeds.
+/// whose sum no neighbouring tile exceeds. For a window of one block, returns the tiles of all these headings
+/// without sums. For other windows, the grid must have a pyramid.
 Seeds coarse_seeds(const SearchLattice& lattice, const WindowTiles& tiles,
                    const MemeticGeneticOptions& options, Random& random);
 

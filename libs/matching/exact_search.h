@@ -22,15 +22,15 @@ struct SearchOutcome {
 SearchOutcome exhaustive_search(const SearchLattice& lattice, std::uint32_t min_sum,
                                 const std::optional<ExcludedRegion>& excluded = {});
 
-/// Returns what exhaustive_search() returns, by branch and bound on the score grid's pyramid (Olson 2009;
+/// Finds the same pose as exhaustive_search(), by branch and bound on the score grid's pyramid (Olson 2009;
 /// Hess et al. 2016). Unlike the depth-first searches of these papers, it first sums the coarsest level for
 /// the whole window. It then visits the blocks in descending order of their bounds, and expands each block
 /// into 16 children. Throws std::invalid_argument if the lattice's grid has no pyramid.
 SearchOutcome branch_and_bound_search(const SearchLattice& lattice, std::uint32_t min_sum,
                                       const std::optional<ExcludedRegion>& excluded = {});
 
-/// Returns what exhaustive_search() returns. Uses branch and bound if the window is large and the grid has a
-/// pyramid.
+/// Finds the same pose as exhaustive_search(). Uses branch and bound if the window is large and the grid has
+/// a pyramid.
 SearchOutcome exact_search(const SearchLattice& lattice, std::uint32_t min_sum,
                            const std::optional<ExcludedRegion>& excluded = {});
 

@@ -28,7 +28,7 @@ double draw_unit(Random& random);
 /// Draws individuals with probabilities proportional to their fitness; uniformly if all fitness values are 0.
 class RouletteWheel {
  public:
-  /// `fitness` must have at least one entry, and no negative entry.
+  /// Builds the wheel. `fitness` must have at least one entry, and no negative entry.
   explicit RouletteWheel(const std::vector<double>& fitness);
 
   /// Returns the index of the individual that was drawn.

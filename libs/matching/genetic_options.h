@@ -9,13 +9,13 @@ namespace psi_slam {
 struct PaperGeneticOptions {
   int population = 200;
   int generations = 100;
-  double crossover_rate = 0.6;  ///< the paper advises a lower rate
-  double mutation_rate = 0.05;  ///< probability per bit; the paper advises a higher rate
+  double crossover_rate = 0.6;  ///< probability per pair of parents; the paper advises less than usual
+  double mutation_rate = 0.05;  ///< probability per bit; the paper advises more than usual
 };
 
 /// Options of the memetic search, which extends the paper's algorithm. An individual is a tile (see
-/// TileSpace): a heading and a block of neighbouring shifts. All numbers of individuals are limited to an
-/// eighth of all tiles, which keeps searches of small windows cheap.
+/// TileSpace): a heading and a block of neighbouring shifts. `population`, `children`, `elite` and `descents`
+/// are limited to an eighth of all tiles, which keeps searches of small windows cheap.
 struct MemeticGeneticOptions {
   int population = 128;
   int children = 32;  ///< number of children per generation
@@ -27,9 +27,9 @@ struct MemeticGeneticOptions {
   bool gray_code = true;  ///< codes of neighbouring tiles differ in one bit; false: the paper's binary code
   bool niches = true;     ///< keeps only one individual per neighbourhood, so several peaks survive
   bool remember = true;   ///< scores each chromosome at most once per pyramid level
-  bool pooled_fitness = true;  ///< evolves on the first level of the pyramid first
+  bool pooled_fitness = true;  ///< evolves on the pyramid's first level before the finest grid
   int descents = 64;           ///< number of best individuals improved by a local search along the heading
-  int polished = 3;            ///< number of best poses around which an exact search ends the evolution
+  int polished = 3;            ///< number of best poses that an exact search nearby improves at the end
   bool seed_coarse = true;     ///< takes the first generation from a sparse coarse search; false: random
   int seeds = 512;             ///< largest number of tiles from the sparse coarse search
   int seed_points = 100;       ///< approximate number of points that the sparse coarse search sums

@@ -21,9 +21,9 @@ FoundPeaks evolve_cells(const SearchLattice& lattice, const std::vector<Tile>& c
   return evolve_tiles(lattice, space, first_generation, options.pooled_fitness, request, options, random);
 }
 
-// The paper's variant of csm_ga runs a genetic search in each of the best cells. The chromosomes of equation
-// 10 cover the small window of a cell. It scores as many poses as a quarter of the cell's poses. With more,
-// an exhaustive search would be cheaper.
+// The paper's variant of csm_ga: runs a genetic search in each of the best cells. The chromosomes of equation
+// 10 cover the small window of a cell. Each search scores a quarter as many poses as the cell has. With many
+// more, an exhaustive search would be cheaper.
 FoundPeaks search_cells_by_paper(const SearchLattice& lattice, const std::vector<Tile>& cells,
                                  int heading_stride, const PeakRequest& request,
                                  const PaperGeneticOptions& options) {
@@ -88,8 +88,8 @@ class GeneticMatcher : public WindowMatcher {
 
 // Matcher csm_ga, the middle mode of the paper (section 3.2). Ranks coarse cells exhaustively, as the coarse
 // stage of correlative matching does, then searches the best of them genetically. The paper's variant runs
-// the paper's genetic algorithm in each of the best 32 cells. In a window of one block (see WindowTiles),
-// only headings remain to be ranked. memetic_search() ranks them too, so it searches such windows.
+// the paper's genetic algorithm in each of the best 32 cells. The memetic variant searches a window of one
+// block (see WindowTiles) by memetic_search(), because there the coarse stage would rank only headings.
 class CoarseToGeneticMatcher : public GeneticMatcher {
  public:
   using GeneticMatcher::GeneticMatcher;

@@ -50,7 +50,7 @@ struct MatchResult {
   mrpt::math::TPose2D lattice_pose;  ///< best pose of the search lattice, before refinement
   double response = 0;               ///< R_v of equation 11 at lattice_pose, in [0, 1]
   double refined_response = 0;       ///< mean interpolated score at map_T_robot
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();   ///< of map_T_robot: m^2, m rad, rad^2
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();   ///< covariance of map_T_robot: m^2, m rad, rad^2
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< information of the scan alone; see refine()
   /// Response of the second-best distinct pose of the window (see MatcherOptions), divided by `response`.
   /// Empty if not measured. 0 if no distinct pose reaches MatcherOptions::ambiguity_floor.

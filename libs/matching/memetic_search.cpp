@@ -15,7 +15,7 @@ namespace {
 
 struct Individual {
   Chromosome chromosome = 0;
-  Candidate best;  // best pose of its tile
+  Candidate best;  // best pose of the individual's tile
 };
 
 bool fitter(const Individual& a, const Individual& b) {
@@ -149,7 +149,7 @@ class Evolution {
            std::abs(a.pose.y - b.pose.y) <= WindowTiles::kSide;
   }
 
-  // Selects parents by rank, because responses differ too little for a roulette wheel.
+  // Returns a new generation. The roulette wheel uses ranks, because responses differ too little.
   std::vector<Individual> offspring() {
     std::vector<double> ranks;
     for (std::size_t i = population_.size(); i > 0; --i) ranks.push_back(static_cast<double>(i));
@@ -188,8 +188,8 @@ class Evolution {
     return true;
   }
 
-  // Moves the best poses, one per neighbourhood, to the best pose nearby, found exactly and also across tile
-  // borders.
+  // Improves the best poses, one per neighbourhood: searches exactly around each pose, also across tile
+  // borders, and moves there until no pose nearby is better.
   void polish() {
     std::vector<Candidate> ranked = scored_;
     std::sort(ranked.begin(), ranked.end(),

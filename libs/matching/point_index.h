@@ -12,7 +12,7 @@ namespace psi_slam {
 /// Points of the plane in a k-d tree, metres. Searches are thread-safe.
 class PointIndex {
  public:
-  /// All points must be finite; an empty vector is valid.
+  /// Builds the tree. All points must be finite; an empty vector is valid.
   explicit PointIndex(std::vector<mrpt::math::TPoint2Df> points);
   ~PointIndex();
   PointIndex(PointIndex&&) noexcept;

@@ -25,7 +25,8 @@ using Chromosome = std::uint64_t;
 
 class PoseCode {
  public:
-  /// Throws std::invalid_argument if the window needs more than 64 bits or has no steps along an axis.
+  /// Computes l_1 and l_2 for a window. Throws std::invalid_argument if the window needs more than 64 bits or
+  /// has no steps along an axis.
   explicit PoseCode(const SearchWindow& window);
 
   int position_bits() const { return position_bits_; }  ///< number of bits of the position, l_1

@@ -18,7 +18,7 @@ struct Linearisation {
   double cost = 0;
   double mean_score = 0;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // information of the scan alone
-  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();      // of the scan and the prior together
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();      // information of the scan and the prior
   Eigen::Vector3d descent = Eigen::Vector3d::Zero();
 };
 

@@ -6,7 +6,7 @@
 //
 // Here s is the standard deviation of one point's score, T the pose x as a transform, and P the covariance of
 // the prior. The information matrix of the match is J^T J / s^2, the Gauss-Newton approximation of the second
-// derivative. Along a corridor it is nearly singular.
+// derivative. In a corridor, this matrix is nearly singular.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -22,10 +22,10 @@ namespace psi_slam {
 struct RefinementOptions {
   int max_iterations = 12;
   double score_sigma = 0.5;  ///< standard deviation s of a point's score, enlarged for correlated neighbours
-  /// The iteration stops after a step shorter than this that turns by less than a tenth of this value, in
-  /// radians. A step that does not lower the cost stops it if the step is shorter than this.
+  /// Length of a step that ends the iteration. A step that lowers the cost must also turn by less than a
+  /// tenth of this value, in radians.
   double converged_step_m = 2e-5;
-  double max_shift_m = 0.15;  ///< returns the start if the pose moved farther, to another peak
+  double max_shift_m = 0.15;  ///< refine() returns the start if the pose moved farther, to another peak
 };
 
 /// Pose known from other sources than the scan, such as odometry.

@@ -85,8 +85,8 @@ class ScoreGrid {
   const ScoreLevel& finest() const { return finest_; }
   ScoreLevel& finest() { return finest_; }
 
-  /// Returns a grid of the cells [x, x + width) x [y, y + height), without a pyramid. They must lie inside
-  /// the grid.
+  /// Returns a grid of the cells [x, x + width) x [y, y + height), without a pyramid. These cells must lie
+  /// inside the grid.
   ScoreGrid cropped(int x, int y, int width, int height) const;
 
   /// Builds the pyramid from the finest level. Call it when the finest level is final.
@@ -96,8 +96,8 @@ class ScoreGrid {
   /// Returns level i of the pyramid, which has stride kStrides[i].
   const ScoreLevel& pyramid(std::size_t i) const { return pyramid_[i]; }
 
-  /// Score interpolated between cell centres by Catmull-Rom cubic splines, where 1 is score 255, and its
-  /// gradient in 1/m. Value and gradient are zero outside the grid.
+  /// Score, divided by 255, and its gradient in 1/m, interpolated between cell centres by Catmull-Rom cubic
+  /// splines. Value and gradient are zero outside the grid.
   struct Sample {
     double value;
     double d_dx;

@@ -18,8 +18,8 @@ std::int64_t squared_distance(const LatticePose& pose) {
   return x * x + y * y + theta * theta;
 }
 
-// Returns the binary logarithm of a stride, which is a power of two. Shifting right by it divides and rounds
-// down, also for negative numbers.
+// Returns the binary logarithm of a stride, which is a power of two. A right shift by this logarithm divides
+// by the stride and rounds down, also for negative numbers.
 int log2_of(int stride) {
   int log2 = 0;
   while ((1 << log2) < stride) ++log2;

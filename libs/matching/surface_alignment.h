@@ -34,7 +34,7 @@ SurfacePoints surface_points(const ScanPoints& scan);
 /// Surface points of several scans in one frame, with a search index.
 class SurfaceMap {
  public:
-  /// One scan and the pose of its robot.
+  /// One scan and the robot's pose at that scan.
   struct Part {
     const SurfacePoints* points = nullptr;
     mrpt::math::TPose2D map_T_robot;
@@ -52,10 +52,10 @@ class SurfaceMap {
 
 struct SurfaceAlignmentOptions {
   std::size_t neighbours = 8;    ///< largest number of surface points averaged for one point of the scan
-  double max_distance_m = 0.12;  ///< largest distance from the scan's point to these surface points
-  double max_turn_rad = radians_from_degrees(30.0L);  ///< largest angle between their normals, below pi/2
+  double max_distance_m = 0.12;  ///< largest distance from a scan point to its surface points
+  double max_turn_rad = radians_from_degrees(30.0L);  ///< largest angle between both normals, below pi/2
   double kernel_m = 0.03;       ///< residual at which a point has a quarter of its weight
-  double prior_sigma_m = 0.01;  ///< standard deviation of `held_at`; determines the pose along a corridor
+  double prior_sigma_m = 0.01;  ///< standard deviation of `held_at`, which fixes the pose along a corridor
   double prior_sigma_rad = radians_from_degrees(0.25L);
   int iterations = 4;
   std::size_t min_points = 20;  ///< with fewer points near surfaces, the result is the start
@@ -67,6 +67,7 @@ struct SurfaceAlignment {
 };
 
 /// Finds the pose near `start` at which the scan's points lie on the surfaces, with a prior at `held_at`.
+/// Returns `start` if too few points are near surfaces, see SurfaceAlignmentOptions::min_points.
 SurfaceAlignment align_to_surfaces(const SurfaceMap& map, const SurfacePoints& scan,
                                    const mrpt::math::TPose2D& start, const mrpt::math::TPose2D& held_at,
                                    const SurfaceAlignmentOptions& options);

@@ -25,10 +25,10 @@ class TileSpace {
 
   virtual std::int64_t size() const = 0;  ///< number of tiles
   virtual int bits() const = 0;
-  /// Decodes any bits() bits: replaces a number beyond the last one by its remainder.
+  /// Decodes any bits() bits. Replaces a number that is too large by its remainder (modulus).
   virtual Tile tile(Chromosome chromosome) const = 0;
-  /// Returns the unique code of the tile that the chromosome decodes to. It differs from a chromosome that
-  /// decoding repairs.
+  /// Returns the unique code of the tile that the chromosome decodes to. The code differs from `chromosome`
+  /// if decoding repairs `chromosome`.
   virtual Chromosome repaired(Chromosome chromosome) const = 0;
   /// Returns the chromosome of the tile turned by `steps` angular steps; empty if that tile is outside the
   /// space.
@@ -42,7 +42,8 @@ class WindowTiles : public TileSpace {
   static constexpr int kSide = 16;   ///< side of a block in shifts: the lanes of the sum kernel
   static constexpr int kWhole = 32;  ///< a window with at most this many shifts per side is one block
 
-  /// If `gray` is true, codes of neighbours along each axis differ in one bit (Gray code).
+  /// Cuts a window into blocks. If `gray` is true, codes of neighbours along each axis differ in one bit
+  /// (Gray code).
   WindowTiles(const SearchWindow& window, bool gray);
 
   int columns() const { return columns_; }
@@ -71,7 +72,7 @@ class WindowTiles : public TileSpace {
 
   SearchWindow window_;
   bool gray_;
-  int width_;  // of a block, in shifts
+  int width_;  // width of a block, in shifts
   int height_;
   int columns_;
   int rows_;

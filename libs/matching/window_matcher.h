@@ -15,10 +15,11 @@ namespace psi_slam {
 /// Options for the refinement and the ambiguity of a matched pose.
 struct MatcherOptions {
   RefinementOptions refinement;
-  double distinct_m = 0.5;                            ///< smallest distance along x or y of a distinct peak
-  double distinct_rad = radians_from_degrees(10.0L);  ///< or smallest difference in heading
+  // A peak is distinct if it is this far from the best peak along x or y, or differs this much in heading.
+  double distinct_m = 0.5;
+  double distinct_rad = radians_from_degrees(10.0L);
   double ambiguity_floor = 0.6;  ///< smallest response of a second peak, divided by the best response
-  double min_sigma_m = 0.005;    ///< bounds of the standard deviations of the covariance, metres
+  double min_sigma_m = 0.005;    ///< bounds of the covariance's standard deviations, see bounded_covariance()
   double max_sigma_m = 2.0;
 };
 

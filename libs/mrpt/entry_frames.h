@@ -15,7 +15,8 @@ namespace psi_slam {
 /// ScanSynchronizer.
 class EntryFrames {
  public:
-  /// Error messages start with `speaker`. Throws UserError if an option is invalid.
+  /// Prepares to read the lasers that `options` choose. Error messages start with `speaker`. Throws UserError
+  /// if an option is invalid.
   explicit EntryFrames(const LogOptions& options, std::string speaker = "entries");
 
   /// Takes one entry; each argument may be null. Throws UserError if a scan has no time stamp or no rays, or
@@ -30,8 +31,8 @@ class EntryFrames {
   /// Number of scans taken.
   std::size_t scans() const { return scans_.scans(); }
 
-  /// Index of the scan, counted from 0, that began the frame last returned by next(). It increases from frame
-  /// to frame.
+  /// Index, among all scans taken, of the scan that began the frame last returned by next(). Counts from 0
+  /// and increases from frame to frame.
   std::size_t opened_by() const { return opened_by_; }
 
   /// Odometry that was skipped because it is not finite.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One pose graph in two forms. MRPT's graph-slam engine and all deciders share the form of MRPT, a network.
-// The solver and the path search read psi-slam's PoseGraph. publish() copies new nodes and constraints to
-// MRPT's network, and read() copies them from it. Only read_poses() and write_poses() copy the poses of known
-// nodes.
+// One pose graph in two forms. MRPT's graph-slam engine and all deciders share MRPT's form, a network. The
+// solver and the path search read psi-slam's PoseGraph. publish() copies new nodes and constraints to MRPT's
+// network, and read() copies new ones from the network. Only read_poses() and write_poses() copy the poses of
+// known nodes.
 //
-// After every new node MRPT's engine resets all poses along the shortest paths from the root, whatever an
-// optimizer did (CNetworkOfPoses::dijkstra_nodes_estimate). An optimizer therefore keeps its poses in a
-// GraphMirror and writes them back.
+// After every new node, MRPT's engine recomputes all poses along the shortest paths from the root
+// (CNetworkOfPoses::dijkstra_nodes_estimate). This discards the poses of an optimizer. An optimizer therefore
+// keeps its poses in a GraphMirror and writes them back.
 #pragma once
 
 #include <cstddef>

@@ -60,7 +60,7 @@ class NoStandardInput {
 /// The window that MRPT's graph-slam engine draws into.
 class GraphSlamWindow {
  public:
-  /// Throws UserError if there is no display.
+  /// Opens the window. Throws UserError if there is no display.
   GraphSlamWindow() {
     constexpr unsigned kWidth_px = 800;
     constexpr unsigned kHeight_px = 600;
@@ -154,7 +154,7 @@ std::size_t check_ground_truth(const fs::path& path) {
   return lines;
 }
 
-/// Calls a writer of MRPT, which may add suffixes to the file name. Its files appear complete or not at all.
+/// Calls a writer of MRPT, which may add suffixes to the file name. The files appear complete or not at all.
 void write_named(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   write_files_atomically(path.parent_path(),
                          [&](const fs::path& temporary) { write(temporary / path.filename()); });

@@ -75,8 +75,8 @@ class GraphSlamRun {
   virtual bool step() = 0;
   virtual double progress() const = 0;
 
-  /// What is wrong with the log or the ground truth after the last mapped entry, as a sentence. Empty if
-  /// nothing is wrong.
+  /// Error of the log or the ground truth file that ended the run after the last mapped entry, as a sentence.
+  /// Empty without an error.
   virtual const std::optional<std::string>& broken_off() const = 0;
 
   /// Finishes the map, see finish_deciders(). Call once after the last step(). Throws UserError if no scan
@@ -87,7 +87,7 @@ class GraphSlamRun {
   virtual bool interrupted() const = 0;
 
   /// Pose of the robot at each scan. With MRPT's node deciders, it is the current pose of the node that was
-  /// newest then, plus the motion since that node.
+  /// newest at that scan, plus the motion since that node.
   virtual Trajectory trajectory() const = 0;
   virtual const MrptGraph& graph() const = 0;
   virtual std::size_t scans() const = 0;
@@ -104,8 +104,8 @@ class GraphSlamRun {
   virtual void wait_for_window() = 0;
 };
 
-/// Throws UserError if a file cannot be read, a setting is wrong, or a decider is unknown or cannot be
-/// combined with the other deciders; SystemFailure if MRPT's engine fails.
+/// Prepares a run. Throws UserError if a file cannot be read, a setting is wrong, or a decider is unknown or
+/// cannot be combined with the other deciders. Throws SystemFailure if MRPT's engine fails.
 std::unique_ptr<GraphSlamRun> make_graphslam_run(const GraphSlamSetup& setup,
                                                  const DeciderCatalogue& catalogue);
 

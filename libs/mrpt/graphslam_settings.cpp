@@ -97,7 +97,7 @@ DeciderParams read_decider_params(const std::filesystem::path& ini, const std::s
 
 GraphSlamGeneral read_graphslam_general(const std::filesystem::path& ini) {
   GraphSlamGeneral general;
-  // Keys that psi-slam does not use, but MRPT reads or its example files contain.
+  // Keys that psi-slam does not use, but that MRPT reads or MRPT's example files contain.
   bool user_decides_about_output_dir = false;
   std::string ground_truth_file_format = "NavSimul";
   int least_difference_of_nodes = 0;

@@ -27,9 +27,9 @@ inline constexpr const char* kOptimizerSection = "OptimizerParameters";
 /// such as those of the map's drawing.
 std::string graphslam_section_of(const std::string& option);
 
-/// Reads all options of psi-slam in the file. Throws UserError, with file and line, for an option that is
-/// unknown, stands in another section, has no effect in the engine or has an invalid value; and if two
-/// options contradict each other.
+/// Reads all options of psi-slam in the file into `bound`. Throws UserError, with file and line, for an
+/// option that is unknown, stands in a wrong section, has no effect in the engine or has an invalid value.
+/// Also throws UserError if two options contradict each other.
 void load_graphslam_settings(const std::filesystem::path& ini, BoundSettings& bound);
 Settings read_graphslam_settings(const std::filesystem::path& ini);
 
@@ -42,7 +42,8 @@ struct DeciderParams {
   std::string text;                        ///< see graphslam_options_text()
   mrpt::system::VerbosityLevel verbosity;  ///< least severe level of messages to print
 };
-/// Throws PassedUserError for the errors of load_graphslam_settings().
+/// Reads all options, and the verbosity of one section. Throws PassedUserError for the errors of
+/// load_graphslam_settings().
 DeciderParams read_decider_params(const std::filesystem::path& ini, const std::string& section);
 
 /// A UserError that passes through MRPT's engine. The engine passes only exceptions of its own kind and
@@ -74,8 +75,8 @@ struct GraphSlamGeneral {
   std::string save_3DScene_fname = "scene.3DScene";
 };
 
-/// Reads the section and ignores keys that only MRPT's engine and deciders read. Throws UserError, with file
-/// and line, for an unknown key or an invalid value.
+/// Reads the section [GeneralConfiguration]. Accepts keys that only MRPT's engine and deciders read, without
+/// using them. Throws UserError, with file and line, for an unknown key or an invalid value.
 GraphSlamGeneral read_graphslam_general(const std::filesystem::path& ini);
 
 }  // namespace psi_slam

@@ -28,8 +28,8 @@ class LogEntries {
   virtual std::optional<LogEntry> next() = 0;
   /// Share of the log read so far, in [0, 1].
   virtual double progress() const = 0;
-  /// Whether the entries are made from frames. The log options have then been applied and must not be applied
-  /// again.
+  /// Whether the entries are made from frames. The log options then have been applied to the frames already,
+  /// and must not be applied again.
   virtual bool are_made() const = 0;
   /// Whether the robot's movements in the actions are measured. Entries that are made from frames without
   /// odometry contain zero movements, because MRPT needs an action with each scan.

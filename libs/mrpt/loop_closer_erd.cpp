@@ -46,7 +46,8 @@ bool CPsiLoopCloserERD::updateState(mrpt::obs::CActionCollection::Ptr /*action*/
   return true;
 }
 
-// The engine registers the first two nodes together, so the first node waits for the second.
+// Returns the number of new constraints. The engine registers the first two nodes together, so the first node
+// waits for the second.
 std::size_t CPsiLoopCloserERD::close_loops_of_new_nodes() {
   SharedMap& map = this->map();
   if (map.keyframes.nodes.size() < 2) return 0;

@@ -117,8 +117,8 @@ struct CMetricMapBuilderPsi::Implementation {
   const std::vector<FrameRecord>& frames() const { return finished_ ? frames_ : mapper_->frames(); }
   const PoseGraph& graph() const { return finished_ ? graph_ : mapper_->graph(); }
 
-  // Covariance of the newest node, in a cache. The graph changes only when it gets nodes or constraints, and
-  // in finish().
+  // Returns the covariance of the newest node, or zero for fewer than two nodes. Caches it, because the graph
+  // changes only in finish() and when nodes or constraints are added.
   const Eigen::Matrix3d& newest_marginal() const {
     const std::pair<std::size_t, std::size_t> state(graph().num_nodes(), graph().num_constraints());
     if (!newest_marginal_ || marginal_state_ != state) {
@@ -145,8 +145,8 @@ struct CMetricMapBuilderPsi::Implementation {
     return estimate;
   }
 
-  // Pose of each scan. After finish() it is the result's pose; before, it follows from the last node's pose
-  // and the front end's motion since that node.
+  // Returns the robot's pose at each scan. After finish(), this is the pose in the result. Before finish(),
+  // it is the pose of the newest node at that scan, plus the front end's motion since that node.
   std::vector<TPose2D> poses() const {
     std::vector<TPose2D> poses;
     std::size_t node = 0;
@@ -161,7 +161,7 @@ struct CMetricMapBuilderPsi::Implementation {
     return poses;
   }
 
-  // Draws a new grid object if needed. The last grid is never changed, because callers may be reading it.
+  // Returns the grid of all scans. Draws a new object after a change, because callers may read the old one.
   COccupancyGridMap2D::Ptr up_to_date_grid() const {
     const bool drawn = drawn_grid_ && drawn_scans_ == log().size() && drawn_finished_ == finished_;
     if (!drawn) {
@@ -189,7 +189,7 @@ struct CMetricMapBuilderPsi::Implementation {
   CPosePDFGaussian start_;
   std::unique_ptr<Mapper> mapper_;  // null after finish()
   std::optional<EntryFrames> entries_;
-  // Observations that are not mapped yet, with the index of the scan that they arrived with.
+  // Observations that are not mapped yet. Each entry has the index of the scan with which these arrived.
   std::deque<std::pair<std::size_t, CSensoryFrame::Ptr>> waiting_observations_;
 
   std::vector<std::size_t> node_frames_;
@@ -201,7 +201,7 @@ struct CMetricMapBuilderPsi::Implementation {
 
   mutable MarginalCovariance marginals_;
   mutable std::optional<Eigen::Matrix3d> newest_marginal_;
-  // Numbers of nodes and constraints at newest_marginal_.
+  // Numbers of nodes and constraints when newest_marginal_ was computed.
   mutable std::pair<std::size_t, std::size_t> marginal_state_;
   mutable COccupancyGridMap2D::Ptr drawn_grid_;
   mutable std::size_t drawn_scans_ = 0;

@@ -16,7 +16,7 @@ struct CPsiSpaGSO::State {
   std::size_t seen_edges = 0;
   std::size_t optimized_edges = 0;  ///< number of edges at the last optimisation
   std::size_t nodes_in_graph = 0;   ///< number of nodes at the last updateState()
-  bool stale = false;               ///< the engine has reset the poses since the last updateState()
+  bool stale = false;               ///< new nodes at the last updateState(): the engine then reset the poses
   bool just_optimized = false;
   std::size_t optimizations = 0;
   std::string params_text;

@@ -29,9 +29,9 @@ struct EvenRays {
   std::vector<std::size_t> ray_of_beam;
 };
 
-/// Assigns each beam to the nearest of `count` even rays from the first to the last bearing. Returns nothing
-/// if a beam is farther than `tolerance_rad` from its ray; most unsuitable counts fail at one of the first
-/// beams.
+/// Assigns each beam to the nearest of `count` evenly spaced rays from the first to the last bearing. Returns
+/// nothing if a beam is farther than `tolerance_rad` from its ray; most unsuitable counts fail at one of the
+/// first beams.
 std::optional<EvenRays> spread(const std::vector<float>& bearings, std::size_t count, double tolerance_rad) {
   const auto first = static_cast<double>(bearings.front());
   const double step = (static_cast<double>(bearings.back()) - first) / static_cast<double>(count - 1);

@@ -23,11 +23,12 @@ mrpt::Clock::time_point mrpt_clock_time(TimeUs time_us);
 /// stamp.
 std::optional<TimeUs> time_us(const mrpt::obs::CObservation& observation);
 
-/// Movement of the robot in its previous frame: the increment of the odometry, or the mean of another
-/// estimate if there is no odometry. Empty if no action is a movement of the robot.
+/// Movement of the robot relative to its previous pose: the increment of the odometry, or the mean of the
+/// first other estimate if there is no odometry. Empty if no action is a movement of the robot.
 std::optional<mrpt::math::TPose2D> movement_of(const mrpt::obs::CActionCollection& actions);
 
-/// Returns the odometry increment `motion` as an action, with MRPT's default noise.
+/// Returns the odometry increment `motion`, in the frame of the previous pose, as an action with MRPT's
+/// default noise.
 mrpt::obs::CActionCollection robot_action(const mrpt::math::TPose2D& motion, TimeUs time_us);
 
 /// Returns the frame's first scan with evenly spread rays from the first to the last beam, as MRPT stores

@@ -54,7 +54,7 @@ LaserScan RawlogLaser::scan(const mrpt::obs::CObservation2DRangeScan& observatio
   scan.ranges_m.resize(beams);
   for (std::size_t i = 0; i < beams; ++i) {
     const float range_m = observation.getScanRange(i);
-    // MRPT marks a ray without return as invalid too, with the maximum range.
+    // MRPT also marks a ray without return as invalid, but with the maximum range.
     const bool is_reading =
         observation.getScanRangeValidity(i) || (observation.maxRange > 0 && range_m >= observation.maxRange);
     scan.ranges_m[i] = is_reading ? range_m : std::numeric_limits<float>::quiet_NaN();

@@ -48,8 +48,8 @@ class RawlogLasers {
       : options_(options), chosen_(laser_choice("log.laser", options.laser)) {}
 
   /// Converts a scan, or returns nothing if its laser is not read. Throws UserError that starts with `place`
-  /// if RawlogLaser does. Also throws if two lasers have the same pose on the robot, which means that the
-  /// poses were never set.
+  /// for the errors of RawlogLaser::scan(). Also throws it if two lasers without a mount in the options have
+  /// the same pose on the robot, which means that the poses were never set.
   std::optional<LaserScan> scan(const mrpt::obs::CObservation2DRangeScan& observation,
                                 const std::string& place);
 
@@ -57,7 +57,7 @@ class RawlogLasers {
   struct Laser {
     std::string label;
     RawlogLaser reader;
-    mrpt::poses::CPose3D robot_T_sensor;  // of the laser's first scan
+    mrpt::poses::CPose3D robot_T_sensor;  // sensor pose in the laser's first scan
     bool is_stated = false;               // whether the user states the laser's mount
   };
 
@@ -75,9 +75,9 @@ class ObservationFrames {
  public:
   enum class Odometry { kUndecided, kActions, kObservations, kNone };
 
-  /// If `odometry` is kUndecided, the kind of odometry that comes first is used; there is none if
-  /// OdometryInterpolator::kMaxWaiting scans come before it. If the options ask for no odometry, kNone
-  /// applies.
+  /// Prepares to read the lasers that `options` choose. If `odometry` is kUndecided, uses the kind of
+  /// odometry that comes first, or none if OdometryInterpolator::kMaxWaiting scans come before any. If
+  /// `options` ask for no odometry, kNone applies.
   explicit ObservationFrames(const LogOptions& options, Odometry odometry = Odometry::kUndecided);
 
   /// Takes the movement of the robot, if there is one. `place` says where the action is in the log.

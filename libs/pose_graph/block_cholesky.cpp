@@ -22,9 +22,9 @@ inline void subtract_product(const double* l, const double* x, double* y) {
   }
 }
 
-// Computes the inverse of the Cholesky factor of the symmetric 3x3 matrix `a`, of which it reads the lower
-// triangle. Returns false if `a` is not positive definite. A pivot must exceed the rounding error of the
-// original diagonal.
+// Computes the inverse of the Cholesky factor of the symmetric 3x3 matrix `a`. Reads only the lower triangle.
+// Returns false if `a` is not positive definite. A pivot must exceed the rounding error of the original
+// diagonal.
 inline bool invert_factor(const Matrix3d& a, const Eigen::Vector3d& original_diagonal, Matrix3d& inverse) {
   constexpr double kRounding = 1e-15;
   const auto is_pivot = [&](double pivot, int i) { return pivot > kRounding * original_diagonal[i]; };

@@ -18,9 +18,9 @@ struct SymmetricBlockMatrix {
   /// n + 1 entries: the blocks (row, k) with row < k have the indices [column_begin[k], column_begin[k + 1])
   /// in `rows` and `blocks`.
   std::vector<std::size_t> column_begin;
-  std::vector<std::uint32_t> rows;        ///< ascending within a column
-  std::vector<Eigen::Matrix3d> blocks;    ///< parallel to `rows`
-  std::vector<Eigen::Matrix3d> diagonal;  ///< n blocks, each symmetric
+  std::vector<std::uint32_t> rows;        ///< row of each block, ascending within a column
+  std::vector<Eigen::Matrix3d> blocks;    ///< blocks above the diagonal, in the order of `rows`
+  std::vector<Eigen::Matrix3d> diagonal;  ///< the n blocks on the diagonal, each symmetric
 
   std::size_t size() const { return diagonal.size(); }
 };
@@ -49,13 +49,13 @@ class BlockCholesky {
   /// Y = E_k, where E_k holds the three unit columns of row k. The non-zero blocks lie on the path from k to
   /// the root of the elimination tree.
   struct InverseColumns {
-    std::vector<std::uint32_t> rows;      ///< ascending
-    std::vector<Eigen::Matrix3d> blocks;  ///< parallel to `rows`
+    std::vector<std::uint32_t> rows;      ///< row of each block, ascending
+    std::vector<Eigen::Matrix3d> blocks;  ///< non-zero blocks, in the order of `rows`
   };
   InverseColumns inverse_columns(std::size_t k) const;
 
   std::size_t size() const { return parent_.size(); }
-  /// Number of block products of a factorisation. The fewer, the better the order of elimination.
+  /// Number of block products of a factorisation. A better order of elimination needs fewer.
   std::size_t num_products() const { return num_products_; }
 
  private:

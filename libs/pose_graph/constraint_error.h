@@ -76,9 +76,9 @@ struct ConstraintNormals {
   Eigen::Vector3d j;   ///< block j of g
 };
 
-/// Returns the same terms as products of constraint_jacobians(), with a fraction of the work. With R =
-/// diag(R_i, 1) and U = I + [0 0 -dy; 0 0 dx; 0 0 0], the Jacobians are R^T U and -R^T. With W = R Omega R^T,
-/// they give H_jj = W, H_ij = -U^T W, H_ii = U^T W U, g_j = -R Omega e and g_i = -U^T g_j.
+/// Returns the terms of one constraint, with a fraction of the work of multiplying constraint_jacobians().
+/// With R = diag(R_i, 1) and U = I + [0 0 -dy; 0 0 dx; 0 0 0], the Jacobians are R^T U and -R^T. With W = R
+/// Omega R^T, H_jj = W, H_ij = -U^T W, H_ii = U^T W U, g_j = -R Omega e and g_i = -U^T g_j.
 inline ConstraintNormals constraint_normals(const Eigen::Matrix3d& information, const Eigen::Vector3d& error,
                                             const RotatedPose& map_T_i, const RotatedPose& map_T_j) {
   const double c = map_T_i.cosine;

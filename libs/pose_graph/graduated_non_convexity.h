@@ -2,9 +2,9 @@
 // Optimises a graph with false loops that are not known beforehand, by graduated non-convexity (Yang,
 // Antonante, Tzoumas, Carlone, "Graduated non-convexity for robust spatial perception", RA-L 2020) with the
 // Geman-McClure kernel. The first kernel is so wide that E is almost the plain sum of squared errors. Each
-// solve narrows it, so constraints that contradict the others lose weight one after another. With many false
-// constraints, a solve with the narrow kernel alone can reach a lower E from the given poses. So this solve
-// is tried too, and the solution with the lower E is kept.
+// further solve uses a narrower kernel, so constraints that contradict the others lose weight one after
+// another. With many false constraints, a single solve with the narrow kernel can reach a lower E from the
+// given poses. So this solve is tried too, and the solution with the lower E is kept.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,8 @@
 namespace psi_slam {
 
 struct GraduatedOptions {
-  /// Width of the final kernel in standard deviations: root of the 99 % quantile of chi-square, 3 dof.
+  /// Width of the final kernel in standard deviations: square root of the 99 % quantile of the chi-square
+  /// distribution with 3 degrees of freedom.
   double inlier_width = 3.37;
   double narrowing = 1.2;  ///< factor, > 1, by which the squared width falls per round
   int max_rounds = 200;

@@ -6,8 +6,8 @@
 
 namespace psi_slam {
 
-/// Whether the matrix can be an inverse covariance: it is finite and, up to rounding, symmetric and positive
-/// semi-definite.
+/// Returns whether the matrix can be an inverse covariance: finite and, up to rounding, symmetric and
+/// positive semi-definite.
 inline bool is_information_matrix(const Eigen::Matrix3d& information) {
   if (!information.allFinite()) return false;
   const double scale = information.cwiseAbs().maxCoeff();
@@ -22,7 +22,7 @@ inline bool is_information_matrix(const Eigen::Matrix3d& information) {
   const double xy = correlation(0, 1);
   const double xt = correlation(0, 2);
   const double yt = correlation(1, 2);
-  constexpr double kRounding = 3e-5;  // of entries in text files with six digits
+  constexpr double kRounding = 3e-5;  // rounding of entries in text files with six digits
   const double limit = 1 + kRounding;
   const double determinant = 1 + 2 * xy * xt * yt - xy * xy - xt * xt - yt * yt;
   return xy * xy <= limit && xt * xt <= limit && yt * yt <= limit && determinant >= -kRounding;

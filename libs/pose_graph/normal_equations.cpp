@@ -13,8 +13,8 @@ namespace {
 
 // An order of elimination is replaced when the nodes added at its end exceed this share of all nodes.
 constexpr double kMaxAppendedShare = 0.2;
-// It is also replaced when its wasted block products cost as much as computing a new order, which takes this
-// many block products per constraint.
+// An order of elimination is also replaced when its wasted block products cost as much as computing a new
+// order. That takes the time of this many block products per constraint.
 constexpr double kProductsOfOrderingPerLink = 15;
 
 std::uint32_t find_set(std::vector<std::uint32_t>& parent, std::uint32_t i) {
@@ -22,8 +22,8 @@ std::uint32_t find_set(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   return i;
 }
 
-// Number of block products of one factorisation beyond those of an order that is as good as the order
-// computed last.
+// Returns the number of block products of one factorisation beyond those of an order that is as good as the
+// order computed last.
 double wasted_products(std::size_t products, std::size_t variables, double ordered_products,
                        std::size_t ordered_variables) {
   const double growth =

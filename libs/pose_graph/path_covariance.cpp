@@ -35,8 +35,8 @@ void add(PoseCovariance& a, const PoseCovariance& b) {
 }
 
 // Extends a chain by one link. Forwards, the error of the next node is the error of the previous node,
-// carried to the next node, plus that of the measurement. Backwards, the heading error of the measurement
-// also turns the step, so both errors are carried.
+// carried to the next node, plus the error of the measurement. Backwards, the heading error of the
+// measurement also turns the step, so both errors are carried.
 PoseCovariance extended(const PoseCovariance& at_previous, const GraphLink& link, const RotatedPose& previous,
                         const RotatedPose& next, bool forwards) {
   const RotatedPose& from = forwards ? previous : next;

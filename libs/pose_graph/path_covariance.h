@@ -33,9 +33,9 @@ struct PathCovarianceOptions {
 struct RelativeUncertainty {
   bool reached = false;
   std::size_t previous = 0;  ///< previous node on the chain from the source; the source itself for the source
-  std::size_t constraint = 0;  ///< between the previous node and this node; undefined for the source
+  std::size_t constraint = 0;  ///< number of the constraint to the previous node; undefined for the source
   double chain_m = 0;          ///< length of the chain from the source, from node to node
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, theta): m^2, m rad, rad^2
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of (x, y, theta): m^2, m rad, rad^2
 
   /// Largest standard deviation of the position over all directions, in metres.
   double position_sigma_m() const;
@@ -68,7 +68,7 @@ class PathCovarianceSearch {
     double chain_m = 0;
     bool settled = false;
     bool wanted = false;
-    PoseCovariance covariance;  // in the axes of the map
+    PoseCovariance covariance;  // of the pose relative to the source, in the axes of the map
   };
   using Entry = std::pair<double, std::uint32_t>;  // cost in m^2, node
 

@@ -12,7 +12,8 @@ namespace psi_slam {
 
 /// Returns the pose of every node by chaining measurements from the root's pose, along a path with as few
 /// constraints other than odometry as possible. This is dead reckoning where odometry exists, and an initial
-/// estimate for files without poses. Throws unreachable_node().
+/// estimate for files without poses. Throws unreachable_node(), a UserError, if a node is not linked to the
+/// root.
 std::vector<mrpt::math::TPose2D> spanning_tree_poses(const PoseGraph& graph);
 
 /// Returns the error for a node that no chain of enabled constraints links to the root.

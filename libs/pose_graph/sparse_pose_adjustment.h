@@ -4,12 +4,12 @@
 // minimises the weighted error with a sparse Cholesky factorisation; robust kernels rho enter by iterative
 // reweighting.
 //
-// It differs from the paper in three points, which handle the large first errors of a long loop. Steps are
-// Gauss-Newton steps until one fails. If E after a step far exceeds the linearised prediction, it solves for
-// the headings alone and then for the positions alone. These two linear problems are solved at most once per
-// call (Carlone et al., "A fast and accurate approximation for planar pose graph optimization", IJRR 2014). E
-// may rise for two steps if it then reaches a new minimum (the watchdog of Chamberlain et al., 1982);
-// otherwise the steps are damped.
+// The solver differs from the paper in three points, which handle the large first errors of a long loop.
+// Steps are Gauss-Newton steps until one fails. If E after a step far exceeds the linearised prediction, it
+// solves for the headings alone and then for the positions alone. These two linear problems are solved at
+// most once per call (Carlone et al., "A fast and accurate approximation for planar pose graph optimization",
+// IJRR 2014). E may rise for two steps if it then reaches a new minimum (the watchdog of Chamberlain et al.,
+// 1982); otherwise the steps are damped.
 #pragma once
 
 #include <vector>
@@ -20,14 +20,14 @@
 namespace psi_slam {
 
 struct PoseAdjustmentOptions {
-  int max_iterations = 50;           ///< number of steps, including rejected ones
+  int max_iterations = 50;           ///< largest number of steps, including rejected ones
   double relative_tolerance = 1e-6;  ///< converged if E can fall by at most this share of E
-  double absolute_tolerance = 1e-9;  ///< added to the share of E above
+  double absolute_tolerance = 1e-9;  ///< decrease of E added to relative_tolerance times E
   double initial_lambda = 0;         ///< damping of the first step; 0 is a Gauss-Newton step
-  RobustKernel odometry_kernel;      ///< kernel for constraints between successive nodes
-  RobustKernel local_map_kernel;     ///< kernel for constraints of local maps and of starts of runs
-  /// Kernel for loops. Huber's kernel is convex, so that a true loop is closed after any drift; with a kernel
-  /// that bounds the cost it may stay open. If loops can be false, use optimize_graduated().
+  RobustKernel odometry_kernel;      ///< kernel for constraints of the kind kOdometry
+  RobustKernel local_map_kernel;     ///< kernel for constraints of the kinds kLocalMap and kRunStart
+  /// Kernel for loops. Huber's kernel is convex, so that a true loop is closed after any drift. With a kernel
+  /// that bounds the cost, a true loop may stay open. If loops can be false, use optimize_graduated().
   RobustKernel loop_kernel{RobustKernel::Type::kHuber, 3};
 };
 
@@ -46,7 +46,7 @@ struct PoseAdjustmentReport {
   double final_chi2 = 0;
   double initial_robust_chi2 = 0;  ///< E before the first step, with the kernels
   double final_robust_chi2 = 0;
-  double max_gradient = 0;  ///< largest |dE/dx| at the last linearisation
+  double max_gradient = 0;  ///< largest |dE/dx| at the last linearised state with the lowest E so far
   double milliseconds = 0;
   bool structure_reused = false;    ///< whether the order and the layout of H were reused
   std::vector<ConstraintFit> fits;  ///< indexed by constraint

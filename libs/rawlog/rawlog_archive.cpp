@@ -83,7 +83,7 @@ struct RawlogArchive::State {
 };
 
 RawlogArchive::RawlogArchive(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {
-  // Logs hold observations of classes in libraries that nothing else in psi-slam refers to.
+  // Makes MRPT know the classes of all observations in logs, although psi-slam refers to few of these.
   mrpt::obs::registerAllClasses_mrpt_obs();
   mrpt::maps::registerAllClasses_mrpt_maps();
 }

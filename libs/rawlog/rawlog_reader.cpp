@@ -3,8 +3,8 @@
 //
 // - Actions and sensory frames. Odometry is the sum of the increments of the actions. Every scan of a sensory
 //   frame has the odometry of that frame.
-// - Single observations, in sensory frames or not. Odometry is absolute and comes in observations of its own.
-//   It is interpolated at each scan's time.
+// - Single observations, in sensory frames or not. Absolute odometry comes in separate observations and is
+//   interpolated at each scan's time.
 //
 // The kind of odometry that appears first is used; the other kind is ignored. A rawlog without odometry has
 // scans only. By default scans come from the
@@ -44,7 +44,7 @@ void for_each_observation(mrpt::serialization::CSerializable& object,
 }
 
 struct LasersAndOdometry {
-  std::string labels;  // of the lasers to read, separated by commas
+  std::string labels;  // labels of the lasers to read, separated by commas
   Odometry odometry;
 };
 

@@ -219,7 +219,7 @@ TEST_F(RosbagReaderTest, the_odometry_topic_may_be_a_topic_of_transforms) {
                    RecordedPose{"/tf", 1'600'000'000'000'000, "odom", "base_link", {5, 6, 0, 0, 0, 0}});
   EXPECT_EQ(read(recording).front().odom_T_robot.y, carmen_frames(recorded_run()).front().odom_T_robot.y);
   LogOptions options;
-  options.odometry_topic = "tf";
+  options.odometry = "tf";
   EXPECT_EQ(read(recording, options).back().odom_T_robot, TPose2D(5, 6, 0));
 }
 

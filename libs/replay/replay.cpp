@@ -13,7 +13,7 @@ namespace {
 using Clock = LogPace::Clock;
 
 constexpr std::chrono::milliseconds kBetweenSnapshots{100};
-constexpr int kWorkPerPublishing = 20;  // snapshots take at most 1/20 of the engine's time
+constexpr int kWorkPerPublishing = 20;  // making snapshots takes at most 1/20 of the thread's time
 
 /// Calls `action`. Returns why it failed, as a sentence: `out_of_memory` if memory ran out. Empty after
 /// success.

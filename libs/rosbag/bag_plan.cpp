@@ -178,7 +178,7 @@ class Planner {
            });
   }
 
-  /// Returns whether the plan is usable if the bag ends here.
+  /// Returns whether odometry and a scan of each topic have been read. The mounts may still be unknown.
   bool is_enough() const { return has_odometry_ && scan_frames_.size() == plan_.scan_topics.size(); }
 
   void require_complete() const {
@@ -215,7 +215,7 @@ class Planner {
   std::unique_ptr<BagFile> bag_;
   std::vector<BagTopic> topics_;
   BagPlan plan_;
-  std::map<std::string, std::string> scan_frames_;  // index: topic of the scans
+  std::map<std::string, std::string> scan_frames_;  // key: topic of the scans; value: frame of the laser
   std::string invalid_pose_;                        // message about the first odometry with an invalid pose
   bool has_odometry_ = false;
 };

@@ -73,11 +73,11 @@ class RecordBag : public BagFile {
 
   BagStream stream_;
   std::string chunk_;
-  std::uint64_t record_offset_ = 0;  // place in the file of the record or of its chunk
+  std::uint64_t record_offset_ = 0;  // byte offset in the file of the current record or of its chunk
 
  private:
   std::optional<ByteCursor> in_chunk_;
-  std::uint64_t offset_in_chunk_ = 0;  // place of the record in its chunk
+  std::uint64_t offset_in_chunk_ = 0;  // byte offset of the current record in the decompressed chunk
 };
 
 }  // namespace psi_slam

@@ -41,9 +41,9 @@ class RosLaser {
  public:
   explicit RosLaser(const LogOptions& options) : options_(options) {}
 
-  /// `mount` is the laser's mount according to the transforms. A pose that the user states overrides the pose
-  /// of `mount`, but not whether the laser is upside down. Throws UserError that starts with `place` for
-  /// invalid angles.
+  /// Converts a message. `mount` is the laser's mount according to the transforms. A pose that the user
+  /// states overrides the pose of `mount`, but not whether the laser is upside down. Throws UserError that
+  /// starts with `place` for invalid angles.
   LaserScan scan(RosLaserScan message, const FloorMount& mount, const std::string& place) {
     const bool clockwise = mount.upside_down != options_.mirrored;
     const Geometry geometry{message.ranges_m.size(), message.angle_min_rad, message.angle_increment_rad,

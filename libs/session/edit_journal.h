@@ -54,7 +54,7 @@ class EditJournal {
   const std::vector<TimedEdit>& edits() const { return edits_; }
   bool empty() const { return edits_.empty(); }
 
-  /// Adds an edit. It comes after the edits of the same time.
+  /// Inserts an edit by its time, after the edits of the same time.
   void add(const TimedEdit& edit);
   /// Adds all edits of another journal.
   void add(const EditJournal& others);
@@ -69,14 +69,15 @@ class EditJournal {
   /// Makes all edits due again, to map the same log again.
   void rewind() { taken_ = 0; }
 
-  /// Enters an edit that is made now, so take_due() will not return it. Removes later edits of the same loop.
-  /// Its time must not be before the time of edits that take_due() has returned.
+  /// Enters an edit that is made now, so take_due() will not return it. Removes the edits of the same loop
+  /// that are still to come. No edit that take_due() has returned may have a later time.
   void enter(const TimedEdit& edit);
   /// Removes the edits of a loop that are still to come. Returns false if there were none.
   bool forget_later(const LoopEdit& same_loop);
 
-  /// Returns the edits of a run that is merged with other runs. Its scans are numbered from `first_scan`, its
-  /// local maps from `first_local_map`. Edits at its end are made after the last of its `scans` scans.
+  /// Returns these edits of one run, renumbered for a map of several runs. The run has `scans` scans,
+  /// numbered from `first_scan`, and local maps numbered from `first_local_map`. Edits at the end of the run
+  /// are made after its last scan.
   EditJournal of_run(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
 
   /// Returns the text of the file.

@@ -84,8 +84,8 @@ LogOptions log_options(const Settings& settings);
 /// Returns the options of the mapper, with the seed and the threads of `settings.run`.
 MapperOptions mapper_options(const Settings& settings);
 
-/// Returns the options of the localizer, with the mapper's front end, consensus and genetic search, and the
-/// seed of `run`.
+/// Returns the options of the localizer. Takes front end, consensus, loop matcher, genetic search and
+/// smoothing from `settings.mapper`, and the seed from `settings.run`.
 LocalizerOptions localizer_options(const Settings& settings);
 
 /// Returns the number of threads to start for run.threads, at least 1.

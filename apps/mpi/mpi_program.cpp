@@ -114,7 +114,7 @@ int run(CLI::App& app, const MpiProgram& program, int ranks, int argc, char** ar
   return ranks > 0 ? work() : kExitDone;
 }
 
-/// Text that --help, --version or a hidden option for documents prints; empty for other arguments.
+/// Returns the text that --help, --version or a hidden document option prints; nothing for other arguments.
 std::optional<std::string> words_of_itself(const MpiProgram& program, int argc, char** argv,
                                            const Streams& streams) {
   CLI::App app("", program.name);

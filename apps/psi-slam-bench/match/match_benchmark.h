@@ -19,7 +19,7 @@
 
 namespace psi_slam {
 
-/// Largest distance of a successful match from the truth.
+/// Largest errors of a successful match: distance and angle between its pose and the true pose.
 inline constexpr double kSuccess_m = 0.3;
 inline constexpr double kSuccess_rad = radians_from_degrees(3.5L);
 
@@ -73,7 +73,7 @@ class MatchTally {
   std::vector<double> times_ms_;
 };
 
-/// A matcher to compare, which has a row in each table.
+/// A matcher to compare: one row of a table.
 struct MatchCandidate {
   std::string name;
   /// A single matcher, or one of each MatcherKind in their order. In the latter case,

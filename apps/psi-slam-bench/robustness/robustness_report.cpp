@@ -27,7 +27,7 @@ SeedSpread over_seeds(const Runs& runs, Figure RobustnessRow::*figure) {
   return spread_over(runs, [figure](const RobustnessRow& run) { return run.*figure; });
 }
 
-/// Mean over the runs that have the share: in percent in Markdown, as a fraction in JSON.
+/// Statistics over the runs that have the share: the mean in percent in Markdown, all as fractions in JSON.
 ReportCell percent(const Runs& runs, std::optional<double> RobustnessRow::*share) {
   std::vector<double> known;
   for (const RobustnessRow& run : runs)

@@ -20,7 +20,7 @@ constexpr double kAround_m = 1.5;  // margin around the scan
 // On each of the four sides, one of this many points may lie outside the picture.
 constexpr std::size_t kPointsPerOutlier = 12;
 
-/// Maps the ground to pixels: the place (x_m, y_m) lies at the pixel (x_px, y_px).
+/// Converts positions in the frame of the local map to pixels. The position (x_m, y_m) is at (x_px, y_px).
 struct Frame2D {
   double x_m = 0;
   double y_m = 0;

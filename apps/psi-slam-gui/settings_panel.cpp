@@ -16,10 +16,10 @@
 namespace psi_slam {
 namespace {
 
-constexpr const char* kWhere = "Settings";  // the place that error messages about wrong values name
+constexpr const char* kWhere = "Settings";  // source of the value, named in error messages
 constexpr const char* kNothingSelected =
     "Select an option to read its help. Right-click an option to reset it.";
-constexpr int kHelpHeight = 104;  // pixels of six lines
+constexpr int kHelpHeight = 104;  // height of six lines, in pixels
 
 std::string help_of(const Option& option) {
   return option.name() + ": " + option.help + "\n" + option.values() + "; default " +

@@ -83,7 +83,7 @@ void Replay::work() {
 
 void Replay::finish_map(MappingSession& session) {
   phase_ = ReplayPhase::kFinalSearch;
-  publish();  // publishes all scans while the mapper can still be followed
+  publish();  // the last snapshot before finish(), with all scans
   locked([&] { stop_final_search_ = close_ || cut_final_search_ || !edit_requests_.empty(); });
   session.finish(stop_final_search_);
   session_ = nullptr;

@@ -37,9 +37,9 @@ class SnapshotMaker;
 /// Pausing and stepping do not change the results, which equal those of psi-slam bit by bit.
 class Replay {
  public:
-  /// Replays a log and makes each of `edits` at its own time.
+  /// Replays a log and makes each edit at its EditTime.
   Replay(const std::filesystem::path& log, const Settings& settings, EditJournal edits = {});
-  /// Replays a log or a recording with its edits.
+  /// Replays a log or a recording, with the edits of the input.
   Replay(SessionInput input, const Settings& settings);
   /// Calls close() and waits for the threads.
   ~Replay();

@@ -22,7 +22,7 @@ class SnapshotMaker {
   /// note_export(), note_save(), note_edits(), follow() and take() set.
   ReplaySnapshot now;
 
-  /// Notes that a scan was mapped when this share of the log was read.
+  /// Notes that a scan was mapped. `share` is the share of the log read so far, in [0, 1].
   void note_scan(double share) { shares_.push_back(share); }
   /// Notes the outcome of an export, which contains all scans.
   void note_export(WriteOutcome outcome);

@@ -64,7 +64,8 @@ class RecordBag : public BagFile {
   /// Throws UserError if the file ended before the end that it states.
   virtual void check_end() const {}
 
-  /// Decompresses the bytes of a chunk to chunk_. `size` is the number of decompressed bytes.
+  /// Decompresses the bytes of a chunk to chunk_. `size` is the number of decompressed bytes. Throws
+  /// MalformedBytes for damaged or nested chunks.
   void unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size);
   /// Makes next() continue with the records in chunk_.
   void begin_chunk() { in_chunk_.emplace(chunk_); }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads ROS bags of any kind (see bag_file.h): scans of sensor_msgs/LaserScan. Odometry of nav_msgs/Odometry,
-// or of the transform odom -> base_link, is interpolated at the header stamp of each scan. The laser's mount
-// comes from the transforms. A message without a stamp has the time at which it was recorded.
+// Reads ROS bags of any kind (see bag_file.h). Scans are sensor_msgs/LaserScan messages. Odometry comes from
+// nav_msgs/Odometry, or from the transform odom -> base_link, and is interpolated at the header stamp of each
+// scan. The laser's mount comes from the transforms. A message without a stamp has the time at which it was
+// recorded.
 //
 // A damaged or truncated bag yields all frames before the damage, then a UserError. Odometry with an invalid
 // pose is skipped.

@@ -28,7 +28,7 @@
 
 namespace psi_slam {
 
-/// A moment of a run, in the order of time.
+/// A moment of a run. Earlier moments compare as less.
 struct EditTime {
   enum class Kind {
     kBegin,      ///< before the first scan
@@ -62,9 +62,9 @@ class EditJournal {
   /// Returns the edits that are due at `now` and were not returned before. At the end all edits are due, even
   /// edits after scans that the log does not have.
   std::vector<LoopEdit> take_due(EditTime now);
-  /// Returns the last edit of the same loop among the edits that take_due() has returned.
+  /// Returns the last edit of the same loop as `same_loop` that take_due() returned or enter() entered.
   std::optional<LoopEdit> in_force(const LoopEdit& same_loop) const;
-  /// Returns the edits of the same loop among the edits that are still to come.
+  /// Returns the edits of the same loop as `same_loop` that are still to come.
   std::vector<TimedEdit> to_come(const LoopEdit& same_loop) const;
   /// Makes all edits due again, to map the same log again.
   void rewind() { taken_ = 0; }
@@ -80,7 +80,7 @@ class EditJournal {
   /// are made after its last scan.
   EditJournal of_run(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
 
-  /// Returns the text of the file.
+  /// Returns the edits as the text of a file.
   std::string text() const;
   /// Reads a file. Throws UserError, with file and line, for a line that is not an edit.
   static EditJournal read(const std::filesystem::path& file);

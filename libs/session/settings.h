@@ -18,7 +18,7 @@
 
 namespace psi_slam {
 
-/// Pose of the laser on the robot, as far as the user states it.
+/// Pose of the laser on the robot. Coordinates that the user does not state are empty.
 struct LaserMount {
   std::optional<double> x_m;
   std::optional<double> y_m;

@@ -40,7 +40,7 @@ void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
 /// Moves the active local maps that draw_local_maps() drew to their current poses.
 void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
 
-/// Draws the path by odometry alone, from the first pose in the map on.
+/// Draws the path by odometry alone, starting at the first pose in the map.
 void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot);
 /// Draws the corrected path, with dots at unmatched scans.
 void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot);

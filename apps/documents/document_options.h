@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Documents that are installed beside a program: manual pages and shell completion, made from the definition
-// of its command line and from its options.
+// Documents that are installed beside a program: manual pages and shell completion. They are made from the
+// definition of its command line and from the table of its settings.
 #pragma once
 
 #include <CLI/CLI.hpp>

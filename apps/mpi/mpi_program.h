@@ -33,7 +33,7 @@ struct MpiProgram {
   std::function<std::function<int()>(CLI::App& app, int ranks, const Streams& streams)> define;
   /// Carries out one order on a rank other than 0.
   MakeOrder make;
-  std::shared_ptr<const OptionTable> settings{};  ///< options for man page and completion; may be null
+  std::shared_ptr<const OptionTable> settings{};  ///< settings in man page and completion; may be null
 };
 
 /// Runs the program as one rank of a job, or alone, and returns its exit code. --help, --version and the
@@ -48,7 +48,7 @@ std::filesystem::path program_beside(const std::string& name, const std::string&
 /// a job with several ranks. Rethrows the first exception of `watch.finished` when all ranks are idle.
 void hand_out(const std::vector<std::string>& orders, const WorkWatch<std::string>& watch);
 
-/// Workers for rank 0 of a job with several ranks: they hand out orders to all other ranks.
+/// Returns workers for rank 0 of a job with several ranks, which send the orders to all other ranks.
 template <class Order, class Outcome>
 Workers<Order, Outcome> rank_workers() {
   return [](const std::vector<Order>& orders, const WorkWatch<Outcome>& watch) {
@@ -60,7 +60,8 @@ Workers<Order, Outcome> rank_workers() {
   };
 }
 
-/// MakeOrder for all ranks except 0: calls `make`, and converts orders and outcomes from and to CBOR text.
+/// Returns a MakeOrder for all ranks except 0. It calls `make` and converts orders and outcomes from and to
+/// CBOR text.
 template <class Order, class Outcome>
 MakeOrder text_maker(std::optional<Outcome> (*make)(const Order&, const std::function<bool()>&)) {
   return [make](const std::string& order, const std::function<bool()>& stop) {

@@ -27,7 +27,7 @@ enum class FalseLoopKind {
   kNearby,     ///< true loops moved by metres, within the uncertainty of odometry
 };
 
-/// "scattered", "groups", "nearby".
+/// Name of a kind: "scattered", "groups" or "nearby".
 std::string name_of(FalseLoopKind kind);
 
 struct FalseLoopOptions {

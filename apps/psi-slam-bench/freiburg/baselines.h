@@ -23,11 +23,11 @@ namespace psi_slam {
 /// Properties of a baseline, installed or not.
 struct BaselineKind {
   std::string name;    ///< name of the program: "icp-slam"
-  std::string config;  ///< the shipped settings, relative to share/mrpt/config_files
+  std::string config;  ///< path of the shipped settings, relative to share/mrpt/config_files
   /// Changed settings of the section MappingApplication: no windows, no pictures, a fixed random seed.
   std::vector<std::pair<std::string, std::string>> changes;
   std::string remark;          ///< remark on the figures of the baseline; may be empty
-  std::size_t yaw_column = 3;  ///< column of the yaw in the file of its path, counted from 0
+  std::size_t yaw_column = 3;  ///< column of the yaw in the path file, counted from 0
 };
 const std::vector<BaselineKind>& baseline_kinds();
 
@@ -48,8 +48,8 @@ struct FoundBaselines {
 /// the folder share/ beside the bin/ of each program.
 FoundBaselines find_baselines(const std::string& search_path);
 
-/// The shipped settings with the changes of the kind and the folder for the program's output. Throws
-/// UserError when the shipped settings cannot be read.
+/// Text of the shipped settings, with BaselineKind::changes and with the folder for the program's output.
+/// Throws UserError when the shipped settings cannot be read.
 std::string baseline_settings(const BaselineProgram& baseline, const std::filesystem::path& output);
 
 /// The settings that the benchmark changes, as text: "SAVE_3D_SCENE = 0, RANDOM_SEED = 1".

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// A run to make, with the places for its result.
+/// A run to make, with the file and the object for its result.
 struct Task {
   FreiburgRun run;
   std::string name;  // "intel-csm-1"

@@ -34,8 +34,8 @@ struct FreiburgRun {
   int threads = 1;
 };
 
-/// "csm", "csm_ga", "ga" and "adaptive", the values of loop_closure.matcher, and "adaptive_paper": the
-/// adaptive matcher with the genetic search of the paper.
+/// Names of the matchers: the values "csm", "csm_ga", "ga" and "adaptive" of loop_closure.matcher, and
+/// "adaptive_paper", the adaptive matcher with the genetic search of the paper.
 const std::vector<std::string>& freiburg_matchers();
 
 /// True for all matchers except csm, whose search is exact. No other part of a run draws random numbers.

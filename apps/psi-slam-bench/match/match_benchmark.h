@@ -114,7 +114,7 @@ struct LogNote {
   std::string name;
   std::string md5;  ///< checksum of the log file
   std::optional<double> translation_error_m;
-  std::size_t positive = 0;  ///< cases of the first series
+  std::size_t positive = 0;  ///< number of positive cases in the first series
   std::size_t negative = 0;
   std::string remark;  ///< reason for leaving the log out, or missing cases; may be empty
   bool used = true;

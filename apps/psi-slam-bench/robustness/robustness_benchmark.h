@@ -94,7 +94,7 @@ struct RobustnessRow {
   double rotation_error_deg = 0;   ///< mean over the relations
   std::size_t relations = 0;       ///< evaluated relations; those in long gaps of the path are not evaluated
   std::size_t scans = 0;
-  std::size_t unmatched = 0;  ///< scans that the front end could not match, except the first
+  std::size_t unmatched = 0;  ///< scans after the first that the front end could not match
   std::size_t loops = 0;      ///< accepted loops
   std::optional<double> loop_precision;
   std::optional<double> loop_recall;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDegrees = 180 / M_PI;
 
-/// The runs of one case on a log, one for each seed.
+/// Runs of one case on one log, with different seeds.
 using Runs = std::vector<RobustnessRow>;
 
 std::vector<Runs> cases_of(const RobustnessBenchmark& benchmark) {

@@ -34,7 +34,8 @@ struct NormalisedErrors {
 double normalised_square(const mrpt::math::TPose2D& measured, const mrpt::math::TPose2D& truth,
                          const Eigen::Matrix3d& information);
 
-/// Mean, median and outer share of `squares`; zeros without squares.
+/// Statistics of the normalised squared errors `squares`; zeros without squares. `of` names the kind of
+/// poses.
 NormalisedErrors normalised_errors(std::string of, std::vector<double> squares);
 
 /// Normalised errors of the local-map constraints, of the loops, and of random pairs of nodes. The pairs come

@@ -44,7 +44,7 @@ struct SparseRow {
   /// Errors, relations and scans; times include reading the log. Memory is not measured.
   RunFigures figures;
   std::size_t nodes = 0;
-  std::size_t unmatched = 0;  ///< scans that the front end could not match, except the first
+  std::size_t unmatched = 0;  ///< scans after the first that the front end could not match
   std::size_t loops = 0;      ///< accepted loops
   NodeCosts costs;
   /// Mean translation error, in metres, of a thinned log whose kept scans take their poses from the map of

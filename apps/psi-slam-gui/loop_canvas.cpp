@@ -40,7 +40,7 @@ std::pair<double, double> range_without_outliers(std::vector<double> values) {
   return {values[out], values[values.size() - 1 - out]};
 }
 
-/// Fits both scans with a margin into the area, centred.
+/// Returns the frame that centres both scans, with a margin, in the area.
 Frame2D frame_for(const LoopPicture& picture, const wxRect& area) {
   std::vector<double> x_m;
   std::vector<double> y_m;

@@ -27,7 +27,7 @@ class LoopList : public wxListCtrl {
   LoopTable table;
 
  private:
-  /// Gives the last column the rest of the width.
+  /// Gives the last column the width that the other columns leave.
   void fit_columns(wxSizeEvent& event);
   /// Shows the reason of the row under the pointer as a tooltip if the column is too narrow for the reason.
   void show_tip(wxMouseEvent& event);

@@ -164,7 +164,7 @@ class MainFrame : public wxFrame {
   double speed_ = 0;
   std::filesystem::path opened_;                         ///< log or session that is open
   std::map<std::string, std::string> session_settings_;  ///< settings of the session that cannot change
-  std::optional<mrpt::math::TPoint2D> first_place_;      ///< first click of a loop to add
+  std::optional<mrpt::math::TPoint2D> first_place_;      ///< first of the two clicks that add a loop
 
   AskForFile ask_for_file_;
   wxAuiManager panes_;

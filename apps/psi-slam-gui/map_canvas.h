@@ -25,7 +25,7 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
     std::function<void(const mrpt::math::TPoint2D&)> clicked = [](const mrpt::math::TPoint2D&) {};
     std::function<void(const Measure&)> measured = [](const Measure&) {};
     std::function<void(bool)> followed = [](bool) {};
-    /// Called with an error message if OpenGL cannot draw. Not called again for each frame.
+    /// Called with an error message if OpenGL cannot draw: once for the view, and once for each picture.
     std::function<void(const std::string&)> failed = [](const std::string&) {};
   };
   Callbacks on;

@@ -26,7 +26,7 @@ std::string help_of(const Option& option) {
          (option.default_text.empty() ? "empty" : option.default_text) + '.';
 }
 
-/// Makes the property of an option, without a value. It shows values as a settings file does.
+/// Makes the property of an option, without a value. The property shows values as a settings file does.
 wxPGProperty* property_for(const Option& option) {
   const wxString label = text_of(option.unit.empty() ? option.key : option.key + "  [" + option.unit + ']');
   const wxString name = text_of(option.name());

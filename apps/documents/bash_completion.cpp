@@ -9,7 +9,7 @@ namespace {
 
 /// Start of the completion function: finds the word to complete, the option before it, and the command. Bash
 /// splits words at "=" and ":", which settings contain, so the script splits the line again at blanks. kEnd
-/// removes from each answer the part before the last "=" or ":", which bash keeps on the line.
+/// removes from each answer the part up to the last "=" or ":", which bash keeps on the line.
 constexpr const char* kBegin = R"(@FUNCTION@_answer() {
   local answer
   while IFS= read -r answer; do
@@ -88,7 +88,7 @@ std::string answer_for(WordKind kind, const std::string& function) {
   return kind == WordKind::kSetting ? function + "_setting" : ":";
 }
 
-/// Branches of `case "$command $previous" in`, one for each kind of value.
+/// Branches of `case "$command $previous" in` that complete an option's value, one for each kind of value.
 std::string value_branches(const CLI::App& app, const std::string& command, const std::string& function) {
   std::map<WordKind, std::vector<std::string>> patterns;
   for (const CLI::Option* option : shown_options(app))
@@ -101,8 +101,8 @@ std::string value_branches(const CLI::App& app, const std::string& command, cons
   return text;
 }
 
-/// Branches for a word that is not the value of an option. They complete options after a dash, and commands
-/// and files otherwise.
+/// Branch for a word that is not the value of an option. Completes options if the word begins with a dash,
+/// and commands and files otherwise.
 std::string word_branches(const CLI::App& app, const std::string& command) {
   std::vector<std::string> options;
   for (const CLI::Option* option : shown_options(app))

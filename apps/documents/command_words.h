@@ -23,7 +23,7 @@ std::vector<const CLI::Option*> shown_options(const CLI::App& app);
 std::vector<const CLI::Option*> shown_positionals(const CLI::App& app);
 std::vector<const CLI::App*> shown_commands(const CLI::App& app);
 
-/// Escapes the characters of a plain text that troff interprets. The text may have several lines.
+/// Escapes the characters that troff interprets in a plain text. The text may have several lines.
 std::string roff_text(std::string_view text);
 
 /// All names of an option as a user types them: "-c", "--config".

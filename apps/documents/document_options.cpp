@@ -40,7 +40,7 @@ std::string heading(const std::string& name, int section, const std::string& ver
          "\" \"" + manual + "\"\n";
 }
 
-/// First clause of the program's description, in lower case and without the program's name.
+/// First clause of the program's description, without the program's name and with a lower-case first letter.
 std::string in_a_line(const CLI::App& app) {
   std::string text = app.get_description();
   const std::string name = app.get_name() + ' ';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Documents that are installed beside a program: manual pages and shell completion, made from the definition
-// of its command line and from its options.
+// Documents that are installed beside a program: manual pages and shell completion. They are made from the
+// definition of its command line and from the table of its settings.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +11,7 @@
 
 namespace psi_slam {
 
-/// Adds an option or argument for `member`; `type` names its value in the documents, such as "FILE".
+/// Adds an option or argument that sets `member`. `type` names the value in help texts, such as "FILE".
 template <class Member>
 CLI::Option* add_value(CLI::App& app, const std::string& names, Member& member, const std::string& help,
                        const std::string& type) {
@@ -23,10 +23,10 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, Member& member, 
 void add_document_options(CLI::App& app, std::shared_ptr<const OptionTable> settings = nullptr);
 
 /// Manual page of a program. The description of `app` may begin with the program's name and must go on with a
-/// verb, as in "psi-slam draws floor plans". Its first clause becomes the line of the section NAME.
+/// verb, as in "psi-slam draws floor plans". The first clause of the description becomes the section NAME.
 std::string man_page(const CLI::App& app);
 
-/// Manual page psi-slam.ini(5) of the settings files; `version` is that of the programs.
+/// Manual page psi-slam.ini(5) of the settings files. `version` names program and version, as --version does.
 std::string settings_man_page(const OptionTable& table, const std::string& version);
 
 /// Completion script for bash, and for zsh through its bashcompinit. Completes commands, options, files,

@@ -8,9 +8,10 @@
 
 namespace psi_slam {
 
-/// Runs `work` and returns the exit code: that of `work`; kExitDone after --help and --version, which are
-/// printed to `out`; kExitWrongUsageOrInput for CLI::ParseError and UserError; else kExitFailed, also if
-/// `out` cannot be written. Prints one line to `err` for each error, beginning with the name of `app`.
+/// Runs `work` and returns its exit code, or kExitFailed if `out` cannot be written. Prints the text of
+/// --help and --version to `out` and returns kExitDone. Returns kExitWrongUsageOrInput after CLI::ParseError
+/// and UserError, and kExitFailed after any other std::exception. Prints one line to `err` for each error,
+/// beginning with the name of `app`.
 int run_program(const CLI::App& app, std::ostream& out, std::ostream& err,
                 const std::function<int()>& work) noexcept;
 

@@ -103,7 +103,7 @@ bool is_started_as_later_rank() {
   return false;
 }
 
-/// Parses the command line and does the work of rank 0. Only parses if `ranks` is 0.
+/// Parses the command line, does the work of rank 0 and returns its exit code. Only parses if `ranks` is 0.
 int run(CLI::App& app, const MpiProgram& program, int ranks, int argc, char** argv, const Streams& streams) {
   app.description(program.description);
   const std::function<int()> work = program.define(app, ranks, streams);
@@ -114,7 +114,7 @@ int run(CLI::App& app, const MpiProgram& program, int ranks, int argc, char** ar
   return ranks > 0 ? work() : kExitDone;
 }
 
-/// Text that --help, --version or a hidden option for documents prints; empty for other arguments.
+/// Returns the text that --help, --version or a hidden document option prints; nothing for other arguments.
 std::optional<std::string> words_of_itself(const MpiProgram& program, int argc, char** argv,
                                            const Streams& streams) {
   CLI::App app("", program.name);
@@ -132,7 +132,7 @@ std::optional<std::string> words_of_itself(const MpiProgram& program, int argc, 
 }  // namespace
 
 int run_mpi_program(int argc, char** argv, const MpiProgram& program) {
-  // A file that reaches the limit of `ulimit -f` gives an error message, as on a full disk.
+  // Ignores SIGXFSZ, so that a write beyond `ulimit -f` fails instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
   const Streams streams{std::cout, std::cerr, ::isatty(STDERR_FILENO) == 1};
   if (const auto words = words_of_itself(program, argc, argv, streams)) {

@@ -18,8 +18,8 @@
 
 namespace psi_slam {
 
-/// Carries out an order and returns its outcome. Calls `stop` a few times a second. Ends the order and
-/// returns nothing when `stop` returns true.
+/// Carries out an order and returns its outcome, a text that is not empty. Calls `stop` a few times a second.
+/// Ends the order and returns nothing when `stop` returns true.
 using MakeOrder =
     std::function<std::optional<std::string>(const std::string& order, const std::function<bool()>& stop)>;
 
@@ -27,13 +27,13 @@ struct MpiProgram {
   std::string name;
   std::string description;
   std::string examples;  ///< printed at the end of --help
-  /// Adds the options to `app` and returns the work of rank 0, which is called after parsing. If `ranks` is
-  /// 0, parsing must have no other effect. Parsing and work may throw CLI::ParseError and UserError for
-  /// mistakes of the user.
+  /// Adds the options to `app` and returns the work of rank 0, which is called after parsing. `ranks` is the
+  /// number of ranks of the job, or 0 if the work is not called. Parsing must then have no side effects.
+  /// Parsing and work may throw CLI::ParseError and UserError for mistakes of the user.
   std::function<std::function<int()>(CLI::App& app, int ranks, const Streams& streams)> define;
   /// Carries out one order on a rank other than 0.
   MakeOrder make;
-  std::shared_ptr<const OptionTable> settings{};  ///< options for man page and completion; may be null
+  std::shared_ptr<const OptionTable> settings{};  ///< settings in man page and completion; may be null
 };
 
 /// Runs the program as one rank of a job, or alone, and returns its exit code. --help, --version and the
@@ -44,11 +44,11 @@ int run_mpi_program(int argc, char** argv, const MpiProgram& program);
 /// name of this program, for the error message. Throws UserError if the other program does not exist.
 std::filesystem::path program_beside(const std::string& name, const std::string& own_name);
 
-/// Hands out the orders, and returns when all have been carried out or stopped. Call it in rank 0 of a job
-/// with several ranks. Waits for all ranks before it rethrows an exception of `watch.finished`.
+/// Sends the orders to the other ranks, and returns when all are carried out or stopped. Call it in rank 0 of
+/// a job with several ranks. Rethrows the first exception of `watch.finished` when all ranks are idle.
 void hand_out(const std::vector<std::string>& orders, const WorkWatch<std::string>& watch);
 
-/// Workers for rank 0 of a job with several ranks: they hand out orders to all other ranks.
+/// Returns workers for rank 0 of a job with several ranks, which send the orders to all other ranks.
 template <class Order, class Outcome>
 Workers<Order, Outcome> rank_workers() {
   return [](const std::vector<Order>& orders, const WorkWatch<Outcome>& watch) {
@@ -60,7 +60,8 @@ Workers<Order, Outcome> rank_workers() {
   };
 }
 
-/// MakeOrder for all ranks except 0: calls `make`, and converts orders and outcomes from and to CBOR text.
+/// Returns a MakeOrder for all ranks except 0. It calls `make` and converts orders and outcomes from and to
+/// CBOR text.
 template <class Order, class Outcome>
 MakeOrder text_maker(std::optional<Outcome> (*make)(const Order&, const std::function<bool()>&)) {
   return [make](const std::string& order, const std::function<bool()>& stop) {

@@ -33,7 +33,7 @@ constexpr const char* kExamples =
 
 struct GraphSlamCommandLine {
   GraphSlamSetup setup;
-  std::string output;  ///< empty: output_dir_fname of the settings file
+  std::string output;  ///< folder for the results; empty: output_dir_fname of the settings file
   bool force = false;
   bool plane = false;
   bool space = false;
@@ -41,7 +41,7 @@ struct GraphSlamCommandLine {
   bool list_node_deciders = false;
   bool list_edge_deciders = false;
   bool list_optimizers = false;
-  bool list_regs = false;  ///< node and edge deciders
+  bool list_regs = false;  ///< list node and edge deciders
   bool list_all = false;
   bool dump_options = false;
 

@@ -9,9 +9,9 @@
 namespace psi_slam {
 
 /// Runs the program with its arguments, without the program's name. Returns the exit code: 0 done, also if
-/// the user interrupted it; 1 failed; 2 wrong usage or input, also if the log is damaged. While it maps, the
-/// first SIGINT or SIGTERM ends the mapping or the final loop search and writes the map; the second one ends
-/// the process. MRPT's engine prints its own messages to the process' standard output.
+/// the user interrupted it; 1 failed; 2 wrong usage or input, also if the log is damaged. During mapping, the
+/// first SIGINT or SIGTERM ends the mapping or the final loop search, and the map is written. The second
+/// signal ends the process. MRPT's engine prints its own messages to the process' standard output.
 int run_graphslam_app(const std::vector<std::string>& arguments, std::ostream& out,
                       std::ostream& err) noexcept;
 

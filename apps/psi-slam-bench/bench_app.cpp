@@ -129,7 +129,7 @@ void run_simulate(const SimulateArguments& arguments, const Streams& streams) {
   const std::vector<SimulateRow> rows =
       with_progress(streams, [&](const auto& progress) { return run_simulate_benchmark(options, progress); });
 
-  // The report follows the benchmark, because memory of this process would count as memory of its children.
+  // Make the report only now: forked children of the benchmark would count this memory as their own.
   BenchReport report = simulate_report(rows, options, machine_text());
   if (!arguments.output.empty()) report.plots.push_back({"simulate-plan.svg", plan_of_shortest(options)});
   if (!arguments.log.empty())
@@ -172,8 +172,8 @@ void add_simulate_command(CLI::App& app, const Streams& streams) {
   simulate.callback([arguments, &streams] { run_simulate(*arguments, streams); });
 }
 
-/// Logs of the benchmark, after a check of their settings. Empty if no part of the benchmark needs logs.
-/// Prints warnings about the settings of the logs.
+/// Finds the logs of the benchmark, checks their settings and prints warnings about them. Returns no logs if
+/// no part of the benchmark needs any. Throws UserError for invalid settings or without --data.
 SparseLogs sparse_logs(const Arguments<SparseOptions>& arguments, const Streams& streams) {
   const SparseOptions& options = arguments.options;
   benchmark_settings({}, options.assignments);

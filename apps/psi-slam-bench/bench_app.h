@@ -9,8 +9,8 @@
 
 namespace psi_slam {
 
-/// Runs the program with its arguments, without its own name. Returns the exit code: 0 done, 1 failed, 2
-/// wrong usage or input. Never throws.
+/// Runs the program with its arguments, without the program's name. Returns the exit code: 0 done, 1 failed,
+/// 2 wrong usage or input.
 int run_bench_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept;
 
 }  // namespace psi_slam

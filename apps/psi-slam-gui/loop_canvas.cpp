@@ -20,7 +20,7 @@ constexpr double kAround_m = 1.5;  // margin around the scan
 // On each of the four sides, one of this many points may lie outside the picture.
 constexpr std::size_t kPointsPerOutlier = 12;
 
-/// Maps the ground to pixels: the place (x_m, y_m) lies at the pixel (x_px, y_px).
+/// Converts positions in the frame of the local map to pixels. The position (x_m, y_m) is at (x_px, y_px).
 struct Frame2D {
   double x_m = 0;
   double y_m = 0;
@@ -40,7 +40,7 @@ std::pair<double, double> range_without_outliers(std::vector<double> values) {
   return {values[out], values[values.size() - 1 - out]};
 }
 
-/// Fits both scans with a margin into the area, centred.
+/// Returns the frame that centres both scans, with a margin, in the area.
 Frame2D frame_for(const LoopPicture& picture, const wxRect& area) {
   std::vector<double> x_m;
   std::vector<double> y_m;

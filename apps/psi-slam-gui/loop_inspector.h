@@ -20,16 +20,16 @@ namespace psi_slam {
 
 class LoopCanvas;
 
-/// The list control of the loops. It asks the table for rows as they become visible.
+/// The list control of the loops. Asks the table for the text of rows as they become visible.
 class LoopList : public wxListCtrl {
  public:
   explicit LoopList(wxWindow* parent);
   LoopTable table;
 
  private:
-  /// Gives the last column the rest of the width.
+  /// Gives the last column the width that the other columns leave.
   void fit_columns(wxSizeEvent& event);
-  /// Shows a reason as a tooltip if its column cuts it off.
+  /// Shows the reason of the row under the pointer as a tooltip if the column is too narrow for the reason.
   void show_tip(wxMouseEvent& event);
   wxString OnGetItemText(long row, long column) const override;
   wxListItemAttr* OnGetItemAttr(long row) const override;
@@ -73,7 +73,7 @@ class LoopInspector : public wxPanel {
   std::optional<std::size_t> selected_;
   bool selecting_ = false;  ///< true while refresh_rows(), not the user, changes the selection
   bool scroll_to_selected_ = false;
-  /// The selected loop. Identifies it after edits, which change the indices of loops.
+  /// Copy of the selected loop, which identifies the loop after edits have changed the indices of loops.
   std::optional<LoopRecord> chosen_;
   wxChoice* filter_;
   wxStaticText* summary_;

@@ -61,7 +61,7 @@ LoopTable::Cell LoopTable::cell(const LoopRecord& loop, std::size_t column) cons
   if (column == kMoved) return number(loop.moved_m, 2);
   if (column == kVerdict) return {0, verdict_text(loop.verdict)};
   if (column == kReason) return {0, text_of(loop.refusal)};
-  // kResidual: empty for matches that are no constraint of the graph
+  // kResidual: empty for matches that are not constraints of the graph
   if (loop.verdict == LoopVerdict::kAccepted || loop.verdict == LoopVerdict::kSwitchedOff)
     return number(loop_residual_m(loop, *snapshot_->map_T_node), 3);
   return {std::numeric_limits<double>::infinity() * (ascending_ ? 1 : -1), ""};  // listed last

@@ -32,7 +32,7 @@ class LoopTable {
   static constexpr std::size_t kColumns = 10;
   static const char* title(std::size_t column);
 
-  /// Shows the loops of a snapshot. Returns true if they differ from those shown before.
+  /// Shows the loops of a snapshot. Returns true if loops or node poses have changed since the last call.
   bool show(const std::shared_ptr<const ReplaySnapshot>& snapshot);
   /// Lists only loops with `verdict`, or all loops if it is empty.
   void set_filter(std::optional<LoopVerdict> verdict);

@@ -51,7 +51,7 @@ class MainFrame : public wxFrame {
  public:
   MainFrame();
 
-  /// Opens the files that the command line names. Ignores empty names.
+  /// Loads the settings and opens the files that the command line names. Ignores empty names.
   void start(const std::string& log, const std::string& config, const std::vector<std::string>& settings,
              const std::string& edits = "");
 
@@ -76,7 +76,7 @@ class MainFrame : public wxFrame {
   void save_session(const std::filesystem::path& file);
   /// Shows the message of an exception in the message bar.
   void report_failure(const std::exception_ptr& failure);
-  /// Shows a scan that is already mapped, or maps up to it.
+  /// Shows the scan with number `scan`, counted from 0, if it is mapped. Otherwise maps up to this scan.
   void go_to(std::size_t scan);
 
   // Access for tests.
@@ -132,11 +132,11 @@ class MainFrame : public wxFrame {
   std::vector<std::string> take_settings_of(const SessionFacts& facts, const std::filesystem::path& file,
                                             const std::function<void(BoundSettings&)>& overrule);
   enum class Edits { kOfFile, kMadeSoFar };
-  /// Opens a run. Throws UserError if it resumes a session, and a setting that shapes the map has changed.
+  /// Opens a run. Throws UserError if the run resumes a session and settings that shape the map have changed.
   void open(SessionInput input, Edits edits);
   /// Calls `action` and shows its exception, if any, in the message bar.
   void attempt(const std::function<void()>& action);
-  /// Updates the check marks of the menus from what is shown.
+  /// Sets the check marks of the menus to the visible layers, loops and panes.
   void check_choices();
   void play_or_pause();
   void finish();
@@ -164,7 +164,7 @@ class MainFrame : public wxFrame {
   double speed_ = 0;
   std::filesystem::path opened_;                         ///< log or session that is open
   std::map<std::string, std::string> session_settings_;  ///< settings of the session that cannot change
-  std::optional<mrpt::math::TPoint2D> first_place_;      ///< first click of a loop to add
+  std::optional<mrpt::math::TPoint2D> first_place_;      ///< first of the two clicks that add a loop
 
   AskForFile ask_for_file_;
   wxAuiManager panes_;

@@ -25,15 +25,15 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
     std::function<void(const mrpt::math::TPoint2D&)> clicked = [](const mrpt::math::TPoint2D&) {};
     std::function<void(const Measure&)> measured = [](const Measure&) {};
     std::function<void(bool)> followed = [](bool) {};
-    /// Called with an error message if OpenGL cannot draw. Not called again for each frame.
+    /// Called with an error message if OpenGL cannot draw: once for the view, and once for each picture.
     std::function<void(const std::string&)> failed = [](const std::string&) {};
   };
   Callbacks on;
 
   MapScene& map_scene() { return map_scene_; }
 
-  /// Shows the run at scan `frame`, or at its newest scan. Keeps the whole map in view until the user moves
-  /// it.
+  /// Shows the run at scan `frame`, or at the newest scan if `frame` is empty. Keeps the whole map in view
+  /// until the user moves the map.
   void show(const std::shared_ptr<const ReplaySnapshot>& snapshot, const std::shared_ptr<const DrawnMap>& map,
             std::optional<std::size_t> frame);
 
@@ -60,7 +60,7 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
 
   MapCamera camera() const;
 
-  /// Draws the map again and calls `taken` with the picture.
+  /// Draws the map again, then calls `taken` with the picture. Does not call `taken` if OpenGL cannot draw.
   void take_picture(std::function<void(const wxImage&)> taken);
 
  private:

@@ -16,17 +16,17 @@
 namespace psi_slam {
 namespace {
 
-constexpr const char* kWhere = "Settings";  // the place that error messages about wrong values name
+constexpr const char* kWhere = "Settings";  // source of the value, named in error messages
 constexpr const char* kNothingSelected =
     "Select an option to read its help. Right-click an option to reset it.";
-constexpr int kHelpHeight = 104;  // pixels of six lines
+constexpr int kHelpHeight = 104;  // height of six lines, in pixels
 
 std::string help_of(const Option& option) {
   return option.name() + ": " + option.help + "\n" + option.values() + "; default " +
          (option.default_text.empty() ? "empty" : option.default_text) + '.';
 }
 
-/// Makes the property of an option, without a value. It shows values as a settings file does.
+/// Makes the property of an option, without a value. The property shows values as a settings file does.
 wxPGProperty* property_for(const Option& option) {
   const wxString label = text_of(option.unit.empty() ? option.key : option.key + "  [" + option.unit + ']');
   const wxString name = text_of(option.name());

@@ -16,8 +16,8 @@ class wxStaticText;
 
 namespace psi_slam {
 
-/// Property grid of all options, made from their descriptions, with the help of the selected option below it.
-/// Rejects a wrong value with the same message as the command line.
+/// Property grid of all options. A text below the grid explains the selected option. Rejects a wrong value
+/// with the same message as the command line.
 class SettingsPanel : public wxPanel {
  public:
   struct Actions {

@@ -26,8 +26,9 @@ class TransportBar : public wxPanel {
   /// choice send commands to the window.
   TransportBar(wxWindow* parent, const std::function<void(std::size_t)>& go_to);
 
-  /// Shows the state of a run. `shown` is an earlier scan that is shown instead of the newest. The remaining
-  /// time is the longer of the mapper's estimate and the rest of the log at the chosen speed.
+  /// Shows the state of a run. `stamps_us` may be null. `shown` is an earlier scan that is shown instead of
+  /// the newest. The remaining time is the longer of the mapper's estimate and the rest of the log at the
+  /// chosen speed.
   void show(const ReplaySnapshot& snapshot, const std::shared_ptr<const std::vector<TimeUs>>& stamps_us,
             std::optional<std::size_t> shown);
 
@@ -48,11 +49,11 @@ class TransportBar : public wxPanel {
   bool plays_ = false;
 };
 
-/// Time of a scan since the start of the log, such as "0:12 of 3:40".
+/// Time of a scan since the start of the log, such as "0:12 of 3:40". Empty without time stamps.
 std::string log_time_text(const std::vector<TimeUs>& stamps_us, std::size_t scan);
 
 /// Time in seconds to replay the log after `mapped` scans at `speed`, a multiple of the recorded speed.
-/// Returns 0 for speed 0, which is as fast as possible.
+/// Returns 0 for speed 0, which is as fast as possible, and if `mapped` is 0.
 double replay_time_left_s(const std::vector<TimeUs>& stamps_us, std::size_t mapped, double speed);
 
 /// Describes the phase of the run and its remaining time. While scans are mapped, the remaining time is at

@@ -19,7 +19,7 @@ inline wxString text_of(const std::string& utf8) {
   return wxString::FromUTF8(utf8);
 }
 
-/// Converts a file name, which is a byte string. Keeps bytes that are not UTF-8 if wxWidgets can.
+/// Converts a file name of wxWidgets to a path. Keeps bytes that are not UTF-8 if wxWidgets can.
 inline std::filesystem::path path_of(const wxString& text) {
   return std::filesystem::path(text.fn_str().data());
 }

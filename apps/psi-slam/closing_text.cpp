@@ -14,7 +14,7 @@ std::string closing_text(const RunSummary& summary, const std::string& log_name,
   const std::filesystem::path picture = folder.path() / "map.png";
   const std::string report = (folder.path() / "report.html").string();
   std::error_code ignored;
-  const bool has_picture = std::filesystem::exists(picture, ignored);  // depends on map.write_png
+  const bool has_picture = std::filesystem::exists(picture, ignored);  // false without map.write_png
   std::string lines = "The map is in " + (has_picture ? picture : folder.path()).string() +
                       ", the report in " + report + ".\n";
   lines += counted(summary.log.scans, "scan") + " of " + log_name + " over " +

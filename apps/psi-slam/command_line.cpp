@@ -40,7 +40,7 @@ bool is_option(const std::string& argument) {
   return argument.size() > 1 && argument.front() == '-';
 }
 
-/// Options of all commands that read logs and write a folder.
+/// Adds the options of all commands that read logs and write a folder.
 void add_run_options(CLI::App& command, CommandLine& line) {
   add_settings_options(command, line.config, line.settings);
   command.add_flag("--force", line.force, "Replace results in a folder that is not empty");

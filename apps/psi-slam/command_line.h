@@ -45,11 +45,12 @@ struct CommandLine {
 /// invalid options, and UserError for arguments that contradict each other.
 CommandLine parse_command_line(const std::vector<std::string>& arguments, CLI::App& app);
 
-/// Changes `bound` by the settings file, then by --set, --seed and --threads. Prints a warning for each old
-/// option name. Throws UserError for invalid values and for settings that contradict each other.
+/// Loads the settings file into `bound`, then applies --set, --seed and --threads. Prints a warning for each
+/// old option name. Throws UserError for invalid values and for settings that contradict each other.
 void load_settings(const CommandLine& line, BoundSettings& bound, const Streams& streams);
 
-/// Parses --start, "X,Y,YAW_DEG" in metres and degrees. Throws UserError for any other text.
+/// Parses --start, "X,Y,YAW_DEG" in metres and degrees, to a pose in radians. Throws UserError for any other
+/// text.
 mrpt::math::TPose2D parse_start(const std::string& text);
 
 /// The table of all options with their defaults, for the documentation.

@@ -35,12 +35,13 @@ int check_log(const CommandLine& line, const Streams& streams);
 /// session that is resumed may be overwritten.
 void check_session_to_save(const CommandLine& line);
 
-/// Loads the settings of a recorded session into `bound`. Prints a warning for each obsolete option, and if
-/// another version of the program recorded the session.
+/// Loads the settings of a recorded session into `bound`. Prints a warning for each obsolete option. Also
+/// warns, unless --quiet is given, if another version of the program recorded the session.
 void load_recorded_settings(const CommandLine& line, const std::string& file, const SessionFacts& facts,
                             BoundSettings& bound, const Streams& streams);
 
-/// Shows the session's progress if errors go to a terminal. Prints a message when the session is interrupted.
+/// Sets an observer of `session` that shows the progress on a terminal, unless --quiet is given, and prints a
+/// message after an interrupt. The observer keeps references to all arguments.
 void watch(MappingSession& session, const InterruptSignals& signals, const CommandLine& line,
            const Streams& streams, std::optional<ProgressLine>& progress_line);
 

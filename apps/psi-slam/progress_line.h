@@ -11,8 +11,8 @@
 
 namespace psi_slam {
 
-/// Text such as " 43 %   5876 scans   2100 scans/s   0:04 left". Later phases have their name in place of the
-/// scans. The time left is that of the current phase.
+/// Text such as " 43 %   5876 scans   2100 scans/s   0:04 left". The final loop search has its name in place
+/// of the scans; the text of the writing phase has no figures. The time left is that of the current phase.
 std::string progress_text(const SessionProgress& progress);
 
 /// Text such as "intel, cases   34 %   12:30 left", without the time left in the first percent of the work.
@@ -28,7 +28,7 @@ class OverwrittenLine {
   OverwrittenLine(const OverwrittenLine&) = delete;
   OverwrittenLine& operator=(const OverwrittenLine&) = delete;
 
-  /// True if nothing was shown in the last 0.2 s.
+  /// True if there is a terminal and nothing was shown on the line in the last 0.2 s.
   bool is_due() const;
   void show(const std::string& text);
   void clear();
@@ -58,7 +58,8 @@ class WorkProgress {
   /// `terminal` may be null.
   explicit WorkProgress(std::ostream* terminal) : line_(terminal) {}
 
-  /// `done` of `all` units of work are finished. `doing` says what is being done.
+  /// Shows the name `doing` of the work, and the share of it that is finished: `done` of `all` units. Does
+  /// nothing if the line was updated in the last 0.2 s.
   void show(const std::string& doing, double done, double all);
   void clear() { line_.clear(); }
 

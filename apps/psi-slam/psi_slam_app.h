@@ -24,10 +24,10 @@ struct Streams {
   bool err_is_terminal = false;  ///< progress is shown only on a terminal
 };
 
-/// Runs the program with its arguments, without the program's name. Returns the exit code: 0 done, also if
-/// the user interrupted it; 1 failed, or not localized at the end; 2 wrong usage or input. While it maps, the
-/// first SIGINT or SIGTERM ends the mapping or the final loop search and writes the map; the second one ends
-/// the process.
+/// Runs the program with its arguments, without the program's name. Returns the exit code: 0 done, also after
+/// an interrupted mapping; 1 failed, merge or sweep not completed, or not localized at the end; 2 wrong usage
+/// or input. During mapping, the first SIGINT or SIGTERM ends the mapping or the final loop search, and the
+/// map is written. The second signal ends the process.
 int run_psi_slam_app(const std::vector<std::string>& arguments, const Streams& streams) noexcept;
 
 }  // namespace psi_slam

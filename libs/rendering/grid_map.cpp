@@ -145,8 +145,8 @@ class Evidence {
         cells_(static_cast<std::size_t>(layout.width * layout.height)),
         cleared_(cells_.size()) {}
 
-  /// Adds the evidence of one frame. All its lasers together count once per cell. Hits take precedence over
-  /// passes.
+  /// Adds the evidence of one frame. All lasers of the frame together count once per cell. Hits take
+  /// precedence over passes.
   void add_frame(const std::vector<const Fan*>& fans) {
     next_scan();
     for (const Fan* fan : fans)
@@ -216,8 +216,8 @@ class Evidence {
     return static_cast<std::int64_t>(cell.y) * layout_.width + static_cast<std::int64_t>(cell.x);
   }
 
-  /// Calls `visit` with the index of each cell of the digital line from start to end, except the last cell,
-  /// which holds the hit. `start` and `end` are in cells.
+  /// Calls `visit` with the index of each cell of the digital line from `start` to `end`, except the cell of
+  /// `end`. Both points are in cells.
   template <class Visit>
   void pass(const Point& start, const Point& end, Visit visit) {
     if (std::abs(end.x - start.x) >= std::abs(end.y - start.y))

@@ -30,7 +30,7 @@ MapRectangle seen_extent(const mrpt::maps::COccupancyGridMap2D& grid, const Seen
 struct MapDrawing {
   std::vector<MapLine> walls;         ///< closed outlines; a line of two points runs there and back
   std::vector<MapLine> trajectories;  ///< open lines, one for each run
-  MapRectangle extent;                ///< of all lines and of all observed cells
+  MapRectangle extent;                ///< rectangle around all lines and all observed cells
   double cell_m = 0;                  ///< side length of a cell, which is the thickness of an outline
 };
 

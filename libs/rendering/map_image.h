@@ -79,8 +79,8 @@ struct MapRaster : PicturePlace {
   std::vector<std::uint8_t> pixels;  ///< blue, green, red, opacity; row by row from the upper left
 };
 
-/// Draws the observed part of the grid with its margin and without scale bar. Reduces it to at most
-/// `max_side_px`, but never enlarges it.
+/// Draws the observed part of the grid with its margin and without scale bar. Reduces larger images to
+/// `options.max_side_px`, but never enlarges an image.
 MapRaster map_raster(const mrpt::maps::COccupancyGridMap2D& grid, const MapPictureOptions& options);
 
 /// Draws the observed part of the grid. Equal grids give equal bytes. Throws SystemFailure if the image

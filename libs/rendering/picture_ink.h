@@ -22,7 +22,7 @@ struct ScaleBarPlace {
 };
 
 /// Returns the length in metres of the scale bar for an image `width_m` wide: 1, 2 or 5 times a power of ten,
-/// at most a fifth of the width. `resolution_m` is the side length of a pixel.
+/// not above a fifth of the width or, in tiny images, one pixel. `resolution_m` is the width of a pixel.
 double scale_bar_m(double width_m, double resolution_m);
 
 /// Draws a scale bar of `bar_m` metres with its length as text, followed by `note`.

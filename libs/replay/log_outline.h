@@ -27,8 +27,8 @@ class LogOutline {
   bool ended() const { return has_ended(stamps_us_); }
 
   using Stamps = std::shared_ptr<const std::vector<TimeUs>>;
-  /// Time stamps of all readable scans, in the log's order. Null until the thread has read the whole log. Any
-  /// thread may call.
+  /// Time stamps of all readable scans, in the log's order. Null until the thread has read the whole log. May
+  /// be called from any thread.
   Stamps stamps_us() const { return ended() ? stamps_us_.get() : nullptr; }
 
  private:

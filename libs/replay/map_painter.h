@@ -47,7 +47,7 @@ class MapPainter {
   /// True once the thread has ended; the destructor then does not wait.
   bool ended() const { return has_ended(thread_); }
 
-  /// The newest drawing, or null if there is none yet. Any thread may call.
+  /// The newest drawing, or null if there is none yet. May be called from any thread.
   std::shared_ptr<const DrawnMap> drawn() const;
 
  private:

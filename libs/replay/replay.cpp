@@ -13,7 +13,7 @@ namespace {
 using Clock = LogPace::Clock;
 
 constexpr std::chrono::milliseconds kBetweenSnapshots{100};
-constexpr int kWorkPerPublishing = 20;  // snapshots take at most 1/20 of the engine's time
+constexpr int kWorkPerPublishing = 20;  // making snapshots takes at most 1/20 of the thread's time
 
 /// Calls `action`. Returns why it failed, as a sentence: `out_of_memory` if memory ran out. Empty after
 /// success.
@@ -83,7 +83,7 @@ void Replay::work() {
 
 void Replay::finish_map(MappingSession& session) {
   phase_ = ReplayPhase::kFinalSearch;
-  publish();  // publishes all scans while the mapper can still be followed
+  publish();  // the last snapshot before finish(), with all scans
   locked([&] { stop_final_search_ = close_ || cut_final_search_ || !edit_requests_.empty(); });
   session.finish(stop_final_search_);
   session_ = nullptr;

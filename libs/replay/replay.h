@@ -37,9 +37,9 @@ class SnapshotMaker;
 /// Pausing and stepping do not change the results, which equal those of psi-slam bit by bit.
 class Replay {
  public:
-  /// Replays a log and makes each of `edits` at its own time.
+  /// Replays a log and makes each edit at its EditTime.
   Replay(const std::filesystem::path& log, const Settings& settings, EditJournal edits = {});
-  /// Replays a log or a recording with its edits.
+  /// Replays a log or a recording, with the edits of the input.
   Replay(SessionInput input, const Settings& settings);
   /// Calls close() and waits for the threads.
   ~Replay();
@@ -101,19 +101,19 @@ class Replay {
     change([&] { stop_final_search_ = cut_final_search_ = true; });
   }
 
-  /// Changes a loop by hand. The edit is made between two scans or after the last scan; after the last scan,
-  /// the final loop search is then repeated. ReplaySnapshot::edited has the outcome.
+  /// Changes a loop by hand, between two scans or after the last scan. An edit after the last scan repeats
+  /// the final loop search. ReplaySnapshot::edited has the outcome.
   void edit(const LoopEdit& edit) { request({EditKind::kEdit, edit}); }
-  /// Undo the last edit made by edit(), or redo the edit that was undone last. Edits given to the constructor
-  /// are not affected.
+  /// Undoes the last edit made by edit(). Never undoes edits given to the constructor.
   void undo() { request({EditKind::kUndo}); }
+  /// Redoes the edit that was undone last.
   void redo() { request({EditKind::kRedo}); }
   /// Number of calls of edit(), undo() and redo(). ReplaySnapshot::edits_served counts the calls that have an
   /// outcome.
   int edits_asked() const { return edits_asked_; }
 
-  /// Writes all results to a folder, once the run is finished. `replace` allows it to replace results in the
-  /// folder. ReplaySnapshot::exported has the outcome.
+  /// Writes all results to a folder, once the run is finished. If `replace` is false, the folder must be new
+  /// or empty. ReplaySnapshot::exported has the outcome.
   void export_to(std::filesystem::path folder, bool replace) {
     change([&] { export_ = ExportRequest{std::move(folder), replace}; });
   }
@@ -148,7 +148,7 @@ class Replay {
     bool replace = false;
   };
 
-  /// Changes requests under the lock and wakes the engine's thread.
+  /// Changes requests under the lock and wakes the mapping thread.
   template <class Change>
   void change(const Change& make_change) {
     locked(make_change);
@@ -190,12 +190,12 @@ class Replay {
   LogOutline outline_;
   MapPainter painter_;
 
-  // Used by the engine's thread only.
+  // Used by the mapping thread only.
   std::unique_ptr<SnapshotMaker> maker_;
   EditHistory edit_history_;
   int edits_made_ = 0;
   bool final_search_stopped_ = false;  // an edit stopped the final loop search, so it must be repeated
-  MappingSession* session_ = nullptr;  // null unless its mapper can be followed
+  MappingSession* session_ = nullptr;  // null before the session opens and after the final loop search
   ReplayPhase phase_ = ReplayPhase::kOpening;
   bool stale_ = false;  // the last snapshot is out of date
   LogPace::Clock::time_point published_at_;

@@ -50,7 +50,7 @@ struct WriteOutcome {
   int number = 0;              ///< number of the export or of the saved session, from 1
   std::filesystem::path path;  ///< the folder of an export, the file of a session
   std::string failure;         ///< why writing failed, as a sentence; empty after success
-  std::string remark;          ///< what a session file lacks; empty if it is complete
+  std::string remark;          ///< sentence about missing parts of a session file; empty if complete
   WrittenWork written{};
 };
 
@@ -75,8 +75,8 @@ struct ReplaySnapshot {
   std::vector<std::size_t> later_run_frames;  ///< first frame of each run except the first run
   HistoryView<double> shares;                 ///< share of the log read at each scan, in [0, 1]
   HistoryView<NodeScan> nodes;
-  /// Finished local maps by number. Only the points of their nodes can be read. The engine packs and unpacks
-  /// the grids, so no other thread may read the grids.
+  /// Node numbers of each finished local map, indexed by the number of the map. Contains no grids, because
+  /// the mapping thread may compress them at any time.
   HistoryView<LocalMapRecord> local_maps;
   std::vector<ActiveLocalMap> active_local_maps;
   mrpt::math::TPose2D map_T_robot;
@@ -90,13 +90,13 @@ struct ReplaySnapshot {
   /// Edits made so far and edits planned for later scans; never null.
   std::shared_ptr<const std::vector<TimedEdit>> edits = std::make_shared<std::vector<TimedEdit>>();
   std::optional<EditOutcome> edited;  ///< outcome of the last edit
-  int edits_served = 0;               ///< how many of Replay::edits_asked() have an outcome
+  int edits_served = 0;               ///< number of calls in Replay::edits_asked() that have an outcome
   std::string undo_text;  ///< text of the edit that Replay::undo() would undo; empty if there is none
   std::string redo_text;  ///< text of the edit that Replay::redo() would repeat; empty if there is none
 
   PsiThresholds psi;
   std::vector<StageTiming> stages;  ///< times of the stages; empty until the run is finished
-  /// Set once the run is finished: scans are left unmapped, or the final loop search was cut short.
+  /// True if the finished run left scans unmapped or cut the final loop search short.
   bool interrupted = false;
   std::optional<WriteOutcome> exported;  ///< outcome of the last export
   std::optional<WriteOutcome> saved;     ///< outcome of the last saved session

@@ -35,7 +35,7 @@ class HistoryView {
 };
 
 /// A list that one thread appends to while other threads read views of its earlier entries. A view copies
-/// only the list of blocks. The threads must synchronise how they hand over a view.
+/// only the list of blocks. Callers must synchronise when they pass a view to another thread.
 template <class T>
 class SharedHistory {
  public:

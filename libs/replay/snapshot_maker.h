@@ -12,7 +12,7 @@
 
 namespace psi_slam {
 
-/// Makes snapshots of a session in the engine's thread. Copies only what has changed since the last snapshot.
+/// Makes snapshots of a session in the mapping thread. Copies only what has changed since the last snapshot.
 class SnapshotMaker {
  public:
   /// `edits` are the edits that are planned before the run starts.
@@ -22,7 +22,7 @@ class SnapshotMaker {
   /// note_export(), note_save(), note_edits(), follow() and take() set.
   ReplaySnapshot now;
 
-  /// Notes that a scan was mapped when this share of the log was read.
+  /// Notes that a scan was mapped. `share` is the share of the log read so far, in [0, 1].
   void note_scan(double share) { shares_.push_back(share); }
   /// Notes the outcome of an export, which contains all scans.
   void note_export(WriteOutcome outcome);
@@ -31,19 +31,19 @@ class SnapshotMaker {
   /// Notes that edits have changed loops and poses.
   void note_edits(const std::vector<TimedEdit>& edits, const EditHistory& history);
 
-  /// Copies what the mapper has added; call it only before the session is finished. Active local maps are
-  /// expensive to copy: kNowAndThen copies them at most every 400 ms.
+  /// When follow() copies the active local maps, which is expensive: at each call, or at most every 400 ms.
   enum class ActiveMaps { kAtOnce, kNowAndThen };
+  /// Copies what the mapper has added since the last call. Call it only before the session is finished.
   void follow(const Mapper& mapper, ActiveMaps active);
   /// Copies only the finished local maps. The last local maps are finished when the final loop search begins.
   void follow_local_maps(const Mapper& mapper);
   /// Copies the result of the finished session.
   void take(const MappingResult& result);
 
-  /// Returns a copy of `now` with the histories up to now.
+  /// Returns a copy of `now` with the given phase and with views of all scans, nodes and local maps so far.
   std::shared_ptr<const ReplaySnapshot> snapshot(ReplayPhase phase);
 
-  /// Returns what to draw the current map from: the scans of the nodes, or all scans after take().
+  /// Returns the scans and poses for drawing the current map: of the nodes, or of all scans after take().
   MapSketch sketch() const;
 
  private:

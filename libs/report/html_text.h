@@ -8,7 +8,8 @@
 
 namespace psi_slam {
 
-/// Escapes text for HTML and XML, between tags or in quoted attributes. Control characters become '?'.
+/// Escapes text for HTML and XML, between tags or in quoted attributes. Control characters other than newline
+/// and tab become '?'.
 std::string escape_html(std::string_view text);
 
 /// Returns the bytes in base64 (RFC 4648) with padding.

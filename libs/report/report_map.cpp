@@ -38,8 +38,8 @@ void extend(Path& path, const Pixel& point, bool is_end) {
     path.push_back(point);
 }
 
-/// Returns the path of each run by `pose`: in the map, by the front end or by odometry. Each path starts at
-/// the run's first pose in the map, so that drift is visible.
+/// Returns the path of each run. `pose` selects the poses: in the map, of the front end, or of odometry. Each
+/// path starts at the run's first pose in the map, so that drift is visible.
 Paths paths_of(const MappingResult& result, TPose2D FrameRecord::*pose, const MapPicture& picture) {
   Paths paths;
   for (const FrameSpan& run : runs_of(result)) {
@@ -69,8 +69,8 @@ std::string path_layer(const char* name, const Paths& paths) {
   return layer(name, "<path d=\"" + data + "\"/>");
 }
 
-/// Returns a colour: blue at the start, then violet and pink, orange at the end. All are visible on light and
-/// dark background.
+/// Returns the colour of the point at `share` of a path, in [0, 1]: blue at the start, then violet and pink,
+/// orange at the end. All are visible on light and dark background.
 std::string time_colour(double share) {
   using Rgb = std::array<int, 3>;
   constexpr std::array<Rgb, 4> kStops = {{{47, 98, 235}, {139, 77, 230}, {226, 62, 140}, {247, 126, 24}}};

@@ -24,7 +24,7 @@ constexpr double kTop = 12;
 constexpr double kBottom = 34;
 
 struct Sample {
-  double time_s = 0;  // time since the first scan
+  double time_s = 0;  // time since the earliest scan
   double value = 0;
 };
 
@@ -109,7 +109,7 @@ std::vector<Tick> time_ticks(double last_s) {
   return ticks;
 }
 
-/// All samples of one stretch of time.
+/// Sum, least and greatest value, and number of the samples of one stretch of time.
 struct Bin {
   double sum = 0;
   double least = std::numeric_limits<double>::infinity();

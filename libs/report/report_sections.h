@@ -49,7 +49,7 @@ std::string reasons_table(const LoopCounts& loops);
 std::string stages_table(const std::vector<StageTiming>& stages, double wall_s);
 /// Table of the attempts, results and time of each loop matcher; empty if no matcher was used.
 std::string loop_matchers_table(const MappingResult& result);
-/// Table of the first loops of each verdict, collapsed. loops.csv has all loops.
+/// Table of the first 100 loops of each verdict, collapsed. loops.csv has all loops.
 std::string loops_table(const MappingResult& result);
 /// One table for each section of the settings, collapsed. `settings` maps "section.key" to the value.
 std::string settings_table(const std::map<std::string, std::string>& settings);

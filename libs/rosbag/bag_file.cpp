@@ -51,7 +51,7 @@ class BagFolder : public BagFile {
 
  private:
   std::vector<fs::path> files_;
-  std::size_t current_ = 0;  // number of the file in files_
+  std::size_t current_ = 0;  // index of the current file in files_
   std::unique_ptr<BagFile> file_;
 };
 

@@ -44,8 +44,8 @@ class BagFile {
  public:
   virtual ~BagFile() = default;
 
-  /// Returns all topics of the bag; no message needs to be read before. For a damaged bag, returns the topics
-  /// of its readable part.
+  /// Returns all topics of the bag, also before any message is read. For a damaged bag, returns the topics of
+  /// its readable part.
   virtual std::vector<BagTopic> topics() = 0;
 
   /// Selects the topics whose messages next() returns; by default all topics. Call before the first next().

@@ -201,7 +201,7 @@ class Planner {
                        [&](const auto& scan) { return !has_transforms || knows_mount(scan.second); });
   }
 
-  /// Returns whether scans of all lasers were read.
+  /// Returns whether a scan of each topic has been read.
   bool has_scans() const { return scan_frames_.size() == plan_.scan_topics.size(); }
 
   /// Searches all transforms for odometry, because the topic has none, or because no transform connects it
@@ -321,7 +321,7 @@ class Planner {
   std::unique_ptr<BagFile> bag_;
   std::vector<BagTopic> topics_;
   BagPlan plan_;
-  std::map<std::string, std::string> scan_frames_;  // index: topic of the scans
+  std::map<std::string, std::string> scan_frames_;  // key: topic of the scans; value: frame of the laser
   std::string invalid_pose_;                        // message about the first odometry with an invalid pose
   bool expects_odometry_ = true;                    // whether the user wants odometry and the bag may hold it
   bool chooses_lasers_ = false;  // whether the user selects none of several topics of scans

@@ -16,7 +16,7 @@
 
 namespace psi_slam {
 
-/// Tree of the frames in /tf and /tf_static, each with its newest pose in its parent.
+/// Tree of the frames in /tf and /tf_static. Keeps the last pose of each frame in its parent.
 class TransformTree {
  public:
   void add(const RosTransform& transform);
@@ -48,7 +48,7 @@ class TransformTree {
   std::map<std::string, Link> links_;  // key: name of the child frame
 };
 
-/// The topics and frames of a ROS bag that are read.
+/// The topics and frames to read from a ROS bag.
 struct BagPlan {
   std::vector<std::string> scan_topics;  ///< index: LaserScan::laser
   bool has_odometry = false;             ///< false: scans have no odometry

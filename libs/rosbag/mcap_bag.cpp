@@ -44,7 +44,7 @@ std::uint32_t crc_of(std::string_view bytes) {
   return static_cast<std::uint32_t>(crc);
 }
 
-/// The channels that the records have stated so far. The type of a channel is the name of its schema.
+/// Channels of the records read so far. The type of a channel is the name of its schema.
 class Channels {
  public:
   void add_schema(ByteCursor record) {
@@ -62,7 +62,7 @@ class Channels {
     channels_.emplace(id, std::move(topic));
   }
 
-  /// Returns null for an unknown channel.
+  /// Returns the topic of a channel, or null for an unknown channel.
   const BagTopic* topic(std::uint16_t channel) const {
     const auto found = channels_.find(channel);
     return found == channels_.end() ? nullptr : &found->second;

@@ -64,7 +64,8 @@ class RecordBag : public BagFile {
   /// Throws UserError if the file ended before the end that it states.
   virtual void check_end() const {}
 
-  /// Decompresses the bytes of a chunk to chunk_. `size` is the number of decompressed bytes.
+  /// Decompresses the bytes of a chunk to chunk_. `size` is the number of decompressed bytes. Throws
+  /// MalformedBytes for damaged or nested chunks.
   void unpack_chunk(std::string_view compression, std::string_view bytes, std::uint64_t size);
   /// Makes next() continue with the records in chunk_.
   void begin_chunk() { in_chunk_.emplace(chunk_); }
@@ -73,11 +74,11 @@ class RecordBag : public BagFile {
 
   BagStream stream_;
   std::string chunk_;
-  std::uint64_t record_offset_ = 0;  // place in the file of the record or of its chunk
+  std::uint64_t record_offset_ = 0;  // byte offset in the file of the current record or of its chunk
 
  private:
   std::optional<ByteCursor> in_chunk_;
-  std::uint64_t offset_in_chunk_ = 0;  // place of the record in its chunk
+  std::uint64_t offset_in_chunk_ = 0;  // byte offset of the current record in the decompressed chunk
 };
 
 }  // namespace psi_slam

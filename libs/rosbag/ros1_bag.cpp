@@ -160,7 +160,7 @@ class Ros1Bag : public RecordBag {
   Record record_;
   std::map<std::uint32_t, BagTopic> connections_;
   std::string header_;
-  std::uint64_t index_offset_ = 0;  // where the index should start; 0 if the recorder did not close the bag
+  std::uint64_t index_offset_ = 0;        // stated byte offset of the index; 0 if the bag was not closed
   std::uint32_t stated_connections_ = 0;  // number of connections that the index should have
 };
 

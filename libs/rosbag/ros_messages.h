@@ -28,8 +28,8 @@ struct RosLaserScan {
   RosHeader header;
   float angle_min_rad = 0;
   float angle_increment_rad = 0;
-  float time_increment_s = 0;  ///< between neighbouring beams; 0 if not stated
-  float scan_time_s = 0;       ///< between scans; 0 if not stated
+  float time_increment_s = 0;  ///< time between neighbouring beams; 0 if not stated
+  float scan_time_s = 0;       ///< time between scans; 0 if not stated
   float range_min_m = 0;
   float range_max_m = 0;
   std::vector<float> ranges_m;

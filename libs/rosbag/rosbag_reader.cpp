@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads ROS bags of any kind (see bag_file.h): scans of sensor_msgs/LaserScan. Odometry of nav_msgs/Odometry,
-// or of the transform odom -> base_link, is interpolated at the header stamp of each scan. The laser's mount
-// comes from the transforms. A bag without odometry has scans only. A message without a stamp has the time at
-// which it was recorded.
+// Reads ROS bags of any kind (see bag_file.h). Scans are sensor_msgs/LaserScan messages. Odometry comes from
+// nav_msgs/Odometry, or from the transform odom -> base_link, and is interpolated at the header stamp of each
+// scan. A bag without odometry has scans only. The laser's mount comes from the transforms. A message without
+// a stamp has the time at which it was recorded.
 //
 // A damaged or truncated bag yields all frames before the damage, then a UserError. Odometry with an invalid
 // pose is skipped.
@@ -42,9 +42,9 @@ class RosLaser {
  public:
   explicit RosLaser(const LogOptions& options) : options_(options) {}
 
-  /// `mount` is the laser's mount according to the transforms. A pose that the user states overrides the pose
-  /// of `mount`, but not whether the laser is upside down. Throws UserError that starts with `place` for
-  /// invalid angles.
+  /// Converts a message. `mount` is the laser's mount according to the transforms. A pose that the user
+  /// states overrides the pose of `mount`, but not whether the laser is upside down. Throws UserError that
+  /// starts with `place` for invalid angles.
   LaserScan scan(RosLaserScan message, const FloorMount& mount, const std::string& place) {
     const bool clockwise = mount.upside_down != options_.mirrored;
     const Geometry geometry{message.ranges_m.size(), message.angle_min_rad, message.angle_increment_rad,

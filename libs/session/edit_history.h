@@ -21,8 +21,8 @@ class EditHistory {
     std::vector<TimedEdit> later;  ///< planned edits of the same loop that the undone edit removed
   };
 
-  /// Notes an edit that the user made. `before` is the edit of the same loop that was in force before,
-  /// `later` are the planned edits of that loop. Nothing can be redone afterwards.
+  /// Notes an edit that the user made. `before` is the previous edit of the same loop; `later` are the
+  /// planned edits of that loop, which the new edit removes. Nothing can be redone afterwards.
   void note(const LoopEdit& made, const std::optional<LoopEdit>& before, std::vector<TimedEdit> later = {}) {
     const LoopEdit restore{LoopEdit::Kind::kRestore, made.frame, made.local_map};
     made_.push_back({made, {before.value_or(restore), std::move(later)}});

@@ -28,7 +28,7 @@
 
 namespace psi_slam {
 
-/// A moment of a run, in the order of time.
+/// A moment of a run. Earlier moments compare as less.
 struct EditTime {
   enum class Kind {
     kBegin,      ///< before the first scan
@@ -54,7 +54,7 @@ class EditJournal {
   const std::vector<TimedEdit>& edits() const { return edits_; }
   bool empty() const { return edits_.empty(); }
 
-  /// Adds an edit. It comes after the edits of the same time.
+  /// Inserts an edit by its time, after the edits of the same time.
   void add(const TimedEdit& edit);
   /// Adds all edits of another journal.
   void add(const EditJournal& others);
@@ -62,24 +62,25 @@ class EditJournal {
   /// Returns the edits that are due at `now` and were not returned before. At the end all edits are due, even
   /// edits after scans that the log does not have.
   std::vector<LoopEdit> take_due(EditTime now);
-  /// Returns the last edit of the same loop among the edits that take_due() has returned.
+  /// Returns the last edit of the same loop as `same_loop` that take_due() returned or enter() entered.
   std::optional<LoopEdit> in_force(const LoopEdit& same_loop) const;
-  /// Returns the edits of the same loop among the edits that are still to come.
+  /// Returns the edits of the same loop as `same_loop` that are still to come.
   std::vector<TimedEdit> to_come(const LoopEdit& same_loop) const;
   /// Makes all edits due again, to map the same log again.
   void rewind() { taken_ = 0; }
 
-  /// Enters an edit that is made now, so take_due() will not return it. Removes later edits of the same loop.
-  /// Its time must not be before the time of edits that take_due() has returned.
+  /// Enters an edit that is made now, so take_due() will not return it. Removes the edits of the same loop
+  /// that are still to come. No edit that take_due() has returned may have a later time.
   void enter(const TimedEdit& edit);
   /// Removes the edits of a loop that are still to come. Returns false if there were none.
   bool forget_later(const LoopEdit& same_loop);
 
-  /// Returns the edits of a run that is merged with other runs. Its scans are numbered from `first_scan`, its
-  /// local maps from `first_local_map`. Edits at its end are made after the last of its `scans` scans.
+  /// Returns these edits of one run, renumbered for a map of several runs. The run has `scans` scans,
+  /// numbered from `first_scan`, and local maps numbered from `first_local_map`. Edits at the end of the run
+  /// are made after its last scan.
   EditJournal of_run(std::size_t first_scan, std::size_t scans, std::size_t first_local_map) const;
 
-  /// Returns the text of the file.
+  /// Returns the edits as the text of a file.
   std::string text() const;
   /// Reads a file. Throws UserError, with file and line, for a line that is not an edit.
   static EditJournal read(const std::filesystem::path& file);

@@ -338,7 +338,7 @@ void MappingSession::begin_run(const SessionInput& run, const RunStart& start) {
     }
   m.edits.add(
       run.edits().of_run(m.scans, inner ? inner->frames.size() : 0, m.mapper->keyframes().local_maps.size()));
-  m.recording.reset();  // the recording is only a part of the frames now
+  m.recording.reset();  // the recording no longer covers all logs
   m.log_path = run.log();
   m.log_sha256.clear();
   m.logs = logs_before;

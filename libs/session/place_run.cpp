@@ -39,7 +39,7 @@ RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& see
 }
 
 /// Follows the robot until its pose is certain, for at most `end` frames. Returns nothing if the robot was
-/// not found, and sets `why_not` to the objection of the last search.
+/// not found, and sets `why_not` to the reason why the last search was rejected.
 std::optional<Sighting> find(FrameSource& frames, std::size_t end, Localizer& localizer, FrontEnd& way,
                              bool start_is_known, const std::atomic<bool>& stop,
                              const std::function<void(double share)>& progress, std::string& why_not) {

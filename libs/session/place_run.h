@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds where a run begins in the finished map of other runs. The localizer finds the robot in the map and
-// follows it until its pose is certain. The motion by the front end leads from that pose back to the run's
-// first scan.
+// follows it until its pose is certain. The front end's estimate of the motion leads from that pose back to
+// the run's first scan.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

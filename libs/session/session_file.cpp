@@ -128,7 +128,7 @@ void append_scan(std::string& bytes, int flags, TimeUs time_us, const TPose2D& p
   append_floats(bytes, scan.ranges_m);
 }
 
-/// The last described sensors, by the index of their scan in a frame.
+/// The last described sensors. Key 0 is the frame's own scan, key i + 1 is companion i.
 template <class Sensor>
 using LastSensors = std::map<std::size_t, Sensor>;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Session files; share/doc/sessions.md describes the format. In every version the first 20 bytes are the
 // magic word and the version, and the last 64 bytes are the checksum of all bytes before them. If Frame gets
-// a new member, this file must write and read it, with a new kSessionVersion.
+// a new member, session_file.cpp must write and read it, with a new kSessionVersion.
 #pragma once
 
 #include <cstdint>

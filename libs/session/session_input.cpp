@@ -24,10 +24,10 @@ std::string name_of(const std::filesystem::path& log) {
 /// recording states the skipped lines of the earlier logs.
 class RecordedSource : public FrameSource {
  public:
-  /// `log` is at its beginning; `path` is its path. If `is_last`, `log` is the last log of the recording, and
-  /// its rest follows the recorded frames. Otherwise all of `log` follows them. Without `log` the frames end
-  /// as they did when they were recorded: at the end of the last log or with its damage. Throws UserError if
-  /// another log begins before the recording ends.
+  /// Joins a recording and `log`, which has the path `path` and is at its beginning. If `is_last`, `log` is
+  /// the last log of the recording, and its rest follows the recorded frames. Otherwise all of `log` follows
+  /// them. Without `log` the frames end as they did when they were recorded: at the end of the last log or
+  /// with its damage. Throws UserError if `log` is another log and begins before the recording ends.
   RecordedSource(std::shared_ptr<const SessionRecording> recording, std::unique_ptr<FrameSource> log,
                  bool is_last, std::filesystem::path path)
       : recording_(std::move(recording)), log_(std::move(log)), is_last_(is_last), path_(std::move(path)) {

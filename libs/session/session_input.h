@@ -26,7 +26,7 @@ class SessionInput {
   /// unreadable or is an earlier log of the recording.
   explicit SessionInput(std::shared_ptr<const SessionRecording> recording, std::filesystem::path log = {});
 
-  /// Returns the session in a file, or a log if the file is not a session.
+  /// Returns the session in a file, or a log for any other file. Throws UserError as read_session_file().
   static SessionInput of_file(const std::filesystem::path& path);
 
   /// Returns this input with `edits` instead of its own edits.

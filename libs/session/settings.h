@@ -18,7 +18,7 @@
 
 namespace psi_slam {
 
-/// Pose of the laser on the robot, as far as the user states it.
+/// Pose of the laser on the robot. Coordinates that the user does not state are empty.
 struct LaserMount {
   std::optional<double> x_m;
   std::optional<double> y_m;
@@ -84,8 +84,8 @@ LogOptions log_options(const Settings& settings);
 /// Returns the options of the mapper, with the seed and the threads of `settings.run`.
 MapperOptions mapper_options(const Settings& settings);
 
-/// Returns the options of the localizer, with the mapper's front end, consensus and genetic search, and the
-/// seed of `run`.
+/// Returns the options of the localizer. Takes front end, consensus, loop matcher, genetic search and
+/// smoothing from `settings.mapper`, and the seed from `settings.run`.
 LocalizerOptions localizer_options(const Settings& settings);
 
 /// Returns the number of threads to start for run.threads, at least 1.

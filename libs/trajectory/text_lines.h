@@ -15,7 +15,7 @@
 
 namespace psi_slam {
 
-/// The words of one line that has words. The views are valid only during the visit.
+/// A line of a text file, split into words. The views are valid only during the visit.
 struct TextLine {
   const std::filesystem::path& path;
   std::size_t number = 0;  ///< number of the line, from 1
@@ -24,9 +24,9 @@ struct TextLine {
   /// Returns the error "file:line: complaint", to be thrown.
   UserError error(const std::string& complaint) const;
   /// Returns word `i`, counted from 0, as a finite number. Throws UserError that names the word and the
-  /// expected value `what`.
+  /// expected value `what`. The line must have a word `i`.
   double finite_number(std::size_t i, const char* what) const;
-  /// Returns word `i`, a time stamp in decimal seconds, in microseconds. Throws UserError that names the
+  /// Returns word `i`, a time stamp in decimal seconds, as microseconds. Throws UserError that names the
   /// word.
   TimeUs time(std::size_t i) const;
 };

@@ -20,7 +20,7 @@ constexpr std::size_t kPlaneWords = 4;
 constexpr std::size_t kTumWords = 8;
 constexpr TimeUs kSameTimeUs = 100;  // times that differ by fewer microseconds count as equal
 
-/// Reads x, y and theta from three words in a row.
+/// Reads the time from word `stamp`, and x, y and theta from word `x` and the next two words.
 StampedPose plane_pose(const TextLine& line, std::size_t stamp, std::size_t x) {
   return {line.time(stamp),
           {line.finite_number(x, "x in metres"), line.finite_number(x + 1, "y in metres"),

@@ -34,10 +34,10 @@ std::string tum_text(const Trajectory& trajectory);
 /// Writes the text of tum_text() atomically. Throws SystemFailure if the file cannot be written.
 void write_tum(const std::filesystem::path& path, const Trajectory& trajectory);
 
-/// Reads a file in any of the three formats above; the first line that is not a comment decides which one.
-/// '#' starts a comment. Projects TUM poses onto the plane. Takes the first pose of each FLASER line of a
-/// CARMEN log and ignores its other messages. Throws UserError ("file:line: expected ...") for a malformed
-/// line, and if the file has no pose.
+/// Reads a file in any of the three formats above. The first line that is not a comment decides whether the
+/// file is a CARMEN log; the number of words tells the other formats apart. '#' starts a comment. Projects
+/// TUM poses onto the plane. Takes the first pose of each FLASER line of a CARMEN log and ignores its other
+/// messages. Throws UserError ("file:line: expected ...") for a malformed line, and if the file has no pose.
 Trajectory read_trajectory(const std::filesystem::path& path);
 
 struct PoseAtTime {
@@ -47,8 +47,8 @@ struct PoseAtTime {
 };
 
 /// Returns the trajectory's pose less than 0.1 ms from `time_us` if there is one. Otherwise interpolates
-/// linearly between its neighbours, the angle along the shorter arc. `sorted` is sorted by time. Returns
-/// nothing outside the trajectory's span of time and in gaps longer than `max_gap_us`.
+/// linearly between the poses before and after `time_us`, the angle along the shorter arc. `sorted` is sorted
+/// by time. Returns nothing outside the trajectory's span of time and in gaps longer than `max_gap_us`.
 std::optional<PoseAtTime> pose_at_time(const Trajectory& sorted, TimeUs time_us, TimeUs max_gap_us);
 
 }  // namespace psi_slam

@@ -101,8 +101,8 @@ void insert_line_with_ends(SceneLayer& layer, const Planar& a, const Planar& b, 
 // local maps.
 constexpr float kFarBelow_m = -1000;
 
-constexpr double kWallOpacity = 200;  // opacity of a certain wall, out of 255
-constexpr double kFreeOpacity = 70;   // opacity of certain free space, out of 255
+constexpr double kWallOpacity = 200;  // opacity of a cell that is surely a wall, out of 255
+constexpr double kFreeOpacity = 70;   // opacity of a cell that is surely free, out of 255
 
 /// Returns a raster with walls in the tint and free space in a paler tint. The opacity of a cell grows with
 /// its certainty.

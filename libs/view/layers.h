@@ -37,16 +37,16 @@ void draw_grid(SceneLayer& layer, const DrawnMap& map);
 
 /// Draws the active local maps, each in its own tint, at the origin.
 void draw_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
-/// Moves the active local maps to their current poses.
+/// Moves the active local maps that draw_local_maps() drew to their current poses.
 void place_local_maps(SceneLayer& layer, const ReplaySnapshot& snapshot);
 
-/// Draws the path by odometry alone, from the first pose in the map on.
+/// Draws the path by odometry alone, starting at the first pose in the map.
 void draw_odometry(SceneLayer& layer, const ReplaySnapshot& snapshot);
 /// Draws the corrected path, with dots at unmatched scans.
 void draw_trajectory(SceneLayer& layer, const ReplaySnapshot& snapshot);
 
 void draw_nodes(SceneLayer& layer, const ReplaySnapshot& snapshot);
-/// Draws lines from each node to the anchors of the local maps that contain its scan.
+/// Draws lines from each node to the anchors of the finished local maps that contain its scan.
 void draw_constraints(SceneLayer& layer, const ReplaySnapshot& snapshot);
 void draw_loops(SceneLayer& layer, const ReplaySnapshot& snapshot, const LoopStyle& style);
 /// Draws the selected loop and the window in which it was searched.

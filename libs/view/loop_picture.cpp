@@ -24,7 +24,7 @@ std::vector<mrpt::math::TPoint2D> placed(const ScanPoints& scan, const mrpt::mat
   return points;
 }
 
-/// Returns the points of all scans of a local map, in its frame.
+/// Returns the points of all scans of a local map, in the frame of the local map.
 std::vector<mrpt::math::TPoint2D> points_of(const LocalMapRecord& map, const HistoryView<NodeScan>& nodes) {
   std::vector<mrpt::math::TPoint2D> points;
   const mrpt::math::TPose2D local_T_map = nodes[map.anchor].local_T_robot;

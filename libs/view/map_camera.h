@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An orbit camera over the ground plane, as MRPT has it: conversion from pixels to places, and a view of a
-// whole map.
+// An orbit camera over the ground plane, with the parameters of MRPT's camera. Converts pixels to places on
+// the ground, and finds a view of a whole map.
 #pragma once
 
 #include <mrpt/img/TPixelCoord.h>

@@ -54,7 +54,7 @@ struct LoopLegend {
   bool operator==(const LoopLegend& other) const { return title == other.title && entries == other.entries; }
 };
 
-/// Legend of the drawn loops: their matchers, or the scale of residuals, and the verdicts except "accepted".
+/// Legend of the drawn loops: matchers or the residual scale for accepted loops, verdicts for all others.
 LoopLegend loop_legend(const ReplaySnapshot& snapshot, const LoopStyle& style);
 
 }  // namespace psi_slam

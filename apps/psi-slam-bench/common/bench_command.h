@@ -47,11 +47,11 @@ void add_output_options(CLI::App& command, BenchArguments& arguments, const std:
 /// Adds --seeds; `purpose` says what the seeds are for.
 void add_seeds_option(CLI::App& command, SeedRange& seeds, const std::string& purpose);
 
-/// Folder of the settings of the logs: --ini, or the one that comes with psi-slam. Throws UserError if
-/// neither exists.
+/// Folder of the settings of the logs: --ini, or the folder that comes with psi-slam. Throws UserError if
+/// --ini is not given and no such folder is found.
 std::filesystem::path ini_folder_of(const BenchArguments& arguments);
 
-/// All logs of the folder; see find_benchmark_logs().
+/// All logs in the folder --data. Throws UserError as ini_folder_of() and find_benchmark_logs().
 std::vector<BenchmarkLog> logs_of(const BenchArguments& arguments);
 
 /// The logs for a command to work on, and the names of the other logs in the folder.
@@ -84,7 +84,8 @@ auto with_progress(const Streams& streams, const Work& work) {
 /// Throws UserError when `file` cannot be written.
 void check_writable(const std::filesystem::path& file);
 
-/// Creates the folder if necessary and calls check_writable() for `file` in it.
+/// Creates the folder if necessary and calls check_writable() for `file` in it. Throws UserError if the
+/// folder cannot be created.
 void prepare_folder(const std::filesystem::path& folder, const std::string& file);
 
 }  // namespace psi_slam

@@ -41,8 +41,8 @@ struct LogIdentity {
   std::string relations_sha256;  ///< checksum of the file with the log's relations
 };
 
-/// Checksums of logs and of their relations, which all logs must have. Throws UserError when a file cannot be
-/// read.
+/// Checksums of logs and of their relations. All logs must have relations. Throws UserError when a file
+/// cannot be read.
 std::vector<LogIdentity> identities_of(const std::vector<BenchmarkLog>& logs);
 
 ReportTable logs_table(const std::vector<LogIdentity>& logs);

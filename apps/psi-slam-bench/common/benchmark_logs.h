@@ -66,7 +66,7 @@ struct ScratchFile {
 /// Number of accepted loops.
 std::size_t loops_accepted(const MappingResult& result);
 
-/// Errors of the mapped poses of the frames over the relations.
+/// Errors of the frames' final poses over the relations. Throws UserError as evaluate_relations().
 RelationsMetric error_of(const std::vector<FrameRecord>& frames, const std::vector<Relation>& relations);
 
 }  // namespace psi_slam

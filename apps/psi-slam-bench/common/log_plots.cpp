@@ -115,7 +115,8 @@ std::string axes(const GrowthPlot& plot, const LogAxis& axis) {
   return svg;
 }
 
-/// Vertical positions in pixels of the line names, moved apart where they would overlap.
+/// Vertical positions in pixels of the names of all lines, moved apart where they would overlap; 0 for a
+/// faint line, which has no name.
 std::vector<double> name_places(const GrowthPlot& plot, const LogAxis& axis) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < plot.lines.size(); ++i) {
@@ -134,8 +135,8 @@ std::vector<double> name_places(const GrowthPlot& plot, const LogAxis& axis) {
   return places;
 }
 
-/// Bar from the least to the greatest value with a dash at each end. Empty if these values are equal or not
-/// positive.
+/// Bar from the least to the greatest value at label number `place`, with a dash at each end. Empty if the
+/// values are equal or the least value is not positive.
 std::string spread_svg(const GrowthPlot::Line& line, std::size_t place, const char* colour,
                        const LogAxis& axis) {
   const SeedSpread& spread = line.values[place];

@@ -20,7 +20,7 @@ struct GrowthPlot {
     /// One element for each label. The line joins the means, and a bar joins the least and the greatest
     /// value. Means that are not positive are left out.
     std::vector<SeedSpread> values;
-    bool faint = false;  ///< drawn thin and without name, in the colour of the preceding line
+    bool faint = false;  ///< drawn thin, without bars and name, in the colour of the preceding line
   };
   std::vector<Line> lines;
 };

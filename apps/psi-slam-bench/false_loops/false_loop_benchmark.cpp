@@ -50,7 +50,7 @@ bool is_false(const TPose2D& place, const TPose2D& truth, const FalseLoopOptions
   return std::hypot(error.x, error.y) >= options.min_error_m || std::abs(error.phi) >= options.min_error_rad;
 }
 
-/// Draws loops that put one node, or a group of successive nodes, at one random place in a local map.
+/// Draws loops that join one node, or a group of successive nodes, to one random pose near a random anchor.
 std::vector<Constraint> draw_elsewhere(const Material& material, const std::vector<TPose2D>& map_T_node,
                                        const FalseLoopOptions& options, RandomDraws& draws) {
   std::size_t group = 1;

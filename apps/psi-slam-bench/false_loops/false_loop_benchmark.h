@@ -23,11 +23,11 @@ namespace psi_slam {
 
 enum class FalseLoopKind {
   kScattered,  ///< false loops that are independent of each other
-  kGroups,     ///< groups of false loops: those of successive nodes agree on one wrong place
+  kGroups,     ///< groups of false loops: successive nodes join one wrong place and agree with each other
   kNearby,     ///< true loops moved by metres, within the uncertainty of odometry
 };
 
-/// "scattered", "groups", "nearby".
+/// Name of a kind: "scattered", "groups" or "nearby".
 std::string name_of(FalseLoopKind kind);
 
 struct FalseLoopOptions {
@@ -35,7 +35,7 @@ struct FalseLoopOptions {
   std::size_t count = 0;
   std::size_t smallest_group = 5;
   std::size_t largest_group = 10;
-  double reach_m = 10;  ///< largest distance of the wrong place from the anchor
+  double reach_m = 10;  ///< largest distance of a wrong place from the anchor of the local map
   /// Nearby loops are moved by min_error_m to nearby_m and rotated by up to min_error_rad.
   double nearby_m = 3;
   /// A loop is false if it differs from the truth by at least this distance or at least this angle.
@@ -47,8 +47,8 @@ struct FalseLoopOptions {
 /// Adds `count` false loops and returns the indices of their constraints. Scattered loops and groups join
 /// random nodes with random anchors of local maps. Their place is random within reach_m of the anchor, with
 /// any heading, and their information is that of a random loop of the graph. Successive nodes of a group move
-/// as in the true poses `map_T_node`. They agree exactly, so they are harder to reject than the output of a
-/// matcher. Adds nothing to a graph without enabled loops.
+/// as in the true poses `map_T_node`. The loops of a group agree exactly, so they are harder to reject than
+/// loops of a matcher. Adds nothing to a graph without enabled loops.
 std::vector<std::size_t> add_false_loops(PoseGraph& graph, const std::vector<mrpt::math::TPose2D>& map_T_node,
                                          const FalseLoopOptions& options);
 
@@ -59,7 +59,7 @@ struct FalseLoopBenchmarkOptions {
   SeedRange seeds;
 };
 
-/// A graph with true loops, and a function for the error of given poses of its nodes.
+/// A graph with true loops, and a function that returns the error of given node poses.
 struct LoopTrial {
   PoseGraph graph;                            ///< optimised graph
   std::vector<mrpt::math::TPose2D> unlooped;  ///< poses of the nodes before any loop was closed
@@ -87,10 +87,11 @@ struct FalseLoopRow {
   std::uint64_t seed = 1;  ///< seed for drawing the false loops
   std::size_t true_loops = 0;
   std::size_t false_loops = 0;
-  LoopTrialOutcome undefended;   ///< optimised with all loops, from the poses before any loop
-  LoopTrialOutcome worst_first;  ///< the worst loops switched off one by one, from the poses before any loop
-  LoopTrialOutcome defended;     ///< the method of the mapper, from the poses before any loop
-  LoopTrialOutcome from_map;     ///< the method of the mapper, from the finished map
+  // The first three treatments start at the poses before any loop was closed.
+  LoopTrialOutcome undefended;   ///< optimised with all loops
+  LoopTrialOutcome worst_first;  ///< in each round, switches off the loops with the worst residuals
+  LoopTrialOutcome defended;     ///< switches off outlier loops as the mapper does
+  LoopTrialOutcome from_map;     ///< as `defended`, but starts at the finished map
 };
 
 struct FalseLoopLog {
@@ -108,7 +109,8 @@ struct FalseLoopBenchmark {
   std::vector<FalseLoopRow> rows;  ///< ordered by log, kind, share and seed
 };
 
-/// Adds one share of one kind of false loops to the graph and tries all treatments.
+/// Adds false loops of one kind to copies of the graph and tries each treatment. The number of false loops is
+/// `share_percent` percent of the number of true loops. Leaves FalseLoopRow::log empty.
 FalseLoopRow run_loop_trial(const LoopTrial& trial, FalseLoopKind kind, double share_percent,
                             std::uint64_t seed);
 

@@ -10,7 +10,7 @@
 namespace psi_slam {
 namespace {
 
-/// The trials of one share of one kind on a log, one for each seed.
+/// Trials with one kind and one share of false loops on one log, one trial for each seed.
 using Trials = std::vector<FalseLoopRow>;
 
 std::vector<Trials> cases_of(const FalseLoopBenchmark& benchmark) {
@@ -142,8 +142,9 @@ std::string markdown_of(const FalseLoopBenchmark& benchmark, const FalseLoopBenc
          logs_section(benchmark.identities, benchmark.without_relations);
 }
 
-/// Plot of the error over the share of false loops of one kind, as SVG: a line for each log with bars from
-/// the least to the greatest error of the seeds, and a thin line without the defence.
+/// SVG plot of the error over the share of false loops of one kind. Each log has a line for the defended
+/// graph, with bars from the least to the greatest error of the seeds, and a thin line for the undefended
+/// graph.
 std::string false_loop_plot(const FalseLoopBenchmark& benchmark, FalseLoopKind kind) {
   GrowthPlot plot;
   plot.title = "Error by the share of false loops, " + name_of(kind) + " (dark: defended, light: undefended)";

@@ -75,7 +75,7 @@ struct Task {
   BaselineResult* result = nullptr;
 };
 
-/// Checksum of everything that the result depends on, with the settings that psi-slam reads the log with.
+/// Checksum of everything that the result depends on, including the psi-slam settings for reading the log.
 /// Leaves out the checksum of this program, because a new build need not repeat the runs.
 std::string key_of(const BaselineRun& run) {
   return sha256_of_text(machine_text() + '\n' + sha256_of_file(run.log.log) + '\n' +

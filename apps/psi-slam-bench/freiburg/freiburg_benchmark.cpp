@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// A run to make, with the places for its result.
+/// A run to make, with the file and the object for its result.
 struct Task {
   FreiburgRun run;
   std::string name;  // "intel-csm-1"
@@ -29,8 +29,8 @@ struct Task {
   FreiburgResult* result = nullptr;
 };
 
-/// Stores figures, time and memory of a finished run in its result and its file, or the reason of its failure
-/// in its result.
+/// Stores figures, time and memory of a finished run in `task.result` and `task.file`. After a failed run,
+/// stores only the reason, in `task.result`.
 void take(const Task& task, const ChildEnd& end) {
   FreiburgResult& result = *task.result;
   result.made = true;

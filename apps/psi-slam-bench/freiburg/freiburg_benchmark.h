@@ -2,7 +2,7 @@
 // The Freiburg benchmark: maps every log with every matcher and every seed, and measures the errors of the
 // paths over relations (R. Kümmerle et al., "On measuring the accuracy of SLAM algorithms", 2009). Each run
 // has a process of its own, so that its time and memory can be measured. Results are kept in small files. A
-// run is not repeated while its log, its relations, its settings and the program stay the same.
+// run is not repeated while log, relations, settings, program and machine stay the same.
 #pragma once
 
 #include <array>
@@ -34,8 +34,8 @@ struct FreiburgRun {
   int threads = 1;
 };
 
-/// "csm", "csm_ga", "ga" and "adaptive", the values of loop_closure.matcher, and "adaptive_paper": the
-/// adaptive matcher with the genetic search of the paper.
+/// Names of the matchers: the values "csm", "csm_ga", "ga" and "adaptive" of loop_closure.matcher, and
+/// "adaptive_paper", the adaptive matcher with the genetic search of the paper.
 const std::vector<std::string>& freiburg_matchers();
 
 /// True for all matchers except csm, whose search is exact. No other part of a run draws random numbers.
@@ -52,7 +52,7 @@ struct FreiburgFigures : RunFigures {
   std::size_t loops_accepted = 0;
   std::size_t loops_judged = 0;       ///< accepted loops that a relation can judge, see loop_judgement.h
   std::size_t loops_false = 0;        ///< judged loops that contradict a relation
-  std::optional<double> loop_recall;  ///< empty if no relation connects two passes of one place
+  std::optional<double> loop_recall;  ///< LoopJudgement::recall(); empty without relations between two passes
 };
 
 /// Maps the log and evaluates its path, without drawing a map or writing files. Throws UserError as
@@ -63,7 +63,7 @@ FreiburgFigures map_and_evaluate(const FreiburgRun& run);
 /// The figures as one line of JSON, for read_figures().
 std::string figures_json(const FreiburgFigures& figures);
 
-/// Reads the text of figures_json(). Empty for other text.
+/// Reads the text of figures_json(). Returns nothing for any other text.
 std::optional<FreiburgFigures> read_figures(const std::string& json);
 
 struct FreiburgOptions {

@@ -18,20 +18,20 @@ struct PublishedFigure {
   double mean = 0;
   std::optional<double> std;
   bool unchecked = false;       ///< quoted from memory and not checked against the source
-  std::size_t failed_runs = 0;  ///< runs of psi-slam that the mean leaves out
+  std::size_t failed_runs = 0;  ///< failed runs of psi-slam, which the mean leaves out
 };
 
 /// Errors in the order and units of kPathFigures; empty where nothing was published.
 using PublishedErrors = std::array<std::optional<PublishedFigure>, kPaperFigures>;
 
 struct PublishedLog {
-  std::string log;  ///< a name of benchmark_log_titles()
+  std::string log;  ///< BenchmarkLogTitle::log: "intel"
   PublishedErrors errors;
 };
 
 struct PublishedSystem {
   std::string name;    ///< head of the column in the comparison
-  std::string source;  ///< one or more sentences
+  std::string source;  ///< source of the figures, as one or more sentences
   std::vector<PublishedLog> logs;
 
   /// Errors on a log; null if the system has no figures for it.

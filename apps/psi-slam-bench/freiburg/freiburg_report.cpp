@@ -38,7 +38,7 @@ std::string runs_text(const CellRow& row) {
   return text;
 }
 
-/// A column of the figures, empty for a row without figures.
+/// Column with the cells that `cell_of` makes from the figures of each row; empty cells without figures.
 template <class Row = CellRow, class CellOf>
 ColumnOf<Row> figure_column(const std::string& head, const std::string& key, const CellOf& cell_of) {
   return {{head, key}, [=](const Row& row) { return row.figures ? cell_of(*row.figures) : empty_cell(); }};

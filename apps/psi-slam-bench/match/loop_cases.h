@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cases for the matchers, drawn from a mapped log. Each case has a scan, a finished local map of another
-// time, and a start pose as far from the truth as the prediction of a loop may be.
+// time, and a start pose. The start pose is as inaccurate as the predicted pose of a loop may be.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -39,15 +39,15 @@ MappedLog map_log(const BenchmarkLog& log, std::size_t nodes_per_local_map,
 struct CaseOptions {
   double window_m = 8;  ///< half-width of the search window
   double window_rad = radians_from_degrees(30.0L);
-  bool context = false;     ///< search with the context of the scan, as loops in wide windows do
+  bool context = false;     ///< match the scan together with earlier ones, see scan_context.h
   std::size_t count = 250;  ///< number of positive cases, and of negative ones
   std::uint64_t seed = 1;
 
-  double min_travel_m = 10;  ///< least path between node and local map: closer pairs may share scans
+  double min_travel_m = 10;  ///< least path length between node and local map: closer pairs may share scans
   double near_m = 1.5;       ///< positive: largest distance from the node to a node of the local map
-  double clear_m = 20;       ///< negative: least distance beyond window_m to all nodes of the local map
+  double clear_m = 20;       ///< negative: least distance from node to local map nodes, minus window_m
   double min_observed_share = 0.7;  ///< positive: least share of points in observed space of the local map
-  double min_hit_share = 0.8;       ///< positive: least share of these points in occupied cells
+  double min_hit_share = 0.8;       ///< positive: least share of these points on or beside occupied cells
   double start_share = 0.75;        ///< radius of the disc of start poses, as a share of window_m
   double turn_share = 25.0 / 30;    ///< largest rotation of start poses, as a share of window_rad
   std::size_t min_points = 30;      ///< scans with fewer points are not used
@@ -60,13 +60,13 @@ struct LoopCase {
   std::shared_ptr<const ScanPoints> scan;
   std::shared_ptr<const LocalMap> map;
   mrpt::math::TPose2D anchor_T_node;  ///< true pose of the node; outside the window in negative cases
-  mrpt::math::TPose2D start;          ///< centre of the window
+  mrpt::math::TPose2D start;          ///< centre of the window, in the frame of the local map
   MatchSeed seed;
   MatcherKind adaptive_matcher = MatcherKind::kCsm;  ///< matcher that the adaptive candidate uses
 };
 
-/// Draws `count` positive cases, then `count` negative ones, or fewer if the log has no more. Each pair of
-/// scan and local map occurs once. The same log, options and seed give the same cases.
+/// Draws `options.count` positive cases, then as many negative ones, or fewer if the log has no more. No pair
+/// of scan and local map occurs twice. The same log, options and seed give the same cases.
 std::vector<LoopCase> draw_cases(const MappedLog& log, const CaseOptions& options);
 
 }  // namespace psi_slam

@@ -96,7 +96,8 @@ std::map<std::size_t, std::vector<MatchSeries*>> series_by_nodes(MatchBenchmark&
   return result;
 }
 
-/// The cases that the log lacks, as a clause; may be empty.
+/// Clause about missing cases, such as "TITLE: the log has only 3 of 250 positive cases"; empty if none is
+/// missing.
 std::string missing_cases(std::size_t positive, std::size_t negative, const MatchSeries& series) {
   std::string missing;
   const auto add = [&](std::size_t got, const char* kind) {

@@ -19,7 +19,7 @@
 
 namespace psi_slam {
 
-/// Largest distance of a successful match from the truth.
+/// Largest errors of a successful match: distance and angle between its pose and the true pose.
 inline constexpr double kSuccess_m = 0.3;
 inline constexpr double kSuccess_rad = radians_from_degrees(3.5L);
 
@@ -73,7 +73,7 @@ class MatchTally {
   std::vector<double> times_ms_;
 };
 
-/// A matcher to compare, which has a row in each table.
+/// A matcher to compare: one row of a table.
 struct MatchCandidate {
   std::string name;
   /// A single matcher, or one of each MatcherKind in their order. In the latter case,
@@ -114,7 +114,7 @@ struct LogNote {
   std::string name;
   std::string md5;  ///< checksum of the log file
   std::optional<double> translation_error_m;
-  std::size_t positive = 0;  ///< cases of the first series
+  std::size_t positive = 0;  ///< number of positive cases in the first series
   std::size_t negative = 0;
   std::string remark;  ///< reason for leaving the log out, or missing cases; may be empty
   bool used = true;

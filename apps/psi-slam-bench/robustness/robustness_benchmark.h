@@ -28,12 +28,12 @@ struct OdometryNoise {
   double sigma_rad_per_root_rad = 0;  ///< standard deviation of the heading after 1 rad on the spot
 };
 
-/// Measures the noise of odometry against the true poses of the robot: root mean squares of the differences
-/// over successive stretches of at least 1 m or 1 rad by odometry. Compares the motions along the true
-/// headings, so that a wrong heading does not add to the error of the position. Splits the error of the
-/// heading between distance and rotation by least squares. The split is ambiguous if distance and rotation
-/// are always in the same proportion. Zero without a complete stretch. Throws std::invalid_argument if the
-/// numbers of poses differ.
+/// Measures the noise of odometry against the poses in a map, which count as true. Takes root mean squares
+/// over successive stretches of at least 1 m or 1 rad by odometry, scaled to 1 m or 1 rad. Compares motions
+/// along the true headings, so that a wrong heading does not add to the error of the position. Splits the
+/// error of the heading between distance and rotation by least squares. The split is ambiguous if distance
+/// and rotation are always in the same proportion. Zero without a complete stretch. Throws
+/// std::invalid_argument if the numbers of poses differ.
 OdometryNoise measure_odometry_noise(const std::vector<mrpt::math::TPose2D>& odom_T_robot,
                                      const std::vector<mrpt::math::TPose2D>& map_T_robot);
 
@@ -44,7 +44,7 @@ struct DegradationOptions {
   double odometry_noise_scale = 1;
   OdometryNoise natural_noise;
   std::size_t keep_every_nth = 1;           ///< keeps every nth scan, starting with the first
-  std::optional<double> field_of_view_rad;  ///< centred ahead of the laser; other beams have no return
+  std::optional<double> field_of_view_rad;  ///< full angle, centred ahead; beams outside become NaN
   bool no_odometry = false;                 ///< removes odometry from the frames
   std::uint64_t seed = 1;                   ///< seed of the noise
 };
@@ -95,7 +95,7 @@ struct RobustnessRow {
   double rotation_error_deg = 0;   ///< mean over the relations
   std::size_t relations = 0;       ///< evaluated relations; those in long gaps of the path are not evaluated
   std::size_t scans = 0;
-  std::size_t unmatched = 0;  ///< scans that the front end could not match, except the first
+  std::size_t unmatched = 0;  ///< scans after the first that the front end could not match
   std::size_t loops = 0;      ///< accepted loops
   std::optional<double> loop_precision;
   std::optional<double> loop_recall;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDegrees = 180 / M_PI;
 
-/// The runs of one case on a log, one for each seed.
+/// Runs of one case on one log, with different seeds.
 using Runs = std::vector<RobustnessRow>;
 
 std::vector<Runs> cases_of(const RobustnessBenchmark& benchmark) {
@@ -27,7 +27,7 @@ SeedSpread over_seeds(const Runs& runs, Figure RobustnessRow::*figure) {
   return spread_over(runs, [figure](const RobustnessRow& run) { return run.*figure; });
 }
 
-/// Mean over the runs that have the share: in percent in Markdown, as a fraction in JSON.
+/// Statistics over the runs that have the share: the mean in percent in Markdown, all as fractions in JSON.
 ReportCell percent(const Runs& runs, std::optional<double> RobustnessRow::*share) {
   std::vector<double> known;
   for (const RobustnessRow& run : runs)

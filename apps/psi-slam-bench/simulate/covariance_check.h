@@ -34,12 +34,14 @@ struct NormalisedErrors {
 double normalised_square(const mrpt::math::TPose2D& measured, const mrpt::math::TPose2D& truth,
                          const Eigen::Matrix3d& information);
 
-/// Mean, median and outer share of `squares`; zeros without squares.
+/// Statistics of the normalised squared errors `squares`; zeros without squares. `of` names the kind of
+/// poses.
 NormalisedErrors normalised_errors(std::string of, std::vector<double> squares);
 
-/// Normalised errors of the optimised graph without the final scan refinement: of local-map constraints, of
-/// loops, and of random pairs of nodes. For pairs, the covariance follows from the best path, as in the loop
-/// search, and from the whole graph. `truth` has a pose for each frame.
+/// Normalised errors of the local-map constraints, of the loops, and of random pairs of nodes. The pairs come
+/// from the graph optimised without the final scan refinement. Their covariance is computed twice: along the
+/// best path between the nodes, as in the loop search, and from the whole graph. `truth` has a pose for each
+/// frame.
 std::vector<NormalisedErrors> check_covariances(const MappingResult& result, const Trajectory& truth,
                                                 std::uint64_t seed);
 

@@ -14,7 +14,7 @@
 namespace psi_slam {
 namespace {
 
-// First character of a message, its kind. Messages end with a zero byte.
+// The first character of a message is its kind. Messages end with a zero byte.
 constexpr char kReport = 'r';
 constexpr char kResult = 't';
 constexpr char kUserError = 'u';

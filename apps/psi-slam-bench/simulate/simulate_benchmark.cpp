@@ -21,7 +21,7 @@ using mrpt::math::TPose2D;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kPeoplePer_m = 500;  // length of path that SimulateOptions::people refers to
-constexpr double kScansShare = 0.6;   // share of the scans in the progress; the rest is the final loop search
+constexpr double kScansShare = 0.6;  // share of the progress for adding scans; the rest is for Mapper::finish
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();

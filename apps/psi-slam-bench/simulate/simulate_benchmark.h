@@ -41,7 +41,7 @@ struct SimulateRow {
   std::size_t nodes = 0;
   std::size_t local_maps = 0;
 
-  double error_mean_m = 0;  ///< distance from the truth, with both paths aligned at the first scan
+  double error_mean_m = 0;  ///< mean distance from the truth; both paths are aligned at the first scan
   double error_max_m = 0;
   double relation_mean_m = 0;  ///< mean error over relations between random pairs of scans
   double relation_mean_deg = 0;
@@ -59,7 +59,7 @@ struct SimulateRow {
   std::vector<std::pair<std::string, double>> stages_s;  ///< times of the stages of the mapper
 };
 
-/// A loop is false if its position or its heading is farther than this from the truth.
+/// A loop is false if its position or its heading differs from the truth by more than this.
 inline constexpr double kFalseLoop_m = 0.5;
 inline constexpr double kFalseLoop_deg = 5;
 

@@ -58,7 +58,7 @@ ReportTable cost_table(const Rows& rows) {
   return table_of(columns, rows);
 }
 
-/// The errors of one kind of poses of one run.
+/// Normalised errors of one kind of poses in one run.
 struct CovarianceRow {
   double path_m;
   NormalisedErrors errors;

@@ -44,7 +44,7 @@ std::string relations_text(const std::vector<Relation>& relations) {
 
 constexpr double kMargin_m = 2;
 constexpr double kWidth = 1200;           // width of the picture in pixels
-constexpr double kBetweenPoints_m = 0.1;  // distance of the drawn points of the path
+constexpr double kBetweenPoints_m = 0.1;  // least distance between drawn points of the path
 
 struct Layer {
   Material material;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kWallThickness_m = 0.12;
 
-/// An opening, or another part of a wall: an interval along the wall, in metres.
+/// Interval along a wall, in metres: an opening or a solid part.
 struct Opening {
   double from = 0;
   double to = 0;

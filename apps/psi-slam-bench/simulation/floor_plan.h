@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A random floor of a building. Crossing corridors form rings; some corridors are bare. Between the corridors
-// lie blocks of rooms with doors and furniture, and halls with pillars. Some walls are of glass. Walls are
-// line segments in metres. Free paths form a graph of places and passages.
+// A random floor of a building. Crossing corridors form rings; some stretches have no doors. Between the
+// corridors lie blocks of rooms with doors and furniture, and halls with pillars. Some walls are of glass.
+// Walls are line segments in metres. Free paths form a graph of places and passages.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -27,7 +27,8 @@ struct Place {
   Kind kind = Kind::kCrossing;
 };
 
-/// A straight free path between two places, given by their indices, for both directions.
+/// A straight free path, usable in both directions, between two places given by their indices in
+/// FloorPlan::places.
 struct Passage {
   std::size_t from = 0;
   std::size_t to = 0;
@@ -52,11 +53,11 @@ struct FloorPlan {
 
 struct FloorPlanOptions {
   std::uint64_t seed = 1;
-  double corridors_m = 150;  ///< least total length of the corridors; at least those around one block
+  double corridors_m = 150;  ///< least total length of the corridors; there is always a ring around one block
   double glass_share = 0.1;  ///< share of glass in front walls and the outer wall, in [0, 1]
   double bare_share = 0.25;  ///< share of corridor stretches that have neither doors nor furniture
-  double hall_share = 0.15;  ///< share of blocks that are one hall
-  double scale = 1;          ///< factor of all lengths, at least 1: larger rooms and wider corridors
+  double hall_share = 0.15;  ///< share of halls among the blocks without bare corridor stretches
+  double scale = 1;          ///< factor of all lengths except corridors_m, at least 1
 };
 
 /// Draws a floor plan; the same options give the same plan. Passages keep at least kPlanClearance_m from all

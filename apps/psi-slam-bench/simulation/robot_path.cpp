@@ -12,13 +12,13 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kAhead_m = 0.5;  // distance of the carrot, the point that the robot follows
+constexpr double kAhead_m = 0.5;  // distance from the robot to the carrot, the point that it follows
 constexpr double kCarrotStep_m = 0.01;
 constexpr double kStep_s = 0.0125;
 constexpr double kTurnPerError = 2.5;  // rad/s per radian between the heading and the direction of the carrot
 constexpr double kTurnOnTheSpot_rad = 1.0;
 
-// Costs of the route, in uses of a passage.
+// Costs of taking a passage. Each earlier use in the same direction costs 1.
 constexpr double kTakenTheOtherWay = 0.4;  // cost of each use in the opposite direction
 constexpr double kTurningBack = 3.0;
 constexpr double kPassedDoors = 0.6;  // probability that a door has the cost kEnteringRoom

@@ -13,8 +13,8 @@ struct NodeCosts {
   double p50_ms = 0;
   double p99_ms = 0;
   double max_ms = 0;
-  /// Cost of the most expensive node, divided by the median of the nodes that tried loops. Empty if no node
-  /// tried a loop.
+  /// Time and number of scored poses of the most expensive node, each divided by the median of the nodes that
+  /// tried loops. Empty if the median is 0 or no node tried a loop.
   std::optional<double> time_ratio;
   std::optional<double> evaluations_ratio;
 };

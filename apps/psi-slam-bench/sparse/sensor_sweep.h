@@ -28,7 +28,7 @@ struct SensorSweepRow {
   double step_m = 0;
   double path_m = 0;
   std::size_t scans = 0;
-  std::size_t unmatched = 0;  ///< scans that the front end could not match, except the first
+  std::size_t unmatched = 0;  ///< scans after the first that the front end could not match
   double error_m = 0;         ///< mean error over relations between random pairs of scans
   double error_deg = 0;
   std::size_t loops = 0;        ///< accepted loops

@@ -31,7 +31,7 @@ double cpu_s() {
 /// A map with the time that mapping took.
 struct MeasuredMap {
   MappingResult result;
-  std::vector<double> add_ms;  ///< processor time by frame
+  std::vector<double> add_ms;  ///< processor time of Mapper::add for each frame
   double wall_s = 0;
   double cpu_s = 0;
 };

@@ -44,11 +44,11 @@ struct SparseRow {
   /// Errors, relations and scans; times include reading the log. Memory is not measured.
   RunFigures figures;
   std::size_t nodes = 0;
-  std::size_t unmatched = 0;  ///< scans that the front end could not match, except the first
+  std::size_t unmatched = 0;  ///< scans after the first that the front end could not match
   std::size_t loops = 0;      ///< accepted loops
   NodeCosts costs;
-  /// Translation error of a thinned log if its kept scans have their poses in the map of all scans. This part
-  /// of the error comes from odometry between the kept scans. Empty for other logs.
+  /// Mean translation error, in metres, of a thinned log whose kept scans take their poses from the map of
+  /// all scans. This part of the error comes from odometry between the kept scans. Empty for other logs.
   std::optional<double> floor_m;
 };
 
@@ -70,14 +70,16 @@ struct SparseBenchmark {
 Settings sparse_settings(const BenchmarkLog& log, const SparseOptions& options, std::uint64_t seed,
                          std::size_t every_nth = 1);
 
-/// Maps a dense log thinned to `step`, composes poses for the removed scans from odometry, and measures the
-/// poses of all scans.
+/// Maps a dense log thinned to `step`. Composes poses for the removed scans from odometry, and measures the
+/// errors of all poses. Throws UserError for a log without odometry.
 SparseRow run_thinned(const BenchmarkLog& log, const Settings& settings, const ThinningStep& step);
 
-/// Translation error, in metres, of a thinned log whose kept scans have their poses in the map of all scans.
+/// Returns SparseRow::floor_m: the mean translation error, in metres, if the kept scans of the thinned log
+/// take their poses from the map of all scans.
 double thinned_floor_m(const BenchmarkLog& log, const Settings& settings, const ThinningStep& step);
 
-/// Runs all parts of the options. Throws UserError as open_log() and read_relations().
+/// Runs the parts that `options` names. Throws UserError as open_log() and read_relations(), and if these
+/// parts have nothing to run.
 SparseBenchmark run_sparse_benchmark(const SparseLogs& logs, const SparseOptions& options,
                                      const ProgressObserver& observer);
 

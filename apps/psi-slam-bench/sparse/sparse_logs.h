@@ -11,8 +11,8 @@
 namespace psi_slam {
 
 struct SparseLogs {
-  std::vector<BenchmarkLog> dense;  ///< logs in the folder with shipped settings
-  /// Logs in the folder without shipped settings, and all logs in its subfolder "sparse".
+  std::vector<BenchmarkLog> dense;  ///< logs of the folder that have settings NAME.ini
+  /// Logs of the folder without settings NAME.ini, and all logs in its subfolder "sparse".
   std::vector<BenchmarkLog> sparse;
   std::vector<std::string> without_relations;  ///< logs that cannot be evaluated
 };

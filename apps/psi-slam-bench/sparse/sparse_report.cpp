@@ -10,7 +10,7 @@
 namespace psi_slam {
 namespace {
 
-/// The runs of one case on a log, one for each seed.
+/// Runs of one case on one log, with different seeds.
 using Runs = std::vector<SparseRow>;
 using Column = ColumnOf<Runs>;
 

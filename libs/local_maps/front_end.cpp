@@ -315,7 +315,7 @@ void FrontEnd::insert(FrontEndStep& step, const Frame& frame) {
   for (const PlacedLocalMap& active : active_)
     step.memberships.push_back(
         {active.id, active.anchor, step.local_T_robot - active.local_T_map, active.covariance});
-  // If misses_ > 0 here, this scan is at least the second successive one without a match.
+  // misses_ does not count this scan yet. A match would have set the travel to 0, so this scan is unmatched.
   if (unmatched_travel_m_ >= options_.max_unmatched_travel_m && misses_ > 0) {
     end_local_maps(step, active_.size());
     unmatched_travel_m_ = 0;

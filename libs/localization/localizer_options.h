@@ -41,7 +41,9 @@ struct LocalizerOptions {
   double window_rad = radians_from_degrees(6.0L);
   double prior_sigma_m = 0.05;  ///< standard deviations of the predicted pose
   double prior_sigma_rad = radians_from_degrees(2.0L);
-  double start_window_m = 1.0;  ///< half-widths of the first window, centred on start_at()
+  /// Half-widths of the search window from start_at() until a scan fits the map. The centre is the given
+  /// start pose, moved by the front end's motion since then.
+  double start_window_m = 1.0;
   double start_window_rad = radians_from_degrees(15.0L);
   double min_response = 0.3;
   double min_observed_share = 0.5;  ///< smallest share of a scan's points in space that the map shows

@@ -19,8 +19,8 @@ struct ReferenceMap {
 
 /// Prepares a map. The cell size of the coarse grid is the largest multiple of the map's cell size up to
 /// `search_resolution_m`, but at least one cell. Each coarse cell takes the occupancy of the most occupied
-/// cell in it. `smoothing_sigma_m` blurs the scores of the fine grid; the blur of the coarse grid grows with
-/// its cells.
+/// known cell in it, and is unknown if all of them are. `smoothing_sigma_m` blurs the scores of the fine
+/// grid; the blur of the coarse grid grows with its cells.
 ReferenceMap make_reference_map(const mrpt::maps::COccupancyGridMap2D& map, double search_resolution_m,
                                 double smoothing_sigma_m);
 

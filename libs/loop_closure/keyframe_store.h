@@ -17,7 +17,7 @@
 namespace psi_slam {
 
 struct NodeScan {
-  std::size_t frame = 0;              ///< number of the scan in the log, from 0
+  std::size_t frame = 0;              ///< index of the scan in MappingResult::frames
   mrpt::math::TPose2D local_T_robot;  ///< pose of the robot in the front end's frame
   double travelled_m = 0;             ///< path length from the first node to this one
   std::shared_ptr<const ScanPoints> points;
@@ -32,7 +32,7 @@ struct KeyframeStore {
 /// Returns an empty store with a cache, which keeps the 48 most recently used local maps unpacked.
 KeyframeStore make_keyframe_store();
 
-/// Appends the node of a front-end step. `frame` is the number of the scan in the log, from 0.
+/// Appends the node of a front-end step. `frame` is the index of the scan in MappingResult::frames.
 void remember_node(const FrontEndStep& step, std::size_t frame, KeyframeStore& keyframes);
 
 /// Extra noise of a node's pose in a local map. The squares are added to the front end's covariance.

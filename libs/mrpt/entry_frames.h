@@ -28,7 +28,7 @@ class EntryFrames {
   /// Returns the next complete frame, or nothing if it needs further entries.
   std::optional<Frame> next();
 
-  /// Number of scans taken.
+  /// Number of scans in the entries taken so far. Scans of lasers that are not read do not count.
   std::size_t scans() const { return scans_.scans(); }
 
   /// Index, among all scans taken, of the scan that began the frame last returned by next(). Counts from 0

@@ -209,6 +209,10 @@ class Planner {
   void find_odometry_elsewhere() {
     if (chooses_odometry(options_)) plan_.odometry_topic.clear();
     if (!plan_.odometry_topic.empty()) return;
+    if (!invalid_pose_.empty())
+      plan_.assumptions.push_back(invalid_pose_ +
+                                  ", as in all of its messages, so this topic is not used. Name another one "
+                                  "with log.odometry");
     const auto is_parent = [&](const std::string& parent) {
       return options_.odom_frame.empty() ? is_named_like_odometry(parent) : parent == options_.odom_frame;
     };

@@ -483,9 +483,9 @@ void describe_localization(OptionTable& table, LocalizerOptions& localization) {
                  "Tracking: standard deviation of the predicted heading. The prediction fixes the heading "
                  "where the scan does not.")
       .number("start_window_m", localization.start_window_m, above(0).at_most(100), "m",
-              "Half-width along x and y of the first search window, centred on --start.")
+              "Half-width along x and y of the search windows from --start until a scan fits the map.")
       .angle_deg("start_window_theta_deg", localization.start_window_rad, above(0).at_most(180),
-                 "Half-width in heading of the first search window, centred on --start.")
+                 "Half-width in heading of the search windows from --start until a scan fits the map.")
       .number("max_misfit_m", localization.max_misfit_m, at_least(0), "m",
               "The robot counts as lost after more than this much travel without a fitting scan.")
       .number("max_misfit_s", localization.max_misfit_s, at_least(0), "s",

@@ -40,7 +40,7 @@ StampedPose tum_pose(const TextLine& line) {
 }
 
 StampedPose flaser_pose(const TextLine& line) {
-  constexpr std::size_t kWordsBesideRanges = 2 + 9;  // see the format in the header
+  constexpr std::size_t kWordsBesideRanges = 2 + 9;  // "FLASER n" and the words after the ranges
   const std::size_t words = line.words.size();
   const std::size_t ranges = words < kWordsBesideRanges ? 0 : words - kWordsBesideRanges;
   if (words < kWordsBesideRanges ||

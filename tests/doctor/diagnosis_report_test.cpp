@@ -51,6 +51,11 @@ TEST_F(DiagnosisReportTest, prints_the_remedy_of_each_warning) {
   EXPECT_EQ(*(warning + 1), "  remedy: log.mirrored = true");
 }
 
+TEST_F(DiagnosisReportTest, ends_with_a_verdict) {
+  EXPECT_EQ(describe(sound_log()).back(), "verdict: ready to map");
+  EXPECT_EQ(describe(mirrored_log()).back(), "verdict: maps with 1 warning");
+}
+
 TEST_F(DiagnosisReportTest, marks_the_best_beam_angles) {
   const auto lines = describe_beam_angles(sound_log().beam_angles);
   ASSERT_EQ(lines.size(), 5U);

@@ -267,6 +267,15 @@ TEST_F(InputDoctorTest, reports_malformed_lines) {
               testing::AllOf(testing::StartsWith("1 message of the log"), testing::HasSubstr(":1: FLASER")));
 }
 
+TEST_F(InputDoctorTest, needs_no_odometry) {
+  write_file(folder_.path() / "log.clf", carmen_log(round_trips(1)));
+  LogOptions none;
+  none.odometry = "none";
+  const LogDiagnosis diagnosis = diagnose(folder_.path() / "log.clf", none);
+  EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
+  EXPECT_THAT(finding_of(diagnosis, "no_odometry").sentence, testing::StartsWith("the log has no odometry"));
+}
+
 TEST_F(InputDoctorTest, reads_rawlogs_too) {
   const SimulatedRun run = round_trips(1);
   RawlogObjects objects;

@@ -29,6 +29,21 @@ TEST(OdometryInterpolator, waits_for_odometry_of_the_scans_time_or_later) {
   EXPECT_FALSE(interpolator.take());
 }
 
+TEST(OdometryInterpolator, returns_scans_at_once_if_no_odometry_is_expected) {
+  OdometryInterpolator interpolator;
+  interpolator.add_scan(scan_at(1));
+  EXPECT_FALSE(interpolator.take());
+  interpolator.expect_no_odometry();
+  interpolator.add_odometry(1, {1, 0, 0});
+  interpolator.add_scan(scan_at(2));
+  for (const TimeUs time_us : {1, 2}) {
+    const auto frame = interpolator.take();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->time_us, time_us);
+    EXPECT_FALSE(frame->has_odometry);
+  }
+}
+
 TEST(OdometryInterpolator, returns_the_message_at_its_own_time) {
   OdometryInterpolator interpolator;
   interpolator.add_odometry(10, {1, 2, 3});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace psi_slam {
 namespace {
@@ -54,6 +55,31 @@ TEST(ConstantVelocityModel, predicted_poses_do_not_change_the_speed) {
   robot.moved(2 * kSecond, {1.5, 0, 0}, false);
   EXPECT_NEAR(robot.predict(3 * kSecond).motion.x, 1, 1e-9);
   EXPECT_EQ(robot.predict(4 * kSecond).motion.x, 0) << "the speed is unknown after 3 s without a match";
+}
+
+TEST(ConstantVelocityModel, uncertainty_since_the_last_match_includes_unmatched_scans) {
+  ConstantVelocityModel robot;
+  robot.moved(0, {0, 0, 0}, true);
+  robot.moved(kSecond, {1, 0, 0}, true);
+  robot.moved(2 * kSecond, {2, 0, 0}, false);
+  const PredictedMotion near = robot.predict(2 * kSecond + kSecond / 2);
+  EXPECT_NEAR(near.sigma_m, 0.25, 1e-9);
+  EXPECT_NEAR(near.sigma_since_match_m, 2.25, 1e-9);
+  const PredictedMotion far = robot.predict(4 * kSecond);
+  EXPECT_NEAR(far.sigma_m, 0.5 * 2, 1e-9);
+  EXPECT_NEAR(far.sigma_since_match_m, 0.5 * 3, 1e-9);
+}
+
+// A robot at 1 m/s, whose scans at 10 Hz have time stamps that jitter by half a second.
+TEST(ConstantVelocityModel, counts_scans_if_time_stamps_step_back) {
+  ConstantVelocityModel robot;
+  const std::vector<TimeUs> stamps_ms{0,    100,  200,  300,  900,  500,  600,  1200, 800,  900,
+                                      1500, 1100, 1200, 1300, 1900, 1500, 1600, 1700, 1800, 2400};
+  for (std::size_t i = 0; i < stamps_ms.size(); ++i)
+    robot.moved(stamps_ms[i] * 1000, {0.1 * static_cast<double>(i), 0, 0}, true);
+  const double expected_m = robot.predict(2'000'000).motion.x;
+  EXPECT_NEAR(expected_m, 0.1, 0.03) << "the stamp steps back by 0.4 s";
+  EXPECT_EQ(robot.predict(3'000'000).motion.x, expected_m) << "the time stamps no longer matter";
 }
 
 TEST(ConstantVelocityModel, scans_at_one_time_give_no_speed) {

@@ -222,6 +222,29 @@ TEST(FrontEnd, ignores_poses_of_frames_without_odometry) {
   EXPECT_LT(off.largest_rad, 0.02);
 }
 
+// The robot turns by 50 degrees while three seconds of scans are missing.
+TEST(FrontEnd, finds_the_robot_again_after_a_gap_without_odometry) {
+  const auto path = path_along({{2, 1.5}, {6, 1.6}, {6.1, 1.5}, {6, 1.4}, {2, 1.4}}, 0.03, 0.03);
+  SimulatedDrive drive = drive_along(office_floor(), path, {}, 5);
+  std::size_t begin = 0;
+  while (std::abs(drive.map_T_robot[begin].phi) < 0.3) ++begin;
+  std::size_t end = begin;
+  while (std::abs(drive.map_T_robot[end].phi) < 1.2) ++end;
+  ASSERT_LT(end, drive.frames.size());
+  const auto cut = [&](auto& items) {
+    items.erase(items.begin() + static_cast<std::ptrdiff_t>(begin),
+                items.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  const TimeUs gap_us = 3'000'000 - (drive.frames[end].time_us - drive.frames[begin - 1].time_us);
+  cut(drive.frames);
+  cut(drive.map_T_robot);
+  for (Frame& frame : drive.frames) frame.has_odometry = false;
+  for (std::size_t i = begin; i < drive.frames.size(); ++i) drive.frames[i].time_us += gap_us;
+  const PoseErrors off = errors_of(follow(drive), drive);
+  EXPECT_LT(off.largest_m, 0.1);
+  EXPECT_LT(off.largest_rad, 0.03);
+}
+
 TEST(FrontEnd, a_robot_at_rest_stays_and_adds_no_nodes) {
   const std::vector<TPose2D> path(100, TPose2D(5, 1.5, 0.3));
   const Outcome outcome = follow(drive_along(office_floor(), path, {}, 6));

@@ -128,15 +128,35 @@ TEST_F(RawlogReaderTest, rounds_time_to_the_nearest_microsecond) {
   EXPECT_EQ(read({movement({1, 0, 0}), sensory_frame({scan})}).at(0).time_us, kStart + 1);
 }
 
-TEST_F(RawlogReaderTest, reports_missing_scans_odometry_and_time_stamps) {
+TEST_F(RawlogReaderTest, odometry_may_be_missing_or_unwanted) {
+  LogOptions none;
+  none.odometry = "none";
+  const auto scan = range_scan(kStart);
+  for (const auto& frames :
+       {read({scan, scan}), read({movement({1, 0, 0}), sensory_frame({scan, scan})}, none)}) {
+    ASSERT_EQ(frames.size(), 2U);
+    for (const Frame& frame : frames) EXPECT_FALSE(frame.has_odometry);
+  }
+}
+
+TEST_F(RawlogReaderTest, skips_odometry_that_is_not_finite) {
+  const auto scan = sensory_frame({range_scan(kStart)});
+  const auto frames =
+      read({movement({1, 0, 0}), scan, movement({std::nan(""), 0, 0}), scan, movement({1, 0, 0}), scan});
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_TRUE(frames[0].has_odometry);
+  EXPECT_FALSE(frames[1].has_odometry) << "the motion before this scan is unknown";
+  EXPECT_TRUE(frames[2].has_odometry);
+  expect_pose(frames[2].odom_T_robot, {2, 0, 0});
+  EXPECT_EQ(contents_.skipped.count, 1U);
+  EXPECT_EQ(contents_.skipped.first, path_.string() + ": object 3: the odometry is not finite");
+}
+
+TEST_F(RawlogReaderTest, reports_missing_scans_and_time_stamps) {
   EXPECT_EQ(
       sentence_about({movement({1, 0, 0}), sensory_frame({})}),
       path_.string() +
           " has no laser scans, expected observations of class CObservation2DRangeScan. Choose another log");
-  EXPECT_EQ(sentence_about({range_scan(kStart), range_scan(kStart)}),
-            path_.string() +
-                " has no odometry, expected actions of class CActionRobotMovement2D or observations of class "
-                "CObservationOdometry. Record the odometry with the scans");
   const auto scan = range_scan(kStart);
   scan->timestamp = INVALID_TIMESTAMP;
   EXPECT_EQ(sentence_about({movement({1, 0, 0}), sensory_frame({scan})}),

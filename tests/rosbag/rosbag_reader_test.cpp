@@ -171,16 +171,19 @@ class RosbagReaderTest : public testing::Test {
   Path path_ = folder_.path() / "run.mcap";
 };
 
-TEST_F(RosbagReaderTest, requires_a_topic_if_there_are_several) {
+TEST_F(RosbagReaderTest, reads_the_topics_that_the_user_selects) {
   Recording recording = recorded_run();
   RecordedScan rear = scan_at(1'600'000'000'100'000);
   rear.topic = "/rear_scan";
   rear.ranges_m = {9, 9};
   recording.insert(recording.begin() + 5, rear);
-  EXPECT_EQ(sentence_about(recording), path_.string() +
-                                           " has several topics of type sensor_msgs/LaserScan: /scan, "
-                                           "/rear_scan. Select one with log.scan_topic");
   LogOptions options;
+  options.robot_T_laser = TPose2D(0.2, 0, 0.3);
+  EXPECT_EQ(sentence_about(recording, options), path_.string() +
+                                                    " has several topics of type sensor_msgs/LaserScan: "
+                                                    "/scan, /rear_scan. Select one with log.scan_topic")
+      << "the mount that the user states is of a single laser";
+  options.robot_T_laser.reset();
   for (const char* name : {"/rear_scan", "rear_scan"}) {
     options.scan_topic = name;
     EXPECT_EQ(read(recording, options).size(), 1U);
@@ -258,16 +261,69 @@ TEST_F(RosbagReaderTest, mirrors_the_bearings_of_a_laser_mounted_upside_down) {
               HasSubstr("the laser is tilted by 57 degrees"));
 }
 
-TEST_F(RosbagReaderTest, requires_a_stated_mount_if_the_bag_has_none) {
+TEST_F(RosbagReaderTest, combines_all_lasers_with_known_mounts) {
+  Recording recording = recorded_run();
+  recording.insert(recording.begin(), static_mount("rear", {-0.3, 0, 0.2, M_PI, 0, 0}));
+  for (std::size_t i = recording.size(); i-- > 0;) {
+    const auto* scan = std::get_if<RecordedScan>(&recording[i]);
+    if (scan == nullptr) continue;
+    RecordedScan rear = *scan;
+    rear.topic = "/rear_scan";
+    rear.frame = "rear";
+    RecordedScan filtered = *scan;
+    filtered.topic = "/scan_filtered";
+    RecordedScan unknown = *scan;
+    unknown.topic = "/arm_scan";
+    unknown.frame = "arm";
+    recording.insert(recording.begin() + static_cast<std::ptrdiff_t>(i) + 1, {rear, filtered, unknown});
+  }
+  write_mcap(path_, recording);
+  const auto log = open_log(path_);
+  const std::vector<Frame> frames = all_frames(*log);
+  ASSERT_EQ(frames.size(), 20U);
+  for (const Frame& frame : frames) {
+    EXPECT_NEAR(frame.scan.robot_T_laser.x, 0.2, 1e-9);
+    ASSERT_EQ(frame.companions.size(), 1U);
+    EXPECT_NEAR(frame.companions[0].scan.robot_T_laser.x, -0.3, 1e-9);
+  }
+  EXPECT_THAT(log->assumptions(),
+              testing::ElementsAre(HasSubstr("the scans of /scan_filtered, /arm_scan are not used")));
+}
+
+TEST_F(RosbagReaderTest, one_of_several_lasers_suffices_if_no_mount_is_known) {
   Recording recording = recorded_run();
   recording.erase(recording.begin());
-  EXPECT_EQ(
-      sentence_about(recording),
-      path_.string() +
-          " does not state where the laser of /scan is mounted: no transform leads from \"base_link\" to "
-          "\"laser\". Name the robot's frame with log.base_frame, or state the mount with log.laser_x_m, "
-          "log.laser_y_m and log.laser_yaw_deg. Transforms of the bag: none");
+  RecordedScan rear = scan_at(1'600'000'000'100'000);
+  rear.topic = "/rear_scan";
+  rear.frame = "rear";
+  recording.insert(recording.begin() + 5, rear);
+  write_mcap(path_, recording);
+  const auto log = open_log(path_);
+  EXPECT_EQ(all_frames(*log).size(), 20U);
+  EXPECT_THAT(log->assumptions(),
+              testing::ElementsAre(HasSubstr("the scans of /rear_scan are not used"),
+                                   HasSubstr("the laser of /scan is assumed at the robot's centre")));
+}
+
+TEST_F(RosbagReaderTest, assumes_the_mount_that_the_bag_does_not_state) {
+  Recording recording = recorded_run();
+  recording.erase(recording.begin());
+  write_mcap(path_, recording);
+  const auto log = open_log(path_);
+  expect_same_frames(all_frames(*log), carmen_frames(recorded_run(), {0, 0, 0}));
+  EXPECT_THAT(
+      log->assumptions(),
+      testing::ElementsAre("the laser of /scan is assumed at the robot's centre, facing ahead, because no "
+                           "transform leads from \"base_link\" to \"laser\". State its mount with "
+                           "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg"));
   LogOptions options;
+  options.base_frame = "robot";
+  EXPECT_EQ(sentence_about(recording, options),
+            path_.string() +
+                " does not state where the laser of /scan is mounted: no transform leads from \"robot\" to "
+                "\"laser\". Name the robot's frame with log.base_frame, or state the mount with "
+                "log.laser_x_m, log.laser_y_m and log.laser_yaw_deg. Transforms of the bag: none");
+  options.base_frame.clear();
   options.robot_T_laser = TPose2D(0.2, 0, 0.3);
   expect_same_frames(read(recording, options), carmen_frames(recorded_run()));
   options.robot_T_laser.reset();
@@ -307,7 +363,63 @@ TEST_F(RosbagReaderTest, a_message_without_a_stamp_has_the_time_of_its_recording
   EXPECT_EQ(frames[0].time_us, 7'000'000);
 }
 
-TEST_F(RosbagReaderTest, reports_missing_scans_and_odometry) {
+TEST_F(RosbagReaderTest, odometry_may_be_a_transform_that_leads_to_no_laser) {
+  Recording recording = recorded_run();
+  recording.erase(recording.begin());
+  for (Recorded& message : recording)
+    if (auto* pose = std::get_if<RecordedPose>(&message)) pose->topic = "/tf";
+  recording.insert(recording.begin(), RecordedPose{"/tf", 1, "odom", "map", {7, 7, 0, 1, 0, 0}});
+  const auto frames = read(recording);
+  const auto expected = carmen_frames(recorded_run(), {0, 0, 0});
+  ASSERT_EQ(frames.size(), expected.size());
+  EXPECT_TRUE(frames.back().has_odometry);
+  expect_near(frames.back().odom_T_robot, expected.back().odom_T_robot);
+}
+
+TEST_F(RosbagReaderTest, chooses_one_of_several_topics_of_odometry) {
+  Recording recording = recorded_run();
+  recording.insert(recording.begin(),
+                   RecordedPose{"/filtered", 1'600'000'000'000'000, "odom", "base_link", {5, 6, 0, 0, 0, 0}});
+  write_mcap(path_, recording);
+  const auto log = open_log(path_);
+  expect_same_frames(all_frames(*log), carmen_frames(recorded_run()));
+  EXPECT_THAT(log->assumptions(), testing::ElementsAre(HasSubstr("odometry comes from /odom")));
+  LogOptions options;
+  options.odometry = "filtered";
+  EXPECT_EQ(read(recording, options).back().odom_T_robot, TPose2D(5, 6, 0));
+}
+
+TEST_F(RosbagReaderTest, odometry_may_be_missing_or_unwanted) {
+  const auto expect_scans_alone = [&](const Recording& recording, const LogOptions& options,
+                                      const TPose2D& mount) {
+    const auto frames = read(recording, options);
+    ASSERT_EQ(frames.size(), 20U);
+    for (const Frame& frame : frames) {
+      EXPECT_FALSE(frame.has_odometry);
+      expect_near(frame.scan.robot_T_laser, mount);
+    }
+  };
+  LogOptions none;
+  none.odometry = "none";
+  expect_scans_alone(recorded_run(), none, {0.2, 0, 0.3});
+  Recording recording;
+  for (const Recorded& message : recorded_run())
+    if (topic_of(message) != "/odom") recording.push_back(message);
+  expect_scans_alone(recording, {}, {0.2, 0, 0.3});
+  recording.erase(recording.begin());
+  expect_scans_alone(recording, {}, {0, 0, 0});
+  recording.insert(recording.begin(), RecordedPose{"/tf", 1, "map", "camera", {7, 7, 0, 1, 0, 0}});
+  expect_scans_alone(recording, {}, {0, 0, 0});
+  LogOptions named;
+  named.odometry = "/odom";
+  EXPECT_THAT(sentence_about(recording, named), HasSubstr("log.odometry is \"/odom\", expected a topic"));
+  named.odometry = "/tf";
+  EXPECT_THAT(sentence_about(recording, named),
+              testing::AllOf(HasSubstr("has no odometry, expected a transform from a frame named like"),
+                             HasSubstr("log.odometry=none"), HasSubstr("camera < map")));
+}
+
+TEST_F(RosbagReaderTest, reports_missing_scans) {
   Recording recording = recorded_run();
   const auto without = [&](const char* topic) {
     Recording rest;
@@ -319,10 +431,6 @@ TEST_F(RosbagReaderTest, reports_missing_scans_and_odometry) {
             path_.string() +
                 " has no laser scans, expected a topic of type sensor_msgs/LaserScan; found /tf_static "
                 "(tf2_msgs/TFMessage), /odom (nav_msgs/Odometry). Record the scans with the bag");
-  EXPECT_THAT(
-      sentence_about(without("/odom")),
-      HasSubstr("has no odometry, expected a topic of type nav_msgs/Odometry or a transform from a frame "
-                "named like \"odom\" to the robot's frame"));
 }
 
 TEST_F(RosbagReaderTest, skips_and_reports_odometry_with_an_invalid_pose) {
@@ -338,8 +446,15 @@ TEST_F(RosbagReaderTest, skips_and_reports_odometry_with_an_invalid_pose) {
   EXPECT_THAT(log->skipped_lines().sentence(),
               testing::AllOf(testing::StartsWith("2 messages of the log"), HasSubstr("run.mcap: byte"),
                              HasSubstr("the odometry on /odom is not finite")));
-  EXPECT_THAT(sentence_about({static_mount(), invalid, scan_at()}),
-              HasSubstr("the odometry on /odom is not finite"));
+  const Recording all_invalid{static_mount(), invalid, scan_at()};
+  write_mcap(path_, all_invalid);
+  const auto alone = open_log(path_);
+  EXPECT_FALSE(all_frames(*alone).at(0).has_odometry);
+  EXPECT_THAT(alone->assumptions(),
+              testing::ElementsAre(HasSubstr("the odometry on /odom is not finite, or the length")));
+  LogOptions options;
+  options.odometry = "/odom";
+  EXPECT_THAT(sentence_about(all_invalid, options), HasSubstr("the odometry on /odom is not finite"));
 }
 
 TEST_F(RosbagReaderTest, a_damaged_message_ends_the_log_after_the_scans_before_it) {

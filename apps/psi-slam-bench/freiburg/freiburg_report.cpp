@@ -44,7 +44,7 @@ ColumnOf<Row> figure_column(const std::string& head, const std::string& key, con
   return {{head, key}, [=](const Row& row) { return row.figures ? cell_of(*row.figures) : empty_cell(); }};
 }
 
-/// A column with the mean over the seeds in Markdown, and all statistics in JSON.
+/// A column with the mean over the seeds in Markdown, and all statistics in JSON and CSV.
 CellColumn mean_column(const std::string& head, const std::string& key, SeedSpread CellFigures::*spread,
                        int decimals) {
   return figure_column(head, key, [=](const CellFigures& figures) {

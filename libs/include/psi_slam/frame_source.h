@@ -22,8 +22,8 @@ struct SkippedLines {
   /// Returns a sentence about the skipped messages, without full stop; empty if no message was skipped.
   std::string sentence() const {
     if (count == 0) return {};
-    if (count == 1) return "1 message of the log does not parse and is skipped: " + first;
-    return std::to_string(count) + " messages of the log do not parse and are skipped, the first: " + first;
+    if (count == 1) return "1 message of the log is unusable and skipped: " + first;
+    return std::to_string(count) + " messages of the log are unusable and skipped, the first: " + first;
   }
 
   /// Adds the skipped parts of two logs that are read one after the other.

@@ -69,7 +69,7 @@ std::string text_of(const std::optional<LoopRefusal>& refusal);
 /// One attempt to close a loop, and its outcome. Attempts of the final search are recorded only if they found
 /// a match. Values that an attempt did not reach are 0.
 struct LoopRecord {
-  std::size_t frame = 0;      ///< number of the scan in the log, from 0
+  std::size_t frame = 0;      ///< index of the scan in MappingResult::frames
   std::size_t node = 0;       ///< number of the node in the pose graph
   std::size_t local_map = 0;  ///< number of the matched local map
   std::size_t anchor = 0;     ///< anchor node of the local map; the constraint leads from anchor to node
@@ -130,7 +130,7 @@ struct LoopEdit {
   };
 
   Kind kind = Kind::kDelete;  ///< what to do with the loop
-  std::size_t frame = 0;      ///< number of the scan in the log, from 0; the scan must be a node
+  std::size_t frame = 0;      ///< index of the scan in MappingResult::frames; the scan must be a node
   std::size_t local_map = 0;  ///< number of the local map
 
   /// For kForce: forces the match found by the final search instead of an earlier match.

@@ -9,6 +9,7 @@
 #include "closing_text.h"
 #include "commands.h"
 #include "doctor/input_doctor.h"
+#include "exports/interruptions.h"
 #include "exports/run_summary.h"
 #include "exports/unmatched_scans.h"
 #include "psi_slam/frame_source.h"
@@ -126,6 +127,7 @@ int save_and_export(MappingSession& session, const OutputFolder& folder, const C
   for (const std::string& unmet : session.unmet_edits()) warn("an edit was not made: " + unmet);
   if (const auto coarser = coarser_cells_text(summary.map)) warn(*coarser);
   if (const auto unmatched = unmatched_scans_text(session.result())) warn(*unmatched);
+  for (const std::string& interruption : interruption_texts(session.result())) warn(interruption);
   for (const std::string& warning : session.warnings_of_logs_before()) warn(warning);
   if (session.broken_off()) warn(broken_off_text(*session.broken_off(), session.result().frames.size()));
   if (failure) std::rethrow_exception(failure);

@@ -15,6 +15,8 @@ constexpr double kShortest_s = 1e-3;          // smallest time between scans for
 constexpr double kMedianStep = 0.05;          // relative change of the running median with each scan
 constexpr double kBackwardStepsKept = 0.995;  // factor of the number of backward steps with each scan
 constexpr double kUnreliableBackwardSteps = 0.3;
+constexpr double kLeastGap_s = 2;
+constexpr double kGapSteps = 10;  // smallest gap, as a multiple of the usual time between scans
 
 /// Rotates the translation of a motion by an angle. Rotation by minus half the turn of an arc makes its chord
 /// point straight ahead.
@@ -62,11 +64,20 @@ void ConstantVelocityModel::moved(TimeUs time_us, const TPose2D& local_T_robot, 
   last_ = here;
 }
 
+bool ConstantVelocityModel::is_gap(TimeUs time_us) const {
+  const double passed_s = this->passed_s(time_us);
+  return usual_step_s_ > 0 && passed_s >= std::max(kLeastGap_s, kGapSteps * usual_step_s_);
+}
+
+double ConstantVelocityModel::unmatched_s(TimeUs time_us) const {
+  return last_matched_ ? clock_s_ + passed_s(time_us) - last_matched_->clock_s : 0;
+}
+
 PredictedMotion ConstantVelocityModel::predict(TimeUs time_us) const {
   PredictedMotion predicted;
   if (!last_) return predicted;
   const double passed_s = this->passed_s(time_us);
-  const double unmatched_s = clock_s_ + passed_s - last_matched_->clock_s;
+  const double unmatched_s = this->unmatched_s(time_us);
   if (!speed_ || unmatched_s > options_.longest_s) {
     predicted.sigma_m = options_.unknown_speed_mps * passed_s;
     predicted.sigma_rad = options_.unknown_turn_radps * passed_s;

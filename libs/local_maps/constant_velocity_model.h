@@ -36,6 +36,13 @@ class ConstantVelocityModel {
   /// does not change the speed. The first pose always counts as matched.
   void moved(TimeUs time_us, const mrpt::math::TPose2D& local_T_robot, bool matched);
 
+  /// Returns whether scans are missing before the scan at `time_us`: whether the time since the last pose is
+  /// at least 2 s and ten times as long as usual. False if time stamps are unreliable.
+  bool is_gap(TimeUs time_us) const;
+
+  /// Time since the last matched pose, seconds.
+  double unmatched_s(TimeUs time_us) const;
+
   /// Predicts the motion from the last pose to `time_us`. Returns zero motion before the first pose and while
   /// the speed is unknown. A time before the last pose counts as zero elapsed time.
   PredictedMotion predict(TimeUs time_us) const;

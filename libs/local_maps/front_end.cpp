@@ -35,6 +35,25 @@ constexpr double kHalfWeight_s = 0.5;    // time after which the disagreement wi
 constexpr std::size_t kCoarsePoints = 120;
 constexpr double kCoarseFarthest_m = 30;
 
+constexpr double kJudgedShare = 0.2;  // smallest share of a scan in observed space that can contradict a map
+// After a gap, share of the expected response that a match needs if the robot did not move as predicted.
+constexpr double kSureShare = 0.6;
+// After an interruption, shares of the points in observed space that must fit it: at the matched pose, and at
+// a pose that was only predicted.
+constexpr double kLeastMatchedAgreement = 0.85;
+constexpr double kLeastAgreement = 0.5;
+constexpr int kLostMisses = 5;      // the robot may be lost after this many successive scans without a match
+constexpr double kLostAfter_s = 5;  // and this time
+
+// Returns whether odometry began again at zero: the pose is zero, and the last pose was not nearby.
+bool was_restarted(const TPose2D& last, const TPose2D& now) {
+  constexpr double kZero_m = 0.05;
+  constexpr double kZero_rad = 0.05;
+  constexpr double kLeastJump_m = 1.0;
+  return length_m(now) < kZero_m && std::abs(mrpt::math::wrapToPi(now.phi)) < kZero_rad &&
+         length_m(last) > kLeastJump_m;
+}
+
 // Returns at most kCoarsePoints points of a scan, at even steps of the index, for the search of a wide
 // window.
 ScanPoints coarse_scan(const ScanPoints& scan) {
@@ -53,7 +72,7 @@ ScanPoints coarse_scan(const ScanPoints& scan) {
 FrontEnd::FrontEnd(const FrontEndOptions& options)
     : options_(options), matcher_(matcher_options(options)), constant_velocity_(options.constant_velocity) {}
 
-FrontEndStep FrontEnd::add(const Frame& frame) {
+FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
   FrontEndStep step;
   step.points = std::make_shared<const ScanPoints>(matching_points(frame, options_.scan));
   const Motion motion = motion_to(frame);
@@ -63,7 +82,11 @@ FrontEndStep FrontEnd::add(const Frame& frame) {
   // Without a point farther than one cell from the robot, make_search_window() may throw.
   const bool blind =
       step.points->points.empty() || step.points->farthest_m <= options_.local_map.resolution_m;
-  if (!active_.empty() && !blind) match(step, motion);
+  if (!active_.empty() && !blind) {
+    match(step, motion);
+    step.lost = may_be_lost && is_lost(step, motion, frame.time_us);
+    if (step.lost) return step;
+  }
   const double travel_m = motion.measured ? motion.length_m : std::max(motion.length_m, motion.sigma_m);
   unmatched_travel_m_ = step.matched ? 0 : unmatched_travel_m_ + travel_m;
   propagate_covariances(step, motion);
@@ -80,6 +103,11 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   Motion motion;
   if (!last_) return motion;
   if (!frame.has_odometry || !last_->has_odometry) return constant_velocity_motion(frame.time_us);
+  if (was_restarted(last_->odom_T_robot, frame.odom_T_robot)) {
+    motion = constant_velocity_motion(frame.time_us);
+    motion.was_restarted = true;
+    return motion;
+  }
   motion.predicted = frame.odom_T_robot - last_->odom_T_robot;
   motion.length_m = std::hypot(motion.predicted.x, motion.predicted.y);
   motion.turn_rad = std::abs(mrpt::math::wrapToPi(motion.predicted.phi));
@@ -98,6 +126,7 @@ FrontEnd::Motion FrontEnd::motion_to(const Frame& frame) const {
   motion.disagreement_m =
       weight * std::hypot(motion.predicted.x - last_motion_.x, motion.predicted.y - last_motion_.y);
   motion.disagreement_rad = weight * std::abs(mrpt::math::wrapToPi(motion.predicted.phi - last_motion_.phi));
+  motion.after_gap = constant_velocity_.is_gap(frame.time_us);
   return motion;
 }
 
@@ -112,6 +141,7 @@ FrontEnd::Motion FrontEnd::constant_velocity_motion(TimeUs time_us) const {
   motion.disagreement_rad = predicted.sigma_since_match_rad;
   motion.sigma_m = predicted.sigma_m;
   motion.sigma_rad = predicted.sigma_rad;
+  motion.after_gap = constant_velocity_.is_gap(time_us);
   return motion;
 }
 
@@ -172,8 +202,9 @@ std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Mot
   const PlacedLocalMap& older = active_.front();
   PosePrior unknown;
   unknown.map_T_robot = last_local_T_robot_ + motion.predicted - older.local_T_map;
-  const double needed =
-      options_.wide_response_gain * std::max(poor_response, options_.min_response_share * expected_response_);
+  const double needed = std::max(
+      options_.wide_response_gain * std::max(poor_response, options_.min_response_share * expected_response_),
+      motion.after_gap ? kSureShare * expected_response_ : 0.0);
   const ScoreGrid& grid = older.map->scores_with_pyramid();
   MatchResult match = search(step, coarse_scan(*step.points), grid, unknown, wide, needed);
   if (!match.found) return {};
@@ -186,22 +217,58 @@ std::optional<MatchResult> FrontEnd::search_widely(FrontEndStep& step, const Mot
   return match;
 }
 
+// Returns the motions that the robot may have made since the last scan. After a gap it may have stood still.
+// If odometry disagrees strongly with the last motion, the robot may have continued as before.
+std::vector<TPose2D> FrontEnd::hypotheses(const Motion& motion) const {
+  const bool jumps =
+      motion.disagreement_m > options_.max_window_m || motion.disagreement_rad > options_.max_window_rad;
+  std::vector<TPose2D> hypotheses = {motion.predicted};
+  if (motion.after_gap && !(motion.predicted == TPose2D(0, 0, 0))) hypotheses.emplace_back(0, 0, 0);
+  if (jumps) hypotheses.push_back(last_motion_);
+  return hypotheses;
+}
+
+// Returns whether too small a share of the scan fits the older active map at this pose, in space that the map
+// has observed. False if the map has observed little of this space.
+bool FrontEnd::contradicts(const ScanPoints& scan, const TPose2D& local_T_robot,
+                           double least_agreement) const {
+  const PlacedLocalMap& older = active_.front();
+  const LocalMap::Agreement agreement = older.map->agreement(scan, local_T_robot - older.local_T_map);
+  return static_cast<double>(agreement.observed) >= kJudgedShare * static_cast<double>(scan.points.size()) &&
+         agreement.share() < least_agreement;
+}
+
+bool FrontEnd::is_lost(const FrontEndStep& step, const Motion& motion, TimeUs time_us) const {
+  const bool interrupted = motion.after_gap || motion.was_restarted;
+  const bool mismatches =
+      !step.matched && misses_ >= kLostMisses && constant_velocity_.unmatched_s(time_us) >= kLostAfter_s;
+  if (!interrupted && !mismatches) return false;
+  if (step.matched) return contradicts(*step.points, step.local_T_robot, kLeastMatchedAgreement);
+  for (const TPose2D& hypothesis : hypotheses(motion))
+    if (!contradicts(*step.points, last_local_T_robot_ + hypothesis, kLeastAgreement)) return false;
+  return true;
+}
+
 void FrontEnd::match(FrontEndStep& step, const Motion& motion) {
   const PlacedLocalMap& older = active_.front();
   const ScoreGrid& grid = older.map->scores();
-  std::vector<TPose2D> hypotheses = {motion.predicted};
-  // If odometry disagrees this much with the last motion, it may be wrong. Then tries the last motion too.
-  if (motion.disagreement_m > options_.max_window_m || motion.disagreement_rad > options_.max_window_rad)
-    hypotheses.push_back(last_motion_);
   MatchResult best;
   PosePrior best_prior;
-  for (const TPose2D& hypothesis : hypotheses) {
+  const std::vector<TPose2D> tested = hypotheses(motion);
+  for (const TPose2D& hypothesis : tested) {
     const PosePrior prior = this->prior(last_local_T_robot_ + hypothesis - older.local_T_map, motion);
-    const MatchResult match = search(step, *step.points, grid, prior, step.window,
-                                     options_.min_response_share * expected_response_);
+    const bool is_prediction = &hypothesis == &tested.front();
+    const double least_share = motion.after_gap && !is_prediction
+                                   ? std::max(options_.min_response_share, kSureShare)
+                                   : options_.min_response_share;
+    const MatchResult match =
+        search(step, *step.points, grid, prior, step.window, least_share * expected_response_);
     if (!match.found || (best.found && match.response <= best.response)) continue;
     best = match;
     best_prior = prior;
+    if (motion.after_gap && is_prediction &&
+        best.response >= options_.poor_response_share * expected_response_)
+      break;
   }
   std::optional<MatchResult> wide;
   if (best.response < options_.poor_response_share * expected_response_)

@@ -105,6 +105,9 @@ struct FrontEndOptions {
 /// Result of the front end for one scan.
 struct FrontEndStep {
   mrpt::math::TPose2D local_T_robot;
+  /// The scan contradicts every explanation of an interruption: that odometry continued, that the robot stood
+  /// still, and that it continued as before. The scan was not inserted.
+  bool lost = false;
   bool matched = false;  ///< false: no local map, no points, or a response that is too low
   double response = 0;
   SearchExtent window;
@@ -131,8 +134,9 @@ class FrontEnd {
  public:
   explicit FrontEnd(const FrontEndOptions& options);
 
-  /// Predicts, matches and inserts one scan.
-  FrontEndStep add(const Frame& frame);
+  /// Predicts, matches and inserts one scan. If `may_be_lost` is true, an interruption that nothing explains
+  /// sets FrontEndStep::lost. Then call finish() and begin_run(), and add the scan again.
+  FrontEndStep add(const Frame& frame, bool may_be_lost = false);
 
   /// Ends the local maps that are still active and returns them, older first.
   std::vector<PlacedLocalMap> finish();
@@ -158,6 +162,8 @@ class FrontEnd {
     double disagreement_rad = 0;
     double sigma_m = 0;  ///< standard deviations of the motion, for the covariance of the poses
     double sigma_rad = 0;
+    bool after_gap = false;      ///< scans are missing before this scan
+    bool was_restarted = false;  ///< odometry began again at zero, so the motion is not measured
   };
   Motion motion_to(const Frame& frame) const;
   /// Predicts the motion by the constant-velocity model, for scans without odometry.
@@ -166,6 +172,10 @@ class FrontEnd {
   PosePrior prior(const mrpt::math::TPose2D& map_T_robot, const Motion& motion) const;
   SearchExtent wide_extent(const Motion& motion) const;
   void match(FrontEndStep& step, const Motion& motion);
+  std::vector<mrpt::math::TPose2D> hypotheses(const Motion& motion) const;
+  bool contradicts(const ScanPoints& scan, const mrpt::math::TPose2D& local_T_robot,
+                   double least_agreement) const;
+  bool is_lost(const FrontEndStep& step, const Motion& motion, TimeUs time_us) const;
   MatchResult search(FrontEndStep& step, const ScanPoints& scan, const ScoreGrid& grid,
                      const PosePrior& prior, const SearchExtent& window, double min_response) const;
   std::optional<MatchResult> search_widely(FrontEndStep& step, const Motion& motion, double poor_response);

@@ -62,6 +62,7 @@ std::vector<Pair> pairs_near_each_other(
       if (!box.is_near(graph.pose(node), options.reach_m)) continue;
       if (node >= local_map.first_node && node <= local_map.last_node) continue;
       if (!begins_stretch(node, keyframes.nodes, options.travel_m) || known(node, m) ||
+          !are_joined(node, local_map.first_node, keyframes) ||
           !is_near(node, local_map, graph, options.reach_m))
         continue;
       Pair pair;

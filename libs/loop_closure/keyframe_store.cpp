@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop_closure/keyframe_store.h"
 
+#include <algorithm>
+
 #include <cmath>
 #include <utility>
 
@@ -12,6 +14,17 @@ namespace {
 constexpr std::size_t kUnpackedLocalMaps = 48;
 
 }  // namespace
+
+bool is_unplaced(std::size_t node, const KeyframeStore& keyframes) {
+  return std::any_of(keyframes.unplaced.begin(), keyframes.unplaced.end(),
+                     [&](const NodeSpan& run) { return run.begin <= node && node < run.end; });
+}
+
+bool are_joined(std::size_t node, std::size_t other, const KeyframeStore& keyframes) {
+  return std::all_of(keyframes.unplaced.begin(), keyframes.unplaced.end(), [&](const NodeSpan& run) {
+    return (run.begin <= node && node < run.end) == (run.begin <= other && other < run.end);
+  });
+}
 
 KeyframeStore make_keyframe_store() {
   KeyframeStore keyframes;

@@ -5,6 +5,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -23,11 +24,26 @@ struct NodeScan {
   std::shared_ptr<const ScanPoints> points;
 };
 
+/// Consecutive nodes, [begin, end).
+struct NodeSpan {
+  std::size_t begin = 0;
+  std::size_t end = std::numeric_limits<std::size_t>::max();
+};
+
 struct KeyframeStore {
   std::vector<NodeScan> nodes;             ///< nodes in the order of their numbers
   std::vector<PlacedLocalMap> local_maps;  ///< finished local maps, in the order of their ids
   std::shared_ptr<LocalMapCache> cache;    ///< holds the same local maps; null: no local map is ever packed
+  /// Runs whose place in the map is unknown, in ascending order. The last one may still grow.
+  std::vector<NodeSpan> unplaced;
 };
+
+/// Returns whether the node belongs to a run whose place in the map is unknown.
+bool is_unplaced(std::size_t node, const KeyframeStore& keyframes);
+
+/// Returns whether the pose of one node relative to the other is known: both are in the map, or both are in
+/// the same run whose place is unknown.
+bool are_joined(std::size_t node, std::size_t other, const KeyframeStore& keyframes);
 
 /// Returns an empty store with a cache, which keeps the 48 most recently used local maps unpacked.
 KeyframeStore make_keyframe_store();

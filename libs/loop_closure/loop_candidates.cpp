@@ -70,6 +70,7 @@ std::vector<LoopCandidate> loop_candidates(std::size_t node, const KeyframeStore
   std::vector<std::size_t> local_maps;
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
     const PlacedLocalMap& local_map = keyframes.local_maps[m];
+    if (!are_joined(node, local_map.first_node, keyframes)) continue;
     if (travel_between_m(node, local_map, keyframes) < options.min_travel_m) continue;
     const double distance_m = nearest_node_m(local_map, map_T_node, graph);
     if (distance_m > reach_m) continue;
@@ -101,6 +102,7 @@ std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore&
   std::vector<std::size_t> local_maps;
   std::vector<double> distances_m;
   for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
+    if (!are_joined(node, keyframes.local_maps[m].first_node, keyframes)) continue;
     const double travel_m = travel_between_m(node, keyframes.local_maps[m], keyframes);
     if (travel_m < options.min_travel_m) continue;
     const double distance_m = nearest_node_m(keyframes.local_maps[m], map_T_node, graph);
@@ -116,6 +118,17 @@ std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore&
     if (!may_have_drifted(chains_m[i], distances_m[i])) continue;
     candidates.push_back(whole_local_map(local_maps[i], map_T_node, keyframes, graph, options));
     candidates.back().distance_m = distances_m[i];
+  }
+  return candidates;
+}
+
+std::vector<LoopCandidate> whole_map_candidates(std::size_t node, const KeyframeStore& keyframes,
+                                                const PoseGraph& graph, const LoopCandidateOptions& options) {
+  std::vector<LoopCandidate> candidates;
+  for (std::size_t m = 0; m < keyframes.local_maps.size(); ++m) {
+    if (is_unplaced(keyframes.local_maps[m].first_node, keyframes)) continue;
+    candidates.push_back(whole_local_map(m, graph.pose(node), keyframes, graph, options));
+    candidates.back().extent.theta_rad = M_PI;
   }
   return candidates;
 }

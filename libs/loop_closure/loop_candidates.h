@@ -66,4 +66,9 @@ std::vector<LoopCandidate> far_candidates(std::size_t node, const KeyframeStore&
                                           const PoseGraph& graph, const LoopCandidateOptions& options,
                                           const ChainsToAnchors& chains_to_anchors);
 
+/// Returns all local maps whose place is known, as candidates of a node whose place is unknown. The window
+/// covers the whole local map and all headings.
+std::vector<LoopCandidate> whole_map_candidates(std::size_t node, const KeyframeStore& keyframes,
+                                                const PoseGraph& graph, const LoopCandidateOptions& options);
+
 }  // namespace psi_slam

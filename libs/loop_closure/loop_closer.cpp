@@ -11,6 +11,10 @@
 namespace psi_slam {
 namespace {
 
+// At the beginning of a run whose place is unknown, each node searches this many local maps from before the
+// interruption, because the robot is often still there. The other local maps take turns.
+constexpr std::size_t kNewestMaps = 2;
+
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 // Returns the uncertainty of each local map's anchor relative to the node, in the order of `local_maps`.
@@ -37,7 +41,8 @@ PositionSigma sigma_of(const RelativeUncertainty& uncertainty, double distance_m
 }  // namespace
 
 // Returns all candidates with narrow windows, and at most `wide_searches` candidates with wide windows. If no
-// candidate has a narrow window, the wide ones include those of far_candidates().
+// candidate has a narrow window, the wide ones include those of far_candidates(). If the place of the node is
+// unknown, the wide ones are those of whole_map_candidates().
 std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const KeyframeStore& keyframes,
                                                   const PoseGraph& graph) {
   const auto sigmas_of_anchors = [&](const std::vector<std::size_t>& local_maps) {
@@ -62,7 +67,16 @@ std::vector<LoopCandidate> LoopCloser::candidates(std::size_t node, const Keyfra
   });
   std::vector<LoopCandidate> wide(first_wide, chosen.end());
   chosen.erase(first_wide, chosen.end());
-  if (chosen.empty()) {
+  if (is_unplaced(node, keyframes)) {
+    wide = whole_map_candidates(node, keyframes, graph, options_.candidates);
+    const double run_m =
+        keyframes.nodes[node].travelled_m - keyframes.nodes[keyframes.unplaced.back().begin].travelled_m;
+    if (run_m < options_.candidates.min_travel_m) {
+      const auto newest = wide.end() - static_cast<std::ptrdiff_t>(std::min(kNewestMaps, wide.size()));
+      chosen.insert(chosen.end(), newest, wide.end());
+      wide.erase(newest, wide.end());
+    }
+  } else if (chosen.empty()) {
     const std::vector<LoopCandidate> far =
         far_candidates(node, keyframes, graph, options_.candidates, chains_to_anchors);
     const auto is_far = [&](const LoopCandidate& one) {

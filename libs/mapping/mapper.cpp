@@ -8,6 +8,7 @@
 
 #include "frames/pose_operations.h"
 #include "mapping/carried_frames.h"
+#include "mapping/unplaced_runs.h"
 #include "pose_graph/information_matrix.h"
 
 namespace psi_slam {
@@ -19,6 +20,10 @@ using mrpt::math::TPose2D;
 // They determine the windows of the first loop searches.
 constexpr double kStartSigma_m = 0.3;
 constexpr double kStartSigma_rad = radians_from_degrees(3.0L);
+
+// Standard deviations of a provisional start. They only keep the graph connected.
+constexpr double kUnknownSigma_m = 1e5;
+constexpr double kUnknownSigma_rad = 1e3;
 
 // Distance added to the path between two runs. It exceeds every limit along the path, so no search along the
 // path crosses from one run to the other.
@@ -56,9 +61,14 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
   FrameRecord record;
   record.time_us = frame.time_us;
 
-  const bool has_map = !front_end_.active().empty();
+  bool has_map = !front_end_.active().empty();
   FrontEndStep step;
-  record.front_end_ms = front_end_clock_.time([&] { step = front_end_.add(frame); });
+  record.front_end_ms = front_end_clock_.time([&] { step = front_end_.add(frame, true); });
+  if (step.lost) {
+    begin_unplaced_run();
+    has_map = false;
+    record.front_end_ms += front_end_clock_.time([&] { step = front_end_.add(frame); });
+  }
   record.odom_T_robot = frame.has_odometry ? frame.odom_T_robot : step.local_T_robot;
   rebase_odometry(record);
   record.front_end_T_robot = step.local_T_robot;
@@ -90,10 +100,24 @@ void Mapper::Implementation::begin_run(const RunStart& start) {
   result_.later_run_frames.push_back(result_.frames.size());
 }
 
+// Begins a run after an interruption that moved the robot to an unknown place. Whole-map searches look for
+// this place.
+void Mapper::Implementation::begin_unplaced_run() {
+  const std::size_t node = graph_.num_nodes() - 1;
+  if (!keyframes_.unplaced.empty()) keyframes_.unplaced.back().end = graph_.num_nodes();
+  keyframes_.unplaced.push_back({graph_.num_nodes()});
+  is_start_provisional_ = true;
+  result_.interruptions.push_back({result_.frames.size(), std::nullopt});
+  begin_run({node, provisional_start(graph_) - graph_.pose(node), {0, 0, 0}});
+}
+
 // Transforms odometry of a later run into the odometry frame of the first run. Relative to node 0, the first
-// odometry pose of the run then equals the pose in the map where the run begins.
+// odometry pose of the run then equals the pose in the map where the run begins. If that place is unknown,
+// the odometry continues from its last pose.
 void Mapper::Implementation::rebase_odometry(FrameRecord& record) {
-  if (run_start_) {
+  if (run_start_ && is_start_provisional_) {
+    odom_T_run_ = result_.frames.back().odom_T_robot + inverse(record.odom_T_robot);
+  } else if (run_start_) {
     const TPose2D odom_T_start = result_.frames.front().odom_T_robot + (map_T_local_ - graph_.pose(0));
     odom_T_run_ = odom_T_start + inverse(record.odom_T_robot);
   }
@@ -146,7 +170,10 @@ void Mapper::Implementation::join_run() {
   constraint.from = run_start_->node;
   constraint.to = first;
   constraint.from_T_to = run_start_->node_T_robot;
-  constraint.information = information_of(*run_start_);
+  constraint.information =
+      std::exchange(is_start_provisional_, false)
+          ? noisy_information(Eigen::Matrix3d::Zero(), kUnknownSigma_m, kUnknownSigma_rad)
+          : information_of(*run_start_);
   constraint.kind = Constraint::Kind::kRunStart;
   graph_.add_constraint(constraint);
   run_start_.reset();
@@ -158,7 +185,10 @@ void Mapper::Implementation::remember(const PlacedLocalMap& finished) {
 }
 
 void Mapper::Implementation::close_loops(std::size_t node, FrameRecord& record) {
+  const std::size_t constraints_before = graph_.num_constraints();
   const NodeLoops loops = back_end_.close(node, keyframes_, graph_);
+  if (place_newest_run(constraints_before, keyframes_, graph_))
+    result_.interruptions.back().found_frame = keyframes_.nodes[node].frame;
   record.matcher = loops.matcher;
   record.loops_tried = static_cast<int>(loops.effort.attempts);
   record.loops_accepted = loops.accepted;
@@ -211,6 +241,7 @@ MappingResult Mapper::Implementation::finish(const std::function<bool(double)>& 
   FinalProgress steps(options_.back_end, progress);
   const bool closes_loops = options_.close_loops && !keyframes_.nodes.empty();
   if (closes_loops) finish_loops(steps);
+  lay_unplaced_runs_aside(keyframes_, graph_);
   result_.unmet_edits = unmet_edits();
   count_accepted_loops();
   carry_frames_along(graph_.poses(), result_.node_frames, result_.frames, result_.later_run_frames);

@@ -44,6 +44,7 @@ class Mapper::Implementation {
   void record_factor(FrameRecord& record, const FrontEndStep& step);
   void add_node(const FrontEndStep& step, std::size_t frame);
   void join_run();
+  void begin_unplaced_run();
   void follow_graph();
   void remember(const PlacedLocalMap& finished);
   void close_loops(std::size_t node, FrameRecord& record);
@@ -63,6 +64,8 @@ class Mapper::Implementation {
   std::vector<LoopEdit> waiting_edits_;
   std::vector<std::string> impossible_edits_;  ///< one sentence for each waiting edit that became impossible
   std::optional<Checkpoint> before_finish_;
+  /// Whether the start of the next run is only provisional, see unplaced_runs.h.
+  bool is_start_provisional_ = false;
   std::optional<RunStart> run_start_;  ///< start of a run that begins with the next frame; otherwise empty
   /// Odometry frame of a later run, in the odometry frame of the first run.
   std::optional<mrpt::math::TPose2D> odom_T_run_;

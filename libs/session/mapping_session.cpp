@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/file_checksum.h"
+#include "exports/interruptions.h"
 #include "exports/unmatched_scans.h"
 #include "frames/log_reader.h"
 #include "pose_graph/g2o_file.h"
@@ -484,6 +485,7 @@ std::vector<std::string> MappingSession::warnings() const {
   for (const std::string& assumption : assumptions()) warnings.push_back(assumption);
   for (const std::string& complaint : unmet_edits()) warnings.push_back("an edit was not made: " + complaint);
   if (const auto unmatched = unmatched_scans_text(m_->result)) warnings.push_back(*unmatched);
+  for (const std::string& interruption : interruption_texts(m_->result)) warnings.push_back(interruption);
   return warnings;
 }
 

@@ -54,6 +54,18 @@ struct ThereAndBack {
 
 using Maps = std::vector<std::size_t>;
 
+TEST(LoopCandidates, of_a_run_at_an_unknown_place_are_within_the_run_or_the_whole_map) {
+  ThereAndBack drive;
+  drive.keyframes.unplaced.push_back({30});
+  EXPECT_EQ(drive.local_maps(59, {0.01, 0.001}), Maps()) << "the map beside the node has another place";
+  const auto whole = whole_map_candidates(59, drive.keyframes, drive.graph, {});
+  ASSERT_EQ(whole.size(), 3U);
+  for (const LoopCandidate& candidate : whole) {
+    EXPECT_EQ(candidate.extent.theta_rad, M_PI);
+    EXPECT_GE(candidate.extent.x_m, 4.5 + LoopCandidateOptions().reach_m);
+  }
+}
+
 TEST(LoopCandidates, only_local_maps_near_the_node_are_tried) {
   const ThereAndBack drive;
   EXPECT_EQ(drive.local_maps(59, {0.01, 0.001}), Maps({0}));     // node at x = 0

@@ -73,6 +73,15 @@ struct LocalMapRecord {
   std::size_t last_node = 0;   ///< last node whose scan the map holds
 };
 
+/// An interruption of the log after which the robot was at an unknown place: moved by hand, or switched off
+/// and on elsewhere. A new run begins there.
+struct Interruption {
+  std::size_t frame = 0;  ///< first frame after the interruption
+  /// Frame that found the robot's place in the map; empty if the place was never found. Then the run is drawn
+  /// beside the map.
+  std::optional<std::size_t> found_frame;
+};
+
 /// Time spent in one stage of the work, over all its calls.
 struct StageTiming {
   std::string name;       ///< label of the stage, such as "match and insert scan"
@@ -99,6 +108,7 @@ struct MappingResult {
   PoseGraph graph;
   std::vector<std::size_t> node_frames;       ///< frame number of each node
   std::vector<std::size_t> later_run_frames;  ///< number of the first frame of each run after the first
+  std::vector<Interruption> interruptions;    ///< interruptions at which the place of the robot was lost
   std::vector<LocalMapRecord> local_maps;     ///< all local maps, in the order in which they began
   /// Attempts to close loops. Attempts of the final loop search are kept only if they found a match.
   std::vector<LoopRecord> loops;

@@ -169,6 +169,15 @@ Json unmatched_json(const UnmatchedScans& unmatched) {
   return {{"count", unmatched.count}, {"stretches", std::move(stretches)}};
 }
 
+Json interruptions_json(const std::vector<Interruption>& interruptions) {
+  Json list = Json::array();
+  for (const Interruption& interruption : interruptions)
+    list.push_back(
+        {{"first_scan", interruption.frame},
+         {"found_scan", interruption.found_frame ? Json(*interruption.found_frame) : Json(nullptr)}});
+  return list;
+}
+
 Json stages_json(const std::vector<StageTiming>& stages) {
   Json list = Json::array();
   for (const StageTiming& stage : stages)
@@ -264,6 +273,7 @@ std::string summary_json(const MappingResult& result, const RunInfo& info, const
                {"local_maps", summary.local_maps},
                {"mean_response", number(summary.mean_response, 4)},
                {"unmatched_scans", unmatched_json(summary.unmatched)},
+               {"interruptions", interruptions_json(result.interruptions)},
                {"evaluations", summary.evaluations},
                {"map", map_json(summary.map)},
                {"wall_s", number(summary.wall_s)},

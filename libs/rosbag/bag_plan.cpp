@@ -29,9 +29,12 @@ Names topics_of_type(const std::vector<BagTopic>& topics, const char* type) {
   return names;
 }
 
-/// Returns the name of a topic as in the bag: users and some programs omit the leading slash.
+/// Returns the name of a topic as in the bag: users, and some programs that record bags, omit the leading
+/// slash.
 std::string as_in_bag(const std::string& name, const Names& all) {
-  return contains(all, '/' + name) ? '/' + name : name;
+  if (contains(all, '/' + name)) return '/' + name;
+  const bool has_slash = !name.empty() && name.front() == '/';
+  return has_slash && contains(all, name.substr(1)) ? name.substr(1) : name;
 }
 
 /// Returns whether the last part of a frame's name contains a word, in letters of any case.
@@ -70,7 +73,8 @@ class Planner {
 
  private:
   void choose_scan_topics() {
-    const Names all = topics_of_type(topics_, kRosLaserScan);
+    Names all = topics_of_type(topics_, kRosLaserScan);
+    for (const std::string& topic : topics_of_type(topics_, kRosMultiEchoScan)) all.push_back(topic);
     if (all.empty()) {
       Names found;
       for (const BagTopic& topic : topics_) found.push_back(topic.name + " (" + topic.type + ")");

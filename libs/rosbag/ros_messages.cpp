@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -114,6 +115,16 @@ std::optional<RosTransform> transform(RosFields& fields, TimeUs recorded_us) {
   return transform;
 }
 
+/// Parses a list of echoes for each beam, and returns the first echo of each; NaN if a beam has none.
+std::vector<float> first_echoes(RosFields& fields) {
+  std::vector<float> ranges_m;
+  for (auto beams = fields.number<std::uint32_t>(); beams > 0; --beams) {
+    const std::vector<float> echoes = fields.floats();
+    ranges_m.push_back(echoes.empty() ? std::numeric_limits<float>::quiet_NaN() : echoes.front());
+  }
+  return ranges_m;
+}
+
 }  // namespace
 
 RosLaserScan read_ros_laser_scan(const BagMessage& message) {
@@ -127,7 +138,7 @@ RosLaserScan read_ros_laser_scan(const BagMessage& message) {
   scan.scan_time_s = fields.number<float>();
   scan.range_min_m = fields.number<float>();
   scan.range_max_m = fields.number<float>();
-  scan.ranges_m = fields.floats();
+  scan.ranges_m = message.topic->type == kRosMultiEchoScan ? first_echoes(fields) : fields.floats();
   return scan;
 }
 

@@ -15,6 +15,7 @@
 namespace psi_slam {
 
 inline constexpr const char* kRosLaserScan = "sensor_msgs/LaserScan";
+inline constexpr const char* kRosMultiEchoScan = "sensor_msgs/MultiEchoLaserScan";
 inline constexpr const char* kRosOdometry = "nav_msgs/Odometry";
 inline constexpr const char* kRosTransforms = "tf2_msgs/TFMessage";
 inline constexpr const char* kRosOldTransforms = "tf/tfMessage";  ///< older type with the same bytes
@@ -43,6 +44,7 @@ struct RosTransform {
 };
 
 // Each function throws MalformedBytes if the message is shorter than it states or has an unknown encoding.
+/// Reads a scan of either type. Of several echoes of a beam, reads the first; a beam without echo has NaN.
 RosLaserScan read_ros_laser_scan(const BagMessage& message);
 
 /// Returns the pose of the robot in the odometry's frame. Empty if the pose is invalid: not finite, or a

@@ -178,6 +178,10 @@ TEST(SummaryJson, lists_the_stretches_of_unmatched_scans) {
     return nlohmann::json::parse(summary_json(result, {}, summary_of(result)))["unmatched_scans"];
   };
   EXPECT_EQ(summary_json_of(), nlohmann::json::parse(R"({"count": 0, "stretches": []})"));
+  result.interruptions = {{3, 5}, {7, std::nullopt}};
+  EXPECT_EQ(nlohmann::json::parse(summary_json(result, {}, summary_of(result)))["interruptions"],
+            nlohmann::json::parse(
+                R"([{"first_scan": 3, "found_scan": 5}, {"first_scan": 7, "found_scan": null}])"));
   result.frames[10].match = result.frames[11].match = result.frames[20].match = ScanMatch::kUnmatched;
   const auto unmatched = summary_json_of();
   EXPECT_EQ(unmatched["count"], 3);

@@ -352,6 +352,24 @@ TEST_F(RosbagReaderTest, readings_without_a_return_are_marked_and_scans_may_chan
   EXPECT_THAT(*frames[1].scan.bearings_rad, testing::ElementsAre(-1.0F, -1.25F));
 }
 
+TEST_F(RosbagReaderTest, the_first_of_several_echoes_is_the_range) {
+  Recording recording = recorded_run();
+  for (Recorded& message : recording)
+    if (auto* scan = std::get_if<RecordedScan>(&message)) scan->multi_echo = true;
+  expect_same_frames(read(recording), carmen_frames(recorded_run()));
+  write_ros1_bag(path_, recording);
+  expect_same_frames(frames_of(path_), carmen_frames(recorded_run()));
+}
+
+TEST_F(RosbagReaderTest, topics_may_lack_the_leading_slash) {
+  Recording recording = recorded_run();
+  for (Recorded& message : recording) std::visit([](auto& one) { one.topic.erase(0, 1); }, message);
+  LogOptions options;
+  options.scan_topic = "/scan";
+  options.odometry = "/odom";
+  expect_same_frames(read(recording, options), carmen_frames(recorded_run()));
+}
+
 TEST_F(RosbagReaderTest, a_message_without_a_stamp_has_the_time_of_its_recording) {
   write_ros1_bag(path_, one_scan(scan_at(0)));
   std::string bytes = read_file(path_);

@@ -36,6 +36,7 @@ struct RecordedScan {
   float range_max_m = 30;
   float time_increment_s = 0;
   float scan_time_s = 0.1F;
+  bool multi_echo = false;  // a MultiEchoLaserScan: each beam has a second echo 1 m behind its range
 };
 
 /// An odometry message, or a transform if the topic begins with "/tf".
@@ -62,7 +63,9 @@ inline TimeUs time_of(const Recorded& message) {
 
 inline std::string ros2_type_of(const Recorded& message) {
   const auto* pose = std::get_if<RecordedPose>(&message);
-  if (pose == nullptr) return "sensor_msgs/msg/LaserScan";
+  if (pose == nullptr)
+    return std::get<RecordedScan>(message).multi_echo ? "sensor_msgs/msg/MultiEchoLaserScan"
+                                                      : "sensor_msgs/msg/LaserScan";
   return pose->is_transform() ? "tf2_msgs/msg/TFMessage" : "nav_msgs/msg/Odometry";
 }
 
@@ -155,6 +158,11 @@ class CdrWriter {
   std::string bytes_;
 };
 
+/// Returns the number of echoes that a message states before a range: none for a LaserScan.
+inline std::vector<std::uint32_t> echo_counts(const RecordedScan& scan) {
+  return scan.multi_echo ? std::vector<std::uint32_t>{2} : std::vector<std::uint32_t>();
+}
+
 inline std::string cdr(const RecordedScan& scan, bool little_endian) {
   CdrWriter cdr(little_endian);
   cdr.header(scan.time_us, scan.frame);
@@ -164,7 +172,11 @@ inline std::string cdr(const RecordedScan& scan, bool little_endian) {
                             scan.scan_time_s, scan.range_min_m, scan.range_max_m})
     cdr.number(value);
   cdr.number(static_cast<std::uint32_t>(scan.ranges_m.size()));
-  for (const float range : scan.ranges_m) cdr.number(range);
+  for (const float range : scan.ranges_m) {
+    for (const std::uint32_t echoes : echo_counts(scan)) cdr.number(echoes);
+    cdr.number(range);
+    if (scan.multi_echo) cdr.number(range + 1);
+  }
   cdr.number(std::uint32_t{0});  // no intensities
   return cdr.message();
 }

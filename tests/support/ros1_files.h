@@ -43,7 +43,11 @@ inline std::string ros1_message(const RecordedScan& scan) {
                             scan.scan_time_s, scan.range_min_m, scan.range_max_m})
     bytes += ros1_packed(value);
   bytes += ros1_packed(static_cast<std::uint32_t>(scan.ranges_m.size()));
-  for (const float range : scan.ranges_m) bytes += ros1_packed(range);
+  for (const float range : scan.ranges_m) {
+    for (const std::uint32_t echoes : echo_counts(scan)) bytes += ros1_packed(echoes);
+    bytes += ros1_packed(range);
+    if (scan.multi_echo) bytes += ros1_packed(range + 1);
+  }
   return bytes + ros1_packed(std::uint32_t{0});
 }
 

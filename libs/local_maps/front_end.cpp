@@ -243,7 +243,9 @@ bool FrontEnd::is_lost(const FrontEndStep& step, const Motion& motion, TimeUs ti
   const bool mismatches =
       !step.matched && misses_ >= kLostMisses && constant_velocity_.unmatched_s(time_us) >= kLostAfter_s;
   if (!interrupted && !mismatches) return false;
-  if (step.matched) return contradicts(*step.points, step.local_T_robot, kLeastMatchedAgreement);
+  if (step.matched)
+    return step.response < options_.poor_response_share * expected_response_ &&
+           contradicts(*step.points, step.local_T_robot, kLeastMatchedAgreement);
   for (const TPose2D& hypothesis : hypotheses(motion))
     if (!contradicts(*step.points, last_local_T_robot_ + hypothesis, kLeastAgreement)) return false;
   return true;

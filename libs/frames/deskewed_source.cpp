@@ -66,7 +66,7 @@ DeskewedSource::Marks DeskewedSource::marks_of(const Frame& frame) {
   return marks;
 }
 
-/// Returns the mark that has the same laser as `mark`, or the first of `marks` if there is none.
+/// Returns the mark that has the same laser as `mark`, or else the first of `marks`.
 const DeskewedSource::Mark& DeskewedSource::mark_like(const Mark& mark, const Marks& marks) {
   const auto same =
       std::find_if(marks.begin(), marks.end(), [&](const Mark& other) { return other.laser == mark.laser; });

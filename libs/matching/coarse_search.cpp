@@ -44,7 +44,7 @@ class TileSums {
     return true;
   }
 
-  // Returns the largest sum that more than `count` tiles reach; 0 if there are no more than `count` tiles.
+  // Returns the largest sum that more than `count` tiles reach; 0 for at most `count` tiles.
   std::uint32_t reached_by(std::size_t count) const {
     if (count >= sums_.size()) return 0;
     std::vector<std::uint32_t> sums = sums_;

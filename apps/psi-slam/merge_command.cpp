@@ -38,12 +38,12 @@ std::vector<SessionInput> open_inputs(const CommandLine& line, BoundSettings& bo
 /// `inputs` has the name of the input of each run.
 void require_joined(const MappingSession& session, const std::vector<std::string>& inputs,
                     const InterruptSignals& signals) {
-  const auto run = unjoined_run(session.result());
-  if (!run) return;
+  const auto log = unjoined_log(session.result());
+  if (!log) return;
   if (signals.came())
-    throw SystemFailure("interrupted before a loop joined " + inputs[*run] +
+    throw SystemFailure("interrupted before a loop joined " + inputs[*log] +
                         " to the other runs. Nothing was merged");
-  throw UserError(inputs[*run] +
+  throw UserError(inputs[*log] +
                   " cannot be merged: no loop joins it to the other runs. Leave it out, "
                   "or check that it passes through the same building");
 }

@@ -131,8 +131,12 @@ class CarmenReader : public LogReader {
     frame.has_odometry = with_odometry_;
     if (!is_raw) return frame;
     interpolator_.add_scan(std::move(frame));
-    if (!interpolator_.has_odometry() && interpolator_.waiting() > OdometryInterpolator::kMaxWaiting)
+    if (!interpolator_.has_odometry() && interpolator_.waiting() > OdometryInterpolator::kMaxWaiting) {
       interpolator_.expect_no_odometry();
+      contents_.assumptions.push_back("no ODOM line is among the first " +
+                                      std::to_string(interpolator_.waiting()) +
+                                      " scans, so later ones are not used");
+    }
     return std::nullopt;
   }
 

@@ -155,7 +155,7 @@ class Judge {
     if (facts_.scans_without_odometry > 0) {
       note("no_odometry",
            (facts_.scans_without_odometry == facts_.scans
-                ? "the log has no odometry"
+                ? "the scans are read without odometry"
                 : counted(facts_.scans_without_odometry, "scan") +
                       (facts_.scans_without_odometry == 1 ? " has" : " have") + " no odometry") +
                "; there, the motion of the robot follows from the scans alone");

@@ -3,6 +3,7 @@
 
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace psi_slam {
@@ -18,8 +19,11 @@ std::string minutes_text(double time_s) {
 
 std::vector<std::string> interruption_texts(const MappingResult& result) {
   std::vector<std::string> texts;
+  const std::vector<FrameSpan> logs = logs_of(result);
   const auto since_start = [&](std::size_t frame) {
-    return minutes_text(seconds(result.frames[frame].time_us - result.frames.front().time_us));
+    const auto log =
+        std::find_if(logs.rbegin(), logs.rend(), [&](const FrameSpan& one) { return one.begin <= frame; });
+    return minutes_text(seconds(result.frames[frame].time_us - result.frames[log->begin].time_us));
   };
   for (const Interruption& interruption : result.interruptions) {
     const std::string lost = "the robot was moved to an unknown place between " +

@@ -10,8 +10,8 @@
 namespace psi_slam {
 
 /// Returns one sentence for each interruption of result.interruptions: when it was, and when the robot was
-/// found again. Times are minutes and seconds since the first scan. If the robot was never found again, the
-/// sentence warns that the map has a separate part.
+/// found again. Times are minutes and seconds since the first scan of the log. If the robot was never found
+/// again, the sentence warns that the map has a separate part.
 std::vector<std::string> interruption_texts(const MappingResult& result);
 
 }  // namespace psi_slam

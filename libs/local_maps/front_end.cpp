@@ -83,8 +83,9 @@ FrontEndStep FrontEnd::add(const Frame& frame, bool may_be_lost) {
   const bool blind =
       step.points->points.empty() || step.points->farthest_m <= options_.local_map.resolution_m;
   if (!active_.empty() && !blind) {
+    const double expected_response = expected_response_;
     match(step, motion);
-    step.lost = may_be_lost && is_lost(step, motion, frame.time_us);
+    step.lost = may_be_lost && is_lost(step, motion, frame.time_us, expected_response);
     if (step.lost) return step;
   }
   const double travel_m = motion.measured ? motion.length_m : std::max(motion.length_m, motion.sigma_m);
@@ -238,13 +239,14 @@ bool FrontEnd::contradicts(const ScanPoints& scan, const TPose2D& local_T_robot,
          agreement.share() < least_agreement;
 }
 
-bool FrontEnd::is_lost(const FrontEndStep& step, const Motion& motion, TimeUs time_us) const {
+bool FrontEnd::is_lost(const FrontEndStep& step, const Motion& motion, TimeUs time_us,
+                       double expected_response) const {
   const bool interrupted = motion.after_gap || motion.was_restarted;
   const bool mismatches =
       !step.matched && misses_ >= kLostMisses && constant_velocity_.unmatched_s(time_us) >= kLostAfter_s;
   if (!interrupted && !mismatches) return false;
   if (step.matched)
-    return step.response < options_.poor_response_share * expected_response_ &&
+    return step.response < options_.poor_response_share * expected_response &&
            contradicts(*step.points, step.local_T_robot, kLeastMatchedAgreement);
   for (const TPose2D& hypothesis : hypotheses(motion))
     if (!contradicts(*step.points, last_local_T_robot_ + hypothesis, kLeastAgreement)) return false;

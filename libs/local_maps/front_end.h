@@ -175,7 +175,9 @@ class FrontEnd {
   std::vector<mrpt::math::TPose2D> hypotheses(const Motion& motion) const;
   bool contradicts(const ScanPoints& scan, const mrpt::math::TPose2D& local_T_robot,
                    double least_agreement) const;
-  bool is_lost(const FrontEndStep& step, const Motion& motion, TimeUs time_us) const;
+  /// `expected_response` is the value before the match of this scan.
+  bool is_lost(const FrontEndStep& step, const Motion& motion, TimeUs time_us,
+               double expected_response) const;
   MatchResult search(FrontEndStep& step, const ScanPoints& scan, const ScoreGrid& grid,
                      const PosePrior& prior, const SearchExtent& window, double min_response) const;
   std::optional<MatchResult> search_widely(FrontEndStep& step, const Motion& motion, double poor_response);

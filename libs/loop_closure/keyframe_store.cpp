@@ -17,13 +17,12 @@ constexpr std::size_t kUnpackedLocalMaps = 48;
 
 bool is_unplaced(std::size_t node, const KeyframeStore& keyframes) {
   return std::any_of(keyframes.unplaced.begin(), keyframes.unplaced.end(),
-                     [&](const NodeSpan& run) { return run.begin <= node && node < run.end; });
+                     [&](const UnplacedRun& run) { return run.contains(node); });
 }
 
 bool are_joined(std::size_t node, std::size_t other, const KeyframeStore& keyframes) {
-  return std::all_of(keyframes.unplaced.begin(), keyframes.unplaced.end(), [&](const NodeSpan& run) {
-    return (run.begin <= node && node < run.end) == (run.begin <= other && other < run.end);
-  });
+  return std::all_of(keyframes.unplaced.begin(), keyframes.unplaced.end(),
+                     [&](const UnplacedRun& run) { return run.contains(node) == run.contains(other); });
 }
 
 KeyframeStore make_keyframe_store() {

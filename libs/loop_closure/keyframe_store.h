@@ -24,10 +24,14 @@ struct NodeScan {
   std::shared_ptr<const ScanPoints> points;
 };
 
-/// Consecutive nodes, [begin, end).
-struct NodeSpan {
+/// A run whose place in the map is unknown: the nodes [begin, end).
+struct UnplacedRun {
   std::size_t begin = 0;
-  std::size_t end = std::numeric_limits<std::size_t>::max();
+  std::size_t end =
+      std::numeric_limits<std::size_t>::max();  ///< the largest number while the run still grows
+  std::size_t interruption = 0;                 ///< index in MappingResult::interruptions
+
+  bool contains(std::size_t node) const { return begin <= node && node < end; }
 };
 
 struct KeyframeStore {
@@ -35,7 +39,7 @@ struct KeyframeStore {
   std::vector<PlacedLocalMap> local_maps;  ///< finished local maps, in the order of their ids
   std::shared_ptr<LocalMapCache> cache;    ///< holds the same local maps; null: no local map is ever packed
   /// Runs whose place in the map is unknown, in ascending order. The last one may still grow.
-  std::vector<NodeSpan> unplaced;
+  std::vector<UnplacedRun> unplaced;
 };
 
 /// Returns whether the node belongs to a run whose place in the map is unknown.

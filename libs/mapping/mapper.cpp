@@ -22,8 +22,8 @@ constexpr double kStartSigma_m = 0.3;
 constexpr double kStartSigma_rad = radians_from_degrees(3.0L);
 
 // Standard deviations of a provisional start. They only keep the graph connected.
-constexpr double kUnknownSigma_m = 1e5;
-constexpr double kUnknownSigma_rad = 1e3;
+constexpr double kUnknownSigma_m = 1e3;
+constexpr double kUnknownSigma_rad = 30;
 
 // Distance added to the path between two runs. It exceeds every limit along the path, so no search along the
 // path crosses from one run to the other.
@@ -63,7 +63,7 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
 
   bool has_map = !front_end_.active().empty();
   FrontEndStep step;
-  record.front_end_ms = front_end_clock_.time([&] { step = front_end_.add(frame, true); });
+  record.front_end_ms = front_end_clock_.time([&] { step = front_end_.add(frame, options_.close_loops); });
   if (step.lost) {
     begin_unplaced_run();
     has_map = false;
@@ -94,6 +94,8 @@ const FrameRecord& Mapper::Implementation::add(Frame frame) {
 
 void Mapper::Implementation::begin_run(const RunStart& start) {
   end_log();
+  if (!keyframes_.unplaced.empty())
+    keyframes_.unplaced.back().end = std::min(keyframes_.unplaced.back().end, graph_.num_nodes());
   front_end_.begin_run();
   run_start_ = start;
   follow_graph();
@@ -104,11 +106,40 @@ void Mapper::Implementation::begin_run(const RunStart& start) {
 // this place.
 void Mapper::Implementation::begin_unplaced_run() {
   const std::size_t node = graph_.num_nodes() - 1;
-  if (!keyframes_.unplaced.empty()) keyframes_.unplaced.back().end = graph_.num_nodes();
-  keyframes_.unplaced.push_back({graph_.num_nodes()});
-  is_start_provisional_ = true;
+  const std::size_t interruption = result_.interruptions.size();
   result_.interruptions.push_back({result_.frames.size(), std::nullopt});
+  is_start_provisional_ = true;
   begin_run({node, provisional_start(graph_) - graph_.pose(node), {0, 0, 0}});
+  UnplacedRun run;
+  run.begin = graph_.num_nodes();
+  run.interruption = interruption;
+  keyframes_.unplaced.push_back(run);
+}
+
+// Places the unplaced runs that new loops join to the map. The scan `frame` has found their places.
+void Mapper::Implementation::place_joined_runs(std::size_t first_constraint, std::size_t frame) {
+  while (const auto run = place_joined_run(first_constraint, keyframes_, graph_))
+    result_.interruptions[run->interruption].found_frame = frame;
+}
+
+// Decides after all loops are settled which runs after an interruption are part of the map.
+void Mapper::Implementation::lay_unjoined_runs_aside() {
+  std::vector<UnplacedRun> runs;
+  const auto node_at = [&](std::size_t frame) {
+    const auto& frames = result_.node_frames;
+    return static_cast<std::size_t>(std::lower_bound(frames.begin(), frames.end(), frame) - frames.begin());
+  };
+  for (std::size_t i = 0; i < result_.interruptions.size(); ++i) {
+    const std::size_t frame = result_.interruptions[i].frame;
+    const auto& begins = result_.later_run_frames;
+    const auto next = std::upper_bound(begins.begin(), begins.end(), frame);
+    runs.push_back({node_at(frame), next == begins.end() ? graph_.num_nodes() : node_at(*next), i});
+  }
+  const std::vector<UnplacedRun> aside = unjoined_runs(runs, graph_);
+  for (Interruption& interruption : result_.interruptions)
+    interruption.found_frame = interruption.found_frame.value_or(interruption.frame);
+  for (const UnplacedRun& run : aside) result_.interruptions[run.interruption].found_frame.reset();
+  lay_aside(aside, keyframes_, graph_);
 }
 
 // Transforms odometry of a later run into the odometry frame of the first run. Relative to node 0, the first
@@ -187,8 +218,7 @@ void Mapper::Implementation::remember(const PlacedLocalMap& finished) {
 void Mapper::Implementation::close_loops(std::size_t node, FrameRecord& record) {
   const std::size_t constraints_before = graph_.num_constraints();
   const NodeLoops loops = back_end_.close(node, keyframes_, graph_);
-  if (place_newest_run(constraints_before, keyframes_, graph_))
-    result_.interruptions.back().found_frame = keyframes_.nodes[node].frame;
+  place_joined_runs(constraints_before, keyframes_.nodes[node].frame);
   record.matcher = loops.matcher;
   record.loops_tried = static_cast<int>(loops.effort.attempts);
   record.loops_accepted = loops.accepted;
@@ -237,11 +267,11 @@ void Mapper::Implementation::end_log() {
 MappingResult Mapper::Implementation::finish(const std::function<bool(double)>& progress, AfterFinish after) {
   end_log();
   if (after == AfterFinish::kReopen)
-    before_finish_ = {graph_, back_end_.ledger(), solver_, result_.loop_matchers};
+    before_finish_ = {graph_, back_end_.ledger(), solver_, result_.loop_matchers, result_.interruptions};
   FinalProgress steps(options_.back_end, progress);
   const bool closes_loops = options_.close_loops && !keyframes_.nodes.empty();
   if (closes_loops) finish_loops(steps);
-  lay_unplaced_runs_aside(keyframes_, graph_);
+  lay_unjoined_runs_aside();
   result_.unmet_edits = unmet_edits();
   count_accepted_loops();
   carry_frames_along(graph_.poses(), result_.node_frames, result_.frames, result_.later_run_frames);

@@ -43,6 +43,7 @@ LoopEditOutcome Mapper::Implementation::judge(const LoopEdit& edit,
 LoopEditOutcome Mapper::Implementation::carry_out(const LoopEdit& edit) {
   const std::size_t node = *result_.frames[edit.frame].node;
   const LoopPair pair{node, edit.local_map};
+  const std::size_t constraints_before = graph_.num_constraints();
   LoopEditOutcome outcome;
   switch (edit.kind) {
     case LoopEdit::Kind::kDelete:
@@ -64,6 +65,7 @@ LoopEditOutcome Mapper::Implementation::carry_out(const LoopEdit& edit) {
       break;
   }
   if (outcome.state == State::kImpossible) return outcome;
+  place_joined_runs(constraints_before, edit.frame);
   back_end_.optimize(graph_, solver_);
   follow_graph();
   return outcome;
@@ -96,6 +98,7 @@ void Mapper::Implementation::reopen(MappingResult&& result) {
   result_ = std::move(result);
   result_.loops.clear();
   result_.loop_matchers = std::move(before.loop_matchers);
+  result_.interruptions = std::move(before.interruptions);
   result_.stages.clear();
   result_.interrupted = false;
   result_.final_search_cut_short = false;

@@ -38,6 +38,7 @@ class Mapper::Implementation {
     LoopLedger ledger;
     SparsePoseAdjustment solver;
     std::map<MatcherKind, LoopMatcherRecord> loop_matchers;
+    std::vector<Interruption> interruptions;
   };
 
   void rebase_odometry(FrameRecord& record);
@@ -45,6 +46,8 @@ class Mapper::Implementation {
   void add_node(const FrontEndStep& step, std::size_t frame);
   void join_run();
   void begin_unplaced_run();
+  void place_joined_runs(std::size_t first_constraint, std::size_t frame);
+  void lay_unjoined_runs_aside();
   void follow_graph();
   void remember(const PlacedLocalMap& finished);
   void close_loops(std::size_t node, FrameRecord& record);

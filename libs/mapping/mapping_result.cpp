@@ -19,7 +19,16 @@ std::vector<FrameSpan> runs_of(const MappingResult& result) {
   return runs_of(result.frames.size(), result.later_run_frames);
 }
 
-std::optional<std::size_t> unjoined_run(const MappingResult& result) {
+std::vector<FrameSpan> logs_of(const MappingResult& result) {
+  std::vector<std::size_t> begins;
+  for (const std::size_t begin : result.later_run_frames)
+    if (std::none_of(result.interruptions.begin(), result.interruptions.end(),
+                     [&](const Interruption& one) { return one.frame == begin; }))
+      begins.push_back(begin);
+  return runs_of(result.frames.size(), begins);
+}
+
+std::optional<std::size_t> unjoined_log(const MappingResult& result) {
   const auto run_of_node = [&](std::size_t node) {
     const auto& begins = result.later_run_frames;
     const auto next = std::upper_bound(begins.begin(), begins.end(), result.node_frames[node]);
@@ -33,9 +42,13 @@ std::optional<std::size_t> unjoined_run(const MappingResult& result) {
     const auto [low, high] = std::minmax({group[run_of_node(loop.node)], group[run_of_node(loop.anchor)]});
     std::replace(group.begin(), group.end(), high, low);
   }
-  const auto unjoined = std::find_if(group.begin(), group.end(), [](std::size_t run) { return run != 0; });
-  if (unjoined == group.end()) return std::nullopt;
-  return static_cast<std::size_t>(unjoined - group.begin());
+  const std::vector<FrameSpan> logs = logs_of(result);
+  for (std::size_t log = 1; log < logs.size(); ++log) {
+    const auto& begins = result.later_run_frames;
+    const auto run = std::lower_bound(begins.begin(), begins.end(), logs[log].begin) - begins.begin() + 1;
+    if (group[static_cast<std::size_t>(run)] != 0) return log;
+  }
+  return std::nullopt;
 }
 
 }  // namespace psi_slam

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "frames/pose_operations.h"
 
@@ -37,33 +38,64 @@ TPose2D provisional_start(const PoseGraph& graph) {
   return {x_max + kProvisional_m, 0, 0};
 }
 
-bool place_newest_run(std::size_t first_constraint, KeyframeStore& keyframes, PoseGraph& graph) {
-  if (keyframes.unplaced.empty()) return false;
-  const NodeSpan run = keyframes.unplaced.back();
+std::optional<UnplacedRun> place_joined_run(std::size_t first_constraint, KeyframeStore& keyframes,
+                                            PoseGraph& graph) {
   for (std::size_t i = first_constraint; i < graph.num_constraints(); ++i) {
     const Constraint& loop = graph.constraints()[i];
-    const bool joins = loop.kind == Constraint::Kind::kLoop && loop.from < run.begin && run.begin <= loop.to;
+    const bool from_unplaced = is_unplaced(loop.from, keyframes);
+    const bool joins =
+        loop.kind == Constraint::Kind::kLoop && from_unplaced != is_unplaced(loop.to, keyframes);
     if (!joins) continue;
-    const TPose2D new_T_old = graph.pose(loop.from) + loop.from_T_to + inverse(graph.pose(loop.to));
-    for (std::size_t node = run.begin; node < graph.num_nodes(); ++node)
+    const std::size_t moved = from_unplaced ? loop.from : loop.to;
+    const TPose2D map_T_moved = from_unplaced ? graph.pose(loop.to) + inverse(loop.from_T_to)
+                                              : graph.pose(loop.from) + loop.from_T_to;
+    const auto found = std::find_if(keyframes.unplaced.begin(), keyframes.unplaced.end(),
+                                    [&](const UnplacedRun& one) { return one.contains(moved); });
+    const UnplacedRun run = *found;
+    const TPose2D new_T_old = map_T_moved + inverse(graph.pose(moved));
+    for (std::size_t node = run.begin; node < std::min(run.end, graph.num_nodes()); ++node)
       graph.set_pose(node, new_T_old + graph.pose(node));
-    keyframes.unplaced.pop_back();
-    return true;
+    keyframes.unplaced.erase(found);
+    return run;
   }
-  return false;
+  return std::nullopt;
 }
 
-void lay_unplaced_runs_aside(const KeyframeStore& keyframes, PoseGraph& graph) {
+std::vector<UnplacedRun> unjoined_runs(const std::vector<UnplacedRun>& runs, const PoseGraph& graph) {
+  // Group of each run, and of all other nodes as the last element: the number of a run that it is joined to.
+  std::vector<std::size_t> group(runs.size() + 1);
+  std::iota(group.begin(), group.end(), 0U);
+  const auto run_of = [&](std::size_t node) {
+    return static_cast<std::size_t>(
+        std::find_if(runs.begin(), runs.end(), [&](const UnplacedRun& run) { return run.contains(node); }) -
+        runs.begin());
+  };
+  for (std::size_t i = 0; i < graph.num_constraints(); ++i) {
+    const Constraint& loop = graph.constraints()[i];
+    if (loop.kind != Constraint::Kind::kLoop || !graph.enabled(i)) continue;
+    const auto [low, high] = std::minmax({group[run_of(loop.from)], group[run_of(loop.to)]});
+    std::replace(group.begin(), group.end(), low, high);
+  }
+  std::vector<UnplacedRun> unjoined;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (group[i] != group.back()) unjoined.push_back(runs[i]);
+  return unjoined;
+}
+
+void lay_aside(const std::vector<UnplacedRun>& runs, const KeyframeStore& keyframes, PoseGraph& graph) {
+  const auto is_aside = [&](std::size_t node) {
+    return std::any_of(runs.begin(), runs.end(), [&](const UnplacedRun& run) { return run.contains(node); });
+  };
   Extent map;
   for (std::size_t node = 0; node < graph.num_nodes(); ++node)
-    if (!is_unplaced(node, keyframes)) include(node, keyframes, graph, map);
-  for (const NodeSpan& run : keyframes.unplaced) {
+    if (!is_aside(node)) include(node, keyframes, graph, map);
+  for (const UnplacedRun& run : runs) {
     const std::size_t end = std::min(run.end, graph.num_nodes());
     Extent aside;
     for (std::size_t node = run.begin; node < end; ++node) include(node, keyframes, graph, aside);
     const TPose2D moved(map.x_max + kMargin_m - aside.x_min, map.y_min - aside.y_min, 0);
     for (std::size_t node = run.begin; node < end; ++node) graph.set_pose(node, moved + graph.pose(node));
-    if (run.begin < end) map.x_max += kMargin_m + aside.x_max - aside.x_min;
+    map.x_max += kMargin_m + aside.x_max - aside.x_min;
   }
 }
 

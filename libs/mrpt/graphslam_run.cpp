@@ -192,7 +192,9 @@ class EngineRun : public GraphSlamRun {
     front_end_ = dynamic_cast<CPsiFrontEndNRD*>(node_decider_.get());
     if (front_end_ != nullptr && entries_->are_made()) {
       LogOptions of_made_entries;
-      if (reads_several_lasers(options, detect_log_format(setup.log))) of_made_entries.laser = "all";
+      if (reads_several_lasers(options, detect_log_format(setup.log)) ||
+          open_log_reader(setup.log, options)->contents().several_lasers)
+        of_made_entries.laser = "all";
       if (!entries_->have_odometry()) of_made_entries.odometry = "none";
       front_end_->set_log_options(of_made_entries);
     }

@@ -31,8 +31,8 @@ void check_no_file_in_the_way(const fs::path& path) {
   }
 }
 
-/// Writes the corrected log of a single run. For several runs, whose times may overlap, writes a trajectory
-/// and a corrected log of each. Deletes files of these kinds that older results left.
+/// Writes the corrected log of a single log. For several merged logs, whose times may overlap, writes a
+/// trajectory and a corrected log of each. Deletes files of these kinds that older results left.
 void write_runs(const fs::path& folder, const MappingResult& result) {
   const auto file = [&](std::size_t run, const char* kind) {
     return folder / ("trajectory-" + std::to_string(run) + kind);
@@ -40,7 +40,7 @@ void write_runs(const fs::path& folder, const MappingResult& result) {
   const fs::path whole_log = folder / "trajectory.carmen";
   const Trajectory whole = trajectory_of(result.frames);
   const std::vector<mrpt::math::TPose2D> poses = mapped_poses(result);
-  std::vector<FrameSpan> runs = runs_of(result);
+  std::vector<FrameSpan> runs = logs_of(result);
   std::error_code ignored;
   if (runs.size() == 1) {
     write_corrected_log(whole_log, result.log, poses);

@@ -65,7 +65,9 @@ class Planner {
     require_scans();
     if (expects_odometry_ && !plan_.has_odometry) find_odometry_elsewhere();
     require_odometry();
-    if (plan_.base_frame.empty()) plan_.base_frame = base_frame_by_name();
+    if (!plan_.odometry_topic.empty() && !choice_of_odometry_.empty())
+      plan_.assumptions.push_back(choice_of_odometry_);
+    settle_base_frame();
     if (chooses_lasers_) keep_usable_lasers();
     settle_mounts();
     return std::move(plan_);
@@ -113,8 +115,8 @@ class Planner {
       return;
     }
     plan_.odometry_topic = contains(all, "/odom") ? "/odom" : all.front();
-    plan_.assumptions.push_back("odometry comes from " + plan_.odometry_topic + ", one of the topics " +
-                                name_list(all) + ". Name another one with log.odometry");
+    choice_of_odometry_ = "odometry comes from " + plan_.odometry_topic + ", one of the topics " +
+                          name_list(all) + ". Name another one with log.odometry";
   }
 
   std::string choose(const char* option, const std::string& wanted, const Names& all,
@@ -135,11 +137,11 @@ class Planner {
         if (!bag_->next(message)) return;
         take(message);
       } catch (const MalformedBytes& error) {
-        if (has_scans()) return;
+        if (has_enough_scans()) return;
         throw UserError(bag_->place() + ": the message on " + message.topic->name +
                         " is damaged: " + error.what() + ". Record the bag again");
       } catch (const UserError&) {
-        if (!has_scans()) throw;
+        if (!has_enough_scans()) throw;
         return;
       }
     }
@@ -208,6 +210,9 @@ class Planner {
   /// Returns whether a scan of each topic has been read.
   bool has_scans() const { return scan_frames_.size() == plan_.scan_topics.size(); }
 
+  /// Returns whether scans were read that can be mapped if the bag ends here.
+  bool has_enough_scans() const { return has_scans() || (chooses_lasers_ && !scan_frames_.empty()); }
+
   /// Searches all transforms for odometry, because the topic has none, or because no transform connects it
   /// with a laser.
   void find_odometry_elsewhere() {
@@ -220,11 +225,24 @@ class Planner {
     const auto is_parent = [&](const std::string& parent) {
       return options_.odom_frame.empty() ? is_named_like_odometry(parent) : parent == options_.odom_frame;
     };
-    const std::optional<std::string> base = plan_.transforms.child_of(is_parent);
-    if (!base || (!options_.base_frame.empty() && *base != options_.base_frame)) return;
+    const std::string& stated = options_.base_frame;
+    const std::optional<std::string> base = !stated.empty() && is_parent(plan_.transforms.parent_of(stated))
+                                                ? stated
+                                            : stated.empty() ? plan_.transforms.child_of(is_parent)
+                                                             : std::nullopt;
+    if (!base) return;
     plan_.has_odometry = true;
     plan_.base_frame = *base;
     plan_.odom_frame = plan_.transforms.parent_of(*base);
+  }
+
+  /// Chooses the robot's frame if neither the user nor the odometry states it, or if odometry states a frame
+  /// that no transform connects with a laser, although another frame has the name of a base.
+  void settle_base_frame() {
+    const std::string by_name = base_frame_by_name();
+    const bool is_alone = options_.base_frame.empty() && !plan_.odometry_topic.empty() &&
+                          !knows_mount(first_scan_frame()) && has_word(by_name, "base");
+    if (plan_.base_frame.empty() || is_alone) plan_.base_frame = by_name;
   }
 
   /// Returns the robot's frame for a bag without odometry: the topmost frame above the first laser whose name
@@ -332,7 +350,8 @@ class Planner {
   std::map<std::string, std::string> scan_frames_;  // key: topic of the scans; value: frame of the laser
   std::string invalid_pose_;                        // message about the first odometry with an invalid pose
   bool expects_odometry_ = true;                    // whether the user wants odometry and the bag may hold it
-  bool chooses_lasers_ = false;  // whether the user selects none of several topics of scans
+  std::string choice_of_odometry_;  // assumption about the topic of odometry; empty if there is one topic
+  bool chooses_lasers_ = false;     // whether the user selects none of several topics of scans
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/place_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -28,7 +29,18 @@ RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& see
   const TPose2D map_T_start = seen.map_T_robot + inverse(seen.start_T_robot);
   RunStart start;
   double nearest_m = std::numeric_limits<double>::infinity();
+  // The pose of a run whose place was never found is not in the map's frame.
+  const std::vector<FrameSpan> runs = runs_of(mapped);
+  const auto is_placed = [&](std::size_t frame) {
+    return std::none_of(
+        mapped.interruptions.begin(), mapped.interruptions.end(), [&](const Interruption& one) {
+          const auto run = std::find_if(runs.begin(), runs.end(),
+                                        [&](const FrameSpan& span) { return span.begin == one.frame; });
+          return !one.found_frame && run != runs.end() && run->begin <= frame && frame < run->end;
+        });
+  };
   for (std::size_t node = 0; node < mapped.node_frames.size(); ++node) {
+    if (!is_placed(mapped.node_frames[node])) continue;
     const TPose2D& there = mapped.frames[mapped.node_frames[node]].map_T_robot;
     const double distance_m = std::hypot(there.x - seen.map_T_robot.x, there.y - seen.map_T_robot.y);
     if (distance_m >= nearest_m) continue;

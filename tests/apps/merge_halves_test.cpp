@@ -84,7 +84,7 @@ void merge_halves_of(const std::string& name, double odometry_x_m, double odomet
               name.c_str(), at_once.translation_abs_m.mean, at_once.rotation_abs_deg.mean,
               in_two.translation_abs_m.mean, in_two.rotation_abs_deg.mean,
               largest_difference_m(whole.result(), merged.result()));
-  EXPECT_EQ(unjoined_run(merged.result()), std::nullopt);
+  EXPECT_EQ(unjoined_log(merged.result()), std::nullopt);
   EXPECT_EQ(in_two.skipped, at_once.skipped);
   EXPECT_LT(in_two.translation_abs_m.mean, 1.1 * at_once.translation_abs_m.mean);
   EXPECT_LT(in_two.rotation_abs_deg.mean, 1.1 * at_once.rotation_abs_deg.mean);

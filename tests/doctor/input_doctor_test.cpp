@@ -273,7 +273,8 @@ TEST_F(InputDoctorTest, needs_no_odometry) {
   none.odometry = "none";
   const LogDiagnosis diagnosis = diagnose(folder_.path() / "log.clf", none);
   EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
-  EXPECT_THAT(finding_of(diagnosis, "no_odometry").sentence, testing::StartsWith("the log has no odometry"));
+  EXPECT_THAT(finding_of(diagnosis, "no_odometry").sentence,
+              testing::StartsWith("the scans are read without odometry"));
 }
 
 TEST_F(InputDoctorTest, reads_rawlogs_too) {

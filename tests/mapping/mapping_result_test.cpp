@@ -37,25 +37,29 @@ TEST(MappingResult, gives_the_frames_of_each_run) {
 
 TEST(MappingResult, only_accepted_loops_with_other_runs_join_a_run) {
   MappingResult result = three_drives();
-  EXPECT_EQ(unjoined_run(result), 1U) << "without loops, run 1 is the first unjoined run";
+  EXPECT_EQ(unjoined_log(result), 1U) << "without loops, run 1 is the first unjoined run";
   result.loops = {loop(0, 2), loop(5, 6)};
-  EXPECT_EQ(unjoined_run(result), 2U) << "a loop within run 2 does not join it to another run";
+  EXPECT_EQ(unjoined_log(result), 2U) << "a loop within run 2 does not join it to another run";
   result.loops.push_back(loop(3, 5, LoopVerdict::kSwitchedOff));
-  EXPECT_EQ(unjoined_run(result), 2U);
+  EXPECT_EQ(unjoined_log(result), 2U);
   result.loops.push_back(loop(6, 3));
-  EXPECT_EQ(unjoined_run(result), std::nullopt);
-  EXPECT_EQ(unjoined_run({}), std::nullopt) << "one run needs no loop";
+  EXPECT_EQ(unjoined_log(result), std::nullopt);
+  result.loops.clear();
+  result.interruptions = {{result.later_run_frames[0], std::nullopt}};
+  EXPECT_EQ(unjoined_log(result), 1U) << "run 2 begins log 1, because run 1 begins at an interruption";
+  EXPECT_EQ(logs_of(result).size(), 2U);
+  EXPECT_EQ(unjoined_log({}), std::nullopt) << "one run needs no loop";
 }
 
 TEST(MappingResult, runs_joined_in_two_groups_are_not_one_map) {
   MappingResult result = three_drives();
   result.later_run_frames = {2, 4, 7};
   result.loops = {loop(0, 1), loop(6, 3)};
-  EXPECT_EQ(unjoined_run(result), 2U);
+  EXPECT_EQ(unjoined_log(result), 2U);
   result.loops.push_back(loop(1, 5));
-  EXPECT_EQ(unjoined_run(result), std::nullopt);
+  EXPECT_EQ(unjoined_log(result), std::nullopt);
   result.loops = {loop(5, 2), loop(1, 5), loop(0, 2)};
-  EXPECT_EQ(unjoined_run(result), std::nullopt) << "the order of the loops does not matter";
+  EXPECT_EQ(unjoined_log(result), std::nullopt) << "the order of the loops does not matter";
 }
 
 }  // namespace

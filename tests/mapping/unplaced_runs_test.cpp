@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "../local_maps/simulated_drive.h"
 #include "psi_slam/mapper.h"
@@ -133,29 +134,80 @@ TEST(UnplacedRuns, a_restart_of_odometry_is_no_interruption) {
   EXPECT_LT(largest_error_m(result, drive, 0, drive.frames.size(), 0), 0.1);
 }
 
-TEST(UnplacedRuns, are_moved_to_the_place_that_a_loop_finds) {
+/// Four nodes, of which the last two are an unplaced run.
+struct MapAndRun {
   PoseGraph graph;
   KeyframeStore keyframes;
-  for (const TPose2D& pose : {TPose2D(0, 0, 0), TPose2D(1, 0, 0), TPose2D(60, 0, 0), TPose2D(61, 0, 0)})
-    graph.add_node(pose);
-  keyframes.unplaced.push_back({2});
-  Constraint loop;
-  loop.kind = Constraint::Kind::kLoop;
-  loop.from = 2;
-  loop.to = 3;
-  loop.information.setIdentity();
-  graph.add_constraint(loop);
-  EXPECT_FALSE(place_newest_run(0, keyframes, graph)) << "the loop is within the run";
-  loop.from = 1;
-  loop.from_T_to = {0, 2, M_PI / 2};
-  graph.add_constraint(loop);
-  EXPECT_FALSE(place_newest_run(2, keyframes, graph)) << "there is no new loop";
-  EXPECT_TRUE(place_newest_run(1, keyframes, graph));
-  EXPECT_TRUE(keyframes.unplaced.empty());
-  EXPECT_NEAR(graph.pose(3).x, 1, 1e-9);
-  EXPECT_NEAR(graph.pose(3).y, 2, 1e-9);
-  EXPECT_NEAR(graph.pose(2).y, 1, 1e-9) << "the run moved as a rigid body";
-  EXPECT_EQ(graph.pose(1), TPose2D(1, 0, 0));
+
+  MapAndRun() {
+    for (const TPose2D& pose : {TPose2D(0, 0, 0), TPose2D(1, 0, 0), TPose2D(60, 0, 0), TPose2D(61, 0, 0)}) {
+      graph.add_node(pose);
+      NodeScan scan;
+      auto points = std::make_shared<ScanPoints>();
+      points->farthest_m = 3;
+      scan.points = points;
+      keyframes.nodes.push_back(scan);
+    }
+    keyframes.unplaced.push_back(run());
+  }
+
+  static UnplacedRun run() {
+    UnplacedRun run;
+    run.begin = 2;
+    return run;
+  }
+
+  void add_loop(std::size_t from, std::size_t to, const TPose2D& from_T_to) {
+    Constraint loop;
+    loop.kind = Constraint::Kind::kLoop;
+    loop.from = from;
+    loop.to = to;
+    loop.from_T_to = from_T_to;
+    loop.information.setIdentity();
+    graph.add_constraint(loop);
+  }
+};
+
+TEST(UnplacedRuns, are_moved_to_the_place_that_a_loop_finds) {
+  for (const bool is_from_map : {true, false}) {
+    MapAndRun maps;
+    maps.add_loop(2, 3, {1, 0, 0});
+    EXPECT_FALSE(place_joined_run(0, maps.keyframes, maps.graph)) << "the loop is within the run";
+    const TPose2D map_T_run{0, 2, M_PI / 2};
+    is_from_map ? maps.add_loop(1, 3, map_T_run) : maps.add_loop(3, 1, TPose2D(0, 0, 0) - map_T_run);
+    EXPECT_FALSE(place_joined_run(2, maps.keyframes, maps.graph)) << "there is no new loop";
+    EXPECT_TRUE(place_joined_run(1, maps.keyframes, maps.graph));
+    EXPECT_TRUE(maps.keyframes.unplaced.empty());
+    EXPECT_NEAR(maps.graph.pose(3).x, 1, 1e-9);
+    EXPECT_NEAR(maps.graph.pose(3).y, 2, 1e-9);
+    EXPECT_NEAR(maps.graph.pose(2).y, 1, 1e-9) << "the run moved as a rigid body";
+    EXPECT_EQ(maps.graph.pose(1), TPose2D(1, 0, 0));
+  }
+}
+
+TEST(UnplacedRuns, an_earlier_run_is_not_moved_by_loops_of_later_nodes) {
+  MapAndRun maps;
+  maps.keyframes.unplaced.front().end = 3;
+  maps.add_loop(1, 3, {0, 2, 0});
+  EXPECT_FALSE(place_joined_run(0, maps.keyframes, maps.graph));
+  EXPECT_EQ(maps.graph.pose(2), TPose2D(60, 0, 0));
+}
+
+TEST(UnplacedRuns, are_joined_by_enabled_loops_only) {
+  MapAndRun maps;
+  EXPECT_EQ(unjoined_runs({MapAndRun::run()}, maps.graph).size(), 1U);
+  maps.add_loop(1, 3, {0, 2, 0});
+  EXPECT_TRUE(unjoined_runs({MapAndRun::run()}, maps.graph).empty());
+  maps.graph.set_enabled(0, false);
+  EXPECT_EQ(unjoined_runs({MapAndRun::run()}, maps.graph).size(), 1U);
+}
+
+TEST(UnplacedRuns, are_laid_right_beside_the_map) {
+  MapAndRun maps;
+  lay_aside({MapAndRun::run()}, maps.keyframes, maps.graph);
+  EXPECT_NEAR(maps.graph.pose(2).x, 1 + 3 + 2 + 3, 1e-9) << "both scans reach 3 m, and 2 m are left between";
+  EXPECT_NEAR(maps.graph.pose(2).y, 0, 1e-9);
+  EXPECT_NEAR(maps.graph.pose(3).x - maps.graph.pose(2).x, 1, 1e-9);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST_F(MergedRuns, are_placed_correctly_without_odometry_between_them) {
   const MappingResult& result = session->result();
   ASSERT_EQ(result.frames.size(), first.frames.size() + second.frames.size());
   ASSERT_EQ(result.later_run_frames, std::vector<std::size_t>{first.frames.size()});
-  EXPECT_EQ(unjoined_run(result), std::nullopt);
+  EXPECT_EQ(unjoined_log(result), std::nullopt);
   const double off_m = worst_m(result, first, second);
   RecordProperty("worst_m", std::to_string(off_m));
   EXPECT_LT(off_m, 0.15);

@@ -69,7 +69,7 @@ TEST(PastSessions, version_1_gives_the_same_map) {
   session.run(std::atomic<bool>(false));
   const MappingResult& result = session.result();
   EXPECT_FALSE(result.interrupted);
-  EXPECT_EQ(unjoined_run(result), std::nullopt);
+  EXPECT_EQ(unjoined_log(result), std::nullopt);
   EXPECT_LT(distance_m(result.frames[54].map_T_robot, room_pose(2 * M_PI * 54 / 50) - room_pose(0)), 0.01);
   EXPECT_LT(distance_m(result.frames[102].map_T_robot, room_pose(2 * M_PI * 59 / 40) - room_pose(0)), 0.015);
   EXPECT_LT(distance_m(result.frames[102].map_T_robot, {0.4067, 7.9528, 0}), 0.015)

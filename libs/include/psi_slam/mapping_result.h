@@ -133,8 +133,12 @@ std::vector<FrameSpan> runs_of(const MappingResult& result);
 /// Returns the frames of each run, for `frames` frames in total. `later_run_frames` is as in MappingResult.
 std::vector<FrameSpan> runs_of(std::size_t frames, const std::vector<std::size_t>& later_run_frames);
 
-/// Returns the number of the first run that no chain of accepted loops joins to run 0; empty if all runs are
-/// joined.
-std::optional<std::size_t> unjoined_run(const MappingResult& result);
+/// Returns the frames of each log: one span unless several logs were merged. Runs that begin at an
+/// interruption belong to the log before them.
+std::vector<FrameSpan> logs_of(const MappingResult& result);
+
+/// Returns the number of the first log, as in logs_of(), that no chain of accepted loops joins to log 0;
+/// empty if all logs are joined. Runs after an interruption count as logs of their own, but are not returned.
+std::optional<std::size_t> unjoined_log(const MappingResult& result);
 
 }  // namespace psi_slam

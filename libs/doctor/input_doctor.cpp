@@ -76,7 +76,8 @@ bool is_sound(const OdometryAgreement& odometry) {
   return length_is_right && heading_is_right;
 }
 
-/// Returns the field of view that make_bearings_rad() was called with.
+/// Returns the field of view for make_bearings_rad(): the option, the usual value for the number of beams, or
+/// the span of the bearings.
 double field_of_view_rad(const FirstPass& pass, const LogOptions& options) {
   if (options.field_of_view_rad) return *options.field_of_view_rad;
   const std::vector<float>& bearings_rad = pass.bearings_rad;

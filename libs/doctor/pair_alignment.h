@@ -33,8 +33,9 @@ struct LostReversals {
   double reversed_m = 0;         ///< distance by scans over the reversed pairs
 };
 
-/// Aligns every pair that moves by 0.12 to 0.8 m again, with the opposite motion as the guess. A pair counts
-/// as reversed if both alignments move backwards, or if the second alignment does and is clearly better.
+/// Aligns every pair that moves by 0.12 to 0.8 m again, with the opposite translation and the same turn as
+/// the guess. A pair counts as reversed if both alignments move backwards, or if the second alignment does
+/// and is clearly better.
 LostReversals find_lost_reversals(const std::vector<AlignedPair>& pairs, const ScanLibrary& library);
 
 /// Pose of the laser on the robot that best explains the motions of scans and odometry (hand-eye

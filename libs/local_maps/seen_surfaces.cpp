@@ -12,9 +12,10 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kMinGap_m = 0.05;         // smaller gaps leave no cell to draw
-constexpr double kMaxGap_m = 2.0;          // largest distance between joined ends
-constexpr double kMaxGapPerSpacing = 5;    // largest ratio of end distance to beam spacing; excludes grazing
+constexpr double kMinGap_m = 0.05;  // smaller gaps leave no cell to draw
+constexpr double kMaxGap_m = 2.0;   // largest distance between joined ends
+constexpr double kMaxGapPerSpacing =
+    5;  // largest ratio of end distance to beam spacing; excludes grazing beams
 constexpr double kMaxOffset_m = 0.06;      // largest distance of a third end from the line through two ends
 constexpr double kMaxOffsetPerGap = 0.15;  // the same limit as a share of the gap; the larger limit applies
 

@@ -31,7 +31,7 @@ struct RefinementOptions {
 /// Pose known from other sources than the scan, such as odometry.
 struct PosePrior {
   mrpt::math::TPose2D map_T_robot;
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< order x, y, theta; 1/m^2, 1/(m rad), 1/rad^2
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of (x, y, theta), along the map's axes
 };
 
 struct RefinedPose {

@@ -10,8 +10,8 @@
 namespace psi_slam {
 
 /// sums[y * sums_row + x] += sum over p < points of cells[offsets[p] + y * row_bytes + x],
-/// for 0 <= x < width rounded up to kSumLanes and 0 <= y < height. `sums_row` is at least that rounded width.
-/// All these cells must be readable.
+/// for 0 <= y < height and 0 <= x < the next multiple of kSumLanes from `width` on. `sums_row` is at least
+/// this multiple. All these cells must be readable.
 using SumKernel = void (*)(const std::uint8_t* cells, std::ptrdiff_t row_bytes, const std::int32_t* offsets,
                            std::size_t points, int width, int height, std::uint32_t* sums,
                            std::ptrdiff_t sums_row);

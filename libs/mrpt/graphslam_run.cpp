@@ -20,6 +20,7 @@
 #include "base/atomic_file.h"
 #include "exports/mapped_trajectory.h"
 #include "frames/laser_choice.h"
+#include "frames/log_reader.h"
 #include "mrpt/graphslam_settings.h"
 #include "mrpt/log_entries.h"
 #include "observations/mrpt_objects.h"

@@ -92,15 +92,24 @@ TEST_F(WrongInput, a_truncated_rawlog_is_mapped_up_to_the_damage) {
       AllOf(HasSubstr("cut.rawlog"), HasSubstr("the map shows the " + std::to_string(scans) + " scans")));
 }
 
-TEST_F(WrongInput, a_log_without_odometry) {
+// Scans alone suffice for a map, which psi-slam says in one sentence.
+TEST_F(WrongInput, a_log_without_odometry_is_mapped) {
+  const auto sentence = [&](const std::string& log) {
+    const AppRun run = map(log, {"--force"});
+    EXPECT_EQ(run.code, 0);
+    return one_sentence(run.err);
+  };
   std::string carmen;
   for (int i = 0; i < 5; ++i)
     carmen += "RAWLASER1 0 -1.5708 3.14159 1.5708 30 0.01 0 3 1.0 2.0 3.0 0 " + std::to_string(10 + i) +
               " host 1\n";
-  EXPECT_THAT(refusal(write("raw.log", carmen)), HasSubstr("raw.log has no odometry"));
+  EXPECT_THAT(sentence(write("raw.log", carmen)), HasSubstr("the log has no odometry"));
   const fs::path rawlog = folder_.path() / "scans.rawlog";
   write_rawlog(rawlog, {range_scan(1'000'000), range_scan(2'000'000)});
-  EXPECT_THAT(refusal(rawlog.string()), HasSubstr("scans.rawlog has no odometry"));
+  EXPECT_THAT(sentence(rawlog.string()), HasSubstr("the log has no odometry"));
+  const AppRun topic = map(rawlog.string(), {"--force", "--set", "log.odometry=/odom"});
+  EXPECT_EQ(topic.code, 2);
+  EXPECT_THAT(one_sentence(topic.err), HasSubstr("log.odometry is \"/odom\", expected auto or none"));
 }
 
 TEST_F(WrongInput, a_log_without_laser) {

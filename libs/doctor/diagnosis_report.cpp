@@ -136,7 +136,7 @@ std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study) {
   return lines;
 }
 
-std::string verdict(const LogDiagnosis& diagnosis) {
+std::string verdict_of(const LogDiagnosis& diagnosis) {
   const auto warnings = static_cast<std::size_t>(
       std::count_if(diagnosis.findings.begin(), diagnosis.findings.end(),
                     [](const Finding& finding) { return finding.severity == Severity::kWarning; }));
@@ -151,7 +151,7 @@ std::vector<std::string> describe(const LogDiagnosis& diagnosis) {
                     finding.sentence);
     if (!finding.remedy.empty()) lines.push_back("  remedy: " + finding.remedy);
   }
-  lines.push_back("verdict: " + verdict(diagnosis));
+  lines.push_back("verdict: " + verdict_of(diagnosis));
   return lines;
 }
 
@@ -173,7 +173,7 @@ Json to_json(const LogDiagnosis& diagnosis) {
                                     {"odometry_scale", diagnosis.mount->odometry_scale}};
   }
   json["beam_angles"] = beam_angles_json(diagnosis.beam_angles);
-  json["verdict"] = verdict(diagnosis);
+  json["verdict"] = verdict_of(diagnosis);
   json["findings"] = Json::array();
   for (const Finding& finding : diagnosis.findings) {
     json["findings"].push_back({{"code", finding.code},

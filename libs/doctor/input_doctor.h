@@ -63,7 +63,7 @@ std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis);
 std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study);
 
 /// Judgement in one line: "ready to map" or "maps with 2 warnings".
-std::string verdict(const LogDiagnosis& diagnosis);
+std::string verdict_of(const LogDiagnosis& diagnosis);
 
 /// Lines with facts, beam angles, findings with their remedies and the verdict, as `psi-slam check` prints
 /// them.

@@ -61,10 +61,11 @@ void add_match_command(CLI::App& app, const Streams& streams) {
   add_seed_option(match, options.seed, "Seed of the cases and of the random matchers");
   match.add_flag("--windows", options.windows,
                  "Also compare the matchers over window sizes and over sizes of local maps");
-  run_on_logs(match, arguments, streams, logs_of,
-              [](const auto& logs, const auto& how, const ProgressObserver& progress) {
-                return match_report(run_match_benchmark(logs, how, progress), how, machine_text());
-              });
+  run_on_logs(
+      match, arguments, streams, [](const BenchArguments& given) { return logs_of(given); },
+      [](const auto& logs, const auto& how, const ProgressObserver& progress) {
+        return match_report(run_match_benchmark(logs, how, progress), how, machine_text());
+      });
 }
 
 void add_false_loops_command(CLI::App& app, const Streams& streams) {

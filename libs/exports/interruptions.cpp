@@ -26,7 +26,7 @@ std::vector<std::string> interruption_texts(const MappingResult& result) {
     return minutes_text(seconds(result.frames[frame].time_us - result.frames[log->begin].time_us));
   };
   for (const Interruption& interruption : result.interruptions) {
-    const std::string lost = "the robot was moved to an unknown place between " +
+    const std::string lost = "the place of the robot was lost between " +
                              since_start(interruption.frame - 1) + " and " + since_start(interruption.frame);
     if (interruption.found_frame)
       texts.push_back(lost + ", and found again at " + since_start(*interruption.found_frame));

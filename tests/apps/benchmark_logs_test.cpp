@@ -48,7 +48,12 @@ TEST_P(BenchmarkLog, is_mapped_within_its_limits) {
                            folder.path());
   const AppRun run = process.finish();
   ASSERT_EQ(run.code, 0);
-  EXPECT_EQ(run.out + run.err, "") << "quiet";
+  // In ACES, scans are missing for three seconds in which the robot turns, and its odometry contradicts them.
+  const std::string warning =
+      name == "aces" && benchmark.every_nth_scan == 1
+          ? "psi-slam: the place of the robot was lost between 8:59 and 9:02, and found again at 9:07\n"
+          : "";
+  EXPECT_EQ(run.out + run.err, warning) << "quiet but for warnings";
   const RelationsMetric metric = evaluate_relations(read_trajectory(output / "trajectory.tum"),
                                                     read_relations(*relations), benchmark.max_gap_s);
   RecordProperty("mean_relation_error_m", std::to_string(metric.translation_abs_m.mean));

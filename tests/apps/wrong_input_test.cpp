@@ -151,13 +151,13 @@ TEST_F(WrongInput, a_malformed_line_is_skipped_with_a_warning) {
   const AppRun run = map(log);
   EXPECT_EQ(run.code, 0);
   EXPECT_THAT(one_sentence(run.err),
-              AllOf(HasSubstr("1 message of the log does not parse"), HasSubstr("room.log:31:")));
+              AllOf(HasSubstr("1 message of the log is unusable"), HasSubstr("room.log:31:")));
   EXPECT_EQ(read_trajectory(output() + "/trajectory.tum").size(), 59U);
   for (const std::string name : {"report.html", "summary.json"})
-    EXPECT_THAT(bytes_of(output() + "/" + name), HasSubstr("1 message of the log does not parse"));
+    EXPECT_THAT(bytes_of(output() + "/" + name), HasSubstr("1 message of the log is unusable"));
   const AppRun check = run_app({"check", log});
   EXPECT_EQ(check.code, 0);
-  EXPECT_THAT(check.out, HasSubstr("1 message of the log does not parse"));
+  EXPECT_THAT(check.out, HasSubstr("1 message of the log is unusable"));
 }
 
 TEST_F(WrongInput, time_that_runs_backwards_is_mapped_in_the_order_of_the_file) {

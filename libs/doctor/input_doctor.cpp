@@ -56,14 +56,13 @@ FirstPass read_once(const std::filesystem::path& path, const LogOptions& options
 /// Selects the first laser, since only scans of one laser are compared with each other.
 LogOptions options_of_first_laser(const std::filesystem::path& path, LogOptions options) {
   const LogFormat format = detect_log_format(path);
-  if (!is_bag(format)) {
-    if (!reads_several_lasers(options, format)) return options;
+  const bool selects_several = reads_several_lasers(options, format);
+  if (is_bag(format)) {
+    options.scan_topic = plan_bag(path, options).scan_topics.front();
+  } else if (selects_several) {
     options.scan_topic.clear();  // the option applies to bags only
     const LaserChoice choice = laser_choice("log.laser", options.laser);
     if (choice.several()) options.laser = choice.all ? "" : choice.names.front();
-  } else {
-    reads_several_lasers(options, format);  // throws for contradicting options
-    options.scan_topic = plan_bag(path, options).scan_topics.front();
   }
   return options;
 }

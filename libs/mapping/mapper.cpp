@@ -124,6 +124,7 @@ void Mapper::Implementation::place_joined_runs(std::size_t first_constraint, std
 
 // Decides after all loops are settled which runs after an interruption are part of the map.
 void Mapper::Implementation::lay_unjoined_runs_aside() {
+  if (result_.interruptions.empty()) return;
   std::vector<UnplacedRun> runs;
   const auto node_at = [&](std::size_t frame) {
     const auto& frames = result_.node_frames;

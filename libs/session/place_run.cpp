@@ -24,20 +24,25 @@ struct Sighting {
   TPose2D start_T_robot;
 };
 
+/// Returns the runs whose place was never found. Their poses are not in the map's frame.
+std::vector<FrameSpan> unplaced_runs_of(const MappingResult& mapped) {
+  std::vector<FrameSpan> unplaced;
+  for (const FrameSpan& run : runs_of(mapped))
+    if (std::any_of(mapped.interruptions.begin(), mapped.interruptions.end(),
+                    [&](const Interruption& one) { return one.frame == run.begin && !one.found_frame; }))
+      unplaced.push_back(run);
+  return unplaced;
+}
+
 /// Returns the start of the run relative to the node that is nearest to the robot's place in `seen`.
 RunStart seen_from_nearest_node(const MappingResult& mapped, const Sighting& seen) {
   const TPose2D map_T_start = seen.map_T_robot + inverse(seen.start_T_robot);
   RunStart start;
   double nearest_m = std::numeric_limits<double>::infinity();
-  // The pose of a run whose place was never found is not in the map's frame.
-  const std::vector<FrameSpan> runs = runs_of(mapped);
+  const std::vector<FrameSpan> unplaced = unplaced_runs_of(mapped);
   const auto is_placed = [&](std::size_t frame) {
-    return std::none_of(
-        mapped.interruptions.begin(), mapped.interruptions.end(), [&](const Interruption& one) {
-          const auto run = std::find_if(runs.begin(), runs.end(),
-                                        [&](const FrameSpan& span) { return span.begin == one.frame; });
-          return !one.found_frame && run != runs.end() && run->begin <= frame && frame < run->end;
-        });
+    return std::none_of(unplaced.begin(), unplaced.end(),
+                        [&](const FrameSpan& run) { return run.begin <= frame && frame < run.end; });
   };
   for (std::size_t node = 0; node < mapped.node_frames.size(); ++node) {
     if (!is_placed(mapped.node_frames[node])) continue;

@@ -56,6 +56,15 @@ void describe_log(OptionTable& table, Settings& settings) {
       .optional_number("sweep_time_s", log.sweep_time_s, between(0, 1), "s",
                        "Time from the first to the last beam of a scan. The scan is corrected for the "
                        "robot's motion during this time. auto: the log's value; 0: no correction.")
+      .choice("sweep_direction", log.sweep_direction,
+              {{"auto", SweepDirection::kAuto},
+               {"forward", SweepDirection::kForward},
+               {"backward", SweepDirection::kBackward}},
+              "Whether the first or the last beam of a scan is measured first. auto: as the scans show in "
+              "turns.")
+      .choice("mask_own_body", log.mask_own_body, {{"auto", true}, {"off", false}},
+              "Ignores readings that stay the same while the robot moves, because the laser sees the robot "
+              "itself.")
       .text(
           "scan_topic", log.scan_topic,
           "ROS bags: topic of the scans. Several with commas, or all. Empty: log.laser, or all topics whose "
@@ -63,6 +72,12 @@ void describe_log(OptionTable& table, Settings& settings) {
       .text("odometry", log.odometry,
             "Odometry to use. auto: the log's odometry, or none if it has none. none: scans only. ROS bags: "
             "a topic of odometry, or /tf.")
+      .text("imu", log.imu,
+            "Gyroscope that predicts the heading where there is no odometry. auto: the only one of the log. "
+            "none: no gyroscope. Otherwise a topic (ROS) or a sensor label (rawlog).")
+      .text("slice_z_m", log.slice_z_m,
+            "ROS bags: maps point clouds (PointCloud2) instead of scans. LOW HIGH in m: points between these "
+            "heights above the floor. Empty: no point clouds.")
       .text("odom_frame", log.odom_frame,
             "ROS bags: frame that odometry is relative to. Empty: the nearest frame above the laser with "
             "odom in its name.")

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "psi_slam/time_stamp.h"
@@ -30,8 +31,9 @@ struct LaserScan {
   BeamBearings bearings_rad;    ///< one bearing for each beam, radians
   float max_range_m = 0;  ///< maximum range of the sensor, metres; readings at or beyond it are no returns
   mrpt::math::TPose2D robot_T_laser;  ///< pose of the laser on the robot
-  /// Time from the first beam to the last, seconds. The time stamp of the scan is the time of its first beam.
-  /// 0: all beams are simultaneous, or the time is unknown.
+  /// Time from the first beam to the last, seconds. Negative: the last beam is measured first. The time stamp
+  /// of the scan is the time of the beam that is measured first. 0: all beams are simultaneous, or the time
+  /// is unknown.
   float sweep_time_s = 0;
   std::size_t laser = 0;  ///< number of the laser among the lasers that are read, from 0
 };
@@ -45,11 +47,13 @@ struct CompanionScan {
 
 /// One scan with the robot's odometry at the scan's time.
 struct Frame {
-  std::size_t index = 0;                    ///< number of the frame among the frames read, from 0
-  TimeUs time_us = 0;                       ///< time of the scan, microseconds
-  mrpt::math::TPose2D odom_T_robot;         ///< pose of the robot by odometry, at `time_us`
-  LaserScan scan;                           ///< scan of the laser with the smallest number in this frame
-  bool has_odometry = true;                 ///< false: the motion is unknown and odom_T_robot is meaningless
+  std::size_t index = 0;             ///< number of the frame among the frames read, from 0
+  TimeUs time_us = 0;                ///< time of the scan, microseconds
+  mrpt::math::TPose2D odom_T_robot;  ///< pose of the robot by odometry, at `time_us`
+  LaserScan scan;                    ///< scan of the laser with the smallest number in this frame
+  bool has_odometry = true;          ///< false: the motion is unknown and odom_T_robot is meaningless
+  /// Heading of the robot by a gyroscope, radians, relative to an unknown start and not wrapped; empty: none.
+  std::optional<double> imu_heading_rad{};
   std::vector<CompanionScan> companions{};  ///< scans of other lasers, sorted by LaserScan::laser
 };
 

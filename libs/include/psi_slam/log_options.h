@@ -20,6 +20,13 @@ enum class BeamAngles {
   kSkipZero,              ///< as kLeftOpen without the beam at 0 (180 beams: -90 ... -1, +1 ... +90 degrees)
 };
 
+/// Order in time in which a laser measures the beams of a scan, compared with their order in the log.
+enum class SweepDirection {
+  kAuto,      ///< as the scans of the log determine it in turns, otherwise forward
+  kForward,   ///< the first beam is measured first
+  kBackward,  ///< the last beam is measured first: drivers of RPLIDAR lasers reverse the beams
+};
+
 /// Options for reading a log of any format. A member without a value takes the value that the log states. If
 /// the log states none, the default described at the member applies.
 struct LogOptions {
@@ -63,11 +70,26 @@ struct LogOptions {
   /// scans unchanged.
   std::optional<double> sweep_time_s;
 
+  /// Order in time of the beams of a scan. Applies to scans with a sweep time.
+  SweepDirection sweep_direction = SweepDirection::kAuto;
+
+  /// Replaces returns of the robot's own body by invalid readings: returns whose bearing and range stay the
+  /// same while the robot moves. True: wherever the log shows them.
+  bool mask_own_body = true;
+
   /// Odometry to use. "auto": the odometry of the log; without any, scans have none (see
   /// Frame::has_odometry). "none": no odometry, even if the log has some. ROS bags: a topic
   /// (nav_msgs/Odometry), or a topic of transforms ("/tf"), which selects the transform from odom_frame to
   /// base_frame. An empty text means "auto".
   std::string odometry = "auto";
+
+  /// Gyroscope that predicts the heading of scans without odometry. "auto": the only one of the log. "none":
+  /// no gyroscope. Otherwise a topic (sensor_msgs/Imu) or a sensor label of a rawlog (CObservationIMU).
+  std::string imu = "auto";
+
+  /// ROS bags: heights above the floor between which the points of a sensor_msgs/PointCloud2 form a scan:
+  /// "LOW HIGH" in metres. An empty text reads no point clouds.
+  std::string slice_z_m;
 
   // The next three options apply to ROS bags only. If empty, the reader finds topics by their types and
   // frames by the transforms.

@@ -3,6 +3,8 @@
 // records these times but does not check them, because machines differ too much.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "gui_run.h"
 #include "loop_inspector.h"
 #include "shared_logs.h"
@@ -11,6 +13,7 @@ namespace psi_slam {
 namespace {
 
 TEST(Gaps, between_events_of_a_benchmark_log) {
+  if (std::getenv("PSI_SLAM_LONG_TESTS") == nullptr) GTEST_SKIP() << "takes minutes: set PSI_SLAM_LONG_TESTS";
   if (!GuiRun::has_display()) GTEST_SKIP() << "needs xvfb-run from Debian's package xvfb";
   const auto log = shared_file("fr079.clf.gz");
   if (!log) GTEST_SKIP() << kNeedsData;

@@ -23,8 +23,8 @@ using mrpt::math::wrapToPi;
 
 // Limits of what is read. Scans of fast lasers are thinned.
 constexpr double kLeastPeriod_s = 0.08;
-constexpr std::size_t kMostScans = 1500;
-constexpr double kMostTime_s = 600;
+constexpr std::size_t kMostFrames = 6000;
+constexpr std::size_t kMostScans = 1500;  // of one laser, after thinning
 constexpr double kEnoughTurns_rad = 4 * 2 * M_PI;
 constexpr std::size_t kScansWithoutSweep = 20;  // a laser whose first scans state no sweep time has none
 
@@ -43,10 +43,13 @@ constexpr std::size_t kStillStepsKept = 3;
 
 constexpr double kBentCost_m = 0.08;  // largest cost of a reliable alignment of scans as recorded
 
-// An order is ruled out if its mean distance to walls exceeds the smallest mean distance by both limits.
+// An order is ruled out if its distances to walls exceed those of the best order by both limits.
 constexpr std::size_t kFewestPairs = 12;
-constexpr double kWorseFraction = 0.02;  // as a fraction of the smallest distance
+constexpr double kWorseFraction = 0.02;  // of the smallest mean distance
 constexpr double kWorseErrors = 4;       // in standard errors
+// The right direction differs four times as much from the reverse direction as from no sweep, because the
+// cost is about quadratic in the bend that is left. No sweep must therefore be worse by less.
+constexpr double kNoSweepWorseErrors = 1.5;
 
 struct Sample {
   TimeUs time_us = 0;
@@ -121,10 +124,10 @@ class LaserSamples {
   bool align_to(const Sample& last, Sample& sample) {
     const AlignableScan reference(last.scan);
     const AlignableScan scan(sample.scan);
-    ScanAlignment alignment = align_scans(reference, scan, std::vector<TPose2D>{last_step_, {0, 0, 0}});
+    ScanAlignment alignment = align_scans(reference, scan, last_step_);
     if (!alignment.is_reliable(kBentCost_m)) {
       std::vector<TPose2D> guesses;
-      for (const double turn_deg : {-30.0, -20.0, -10.0, 10.0, 20.0, 30.0})
+      for (const double turn_deg : {-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0})
         guesses.push_back({0, 0, DEG2RAD(turn_deg)});
       alignment = align_scans(reference, scan, guesses);
     }
@@ -257,10 +260,16 @@ void compare_distances(const std::vector<Distances>& rows,
   for (std::size_t k = 0; k < fits.size(); ++k) {
     SweepFit& fit = *fits[k];
     fit.worse_by_m = fit.mean_distance_m - fits[best]->mean_distance_m;
+    // Relative differences limit the influence of a single pair.
+    const auto difference = [&](const Distances& row) {
+      return row[k] == row[best] ? 0 : (row[k] - row[best]) / (row[k] + row[best]);
+    };
+    double mean = 0;
+    for (const Distances& row : rows) mean += difference(row) / count;
     double squares = 0;
-    for (const Distances& row : rows) squares += std::pow(row[k] - row[best] - fit.worse_by_m, 2);
-    const double error_m = std::sqrt(squares) / count;
-    fit.significance = error_m > 0 ? fit.worse_by_m / error_m : 0;
+    for (const Distances& row : rows) squares += std::pow(difference(row) - mean, 2);
+    const double error = std::sqrt(squares) / count;
+    fit.significance = error > 0 ? mean / error : 0;
     fit.ruled_out = rows.size() >= kFewestPairs && fit.significance > kWorseErrors &&
                     fit.worse_by_m > kWorseFraction * fits[best]->mean_distance_m;
   }
@@ -288,19 +297,19 @@ SweepDirectionStudy LaserSamples::study() const {
 }  // namespace
 
 SweepDirection SweepDirectionStudy::direction() const {
-  if (!at_once.ruled_out) return SweepDirection::kAuto;
-  if (backward.ruled_out) return SweepDirection::kForward;
-  return forward.ruled_out ? SweepDirection::kBackward : SweepDirection::kAuto;
+  if (!(at_once.significance > kNoSweepWorseErrors)) return SweepDirection::kAuto;
+  if (backward.ruled_out && forward.worse_by_m == 0) return SweepDirection::kForward;
+  if (forward.ruled_out && backward.worse_by_m == 0) return SweepDirection::kBackward;
+  return SweepDirection::kAuto;
 }
 
 std::vector<SweepDirectionStudy> study_sweep_directions(FrameSource& log,
                                                         std::optional<double> sweep_time_s) {
   std::vector<LaserSamples> lasers;
-  std::optional<TimeUs> start_us;
   try {
-    while (std::optional<Frame> frame = log.next()) {
-      if (!start_us) start_us = frame->time_us;
-      if (seconds(frame->time_us - *start_us) > kMostTime_s) break;
+    for (std::size_t i = 0; i < kMostFrames; ++i) {
+      std::optional<Frame> frame = log.next();
+      if (!frame) break;
       const std::size_t laser = frame->scan.laser;
       if (laser >= lasers.size()) lasers.resize(laser + 1);
       if (!lasers[laser].is_enough()) lasers[laser].add(std::move(*frame), sweep_time_s);

@@ -22,7 +22,8 @@ namespace psi_slam {
 struct SweepFit {
   double mean_distance_m = 0;  ///< mean distance from points to walls, over all pairs of scans
   double worse_by_m = 0;       ///< mean_distance_m minus the smallest of the three orders
-  double significance = 0;     ///< worse_by_m in standard errors
+  /// Mean relative difference from the distances of the best order, in standard errors.
+  double significance = 0;
   bool ruled_out = false;
 };
 
@@ -36,14 +37,15 @@ struct SweepDirectionStudy {
   SweepFit backward;               ///< the last beam is measured first
   SweepFit at_once;                ///< all beams are measured at the same time
 
-  /// Returns the direction if the scans rule out both other orders; otherwise kAuto.
+  /// Returns the direction that aligns the scans best, if they rule out the reverse direction and fit less
+  /// well without a sweep; otherwise kAuto.
   SweepDirection direction() const;
   /// Returns whether the scans rule out both directions: they are not bent, or not as the sweep time states.
   bool shows_no_sweep() const { return forward.ruled_out && backward.ruled_out; }
 };
 
 /// Reads the first part of a log, whose frames hold one scan each, and returns a study for each number of a
-/// laser. Reads until each laser has turned four times, for at most ten minutes of the log. Ends early at an
+/// laser. Reads at most 6000 frames, and no more after each laser has turned four times. Ends early at an
 /// error of the log, or if its first scans state no sweep time. `sweep_time_s` replaces the sweep time of all
 /// scans.
 std::vector<SweepDirectionStudy> study_sweep_directions(FrameSource& log, std::optional<double> sweep_time_s);

@@ -61,15 +61,24 @@ LaserScan bent(LaserScan scan, const TPose2D& motion) {
   return scan;
 }
 
+/// Odometry at a time between the times of frames `from` and the last frame, interpolated.
+TPose2D odometry_at(const std::vector<Frame>& frames, std::size_t from, double since_s) {
+  const auto time_us = frames[from].time_us + static_cast<TimeUs>(1e6 * since_s);
+  std::size_t next = from + 1;
+  while (next + 1 < frames.size() && frames[next].time_us < time_us) ++next;
+  const Frame& before = frames[next - 1];
+  const double period_s = seconds(frames[next].time_us - before.time_us);
+  const double share = period_s > 0 ? seconds(time_us - before.time_us) / period_s : 0;
+  return interpolate(before.odom_T_robot, frames[next].odom_T_robot, std::min(share, 1.0));
+}
+
 /// Bends all scans of a log by odometry's motion during `sweep_s`; negative: the last beam is measured first.
 /// The scans state the positive sweep time.
 std::vector<Frame> bent(std::vector<Frame> frames, double sweep_s) {
   for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
-    const double period_s = seconds(frames[i + 1].time_us - frames[i].time_us);
     LaserScan& scan = frames[i].scan;
     scan.sweep_time_s = static_cast<float>(sweep_s);
-    const double share = period_s > 0 && period_s < 1 ? std::abs(sweep_s) / period_s : 0;
-    scan = bent(scan, interpolate({0, 0, 0}, frames[i + 1].odom_T_robot - frames[i].odom_T_robot, share));
+    scan = bent(scan, odometry_at(frames, i, std::abs(sweep_s)) - frames[i].odom_T_robot);
     scan.sweep_time_s = static_cast<float>(std::abs(sweep_s));
   }
   frames.pop_back();
@@ -178,6 +187,7 @@ TEST(SweepDirectionStudyTest, has_no_scans_without_a_sweep_time) {
 
 TEST(SweepDirectionStudyTest, waits_for_a_robot_that_stands_before_it_turns) {
   std::vector<RunPart> parts = round_trip();
+  for (const RunPart& part : round_trip()) parts.push_back(part);
   parts.insert(parts.begin(), {0, 0, 1600});
   EXPECT_EQ(study(bent(frames_of_run(simulated_run(parts)), -0.18)).direction(), SweepDirection::kBackward);
 }

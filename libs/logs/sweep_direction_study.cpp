@@ -25,7 +25,7 @@ using mrpt::math::wrapToPi;
 constexpr double kLeastPeriod_s = 0.08;
 constexpr std::size_t kMostFrames = 6000;
 constexpr std::size_t kMostScans = 1500;  // of one laser, after thinning
-constexpr double kEnoughTurns_rad = 4 * 2 * M_PI;
+constexpr double kEnoughTurns_rad = 8 * 2 * M_PI;
 constexpr std::size_t kScansWithoutSweep = 20;  // a laser whose first scans state no sweep time has none
 
 // Pairs of scans.
@@ -47,9 +47,9 @@ constexpr double kBentCost_m = 0.08;  // largest cost of a reliable alignment of
 constexpr std::size_t kFewestPairs = 12;
 constexpr double kWorseFraction = 0.02;  // of the smallest mean distance
 constexpr double kWorseErrors = 4;       // in standard errors
-// The right direction differs four times as much from the reverse direction as from no sweep, because the
-// cost is about quadratic in the bend that is left. No sweep must therefore be worse by less.
-constexpr double kNoSweepWorseErrors = 1.5;
+// The cost grows with the square of the remaining bend, so no sweep is worse than the right direction by a
+// quarter of what the reverse direction is.
+constexpr double kNoSweepWorseErrors = kWorseErrors / 4;
 
 struct Sample {
   TimeUs time_us = 0;

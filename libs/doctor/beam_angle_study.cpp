@@ -10,8 +10,8 @@
 #include <numeric>
 
 #include "doctor/pair_alignment.h"
-#include "doctor/scan_alignment.h"
 #include "frames/laser_readings.h"
+#include "frames/scan_alignment.h"
 
 namespace psi_slam {
 namespace {

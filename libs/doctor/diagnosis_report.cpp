@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/number_text.h"
 
@@ -85,6 +87,25 @@ Json beam_angles_json(const BeamAngleStudy& study) {
   return json;
 }
 
+/// The orders of beams that a study compares, with their names.
+std::array<std::pair<const char*, const SweepFit*>, 3> named_fits(const SweepDirectionStudy& study) {
+  return {{{"forward", &study.forward}, {"backward", &study.backward}, {"at_once", &study.at_once}}};
+}
+
+Json sweep_direction_json(const SweepDirectionStudy& study) {
+  Json json{{"stated_sweep_time_s", study.stated_sweep_time_s},
+            {"pairs", study.pairs},
+            {"mean_bend_rad", study.mean_bend_rad}};
+  if (study.pairs == 0) return json;
+  for (const auto& [name, fit] : named_fits(study)) {
+    json[name] = {{"mean_distance_m", fit->mean_distance_m},
+                  {"worse_by_m", fit->worse_by_m},
+                  {"significance", fit->significance},
+                  {"ruled_out", fit->ruled_out}};
+  }
+  return json;
+}
+
 }  // namespace
 
 std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis) {
@@ -136,6 +157,22 @@ std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study) {
   return lines;
 }
 
+std::vector<std::string> describe_sweep_direction(const SweepDirectionStudy& study) {
+  std::vector<std::string> lines;
+  if (study.pairs == 0) return lines;
+  lines.push_back(mrpt::format(
+      "order of the beams in a sweep of %.3f s, by %zu pairs of scans that turns bend differently "
+      "(by %.1f degrees on average):",
+      std::abs(study.stated_sweep_time_s), study.pairs, RAD2DEG(study.mean_bend_rad)));
+  for (const auto& [name, fit] : named_fits(study)) {
+    lines.push_back(mrpt::format("  %c %-8s  points to walls %.2f mm (%+.2f mm, %.1f standard errors)%s",
+                                 fit->worse_by_m == 0 ? '*' : ' ', name, 1000 * fit->mean_distance_m,
+                                 1000 * fit->worse_by_m, fit->significance,
+                                 fit->ruled_out ? ": ruled out" : ""));
+  }
+  return lines;
+}
+
 std::string verdict_of(const LogDiagnosis& diagnosis) {
   const auto warnings = static_cast<std::size_t>(
       std::count_if(diagnosis.findings.begin(), diagnosis.findings.end(),
@@ -146,6 +183,8 @@ std::string verdict_of(const LogDiagnosis& diagnosis) {
 std::vector<std::string> describe(const LogDiagnosis& diagnosis) {
   std::vector<std::string> lines = describe_facts(diagnosis);
   for (std::string& line : describe_beam_angles(diagnosis.beam_angles)) lines.push_back(std::move(line));
+  for (std::string& line : describe_sweep_direction(diagnosis.sweep_direction))
+    lines.push_back(std::move(line));
   for (const Finding& finding : diagnosis.findings) {
     lines.push_back(std::string(finding.severity == Severity::kWarning ? "warning: " : "note: ") +
                     finding.sentence);
@@ -173,6 +212,7 @@ Json to_json(const LogDiagnosis& diagnosis) {
                                     {"odometry_scale", diagnosis.mount->odometry_scale}};
   }
   json["beam_angles"] = beam_angles_json(diagnosis.beam_angles);
+  json["sweep_direction"] = sweep_direction_json(diagnosis.sweep_direction);
   json["verdict"] = verdict_of(diagnosis);
   json["findings"] = Json::array();
   for (const Finding& finding : diagnosis.findings) {

@@ -4,6 +4,8 @@
 #include <mrpt/core/bits_math.h>
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "frames/laser_choice.h"
 #include "frames/log_format.h"
@@ -120,6 +122,13 @@ void compare_odometry_with_scans(const FirstPass& pass, const LogOptions& option
   }
 }
 
+SweepDirectionStudy study_first_laser(const std::filesystem::path& path, const LogOptions& options,
+                                      std::optional<double> sweep_time_s) {
+  const auto log = open_log_reader(path, options);
+  const std::vector<SweepDirectionStudy> studies = study_sweep_directions(*log, sweep_time_s);
+  return studies.empty() ? SweepDirectionStudy{} : studies.front();
+}
+
 }  // namespace
 
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options) {
@@ -134,6 +143,7 @@ LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& optio
     diagnosis.used_beam_angles =
         options.beam_angles == BeamAngles::kAuto ? usual_beam_angles(pass.facts.beams) : options.beam_angles;
   }
+  diagnosis.sweep_direction = study_first_laser(path, diagnosis.options, options.sweep_time_s);
   if (pass.facts.scans_without_odometry == 0) compare_odometry_with_scans(pass, options, diagnosis);
   diagnosis.marks = std::move(pass.marks);
   diagnosis.findings = judge(diagnosis);

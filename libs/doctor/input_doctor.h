@@ -14,6 +14,7 @@
 #include "doctor/log_facts.h"
 #include "doctor/odometry_check.h"
 #include "doctor/pair_alignment.h"
+#include "logs/sweep_direction_study.h"
 #include "psi_slam/log_options.h"
 
 namespace psi_slam {
@@ -35,6 +36,7 @@ struct Finding {
 struct LogDiagnosis {
   std::filesystem::path path;
   LogFacts facts;
+  SweepDirectionStudy sweep_direction;              ///< without scans if no sweep time is stated
   LogOptions options;                               ///< options used to read the log
   BeamAngles used_beam_angles = BeamAngles::kAuto;  ///< kAuto if the log states its angles
   OdometryAgreement odometry;
@@ -48,9 +50,9 @@ struct LogDiagnosis {
   std::vector<Finding> findings;
 };
 
-/// Reads the whole log and judges it. Ignores `options.every_nth_scan` and `sweep_time_s`. Judges the first
-/// of several lasers. Judges a truncated or damaged log up to the damage. Throws UserError if the first scan
-/// cannot be read.
+/// Reads the whole log and judges it as recorded: ignores `options.every_nth_scan`, and `sweep_time_s` for
+/// all but the study of the sweep direction. Judges the first of several lasers. Judges a truncated or
+/// damaged log up to the damage. Throws UserError if the first scan cannot be read.
 LogDiagnosis diagnose(const std::filesystem::path& path, const LogOptions& options = {});
 
 /// Derives findings from the measurements, warnings first. diagnose() calls this function.
@@ -61,6 +63,10 @@ std::vector<std::string> describe_facts(const LogDiagnosis& diagnosis);
 
 /// Table of the beam angle study with one convention per line; the best is marked. Empty without a study.
 std::vector<std::string> describe_beam_angles(const BeamAngleStudy& study);
+
+/// Table of the study of the sweep direction with one order of the beams per line; the best is marked. Empty
+/// without pairs of scans.
+std::vector<std::string> describe_sweep_direction(const SweepDirectionStudy& study);
 
 /// Judgement in one line: "ready to map" or "maps with 2 warnings".
 std::string verdict_of(const LogDiagnosis& diagnosis);

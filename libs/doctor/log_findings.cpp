@@ -40,6 +40,7 @@ class Judge {
     judge_reading();
     judge_time();
     judge_ranges();
+    judge_sweep();
     judge_motion();
     if (diagnosis_.odometry_is_sound) {
       judge_reversals();
@@ -148,6 +149,31 @@ class Judge {
       } else {
         note("empty_scans", sentence);
       }
+    }
+  }
+
+  void judge_sweep() {
+    const SweepDirectionStudy& study = diagnosis_.sweep_direction;
+    if (study.shows_no_sweep()) {
+      warn("sweep_time",
+           "scans measured in turns fit each other best as recorded, although the sweep time is " +
+               fixed(std::abs(study.stated_sweep_time_s), 3) + " s",
+           "log.sweep_time_s = 0");
+      return;
+    }
+    const SweepDirection direction = study.direction();
+    if (direction == SweepDirection::kAuto) return;
+    const bool backward = direction == SweepDirection::kBackward;
+    const std::string sentence = std::string("turns show that the ") + (backward ? "last" : "first") +
+                                 " beam of each scan is measured first, ";
+    const std::string remedy = std::string("log.sweep_direction = ") + (backward ? "backward" : "forward");
+    const SweepDirection used = diagnosis_.options.sweep_direction;
+    if (used != SweepDirection::kAuto && used != direction) {
+      warn("sweep_direction", sentence + "not the " + (backward ? "first" : "last"), remedy);
+    } else if (used == SweepDirection::kAuto && backward != (study.stated_sweep_time_s < 0)) {
+      note("sweep_direction", sentence + "other than the log states", remedy);
+    } else {
+      note("sweep_direction", sentence + "as used");
     }
   }
 

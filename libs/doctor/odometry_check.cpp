@@ -10,7 +10,7 @@
 #include <map>
 #include <optional>
 
-#include "doctor/scan_alignment.h"
+#include "frames/scan_alignment.h"
 
 namespace psi_slam {
 namespace {

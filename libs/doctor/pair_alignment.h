@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "doctor/log_facts.h"
-#include "doctor/scan_alignment.h"
 #include "doctor/scan_sampling.h"
+#include "frames/scan_alignment.h"
 
 namespace psi_slam {
 

@@ -28,9 +28,13 @@ LaserScan deskewed(const LaserScan& scan, const TPose2D& motion) {
   still.sweep_time_s = 0;
   std::vector<float> bearings = *scan.bearings_rad;
   const TPose2D laser_T_robot = inverse(scan.robot_T_laser);
-  const double last = static_cast<double>(bearings.size() - 1);
-  for (std::size_t i = 1; i < bearings.size(); ++i) {
-    const TPose2D moved = interpolate({0, 0, 0}, motion, static_cast<double>(i) / last);
+  const std::size_t last = bearings.size() - 1;
+  const bool backward = scan.sweep_time_s < 0;
+  for (std::size_t i = 0; i < bearings.size(); ++i) {
+    const std::size_t measured_before = backward ? last - i : i;
+    if (measured_before == 0) continue;
+    const TPose2D moved =
+        interpolate({0, 0, 0}, motion, static_cast<double>(measured_before) / static_cast<double>(last));
     const TPose2D first_T_laser = laser_T_robot + moved + scan.robot_T_laser;
     const auto bearing = static_cast<double>(bearings[i]);
     double turned = first_T_laser.phi;
@@ -47,8 +51,29 @@ LaserScan deskewed(const LaserScan& scan, const TPose2D& motion) {
   return still;
 }
 
-DeskewedSource::DeskewedSource(std::unique_ptr<FrameSource> source, std::optional<double> sweep_time_s)
-    : source_(std::move(source)), sweep_time_s_(sweep_time_s) {}
+double SweepTiming::sweep_time_s(const LaserScan& scan) const {
+  const auto stated_s = static_cast<double>(scan.sweep_time_s);
+  const double sweep_s = time_s ? std::copysign(*time_s, stated_s) : stated_s;
+  const bool is_decided = direction == SweepDirection::kAuto && scan.laser < directions.size();
+  switch (is_decided ? directions[scan.laser] : direction) {
+    case SweepDirection::kForward:
+      return std::abs(sweep_s);
+    case SweepDirection::kBackward:
+      return -std::abs(sweep_s);
+    case SweepDirection::kAuto:
+      break;
+  }
+  return sweep_s;
+}
+
+DeskewedSource::DeskewedSource(std::unique_ptr<FrameSource> source, SweepTiming timing)
+    : source_(std::move(source)), timing_(std::move(timing)) {}
+
+std::vector<std::string> DeskewedSource::assumptions() const {
+  std::vector<std::string> all = source_->assumptions();
+  all.insert(all.end(), timing_.assumptions.begin(), timing_.assumptions.end());
+  return all;
+}
 
 std::optional<TPose2D> DeskewedSource::motion_between(const Mark& from, const Mark& to, double time_s) {
   const double apart_s = seconds(to.time_us - from.time_us);
@@ -74,13 +99,18 @@ const DeskewedSource::Mark& DeskewedSource::mark_like(const Mark& mark, const Ma
 }
 
 void DeskewedSource::straighten(LaserScan& scan, const Mark& mark, const Marks& next_marks) const {
-  const double sweep_s = sweep_time_s_.value_or(static_cast<double>(scan.sweep_time_s));
+  const double signed_sweep_s = timing_.sweep_time_s(scan);
+  scan.sweep_time_s = static_cast<float>(signed_sweep_s);
+  const double sweep_s = std::abs(signed_sweep_s);
   if (!(sweep_s > 0) || scan.ranges_m.size() < 2) return;
   std::optional<TPose2D> motion;
   if (!next_marks.empty()) motion = motion_between(mark, mark_like(mark, next_marks), sweep_s);
   if (!motion && !last_marks_.empty()) motion = motion_between(mark_like(mark, last_marks_), mark, sweep_s);
-  const bool moves = motion && !(*motion == TPose2D{0, 0, 0});
-  if (moves) scan = deskewed(scan, *motion);
+  if (!motion) return;
+  if (*motion == TPose2D{0, 0, 0})
+    scan.sweep_time_s = 0;  // a robot at rest bends no scan
+  else
+    scan = deskewed(scan, *motion);
 }
 
 std::optional<Frame> DeskewedSource::read_ahead() {

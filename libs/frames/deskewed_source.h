@@ -4,33 +4,48 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "psi_slam/frame_source.h"
+#include "psi_slam/log_options.h"
 
 namespace psi_slam {
 
-/// Returns the scan that the laser would have measured from its pose at the first beam if the robot had stood
-/// still. `motion` is the robot's pose at the last beam relative to its pose at the first; the beams are
-/// evenly spread over this motion. Each beam keeps its index and gets the range and bearing of its end point.
-/// The bearing of a beam without a return turns with the robot. All beams of the result start at the laser's
-/// first position. The free space along them is therefore a few centimetres off.
+/// Returns the scan that the laser would have measured from its pose at the beam that is measured first if
+/// the robot had stood still. `motion` is the robot's pose at the beam that is measured last, relative to its
+/// pose at the beam that is measured first; the beams are evenly spread over this motion. A negative sweep
+/// time of `scan` means that the last beam is measured first; otherwise the first beam is. Each beam keeps
+/// its index and gets the range and bearing of its end point. The bearing of a beam without a return turns
+/// with the robot. All beams of the result start at the laser's first position. The free space along them is
+/// therefore a few centimetres off. The sweep time of the result is 0.
 LaserScan deskewed(const LaserScan& scan, const mrpt::math::TPose2D& motion);
 
+/// How long the sweeps of a log take, and in which order the beams are measured.
+struct SweepTiming {
+  std::optional<double> time_s;  ///< replaces the sweep time of all scans, seconds; the sign is kept
+  SweepDirection direction = SweepDirection::kAuto;  ///< direction of all lasers, as the user states it
+  /// Directions by the number of the laser, for kAuto. A laser with kAuto or beyond the end keeps the sign of
+  /// the sweep time that its scans state.
+  std::vector<SweepDirection> directions{};
+  std::vector<std::string> assumptions{};  ///< see FrameSource::assumptions()
+
+  /// Returns the sweep time of a scan, seconds; negative: the last beam is measured first.
+  double sweep_time_s(const LaserScan& scan) const;
+};
+
 /// Removes the robot's motion during a sweep from the scans of another source. Takes the motion from odometry
-/// between a scan and the next scan of the same laser, else from the previous scan to this scan. Leaves scans
-/// without odometry unchanged. Ignores a neighbouring scan that is more than one second away, or less than
-/// two thirds of the sweep time.
+/// between a scan and the next scan of the same laser, else from the previous scan to this scan. Ignores a
+/// neighbouring scan that is more than one second away, or less than two thirds of the sweep time. Scans
+/// without odometry keep their beams, and get the sweep time of the SweepTiming.
 class DeskewedSource : public FrameSource {
  public:
-  /// `sweep_time_s`, seconds, replaces the sweep time of all scans. If it is empty, the sweep time of each
-  /// scan applies.
-  DeskewedSource(std::unique_ptr<FrameSource> source, std::optional<double> sweep_time_s);
+  DeskewedSource(std::unique_ptr<FrameSource> source, SweepTiming timing);
 
   std::optional<Frame> next() override;
   double progress() const override { return source_->progress(); }
   SkippedLines skipped_lines() const override { return source_->skipped_lines(); }
-  std::vector<std::string> assumptions() const override { return source_->assumptions(); }
+  std::vector<std::string> assumptions() const override;
 
  private:
   struct Mark {
@@ -49,7 +64,7 @@ class DeskewedSource : public FrameSource {
   void straighten(LaserScan& scan, const Mark& mark, const Marks& next_marks) const;
 
   std::unique_ptr<FrameSource> source_;
-  std::optional<double> sweep_time_s_;
+  SweepTiming timing_;
   bool started_ = false;
   Marks last_marks_;
   std::optional<Frame> ahead_;

@@ -63,7 +63,7 @@ class LogReader : public FrameSource {
 };
 
 /// Opens a log of any format with the reader of its format. Each frame is a scan of one laser as recorded;
-/// `every_nth_scan` and `sweep_time_s` do not apply. Throws UserError as open_log() does.
+/// `every_nth_scan`, `sweep_time_s` and `sweep_direction` do not apply. Throws UserError as open_log() does.
 std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options);
 
 // Each function opens a log of one format. It throws UserError if a selected laser does not exist.

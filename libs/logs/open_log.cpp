@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "psi_slam/open_log.h"
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "frames/deskewed_source.h"
 #include "frames/laser_choice.h"
 #include "frames/log_reader.h"
 #include "frames/scan_synchronizer.h"
+#include "logs/rewindable_source.h"
+#include "logs/sweep_direction_study.h"
 #include "psi_slam/user_error.h"
 
 namespace psi_slam {
@@ -36,6 +40,29 @@ class ThinnedSource : public FrameSource {
   std::size_t every_nth_;
 };
 
+/// Returns the sweep timing of a log: as the options state, or as the first frames of `log` show. `lasers`
+/// are the names of the lasers.
+SweepTiming sweep_timing(FrameSource& log, const LogOptions& options, const std::string& lasers) {
+  SweepTiming timing{options.sweep_time_s, options.sweep_direction};
+  const bool has_sweeps = options.sweep_time_s.value_or(1) > 0;
+  if (options.sweep_direction != SweepDirection::kAuto || !has_sweeps) return timing;
+  const std::vector<SweepDirectionStudy> studies = study_sweep_directions(log, options.sweep_time_s);
+  for (std::size_t laser = 0; laser < studies.size(); ++laser) {
+    const SweepDirection direction = studies[laser].direction();
+    timing.directions.push_back(direction);
+    const bool states_backward = studies[laser].stated_sweep_time_s < 0;
+    if (direction == SweepDirection::kAuto || (direction == SweepDirection::kBackward) == states_backward)
+      continue;
+    const std::string name =
+        studies.size() == 1 ? "" : " of laser " + std::to_string(laser + 1) + " of " + lasers;
+    timing.assumptions.push_back("the beams of each scan" + name + " are measured in the " +
+                                 (states_backward ? "order" : "reverse order") +
+                                 " of the log, as the scans show in turns. State the order with "
+                                 "log.sweep_direction");
+  }
+  return timing;
+}
+
 }  // namespace
 
 std::unique_ptr<LogReader> open_log_reader(const std::filesystem::path& path, const LogOptions& options) {
@@ -52,12 +79,20 @@ std::unique_ptr<FrameSource> open_log(const std::filesystem::path& path, const L
   check_log_options(options);
   const LogFormat format = detect_log_format(path);
   std::unique_ptr<LogReader> reader = open_log_reader(path, options);
-  const bool several_lasers = reads_several_lasers(options, format) || reader->contents().several_lasers;
+  const LogContents& contents = reader->contents();  // of the reader, which becomes the innermost source
+  const bool several_lasers = reads_several_lasers(options, format) || contents.several_lasers;
   std::unique_ptr<FrameSource> source = std::move(reader);
-  if (several_lasers) source = std::make_unique<SynchronizedSource>(std::move(source));
   // Only bags may state a sweep time.
-  const bool may_be_skewed = options.sweep_time_s ? *options.sweep_time_s > 0 : is_bag(format);
-  if (may_be_skewed) source = std::make_unique<DeskewedSource>(std::move(source), options.sweep_time_s);
+  const bool may_be_bent = is_bag(format) || options.sweep_time_s.value_or(0) > 0;
+  SweepTiming timing;
+  if (may_be_bent) {
+    auto beginning = std::make_unique<RewindableSource>(std::move(source));
+    timing = sweep_timing(*beginning, options, contents.laser);
+    beginning->rewind();
+    source = std::move(beginning);
+  }
+  if (several_lasers) source = std::make_unique<SynchronizedSource>(std::move(source));
+  if (may_be_bent) source = std::make_unique<DeskewedSource>(std::move(source), std::move(timing));
   if (options.every_nth_scan == 1) return source;
   return std::make_unique<ThinnedSource>(std::move(source), options.every_nth_scan);
 }

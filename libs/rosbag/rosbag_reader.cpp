@@ -27,13 +27,14 @@ mrpt::math::TPose2D on_floor(const mrpt::math::TPose3D& pose) {
 }
 
 /// Returns the sweep time of a scan in seconds, or 0 if the stated time is implausible. Drivers may state 0,
-/// more than the time between scans, or more than any laser needs.
+/// more than the time between scans, or more than any laser needs. A negative time_increment means that the
+/// last beam is measured first.
 float sweep_time_s(const RosLaserScan& message) {
   constexpr float kMaxSweep_s = 1;
   const float sweep_s = message.time_increment_s * static_cast<float>(message.ranges_m.size() - 1);
   const float max_sweep_s =
       message.scan_time_s > 0 ? std::min(kMaxSweep_s, 1.5F * message.scan_time_s) : kMaxSweep_s;
-  return sweep_s > 0 && sweep_s <= max_sweep_s ? sweep_s : 0;
+  return std::abs(sweep_s) <= max_sweep_s ? sweep_s : 0;  // NaN fails the comparison
 }
 
 /// Converts the scans of one topic to LaserScans. The user's options override the messages. The number of

@@ -61,7 +61,7 @@ void describe_log(OptionTable& table, Settings& settings) {
                {"forward", SweepDirection::kForward},
                {"backward", SweepDirection::kBackward}},
               "Whether the first or the last beam of a scan is measured first. auto: as the scans show in "
-              "turns.")
+              "turns, otherwise as the log states.")
       .choice("mask_own_body", log.mask_own_body, {{"auto", true}, {"off", false}},
               "Ignores readings that stay the same while the robot moves, because the laser sees the robot "
               "itself.")

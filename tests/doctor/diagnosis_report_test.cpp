@@ -7,6 +7,7 @@
 
 #include "log_files.h"
 #include "simulated_run.h"
+#include "swinging_robot.h"
 #include "temporary_folder.h"
 
 namespace psi_slam {
@@ -63,6 +64,19 @@ TEST_F(DiagnosisReportTest, marks_the_best_beam_angles) {
   EXPECT_THAT(lines, Contains(StartsWith("  * left_open  ")));
   EXPECT_THAT(lines, Contains(testing::AllOf(StartsWith("    skip_zero"), HasSubstr("ruled out"))));
   EXPECT_TRUE(describe_beam_angles(mirrored_log().beam_angles).empty());
+}
+
+TEST_F(DiagnosisReportTest, marks_the_best_sweep_direction) {
+  write_mcap(folder_.path() / "run.mcap", swinging_robot({SwingingLaser{"/scan", true}}));
+  const LogDiagnosis diagnosis = diagnose(folder_.path() / "run.mcap");
+  const auto lines = describe_sweep_direction(diagnosis.sweep_direction);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_THAT(lines[0], StartsWith("order of the beams in a sweep of 0.150 s, by "));
+  EXPECT_THAT(lines[1], testing::AllOf(StartsWith("    forward "), HasSubstr("ruled out")));
+  EXPECT_THAT(lines[2], testing::AllOf(StartsWith("  * backward "), testing::Not(HasSubstr("ruled out"))));
+  EXPECT_THAT(describe(diagnosis), Contains(lines[2]));
+  EXPECT_EQ(to_json(diagnosis)["sweep_direction"]["forward"]["ruled_out"], true);
+  EXPECT_TRUE(describe_sweep_direction(sound_log().sweep_direction).empty());
 }
 
 TEST_F(DiagnosisReportTest, writes_json) {

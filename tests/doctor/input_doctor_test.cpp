@@ -12,6 +12,7 @@
 #include "rawlog_files.h"
 #include "shared_logs.h"
 #include "simulated_run.h"
+#include "swinging_robot.h"
 #include "temporary_folder.h"
 #include "two_lasers.h"
 
@@ -297,6 +298,43 @@ TEST_F(InputDoctorTest, reads_rawlogs_too) {
   EXPECT_TRUE(diagnosis.beam_angles.fits.empty());
   EXPECT_TRUE(diagnosis.odometry_is_sound);
   EXPECT_THAT(warnings_of(diagnosis), testing::IsEmpty());
+}
+
+TEST_F(InputDoctorTest, finds_the_direction_of_the_sweep) {
+  const auto path = folder_.path() / "run.mcap";
+  const auto diagnose_with = [&](SweepDirection direction) {
+    LogOptions options;
+    options.sweep_direction = direction;
+    return diagnose(path, options);
+  };
+  write_mcap(path, swinging_robot({SwingingLaser{"/scan", true}}));
+  const LogDiagnosis backward = diagnose_with(SweepDirection::kAuto);
+  EXPECT_THAT(warnings_of(backward), testing::IsEmpty()) << "mapping finds the direction by itself";
+  const Finding finding = finding_of(backward, "sweep_direction");
+  EXPECT_EQ(finding.sentence,
+            "turns show that the last beam of each scan is measured first, other than the log states");
+  EXPECT_EQ(finding.remedy, "log.sweep_direction = backward");
+  EXPECT_THAT(warnings_of(diagnose_with(SweepDirection::kForward)), testing::ElementsAre("sweep_direction"));
+  const LogDiagnosis mended = diagnose_with(SweepDirection::kBackward);
+  EXPECT_THAT(finding_of(mended, "sweep_direction").sentence, testing::HasSubstr("first, as used"));
+  EXPECT_THAT(warnings_of(mended), testing::IsEmpty());
+
+  write_mcap(path, swinging_robot({SwingingLaser{}}));
+  EXPECT_THAT(finding_of(diagnose_with(SweepDirection::kAuto), "sweep_direction").sentence,
+              testing::HasSubstr("the first beam of each scan is measured first, as used"));
+  EXPECT_EQ(finding_of(diagnose_with(SweepDirection::kBackward), "sweep_direction").remedy,
+            "log.sweep_direction = forward");
+}
+
+TEST_F(InputDoctorTest, finds_a_sweep_time_that_the_scans_contradict) {
+  const auto path = folder_.path() / "run.mcap";
+  write_mcap(path, swinging_robot({SwingingLaser{"/scan", false, 0}}));
+  const LogDiagnosis diagnosis = diagnose(path);
+  EXPECT_THAT(warnings_of(diagnosis), testing::ElementsAre("sweep_time"));
+  EXPECT_EQ(finding_of(diagnosis, "sweep_time").remedy, "log.sweep_time_s = 0");
+  LogOptions mended;
+  mended.sweep_time_s = 0;
+  EXPECT_THAT(warnings_of(diagnose(path, mended)), testing::IsEmpty());
 }
 
 TEST_F(InputDoctorTest, diagnoses_logs_of_one_scan_or_two) {

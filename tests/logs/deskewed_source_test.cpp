@@ -19,15 +19,17 @@ namespace {
 using mrpt::math::TPose2D;
 
 /// Scan of the furnished room. Its beams are measured one after the other while the robot moves from `start`
-/// by `motion`.
-LaserScan sweep(const TPose2D& start, const TPose2D& motion, const TPose2D& mount, bool clockwise = false) {
+/// by `motion`. `backward`: the last beam is measured first.
+LaserScan sweep(const TPose2D& start, const TPose2D& motion, const TPose2D& mount, bool clockwise = false,
+                bool backward = false) {
   const std::vector<Wall> walls = furnished_room();
   std::vector<float> bearings = make_bearings_rad(BeamAngles::kLeftOpen, 720, 2 * M_PI);
   if (clockwise)
     for (float& bearing : bearings) bearing = -bearing;
   LaserScan scan;
   for (std::size_t i = 0; i < bearings.size(); ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(bearings.size() - 1);
+    const double share = static_cast<double>(backward ? bearings.size() - 1 - i : i) /
+                         static_cast<double>(bearings.size() - 1);
     const TPose2D world_T_robot = start + interpolate({0, 0, 0}, motion, share);
     scan.ranges_m.push_back(static_cast<float>(
         range_m(walls, world_T_robot + mount + TPose2D{0, 0, static_cast<double>(bearings[i])})));
@@ -35,6 +37,7 @@ LaserScan sweep(const TPose2D& start, const TPose2D& motion, const TPose2D& moun
   scan.bearings_rad = std::make_shared<const std::vector<float>>(std::move(bearings));
   scan.robot_T_laser = mount;
   scan.max_range_m = 50;
+  scan.sweep_time_s = backward ? -0.1F : 0.1F;
   return scan;
 }
 
@@ -67,9 +70,10 @@ TEST(Deskewed, a_sweep_of_a_moving_robot_ends_on_the_walls) {
     const TPose2D start{2 + unit(random), 1.8 + 0.5 * unit(random), 3 * unit(random)};
     const TPose2D motion{0.15 * unit(random), 0.05 * unit(random), 0.3 * unit(random)};
     const TPose2D mount{0.3 * unit(random), 0.2 * unit(random), 3 * unit(random)};
-    const LaserScan moving = sweep(start, motion, mount, i % 2 == 1);
+    const LaserScan moving = sweep(start, motion, mount, i % 2 == 1, i % 4 > 1);
     const LaserScan still = deskewed(moving, motion);
     EXPECT_LT(farthest_from_walls_m(still, start), 1e-5) << i;
+    EXPECT_EQ(still.sweep_time_s, 0);
     EXPECT_GT(farthest_from_walls_m(moving, start), 1e-3)
         << "without an effect of the motion the test would show nothing";
     for (std::size_t k = 0; k < still.ranges_m.size(); ++k)
@@ -136,9 +140,24 @@ TEST(DeskewedLog, is_unchanged_without_a_sweep_time_or_if_the_user_states_0) {
   LogOptions off;
   off.sweep_time_s = 0;
   for (const auto& frames : {frames_from(turning_robot(0)), frames_from(turning_robot(0.02F), off),
-                             frames_from(turning_robot(-0.02F)), frames_from(turning_robot(0.9F))})
+                             frames_from(turning_robot(0.9F)), frames_from(turning_robot(-0.9F))})
     for (const Frame& frame : frames)
       EXPECT_THAT(*frame.scan.bearings_rad, testing::ElementsAre(-1.0F, -0.5F, 0.0F, 0.5F, 1.0F));
+}
+
+TEST(DeskewedLog, moves_the_beams_to_the_last_one_if_it_is_measured_first) {
+  LogOptions backward;
+  backward.sweep_direction = SweepDirection::kBackward;
+  LogOptions forward;
+  forward.sweep_direction = SweepDirection::kForward;
+  for (const auto& frames : {frames_from(turning_robot(-0.02F)), frames_from(turning_robot(0.02F), backward),
+                             frames_from(turning_robot(-0.02F), backward)})
+    for (const Frame& frame : frames)
+      EXPECT_THAT(*frame.scan.bearings_rad,
+                  testing::Pointwise(testing::FloatNear(1e-5F), {-0.92F, -0.44F, 0.04F, 0.52F, 1.0F}));
+  for (const Frame& frame : frames_from(turning_robot(-0.02F), forward))
+    EXPECT_THAT(*frame.scan.bearings_rad,
+                testing::Pointwise(testing::FloatNear(1e-5F), {-1.0F, -0.48F, 0.04F, 0.56F, 1.08F}));
 }
 
 TEST(DeskewedLog, uses_the_stated_sweep_time_in_any_format) {
@@ -150,6 +169,9 @@ TEST(DeskewedLog, uses_the_stated_sweep_time_in_any_format) {
   ASSERT_EQ(frames.size(), 6U);
   EXPECT_THAT(*frames[0].scan.bearings_rad,
               testing::Pointwise(testing::FloatNear(1e-5F), {-1.0F, -0.49F, 0.02F, 0.53F, 1.04F}));
+  options.sweep_direction = SweepDirection::kBackward;
+  EXPECT_THAT(*frames_of(folder.path() / "log", options)[0].scan.bearings_rad,
+              testing::Pointwise(testing::FloatNear(1e-5F), {-0.96F, -0.47F, 0.02F, 0.51F, 1.0F}));
 }
 
 }  // namespace

@@ -48,7 +48,8 @@ class CMetricMapBuilderPsi : public mrpt::slam::CMetricMapBuilder {
  public:
   /// Options of the builder. A Configuration provides all members.
   struct Options {
-    /// Options of the laser, its mount and its ranges. every_nth_scan and sweep_time_s have no effect.
+    /// Options of the laser, its mount and its ranges. every_nth_scan,
+    /// sweep_time_s and sweep_direction have no effect.
     LogOptions log;
     GridMapOptions map;                           ///< options of the drawn grid map
     std::shared_ptr<const MapperOptions> mapper;  ///< Configuration::mapper_options(); null: the defaults

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor/scan_alignment.h"
+#include "frames/scan_alignment.h"
 
 #include <gtest/gtest.h>
 
